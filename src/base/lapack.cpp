@@ -1,0 +1,91 @@
+#include "base/lapack.hpp"
+
+#include <lapacke.h>
+
+#include <algorithm>
+#include <cassert>
+
+#include "base/error.hpp"
+
+namespace elastolab {
+
+namespace {
+
+int as_int(Eigen::Index n) { return static_cast<int>(n); }
+
+/// The work array that a LAPACK routine asks for in its query answer.
+std::vector<double> work_array(double answer) { return std::vector<double>(static_cast<std::size_t>(std::max(1.0, answer))); }
+
+}  // namespace
+
+LuFactorization::LuFactorization(Eigen::MatrixXd&& A, const std::string& name) : factors_(std::move(A)) {
+    assert(factors_.rows() == factors_.cols());
+    const int n = as_int(factors_.rows());
+    if (n == 0) return;
+    const double norm = factors_.cwiseAbs().colwise().sum().maxCoeff();
+    if (!std::isfinite(norm))
+        throw SolveError(name + ": has entries that are not finite. Check the mesh for degenerate triangles.");
+    pivots_.resize(static_cast<std::size_t>(n));
+    const int info = LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, n, n, factors_.data(), n, pivots_.data());
+    assert(info >= 0);
+    if (info > 0)
+        throw SolveError(name + ": is singular (pivot " + std::to_string(info) + " of " + std::to_string(n) +
+                         " vanishes). Check the mesh for degenerate or duplicate parts.");
+    std::vector<double> work(4 * static_cast<std::size_t>(n));
+    std::vector<int> iwork(static_cast<std::size_t>(n));
+    LAPACKE_dgecon_work(LAPACK_COL_MAJOR, '1', n, factors_.data(), n, norm, &reciprocal_condition_, work.data(),
+                        iwork.data());
+}
+
+void LuFactorization::solve_in_place(Eigen::Ref<Eigen::MatrixXd> B) const {
+    assert(B.rows() == factors_.rows());
+    if (factors_.size() == 0 || B.cols() == 0) return;
+    LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', as_int(size()), as_int(B.cols()), factors_.data(), as_int(size()),
+                        pivots_.data(), B.data(), as_int(B.outerStride()));
+}
+
+Eigen::MatrixXd LuFactorization::solve(Eigen::MatrixXd B) const {
+    solve_in_place(B);
+    return B;
+}
+
+Eigen::MatrixXd LuFactorization::inverse() && {
+    const int n = as_int(size());
+    if (n == 0) return {};
+    double answer = 0.0;
+    LAPACKE_dgetri_work(LAPACK_COL_MAJOR, n, factors_.data(), n, pivots_.data(), &answer, -1);
+    std::vector<double> work = work_array(answer);
+    LAPACKE_dgetri_work(LAPACK_COL_MAJOR, n, factors_.data(), n, pivots_.data(), work.data(), as_int(std::ssize(work)));
+    return std::move(factors_);
+}
+
+Eigen::MatrixXd spd_inverse(Eigen::MatrixXd A, const std::string& name) {
+    assert(A.rows() == A.cols());
+    const int n = as_int(A.rows());
+    if (n == 0) return A;
+    if (LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'L', n, A.data(), n) != 0)
+        throw SolveError(name + ": is not positive definite. Check the mesh for degenerate tetrahedra.");
+    LAPACKE_dpotri_work(LAPACK_COL_MAJOR, 'L', n, A.data(), n);
+    A.triangularView<Eigen::StrictlyUpper>() = A.transpose();
+    return A;
+}
+
+MinimumNormSolution solve_minimum_norm(Eigen::MatrixXd A, Eigen::MatrixXd B, double rank_tolerance) {
+    assert(A.rows() == B.rows());
+    const int m = as_int(A.rows()), n = as_int(A.cols()), n_rhs = as_int(B.cols());
+    B.conservativeResizeLike(Eigen::MatrixXd::Zero(std::max(m, n), n_rhs));
+    std::vector<int> pivots(static_cast<std::size_t>(n), 0);
+    MinimumNormSolution solution;
+    double answer = 0.0;
+    const auto call = [&](double* work, int size) {
+        LAPACKE_dgelsy_work(LAPACK_COL_MAJOR, m, n, n_rhs, A.data(), m, B.data(), as_int(B.rows()), pivots.data(),
+                            rank_tolerance, &solution.rank, work, size);
+    };
+    call(&answer, -1);
+    std::vector<double> work = work_array(answer);
+    call(work.data(), as_int(std::ssize(work)));
+    solution.X = B.topRows(n);
+    return solution;
+}
+
+}  // namespace elastolab

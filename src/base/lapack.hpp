@@ -1,0 +1,44 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace elastolab {
+
+/// LU factors of a square matrix (LAPACK dgetrf). Immutable after construction.
+class LuFactorization {
+public:
+    LuFactorization() = default;
+    /// Factors A in place of its own storage: no second matrix. `name` is what the error message calls the matrix.
+    /// Throws SolveError when A is exactly singular or has entries that are not finite.
+    LuFactorization(Eigen::MatrixXd&& A, const std::string& name);
+
+    Eigen::Index size() const { return factors_.rows(); }
+    /// B <- A^-1 B;  B has size() rows.
+    void solve_in_place(Eigen::Ref<Eigen::MatrixXd> B) const;
+    Eigen::MatrixXd solve(Eigen::MatrixXd B) const;
+    /// Reciprocal condition number in the 1-norm, estimated (dgecon): below about 1e-14 solutions carry no digit.
+    double reciprocal_condition() const { return reciprocal_condition_; }
+    /// A^-1 (dgetri), in place of the factors, which are given up.
+    Eigen::MatrixXd inverse() &&;
+
+private:
+    Eigen::MatrixXd factors_;
+    std::vector<int> pivots_;
+    double reciprocal_condition_ = 0.0;
+};
+
+/// Inverse of a symmetric positive definite matrix (dpotrf, dpotri), both triangles filled.
+/// Throws SolveError when A is not positive definite; `name` is what the message calls A.
+Eigen::MatrixXd spd_inverse(Eigen::MatrixXd A, const std::string& name);
+
+/// Minimum-norm least-squares solution of A X = B by complete orthogonal factorisation (dgelsy), with the numerical
+/// rank of A at the relative tolerance `rank_tolerance`.
+struct MinimumNormSolution {
+    Eigen::MatrixXd X;
+    int rank = 0;
+};
+MinimumNormSolution solve_minimum_norm(Eigen::MatrixXd A, Eigen::MatrixXd B, double rank_tolerance);
+
+}  // namespace elastolab

@@ -1,0 +1,49 @@
+#include "base/memory.hpp"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <string>
+
+namespace elastolab {
+
+namespace {
+
+constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
+
+std::uint64_t read_number(const char* path) {
+    std::ifstream file(path);
+    std::uint64_t value = 0;
+    return file >> value ? value : kUnlimited;
+}
+
+std::uint64_t system_available() {
+    std::ifstream file("/proc/meminfo");
+    std::string key;
+    std::uint64_t kib = 0;
+    std::string unit;
+    while (file >> key >> kib && std::getline(file, unit))
+        if (key == "MemAvailable:") return kib * 1024;
+    return kUnlimited;
+}
+
+std::uint64_t control_group_available() {
+    const std::uint64_t limit = read_number("/sys/fs/cgroup/memory.max");
+    const std::uint64_t used = read_number("/sys/fs/cgroup/memory.current");
+    if (limit == kUnlimited || used == kUnlimited) return kUnlimited;
+    return limit > used ? limit - used : 0;
+}
+
+}  // namespace
+
+std::uint64_t peak_memory_bytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+std::uint64_t available_memory_bytes() { return std::min(system_available(), control_group_available()); }
+
+}  // namespace elastolab

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <cstdint>
+
+namespace elastolab {
+
+/// Largest resident set of this process so far [bytes].
+std::uint64_t peak_memory_bytes();
+
+/// Memory that can still be taken without swapping [bytes], as the system estimates it (and as a control group allows).
+std::uint64_t available_memory_bytes();
+
+}  // namespace elastolab

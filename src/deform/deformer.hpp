@@ -1,0 +1,89 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/control.hpp"
+#include "deform/model.hpp"
+
+namespace elastolab {
+
+class ConstrainedSolid;
+
+/// Which vertices are constrained. `base` vertices are held at rest; `handles` vertices follow prescribed
+/// displacements. All numbers differ. The split matters for speed only: FEM eliminates the base once.
+struct ConstrainedSet {
+    std::vector<int> base;
+    std::vector<int> handles;
+};
+
+/// Displacements of all vertices as an affine function of a few parameters: u = rest + X * parameters.
+struct DragResponse {
+    Eigen::VectorXd rest;  ///< 3*n_vertices [L]
+    Eigen::MatrixXd X;     ///< 3*n_vertices x n_parameters
+
+    /// u <- rest + X * parameters: one pass over the columns of X, the whole cost of a frame.
+    void displace(const Eigen::VectorXd& parameters, Eigen::VectorXd& u) const;
+};
+
+/// What the rest of the world exerts on the body at one constrained vertex.
+struct Reactions {
+    Eigen::Matrix3Xd forces;   ///< 3 x n [force]
+    Eigen::Matrix3Xd moments;  ///< 3 x n, about the origin [force * L]
+};
+
+/// What should be known about a solution before it is believed.
+struct SolutionQuality {
+    double condition_estimate = 1.0;    ///< of the small system (reduced) or of K00 (direct), 1-norm; largest solid
+    bool held = true;                   ///< false: the constraints leave some rigid motion free, the smallest is taken
+    std::vector<std::string> warnings;  ///< in words, for the user
+};
+
+/// Displacements of a Model for one constrained set at a time. Owned by one thread; several may share a Model.
+class Deformer {
+public:
+    explicit Deformer(std::shared_ptr<const Model> model);
+    ~Deformer();
+    Deformer(Deformer&&) noexcept;
+    Deformer& operator=(Deformer&&) noexcept;
+
+    /// Changes which vertices are constrained; refactors what depends on it (milliseconds), computes missing columns.
+    /// Strong guarantee: on an exception the previous set stays. Throws SolveError, Cancelled.
+    void constrain(ConstrainedSet set, Control& control);
+    const ConstrainedSet& set() const { return set_; }
+
+    /// Displacements of all vertices, 3*n_vertices [L], for those prescribed at the handles: values is
+    /// 3*set().handles.size(), node-major, in the order of set().handles. A solid with no constrained vertex rests.
+    /// Throws SolveError when the result is not finite.
+    Eigen::VectorXd displace(const Eigen::VectorXd& values) const;
+
+    /// The same for many columns of values at once: 3*n_vertices x values.cols().
+    Eigen::MatrixXd displace_all(const Eigen::MatrixXd& values) const;
+
+    /// Response to motions of some handles: `values` are the present ones (as in displace), each column of `basis`
+    /// (same rows) a motion; for a rigid translation three columns that repeat the unit vectors at the handle's
+    /// vertices. rest = displace(values).
+    DragResponse drag_response(const Eigen::VectorXd& values, const Eigen::MatrixXd& basis) const;
+
+    /// Reactions at the base vertices, then at the handle vertices, for these values.
+    Reactions reactions(const Eigen::VectorXd& values) const;
+
+    /// Relative residual of the full system for these values, evaluated independently of the factorisation (BEM: the
+    /// integrals are computed afresh): |H u - G t| / (|H u| + |G t|) or |K u - f| / |f| in the Euclidean norm.
+    /// Seconds at most; not for every frame.
+    double residual(const Eigen::VectorXd& values, Control& control) const;
+
+    const SolutionQuality& quality() const { return quality_; }
+    const Model& model() const { return *model_; }
+
+private:
+    std::shared_ptr<const Model> model_;
+    ConstrainedSet set_;
+    std::vector<std::unique_ptr<ConstrainedSolid>> solids_;  ///< one for each part of the model
+    SolutionQuality quality_;
+};
+
+}  // namespace elastolab

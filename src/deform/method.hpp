@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+namespace elastolab {
+
+/// How a body is turned into a linear map between displacements and loads.
+enum class MethodKind { fem, constant_bem, linear_bem };
+
+/// What is computed ahead.
+///   on_demand    one factorisation; columns of the compliance when they are needed, kept
+///   full         K and its bordered inverse in memory, of the surface vertices (FEM: condensed) or triangles
+///   full_volume  FEM only: the dense matrix over all nodes and its inverse, as in the paper
+enum class Mode { on_demand, full, full_volume };
+
+/// Tractions of linear BEM on constrained parts (FORMULATION section 4).
+///   discontinuous  linear on each constrained triangle by itself
+///   restricted     a hat function per constrained vertex, cut to the constrained triangles
+///   continuous     a whole hat function per constrained vertex, as in the paper
+enum class Tractions { discontinuous, restricted, continuous };
+
+/// How displacements follow from prescribed ones.
+///   direct   Eqn. 7, K00 factorised afresh for every constrained set
+///   eqn9     Eqn. 9 as the paper writes it
+///   reduced  its collapsed form (9'): a system as small as the constrained set
+enum class Update { direct, eqn9, reduced };
+
+/// A method with all its choices; the defaults are those of the program.
+struct Method {
+    MethodKind kind = MethodKind::linear_bem;
+    Mode mode = Mode::on_demand;
+    Tractions tractions = Tractions::discontinuous;
+    Update update = Update::reduced;
+    /// BEM: relative error allowed to a boundary integral; decides where Gauss rules replace closed forms.
+    double integral_tolerance = 1e-10;
+};
+
+/// The names used in scene files, command lines and tables; parse_* return nothing for an unknown name.
+std::string_view name(MethodKind kind);
+std::string_view name(Mode mode);
+std::string_view name(Tractions tractions);
+std::string_view name(Update update);
+std::optional<MethodKind> parse_method_kind(std::string_view text);
+std::optional<Mode> parse_mode(std::string_view text);
+std::optional<Tractions> parse_tractions(std::string_view text);
+std::optional<Update> parse_update(std::string_view text);
+
+}  // namespace elastolab

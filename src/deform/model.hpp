@@ -1,0 +1,82 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/control.hpp"
+#include "base/timer.hpp"
+#include "deform/method.hpp"
+#include "elasticity/material.hpp"
+#include "mesh/surface_mesh.hpp"
+
+namespace elastolab {
+
+/// What is deformed: a checked surface (mesh/check.hpp) of one or more solids, and what it is made of.
+struct Body {
+    std::string name;  ///< for messages, usually the file name
+    std::shared_ptr<const SurfaceMesh> surface;
+    Material material;
+};
+
+/// Facts about a precomputed model.
+struct ModelFacts {
+    int n_vertices = 0;
+    int n_triangles = 0;
+    int n_tetrahedra = 0;             ///< FEM only
+    int n_degrees_of_freedom = 0;
+    StageTimes stages;                ///< seconds by stage of the precomputation
+    std::uint64_t memory_bytes = 0;   ///< held by the model itself
+    double condition_estimate = 0.0;  ///< 1-norm, of the factorised system
+    std::vector<std::string> warnings;
+};
+
+/// A named dense matrix for export; filled only when asked for.
+struct NamedMatrix {
+    std::string name;  ///< "H", "G", "K", "Kinv" (D of the bordered inverse), "Khatinv" (the whole bordered inverse)
+    Eigen::MatrixXd values;
+};
+
+class SolidModel;
+
+/// The response of a body to prescribed displacements, ready to be asked for any constrained set. Several solids in
+/// one mesh are independent of each other. Immutable to its users; any thread may use it (columns that it computes on
+/// demand are kept behind a lock).
+class Model {
+public:
+    struct Part {
+        std::shared_ptr<const SolidModel> solid;
+        std::vector<int> vertices;  ///< vertex of the body, for each vertex of the solid
+    };
+
+    Model(Body body, Method method, std::vector<Part> parts, ModelFacts facts);
+
+    const Body& body() const { return body_; }
+    const Method& method() const { return method_; }
+    const ModelFacts& facts() const { return facts_; }
+    const std::vector<Part>& parts() const { return parts_; }
+
+    /// The dense matrices that the mode keeps (none on demand), solid by solid when there are several.
+    void visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const;
+
+private:
+    Body body_;
+    Method method_;
+    std::vector<Part> parts_;
+    ModelFacts facts_;
+};
+
+/// Precomputes; milliseconds to minutes, meant for a worker thread.
+/// Throws MeshError (no tetrahedralisation), SolveError (singular, or would not fit in memory: says how much it
+/// needs before anything is allocated), Cancelled.
+std::shared_ptr<const Model> precompute(const Body& body, const Method& method, Control& control);
+
+/// The same body with another material or method; takes over whatever does not change (integrals, tetrahedra), so
+/// that a change of Poisson's ratio integrates nothing and a change of Young's modulus costs nothing.
+std::shared_ptr<const Model> precompute_again(const Model& before, const Material& material, const Method& method,
+                                              Control& control);
+
+}  // namespace elastolab

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "mesh/surface_mesh.hpp"
+
+namespace elastolab {
+
+/// One kind of defect: how many, and where the first few are.
+struct Defect {
+    enum class Kind {
+        no_triangles, non_finite, open_edges, non_manifold_edges, non_manifold_vertices, inconsistent_orientation,
+        inside_out, degenerate_triangles, sliver_triangles, duplicate_triangles, unreferenced_vertices, self_intersections
+    };
+    Kind kind;
+    int count = 0;
+    std::vector<Eigen::Vector3d> places;  ///< of the first few, at most 8
+    bool repaired = false;
+    bool fatal = false;      ///< the body cannot be used by any method
+    bool fatal_for_fem = false;
+    std::string text;        ///< "12 open edges near (0, 1, 0), so it bounds no solid. Fill the holes and reload."
+};
+
+/// What a mesh is.
+struct MeshReport {
+    std::vector<Defect> defects;
+    int n_components = 0;  ///< connected surfaces
+    int n_solids = 0;
+    bool closed = false;
+    double volume = 0.0;  ///< [L^3]
+    double area = 0.0;    ///< [L^2]
+    Eigen::Vector3d min_corner = Eigen::Vector3d::Zero(), max_corner = Eigen::Vector3d::Zero();
+    double shortest_edge = 0.0, mean_edge = 0.0, longest_edge = 0.0;  ///< [L]
+    double smallest_altitude_ratio = 0.0;  ///< least altitude / longest edge over all triangles
+
+    bool usable() const;          ///< no fatal defect is left
+    bool usable_for_fem() const;  ///< nor one that is fatal for FEM
+};
+
+/// A mesh with its inconsistent or inside-out parts turned round, and the report on it (which keeps what was repaired).
+struct CheckedMesh {
+    SurfaceMesh mesh;
+    MeshReport report;
+};
+
+/// Inspects and repairs. Vertex numbers never change. Never throws on bad geometry: it reports.
+CheckedMesh check_and_repair(SurfaceMesh mesh);
+
+/// Throws MeshError with `name`, every fatal finding and a way forward in one line, when the report is not usable
+/// (or, if `for_fem`, not usable for FEM).
+void require_usable(const MeshReport& report, const std::string& name, bool for_fem);
+
+}  // namespace elastolab

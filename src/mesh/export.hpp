@@ -1,0 +1,13 @@
+#pragma once
+
+#include <filesystem>
+
+#include "mesh/surface_mesh.hpp"
+
+namespace elastolab {
+
+/// Writes OBJ, PLY (binary, double precision) or STL (binary), by the file's extension. A file of that name is replaced
+/// only once the new one is complete. Throws MeshError for another extension or when it cannot be written.
+void save_surface(const std::filesystem::path& file, const SurfaceMesh& mesh);
+
+}  // namespace elastolab

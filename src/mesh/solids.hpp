@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "mesh/surface_mesh.hpp"
+
+namespace elastolab {
+
+/// One connected solid of a mesh: an outer surface and the surfaces of its cavities.
+struct Solid {
+    SurfaceMesh surface;
+    std::vector<int> vertices;   ///< vertex of the whole mesh, for each vertex of `surface`, ascending
+    std::vector<int> triangles;  ///< triangle of the whole mesh, for each triangle of `surface`, ascending
+};
+
+/// Splits a closed, consistently oriented mesh (mesh/check.hpp) into its solids: every component that faces outward
+/// begins one, every component that faces inward is a cavity of the innermost outward one around it.
+std::vector<Solid> split_solids(const SurfaceMesh& mesh);
+
+}  // namespace elastolab

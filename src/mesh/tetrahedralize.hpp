@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+#include "base/control.hpp"
+#include "mesh/surface_mesh.hpp"
+
+namespace elastolab {
+
+/// Quality of the tetrahedra that TetGen makes.
+struct TetOptions {
+    double radius_edge_ratio = 1.4;  ///< bound on circumradius / shortest edge
+    /// Bound on a tetrahedron's volume, in units of that of the regular tetrahedron over the mean surface edge, so that
+    /// elements inside match the surface's size. <= 0: no bound.
+    double relative_volume = 1.0;
+};
+
+/// Fills one solid (an outer surface and its cavities) with tetrahedra. The surface's vertices and triangles are kept
+/// as they are; no vertex is added on the surface. TetGen runs in a process of its own, so that an abort or crash of it
+/// (self-intersecting input) is an error here and nothing worse.
+/// Throws MeshError, naming `name`, when TetGen finds the surface unusable, crashes or runs out of memory; Cancelled.
+TetMesh tetrahedralize(const SurfaceMesh& solid, const std::string& name, const TetOptions& options, Control& control);
+
+}  // namespace elastolab
