@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace elastolab {
+
+/// `text` on one line: line breaks and other control characters become spaces. For messages that quote a user's data.
+std::string one_line(std::string_view text);
+
+/// A number of bytes for people: "812 bytes", "3.4 MB", "14.1 GB" (powers of 1000).
+std::string readable_bytes(double bytes);
+
+/// A duration for people: "85 us", "12.3 ms", "4.52 s", "7.4 min".
+std::string readable_seconds(double seconds);
+
+/// All 17 significant digits, so that the number is read back exactly.
+std::string exact(double value);
+
+}  // namespace elastolab
