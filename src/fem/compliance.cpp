@@ -1,0 +1,77 @@
+#include "fem/compliance.hpp"
+
+#include <cassert>
+#include <utility>
+
+#include "base/parallel.hpp"
+#include "elasticity/rigid_motion.hpp"
+
+namespace elastolab {
+
+namespace {
+
+/// Columns solved at once: enough for BLAS-3 kernels, few enough for frequent checkpoints.
+constexpr int kBlock = 48;
+
+SparseMatrix held(const SparseMatrix& K, const Positions& positions, int n_surface, std::span<const int> base) {
+    assert(base.empty() || holds(positions, base));
+    return base.empty() ? grounded(K, positions, choose_support(positions, n_surface)) : eliminated(K, base);
+}
+
+}  // namespace
+
+SurfaceCompliance::SurfaceCompliance(int n_surface, std::span<const int> base, const Positions& positions,
+                                     SparseCholesky factor)
+    : n_surface_(n_surface),
+      base_(base.begin(), base.end()),
+      rigid_(base.empty() ? rigid_modes(positions.leftCols(n_surface)) : Eigen::MatrixXd(3 * n_surface, 0)),
+      factor_(std::move(factor)) {}
+
+SurfaceCompliance::SurfaceCompliance(const SparseMatrix& K, const CholeskyAnalysis& analysis,
+                                     const Positions& positions, int n_surface, std::span<const int> base,
+                                     Control& control)
+    : SurfaceCompliance(n_surface, base, positions,
+                        SparseCholesky(analysis, held(K, positions, n_surface, base), "stiffness matrix")) {
+    control.checkpoint();
+}
+
+SurfaceCompliance SurfaceCompliance::supported_at(const StaticSupport& support, const SparseMatrix& K,
+                                                  const CholeskyAnalysis& analysis, const Positions& positions,
+                                                  int n_surface, Control& control) {
+    SparseCholesky factor(analysis, grounded(K, positions, support), "stiffness matrix");
+    control.checkpoint();
+    return {n_surface, {}, positions, std::move(factor)};
+}
+
+void SurfaceCompliance::apply_block(Eigen::Ref<Eigen::MatrixXd> block) const {
+    const Eigen::Index n = 3 * n_surface_;
+    Eigen::MatrixXd load = Eigen::MatrixXd::Zero(factor_.size(), block.cols());
+    load.topRows(n) = block;
+    if (rigid_.cols() > 0) load.topRows(n).noalias() -= rigid_ * (rigid_.transpose() * block);
+    for (int node : base_) load.middleRows<3>(3 * node).setZero();
+    block = factor_.solve(load).topRows(n);
+    if (rigid_.cols() > 0) block -= rigid_ * (rigid_.transpose() * block).eval();
+}
+
+Eigen::MatrixXd SurfaceCompliance::apply(const Eigen::MatrixXd& loads, Control& control) const {
+    assert(loads.rows() == 3 * n_surface_);
+    Eigen::MatrixXd u = loads;
+    parallel_blocks(static_cast<int>(u.cols()), kBlock, control,
+                    [&](int begin, int end) { apply_block(u.middleCols(begin, end - begin)); });
+    return u;
+}
+
+Eigen::MatrixXd SurfaceCompliance::columns(std::span<const int> vertices, Control& control) const {
+    Eigen::MatrixXd unit_loads = Eigen::MatrixXd::Zero(3 * n_surface_, 3 * std::ssize(vertices));
+    for (std::size_t k = 0; k < vertices.size(); ++k)
+        unit_loads.block<3, 3>(3 * vertices[k], 3 * static_cast<Eigen::Index>(k)).setIdentity();
+    parallel_blocks(static_cast<int>(unit_loads.cols()), kBlock, control,
+                    [&](int begin, int end) { apply_block(unit_loads.middleCols(begin, end - begin)); });
+    return unit_loads;
+}
+
+std::uint64_t SurfaceCompliance::memory_bytes() const {
+    return factor_.memory_bytes() + 8 * static_cast<std::uint64_t>(rigid_.size());
+}
+
+}  // namespace elastolab

@@ -1,0 +1,220 @@
+#include "fem/sparse_cholesky.hpp"
+
+#include <cholmod.h>
+#include <lapacke.h>
+
+#include <cassert>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "base/error.hpp"
+
+namespace elastolab {
+
+namespace {
+
+/// CHOLMOD's settings and workspace. One per call, because it is not safe to share between threads; starting one is
+/// cheap. It never prints.
+class Common {
+public:
+    Common() {
+        cholmod_start(&common_);
+        common_.print = 0;
+        common_.error_handler = nullptr;
+        common_.supernodal = CHOLMOD_SUPERNODAL;
+        common_.final_ll = 1;
+    }
+    ~Common() { cholmod_finish(&common_); }
+    Common(const Common&) = delete;
+    Common& operator=(const Common&) = delete;
+
+    cholmod_common* operator->() { return &common_; }
+    operator cholmod_common*() { return &common_; }
+
+    /// Turns CHOLMOD's status into our exceptions.
+    void check(const std::string& name) const {
+        if (common_.status == CHOLMOD_OUT_OF_MEMORY)
+            throw SolveError(name + ": not enough memory for its sparse factor. Use a coarser mesh.");
+        if (common_.status == CHOLMOD_TOO_LARGE)
+            throw SolveError(name + ": its sparse factor exceeds 2^31 entries. Use a coarser mesh.");
+        if (common_.status == CHOLMOD_NOT_POSDEF)
+            throw SolveError(name + ": is not positive definite. Check the mesh for degenerate tetrahedra.");
+        if (common_.status < 0)
+            throw SolveError(name + ": sparse factorisation failed (CHOLMOD status " + std::to_string(common_.status) +
+                             ").");
+    }
+
+private:
+    cholmod_common common_{};
+};
+
+void free_factor(cholmod_factor* factor) {
+    if (factor == nullptr) return;
+    Common common;
+    cholmod_free_factor(&factor, common);
+}
+struct FactorDeleter {
+    void operator()(cholmod_factor* factor) const { free_factor(factor); }
+};
+using FactorPtr = std::unique_ptr<cholmod_factor, FactorDeleter>;
+
+/// CHOLMOD's way to look at the lower triangle of a matrix; nothing is copied or written.
+cholmod_sparse sparse_view(const SparseMatrix& A) {
+    assert(A.isCompressed() && A.rows() == A.cols());
+    cholmod_sparse view{};
+    view.nrow = view.ncol = static_cast<std::size_t>(A.rows());
+    view.nzmax = static_cast<std::size_t>(A.nonZeros());
+    view.p = const_cast<int*>(A.outerIndexPtr());
+    view.i = const_cast<int*>(A.innerIndexPtr());
+    view.x = const_cast<double*>(A.valuePtr());
+    view.stype = -1;
+    view.itype = CHOLMOD_INT;
+    view.xtype = CHOLMOD_REAL;
+    view.dtype = CHOLMOD_DOUBLE;
+    view.sorted = 1;
+    view.packed = 1;
+    return view;
+}
+
+cholmod_dense dense_view(const Eigen::Ref<const Eigen::MatrixXd>& B) {
+    cholmod_dense view{};
+    view.nrow = static_cast<std::size_t>(B.rows());
+    view.ncol = static_cast<std::size_t>(B.cols());
+    view.d = static_cast<std::size_t>(B.outerStride());
+    view.nzmax = view.d * view.ncol;
+    view.x = const_cast<double*>(B.data());
+    view.xtype = CHOLMOD_REAL;
+    view.dtype = CHOLMOD_DOUBLE;
+    return view;
+}
+
+/// The pattern of the groups of `block` rows and columns, as their first rows and columns show it.
+SparseMatrix group_pattern(const SparseMatrix& A, int block) {
+    SparseMatrix groups(A.rows() / block, A.cols() / block);
+    groups.reserve(A.nonZeros() / (block * block) + groups.cols());
+    for (int column = 0; column < groups.cols(); ++column) {
+        groups.startVec(column);
+        for (SparseMatrix::InnerIterator it(A, block * column); it; ++it)
+            if (it.row() % block == 0) groups.insertBack(static_cast<int>(it.row()) / block, column) = 1.0;
+    }
+    groups.finalize();
+    return groups;
+}
+
+/// Fill-reducing order of the groups, the better of AMD and METIS, spread over their members.
+std::vector<int> ordering(const SparseMatrix& pattern, int block) {
+    const SparseMatrix groups = group_pattern(pattern, block);
+    Common common;
+    common->supernodal = CHOLMOD_SIMPLICIAL;
+    common->nmethods = 2;
+    common->method[0].ordering = CHOLMOD_AMD;
+    common->method[1].ordering = CHOLMOD_METIS;
+    cholmod_sparse view = sparse_view(groups);
+    const FactorPtr factor(cholmod_analyze(&view, common));
+    common.check("stiffness matrix");
+    std::vector<int> order;
+    order.reserve(static_cast<std::size_t>(pattern.rows()));
+    for (Eigen::Index g = 0; g < groups.rows(); ++g)
+        for (int i = 0; i < block; ++i) order.push_back(block * static_cast<int*>(factor->Perm)[g] + i);
+    return order;
+}
+
+}  // namespace
+
+struct CholeskyAnalysis::Impl {
+    FactorPtr factor;
+};
+
+CholeskyAnalysis::CholeskyAnalysis(const SparseMatrix& pattern, int block) {
+    assert(pattern.rows() % block == 0);
+    std::vector<int> order = ordering(pattern, block);
+    Common common;
+    common->nmethods = 1;
+    common->method[0].ordering = CHOLMOD_GIVEN;
+    cholmod_sparse view = sparse_view(pattern);
+    FactorPtr factor(cholmod_analyze_p(&view, order.data(), nullptr, 0, common));
+    common.check("stiffness matrix");
+    impl_ = std::make_unique<const Impl>(Impl{std::move(factor)});
+}
+
+CholeskyAnalysis::~CholeskyAnalysis() = default;
+
+int CholeskyAnalysis::size() const { return static_cast<int>(impl_->factor->n); }
+
+std::uint64_t CholeskyAnalysis::factor_bytes() const {
+    const cholmod_factor& factor = *impl_->factor;
+    return 8 * factor.xsize + 4 * (factor.ssize + 3 * factor.nsuper + 2 * factor.n);
+}
+
+struct SparseCholesky::Impl {
+    FactorPtr factor;
+    std::uint64_t bytes = 0;
+    double norm = 0.0;
+    std::string name;
+};
+
+SparseCholesky::SparseCholesky(const CholeskyAnalysis& analysis, const SparseMatrix& A, std::string name) {
+    assert(A.rows() == analysis.size());
+    const double norm = A.rows() == 0 ? 0.0 : (A.cwiseAbs().transpose() * Eigen::VectorXd::Ones(A.rows())).maxCoeff();
+    if (!std::isfinite(norm))
+        throw SolveError(name + ": has entries that are not finite. Check the mesh for degenerate tetrahedra.");
+    Common common;
+    FactorPtr factor(cholmod_copy_factor(analysis.impl_->factor.get(), common));
+    common.check(name);
+    cholmod_sparse view = sparse_view(A);
+    cholmod_factorize(&view, factor.get(), common);
+    common.check(name);
+    impl_ = std::make_unique<const Impl>(Impl{std::move(factor), analysis.factor_bytes(), norm, std::move(name)});
+}
+
+SparseCholesky::~SparseCholesky() = default;
+SparseCholesky::SparseCholesky(SparseCholesky&&) noexcept = default;
+SparseCholesky& SparseCholesky::operator=(SparseCholesky&&) noexcept = default;
+
+int SparseCholesky::size() const { return static_cast<int>(impl_->factor->n); }
+
+std::uint64_t SparseCholesky::memory_bytes() const { return impl_->bytes; }
+
+Eigen::MatrixXd SparseCholesky::solve(const Eigen::Ref<const Eigen::MatrixXd>& B) const {
+    assert(B.rows() == size());
+    if (B.size() == 0) return B;
+    Common common;
+    cholmod_dense view = dense_view(B);
+    cholmod_dense* solution = cholmod_solve(CHOLMOD_A, impl_->factor.get(), &view, common);
+    common.check(impl_->name);
+    Eigen::MatrixXd X = Eigen::Map<const Eigen::MatrixXd>(static_cast<double*>(solution->x), B.rows(), B.cols());
+    cholmod_free_dense(&solution, common);
+    if (!X.allFinite())
+        throw SolveError(impl_->name + ": its solution is not finite. Check the mesh for degenerate tetrahedra.");
+    return X;
+}
+
+double SparseCholesky::reciprocal_condition() const {
+    const int n = size();
+    if (n == 0) return 1.0;
+    Eigen::VectorXd x(n), v(n);
+    std::vector<int> signs(static_cast<std::size_t>(n)), state(3);
+    double inverse_norm = 0.0;
+    for (int request = 0;;) {
+        LAPACKE_dlacn2_work(n, v.data(), x.data(), signs.data(), &inverse_norm, &request, state.data());
+        if (request == 0) break;
+        x = solve(x).col(0).eval();  // A is symmetric, so both of dlacn2's requests are this
+    }
+    return 1.0 / (impl_->norm * inverse_norm);
+}
+
+SupernodalView SparseCholesky::view() const {
+    const cholmod_factor& factor = *impl_->factor;
+    const auto ints = [](const void* data, std::size_t n) { return std::span(static_cast<const int*>(data), n); };
+    SupernodalView view;
+    view.permutation = ints(factor.Perm, factor.n);
+    view.super = ints(factor.super, factor.nsuper + 1);
+    view.first_row = ints(factor.pi, factor.nsuper + 1);
+    view.first_value = ints(factor.px, factor.nsuper + 1);
+    view.rows = ints(factor.s, factor.ssize);
+    view.values = static_cast<const double*>(factor.x);
+    return view;
+}
+
+}  // namespace elastolab
