@@ -7,6 +7,7 @@
 #include <array>
 #include <atomic>
 #include <cstdlib>
+#include <mutex>
 #include <thread>
 
 namespace elastolab {
@@ -56,5 +57,22 @@ void set_thread_count(int n) {
 }
 
 int thread_count() { return threads(); }
+
+namespace {
+
+std::mutex serial_mutex;
+int serial_count = 0;
+
+}  // namespace
+
+SerialBlas::SerialBlas() {
+    const std::lock_guard lock(serial_mutex);
+    if (serial_count++ == 0) openblas_set_num_threads(1);
+}
+
+SerialBlas::~SerialBlas() {
+    const std::lock_guard lock(serial_mutex);
+    if (--serial_count == 0) openblas_set_num_threads(thread_count());
+}
 
 }  // namespace elastolab

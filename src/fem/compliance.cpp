@@ -3,6 +3,7 @@
 #include <cassert>
 #include <utility>
 
+#include "base/blas.hpp"
 #include "base/parallel.hpp"
 #include "elasticity/rigid_motion.hpp"
 
@@ -56,6 +57,7 @@ void SurfaceCompliance::apply_block(Eigen::Ref<Eigen::MatrixXd> block) const {
 Eigen::MatrixXd SurfaceCompliance::apply(const Eigen::MatrixXd& loads, Control& control) const {
     assert(loads.rows() == 3 * n_surface_);
     Eigen::MatrixXd u = loads;
+    const SerialBlas serial;
     parallel_blocks(static_cast<int>(u.cols()), kBlock, control,
                     [&](int begin, int end) { apply_block(u.middleCols(begin, end - begin)); });
     return u;
@@ -65,6 +67,7 @@ Eigen::MatrixXd SurfaceCompliance::columns(std::span<const int> vertices, Contro
     Eigen::MatrixXd unit_loads = Eigen::MatrixXd::Zero(3 * n_surface_, 3 * std::ssize(vertices));
     for (std::size_t k = 0; k < vertices.size(); ++k)
         unit_loads.block<3, 3>(3 * vertices[k], 3 * static_cast<Eigen::Index>(k)).setIdentity();
+    const SerialBlas serial;
     parallel_blocks(static_cast<int>(unit_loads.cols()), kBlock, control,
                     [&](int begin, int end) { apply_block(unit_loads.middleCols(begin, end - begin)); });
     return unit_loads;
