@@ -1,5 +1,6 @@
 #include "fem/compliance.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <utility>
 
@@ -11,8 +12,9 @@ namespace elastolab {
 
 namespace {
 
-/// Columns solved at once: enough for BLAS-3 kernels, few enough for frequent checkpoints.
-constexpr int kBlock = 48;
+/// Columns solved at once: enough for BLAS-3 kernels, few enough for frequent checkpoints, and two blocks where there
+/// are few. Not a matter of the number of threads, on which results shall not depend.
+int block_of(Eigen::Index n_columns) { return std::clamp(static_cast<int>(n_columns + 1) / 2, 12, 48); }
 
 SparseMatrix held(const SparseMatrix& K, const Positions& positions, int n_surface, std::span<const int> base) {
     assert(base.empty() || holds(positions, base));
@@ -58,7 +60,7 @@ Eigen::MatrixXd SurfaceCompliance::apply(const Eigen::MatrixXd& loads, Control& 
     assert(loads.rows() == 3 * n_surface_);
     Eigen::MatrixXd u = loads;
     const SerialBlas serial;
-    parallel_blocks(static_cast<int>(u.cols()), kBlock, control,
+    parallel_blocks(static_cast<int>(u.cols()), block_of(u.cols()), control,
                     [&](int begin, int end) { apply_block(u.middleCols(begin, end - begin)); });
     return u;
 }
@@ -68,7 +70,7 @@ Eigen::MatrixXd SurfaceCompliance::columns(std::span<const int> vertices, Contro
     for (std::size_t k = 0; k < vertices.size(); ++k)
         unit_loads.block<3, 3>(3 * vertices[k], 3 * static_cast<Eigen::Index>(k)).setIdentity();
     const SerialBlas serial;
-    parallel_blocks(static_cast<int>(unit_loads.cols()), kBlock, control,
+    parallel_blocks(static_cast<int>(unit_loads.cols()), block_of(unit_loads.cols()), control,
                     [&](int begin, int end) { apply_block(unit_loads.middleCols(begin, end - begin)); });
     return unit_loads;
 }
