@@ -1,0 +1,33 @@
+#include "base/text.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <limits>
+
+namespace elastolab {
+namespace {
+
+TEST(Text, IsPutOnOneLine) { EXPECT_EQ(one_line("a\nb\tc\x1b[0m"), "a b c [0m"); }
+
+TEST(Text, BytesAreReadable) {
+    EXPECT_EQ(readable_bytes(812), "812 bytes");
+    EXPECT_EQ(readable_bytes(3.4e6), "3.40 MB");
+    EXPECT_EQ(readable_bytes(14.14e9), "14.1 GB");
+    EXPECT_EQ(readable_bytes(999.99e3), "1.00 MB");
+}
+
+TEST(Text, SecondsAreReadable) {
+    EXPECT_EQ(readable_seconds(85e-6), "85 us");
+    EXPECT_EQ(readable_seconds(12.3e-3), "12.3 ms");
+    EXPECT_EQ(readable_seconds(4.52), "4.52 s");
+    EXPECT_EQ(readable_seconds(444.0), "7.4 min");
+}
+
+TEST(Text, ExactNumbersAreReadBackExactly) {
+    for (const double value : {0.1, -1.0 / 3.0, 1e-300, std::numeric_limits<double>::denorm_min(), 5e-324, 1.7e308})
+        EXPECT_EQ(std::strtod(exact(value).c_str(), nullptr), value);
+}
+
+}  // namespace
+}  // namespace elastolab
