@@ -12,7 +12,9 @@ struct TetOptions {
     double radius_edge_ratio = 1.4;  ///< bound on circumradius / shortest edge
     /// Bound on a tetrahedron's volume, in units of that of the regular tetrahedron over the mean surface edge, so that
     /// elements inside match the surface's size. <= 0: no bound.
-    double relative_volume = 1.0;
+    /// Measured: cubes of 8, 13 and 20 cells get 579, 2925, 11471 interior vertices at 1.0, 351, 1783, 7062 at 1.6 and
+    /// 271, 1375, 5517 at 2.0; the uniform grid of these cells has 343, 1728, 6859. So 1.6 is the size of the surface.
+    double relative_volume = 1.6;
 };
 
 /// Fills one solid (an outer surface and its cavities) with tetrahedra. The surface's vertices and triangles are kept

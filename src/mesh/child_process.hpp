@@ -1,0 +1,49 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/control.hpp"
+
+namespace elastolab {
+
+/// A program of ours that runs in a process of its own, with a socket as its standard input (both ways) and its
+/// standard output and error kept in memory. The destructor kills it if it still runs. Started by posix_spawn, not by a
+/// bare fork: the program has threads that may hold locks at that moment.
+class ChildProcess {
+public:
+    /// Throws MeshError when it cannot be started.
+    explicit ChildProcess(const std::filesystem::path& program);
+    ~ChildProcess();
+    ChildProcess(const ChildProcess&) = delete;
+    ChildProcess& operator=(const ChildProcess&) = delete;
+
+    /// Sends these bytes, then receives until the process closes its end. Checks for cancellation every 20 ms. A
+    /// process that dies early just answers less.
+    std::vector<char> exchange(std::string_view request, Control& control);
+    /// Waits for its end; the status as of waitpid. Checks for cancellation every few milliseconds.
+    int wait(Control& control);
+    /// What it has printed, at most the last 64 kB.
+    std::string output() const;
+
+private:
+    /// A file descriptor, closed at the end.
+    struct Descriptor {
+        int fd = -1;
+        Descriptor() = default;
+        ~Descriptor();
+        Descriptor(const Descriptor&) = delete;
+        Descriptor& operator=(const Descriptor&) = delete;
+    };
+    void start(const std::filesystem::path& program, int socket);
+    bool wait_for(short events, Control& control) const;
+
+    Descriptor socket_, output_;
+    pid_t process_ = -1;
+};
+
+}  // namespace elastolab

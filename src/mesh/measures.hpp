@@ -1,0 +1,31 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+
+#include "mesh/surface_mesh.hpp"
+
+namespace elastolab {
+
+/// Corners of one triangle.
+struct TrianglePoints {
+    Eigen::Vector3d a, b, c;
+};
+TrianglePoints triangle_points(const SurfaceMesh& mesh, int triangle);
+
+/// Twice the area times the unit normal: (b - a) x (c - a)  [L^2].
+Eigen::Vector3d area_vector(const TrianglePoints& triangle);
+
+/// Area of the surface [L^2].
+double surface_area(const SurfaceMesh& mesh);
+
+/// Signed volume that these triangles enclose [L^3]: positive when they face outward. Right only for closed surfaces.
+double enclosed_volume(const SurfaceMesh& mesh, std::span<const int> triangles);
+double enclosed_volume(const SurfaceMesh& mesh);
+
+/// How often these triangles, a closed surface, wind around a point that is not on them: the sum of their signed solid
+/// angles over 4 pi. 1 inside an outward-facing surface, -1 inside an inward-facing one, 0 outside, to rounding.
+/// Source: A. van Oosterom, J. Strackee, The solid angle of a plane triangle, IEEE Trans. Biomed. Eng. 30, 1983.
+double winding_number(const SurfaceMesh& mesh, std::span<const int> triangles, const Eigen::Vector3d& point);
+
+}  // namespace elastolab

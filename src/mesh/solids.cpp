@@ -1,0 +1,66 @@
+#include "mesh/solids.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "mesh/measures.hpp"
+#include "mesh/nesting.hpp"
+#include "mesh/topology.hpp"
+
+namespace elastolab {
+
+namespace {
+
+/// The vertices that these triangles use, ascending.
+std::vector<int> used_vertices(const SurfaceMesh& mesh, const std::vector<int>& triangles) {
+    std::vector<int> used;
+    for (const int t : triangles) used.insert(used.end(), mesh.triangles.col(t).begin(), mesh.triangles.col(t).end());
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    return used;
+}
+
+Solid extract(const SurfaceMesh& mesh, std::vector<int> triangles) {
+    std::sort(triangles.begin(), triangles.end());
+    Solid solid{{}, used_vertices(mesh, triangles), std::move(triangles)};
+    solid.surface.vertices = mesh.vertices(Eigen::all, solid.vertices);
+    const auto local = [&](int v) {
+        return static_cast<int>(std::lower_bound(solid.vertices.begin(), solid.vertices.end(), v) -
+                                solid.vertices.begin());
+    };
+    solid.surface.triangles = mesh.triangles(Eigen::all, solid.triangles).unaryExpr(local);
+    return solid;
+}
+
+}  // namespace
+
+std::vector<Solid> split_solids(const SurfaceMesh& mesh) {
+    const std::vector<std::vector<int>> components = connected_components(mesh, EdgeTable(mesh)).triangles();
+    const auto around = surfaces_around(mesh, components, [](int, int) { return false; });
+    std::vector<double> volume;
+    for (const auto& triangles : components) volume.push_back(enclosed_volume(mesh, triangles));
+    const auto volume_of = [&](int c) { return volume[static_cast<std::size_t>(c)]; };
+
+    std::vector<std::vector<int>> parts(components.size());  // triangles of the solid that each outward surface begins
+    for (std::size_t c = 0; c < components.size(); ++c) {
+        std::size_t outer = c;
+        if (volume[c] < 0.0) {
+            // Surfaces around one point are nested, so the least in volume is the innermost.
+            std::vector<int> candidates;
+            std::copy_if(around[c].begin(), around[c].end(), std::back_inserter(candidates),
+                         [&](int d) { return volume_of(d) > 0.0; });
+            if (candidates.empty())
+                throw MeshError("a surface faces inward with no solid around it. Turn its triangles round and reload.");
+            outer = static_cast<std::size_t>(*std::min_element(
+                candidates.begin(), candidates.end(), [&](int a, int b) { return volume_of(a) < volume_of(b); }));
+        }
+        parts[outer].insert(parts[outer].end(), components[c].begin(), components[c].end());
+    }
+    std::vector<Solid> solids;
+    for (auto& triangles : parts)
+        if (!triangles.empty()) solids.push_back(extract(mesh, std::move(triangles)));
+    return solids;
+}
+
+}  // namespace elastolab

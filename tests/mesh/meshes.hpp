@@ -1,0 +1,32 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "mesh/surface_mesh.hpp"
+
+namespace elastolab {
+
+/// Two meshes in one, unmerged.
+inline SurfaceMesh joined(const SurfaceMesh& a, const SurfaceMesh& b) {
+    SurfaceMesh mesh{Positions(3, a.n_vertices() + b.n_vertices()), Triangles(3, a.n_triangles() + b.n_triangles())};
+    mesh.vertices << a.vertices, b.vertices;
+    mesh.triangles << a.triangles, (b.triangles.array() + a.n_vertices()).matrix();
+    return mesh;
+}
+
+inline SurfaceMesh moved(SurfaceMesh mesh, const Eigen::Vector3d& by) {
+    mesh.vertices.colwise() += by;
+    return mesh;
+}
+
+inline SurfaceMesh scaled(SurfaceMesh mesh, double factor) {
+    mesh.vertices *= factor;
+    return mesh;
+}
+
+inline SurfaceMesh inside_out(SurfaceMesh mesh) {
+    mesh.triangles.row(1).swap(mesh.triangles.row(2));
+    return mesh;
+}
+
+}  // namespace elastolab

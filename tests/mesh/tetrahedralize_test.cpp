@@ -1,0 +1,143 @@
+#include "mesh/tetrahedralize.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <thread>
+
+#include "base/error.hpp"
+#include "mesh/measures.hpp"
+#include "mesh/meshes.hpp"
+#include "mesh/primitives.hpp"
+#include "mesh/tet_quality.hpp"
+
+namespace elastolab {
+namespace {
+
+TetMesh fill(const SurfaceMesh& solid, const TetOptions& options = {}) {
+    Control control;
+    return tetrahedralize(solid, "body", options, control);
+}
+
+/// How many tetrahedra have each face, by its sorted vertices.
+std::map<std::array<int, 3>, int> face_counts(const TetMesh& mesh) {
+    std::map<std::array<int, 3>, int> counts;
+    for (int t = 0; t < mesh.n_tetrahedra(); ++t)
+        for (int skip = 0; skip < 4; ++skip) {
+            std::array<int, 3> face{};
+            for (int c = 0, n = 0; c < 4; ++c)
+                if (c != skip) face[static_cast<std::size_t>(n++)] = mesh.tetrahedra(c, t);
+            std::sort(face.begin(), face.end());
+            ++counts[face];
+        }
+    return counts;
+}
+
+void expect_fills(const TetMesh& mesh, const SurfaceMesh& solid) {
+    ASSERT_EQ(mesh.n_surface_vertices, solid.n_vertices());
+    EXPECT_EQ(Positions(mesh.vertices.leftCols(solid.n_vertices())), solid.vertices);  // bit by bit
+    EXPECT_GT(tet_quality(mesh).least_volume, 0.0);
+    const double volume = enclosed_volume(solid);
+    EXPECT_NEAR(total_volume(mesh), volume, 1e-12 * volume);
+    int n_boundary = 0;
+    const auto counts = face_counts(mesh);
+    for (const auto& [face, count] : counts) n_boundary += count == 1;
+    EXPECT_EQ(n_boundary, solid.n_triangles());
+    for (int t = 0; t < solid.n_triangles(); ++t) {
+        std::array<int, 3> face{solid.triangles(0, t), solid.triangles(1, t), solid.triangles(2, t)};
+        std::sort(face.begin(), face.end());
+        const auto found = counts.find(face);
+        EXPECT_TRUE(found != counts.end() && found->second == 1) << "triangle " << t;
+    }
+}
+
+TEST(Tetrahedralize, FillsEveryPrimitiveAndKeepsItsSurface) {
+    for (const std::string& name : primitive_names())
+        for (const int cells : {1, 2, 5}) {
+            SCOPED_TRACE(name + " " + std::to_string(cells));
+            const SurfaceMesh solid = make_primitive(name, cells);
+            expect_fills(fill(solid), solid);
+        }
+}
+
+TEST(Tetrahedralize, LeavesCavitiesEmpty) {
+    const SurfaceMesh outer = make_box(6);
+    const SurfaceMesh holes = joined(moved(inside_out(make_sphere(2, 0.2)), {0.3, 0.3, 0.3}),
+                                     moved(inside_out(make_torus(3, 0.15, 0.05)), {0.6, 0.6, 0.7}));
+    const SurfaceMesh solid = joined(outer, holes);
+    expect_fills(fill(solid), solid);
+}
+
+TEST(Tetrahedralize, WorksAtEveryScaleAndPlace) {
+    for (const double scale : {1e-9, 1.0, 1e9})
+        for (const double offset : {0.0, 1e4}) {
+            SCOPED_TRACE(std::to_string(scale) + " " + std::to_string(offset));
+            const SurfaceMesh solid = scaled(moved(make_box(3), {offset, -offset, offset}), scale);
+            expect_fills(fill(solid), solid);
+        }
+}
+
+TEST(Tetrahedralize, MakesAboutAsManyInteriorVerticesAsAUniformGridOfTheSurfacesSize) {
+    for (const int cells : {8, 13}) {
+        const TetMesh mesh = fill(make_box(cells));
+        const double uniform = std::pow(cells - 1, 3), interior = mesh.n_vertices() - mesh.n_surface_vertices;
+        EXPECT_GT(interior, 0.85 * uniform) << cells;
+        EXPECT_LT(interior, 1.2 * uniform) << cells;
+    }
+}
+
+TEST(Tetrahedralize, WithoutVolumeBoundNeedsFewerTetrahedra) {
+    const SurfaceMesh solid = make_box(8);
+    EXPECT_LT(fill(solid, {.relative_volume = 0.0}).n_tetrahedra(), fill(solid).n_tetrahedra());
+}
+
+std::string failure(const SurfaceMesh& solid) {
+    try {
+        fill(solid);
+    } catch (const MeshError& error) {
+        return error.what();
+    }
+    return "filled";
+}
+
+TEST(Tetrahedralize, SaysWhatTetGenFindsInACrossingSurface) {
+    const std::string text = failure(joined(make_box(2), moved(make_box(2), {0.3, 0.4, 0.55})));
+    EXPECT_THAT(text, testing::StartsWith("body: "));
+    EXPECT_THAT(text, testing::HasSubstr("intersects itself"));
+    EXPECT_THAT(text, testing::Not(testing::HasSubstr("\n")));
+}
+
+TEST(Tetrahedralize, SurvivesEveryUnusableSurface) {
+    SurfaceMesh open = make_box(2);
+    open.triangles.conservativeResize(3, open.n_triangles() - 1);
+    SurfaceMesh flat = make_box(2);
+    flat.vertices.row(2).setZero();
+    SurfaceMesh not_finite = make_box(2);
+    not_finite.vertices(1, 3) = NAN;
+    SurfaceMesh collapsed = make_box(2);
+    collapsed.vertices.col(5) = collapsed.vertices.col(6);
+    for (const SurfaceMesh& solid : {open, flat, not_finite, collapsed}) {
+        const std::string text = failure(solid);
+        EXPECT_THAT(text, testing::StartsWith("body: "));
+        EXPECT_THAT(text, testing::Not(testing::HasSubstr("\n")));
+    }
+}
+
+TEST(Tetrahedralize, StopsSoonAfterACancel) {
+    using namespace std::chrono_literals;
+    Control control;
+    const SurfaceMesh solid = make_box(60);  // takes TetGen many seconds
+    std::thread watcher([&] {
+        std::this_thread::sleep_for(300ms);
+        control.cancel();
+    });
+    EXPECT_THROW(tetrahedralize(solid, "body", {}, control), Cancelled);
+    watcher.join();
+}
+
+}  // namespace
+}  // namespace elastolab
