@@ -1,0 +1,37 @@
+#pragma once
+
+#include <span>
+
+#include "elasticity/material.hpp"
+#include "mesh/surface_mesh.hpp"
+
+namespace elastolab::test {
+
+/// Displacements of the vertices of a surface, converged, and how far they may still be off.
+struct OrganicTruth {
+    Positions displacements;      ///< 3 x n_vertices, extrapolated
+    double relative_error = 0.0;  ///< estimated, rms over the free vertices / rms of their displacements
+    int n_nodes = 0;              ///< of the finest quadratic mesh
+};
+
+/// How fine the truth is computed: rounds of splitting the surface triangles that touch the rim of the constrained
+/// region, at least 1. Each halves the error and nearly doubles the time (600 vertices, 2 rounds: 110 000 nodes, half a
+/// minute on two cores).
+struct TruthOptions {
+    int rim_refinements = 2;
+};
+
+/// The displacement problem on the same polyhedron with the same constrained region (all triangles whose three
+/// vertices are constrained, displaced linearly between them; the rest free), by quadratic tetrahedra.
+///
+/// Along the rim the solution behaves like the square root of the distance, so that the error falls like the first
+/// power of the element size there, whatever the degree. The mesh is therefore graded towards the rim; then solved on
+/// its tetrahedra and on all of them split in eight, and extrapolated at this order. The estimated error is the change
+/// of the result from one round of grading less to the last, about twice what is left.
+///
+/// constrained  vertices, each a corner of a constrained triangle (asserted): a single point has no converged answer
+/// values       3 x constrained.size()
+OrganicTruth compute_truth(const SurfaceMesh& surface, std::span<const int> constrained, const Positions& values,
+                           const Material& material, const TruthOptions& options = {});
+
+}  // namespace elastolab::test

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <array>
+#include <Eigen/Core>
+#include <vector>
+
+#include "mesh/surface_mesh.hpp"
+
+namespace elastolab::test {
+
+/// A finer triangulation of the same polyhedron. The vertices of the coarse one come first, unmoved.
+struct RefinedSurface {
+    SurfaceMesh mesh;
+    /// For every new vertex (n_vertices of the coarse mesh onward), the two vertices it is the midpoint of; both have
+    /// smaller numbers.
+    std::vector<std::array<int, 2>> parents;
+    /// For every triangle, the coarse triangle that it is a part of.
+    std::vector<int> coarse_triangle;
+
+    /// Extends values at the coarse vertices (3 x n_coarse) to all, linearly on every coarse triangle.
+    Eigen::Matrix3Xd interpolate(const Eigen::Matrix3Xd& coarse) const;
+};
+
+/// The mesh itself, as the beginning of a chain of refinements.
+RefinedSurface unrefined(const SurfaceMesh& mesh);
+
+/// Splits the marked triangles in four by the midpoints of their edges; a neighbour that gets one or two midpoints is
+/// cut from them, so that the surface stays closed.
+RefinedSurface refine_marked(const RefinedSurface& surface, const std::vector<char>& marked);
+
+/// Every triangle in four.
+RefinedSurface refine_all(const RefinedSurface& surface);
+
+/// Every tetrahedron in eight, the octahedron in its middle cut along its shortest diagonal. `fine` is refine_all of
+/// the surface of the mesh; its vertices are the surface vertices of the result.
+TetMesh refine_tetrahedra(const TetMesh& mesh, const RefinedSurface& fine);
+
+/// Marks the triangles that touch the rim of a region of coarse triangles.
+std::vector<char> around_rim(const RefinedSurface& surface, const std::vector<char>& in_region);
+
+}  // namespace elastolab::test
