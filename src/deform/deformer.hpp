@@ -11,8 +11,6 @@
 
 namespace elastolab {
 
-class ConstrainedSolid;
-
 /// Which vertices are constrained. `base` vertices are held at rest; `handles` vertices follow prescribed
 /// displacements. All numbers differ. The split matters for speed only: FEM eliminates the base once.
 struct ConstrainedSet {
@@ -80,9 +78,10 @@ public:
     const Model& model() const { return *model_; }
 
 private:
+    struct SolidState;
     std::shared_ptr<const Model> model_;
     ConstrainedSet set_;
-    std::vector<std::unique_ptr<ConstrainedSolid>> solids_;  ///< one for each part of the model
+    std::vector<SolidState> solids_;  ///< one for each part of the model
     SolutionQuality quality_;
 };
 

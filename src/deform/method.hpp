@@ -34,6 +34,9 @@ struct Method {
     Update update = Update::reduced;
     /// BEM: relative error allowed to a boundary integral; decides where Gauss rules replace closed forms.
     double integral_tolerance = 1e-10;
+    /// BEM: keep the material-free integrals (1.1 times the memory of the matrix itself), so that another Poisson's
+    /// ratio integrates nothing.
+    bool keep_integrals = false;
 };
 
 /// The names used in scene files, command lines and tables; parse_* return nothing for an unknown name.

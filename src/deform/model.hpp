@@ -1,7 +1,8 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
 #include <functional>
 #include <memory>
 #include <string>
@@ -26,7 +27,7 @@ struct Body {
 struct ModelFacts {
     int n_vertices = 0;
     int n_triangles = 0;
-    int n_tetrahedra = 0;             ///< FEM only
+    int n_tetrahedra = 0;  ///< FEM only
     int n_degrees_of_freedom = 0;
     StageTimes stages;                ///< seconds by stage of the precomputation
     std::uint64_t memory_bytes = 0;   ///< held by the model itself
@@ -39,6 +40,8 @@ struct NamedMatrix {
     std::string name;  ///< "H", "G", "K", "Kinv" (D of the bordered inverse), "Khatinv" (the whole bordered inverse)
     Eigen::MatrixXd values;
 };
+
+using SparseStiffness = Eigen::SparseMatrix<double>;
 
 class SolidModel;
 
@@ -61,6 +64,9 @@ public:
 
     /// The dense matrices that the mode keeps (none on demand), solid by solid when there are several.
     void visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const;
+    /// FEM: the sparse stiffness over all nodes, surface vertices first, solid by solid; BEM has none.
+    void visit_sparse_stiffness(
+        const std::function<void(const std::string& name, const SparseStiffness&)>& visit) const;
 
 private:
     Body body_;

@@ -46,13 +46,17 @@ SurfaceCompliance SurfaceCompliance::supported_at(const StaticSupport& support, 
     return {n_surface, {}, positions, std::move(factor)};
 }
 
-void SurfaceCompliance::apply_block(Eigen::Ref<Eigen::MatrixXd> block) const {
+Eigen::MatrixXd SurfaceCompliance::volume_response(const Eigen::MatrixXd& loads) const {
     const Eigen::Index n = 3 * n_surface_;
-    Eigen::MatrixXd load = Eigen::MatrixXd::Zero(factor_.size(), block.cols());
-    load.topRows(n) = block;
-    if (rigid_.cols() > 0) load.topRows(n).noalias() -= rigid_ * (rigid_.transpose() * block);
+    Eigen::MatrixXd load = Eigen::MatrixXd::Zero(factor_.size(), loads.cols());
+    load.topRows(n) = loads;
+    if (rigid_.cols() > 0) load.topRows(n).noalias() -= rigid_ * (rigid_.transpose() * loads);
     for (int node : base_) load.middleRows<3>(3 * node).setZero();
-    block = factor_.solve(load).topRows(n);
+    return factor_.solve(load);
+}
+
+void SurfaceCompliance::apply_block(Eigen::Ref<Eigen::MatrixXd> block) const {
+    block = volume_response(block).topRows(3 * n_surface_);
     if (rigid_.cols() > 0) block -= rigid_ * (rigid_.transpose() * block).eval();
 }
 

@@ -1,0 +1,197 @@
+#include "bem/assembly.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <numbers>
+
+#include "base/parallel.hpp"
+#include "elasticity/far_field.hpp"
+
+namespace elastolab {
+
+namespace {
+
+constexpr int kPacksPerBlock = 4;
+
+int numbers_of(Layer layer) { return layer == Layer::single_layer ? kSingleLayerNumbers : kDoubleLayerNumbers; }
+
+int n_packs(int n_sources, int lanes) { return (n_sources + lanes - 1) / lanes; }
+
+/// As many sources as a kernel takes at once, and the ball around them.
+struct Pack {
+    SourceLanes lanes{};
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+    double radius = 0.0;
+
+    Pack(const Sources& sources, int first, int n_lanes) {
+        const int last = std::min(first + n_lanes, sources.size()) - 1;
+        for (int i = 0; i < n_lanes; ++i) {
+            const int source = std::min(first + i, last);
+            lanes.x[i] = sources.points(0, source);
+            lanes.y[i] = sources.points(1, source);
+            lanes.z[i] = sources.points(2, source);
+            lanes.own_triangle[i] = sources.own_triangle[static_cast<std::size_t>(source)];
+        }
+        const auto points = sources.points.middleCols(first, last - first + 1);
+        centre = points.rowwise().mean();
+        radius = (points.colwise() - centre).colwise().norm().maxCoeff();
+    }
+};
+
+/// Integrates one pack of sources after the other.
+class PackIntegrator {
+public:
+    PackIntegrator(Layer layer, const Boundary& boundary, const Sources& sources, const Elements& elements,
+                   double tolerance)
+        : layer_(layer), boundary_(boundary), sources_(sources), elements_(elements), far_field_(tolerance) {
+        const bool linear = elements.order == Elements::Order::linear;
+        if (layer == Layer::single_layer)
+            kernel_ = linear ? kernels_.single_layer_linear : kernels_.single_layer_constant;
+        else
+            kernel_ = linear ? kernels_.double_layer_linear : kernels_.double_layer_constant;
+    }
+
+    int lanes() const { return kernels_.lanes; }
+    std::size_t slot_size() const { return static_cast<std::size_t>(numbers_of(layer_) * lanes()); }
+    /// One slot more than there are: what is not wanted goes there.
+    std::size_t buffer_size() const { return slot_size() * static_cast<std::size_t>(elements_.n_slots + 1); }
+
+    /// buffer [slot][number][lane] <- the integrals of pack number `pack`.
+    void integrate(int pack, double* buffer) const {
+        std::fill(buffer, buffer + buffer_size(), 0.0);
+        const int first = pack * lanes();
+        const Pack points(sources_, first, lanes());
+        for (const Elements::Element& element : elements_.elements) {
+            const TriangleGeometry& triangle = boundary_.triangle(element.triangle);
+            const double distance =
+                (Eigen::Map<const Eigen::Vector3d>(triangle.centroid) - points.centre).norm() - points.radius;
+            double* const out[3] = {slot(buffer, element.slots[0]), slot(buffer, element.slots[1]),
+                                    slot(buffer, element.slots[2])};
+            kernel_(triangle, points.lanes, far_field_.rule(distance / triangle.longest_edge), out);
+        }
+        if (layer_ == Layer::double_layer) add_free_terms(first, buffer);
+    }
+
+private:
+    double* slot(double* buffer, int number) const {
+        return buffer + slot_size() * static_cast<std::size_t>(number < 0 ? elements_.n_slots : number);
+    }
+
+    void add_free_terms(int first, double* buffer) const {
+        std::vector<double> sum(slot_size(), 0.0);
+        for (int s = 0; s < elements_.n_slots; ++s)
+            for (std::size_t i = 0; i < slot_size(); ++i) sum[i] += slot(buffer, s)[i];
+        for (int lane = 0; lane < std::min(lanes(), sources_.size() - first); ++lane)
+            for (const Sources::Weight& weight : sources_.weights[static_cast<std::size_t>(first + lane)]) {
+                if (weight.slot < 0) continue;
+                for (std::size_t i = static_cast<std::size_t>(lane); i < slot_size();
+                     i += static_cast<std::size_t>(lanes()))
+                    slot(buffer, weight.slot)[i] -= weight.value * sum[i];
+            }
+    }
+
+    Layer layer_;
+    const Boundary& boundary_;
+    const Sources& sources_;
+    const Elements& elements_;
+    FarField far_field_;
+    const TriangleKernels& kernels_ = best_triangle_kernels();
+    void (*kernel_)(const TriangleGeometry&, const SourceLanes&, const GaussRule*, double* const*) = nullptr;
+};
+
+/// Turns the material-free numbers of a pack into blocks of the matrix.
+class Combination {
+public:
+    Combination(Layer layer, const Material& material) : layer_(layer) {
+        const double nu = material.poisson_ratio, pi = std::numbers::pi;
+        if (layer == Layer::single_layer) {
+            tensor_ = 1.0 / (16.0 * pi * material.shear_modulus() * (1.0 - nu));
+            scalar_ = (3.0 - 4.0 * nu) * tensor_;
+        } else {
+            tensor_ = -1.0 / (8.0 * pi * (1.0 - nu));
+            scalar_ = (1.0 - 2.0 * nu) * tensor_;
+        }
+    }
+
+    /// Rows of sources first ... of out <- buffer [slot][number][lane].
+    void write(const double* buffer, int first, int lanes, Eigen::Ref<Eigen::MatrixXd> out) const {
+        const Eigen::Index n_rows = std::min<Eigen::Index>(lanes, out.rows() / 3 - first), n_slots = out.cols() / 3;
+        const int stride = numbers_of(layer_) * lanes;
+        for (Eigen::Index s = 0; s < n_slots; ++s)
+            for (Eigen::Index lane = 0; lane < n_rows; ++lane)
+                out.block<3, 3>(3 * (first + lane), 3 * s) = block(buffer + s * stride + lane, lanes);
+    }
+
+private:
+    Eigen::Matrix3d block(const double* numbers, int lanes) const {
+        const auto number = [&](int k) { return numbers[k * lanes]; };
+        const int t = layer_ == Layer::single_layer ? 1 : 4;
+        const double s = scalar_ * number(0);
+        Eigen::Matrix3d b;
+        b(0, 0) = s + tensor_ * number(t), b(1, 1) = s + tensor_ * number(t + 1), b(2, 2) = s + tensor_ * number(t + 2);
+        b(0, 1) = b(1, 0) = tensor_ * number(t + 3);
+        b(0, 2) = b(2, 0) = tensor_ * number(t + 4);
+        b(1, 2) = b(2, 1) = tensor_ * number(t + 5);
+        if (layer_ == Layer::double_layer) {
+            const double x = scalar_ * number(1), y = scalar_ * number(2), z = scalar_ * number(3);
+            b(0, 1) -= z, b(1, 0) += z;
+            b(0, 2) += y, b(2, 0) -= y;
+            b(1, 2) -= x, b(2, 1) += x;
+        }
+        return b;
+    }
+
+    Layer layer_;
+    double scalar_, tensor_;
+};
+
+}  // namespace
+
+void assemble(Layer layer, const Boundary& boundary, const Sources& sources, const Elements& elements,
+              const Material& material, double tolerance, Eigen::Ref<Eigen::MatrixXd> out, Control& control) {
+    assert(out.rows() == 3 * sources.size() && out.cols() == 3 * elements.n_slots);
+    const PackIntegrator integrator(layer, boundary, sources, elements, tolerance);
+    const Combination combination(layer, material);
+    const auto run = [&](int begin, int end) {
+        std::vector<double> buffer(integrator.buffer_size());
+        for (int pack = begin; pack < end; ++pack) {
+            integrator.integrate(pack, buffer.data());
+            combination.write(buffer.data(), pack * integrator.lanes(), integrator.lanes(), out);
+        }
+    };
+    parallel_blocks(n_packs(sources.size(), integrator.lanes()), kPacksPerBlock, control, run);
+}
+
+LayerIntegrals::LayerIntegrals(Layer layer, const Boundary& boundary, const Sources& sources, const Elements& elements,
+                               double tolerance, Control& control)
+    : layer_(layer), n_sources_(sources.size()), n_slots_(elements.n_slots), lanes_(best_triangle_kernels().lanes) {
+    const PackIntegrator integrator(layer, boundary, sources, elements, tolerance);
+    const std::size_t pack_size = integrator.slot_size() * static_cast<std::size_t>(n_slots_);
+    const int packs = n_packs(n_sources_, lanes_);
+    data_.resize(pack_size * static_cast<std::size_t>(packs));
+    const auto run = [&](int begin, int end) {
+        std::vector<double> buffer(integrator.buffer_size());
+        for (int pack = begin; pack < end; ++pack) {
+            integrator.integrate(pack, buffer.data());
+            std::copy_n(buffer.begin(), pack_size, data_.begin() + static_cast<std::ptrdiff_t>(pack_size) * pack);
+        }
+    };
+    parallel_blocks(packs, kPacksPerBlock, control, run);
+}
+
+void LayerIntegrals::evaluate(const Material& material, Eigen::Ref<Eigen::MatrixXd> out, Control& control) const {
+    assert(out.rows() == 3 * n_sources_ && out.cols() == 3 * n_slots_);
+    const Combination combination(layer_, material);
+    const std::size_t pack_size = static_cast<std::size_t>(numbers_of(layer_)) * static_cast<std::size_t>(lanes_) *
+                                  static_cast<std::size_t>(n_slots_);
+    parallel_blocks(n_packs(n_sources_, lanes_), kPacksPerBlock, control, [&](int begin, int end) {
+        for (int pack = begin; pack < end; ++pack)
+            combination.write(data_.data() + pack_size * static_cast<std::size_t>(pack), pack * lanes_, lanes_, out);
+    });
+}
+
+std::uint64_t LayerIntegrals::predict_bytes(Layer layer, std::int64_t n_sources, std::int64_t n_slots) {
+    return static_cast<std::uint64_t>(numbers_of(layer) * n_sources * n_slots) * sizeof(double);
+}
+
+}  // namespace elastolab

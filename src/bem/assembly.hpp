@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <Eigen/Core>
+#include <vector>
+
+#include "base/control.hpp"
+#include "bem/boundary.hpp"
+#include "elasticity/material.hpp"
+
+namespace elastolab {
+
+/// The two operators of the boundary integral equation H u = G t.
+enum class Layer {
+    single_layer,  ///< G: Kelvin displacements U times shape functions
+    double_layer,  ///< H: Kelvin tractions T times shape functions, and the free term
+};
+
+/// Integrals of one layer over `elements` seen from `sources`, as a matrix for one material:
+///   out, 3*n_sources x 3*n_slots, block (x, k):  single_layer  int phi_k U(x, y) dS_y  [L^2 / force * L]
+///                                                double_layer  int phi_k T(x, y) dS_y + c(x) phi_k(x)  [1]
+/// The free term c(x), jump and solid angle together, is minus the sum of all blocks of the row (a translation causes
+/// no traction); so the double layer needs `elements` to cover the whole closed surface.
+/// tolerance: relative error allowed to an integral (elasticity/far_field.hpp). Parallel over sources; the result does
+/// not depend on the number of threads. Throws Cancelled.
+void assemble(Layer layer, const Boundary& boundary, const Sources& sources, const Elements& elements,
+              const Material& material, double tolerance, Eigen::Ref<Eigen::MatrixXd> out, Control& control);
+
+/// The same integrals with the material taken out, kept in memory (10 numbers a block for the double layer, 7 for the
+/// single layer), so that another Poisson's ratio is a linear combination of what is there.
+class LayerIntegrals {
+public:
+    LayerIntegrals(Layer layer, const Boundary& boundary, const Sources& sources, const Elements& elements,
+                   double tolerance, Control& control);
+
+    /// Writes the matrix for a material; the same numbers as assemble(), to the last bit.
+    void evaluate(const Material& material, Eigen::Ref<Eigen::MatrixXd> out, Control& control) const;
+
+    std::uint64_t memory_bytes() const { return data_.size() * sizeof(double); }
+    static std::uint64_t predict_bytes(Layer layer, std::int64_t n_sources, std::int64_t n_slots);
+
+private:
+    Layer layer_;
+    int n_sources_, n_slots_, lanes_;
+    std::vector<double> data_;  ///< [pack of sources][slot][number][lane]
+};
+
+}  // namespace elastolab

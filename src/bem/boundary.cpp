@@ -1,0 +1,100 @@
+#include "bem/boundary.hpp"
+
+#include "elasticity/triangle_geometry.hpp"
+
+namespace elastolab {
+
+namespace {
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+constexpr Sources::Weight kUnused{-1, 0.0};
+
+}  // namespace
+
+Boundary::Boundary(const SurfaceMesh& mesh) : mesh_(mesh) {
+    triangles_.reserve(index(mesh.n_triangles()));
+    for (int t = 0; t < mesh.n_triangles(); ++t) {
+        const Eigen::Vector3i v = mesh.triangles.col(t);
+        triangles_.push_back(
+            make_triangle_geometry(mesh.vertices.col(v[0]), mesh.vertices.col(v[1]), mesh.vertices.col(v[2]), t));
+    }
+}
+
+Sources Sources::subset(std::span<const int> numbers) const {
+    Sources some;
+    some.points.resize(3, static_cast<Eigen::Index>(numbers.size()));
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        some.points.col(static_cast<Eigen::Index>(i)) = points.col(numbers[i]);
+        some.own_triangle.push_back(own_triangle[index(numbers[i])]);
+        some.weights.push_back(weights[index(numbers[i])]);
+    }
+    return some;
+}
+
+Sources vertex_sources(const Boundary& boundary) {
+    const int n = boundary.mesh().n_vertices();
+    Sources sources{boundary.mesh().vertices, std::vector<int>(index(n), -1), {}};
+    for (int v = 0; v < n; ++v) sources.weights.push_back({Sources::Weight{v, 1.0}, kUnused, kUnused});
+    return sources;
+}
+
+Sources centroid_sources(const Boundary& boundary) {
+    Sources sources;
+    sources.points.resize(3, boundary.n_triangles());
+    for (int t = 0; t < boundary.n_triangles(); ++t) {
+        sources.points.col(t) = Eigen::Map<const Eigen::Vector3d>(boundary.triangle(t).centroid);
+        sources.own_triangle.push_back(t);
+        sources.weights.push_back({Sources::Weight{t, 1.0}, kUnused, kUnused});
+    }
+    return sources;
+}
+
+Sources interior_sources(const Boundary& boundary, std::span<const int> triangles) {
+    Sources sources;
+    sources.points.resize(3, 3 * static_cast<Eigen::Index>(triangles.size()));
+    Eigen::Index next = 0;
+    for (const int t : triangles)
+        for (int corner = 0; corner < 3; ++corner) {
+            const Eigen::Vector3i v = boundary.mesh().triangles.col(t);
+            Eigen::Vector3d barycentric = Eigen::Vector3d::Constant(1.0 / 6.0);
+            barycentric[corner] = 2.0 / 3.0;
+            std::array<Sources::Weight, 3> weights{};
+            Eigen::Vector3d point = Eigen::Vector3d::Zero();
+            for (int i = 0; i < 3; ++i) {
+                point += barycentric[i] * boundary.mesh().vertices.col(v[i]);
+                weights[index(i)] = {v[i], barycentric[i]};
+            }
+            sources.points.col(next++) = point;
+            sources.own_triangle.push_back(t);
+            sources.weights.push_back(weights);
+        }
+    return sources;
+}
+
+Elements vertex_elements(const Boundary& boundary) {
+    Elements elements{Elements::Order::linear, boundary.mesh().n_vertices(), {}};
+    for (int t = 0; t < boundary.n_triangles(); ++t) {
+        const Eigen::Vector3i v = boundary.mesh().triangles.col(t);
+        elements.elements.push_back({t, {v[0], v[1], v[2]}});
+    }
+    return elements;
+}
+
+Elements constant_elements(std::span<const int> triangles) {
+    Elements elements{Elements::Order::constant, static_cast<int>(triangles.size()), {}};
+    for (const int t : triangles)
+        elements.elements.push_back({t, {static_cast<int>(elements.elements.size()), -1, -1}});
+    return elements;
+}
+
+Elements discontinuous_elements(std::span<const int> triangles) {
+    Elements elements{Elements::Order::linear, 3 * static_cast<int>(triangles.size()), {}};
+    for (const int t : triangles) {
+        const int first = 3 * static_cast<int>(elements.elements.size());
+        elements.elements.push_back({t, {first, first + 1, first + 2}});
+    }
+    return elements;
+}
+
+}  // namespace elastolab

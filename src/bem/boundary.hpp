@@ -1,0 +1,72 @@
+#pragma once
+
+#include <array>
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "elasticity/triangle_kernels.hpp"
+#include "mesh/surface_mesh.hpp"
+
+namespace elastolab {
+
+/// The triangles of one solid's surface, ready for integration.
+class Boundary {
+public:
+    /// The mesh is closed, outward and free of degenerate triangles (mesh/check.hpp).
+    explicit Boundary(const SurfaceMesh& mesh);
+
+    const SurfaceMesh& mesh() const { return mesh_; }
+    const TriangleGeometry& triangle(int t) const { return triangles_[static_cast<std::size_t>(t)]; }
+    int n_triangles() const { return mesh_.n_triangles(); }
+    double area(int t) const { return 0.5 * triangle(t).double_area; }
+
+private:
+    SurfaceMesh mesh_;
+    std::vector<TriangleGeometry> triangles_;
+};
+
+/// Collocation points: where the boundary integral equation is asked to hold.
+struct Sources {
+    Positions points;               ///< 3 x n [L]
+    std::vector<int> own_triangle;  ///< triangle in whose interior the point lies, -1 for a vertex of the mesh
+    /// Shape-function values at the point, by slot of the double layer's Elements; the free term of the integral
+    /// equation, found by the rigid-body sum, is spread over them. Slot -1: unused.
+    struct Weight {
+        int slot;
+        double value;
+    };
+    std::vector<std::array<Weight, 3>> weights;
+
+    int size() const { return static_cast<int>(points.cols()); }
+    /// The sources with these numbers.
+    Sources subset(std::span<const int> numbers) const;
+};
+
+/// Every vertex of the mesh (linear elements).
+Sources vertex_sources(const Boundary& boundary);
+/// Every triangle's centroid (constant elements).
+Sources centroid_sources(const Boundary& boundary);
+/// Three interior points of each of these triangles, barycentric (2/3, 1/6, 1/6) and its turns: 3*triangles.size().
+Sources interior_sources(const Boundary& boundary, std::span<const int> triangles);
+
+/// Which shape functions are integrated over which triangle, and into which slot (block column) each goes.
+struct Elements {
+    enum class Order { constant, linear };
+    struct Element {
+        int triangle;
+        std::array<int, 3> slots;  ///< one per corner (constant: the first only); -1: not wanted
+    };
+    Order order = Order::linear;
+    int n_slots = 0;
+    std::vector<Element> elements;
+};
+
+/// All triangles; slot = vertex number, hat functions.
+Elements vertex_elements(const Boundary& boundary);
+/// Slot = position of the triangle in the list, constant functions.
+Elements constant_elements(std::span<const int> triangles);
+/// Slot = 3 * position of the triangle in the list + corner: each triangle's own linear functions.
+Elements discontinuous_elements(std::span<const int> triangles);
+
+}  // namespace elastolab

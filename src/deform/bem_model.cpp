@@ -1,0 +1,108 @@
+#include "deform/bem_model.hpp"
+
+#include "base/error.hpp"
+#include "deform/bem_solvers.hpp"
+#include "deform/reduced_solver.hpp"
+
+namespace elastolab {
+
+namespace {
+
+bool same_system(const Method& a, const Method& b) {
+    return a.kind == b.kind && a.mode == b.mode && a.integral_tolerance == b.integral_tolerance;
+}
+
+bool same_integrals(const Method& a, const Method& b) {
+    return a.kind == b.kind && a.integral_tolerance == b.integral_tolerance;
+}
+
+}  // namespace
+
+BemModel::BemModel(const SurfaceMesh& surface, double poisson_ratio, const Method& method, Control& control)
+    : method_(method), poisson_ratio_(poisson_ratio) {
+    system_ = std::make_shared<const BemSystem>(std::make_shared<const Boundary>(surface), poisson_ratio, method,
+                                                nullptr, facts_.stages, control);
+    note_facts();
+}
+
+BemModel::BemModel(const BemModel& before, double poisson_ratio, const Method& method, Control& control)
+    : method_(method), poisson_ratio_(poisson_ratio) {
+    if (same_system(before.method_, method) && before.poisson_ratio_ == poisson_ratio) {
+        system_ = before.system_;
+    } else {
+        const auto integrals = same_integrals(before.method_, method) ? before.system_->integrals() : nullptr;
+        system_ = std::make_shared<const BemSystem>(before.system_->shared_boundary(), poisson_ratio, method, integrals,
+                                                    facts_.stages, control);
+    }
+    note_facts();
+}
+
+void BemModel::note_facts() {
+    const SurfaceMesh& mesh = system_->boundary().mesh();
+    facts_.n_vertices = mesh.n_vertices();
+    facts_.n_triangles = mesh.n_triangles();
+    facts_.n_degrees_of_freedom = 3 * system_->n_nodes();
+    facts_.memory_bytes = system_->memory_bytes();
+    facts_.condition_estimate = system_->condition();
+    facts_.warnings = system_->warnings();
+    if (system_->is_constant())
+        display_ = std::make_shared<const SparseRows>(average_of_triangles(mesh, system_->around()));
+}
+
+std::unique_ptr<NodeSolver> BemModel::make_solver(const LoadPlan& plan, const std::vector<int>& nodes,
+                                                  Control& control) const {
+    // Eqns. 7 and 9 on K itself where one K serves every constrained set.
+    const bool has_K = system_->operators() && (system_->is_constant() || method_.tractions == Tractions::continuous);
+    switch (method_.update) {
+        case Update::direct:
+            if (has_K) return std::make_unique<DirectSolver>(system_->operators(), nodes);
+            return std::make_unique<MixedSolver>(*system_, plan, nodes, control);
+        case Update::eqn9:
+            if (!system_->operators())
+                throw SolveError("update eqn9: needs K and its inverse in memory. Choose the mode full.");
+            if (has_K) return make_paper_solver(system_->operators(), nodes);
+            if (2 * std::ssize(nodes) >= system_->n_nodes())
+                return std::make_unique<MixedSolver>(*system_, plan, nodes, control);
+            return std::make_unique<BoundaryEqn9Solver>(*system_, plan, nodes, control);
+        case Update::reduced:
+            break;
+    }
+    ReducedSystem reduced;
+    reduced.columns = system_->responses(plan, control);
+    reduced.rigid = system_->rigid();
+    reduced.nodes = nodes;
+    if (!plan.interior_triangles.empty()) reduced.closing = system_->closing_rows(plan, reduced.columns, control);
+    reduced.n_loads = 3 * plan.n_slots();
+    return std::make_unique<ReducedSolver>(std::move(reduced));
+}
+
+std::unique_ptr<ConstrainedSolid> BemModel::constrain(std::span<const int> base, std::span<const int> handles,
+                                                      Control& control) const {
+    std::vector<int> vertices(base.begin(), base.end());
+    vertices.insert(vertices.end(), handles.begin(), handles.end());
+    const Boundary& boundary = system_->boundary();
+    ConstrainedNodes nodes = system_->is_constant() ? constrain_triangles(boundary.mesh(), system_->around(), vertices)
+                                                    : constrain_vertices(vertices);
+    LoadPlan plan = system_->is_constant()
+                        ? plan_constant_loads(boundary, nodes.nodes, nodes.prescribe)
+                        : plan_linear_loads(boundary, system_->around(), method_.tractions, vertices);
+    std::unique_ptr<NodeSolver> solver = make_solver(plan, nodes.nodes, control);
+    const auto residual = [system = system_, plan](const NodeSolution& solution, Control& its_control) {
+        return boundary_residual(*system, plan, solution, its_control);
+    };
+    return std::make_unique<ConstrainedSolid>(boundary.mesh().n_vertices(), std::move(nodes), plan.shares, display_,
+                                              std::move(solver), residual);
+}
+
+void BemModel::visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const {
+    const auto operators = system_->operators();
+    if (!operators) return;
+    Control control;
+    visit({"H", *system_->whole_double_layer(control)});
+    visit({"G", *system_->single_layer_matrix()});
+    visit({"K", operators->K});
+    visit({"Kinv", operators->D()});
+    visit({"Khatinv", operators->Khatinv});
+}
+
+}  // namespace elastolab

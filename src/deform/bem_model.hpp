@@ -1,0 +1,32 @@
+#pragma once
+
+#include <memory>
+
+#include "deform/bem_system.hpp"
+#include "deform/solid_model.hpp"
+
+namespace elastolab {
+
+/// A solid by constant or linear boundary elements.
+class BemModel : public SolidModel {
+public:
+    BemModel(const SurfaceMesh& surface, double poisson_ratio, const Method& method, Control& control);
+    /// The same surface with another material or method; takes over the system or its integrals where they serve.
+    BemModel(const BemModel& before, double poisson_ratio, const Method& method, Control& control);
+
+    std::unique_ptr<ConstrainedSolid> constrain(std::span<const int> base, std::span<const int> handles,
+                                                Control& control) const override;
+    void visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const override;
+
+private:
+    void note_facts();
+    std::unique_ptr<NodeSolver> make_solver(const LoadPlan& plan, const std::vector<int>& nodes,
+                                            Control& control) const;
+
+    Method method_;
+    double poisson_ratio_;
+    std::shared_ptr<const BemSystem> system_;
+    std::shared_ptr<const SparseRows> display_;  ///< constant elements only
+};
+
+}  // namespace elastolab

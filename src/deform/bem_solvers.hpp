@@ -1,0 +1,55 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+
+#include "base/lapack.hpp"
+#include "deform/bem_system.hpp"
+#include "deform/dense_solvers.hpp"
+#include "deform/load_plan.hpp"
+#include "deform/node_solver.hpp"
+
+namespace elastolab {
+
+/// The mixed boundary problem of one constrained set, with the traction coefficients q of a load plan:
+///     H0 u = G0 q   at the free nodes,      A u = Gp q   at the collocated constrained nodes and the interior points
+/// For the traction models whose ansatz depends on the constrained set there is no K that serves all sets; these are
+/// the rows from which Eqns. 7 and 9 are formed then.
+struct MixedProblem {
+    Partition partition;
+    Eigen::MatrixXd H0, G0;  ///< 3*free x 3*n_nodes, 3*free x 3*slots
+    Eigen::MatrixXd A, Gp;   ///< 3*slots x 3*n_nodes, 3*slots square
+
+    MixedProblem(const BemSystem& system, const LoadPlan& plan, const std::vector<int>& nodes, Control& control);
+};
+
+/// Eqn. 7 with the tractions kept: the mixed system for free displacements and q, factorised afresh.
+class MixedSolver : public NodeSolver {
+public:
+    MixedSolver(const BemSystem& system, const LoadPlan& plan, const std::vector<int>& nodes, Control& control);
+    NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const override;
+
+private:
+    Partition partition_;
+    Eigen::MatrixXd known_;  ///< columns of the prescribed displacements
+    LuFactorization lu_;
+    Eigen::Index n_nodes3_;
+};
+
+/// Eqn. 9 applied to H: H00^-1 = D'00 - D'01 D'11^-1 D'10, then q from the small system Gp - A0 H00^-1 G0.
+class BoundaryEqn9Solver : public NodeSolver {
+public:
+    BoundaryEqn9Solver(const BemSystem& system, const LoadPlan& plan, const std::vector<int>& nodes, Control& control);
+    NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const override;
+
+private:
+    MixedProblem problem_;
+    Eigen::MatrixXd H00_inverse_;
+    LuFactorization tractions_;
+};
+
+/// Relative residual |H u - G q| / | |H| |u| + |G| |q| | over all collocated equations, in the Euclidean norm, with
+/// integrals computed afresh.
+double boundary_residual(const BemSystem& system, const LoadPlan& plan, const NodeSolution& solution, Control& control);
+
+}  // namespace elastolab

@@ -1,0 +1,208 @@
+#include "deform/bem_system.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "elasticity/rigid_motion.hpp"
+
+namespace elastolab {
+
+namespace {
+
+/// Columns solved or multiplied at once: large enough for BLAS-3, small beside the matrix, often enough to cancel.
+constexpr Eigen::Index kColumnsAtOnce = 384;
+/// Sources per strip of equations at interior points.
+constexpr int kSourcesAtOnce = 192;
+constexpr double kUselessCondition = 1e13;
+
+std::vector<int> all_triangles(const Boundary& boundary) {
+    std::vector<int> triangles(static_cast<std::size_t>(boundary.n_triangles()));
+    std::iota(triangles.begin(), triangles.end(), 0);
+    return triangles;
+}
+
+/// Kept columns may take a fifth of the matrix, and something where the matrix is small.
+std::uint64_t cache_budget(Eigen::Index n_rows) {
+    return (64ull << 20) + static_cast<std::uint64_t>(n_rows * n_rows) * 8 / 5;
+}
+
+}  // namespace
+
+BemSystem::BemSystem(std::shared_ptr<const Boundary> boundary, double poisson_ratio, const Method& method,
+                     std::shared_ptr<const LayerIntegrals> integrals, StageTimes& stages, Control& control)
+    : boundary_(std::move(boundary)),
+      material_{1.0, poisson_ratio},
+      tolerance_(method.integral_tolerance),
+      around_(boundary_->mesh()),
+      nodes_(method.kind == MethodKind::constant_bem ? centroid_sources(*boundary_) : vertex_sources(*boundary_)),
+      elements_(method.kind == MethodKind::constant_bem ? constant_elements(all_triangles(*boundary_))
+                                                        : vertex_elements(*boundary_)),
+      integrals_(std::move(integrals)),
+      modes_(rigid_modes(nodes_.points)) {
+    const Eigen::Index n = 3 * n_nodes();
+    Eigen::MatrixXd bordered(n + 6, n + 6);
+    {
+        const Stage stage("integrate", control, stages);
+        if (method.keep_integrals && !integrals_)
+            integrals_ = std::make_shared<LayerIntegrals>(Layer::double_layer, *boundary_, nodes_, elements_,
+                                                          tolerance_, control);
+        if (integrals_)
+            integrals_->evaluate(material_, bordered.topLeftCorner(n, n), control);
+        else
+            assemble(Layer::double_layer, *boundary_, nodes_, elements_, material_, tolerance_,
+                     bordered.topLeftCorner(n, n), control);
+    }
+    Eigen::MatrixXd H;
+    if (method.mode != Mode::on_demand) H = bordered.topLeftCorner(n, n);
+    {
+        const Stage stage("factorise", control, stages);
+        factorise(std::move(bordered));
+    }
+    if (method.mode != Mode::on_demand) complete(std::move(H), stages, control);
+    cache_ = std::make_unique<ColumnCache>(cache_budget(n));
+}
+
+void BemSystem::factorise(Eigen::MatrixXd&& bordered) {
+    const Eigen::Index n = 3 * n_nodes();
+    bordered.topRightCorner(n, 6) = modes_;
+    bordered.bottomLeftCorner(6, n) = modes_.transpose();
+    bordered.bottomRightCorner(6, 6).setZero();
+    lu_ = LuFactorization(std::move(bordered), "boundary-element matrix");
+    rigid_ = Eigen::MatrixXd::Zero(n + 6, 6);
+    rigid_.bottomRows(6).setIdentity();
+    lu_.solve_in_place(rigid_);
+}
+
+void BemSystem::complete(Eigen::MatrixXd H, StageTimes& stages, Control& control) {
+    const Eigen::Index n = 3 * n_nodes();
+    auto operators = std::make_shared<DenseOperators>();
+    full_ = std::make_unique<Full>();
+    full_->G.resize(n, n);
+    {
+        const Stage stage("integrate G", control, stages);
+        assemble(Layer::single_layer, *boundary_, nodes_, elements_, material_, tolerance_, full_->G, control);
+    }
+    {
+        const Stage stage("K = G^-1 H", control, stages);
+        const LuFactorization G(Eigen::MatrixXd(full_->G), "single-layer matrix");
+        if (1.0 / G.reciprocal_condition() > kUselessCondition)
+            warnings_.push_back(
+                "K = G^-1 H: G is singular to rounding (constant elements at Poisson's ratio 1/2), so K "
+                "carries no digits; use the mode on-demand.");
+        operators->K = H;
+        G.solve_in_place(operators->K);
+    }
+    {
+        const Stage stage("K^-1", control, stages);
+        Eigen::MatrixXd& inverse = operators->Khatinv;
+        inverse = Eigen::MatrixXd::Zero(n + 6, n + 6);
+        inverse.topLeftCorner(n, n) = full_->G;
+        inverse.bottomRightCorner(6, 6).setIdentity();
+        lu_.solve_in_place(inverse);
+    }
+    full_->H = std::make_shared<const Eigen::MatrixXd>(std::move(H));
+    full_->operators = std::move(operators);
+}
+
+std::uint64_t BemSystem::memory_bytes() const {
+    const auto n = static_cast<std::uint64_t>(lu_.size());
+    return 8 * n * n * (full_ ? 5u : 1u) + (integrals_ ? integrals_->memory_bytes() : 0u);
+}
+
+Eigen::MatrixXd BemSystem::double_layer(const Sources& sources, Control& control) const {
+    Eigen::MatrixXd rows(3 * sources.size(), 3 * n_nodes());
+    assemble(Layer::double_layer, *boundary_, sources, elements_, material_, tolerance_, rows, control);
+    return rows;
+}
+
+Eigen::MatrixXd BemSystem::single_layer(const Sources& sources, const Elements& loads, Control& control) const {
+    Eigen::MatrixXd rows(3 * sources.size(), 3 * loads.n_slots);
+    assemble(Layer::single_layer, *boundary_, sources, loads, material_, tolerance_, rows, control);
+    return rows;
+}
+
+std::shared_ptr<const Eigen::MatrixXd> BemSystem::whole_double_layer(Control& control) const {
+    if (full_) return full_->H;
+    if (!integrals_) return std::make_shared<const Eigen::MatrixXd>(double_layer(nodes_, control));
+    auto H = std::make_shared<Eigen::MatrixXd>(3 * n_nodes(), 3 * n_nodes());
+    integrals_->evaluate(material_, *H, control);
+    return H;
+}
+
+const Eigen::MatrixXd& BemSystem::bordered_inverse() const {
+    const std::scoped_lock lock(inverse_mutex_);
+    if (inverse_.size() == 0) inverse_ = LuFactorization(lu_).inverse();
+    return inverse_;
+}
+
+Columns BemSystem::responses(const LoadPlan& plan, Control& control) const {
+    std::vector<ColumnKey> keys;
+    std::map<ColumnKey, const LoadPlan::Block*> blocks;
+    for (const LoadPlan::Block& block : plan.blocks) {
+        keys.push_back(block.key);
+        blocks[block.key] = &block;
+    }
+    return cache_->get(keys, [&](const std::vector<ColumnKey>& missing) {
+        std::vector<const LoadPlan::Block*> wanted;
+        for (const ColumnKey& key : missing) wanted.push_back(blocks.at(key));
+        return compute(wanted, plan.elements.order, control);
+    });
+}
+
+std::vector<Columns::Block> BemSystem::compute(const std::vector<const LoadPlan::Block*>& missing,
+                                               Elements::Order order, Control& control) const {
+    const Eigen::Index n = 3 * n_nodes();
+    std::vector<Columns::Block> result;
+    for (std::size_t begin = 0; begin < missing.size();) {
+        Elements loads{order, 0, {}};
+        std::vector<int> residuals;
+        std::size_t end = begin;
+        for (; end < missing.size() && 3 * (loads.n_slots + std::ssize(residuals)) < kColumnsAtOnce; ++end) {
+            for (Elements::Element element : missing[end]->elements) {
+                for (int& slot : element.slots)
+                    if (slot >= 0) slot += loads.n_slots;
+                loads.elements.push_back(element);
+            }
+            loads.n_slots += missing[end]->n_slots;
+            if (missing[end]->n_slots == 0) residuals.push_back(missing[end]->key.back());
+        }
+        Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(n + 6, 3 * (loads.n_slots + std::ssize(residuals)));
+        if (loads.n_slots > 0)
+            assemble(Layer::single_layer, *boundary_, nodes_, loads, material_, tolerance_,
+                     columns.topLeftCorner(n, 3 * loads.n_slots), control);
+        for (std::size_t i = 0; i < residuals.size(); ++i)
+            columns.block<3, 3>(3 * residuals[i], 3 * (loads.n_slots + static_cast<Eigen::Index>(i))).setIdentity();
+        lu_.solve_in_place(columns);
+        control.checkpoint();
+        Eigen::Index next_load = 0, next_residual = 3 * loads.n_slots;
+        for (; begin < end; ++begin) {
+            Eigen::Index& next = missing[begin]->n_slots > 0 ? next_load : next_residual;
+            const Eigen::Index count = 3 * std::max(missing[begin]->n_slots, 1);
+            result.push_back(std::make_shared<const Eigen::MatrixXd>(columns.middleCols(next, count)));
+            next += count;
+        }
+    }
+    return result;
+}
+
+Eigen::MatrixXd BemSystem::closing_rows(const LoadPlan& plan, const Columns& responses, Control& control) const {
+    const Sources points = interior_sources(*boundary_, plan.interior_triangles);
+    const Eigen::Index n = 3 * n_nodes(), n_unknowns = responses.cols(), n_loads = 3 * plan.n_slots();
+    Eigen::MatrixXd rows(3 * points.size(), n_unknowns + 6);
+    for (int first = 0; first < points.size(); first += kSourcesAtOnce) {
+        std::vector<int> numbers(static_cast<std::size_t>(std::min(kSourcesAtOnce, points.size() - first)));
+        std::iota(numbers.begin(), numbers.end(), first);
+        const Sources strip = points.subset(numbers);
+        const Eigen::MatrixXd A = double_layer(strip, control);
+        auto out = rows.middleRows(3 * first, 3 * strip.size());
+        for (Eigen::Index c = 0; c < n_unknowns; c += kColumnsAtOnce) {
+            const Eigen::Index count = std::min(kColumnsAtOnce, n_unknowns - c);
+            out.middleCols(c, count).noalias() = A * responses.middle(c, count).topRows(n);
+        }
+        out.leftCols(n_loads) -= single_layer(strip, plan.elements, control);
+        out.rightCols(6).noalias() = A * rigid_.topRows(n);
+    }
+    return rows;
+}
+
+}  // namespace elastolab

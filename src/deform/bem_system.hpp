@@ -1,0 +1,92 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "base/control.hpp"
+#include "base/lapack.hpp"
+#include "base/timer.hpp"
+#include "bem/assembly.hpp"
+#include "bem/boundary.hpp"
+#include "deform/columns.hpp"
+#include "deform/dense_solvers.hpp"
+#include "deform/load_plan.hpp"
+#include "deform/method.hpp"
+
+namespace elastolab {
+
+/// The boundary equation H u = G t of one solid with unit Young's modulus, bordered by the rigid modes B = C of its
+/// nodes and factorised:
+///   Hhat = | H   B |      Hhat^-1 = | D'  E |
+///          | B^T 0 |                | F'  J |
+/// Nodes are vertices (linear elements) or triangles (constant elements). Any thread may use it.
+class BemSystem {
+public:
+    /// `integrals`: those of H for this boundary and method, or null to integrate (and keep, if the method says so).
+    BemSystem(std::shared_ptr<const Boundary> boundary, double poisson_ratio, const Method& method,
+              std::shared_ptr<const LayerIntegrals> integrals, StageTimes& stages, Control& control);
+
+    const Boundary& boundary() const { return *boundary_; }
+    std::shared_ptr<const Boundary> shared_boundary() const { return boundary_; }
+    const VertexTriangles& around() const { return around_; }
+    bool is_constant() const { return elements_.order == Elements::Order::constant; }
+    int n_nodes() const { return nodes_.size(); }
+    std::shared_ptr<const LayerIntegrals> integrals() const { return integrals_; }
+
+    /// E over J: (3*n_nodes + 6) x 6.
+    const Eigen::MatrixXd& rigid() const { return rigid_; }
+    double condition() const { return 1.0 / lu_.reciprocal_condition(); }
+    std::uint64_t memory_bytes() const;
+
+    /// Collocation at every node.
+    const Sources& nodes() const { return nodes_; }
+    /// Rows of H (3*sources x 3*n_nodes) and of G for a load ansatz (3*sources x 3*slots) at these sources.
+    Eigen::MatrixXd double_layer(const Sources& sources, Control& control) const;
+    Eigen::MatrixXd single_layer(const Sources& sources, const Elements& loads, Control& control) const;
+
+    /// Responses Hhat^-1 [G; 0] to the unit loads of a plan, then to its residuals; cached.
+    Columns responses(const LoadPlan& plan, Control& control) const;
+    /// Equations at the plan's interior points for its unknowns and the border: 9*interior_triangles x (unknowns + 6).
+    Eigen::MatrixXd closing_rows(const LoadPlan& plan, const Columns& responses, Control& control) const;
+
+    /// H, in memory in the mode `full`, else assembled for this call.
+    std::shared_ptr<const Eigen::MatrixXd> whole_double_layer(Control& control) const;
+    /// G, K and Khat^-1: only in the mode `full`, else null.
+    const Eigen::MatrixXd* single_layer_matrix() const { return full_ ? &full_->G : nullptr; }
+    std::shared_ptr<const DenseOperators> operators() const { return full_ ? full_->operators : nullptr; }
+    /// Hhat^-1 in full; computed on the first call.
+    const Eigen::MatrixXd& bordered_inverse() const;
+    const std::vector<std::string>& warnings() const { return warnings_; }
+
+private:
+    struct Full {
+        std::shared_ptr<const Eigen::MatrixXd> H;
+        Eigen::MatrixXd G;
+        std::shared_ptr<const DenseOperators> operators;
+    };
+    void factorise(Eigen::MatrixXd&& bordered);
+    void complete(Eigen::MatrixXd H, StageTimes& stages, Control& control);
+    std::vector<Columns::Block> compute(const std::vector<const LoadPlan::Block*>& missing, Elements::Order order,
+                                        Control& control) const;
+
+    std::shared_ptr<const Boundary> boundary_;
+    Material material_;
+    double tolerance_;
+    VertexTriangles around_;
+    Sources nodes_;
+    Elements elements_;
+    std::shared_ptr<const LayerIntegrals> integrals_;
+    Eigen::MatrixXd modes_;
+    LuFactorization lu_;
+    Eigen::MatrixXd rigid_;
+    std::unique_ptr<Full> full_;
+    std::vector<std::string> warnings_;
+    std::unique_ptr<ColumnCache> cache_;
+    mutable std::mutex inverse_mutex_;
+    mutable Eigen::MatrixXd inverse_;
+};
+
+}  // namespace elastolab

@@ -1,0 +1,91 @@
+#include "deform/columns.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace elastolab {
+
+namespace {
+
+std::uint64_t bytes_of(const Columns::Block& block) { return 8 * static_cast<std::uint64_t>(block->size()); }
+
+}  // namespace
+
+Columns::Columns(std::vector<Block> blocks) : blocks_(std::move(blocks)) {
+    for (const Block& block : blocks_) n_cols_ += block->cols();
+}
+
+Eigen::MatrixXd Columns::middle(Eigen::Index first, Eigen::Index count) const {
+    assert(first + count <= n_cols_);
+    Eigen::MatrixXd part(blocks_.empty() ? 0 : blocks_.front()->rows(), count);
+    Eigen::Index begin = 0;
+    for (const Block& block : blocks_) {
+        const Eigen::Index from = std::max(first, begin), to = std::min(first + count, begin + block->cols());
+        if (from < to) part.middleCols(from - first, to - from) = block->middleCols(from - begin, to - from);
+        begin += block->cols();
+    }
+    return part;
+}
+
+Eigen::MatrixXd Columns::rows_of(std::span<const int> nodes, Eigen::Index first_extra_row) const {
+    const Eigen::Index n_rows = 3 * std::ssize(nodes);
+    const Eigen::Index n_extra = blocks_.empty() ? 0 : blocks_.front()->rows() - first_extra_row;
+    Eigen::MatrixXd rows(n_rows + n_extra, n_cols_);
+    Eigen::Index begin = 0;
+    for (const Block& block : blocks_) {
+        for (Eigen::Index c = 0; c < block->cols(); ++c) {
+            for (std::size_t i = 0; i < nodes.size(); ++i)
+                rows.block<3, 1>(3 * static_cast<Eigen::Index>(i), begin + c) = block->block<3, 1>(3 * nodes[i], c);
+            rows.col(begin + c).tail(n_extra) = block->col(c).tail(n_extra);
+        }
+        begin += block->cols();
+    }
+    return rows;
+}
+
+void Columns::add_product(const Eigen::MatrixXd& coefficients, Eigen::Ref<Eigen::MatrixXd> result) const {
+    assert(coefficients.rows() == n_cols_);
+    Eigen::Index begin = 0;
+    for (const Block& block : blocks_) {
+        result.noalias() += block->topRows(result.rows()) * coefficients.middleRows(begin, block->cols());
+        begin += block->cols();
+    }
+}
+
+Columns ColumnCache::get(const std::vector<ColumnKey>& keys,
+                         const std::function<std::vector<Columns::Block>(const std::vector<ColumnKey>&)>& compute) {
+    const std::scoped_lock lock(mutex_);
+    ++clock_;
+    std::vector<ColumnKey> missing;
+    for (const ColumnKey& key : keys)
+        if (const auto found = entries_.find(key); found != entries_.end())
+            found->second.last_use = clock_;
+        else
+            missing.push_back(key);
+    if (!missing.empty()) {
+        const std::vector<Columns::Block> blocks = compute(missing);
+        for (std::size_t i = 0; i < missing.size(); ++i) entries_[missing[i]] = {blocks[i], clock_};
+    }
+    std::vector<Columns::Block> blocks;
+    for (const ColumnKey& key : keys) blocks.push_back(entries_.at(key).block);
+    evict();
+    return Columns(std::move(blocks));
+}
+
+void ColumnCache::evict() {
+    std::uint64_t total = 0;
+    std::vector<std::map<ColumnKey, Entry>::iterator> unused;
+    for (auto entry = entries_.begin(); entry != entries_.end(); ++entry) {
+        total += bytes_of(entry->second.block);
+        if (entry->second.block.use_count() == 1) unused.push_back(entry);
+    }
+    std::sort(unused.begin(), unused.end(),
+              [](const auto& a, const auto& b) { return a->second.last_use < b->second.last_use; });
+    for (const auto& entry : unused) {
+        if (total <= budget_bytes_) return;
+        total -= bytes_of(entry->second.block);
+        entries_.erase(entry);
+    }
+}
+
+}  // namespace elastolab

@@ -1,0 +1,135 @@
+#include "deform/deformer.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+#include "base/error.hpp"
+#include "deform/solid_model.hpp"
+
+namespace elastolab {
+
+namespace {
+
+/// Condition of the small system from which on fewer than six digits are left.
+constexpr double kPoorCondition = 1e10;
+
+}  // namespace
+
+/// One solid's share of the constrained set.
+struct Deformer::SolidState {
+    std::unique_ptr<ConstrainedSolid> solid;  ///< null: no constrained vertex, so it rests
+    std::vector<int> base_rows, handle_rows;  ///< positions in the lists of the whole set
+
+    /// Values of the base (zero) and the handles of this solid, out of those of the whole body.
+    Eigen::MatrixXd values(const Eigen::MatrixXd& all) const {
+        Eigen::MatrixXd own =
+            Eigen::MatrixXd::Zero(3 * std::ssize(base_rows) + 3 * std::ssize(handle_rows), all.cols());
+        for (std::size_t i = 0; i < handle_rows.size(); ++i)
+            own.middleRows<3>(3 * static_cast<Eigen::Index>(base_rows.size() + i)) =
+                all.middleRows<3>(3 * handle_rows[i]);
+        return own;
+    }
+};
+
+void DragResponse::displace(const Eigen::VectorXd& parameters, Eigen::VectorXd& u) const {
+    assert(parameters.size() == X.cols());
+    u = rest;
+    u.noalias() += X * parameters;
+}
+
+Deformer::Deformer(std::shared_ptr<const Model> model) : model_(std::move(model)), solids_(model_->parts().size()) {}
+Deformer::~Deformer() = default;
+Deformer::Deformer(Deformer&&) noexcept = default;
+Deformer& Deformer::operator=(Deformer&&) noexcept = default;
+
+void Deformer::constrain(ConstrainedSet set, Control& control) {
+    std::vector<SolidState> solids;
+    SolutionQuality quality;
+    for (const Model::Part& part : model_->parts()) {
+        std::vector<int> local(static_cast<std::size_t>(model_->facts().n_vertices), -1);
+        for (std::size_t i = 0; i < part.vertices.size(); ++i)
+            local[static_cast<std::size_t>(part.vertices[i])] = static_cast<int>(i);
+        SolidState state;
+        std::vector<int> base, handles;
+        const auto pick = [&](const std::vector<int>& vertices, std::vector<int>& own, std::vector<int>& rows) {
+            for (std::size_t i = 0; i < vertices.size(); ++i)
+                if (const int v = local[static_cast<std::size_t>(vertices[i])]; v >= 0) {
+                    own.push_back(v);
+                    rows.push_back(static_cast<int>(i));
+                }
+        };
+        pick(set.base, base, state.base_rows);
+        pick(set.handles, handles, state.handle_rows);
+        if (!base.empty() || !handles.empty()) {
+            state.solid = part.solid->constrain(base, handles, control);
+            quality.condition_estimate = std::max(quality.condition_estimate, state.solid->condition());
+            quality.held = quality.held && state.solid->held();
+        }
+        solids.push_back(std::move(state));
+    }
+    if (!quality.held)
+        quality.warnings.push_back(
+            "constraints: leave the body free to move as a whole; the smallest motion is taken. "
+            "Constrain three vertices that are not on one line.");
+    else if (quality.condition_estimate > kPoorCondition)
+        quality.warnings.push_back("constraints: nearly dependent (condition " +
+                                   std::to_string(quality.condition_estimate) +
+                                   "), so forces may be wrong. Remove handles that nearly coincide.");
+    solids_ = std::move(solids);
+    set_ = std::move(set);
+    quality_ = std::move(quality);
+}
+
+Eigen::MatrixXd Deformer::displace_all(const Eigen::MatrixXd& values) const {
+    assert(values.rows() == 3 * std::ssize(set_.handles));
+    Eigen::MatrixXd u = Eigen::MatrixXd::Zero(3 * model_->facts().n_vertices, values.cols());
+    for (std::size_t s = 0; s < solids_.size(); ++s) {
+        if (!solids_[s].solid) continue;
+        Eigen::MatrixXd own = solids_[s].solid->displace(solids_[s].values(values));
+        const std::vector<int>& vertices = model_->parts()[s].vertices;
+        if (model_->parts().size() == 1) {
+            u = std::move(own);  // one solid has all vertices, in order
+        } else {
+            for (std::size_t i = 0; i < vertices.size(); ++i)
+                u.middleRows<3>(3 * vertices[i]) = own.middleRows<3>(3 * static_cast<Eigen::Index>(i));
+        }
+    }
+    if (!u.allFinite())
+        throw SolveError(model_->body().name + ": displacements are not finite. Check the mesh and the handles.");
+    return u;
+}
+
+Eigen::VectorXd Deformer::displace(const Eigen::VectorXd& values) const { return displace_all(values); }
+
+DragResponse Deformer::drag_response(const Eigen::VectorXd& values, const Eigen::MatrixXd& basis) const {
+    Eigen::MatrixXd all(values.size(), basis.cols() + 1);
+    all << values, basis;
+    const Eigen::MatrixXd u = displace_all(all);
+    return {u.col(0), u.rightCols(basis.cols())};
+}
+
+Reactions Deformer::reactions(const Eigen::VectorXd& values) const {
+    const Eigen::Index n_base = std::ssize(set_.base), n = n_base + std::ssize(set_.handles);
+    Reactions sum{Eigen::Matrix3Xd::Zero(3, n), Eigen::Matrix3Xd::Zero(3, n)};
+    for (const SolidState& state : solids_) {
+        if (!state.solid) continue;
+        const Reactions own = state.solid->reactions(state.values(values).col(0));
+        Eigen::Index column = 0;
+        const auto place = [&](Eigen::Index target) {
+            sum.forces.col(target) = own.forces.col(column) * model_->body().material.young_modulus;
+            sum.moments.col(target) = own.moments.col(column++) * model_->body().material.young_modulus;
+        };
+        for (const int row : state.base_rows) place(row);
+        for (const int row : state.handle_rows) place(n_base + row);
+    }
+    return sum;
+}
+
+double Deformer::residual(const Eigen::VectorXd& values, Control& control) const {
+    double worst = 0.0;
+    for (const SolidState& state : solids_)
+        if (state.solid) worst = std::max(worst, state.solid->residual(state.values(values).col(0), control));
+    return worst;
+}
+
+}  // namespace elastolab

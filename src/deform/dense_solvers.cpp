@@ -1,0 +1,90 @@
+#include "deform/dense_solvers.hpp"
+
+#include "base/error.hpp"
+
+namespace elastolab {
+
+namespace {
+
+constexpr const char* kNotHeld =
+    "constraints: leave the body free to move as a whole. Constrain three vertices that are not on one line, or use "
+    "the "
+    "reduced update, which takes the smallest motion.";
+
+constexpr double kSingular = 1e-14;
+
+LuFactorization factorise_held(Eigen::MatrixXd&& A, const char* name) {
+    LuFactorization lu(std::move(A), name);
+    if (lu.size() > 0 && lu.reciprocal_condition() < kSingular) throw SolveError(kNotHeld);
+    return lu;
+}
+
+double condition_of(const LuFactorization& lu) { return lu.size() > 0 ? 1.0 / lu.reciprocal_condition() : 1.0; }
+
+/// U from its two parts, and T1 = K10 U0 + K11 U1.
+NodeSolution assemble_solution(const DenseOperators& operators, const Partition& partition, const Eigen::MatrixXd& U0,
+                               const Eigen::MatrixXd& U1, bool want_loads) {
+    NodeSolution solution;
+    solution.displacements.resize(operators.K.rows(), U1.cols());
+    solution.displacements(partition.free, Eigen::all) = U0;
+    solution.displacements(partition.constrained, Eigen::all) = U1;
+    if (want_loads) {
+        const Eigen::MatrixXd K1 = operators.K(partition.constrained, Eigen::all);
+        solution.loads = K1 * solution.displacements;
+    }
+    return solution;
+}
+
+}  // namespace
+
+Partition::Partition(Eigen::Index n_dofs, const std::vector<int>& nodes) {
+    std::vector<char> is_constrained(static_cast<std::size_t>(n_dofs), 0);
+    for (const int node : nodes)
+        for (Eigen::Index axis = 0; axis < 3; ++axis) {
+            constrained.push_back(3 * node + axis);
+            is_constrained[static_cast<std::size_t>(3 * node + axis)] = 1;
+        }
+    for (Eigen::Index dof = 0; dof < n_dofs; ++dof)
+        if (!is_constrained[static_cast<std::size_t>(dof)]) free.push_back(dof);
+}
+
+Eigen::MatrixXd inverse_by_eqn9(const Eigen::MatrixXd& bordered_inverse, const Partition& partition) {
+    std::vector<Eigen::Index> rest = partition.constrained;
+    const auto n_dofs = static_cast<Eigen::Index>(partition.free.size() + partition.constrained.size());
+    for (Eigen::Index border = n_dofs; border < bordered_inverse.rows(); ++border) rest.push_back(border);
+    const LuFactorization D11 = factorise_held(bordered_inverse(rest, rest), "D11 of Eqn. 9");
+    const Eigen::MatrixXd D10 = bordered_inverse(rest, partition.free), D01 = bordered_inverse(partition.free, rest);
+    Eigen::MatrixXd K00_inverse = bordered_inverse(partition.free, partition.free);
+    K00_inverse.noalias() -= D01 * D11.solve(D10);
+    return K00_inverse;
+}
+
+DirectSolver::DirectSolver(std::shared_ptr<const DenseOperators> operators, const std::vector<int>& nodes)
+    : operators_(std::move(operators)),
+      partition_(operators_->K.rows(), nodes),
+      K00_(factorise_held(operators_->K(partition_.free, partition_.free), "K00")) {
+    condition_ = condition_of(K00_);
+}
+
+NodeSolution DirectSolver::solve(const Eigen::MatrixXd& prescribed, bool want_loads) const {
+    const Eigen::MatrixXd K01 = operators_->K(partition_.free, partition_.constrained);
+    return assemble_solution(*operators_, partition_, -K00_.solve(K01 * prescribed), prescribed, want_loads);
+}
+
+Eqn9Solver::Eqn9Solver(std::shared_ptr<const DenseOperators> operators, const std::vector<int>& nodes)
+    : operators_(std::move(operators)),
+      partition_(operators_->K.rows(), nodes),
+      K00_inverse_(inverse_by_eqn9(operators_->Khatinv, partition_)) {}
+
+NodeSolution Eqn9Solver::solve(const Eigen::MatrixXd& prescribed, bool want_loads) const {
+    const Eigen::MatrixXd K01 = operators_->K(partition_.free, partition_.constrained);
+    return assemble_solution(*operators_, partition_, -K00_inverse_ * (K01 * prescribed), prescribed, want_loads);
+}
+
+std::unique_ptr<NodeSolver> make_paper_solver(std::shared_ptr<const DenseOperators> operators,
+                                              const std::vector<int>& nodes) {
+    if (6 * std::ssize(nodes) < operators->K.rows()) return std::make_unique<Eqn9Solver>(std::move(operators), nodes);
+    return std::make_unique<DirectSolver>(std::move(operators), nodes);
+}
+
+}  // namespace elastolab

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <span>
+#include <vector>
+
+#include "bem/boundary.hpp"
+#include "deform/columns.hpp"
+#include "deform/method.hpp"
+#include "mesh/topology.hpp"
+
+namespace elastolab {
+
+/// Part of the force of a load slot that one constrained vertex carries:
+/// force += weight * load,  moment about the origin += first_moment x load.
+struct LoadShare {
+    int slot = 0;
+    int constrained = 0;                                     ///< position in the list of constrained vertices
+    double weight = 0.0;                                     ///< int psi dS (nodal forces: 1)
+    Eigen::Vector3d first_moment = Eigen::Vector3d::Zero();  ///< int psi y dS
+};
+
+/// The ansatz for the unknown tractions of one constrained set (FORMULATION section 4), and the equations that close
+/// it. Unknowns: a traction vector per slot of `elements`, then a free residual for every vertex in
+/// `dropped_collocation`. Equations: prescribed displacements at the nodes, and collocation at three interior points of
+/// every triangle in `interior_triangles`.
+struct LoadPlan {
+    Elements elements;
+    std::vector<LoadShare> shares;
+    std::vector<int> interior_triangles;
+    std::vector<int> dropped_collocation;
+    /// Response columns of the unknowns in order: blocks of the cache and what each is made of.
+    struct Block {
+        ColumnKey key;
+        std::vector<Elements::Element> elements;  ///< slots count from 0 within the block
+        int n_slots = 0;                          ///< 0: the residual of vertex key.back()
+    };
+    std::vector<Block> blocks;
+
+    int n_slots() const { return elements.n_slots; }
+};
+
+/// Constant elements: a traction per constrained triangle. `prescribe` rows say which vertices carry it.
+LoadPlan plan_constant_loads(const Boundary& boundary, const std::vector<int>& triangles,
+                             const Eigen::SparseMatrix<double, Eigen::RowMajor>& prescribe);
+
+/// Linear elements under one of the three traction models.
+///   continuous     a hat function per vertex
+///   restricted     hat functions cut to the triangles whose vertices are all constrained
+///   discontinuous  as restricted inside a patch; on the triangles that touch its rim, where the tractions are
+///                  singular, linear functions of each triangle by itself
+/// A vertex with no triangle of its own keeps its whole hat in all three.
+LoadPlan plan_linear_loads(const Boundary& boundary, const VertexTriangles& around, Tractions tractions,
+                           std::span<const int> vertices);
+
+}  // namespace elastolab

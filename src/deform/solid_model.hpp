@@ -1,0 +1,71 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/control.hpp"
+#include "deform/constraint_map.hpp"
+#include "deform/deformer.hpp"
+#include "deform/load_plan.hpp"
+#include "deform/model.hpp"
+#include "deform/node_solver.hpp"
+
+namespace elastolab {
+
+/// Displacements of one solid's vertices for one constrained set, whatever the method. Loads are those of unit Young's
+/// modulus; the Deformer scales them.
+class ConstrainedSolid {
+public:
+    using Residual = std::function<double(const NodeSolution&, Control&)>;
+
+    /// nodes       how the constrained vertices act on the nodes
+    /// shares      which constrained vertex carries which load
+    /// display     3*n_vertices x 3*n_nodes; empty: the first vertices are the nodes themselves
+    /// residual    relative residual of the full system for a solution with loads
+    ConstrainedSolid(int n_vertices, ConstrainedNodes nodes, std::vector<LoadShare> shares,
+                     std::shared_ptr<const SparseRows> display, std::unique_ptr<NodeSolver> solver, Residual residual);
+
+    /// values: 3*n_constrained x m, base (zero) first, then handles. Result 3*n_vertices x m.
+    Eigen::MatrixXd displace(const Eigen::MatrixXd& values) const;
+    /// Forces and moments at the constrained vertices, for one column of values.
+    Reactions reactions(const Eigen::VectorXd& values) const;
+    double residual(const Eigen::VectorXd& values, Control& control) const;
+
+    double condition() const { return solver_->condition(); }
+    bool held() const { return solver_->held(); }
+
+private:
+    int n_vertices_;
+    ConstrainedNodes nodes_;
+    std::vector<LoadShare> shares_;
+    std::shared_ptr<const SparseRows> display_;
+    std::unique_ptr<NodeSolver> solver_;
+    Residual residual_;
+};
+
+/// One solid under one method, for unit Young's modulus (displacements of a displacement problem do not depend on it).
+/// Immutable to its users; any thread may call it.
+class SolidModel {
+public:
+    virtual ~SolidModel() = default;
+
+    /// base and handles: vertices of the solid, all different; at least one of them is not empty.
+    /// Throws SolveError, Cancelled.
+    virtual std::unique_ptr<ConstrainedSolid> constrain(std::span<const int> base, std::span<const int> handles,
+                                                        Control& control) const = 0;
+    /// The matrices that the mode keeps, for unit Young's modulus.
+    virtual void visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const = 0;
+    /// The sparse stiffness of all nodes, or null (BEM).
+    virtual const SparseStiffness* sparse_stiffness() const { return nullptr; }
+
+    const ModelFacts& facts() const { return facts_; }
+
+protected:
+    ModelFacts facts_;
+};
+
+}  // namespace elastolab

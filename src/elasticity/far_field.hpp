@@ -1,0 +1,28 @@
+#pragma once
+
+#include "elasticity/gauss_rules.hpp"
+
+namespace elastolab {
+
+/// Chooses between the closed form and Gauss rules for the integral over one triangle, from the distance of the source
+/// and a tolerance on the error relative to the integral. Near the triangle only the closed form is exact; far away it
+/// loses digits by cancellation (about 4e-15 d^3 at d edge lengths) while every Gauss rule wins. The bounds on the
+/// errors behind the choice are measured in tests/elasticity/far_field_test.cpp.
+class FarField {
+public:
+    explicit FarField(double tolerance);
+
+    /// distance: of the source from the triangle's centroid in units of its longest edge. nullptr: closed form.
+    /// The cheapest way that keeps the tolerance; where none does, the most accurate one.
+    const GaussRule* rule(double distance) const {
+        if (distance >= from_3_) return &gauss_rule_3();
+        if (distance >= from_7_) return &gauss_rule_7();
+        if (distance <= closed_form_until_) return nullptr;
+        return distance >= from_16_ ? &gauss_rule_16() : nullptr;
+    }
+
+private:
+    double from_3_, from_7_, from_16_, closed_form_until_;
+};
+
+}  // namespace elastolab

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "elasticity/triangle_kernels.hpp"
+
+namespace elastolab {
+
+/// Prepares one triangle for the kernels. Corners counter-clockwise seen from outside; `index` is what a source names
+/// as its own triangle. The triangle must not be degenerate.
+TriangleGeometry make_triangle_geometry(const Eigen::Vector3d& v0, const Eigen::Vector3d& v1, const Eigen::Vector3d& v2,
+                                        int index);
+
+}  // namespace elastolab

@@ -1,0 +1,64 @@
+#pragma once
+
+#include "elasticity/gauss_rules.hpp"
+
+// Plain arrays only: this header is also read by sources compiled for particular instruction sets.
+
+namespace elastolab {
+
+/// One flat triangle, in the frame (e1, e2, n) with e1 along its first edge.
+struct TriangleGeometry {
+    double corner[3][3];  ///< corners, counter-clockwise seen from outside [L]
+    double centroid[3];   ///< [L]
+    double e1[3], e2[3];  ///< unit vectors in the plane
+    double n[3];          ///< outward unit normal
+    double tx[3], ty[3];  ///< unit tangents of the edges corner i -> i + 1, in the frame
+    double length[3];     ///< of the edges [L]
+    double gx[3], gy[3];  ///< gradients of the three linear shape functions, in the frame [1/L]
+    double double_area;   ///< [L^2]
+    double longest_edge;  ///< [L]
+    int index;            ///< number of the triangle
+};
+
+/// Most sources that one kernel call takes.
+constexpr int kMaxLanes = 8;
+
+/// Source (collocation) points, structure of arrays. A kernel reads its first `lanes` entries: pad by repetition.
+struct SourceLanes {
+    double x[kMaxLanes], y[kMaxLanes], z[kMaxLanes];
+    double own_triangle[kMaxLanes];  ///< index of the triangle in whose interior the point lies, -1 for none
+};
+
+/// Numbers by which a 3 x 3 block of either layer is stored, free of any material constant.
+///   single layer, 7:   s, Sxx Syy Szz Sxy Sxz Syz           int phi U = [(3-4nu) s I + S] / (16 pi mu (1-nu))
+///   double layer, 10:  a, cx cy cz, Sxx Syy Szz Sxy Sxz Syz
+///                      int phi T = -[(1-2nu) (a I - [c]) + S] / (8 pi (1-nu)),   [c]_ij = eps_ijk c_k
+/// with s = int phi/r, S = int phi e e^T / r (single) or 3 int phi (e.n) e e^T / r^2 (double),
+/// a = int phi (e.n)/r^2, c = int phi (e x n)/r^2.
+constexpr int kSingleLayerNumbers = 7;
+constexpr int kDoubleLayerNumbers = 10;
+
+/// Integrals of Kelvin's kernels times shape functions over one triangle, for several sources at once.
+/// Every function ADDS its result to out[k]: numbers x lanes doubles for shape function k (the lane runs fastest).
+/// rule == nullptr: closed form; else that Gauss rule, for sources far away.
+/// A source may be a corner of the triangle (exactly equal coordinates) or lie in its interior (own_triangle): then
+/// the finite part is added, from which the free term follows by the rigid-body sum.
+struct TriangleKernels {
+    const char* name;  ///< instruction set
+    int lanes;
+    void (*single_layer_linear)(const TriangleGeometry&, const SourceLanes&, const GaussRule* rule,
+                                double* const out[3]);
+    void (*single_layer_constant)(const TriangleGeometry&, const SourceLanes&, const GaussRule* rule,
+                                  double* const out[1]);
+    void (*double_layer_linear)(const TriangleGeometry&, const SourceLanes&, const GaussRule* rule,
+                                double* const out[3]);
+    void (*double_layer_constant)(const TriangleGeometry&, const SourceLanes&, const GaussRule* rule,
+                                  double* const out[1]);
+};
+
+/// The widest kernels that this CPU runs: AVX-512 (8 lanes), AVX2 (4), or plain (1).
+const TriangleKernels& best_triangle_kernels();
+/// One lane, no particular instructions.
+const TriangleKernels& plain_triangle_kernels();
+
+}  // namespace elastolab
