@@ -1,5 +1,6 @@
 #include "deform/solid_model.hpp"
 
+#include <Eigen/Geometry>
 #include <cassert>
 
 namespace elastolab {
