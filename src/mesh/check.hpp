@@ -10,17 +10,20 @@ namespace elastolab {
 
 /// One kind of defect: how many, and where the first few are.
 struct Defect {
+    // clang-format off
     enum class Kind {
         no_triangles, non_finite, open_edges, non_manifold_edges, non_manifold_vertices, inconsistent_orientation,
-        inside_out, degenerate_triangles, sliver_triangles, duplicate_triangles, unreferenced_vertices, self_intersections
+        inside_out, degenerate_triangles, sliver_triangles, duplicate_triangles, unreferenced_vertices,
+        self_intersections, zero_volume
     };
+    // clang-format on
     Kind kind;
     int count = 0;
     std::vector<Eigen::Vector3d> places;  ///< of the first few, at most 8
     bool repaired = false;
-    bool fatal = false;      ///< the body cannot be used by any method
+    bool fatal = false;  ///< the body cannot be used by any method
     bool fatal_for_fem = false;
-    std::string text;        ///< "12 open edges near (0, 1, 0), so it bounds no solid. Fill the holes and reload."
+    std::string text;  ///< "12 open edges near (0, 1, 0), so it bounds no solid. Fill the holes and reload."
 };
 
 /// What a mesh is.
@@ -46,6 +49,13 @@ struct CheckedMesh {
 };
 
 /// Inspects and repairs. Vertex numbers never change. Never throws on bad geometry: it reports.
+/// - fatal: no triangle, coordinates that are not finite, open edges, edges of more than two triangles, vertices where
+///   parts of the surface only touch (a hinge), triangles without area, the same triangle twice, a one-sided surface,
+///   parts that enclose no volume, and vertices of no triangle (load_surface drops those).
+/// - fatal for FEM, a warning for the others: parts of the surface that cross or touch. Found exactly.
+/// - repaired: triangles that face the other way than their neighbours, and closed surfaces that face the wrong way:
+///   outward at even depth of nesting (solids), inward at odd depth (cavities).
+/// - warning: triangles of altitude below 1e-3 of the longest edge.
 CheckedMesh check_and_repair(SurfaceMesh mesh);
 
 /// Throws MeshError with `name`, every fatal finding and a way forward in one line, when the report is not usable

@@ -6,8 +6,9 @@
 
 namespace elastolab {
 
-/// Writes OBJ, PLY (binary, double precision) or STL (binary), by the file's extension. A file of that name is replaced
-/// only once the new one is complete. Throws MeshError for another extension or when it cannot be written.
+/// Writes OBJ (17 significant digits), PLY (binary, double precision) or STL (binary, single precision, as STL is), by
+/// the file's extension. A file of that name is replaced only once the new one is complete. Throws MeshError for
+/// another extension, Error when it cannot be written.
 void save_surface(const std::filesystem::path& file, const SurfaceMesh& mesh);
 
 }  // namespace elastolab

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstddef>
+#include <cstdio>
 #include <cstdlib>
 #include <limits>
 #include <new>
@@ -89,6 +90,7 @@ int main() {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     const rlimit no_core{0, 0};
     ::setrlimit(RLIMIT_CORE, &no_core);
+    std::setvbuf(stdout, nullptr, _IOLBF, 0);  // so that a crash loses no reason printed before it
 
     TetgenRequestHeader request;
     read_bytes(&request, sizeof(request));

@@ -10,6 +10,7 @@
 
 #include "base/error.hpp"
 #include "mesh/cavity_point.hpp"
+#include "mesh/defects.hpp"
 #include "mesh/measures.hpp"
 #include "mesh/tet_quality.hpp"
 #include "mesh/tetgen_process.hpp"
@@ -137,6 +138,15 @@ std::string message(const std::string& name, const std::string& finding) {
            ". Repair or remesh the surface, or choose a boundary-element method.";
 }
 
+/// Why TetGen has failed: a crossing that our own search finds tells more than TetGen, which then tends to crash.
+std::string reason(const SurfaceMesh& solid, const std::string& finding) {
+    const CrossingPairs crossings = find_crossing_pairs(solid);
+    if (crossings.pairs.empty()) return finding;
+    const TrianglePoints p = triangle_points(solid, crossings.pairs.front().first);
+    return "its surface intersects itself, " + counted(static_cast<int>(crossings.pairs.size()), "pair of triangles",
+                                                       "pairs of triangles", {(p.a + p.b + p.c) / 3.0});
+}
+
 TetMesh to_mesh(TetgenResult&& result, const SurfaceMesh& solid, const UnitBox& box) {
     TetMesh mesh{box.from_unit(result.vertices), std::move(result.tetrahedra), solid.n_vertices()};
     if (mesh.n_vertices() < mesh.n_surface_vertices) return {};
@@ -164,7 +174,7 @@ TetMesh tetrahedralize(const SurfaceMesh& solid, const std::string& name, const 
         if (finding.empty()) finding = result.failure;
     }
     control.checkpoint();
-    throw MeshError(message(name, finding));
+    throw MeshError(message(name, reason(solid, finding)));
 }
 
 }  // namespace elastolab
