@@ -61,6 +61,14 @@ private:
 
 }  // namespace
 
+std::filesystem::path helper_program(const std::string& name) {
+    std::error_code ignored;
+    const auto beside = std::filesystem::read_symlink("/proc/self/exe", ignored).replace_filename(name);
+    for (const auto& candidate : {beside, std::filesystem::path(ELASTOLAB_HELPER_DIR) / name})
+        if (std::filesystem::is_regular_file(candidate, ignored)) return candidate;
+    throw MeshError(beside.string() + ": this helper program is missing. Reinstall elastolab.");
+}
+
 ChildProcess::Descriptor::~Descriptor() {
     if (fd >= 0) ::close(fd);
 }

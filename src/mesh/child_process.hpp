@@ -11,6 +11,10 @@
 
 namespace elastolab {
 
+/// Path of a helper program: beside the running program (installed), else where the build has put it (tests, programs
+/// run from the build tree). Throws MeshError when it is in neither place.
+std::filesystem::path helper_program(const std::string& name);
+
 /// A program of ours that runs in a process of its own, with a socket as its standard input (both ways) and its
 /// standard output and error kept in memory. The destructor kills it if it still runs. Started by posix_spawn, not by a
 /// bare fork: the program has threads that may hold locks at that moment.

@@ -12,7 +12,7 @@ namespace elastolab {
 /// reports coordinates that are not finite. Vertices are numbered in the order of first appearance in the file: of the
 /// vertex list for OBJ, PLY and OFF, of the triangles' corners for STL, of the meshes in the order of the scene's nodes
 /// for formats that have such. assimp keeps coordinates as 32-bit floats, about 7 digits; equality means equality of
-/// these. Throws MeshError when the file is missing, a directory, empty, not readable, or holds no triangle.
+/// these. Throws MeshError when the file is missing, a directory, empty, not readable or damaged, or holds no triangle.
 SurfaceMesh load_surface(const std::filesystem::path& file);
 
 }  // namespace elastolab

@@ -144,11 +144,27 @@ namespace {
 
 using Ring = std::vector<int>;  ///< vertices around the z axis, counter-clockwise, the first at angle 0
 
+/// Point i of n around the unit circle; on the axes exactly when n is a multiple of 4.
+Eigen::Vector2d circle_point(int i, int n) {
+    const int quarter = n % 4 == 0 ? n / 4 : n, turns = i / quarter;
+    const double angle = 2.0 * kPi * (i % quarter) / n, c = std::cos(angle), s = std::sin(angle);
+    switch (turns) {
+        case 0:
+            return {c, s};
+        case 1:
+            return {-s, c};
+        case 2:
+            return {-c, -s};
+        default:
+            return {s, -c};
+    }
+}
+
 Ring add_ring(Builder& builder, int n, double radius, double z) {
     Ring ring;
     for (int i = 0; i < n; ++i) {
-        const double angle = 2.0 * kPi * i / n;
-        ring.push_back(builder.vertex({radius * std::cos(angle), radius * std::sin(angle), z}));
+        const Eigen::Vector2d p = radius * circle_point(i, n);
+        ring.push_back(builder.vertex({p.x(), p.y(), z}));
     }
     return ring;
 }

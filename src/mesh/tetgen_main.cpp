@@ -1,53 +1,17 @@
 // elastolab-tetgen: runs TetGen for tetrahedralize(), so that an abort or crash of TetGen ends this process only.
 // Standard input is a socket to the caller; what TetGen prints goes to standard output, which the caller keeps.
-#include <sys/prctl.h>
-#include <sys/resource.h>
 #include <tetgen.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <csignal>
-#include <cstddef>
-#include <cstdio>
-#include <cstdlib>
-#include <limits>
 #include <new>
 #include <vector>
 
+#include "mesh/helper_io.hpp"
 #include "mesh/tetgen_protocol.hpp"
 
 namespace {
 
 using namespace elastolab;
-
-constexpr int kSocket = STDIN_FILENO;
-constexpr int kBadUse = 64;
-
-void read_bytes(void* data, std::size_t size) {
-    for (auto* to = static_cast<std::byte*>(data); size > 0;) {
-        const ssize_t n = ::read(kSocket, to, size);
-        if (n <= 0) std::_Exit(kBadUse);
-        to += n;
-        size -= static_cast<std::size_t>(n);
-    }
-}
-
-void write_bytes(const void* data, std::size_t size) {
-    for (const auto* from = static_cast<const std::byte*>(data); size > 0;) {
-        const ssize_t n = ::write(kSocket, from, size);
-        if (n <= 0) std::_Exit(kBadUse);
-        from += n;
-        size -= static_cast<std::size_t>(n);
-    }
-}
-
-template <class T>
-std::vector<T> read_array(std::int32_t count) {
-    if (count < 0 || count > std::numeric_limits<std::int32_t>::max() / 4) std::_Exit(kBadUse);
-    std::vector<T> values(static_cast<std::size_t>(count));
-    read_bytes(values.data(), values.size() * sizeof(T));
-    return values;
-}
 
 /// The surface as TetGen takes it. tetgenio frees what it points to with delete[].
 void fill(tetgenio& in, const std::vector<double>& vertices, const std::vector<int>& triangles,
@@ -86,15 +50,10 @@ int run(char* switches, tetgenio& in, tetgenio& out) {
 }  // namespace
 
 int main() {
-    std::signal(SIGINT, SIG_IGN);  // Ctrl-C is for the caller, who ends this process
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    const rlimit no_core{0, 0};
-    ::setrlimit(RLIMIT_CORE, &no_core);
-    std::setvbuf(stdout, nullptr, _IOLBF, 0);  // so that a crash loses no reason printed before it
-
+    begin_helper();
     TetgenRequestHeader request;
     read_bytes(&request, sizeof(request));
-    if (request.magic != kTetgenMagic || request.switches.back() != '\0') return kBadUse;
+    if (request.magic != kTetgenMagic || request.switches.back() != '\0') return kHelperMisused;
     const auto vertices = read_array<double>(3 * request.n_vertices);
     const auto triangles = read_array<int>(3 * request.n_triangles);
     const auto holes = read_array<double>(3 * request.n_holes);

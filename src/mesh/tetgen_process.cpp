@@ -6,29 +6,15 @@
 #include <cassert>
 #include <csignal>
 #include <cstring>
-#include <filesystem>
 #include <string_view>
 #include <vector>
 
-#include "base/error.hpp"
 #include "mesh/child_process.hpp"
 #include "mesh/tetgen_protocol.hpp"
 
 namespace elastolab {
 
 namespace {
-
-namespace fs = std::filesystem;
-
-/// Beside the running program (installed), else where the build has put it (tests, programs run from the build tree).
-fs::path helper_program() {
-    std::error_code ignored;
-    const fs::path beside = fs::read_symlink("/proc/self/exe", ignored).replace_filename("elastolab-tetgen");
-    for (const fs::path& candidate : {beside, fs::path(ELASTOLAB_TETGEN_HELPER)})
-        if (fs::is_regular_file(candidate, ignored)) return candidate;
-    throw MeshError(beside.string() +
-                    ": this helper program, which makes tetrahedra, is missing. Reinstall elastolab.");
-}
 
 template <class T>
 void append(std::string& bytes, const T* values, Eigen::Index count) {
@@ -101,7 +87,7 @@ std::size_t expected_size(const TetgenReplyHeader& header) {
 
 TetgenResult run_tetgen(const SurfaceMesh& surface, const Positions& holes, const std::string& switches,
                         Control& control) {
-    ChildProcess helper(helper_program());
+    ChildProcess helper(helper_program("elastolab-tetgen"));
     const std::vector<char> reply = helper.exchange(request_bytes(surface, holes, switches), control);
     const int status = helper.wait(control);
 

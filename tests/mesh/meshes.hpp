@@ -29,4 +29,22 @@ inline SurfaceMesh inside_out(SurfaceMesh mesh) {
     return mesh;
 }
 
+inline SurfaceMesh with_triangle(const SurfaceMesh& mesh, int a, int b, int c) {
+    SurfaceMesh more{mesh.vertices, Triangles(3, mesh.n_triangles() + 1)};
+    more.triangles << mesh.triangles, Eigen::Vector3i(a, b, c);
+    return more;
+}
+
+/// The mesh with one more vertex, of no triangle.
+inline SurfaceMesh with_vertex(const SurfaceMesh& mesh, const Eigen::Vector3d& p) {
+    SurfaceMesh more{Positions(3, mesh.n_vertices() + 1), mesh.triangles};
+    more.vertices << mesh.vertices, p;
+    return more;
+}
+
+/// The mesh without its last n triangles.
+inline SurfaceMesh without_last(const SurfaceMesh& mesh, int n) {
+    return {mesh.vertices, mesh.triangles.leftCols(mesh.n_triangles() - n)};
+}
+
 }  // namespace elastolab

@@ -112,8 +112,7 @@ TEST(Tetrahedralize, SaysWhatTetGenFindsInACrossingSurface) {
 }
 
 TEST(Tetrahedralize, SurvivesEveryUnusableSurface) {
-    SurfaceMesh open = make_box(2);
-    open.triangles.conservativeResize(3, open.n_triangles() - 1);
+    const SurfaceMesh open = without_last(make_box(2), 1);
     SurfaceMesh flat = make_box(2);
     flat.vertices.row(2).setZero();
     SurfaceMesh not_finite = make_box(2);

@@ -1,0 +1,59 @@
+#pragma once
+
+// For the helper programs only: their side of the socket to the caller (mesh/child_process.hpp), and how they begin.
+
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <limits>
+#include <vector>
+
+namespace elastolab {
+
+constexpr int kHelperMisused = 64;  ///< exit code
+
+/// The helper ends with its caller, leaves Ctrl-C to it, dumps no core, is the first to go when memory runs out, and
+/// loses nothing that a library printed before a crash.
+inline void begin_helper() {
+    std::signal(SIGINT, SIG_IGN);
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    const rlimit no_core{0, 0};
+    ::setrlimit(RLIMIT_CORE, &no_core);
+    std::ofstream("/proc/self/oom_score_adj") << 1000;
+    std::setvbuf(stdout, nullptr, _IOLBF, 0);
+}
+
+inline void read_bytes(void* data, std::size_t size) {
+    for (auto* to = static_cast<std::byte*>(data); size > 0;) {
+        const ssize_t n = ::read(STDIN_FILENO, to, size);
+        if (n <= 0) std::_Exit(kHelperMisused);
+        to += n;
+        size -= static_cast<std::size_t>(n);
+    }
+}
+
+inline void write_bytes(const void* data, std::size_t size) {
+    for (const auto* from = static_cast<const std::byte*>(data); size > 0;) {
+        const ssize_t n = ::write(STDIN_FILENO, from, size);
+        if (n <= 0) std::_Exit(kHelperMisused);
+        from += n;
+        size -= static_cast<std::size_t>(n);
+    }
+}
+
+template <class T>
+std::vector<T> read_array(std::int32_t count) {
+    if (count < 0 || count > std::numeric_limits<std::int32_t>::max() / 4) std::_Exit(kHelperMisused);
+    std::vector<T> values(static_cast<std::size_t>(count));
+    read_bytes(values.data(), values.size() * sizeof(T));
+    return values;
+}
+
+}  // namespace elastolab

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+
+namespace elastolab {
+
+/// What load_surface() and the helper program elastolab-import say to each other, as in mesh/tetgen_protocol.hpp.
+constexpr std::uint64_t kImportMagic = 0x656c61696d70'0001;
+
+/// Followed by the path.
+struct ImportRequestHeader {
+    std::uint64_t magic = kImportMagic;
+    std::int32_t path_size = 0;
+    std::int32_t cpu_seconds = 0;  ///< after these the system ends the helper: some damaged files make assimp loop
+};
+
+/// Followed by n_vertices x 3 doubles, n_order x 3 doubles, n_triangles x 3 ints, and a text that says what is wrong
+/// with the file, if anything.
+struct ImportReplyHeader {
+    std::uint64_t magic = kImportMagic;
+    std::int32_t n_vertices = 0, n_order = 0, n_triangles = 0, text_size = 0;
+};
+
+}  // namespace elastolab
