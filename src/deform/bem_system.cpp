@@ -42,7 +42,7 @@ BemSystem::BemSystem(std::shared_ptr<const Boundary> boundary, double poisson_ra
     const Eigen::Index n = 3 * n_nodes();
     Eigen::MatrixXd bordered(n + 6, n + 6);
     {
-        const Stage stage("integrate", control, stages);
+        const Stage stage(integrals_ ? "combine" : "integrate", control, stages);
         if (method.keep_integrals && !integrals_)
             integrals_ = std::make_shared<LayerIntegrals>(Layer::double_layer, *boundary_, nodes_, elements_,
                                                           tolerance_, control);

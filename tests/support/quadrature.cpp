@@ -47,18 +47,23 @@ public:
     }
 
     Values adaptive(const std::array<Point, 3>& t, const Values& whole, long double allowed, int depth) const {
+        // Two parts keep the collapsed corner, each with half its angle: similar parts would never converge there.
         const Point a = along(t[0], t[1], 0.5L), b = along(t[1], t[2], 0.5L), c = along(t[2], t[0], 0.5L);
-        const std::array<std::array<Point, 3>, 4> parts = {{{t[0], a, c}, {t[1], b, a}, {t[2], c, b}, {a, b, c}}};
-        std::array<Values, 4> values;
+        const Point m = along(a, c, 0.5L);
+        constexpr std::size_t kParts = 6;
+        const std::array<std::array<Point, 3>, kParts> parts = {
+            {{t[0], a, m}, {t[0], m, c}, {t[1], b, a}, {t[2], c, b}, {a, b, m}, {c, m, b}}};
+        std::array<Values, kParts> values;
         Values sum(n_values_, 0.0L), difference = whole;
-        for (std::size_t p = 0; p < 4; ++p) {
+        for (std::size_t p = 0; p < kParts; ++p) {
             values[p] = once(parts[p]);
             for (std::size_t k = 0; k < n_values_; ++k) sum[k] += values[p][k], difference[k] -= values[p][k];
         }
         if (norm(difference) <= allowed || depth == kDeepest) return sum;
         Values refined(n_values_, 0.0L);
-        for (std::size_t p = 0; p < 4; ++p) {
-            const Values part = adaptive(parts[p], values[p], allowed / 2, depth + 1);
+        for (std::size_t p = 0; p < kParts; ++p) {
+            // The same bound at every depth: the difference is the error of the whole, the parts are far better.
+            const Values part = adaptive(parts[p], values[p], allowed, depth + 1);
             for (std::size_t k = 0; k < n_values_; ++k) refined[k] += part[k];
         }
         return refined;

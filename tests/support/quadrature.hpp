@@ -17,7 +17,7 @@ struct LegendreRule {
 
 /// Adaptive integral over a triangle of a vector-valued function, to `tolerance` relative to the integral's norm. Each
 /// triangle is mapped from the square with its first corner as the collapsed point (Duffy), so that a 1/r singularity
-/// there is harmless; a triangle is split in four until the split agrees with the whole.
+/// there is harmless; a triangle is split until the parts agree with the whole.
 std::vector<long double> integrate(const std::array<Point, 3>& triangle, int n_values,
                                    const std::function<void(const Point&, std::vector<long double>&)>& function,
                                    long double tolerance = 1e-15L);

@@ -1,0 +1,142 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "deform/problem.hpp"
+#include "mesh/primitives.hpp"
+#include "support/organic_body.hpp"
+
+namespace elastolab::test {
+namespace {
+
+/// Ways to the same displacements that share only the matrices: the small system with columns on demand and from K^-1
+/// in memory, Eqn. 7 and Eqn. 9 on K (or on H and G where no K serves all sets), and a direct solve of the mixed system
+/// (on demand, direct), which integrates and factorises afresh.
+const std::vector<std::pair<Mode, Update>> kWays = {{Mode::on_demand, Update::direct},
+                                                    {Mode::full, Update::direct},
+                                                    {Mode::full, Update::eqn9},
+                                                    {Mode::full, Update::reduced}};
+constexpr double kTolerance = 1e-9;
+
+/// A random set of this share of the vertices; the first part of it is the base, at rest.
+ConstrainedSet random_set(const SurfaceMesh& mesh, double share, bool with_base, std::mt19937& random) {
+    std::vector<int> vertices(static_cast<std::size_t>(mesh.n_vertices()));
+    std::iota(vertices.begin(), vertices.end(), 0);
+    std::shuffle(vertices.begin(), vertices.end(), random);
+    vertices.resize(static_cast<std::size_t>(std::max(3.0, share * mesh.n_vertices())));
+    const auto n_base = static_cast<std::ptrdiff_t>(with_base ? std::max<std::size_t>(vertices.size() / 2, 3) : 0);
+    const auto middle = vertices.begin() + std::min<std::ptrdiff_t>(n_base, std::ssize(vertices));
+    return {{vertices.begin(), middle}, {middle, vertices.end()}};
+}
+
+Eigen::VectorXd random_values(const ConstrainedSet& set, std::mt19937& random) {
+    std::normal_distribution<double> normal(0.0, 0.1);
+    Eigen::VectorXd values(3 * std::ssize(set.handles));
+    for (double& value : values) value = normal(random);
+    return values;
+}
+
+struct Agreement : ::testing::TestWithParam<Method> {};
+
+void expect_agreement(const SurfaceMesh& mesh, const Method& method, unsigned seed) {
+    const Body body = make_body(mesh);
+    const auto reference_model = precomputed(body, method);
+    std::vector<std::shared_ptr<const Model>> models;
+    for (const auto& [mode, update] : kWays)
+        models.push_back(precomputed(body, make_method(method.kind, method.tractions, mode, update)));
+    std::mt19937 random(seed);
+    for (const double share : {0.01, 0.05, 0.2, 0.4, 0.6})
+        for (const bool with_base : {false, true}) {
+            const ConstrainedSet set = random_set(mesh, share, with_base, random);
+            if (set.handles.empty()) continue;
+            const Eigen::VectorXd values = random_values(set, random);
+            const Eigen::VectorXd reference = displaced(reference_model, set, values);
+            for (const auto& model : models) {
+                const Eigen::VectorXd other = displaced(model, set, values);
+                EXPECT_LT((other - reference).norm(), kTolerance * reference.norm())
+                    << describe(model->method()) << ", " << share << (with_base ? " with a base" : "");
+            }
+        }
+}
+
+TEST_P(Agreement, OfAllUpdatesOnACube) { expect_agreement(make_box(4), GetParam(), 3); }
+TEST_P(Agreement, OfAllUpdatesOnAnOrganicBody) { expect_agreement(make_potato(150).surface, GetParam(), 4); }
+
+/// Contiguous patches: whole triangles, rims and lone vertices together.
+TEST_P(Agreement, OfAllUpdatesOnPatches) {
+    const OrganicBody organic = make_potato(150);
+    const Body body = make_body(organic.surface);
+    ConstrainedSet set{organic.base, organic.pull};
+    for (int v = 0; v < organic.surface.n_vertices() && set.handles.size() == organic.pull.size(); ++v)
+        if (std::find(set.base.begin(), set.base.end(), v) == set.base.end() &&
+            std::find(set.handles.begin(), set.handles.end(), v) == set.handles.end())
+            set.handles.push_back(v);
+    std::mt19937 random(5);
+    const Eigen::VectorXd values = random_values(set, random);
+    const Eigen::VectorXd reference = displaced(precomputed(body, GetParam()), set, values);
+    for (const auto& [mode, update] : kWays) {
+        const Method method = make_method(GetParam().kind, GetParam().tractions, mode, update);
+        EXPECT_LT((displaced(precomputed(body, method), set, values) - reference).norm(), kTolerance * reference.norm())
+            << describe(method);
+    }
+}
+
+/// Cached columns of earlier sets serve later ones: the result must be that of a model that never saw another set.
+TEST_P(Agreement, OfManySetChangesWithFreshModels) {
+    const SurfaceMesh mesh = make_box(3);
+    const Body body = make_body(mesh);
+    Deformer deformer(precomputed(body, GetParam()));
+    std::mt19937 random(6);
+    Control control;
+    for (int change = 0; change < 12; ++change) {
+        const ConstrainedSet set = random_set(mesh, 0.05 + 0.05 * change, change % 2 == 0, random);
+        if (set.handles.empty()) continue;
+        const Eigen::VectorXd values = random_values(set, random);
+        deformer.constrain(set, control);
+        const Eigen::VectorXd fresh = displaced(precomputed(body, GetParam()), set, values);
+        EXPECT_LT((deformer.displace(values) - fresh).norm(), kTolerance * fresh.norm()) << "change " << change;
+    }
+}
+
+TEST_P(Agreement, OfADragResponseWithTheFullSolution) {
+    const SurfaceMesh mesh = make_box(4);
+    Deformer deformer(precomputed(make_body(mesh), GetParam()));
+    Control control;
+    ConstrainedSet set{vertices_where(mesh, [](const auto& x) { return x[0] < 1e-9; }),
+                       vertices_where(mesh, [](const auto& x) { return x[0] > 1.0 - 1e-9 && x[1] > 0.4; })};
+    deformer.constrain(set, control);
+    std::mt19937 random(7);
+    const Eigen::VectorXd values = random_values(set, random);
+    const Eigen::MatrixXd basis =
+        Eigen::MatrixXd::Identity(3, 3).replicate(std::ssize(set.handles), 1);  // a rigid translation
+    const DragResponse drag = deformer.drag_response(values, basis);
+    const Eigen::Vector3d shift(0.1, -0.2, 0.3);
+    Eigen::VectorXd u;
+    drag.displace(shift, u);
+    const Eigen::VectorXd fresh = deformer.displace(values + basis * shift);
+    EXPECT_LT((u - fresh).norm(), 1e-12 * fresh.norm());
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, Agreement, ::testing::ValuesIn(all_methods()), [](const auto& test) {
+    std::string text = std::string(name(test.param.kind)) + "_" + std::string(name(test.param.tractions));
+    std::replace(text.begin(), text.end(), '-', '_');
+    return text;
+});
+
+TEST(FullVolume, AgreesWithTheCondensedMatrixAndWithOnDemand) {
+    const SurfaceMesh mesh = make_box(4);
+    const Body body = make_body(mesh);
+    std::mt19937 random(8);
+    const ConstrainedSet set = random_set(mesh, 0.2, false, random);
+    const Eigen::VectorXd values = random_values(set, random);
+    const Eigen::VectorXd reference = displaced(precomputed(body, make_method(MethodKind::fem)), set, values);
+    for (const Update update : {Update::direct, Update::eqn9, Update::reduced}) {
+        const Method method = make_method(MethodKind::fem, Tractions::discontinuous, Mode::full_volume, update);
+        EXPECT_LT((displaced(precomputed(body, method), set, values) - reference).norm(), kTolerance * reference.norm())
+            << describe(method);
+    }
+}
+
+}  // namespace
+}  // namespace elastolab::test

@@ -1,0 +1,135 @@
+#include <gtest/gtest.h>
+
+#include "base/error.hpp"
+#include "deform/constraint_map.hpp"
+#include "deform/cost.hpp"
+#include "deform/problem.hpp"
+#include "elasticity/rigid_motion.hpp"
+#include "mesh/primitives.hpp"
+
+namespace elastolab::test {
+namespace {
+
+SurfaceMesh joined(const SurfaceMesh& a, const SurfaceMesh& b, const Eigen::Vector3d& shift) {
+    SurfaceMesh both;
+    both.vertices.resize(3, a.n_vertices() + b.n_vertices());
+    both.vertices << a.vertices, b.vertices.colwise() + shift;
+    both.triangles.resize(3, a.n_triangles() + b.n_triangles());
+    both.triangles << a.triangles, b.triangles.array() + a.n_vertices();
+    return both;
+}
+
+TEST(Constraints, ThatHoldTooLittleGiveTheSmallestMotionAndSaySo) {
+    const SurfaceMesh mesh = make_box(3);
+    for (const Method& method : all_methods()) {
+        Control control;
+        Deformer deformer(precomputed(make_body(mesh), method));
+        deformer.constrain({{}, {0}}, control);
+        const Eigen::VectorXd u = deformer.displace(Eigen::Vector3d(0.1, 0.2, 0.3));
+        if (method.kind != MethodKind::constant_bem) {  // whose lone vertex holds the triangles around it
+            EXPECT_FALSE(deformer.quality().held) << describe(method);
+            EXPECT_FALSE(deformer.quality().warnings.empty()) << describe(method);
+        }
+        // One vertex moved, nothing strained: a rigid motion, and no larger than the translation.
+        const Eigen::MatrixXd modes = rigid_modes(mesh.vertices);
+        const double strained = (u - modes * (modes.transpose() * u)).norm();
+        EXPECT_LT(strained, (method.kind == MethodKind::constant_bem ? 0.3 : 1e-8) * u.norm()) << describe(method);
+        const double translation = Eigen::Vector3d(0.1, 0.2, 0.3).norm() * std::sqrt(mesh.n_vertices());
+        EXPECT_LT(u.norm(), 1.0001 * translation) << describe(method);
+    }
+}
+
+TEST(Constraints, OnALineLeaveARotationFree) {
+    const SurfaceMesh mesh = make_box(3);
+    const auto edge = vertices_where(mesh, [](const auto& x) { return x[1] < 1e-9 && x[2] < 1e-9; });
+    for (const Method& method : all_methods()) {
+        if (method.kind == MethodKind::constant_bem) continue;
+        Control control;
+        Deformer deformer(precomputed(make_body(mesh), method));
+        deformer.constrain({{}, edge}, control);
+        EXPECT_FALSE(deformer.quality().held) << describe(method);
+        const Eigen::VectorXd values = Eigen::Vector3d(0.0, 0.0, 0.1).replicate(std::ssize(edge), 1);
+        EXPECT_TRUE(deformer.displace(values).allFinite()) << describe(method);
+        EXPECT_THROW(displaced(precomputed(make_body(mesh),
+                                           make_method(method.kind, method.tractions, Mode::on_demand, Update::direct)),
+                               {{}, edge}, values),
+                     SolveError)
+            << describe(method);
+    }
+}
+
+TEST(Constraints, OfOneSolidDoNotMoveAnother) {
+    const SurfaceMesh one = make_box(3), two = joined(one, make_sphere(2), {5.0, 0.0, 0.0});
+    const auto base = vertices_where(one, [](const auto& x) { return x[0] < 1e-9; });
+    const auto pull = vertices_where(one, [](const auto& x) { return x[0] > 1.0 - 1e-9; });
+    const Eigen::VectorXd values = Eigen::Vector3d(0.1, 0.05, 0.0).replicate(std::ssize(pull), 1);
+    for (const Method& method : all_methods()) {
+        const Eigen::VectorXd alone = displaced(precomputed(make_body(one), method), {base, pull}, values);
+        const Eigen::VectorXd both = displaced(precomputed(make_body(two), method), {base, pull}, values);
+        EXPECT_LT((both.head(alone.size()) - alone).norm(), 1e-12 * alone.norm()) << describe(method);
+        EXPECT_EQ(both.tail(both.size() - alone.size()).norm(), 0.0) << describe(method);
+    }
+}
+
+TEST(Constraints, KeepThePreviousSetWhenANewOneFails) {
+    const SurfaceMesh mesh = make_box(3);
+    const Method method = make_method(MethodKind::fem, Tractions::discontinuous, Mode::on_demand, Update::direct);
+    Control control;
+    Deformer deformer(precomputed(make_body(mesh), method));
+    const auto base = vertices_where(mesh, [](const auto& x) { return x[0] < 1e-9; });
+    deformer.constrain({base, {mesh.n_vertices() - 1}}, control);
+    const Eigen::VectorXd before = deformer.displace(Eigen::Vector3d(0.1, 0.0, 0.0));
+    EXPECT_THROW(deformer.constrain({{}, {0}}, control), SolveError);
+    EXPECT_EQ(deformer.displace(Eigen::Vector3d(0.1, 0.0, 0.0)), before);
+}
+
+TEST(ConstantBem, ConstrainsATriangleWhenAllItsVerticesAre) {
+    const SurfaceMesh mesh = make_box(2);
+    const VertexTriangles around(mesh);
+    const std::vector<int> corners(mesh.triangles.col(4).begin(), mesh.triangles.col(4).end());
+    const ConstrainedNodes whole = constrain_triangles(mesh, around, corners);
+    EXPECT_EQ(whole.nodes, std::vector<int>{4});
+    const Eigen::VectorXd values = Eigen::VectorXd::LinSpaced(9, 1.0, 9.0);
+    EXPECT_LT((whole.prescribe * values - Eigen::Vector3d(4.0, 5.0, 6.0)).norm(), 1e-14);
+
+    const ConstrainedNodes lone = constrain_triangles(mesh, around, std::vector<int>{corners[0]});
+    EXPECT_EQ(lone.nodes.size(), around[corners[0]].size());
+}
+
+TEST(ConstantBem, MovesALoneHandleVertexExactlyWithItsHandle) {
+    const SurfaceMesh mesh = make_box(4);
+    const auto base = vertices_where(mesh, [](const auto& x) { return x[0] < 1e-9; });
+    const auto lone =
+        vertices_where(mesh, [](const auto& x) { return (x - Eigen::Vector3d(1.0, 0.5, 0.5)).norm() < 1e-9; });
+    ASSERT_EQ(lone.size(), 1u);
+    const Eigen::Vector3d shift(0.1, 0.2, -0.1);
+    const Eigen::VectorXd u =
+        displaced(precomputed(make_body(mesh), make_method(MethodKind::constant_bem)), {base, lone}, shift);
+    EXPECT_LT((u.segment<3>(3 * lone[0]) - shift).norm(), 1e-14);
+}
+
+TEST(Memory, ThatIsNotThereIsNotBegunWith) {
+    const SurfaceMesh huge = make_box(200);  // 240 002 vertices: a dense matrix of 4 TB
+    Control control;
+    const Method method = make_method(MethodKind::linear_bem, Tractions::restricted, Mode::full);
+    try {
+        precompute(make_body(huge), method, control);
+        FAIL() << "was begun";
+    } catch (const SolveError& error) {
+        EXPECT_NE(std::string(error.what()).find("GB"), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("on-demand"), std::string::npos) << error.what();
+    }
+}
+
+TEST(Methods, HaveNamesThatAreReadBack) {
+    for (const Method& method : all_methods()) {
+        EXPECT_EQ(parse_method_kind(name(method.kind)), method.kind);
+        EXPECT_EQ(parse_tractions(name(method.tractions)), method.tractions);
+    }
+    EXPECT_FALSE(parse_mode("fuller").has_value());
+    EXPECT_EQ(parse_mode("full-volume"), Mode::full_volume);
+    EXPECT_EQ(parse_update("eqn9"), Update::eqn9);
+}
+
+}  // namespace
+}  // namespace elastolab::test

@@ -1,0 +1,128 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/SVD>
+
+#include <cmath>
+
+#include "base/blas.hpp"
+#include "base/error.hpp"
+#include "deform/problem.hpp"
+#include "mesh/primitives.hpp"
+
+namespace elastolab::test {
+namespace {
+
+struct Pull {
+    SurfaceMesh mesh = make_box(3);
+    ConstrainedSet set{vertices_where(mesh, [](const auto& x) { return x[0] < 1e-9; }),
+                       vertices_where(mesh, [](const auto& x) { return x[0] > 1.0 - 1e-9; })};
+    Eigen::VectorXd values = Eigen::Vector3d(0.1, 0.05, 0.0).replicate(std::ssize(set.handles), 1);
+};
+
+bool has_stage(const Model& model, const std::string& name) {
+    for (const StageTime& stage : model.facts().stages)
+        if (stage.name == name) return true;
+    return false;
+}
+
+TEST(PrecomputeAgain, WithAnotherPoissonsRatioIntegratesNothingAndEqualsAFreshModel) {
+    const Pull pull;
+    for (Method method : all_methods()) {
+        method.keep_integrals = true;
+        Control control;
+        const auto first = precompute(make_body(pull.mesh, {1.0, 0.3}), method, control);
+        const auto again = precompute_again(*first, {1.0, 0.45}, method, control);
+        const auto fresh = precompute(make_body(pull.mesh, {1.0, 0.45}), method, control);
+        const Eigen::VectorXd expected = displaced(fresh, pull.set, pull.values);
+        EXPECT_LT((displaced(again, pull.set, pull.values) - expected).norm(), 1e-13 * expected.norm())
+            << describe(method);
+        EXPECT_FALSE(has_stage(*again, "integrate")) << describe(method);
+        EXPECT_FALSE(has_stage(*again, "tetrahedralize")) << describe(method);
+    }
+}
+
+TEST(PrecomputeAgain, WithAnotherYoungsModulusComputesNothingAndScalesTheForces) {
+    const Pull pull;
+    for (const Method& method : all_methods()) {
+        Control control;
+        const auto first = precompute(make_body(pull.mesh, {1.0, 0.3}), method, control);
+        const auto again = precompute_again(*first, {1.0e7, 0.3}, method, control);
+        EXPECT_TRUE(again->facts().stages.empty()) << describe(method);
+        Deformer soft(first), stiff(again);
+        soft.constrain(pull.set, control);
+        stiff.constrain(pull.set, control);
+        EXPECT_EQ(soft.displace(pull.values), stiff.displace(pull.values)) << describe(method);
+        const Eigen::Matrix3Xd forces = 1.0e7 * soft.reactions(pull.values).forces;
+        EXPECT_LT((stiff.reactions(pull.values).forces - forces).norm(), 1e-12 * forces.norm()) << describe(method);
+    }
+}
+
+TEST(PrecomputeAgain, WithOtherTractionsOrUpdatesKeepsTheSystem) {
+    const Pull pull;
+    Control control;
+    const auto first = precompute(make_body(pull.mesh), Method{}, control);
+    const Method restricted = make_method(MethodKind::linear_bem, Tractions::restricted);
+    const auto again = precompute_again(*first, {1.0, 0.3}, restricted, control);
+    EXPECT_TRUE(again->facts().stages.empty());
+    const Eigen::VectorXd expected = displaced(precomputed(make_body(pull.mesh), restricted), pull.set, pull.values);
+    EXPECT_LT((displaced(again, pull.set, pull.values) - expected).norm(), 1e-13 * expected.norm());
+}
+
+TEST(Precompute, GivesTheSameResultForEveryNumberOfThreads) {
+    const Pull pull;
+    const int threads = thread_count();
+    for (const Method& method : all_methods()) {
+        set_thread_count(1);
+        const Eigen::VectorXd one = displaced(precomputed(make_body(pull.mesh), method), pull.set, pull.values);
+        set_thread_count(3);
+        const Eigen::VectorXd three = displaced(precomputed(make_body(pull.mesh), method), pull.set, pull.values);
+        set_thread_count(threads);
+        // The BLAS may split its products differently, which changes their rounding.
+        EXPECT_LT((one - three).norm(), 1e-12 * one.norm()) << describe(method);
+    }
+}
+
+TEST(Precompute, StopsWhenCancelled) {
+    for (const Method& method : all_methods()) {
+        Control control;
+        control.cancel();
+        EXPECT_THROW(precompute(make_body(make_box(3)), method, control), Cancelled) << describe(method);
+    }
+}
+
+/// Powers of two, so that TetGen sees the same numbers and makes the same tetrahedra.
+TEST(Precompute, IsIndifferentToUnitsOfLengthAndForce) {
+    const Pull pull;
+    for (const Method& method : all_methods())
+        for (const double scale : {std::ldexp(1.0, -30), std::ldexp(1.0, 30)}) {
+            SurfaceMesh scaled = pull.mesh;
+            scaled.vertices *= scale;
+            const Eigen::VectorXd reference =
+                displaced(precomputed(make_body(pull.mesh), method), pull.set, pull.values);
+            const Eigen::VectorXd u =
+                displaced(precomputed(make_body(scaled, {1e12, 0.3}), method), pull.set, scale * pull.values);
+            EXPECT_LT((u / scale - reference).norm(), 1e-9 * reference.norm()) << describe(method) << ", " << scale;
+        }
+}
+
+TEST(FullMode, ExportsAStiffnessWhoseBorderedInverseItIs) {
+    const Body body = make_body(make_box(3), {2.0e5, 0.3});
+    for (const Method& method : all_methods(Mode::full)) {
+        const auto model = precomputed(body, method);
+        Eigen::MatrixXd K, inverse;
+        model->visit_matrices([&](const NamedMatrix& matrix) {
+            if (matrix.name == "K") K = matrix.values;
+            if (matrix.name == "Khatinv") inverse = matrix.values;
+        });
+        ASSERT_EQ(inverse.rows(), K.rows() + 6) << describe(method);
+        // K D + (K^ has the border B) B F^T = I: so K D - I has rank at most six.
+        const Eigen::MatrixXd defect =
+            K * inverse.topLeftCorner(K.rows(), K.cols()) - Eigen::MatrixXd::Identity(K.rows(), K.cols());
+        const Eigen::VectorXd values = defect.bdcSvd().singularValues();
+        EXPECT_GT(values[5], 0.1) << describe(method);
+        EXPECT_LT(values[6], 1e-9) << describe(method);
+    }
+}
+
+}  // namespace
+}  // namespace elastolab::test
