@@ -19,6 +19,18 @@ namespace elastolab {
 
 constexpr int kHelperMisused = 64;  ///< exit code
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kSanitized = true;
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+constexpr bool kSanitized = true;
+#else
+constexpr bool kSanitized = false;
+#endif
+#else
+constexpr bool kSanitized = false;
+#endif
+
 /// The helper ends with its caller, leaves Ctrl-C to it, dumps no core, is the first to go when memory runs out, and
 /// loses nothing that a library printed before a crash.
 inline void begin_helper() {

@@ -45,24 +45,26 @@ void require_complete_header(const fs::path& file) {
         fail(file, "is a PLY file whose header does not end. Is it damaged? Export it again.");
 }
 
-/// Far beyond what any sound file of this size takes.
-std::int32_t time_limit(const fs::path& file) {
-    const double megabytes = static_cast<double>(fs::file_size(file)) / 1e6;
-    return static_cast<std::int32_t>(std::min(20.0 + 4.0 * megabytes, 1e6));
+/// Time and memory far beyond what any sound file of this size takes.
+ImportRequestHeader header_for(const fs::path& file) {
+    const double size = static_cast<double>(fs::file_size(file));
+    ImportRequestHeader header;
+    header.path_size = static_cast<std::int32_t>(file.string().size());
+    header.cpu_seconds = static_cast<std::int32_t>(std::min(10.0 + 4e-6 * size, 1e6));
+    header.memory_bytes = static_cast<std::int64_t>(2e9 + 200.0 * size);
+    return header;
 }
 
 std::string request_bytes(const fs::path& file) {
-    const std::string path = file.string();
-    const ImportRequestHeader header{.path_size = static_cast<std::int32_t>(path.size()),
-                                     .cpu_seconds = time_limit(file)};
+    const ImportRequestHeader header = header_for(file);
     std::string bytes(sizeof(header), '\0');
     std::memcpy(bytes.data(), &header, sizeof(header));
-    return bytes + path;
+    return bytes + file.string();
 }
 
 std::string meaning_of_end(int status) {
     const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-    if (signal == SIGXCPU || signal == SIGKILL)
+    if (signal == SIGXCPU || signal == SIGALRM || signal == SIGKILL)
         return "cannot be read: the reader used up its time or memory. Is it damaged? Export it again.";
     return "cannot be read: the reader crashed on it (" +
            (signal != 0 ? "signal " + std::to_string(signal) : "exit code " + std::to_string(WEXITSTATUS(status))) +

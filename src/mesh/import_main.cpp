@@ -168,6 +168,21 @@ void reply(const Imported& imported) {
 
 }  // namespace elastolab
 
+namespace {
+
+void limit(const elastolab::ImportRequestHeader& request) {
+    const auto seconds = static_cast<rlim_t>(request.cpu_seconds);
+    const rlimit cpu{seconds, seconds};
+    ::setrlimit(RLIMIT_CPU, &cpu);
+    ::alarm(static_cast<unsigned>(4 * seconds));  // it may also wait: for memory, or for a slow disk
+    if (elastolab::kSanitized) return;            // their bookkeeping takes terabytes of addresses
+    const auto bytes = static_cast<rlim_t>(request.memory_bytes);
+    const rlimit memory{bytes, bytes};
+    ::setrlimit(RLIMIT_DATA, &memory);
+}
+
+}  // namespace
+
 int main() {
     using namespace elastolab;
     begin_helper();
@@ -175,9 +190,7 @@ int main() {
     read_bytes(&request, sizeof(request));
     if (request.magic != kImportMagic) return kHelperMisused;
     const std::vector<char> path = read_array<char>(request.path_size);
-    const auto seconds = static_cast<rlim_t>(request.cpu_seconds);
-    const rlimit cpu{seconds, seconds};
-    ::setrlimit(RLIMIT_CPU, &cpu);
+    limit(request);
     reply(import(std::string(path.begin(), path.end())));
     std::_Exit(0);  // at once: nothing is left to do, and assimp need not tidy up
 }

@@ -11,7 +11,9 @@ constexpr std::uint64_t kImportMagic = 0x656c61696d70'0001;
 struct ImportRequestHeader {
     std::uint64_t magic = kImportMagic;
     std::int32_t path_size = 0;
-    std::int32_t cpu_seconds = 0;  ///< after these the system ends the helper: some damaged files make assimp loop
+    // Damaged files make assimp loop, or take all memory: then the system ends the helper, or refuses it more.
+    std::int32_t cpu_seconds = 0;
+    std::int64_t memory_bytes = 0;
 };
 
 /// Followed by n_vertices x 3 doubles, n_order x 3 doubles, n_triangles x 3 ints, and a text that says what is wrong

@@ -92,6 +92,7 @@ std::vector<BadFile> not_meshes() {
         {"wrong_format.ply", "ply\nformat cuneiform 1.0\nend_header\n"},
         {"wrong_magic.off", "FFO\n4 4 0\n0 0 0\n"},
         {"truncated.off", "OFF\n400 400 0\n0 0 0\n1 0"},
+        {"huge_count.off", "OFF\n353535235358 6 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"},
         {"missing_face.off", "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"},  // assimp aborts on it
         {"vertices_only.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"},
         {"points_only.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\np 1 2 3\n"},
