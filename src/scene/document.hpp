@@ -1,0 +1,94 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "deform/method.hpp"
+#include "elasticity/material.hpp"
+
+namespace elastolab {
+
+/// A mesh file; a relative name starts at the folder of the scene file.
+struct MeshFile {
+    std::string file;
+    bool operator==(const MeshFile&) const = default;
+};
+
+/// A mesh made by mesh/primitives.hpp.
+struct Primitive {
+    std::string name;
+    int resolution = 1;
+    std::vector<double> size;  ///< [L]; empty for the default
+    bool operator==(const Primitive&) const = default;
+};
+
+using MeshSource = std::variant<MeshFile, Primitive>;
+
+/// The vertices of these numbers, in this order.
+struct VertexSelector {
+    std::vector<int> vertices;
+    bool operator==(const VertexSelector&) const = default;
+};
+
+/// All vertices in an axis-parallel box, its faces included.
+struct BoxSelector {
+    Eigen::Vector3d min, max;
+    bool operator==(const BoxSelector&) const = default;
+};
+
+/// All vertices in a ball, its surface included.
+struct SphereSelector {
+    Eigen::Vector3d center;
+    double radius = 0.0;
+    bool operator==(const SphereSelector&) const = default;
+};
+
+/// All vertices no further than `tolerance` from a plane; the normal may have any length but zero.
+struct PlaneSelector {
+    Eigen::Vector3d point, normal;
+    double tolerance = 0.0;
+    bool operator==(const PlaneSelector&) const = default;
+};
+
+/// Names vertices of the rest mesh; a list stands for the union of its members.
+struct Selector {
+    std::variant<VertexSelector, BoxSelector, SphereSelector, PlaneSelector, std::vector<Selector>> shape;
+    bool operator==(const Selector&) const = default;
+};
+
+/// u(x) = matrix x + translate, x the rest position.
+struct AffineMotion {
+    Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d translate = Eigen::Vector3d::Zero();  ///< [L]
+    bool operator==(const AffineMotion&) const = default;
+};
+
+/// One displacement for each selected vertex, in the order of selection.
+struct VertexMotion {
+    std::vector<Eigen::Vector3d> displacements;  ///< [L]
+    bool operator==(const VertexMotion&) const = default;
+};
+
+/// Vertices that follow a prescribed motion.
+struct Handle {
+    std::string name;  ///< empty: called after its place in the list
+    Selector select;
+    std::variant<AffineMotion, VertexMotion> motion;
+    bool operator==(const Handle&) const = default;
+};
+
+/// A scene as plain values: what a scene file says, before any mesh is loaded.
+struct Document {
+    MeshSource mesh;
+    Material material;
+    MethodKind method = MethodKind::linear_bem;
+    std::optional<Selector> fixed;
+    std::vector<Handle> handles;
+};
+
+bool operator==(const Document& a, const Document& b);
+
+}  // namespace elastolab

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+namespace elastolab {
+
+/// Objects keep the order of their keys. Only sources of this layer include this header.
+using Json = nlohmann::ordered_json;
+
+/// Parses strictly: no duplicate keys, no numbers beyond double precision, no comments, nothing after the value, no
+/// more than 100 levels. Throws SceneError naming `file`, and line and column or the JSON path of the finding.
+Json parse_json(std::string_view text, const std::string& file);
+
+/// JSON for people: indented by two, with arrays and objects that fit a line on one line. Numbers are read back
+/// exactly.
+std::string print_json(const Json& value);
+
+/// `path` with one more key, as a JSON pointer.
+std::string json_path(const std::string& path, std::string_view key);
+
+/// "file: path: finding", leaving out an empty path.
+std::string json_message(const std::string& file, const std::string& path, const std::string& finding);
+
+}  // namespace elastolab

@@ -1,0 +1,151 @@
+#include "scene/setup.hpp"
+
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "mesh/import.hpp"
+#include "mesh/primitives.hpp"
+#include "scene/selectors.hpp"
+
+namespace elastolab {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int kNobody = -1;
+constexpr int kFixed = -2;
+
+std::string place(const fs::path& scene_file, const std::string& path) { return scene_file.string() + ": " + path; }
+
+std::string handle_path(std::size_t i) { return "/handles/" + std::to_string(i); }
+
+[[noreturn]] void fail(const fs::path& scene_file, const std::string& path, const std::string& finding) {
+    throw SceneError(one_line(place(scene_file, path) + ": " + finding));
+}
+
+SurfaceMesh make_mesh(const Primitive& primitive, const fs::path& scene_file) {
+    try {
+        return make_primitive(primitive.name, primitive.resolution, primitive.size);
+    } catch (const MeshError& error) {
+        fail(scene_file, "/mesh", error.what());
+    }
+}
+
+/// Collects constraints and notices a vertex that is claimed twice.
+class Collector {
+public:
+    Collector(const Document& document, const SurfaceMesh& mesh, const fs::path& scene_file)
+        : document_(document),
+          mesh_(mesh),
+          scene_file_(scene_file),
+          owner_(static_cast<std::size_t>(mesh.n_vertices()), kNobody) {}
+
+    Constraints collect() && {
+        if (document_.fixed) add_fixed(*document_.fixed);
+        for (std::size_t i = 0; i < document_.handles.size(); ++i) add_handle(i);
+        result_.values = Eigen::Map<const Eigen::VectorXd>(values_.data(), std::ssize(values_));
+        return std::move(result_);
+    }
+
+private:
+    void add_fixed(const Selector& selector) {
+        result_.set.base = claim(selector, "/fixed", kFixed);
+        add_group("fixed", result_.set.base.size());
+    }
+
+    void add_handle(std::size_t i) {
+        const Handle& handle = document_.handles[i];
+        const std::vector<int> vertices = claim(handle.select, handle_path(i) + "/select", static_cast<int>(i));
+        std::visit([&](const auto& motion) { add_values(motion, vertices, i); }, handle.motion);
+        result_.set.handles.insert(result_.set.handles.end(), vertices.begin(), vertices.end());
+        add_group(handle.name.empty() ? "handle-" + std::to_string(i) : handle.name, vertices.size());
+    }
+
+    std::vector<int> claim(const Selector& selector, const std::string& path, int owner) {
+        std::vector<int> vertices = select_vertices(mesh_, selector, place(scene_file_, path));
+        for (const int v : vertices) {
+            int& present = owner_[static_cast<std::size_t>(v)];
+            if (present != kNobody) fail_claimed(path, v, present);
+            present = owner;
+        }
+        return vertices;
+    }
+
+    [[noreturn]] void fail_claimed(const std::string& path, int vertex, int owner) const {
+        const std::string other = owner == kFixed ? "/fixed" : handle_path(static_cast<std::size_t>(owner));
+        const Eigen::Vector3d x = mesh_.vertices.col(vertex);
+        fail(scene_file_, path,
+             "vertex " + std::to_string(vertex) + " at (" + short_text(x.x()) + ", " + short_text(x.y()) + ", " +
+                 short_text(x.z()) + ") also belongs to " + other + ". Make the selectors disjoint.");
+    }
+
+    static std::string short_text(double value) {
+        std::string text = std::to_string(value);
+        text.erase(text.find_last_not_of('0') + 1);
+        if (text.back() == '.') text.pop_back();
+        return text;
+    }
+
+    void add_values(const AffineMotion& motion, const std::vector<int>& vertices, std::size_t i) {
+        for (const int v : vertices) add_value(motion.matrix * mesh_.vertices.col(v) + motion.translate, v, i);
+    }
+
+    void add_values(const VertexMotion& motion, const std::vector<int>& vertices, std::size_t i) {
+        if (motion.displacements.size() != vertices.size())
+            fail(scene_file_, handle_path(i) + "/displacements",
+                 "has " + std::to_string(motion.displacements.size()) + " entries for " +
+                     std::to_string(vertices.size()) + " selected vertices. Give one for each.");
+        for (std::size_t k = 0; k < vertices.size(); ++k) add_value(motion.displacements[k], vertices[k], i);
+    }
+
+    void add_value(const Eigen::Vector3d& u, int vertex, std::size_t i) {
+        if (!u.allFinite())
+            fail(scene_file_, handle_path(i),
+                 "moves vertex " + std::to_string(vertex) +
+                     " by a number beyond double precision. Make the motion smaller.");
+        values_.insert(values_.end(), u.begin(), u.end());
+    }
+
+    void add_group(std::string name, std::size_t n_vertices) {
+        for (const ConstraintGroup& group : result_.groups)
+            if (group.name == name)
+                fail(scene_file_, "/handles", "two of them are called \"" + name + "\". Name them apart.");
+        const int begin = result_.groups.empty() ? 0 : result_.groups.back().end;
+        result_.groups.push_back({std::move(name), begin, begin + static_cast<int>(n_vertices)});
+    }
+
+    const Document& document_;
+    const SurfaceMesh& mesh_;
+    const fs::path& scene_file_;
+    std::vector<int> owner_;  ///< for every vertex: kNobody, kFixed, or the number of its handle
+    std::vector<double> values_;
+    Constraints result_;
+};
+
+}  // namespace
+
+SceneMesh load_scene_mesh(const MeshSource& source, const fs::path& scene_file) {
+    if (const auto* primitive = std::get_if<Primitive>(&source))
+        return {primitive->name, check_and_repair(make_mesh(*primitive, scene_file))};
+    const fs::path file = scene_file.parent_path() / std::get<MeshFile>(source).file;
+    return {file.string(), check_and_repair(load_surface(file))};
+}
+
+Body make_body(const Document& document, SceneMesh mesh, MethodKind kind, const fs::path& scene_file) {
+    const bool for_fem = kind == MethodKind::fem;
+    require_usable(mesh.checked.report, mesh.name, for_fem);
+    if (for_fem && document.material.poisson_ratio >= 0.5)
+        fail(scene_file, "/material/poisson_ratio",
+             "FEM needs a value below 0.5. Lower it, or use linear-bem, which takes 0.5.");
+    return {.name = std::move(mesh.name),
+            .surface = std::make_shared<const SurfaceMesh>(std::move(mesh.checked.mesh)),
+            .material = document.material};
+}
+
+Constraints make_constraints(const Document& document, const SurfaceMesh& mesh, const fs::path& scene_file) {
+    return Collector(document, mesh, scene_file).collect();
+}
+
+}  // namespace elastolab

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "deform/deformer.hpp"
+#include "deform/model.hpp"
+#include "mesh/check.hpp"
+#include "scene/document.hpp"
+
+namespace elastolab {
+
+/// The mesh of a scene, checked and repaired but not judged, and what to call it in messages.
+struct SceneMesh {
+    std::string name;
+    CheckedMesh checked;
+};
+
+/// Loads a mesh file, relative names starting at the folder of `scene_file`, or makes a primitive.
+/// Throws MeshError (a file that cannot be read) or SceneError (a primitive that cannot be made).
+SceneMesh load_scene_mesh(const MeshSource& source, const std::filesystem::path& scene_file);
+
+/// The body of a scene, fit for a method of `kind` (which need not be the one that the document names).
+/// Throws MeshError when the mesh is not usable for it, SceneError when the material is not.
+Body make_body(const Document& document, SceneMesh mesh, MethodKind kind, const std::filesystem::path& scene_file);
+
+/// Constrained vertices that belong together: columns [begin, end) of Deformer::reactions.
+struct ConstraintGroup {
+    std::string name;
+    int begin = 0;
+    int end = 0;
+};
+
+/// What a scene prescribes, in the form that a Deformer takes.
+struct Constraints {
+    ConstrainedSet set;                   ///< base: the fixed part; handles: those of all handles, one after the other
+    Eigen::VectorXd values;               ///< 3 * set.handles.size(), node-major [L]
+    std::vector<ConstraintGroup> groups;  ///< "fixed" first when there is one, then every handle
+};
+
+/// Throws SceneError naming the JSON path when a selector selects nothing or a vertex that is not there, when a vertex
+/// is constrained twice, or when the displacements of a handle are not one for each of its vertices or not finite.
+Constraints make_constraints(const Document& document, const SurfaceMesh& mesh,
+                             const std::filesystem::path& scene_file);
+
+}  // namespace elastolab

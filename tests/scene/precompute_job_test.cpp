@@ -1,0 +1,157 @@
+#include "scene/precompute_job.hpp"
+
+#include <gmock/gmock.h>
+
+#include <atomic>
+#include <thread>
+
+#include "base/error.hpp"
+
+namespace elastolab {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::HasSubstr;
+
+/// A model of nothing, told apart by the name of its body.
+std::shared_ptr<const Model> model_called(const std::string& name) {
+    const Body body{.name = name, .surface = std::make_shared<const SurfaceMesh>(), .material = {}};
+    return std::make_shared<const Model>(body, Method{}, std::vector<Model::Part>{}, ModelFacts{});
+}
+
+PrecomputeJob::Work giving(const std::string& name) {
+    return [name](Control&) { return model_called(name); };
+}
+
+/// Works until it is cancelled, and says that it has begun.
+PrecomputeJob::Work endless(std::atomic<bool>& begun) {
+    return [&begun](Control& control) -> std::shared_ptr<const Model> {
+        control.begin_stage("forever");
+        control.set_progress(0.5);
+        begun = true;
+        while (true) {
+            control.checkpoint();
+            std::this_thread::sleep_for(1ms);
+        }
+    };
+}
+
+template <class Condition>
+void wait_until(const Condition& condition) {
+    while (!condition()) std::this_thread::sleep_for(1ms);
+}
+
+PrecomputeJob::Event wait_for_event(PrecomputeJob& job) {
+    PrecomputeJob::Event event = PrecomputeJob::Event::none;
+    wait_until([&] { return (event = job.poll()) != PrecomputeJob::Event::none; });
+    return event;
+}
+
+TEST(PrecomputeJob, BringsTheModelOnce) {
+    PrecomputeJob job;
+    job.start(giving("first"));
+    EXPECT_EQ(wait_for_event(job), PrecomputeJob::Event::finished);
+    EXPECT_EQ(job.model()->body().name, "first");
+    EXPECT_FALSE(job.running());
+    EXPECT_GE(job.elapsed_seconds(), 0.0);
+    EXPECT_EQ(job.poll(), PrecomputeJob::Event::none);
+}
+
+TEST(PrecomputeJob, ShowsStageAndProgressWhileItRuns) {
+    std::atomic<bool> begun{false};
+    PrecomputeJob job;
+    job.start(endless(begun));
+    wait_until([&] { return begun.load(); });
+    EXPECT_TRUE(job.running());
+    EXPECT_STREQ(job.stage(), "forever");
+    EXPECT_EQ(job.progress(), 0.5);
+    EXPECT_GT(job.elapsed_seconds(), 0.0);
+    EXPECT_EQ(job.poll(), PrecomputeJob::Event::none);
+}
+
+TEST(PrecomputeJob, KeepsTheOldModelAfterACancel) {
+    std::atomic<bool> begun{false};
+    PrecomputeJob job;
+    job.start(giving("old"));
+    wait_for_event(job);
+    job.start(endless(begun));
+    wait_until([&] { return begun.load(); });
+    job.cancel();
+    EXPECT_EQ(wait_for_event(job), PrecomputeJob::Event::cancelled);
+    EXPECT_EQ(job.model()->body().name, "old");
+    EXPECT_EQ(job.failure(), "");
+}
+
+TEST(PrecomputeJob, DropsAResultThatComesAfterACancel) {
+    std::atomic<bool> go{false};
+    PrecomputeJob job;
+    job.start([&](Control&) {
+        wait_until([&] { return go.load(); });
+        return model_called("too late");
+    });
+    job.cancel();
+    go = true;
+    EXPECT_EQ(wait_for_event(job), PrecomputeJob::Event::cancelled);
+    EXPECT_EQ(job.model(), nullptr);
+}
+
+TEST(PrecomputeJob, KeepsTheOldModelAfterAFailureAndSaysWhy) {
+    PrecomputeJob job;
+    job.start(giving("old"));
+    wait_for_event(job);
+    job.start([](Control&) -> std::shared_ptr<const Model> { throw MeshError("bunny.obj: is broken. Mend it."); });
+    EXPECT_EQ(wait_for_event(job), PrecomputeJob::Event::failed);
+    EXPECT_EQ(job.model()->body().name, "old");
+    EXPECT_EQ(job.failure(), "bunny.obj: is broken. Mend it.");
+    job.start([](Control&) -> std::shared_ptr<const Model> { throw std::bad_alloc(); });
+    EXPECT_EQ(wait_for_event(job), PrecomputeJob::Event::failed);
+    EXPECT_THAT(job.failure(), HasSubstr("memory"));
+    job.start(giving("new"));
+    EXPECT_EQ(wait_for_event(job), PrecomputeJob::Event::finished);
+    EXPECT_EQ(job.failure(), "");
+}
+
+TEST(PrecomputeJob, ANewRequestReplacesTheOldOnesAndNeverRunsBesideThem) {
+    std::atomic<int> running{0}, most{0};
+    PrecomputeJob job;
+    for (int i = 0; i < 20; ++i)
+        job.start([&, i](Control& control) {
+            most = std::max(most.load(), ++running);
+            for (int step = 0; step < 5 && !control.cancelled(); ++step) std::this_thread::sleep_for(1ms);
+            --running;
+            control.checkpoint();
+            return model_called(std::to_string(i));
+        });
+    EXPECT_EQ(wait_for_event(job), PrecomputeJob::Event::finished);
+    EXPECT_EQ(job.model()->body().name, "19");
+    EXPECT_EQ(most, 1);
+}
+
+TEST(PrecomputeJob, ShutsDownWhileItRuns) {
+    std::atomic<bool> begun{false}, ended{false};
+    {
+        PrecomputeJob job;
+        job.start([&](Control& control) {
+            try {
+                return endless(begun)(control);
+            } catch (...) {
+                ended = true;
+                throw;
+            }
+        });
+        wait_until([&] { return begun.load(); });
+        job.start(giving("never seen"));
+    }
+    EXPECT_TRUE(ended);
+}
+
+TEST(PrecomputeJob, CannotBeCancelledWhenItIsIdle) {
+    PrecomputeJob job;
+    job.cancel();
+    EXPECT_EQ(job.poll(), PrecomputeJob::Event::none);
+    EXPECT_FALSE(job.running());
+    EXPECT_STREQ(job.stage(), "");
+}
+
+}  // namespace
+}  // namespace elastolab

@@ -1,0 +1,108 @@
+#include "scene/scene_file.hpp"
+
+#include <gmock/gmock.h>
+
+#include <limits>
+
+#include "base/error.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace elastolab {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// Every kind of thing that a scene can hold, with numbers that decimal digits hold badly.
+Document everything() {
+    Document document;
+    document.mesh = Primitive{.name = "box", .resolution = 3, .size = {1.0, 0.1, 1.0 / 3.0}};
+    document.material = {.young_modulus = 1.0e5 / 3.0, .poisson_ratio = 0.49999999999999994};
+    document.method = MethodKind::constant_bem;
+    const Selector box{BoxSelector{.min = {-1e-300, 0.1, -3}, .max = {0.2, 0.7, 1e300}}};
+    const Selector plane{PlaneSelector{.point = {0, 0, 0.3}, .normal = {0, 0, -2}, .tolerance = 1e-9}};
+    document.fixed = Selector{std::vector<Selector>{box, Selector{std::vector<Selector>{plane}}}};
+    document.handles.push_back(
+        {.name = "ear \"left\", \xC3\xA4",
+         .select = {SphereSelector{.center = {0, 1, 0}, .radius = 0.1}},
+         .motion = AffineMotion{.matrix = Eigen::Matrix3d::Constant(-1.0 / 7.0), .translate = {0.1, 0, 5e-324}}});
+    document.handles.push_back({.name = "",
+                                .select = {VertexSelector{{7, 3, 2000000000}}},
+                                .motion = VertexMotion{{{0.1, 0.2, 0.3}, {0, -0.0, 1}, {1, 2, 3}}}});
+    return document;
+}
+
+TEST(SceneFile, IsReadBackExactly) {
+    const Document document = everything();
+    EXPECT_TRUE(parse_scene(print_scene(document), "test") == document) << print_scene(document);
+}
+
+TEST(SceneFile, IsWrittenTheSameAfterReading) {
+    const std::string text = print_scene(everything());
+    EXPECT_EQ(print_scene(parse_scene(text, "test")), text);
+}
+
+TEST(SceneFile, IsSavedInOneStepAndLoaded) {
+    const test::TemporaryFolder folder;
+    const auto file = folder.write("scene.json", "before");
+    save_scene(file, everything());
+    EXPECT_TRUE(load_scene(file) == everything());
+    EXPECT_THAT(folder.listing(), ElementsAre("scene.json"));
+}
+
+TEST(SceneFile, HasDefaultsForAllButVersionAndMesh) {
+    const Document document = parse_scene(R"({"elastolab": 1, "mesh": {"file": "bunny.obj"}})", "test");
+    EXPECT_EQ(std::get<MeshFile>(document.mesh).file, "bunny.obj");
+    EXPECT_EQ(document.method, MethodKind::linear_bem);
+    EXPECT_EQ(document.material.poisson_ratio, 0.3);
+    EXPECT_FALSE(document.fixed.has_value());
+    EXPECT_TRUE(document.handles.empty());
+}
+
+TEST(SceneFile, ReadsTheExampleOfTheReadme) {
+    const Document document = parse_scene(R"({
+      "elastolab": 1,
+      "mesh": { "file": "bunny.obj" },
+      "material": { "young_modulus": 1.0e5, "poisson_ratio": 0.3 },
+      "method": "linear-bem",
+      "fixed": { "box": { "min": [-1, -1, -1], "max": [0.001, 2, 2] } },
+      "handles": [
+        { "name": "ear", "select": { "sphere": { "center": [0, 1, 0], "radius": 0.1 } }, "translate": [0.1, 0, 0] },
+        { "select": { "vertices": [12, 13] }, "matrix": [[0,0,0],[0,0,-0.2],[0,0.2,0]], "translate": [0, 0, 0] },
+        { "select": { "vertices": [40, 41] }, "displacements": [[0.1, 0, 0], [0.2, 0, 0]] }
+      ]
+    })",
+                                          "test");
+    ASSERT_EQ(document.handles.size(), 3U);
+    EXPECT_EQ(document.handles[0].name, "ear");
+    EXPECT_EQ(std::get<AffineMotion>(document.handles[1].motion).matrix(1, 2), -0.2);
+    EXPECT_EQ(std::get<VertexMotion>(document.handles[2].motion).displacements[1].x(), 0.2);
+}
+
+TEST(SceneFile, CannotHoldNamesThatAreNotUtf8) {
+    Document document = everything();
+    document.mesh = MeshFile{"caf\xE9.obj"};
+    const test::TemporaryFolder folder;
+    const auto file = folder.write("scene.json", "before");
+    EXPECT_THROW(save_scene(file, document), SceneError);
+    EXPECT_EQ(test::read_text(file), "before");
+}
+
+TEST(SceneFile, SaysWhatIsWrongWithTheFileItself) {
+    const test::TemporaryFolder folder;
+    const auto finding = [](const std::filesystem::path& file) -> std::string {
+        try {
+            load_scene(file);
+        } catch (const SceneError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_THAT(finding(folder.path() / "none.json"), HasSubstr("none.json: there is no such file"));
+    EXPECT_THAT(finding(folder.path()), HasSubstr("is a folder"));
+    EXPECT_THAT(finding(folder.write("empty.json", "")), HasSubstr("is empty"));
+    EXPECT_THAT(finding("/dev/null"), HasSubstr("is no file"));
+}
+
+}  // namespace
+}  // namespace elastolab

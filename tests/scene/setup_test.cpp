@@ -1,0 +1,148 @@
+#include "scene/setup.hpp"
+
+#include <gmock/gmock.h>
+
+#include "base/error.hpp"
+#include "mesh/export.hpp"
+#include "mesh/primitives.hpp"
+#include "scene/scene_file.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace elastolab {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+const Selector kLeft{BoxSelector{.min = {0, 0, 0}, .max = {0, 1, 1}}};
+const Selector kRight{BoxSelector{.min = {1, 0, 0}, .max = {1, 1, 1}}};
+
+/// A cube of 26 vertices, 9 on every face, fixed at the left.
+Document cube() {
+    Document document;
+    document.mesh = Primitive{.name = "cube", .resolution = 2, .size = {}};
+    document.fixed = kLeft;
+    return document;
+}
+
+SurfaceMesh mesh_of(const Document& document) { return load_scene_mesh(document.mesh, "s.json").checked.mesh; }
+
+Constraints constraints(const Document& document) { return make_constraints(document, mesh_of(document), "s.json"); }
+
+template <class Call>
+std::string finding(const Call& call) {
+    try {
+        call();
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+std::string refusal(const Document& document) {
+    return finding([&] { constraints(document); });
+}
+
+TEST(Setup, AnAffineHandleMovesEveryVertexByItsRestPosition) {
+    Document document = cube();
+    const AffineMotion motion{.matrix = (Eigen::Matrix3d() << 0, 1, 2, 3, 4, 5, 6, 7, 8).finished(),
+                              .translate = {0.1, 0.2, 0.3}};
+    document.handles.push_back({.name = "right", .select = kRight, .motion = motion});
+    const SurfaceMesh mesh = mesh_of(document);
+    const Constraints result = constraints(document);
+    ASSERT_EQ(result.set.handles.size(), 9U);
+    ASSERT_EQ(result.values.size(), 27);
+    for (int i = 0; i < 9; ++i) {
+        const Eigen::Vector3d x = mesh.vertices.col(result.set.handles[static_cast<std::size_t>(i)]);
+        EXPECT_EQ(Eigen::Vector3d(result.values.segment<3>(3 * i)), motion.matrix * x + motion.translate);
+    }
+}
+
+TEST(Setup, DisplacementsFollowTheOrderOfTheirVertices) {
+    Document document = cube();
+    document.fixed.reset();
+    document.handles.push_back(
+        {.name = "", .select = {VertexSelector{{20, 3}}}, .motion = VertexMotion{{{1, 2, 3}, {4, 5, 6}}}});
+    const Constraints result = constraints(document);
+    EXPECT_THAT(result.set.handles, ElementsAre(20, 3));
+    EXPECT_THAT(std::vector<double>(result.values.begin(), result.values.end()), ElementsAre(1, 2, 3, 4, 5, 6));
+}
+
+TEST(Setup, GroupsAreTheFixedPartAndThenTheHandles) {
+    Document document = cube();
+    document.fixed = Selector{VertexSelector{{0, 1, 2}}};
+    document.handles.push_back({.name = "", .select = {VertexSelector{{25}}}, .motion = AffineMotion{}});
+    document.handles.push_back({.name = "b", .select = {VertexSelector{{24, 23}}}, .motion = AffineMotion{}});
+    const Constraints result = constraints(document);
+    ASSERT_EQ(result.groups.size(), 3U);
+    EXPECT_EQ(result.groups[0].name, "fixed");
+    EXPECT_EQ(result.groups[0].end, 3);
+    EXPECT_EQ(result.groups[1].name, "handle-0");
+    EXPECT_EQ(result.groups[2].name, "b");
+    EXPECT_EQ(result.groups[2].begin, 4);
+    EXPECT_EQ(result.groups[2].end, 6);
+    EXPECT_THAT(result.set.handles, ElementsAre(25, 24, 23));
+}
+
+TEST(Setup, NoVertexIsConstrainedTwice) {
+    Document document = cube();
+    document.handles.push_back({.name = "a", .select = kRight, .motion = AffineMotion{}});
+    document.handles.push_back({.name = "b", .select = kRight, .motion = AffineMotion{}});
+    EXPECT_THAT(refusal(document), HasSubstr("s.json: /handles/1/select: vertex"));
+    EXPECT_THAT(refusal(document), HasSubstr("also belongs to /handles/0"));
+    document.handles = {{.name = "c", .select = kLeft, .motion = AffineMotion{}}};
+    EXPECT_THAT(refusal(document), HasSubstr("also belongs to /fixed"));
+}
+
+TEST(Setup, EveryVertexNeedsADisplacement) {
+    Document document = cube();
+    document.handles.push_back({.name = "", .select = kRight, .motion = VertexMotion{{{1, 2, 3}}}});
+    EXPECT_THAT(refusal(document), HasSubstr("/handles/0/displacements: has 1 entries for 9 selected vertices"));
+}
+
+TEST(Setup, DisplacementsMustStayFinite) {
+    Document document = cube();
+    const AffineMotion huge{.matrix = Eigen::Matrix3d::Constant(1e308), .translate = {0, 0, 0}};
+    document.handles.push_back({.name = "", .select = kRight, .motion = huge});
+    EXPECT_THAT(refusal(document), HasSubstr("/handles/0: moves vertex"));
+}
+
+TEST(Setup, AnUnnamedHandleMustNotTakeTheNameOfAnother) {
+    Document document = cube();
+    document.handles.push_back({.name = "handle-1", .select = {VertexSelector{{25}}}, .motion = AffineMotion{}});
+    document.handles.push_back({.name = "", .select = {VertexSelector{{24}}}, .motion = AffineMotion{}});
+    EXPECT_THAT(refusal(document), HasSubstr("called \"handle-1\""));
+}
+
+TEST(Setup, AMeshFileLiesBesideTheScene) {
+    const test::TemporaryFolder folder;
+    save_surface(folder.path() / "cube.obj", make_box(2));
+    Document document = cube();
+    document.mesh = MeshFile{"cube.obj"};
+    const auto scene_file = folder.path() / "scene.json";
+    const Body body = make_body(document, load_scene_mesh(document.mesh, scene_file), MethodKind::fem, scene_file);
+    EXPECT_EQ(body.surface->n_vertices(), 26);
+    EXPECT_THAT(body.name, HasSubstr("cube.obj"));
+}
+
+TEST(Setup, PrimitivesThatCannotBeMadeAreErrorsOfTheScene) {
+    const auto refused = [](std::vector<double> size) {
+        return finding([&] { load_scene_mesh(Primitive{"cylinder", 4, std::move(size)}, "s.json"); });
+    };
+    EXPECT_THAT(refused({1, 2, 3, 4}), HasSubstr("s.json: /mesh: "));
+    EXPECT_THAT(refused({1e-9, 1e9}), HasSubstr("s.json: /mesh: "));
+}
+
+TEST(Setup, OnlyFemRefusesAnIncompressibleMaterial) {
+    Document document = cube();
+    document.material.poisson_ratio = 0.5;
+    const auto body = [&](MethodKind kind) {
+        return finding([&] { make_body(document, load_scene_mesh(document.mesh, "s.json"), kind, "s.json"); });
+    };
+    EXPECT_THAT(body(MethodKind::fem), HasSubstr("s.json: /material/poisson_ratio: FEM needs"));
+    EXPECT_EQ(body(MethodKind::linear_bem), "");
+    EXPECT_EQ(body(MethodKind::constant_bem), "");
+}
+
+}  // namespace
+}  // namespace elastolab
