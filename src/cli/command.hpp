@@ -1,0 +1,29 @@
+#pragma once
+
+#include <functional>
+#include <stdexcept>
+
+namespace CLI {
+class App;
+}
+
+namespace elastolab {
+
+/// A command line that asks for something that cannot be asked for: exit code 2.
+class UsageError : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+/// A subcommand: its place in the parser, and what it does once its options are parsed. `run` throws UsageError, Error
+/// or Cancelled; main turns these into words and exit codes.
+struct Command {
+    CLI::App* parser = nullptr;
+    std::function<void()> run;
+};
+
+/// Each adds itself to the program's parser. A new subcommand is one source file, one line here and one in main.cpp.
+Command add_solve_command(CLI::App& program);
+Command add_info_command(CLI::App& program);
+
+}  // namespace elastolab

@@ -1,0 +1,177 @@
+#include "cli/info.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "base/text.hpp"
+
+namespace elastolab {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const char* name(Defect::Kind kind) {
+    switch (kind) {
+        case Defect::Kind::no_triangles:
+            return "no-triangles";
+        case Defect::Kind::non_finite:
+            return "non-finite";
+        case Defect::Kind::open_edges:
+            return "open-edges";
+        case Defect::Kind::non_manifold_edges:
+            return "non-manifold-edges";
+        case Defect::Kind::non_manifold_vertices:
+            return "non-manifold-vertices";
+        case Defect::Kind::inconsistent_orientation:
+            return "inconsistent-orientation";
+        case Defect::Kind::inside_out:
+            return "inside-out";
+        case Defect::Kind::degenerate_triangles:
+            return "degenerate-triangles";
+        case Defect::Kind::sliver_triangles:
+            return "sliver-triangles";
+        case Defect::Kind::duplicate_triangles:
+            return "duplicate-triangles";
+        case Defect::Kind::unreferenced_vertices:
+            return "unreferenced-vertices";
+        case Defect::Kind::self_intersections:
+            return "self-intersections";
+        case Defect::Kind::zero_volume:
+            return "zero-volume";
+    }
+    return "unknown";
+}
+
+/// What a defect means for the user.
+const char* consequence(const Defect& defect) {
+    if (defect.repaired) return "repaired";
+    if (defect.fatal) return "error";
+    return defect.fatal_for_fem ? "error for fem" : "warning";
+}
+
+bool usable(const MeshReport& report, MethodKind kind) {
+    return kind == MethodKind::fem ? report.usable_for_fem() : report.usable();
+}
+
+template <class... Arguments>
+std::string formatted(const char* format, Arguments... arguments) {
+    std::array<char, 160> buffer{};
+    std::snprintf(buffer.data(), buffer.size(), format, arguments...);
+    return buffer.data();
+}
+
+std::string corner(const Eigen::Vector3d& x) { return formatted("(%.6g, %.6g, %.6g)", x.x(), x.y(), x.z()); }
+
+void print_row(std::ostream& out, const char* label, const std::string& value) {
+    out << formatted("  %-12s  ", label) << value << "\n";
+}
+
+void print_costs(std::ostream& out, const std::vector<MethodCost>& costs) {
+    out << formatted("  %-12s  %-12s  %12s  %12s  %10s\n", "method", "mode", "unknowns", "memory", "time");
+    for (const MethodCost& row : costs) {
+        out << formatted("  %-12s  %-12s  ", std::string(name(row.method.kind)).c_str(),
+                         std::string(name(row.method.mode)).c_str());
+        if (row.cost)
+            out << formatted("%12lld  %12s  %10s\n", static_cast<long long>(row.cost->degrees_of_freedom),
+                             readable_bytes(static_cast<double>(row.cost->memory_bytes)).c_str(),
+                             readable_seconds(row.cost->seconds).c_str());
+        else
+            out << "not usable: see the errors above\n";
+    }
+}
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json vector(const Eigen::Vector3d& x) { return Json::array({number(x.x()), number(x.y()), number(x.z())}); }
+
+Json to_json(const Defect& defect) {
+    Json places = Json::array();
+    for (const Eigen::Vector3d& place : defect.places) places.push_back(vector(place));
+    return {{"kind", name(defect.kind)},
+            {"count", defect.count},
+            {"repaired", defect.repaired},
+            {"fatal", defect.fatal},
+            {"fatal_for_fem", defect.fatal_for_fem},
+            {"places", places},
+            {"text", defect.text}};
+}
+
+Json to_json(const MethodCost& row) {
+    Json json = {{"method", std::string(name(row.method.kind))}, {"mode", std::string(name(row.method.mode))}};
+    json["usable"] = row.cost.has_value();
+    json["degrees_of_freedom"] = row.cost ? Json(row.cost->degrees_of_freedom) : Json(nullptr);
+    json["memory_bytes"] = row.cost ? Json(row.cost->memory_bytes) : Json(nullptr);
+    json["seconds"] = row.cost ? number(row.cost->seconds) : Json(nullptr);
+    return json;
+}
+
+template <class Items>
+Json list(const Items& items) {
+    Json json = Json::array();
+    for (const auto& item : items) json.push_back(to_json(item));
+    return json;
+}
+
+}  // namespace
+
+MeshInfo inspect(SceneMesh mesh) {
+    MeshInfo info{.mesh = std::move(mesh), .costs = {}};
+    for (const MethodKind kind : {MethodKind::fem, MethodKind::constant_bem, MethodKind::linear_bem})
+        for (const Mode mode : {Mode::on_demand, Mode::full, Mode::full_volume}) {
+            if (mode == Mode::full_volume && kind != MethodKind::fem) continue;
+            MethodCost row{.method = {.kind = kind, .mode = mode}, .cost = {}};
+            if (usable(info.mesh.checked.report, kind)) row.cost = predict_cost(info.mesh.checked.mesh, row.method);
+            info.costs.push_back(row);
+        }
+    return info;
+}
+
+void print_info(std::ostream& out, const MeshInfo& info) {
+    const MeshReport& report = info.mesh.checked.report;
+    const SurfaceMesh& mesh = info.mesh.checked.mesh;
+    out << one_line(info.mesh.name) << "\n";
+    print_row(out, "vertices", std::to_string(mesh.n_vertices()));
+    print_row(out, "faces", std::to_string(mesh.n_triangles()));
+    print_row(out, "components",
+              std::to_string(report.n_components) + " (solids: " + std::to_string(report.n_solids) + ")");
+    print_row(out, "closed", report.closed ? "yes" : "no");
+    print_row(out, "volume", formatted("%.6g", report.volume));
+    print_row(out, "area", formatted("%.6g", report.area));
+    print_row(out, "corners", corner(report.min_corner) + " to " + corner(report.max_corner));
+    print_row(out, "edges",
+              formatted("%.4g to %.4g, mean %.4g", report.shortest_edge, report.longest_edge, report.mean_edge));
+    print_row(out, "thinnest", formatted("altitude / edge %.3g", report.smallest_altitude_ratio));
+    if (report.defects.empty()) print_row(out, "defects", "none");
+    for (const Defect& defect : report.defects) print_row(out, consequence(defect), one_line(defect.text));
+    print_costs(out, info.costs);
+}
+
+void write_info(std::ostream& out, const MeshInfo& info) {
+    const MeshReport& report = info.mesh.checked.report;
+    const Json json = {
+        {"mesh", info.mesh.name},
+        {"vertices", info.mesh.checked.mesh.n_vertices()},
+        {"faces", info.mesh.checked.mesh.n_triangles()},
+        {"components", report.n_components},
+        {"solids", report.n_solids},
+        {"closed", report.closed},
+        {"volume", number(report.volume)},
+        {"area", number(report.area)},
+        {"min", vector(report.min_corner)},
+        {"max", vector(report.max_corner)},
+        {"shortest_edge", number(report.shortest_edge)},
+        {"mean_edge", number(report.mean_edge)},
+        {"longest_edge", number(report.longest_edge)},
+        {"smallest_altitude_ratio", number(report.smallest_altitude_ratio)},
+        {"defects", list(report.defects)},
+        {"usable", report.usable()},
+        {"usable_for_fem", report.usable_for_fem()},
+        {"methods", list(info.costs)},
+    };
+    out << json.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";
+}
+
+}  // namespace elastolab

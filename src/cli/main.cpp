@@ -1,0 +1,62 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <iostream>
+#include <vector>
+
+#include "base/blas.hpp"
+#include "base/control.hpp"
+#include "base/text.hpp"
+#include "cli/command.hpp"
+#include "cli/interrupt.hpp"
+#include "scene/user_text.hpp"
+
+namespace {
+
+using namespace elastolab;
+
+constexpr int kSuccess = 0;
+constexpr int kFailure = 1;
+constexpr int kBadUsage = 2;
+
+int complain(const std::string& text, int exit_code) {
+    std::cerr << "elastolab: " << one_line(text) << std::endl;
+    return exit_code;
+}
+
+int run(int argc, char** argv) {
+    CLI::App program("Elastolab: elastic bodies by FEM, constant BEM and linear BEM.", "elastolab");
+    program.set_version_flag("--version", "elastolab " ELASTOLAB_VERSION);
+    program.require_subcommand(0, 1);
+    const std::vector<Command> commands = {add_solve_command(program), add_info_command(program)};
+    try {
+        program.parse(argc, argv);
+    } catch (const CLI::Success& request) {
+        return program.exit(request);  // --help and --version
+    } catch (const CLI::ParseError& error) {
+        return complain(std::string(error.what()) + " See elastolab --help.", kBadUsage);
+    }
+    for (const Command& command : commands) {
+        if (!command.parser->parsed()) continue;
+        command.run();
+        return kSuccess;
+    }
+    std::cout << program.help();
+    return kSuccess;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    elastolab::select_blas_kernels(argv);
+    try {
+        const int code = run(argc, argv);
+        std::cout.flush();
+        return std::cout ? code : complain("Standard output cannot be written. Is the disk full?", kFailure);
+    } catch (const elastolab::UsageError& error) {
+        return complain(error.what(), kBadUsage);
+    } catch (const elastolab::Cancelled&) {
+        return complain("Interrupted; no output was written.", interrupt_exit_code());
+    } catch (const std::exception& error) {
+        return complain(user_text(error), kFailure);
+    }
+}

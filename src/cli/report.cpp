@@ -1,0 +1,155 @@
+#include "cli/report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "base/blas.hpp"
+#include "base/machine.hpp"
+#include "base/memory.hpp"
+#include "base/text.hpp"
+
+namespace elastolab {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+/// One time for each stage, those that ran for several solids summed, and "total" at the end.
+StageTimes summed(const StageTimes& stages) {
+    StageTimes sums;
+    StageTime total{"total", 0.0};
+    for (const StageTime& stage : stages) {
+        const auto same = [&](const StageTime& other) { return other.name == stage.name; };
+        const auto found = std::find_if(sums.begin(), sums.end(), same);
+        if (found == sums.end())
+            sums.push_back(stage);
+        else
+            found->seconds += stage.seconds;
+        total.seconds += stage.seconds;
+    }
+    sums.push_back(total);
+    return sums;
+}
+
+Json seconds(const StageTimes& stages) {
+    Json json = Json::object();
+    for (const StageTime& stage : summed(stages)) json[stage.name] = stage.seconds;
+    return json;
+}
+
+Json machine() {
+    const Machine machine = this_machine();
+    return {{"cpu", machine.cpu}, {"cores", machine.cores}, {"memory_bytes", machine.memory_bytes}};
+}
+
+Json tractions(const Method& method) {
+    if (method.kind != MethodKind::linear_bem) return nullptr;  // the other methods have no choice of them
+    return std::string(name(method.tractions));
+}
+
+std::string short_number(double value) {
+    char buffer[32];
+    std::snprintf(buffer, sizeof buffer, "%.4g", value);
+    return buffer;
+}
+
+std::string short_vector(const Eigen::Vector3d& v) {
+    char buffer[96];
+    std::snprintf(buffer, sizeof buffer, "(%.4g, %.4g, %.4g)", v.x(), v.y(), v.z());
+    return buffer;
+}
+
+void print_heading(std::ostream& out, const SolveRequest& request, const Method& method) {
+    out << request.scene_file.string() << ": " << name(method.kind) << ", " << name(method.mode) << ", ";
+    if (method.kind == MethodKind::linear_bem) out << name(method.tractions) << " tractions, ";
+    out << name(method.update) << " update\n";
+}
+
+void print_sizes(std::ostream& out, const Solution& solution) {
+    const ModelFacts& facts = solution.model->facts();
+    out << "  sizes         " << facts.n_vertices << " vertices, " << facts.n_triangles << " faces, ";
+    if (facts.n_tetrahedra > 0) out << facts.n_tetrahedra << " tetrahedra, ";
+    out << facts.n_degrees_of_freedom << " degrees of freedom, " << solution.n_constrained << " constrained vertices\n";
+}
+
+void print_seconds(std::ostream& out, const StageTimes& stages) {
+    const char* separator = "";
+    out << "  time          ";
+    for (const StageTime& stage : summed(stages)) {
+        out << separator << stage.name << " " << readable_seconds(stage.seconds);
+        separator = ", ";
+    }
+    out << "\n";
+}
+
+void print_memory(std::ostream& out, const Solution& solution) {
+    out << "  memory        peak " << readable_bytes(static_cast<double>(peak_memory_bytes())) << ", predicted "
+        << readable_bytes(static_cast<double>(solution.predicted.memory_bytes)) << " beyond the program itself\n";
+}
+
+void print_accuracy(std::ostream& out, const Solution& solution) {
+    out << "  accuracy      ";
+    if (solution.residual) out << "relative residual " << short_number(*solution.residual) << ", ";
+    out << "condition about " << short_number(solution.condition_estimate) << "\n";
+}
+
+void print_displacement(std::ostream& out, const Eigen::Matrix3Xd& displacement) {
+    if (displacement.cols() == 0) return;
+    Eigen::Index vertex = 0;
+    const double largest = displacement.colwise().norm().maxCoeff(&vertex);
+    out << "  displacement  at most " << short_number(largest) << ", at vertex " << vertex << "\n";
+}
+
+void print_reaction(std::ostream& out, const GroupReaction& reaction) {
+    std::string label = one_line(reaction.name);
+    label.resize(std::max<std::size_t>(label.size(), 12), ' ');
+    out << "  " << label << "  force " << short_vector(reaction.force) << ", moment " << short_vector(reaction.moment)
+        << "\n";
+}
+
+}  // namespace
+
+void write_report(std::ostream& out, const Solution& solution) {
+    const Method& method = solution.model->method();
+    const ModelFacts& facts = solution.model->facts();
+    const Json json = {
+        {"version", ELASTOLAB_VERSION},
+        {"machine", machine()},
+        {"blas_kernels", blas_kernels()},
+        {"threads", thread_count()},
+        {"method", std::string(name(method.kind))},
+        {"mode", std::string(name(method.mode))},
+        {"tractions", tractions(method)},
+        {"update", std::string(name(method.update))},
+        {"vertices", facts.n_vertices},
+        {"faces", facts.n_triangles},
+        {"tetrahedra", facts.n_tetrahedra},
+        {"degrees_of_freedom", facts.n_degrees_of_freedom},
+        {"constrained_vertices", solution.n_constrained},
+        {"seconds", seconds(solution.stages)},
+        {"peak_memory_bytes", peak_memory_bytes()},
+        {"predicted_memory_bytes", solution.predicted.memory_bytes},
+        {"residual", solution.residual ? finite_or_null(*solution.residual) : Json(nullptr)},
+        {"condition_estimate", finite_or_null(solution.condition_estimate)},
+        {"warnings", solution.warnings},
+    };
+    out << json.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";
+}
+
+void print_summary(std::ostream& out, const SolveRequest& request, const Solution& solution) {
+    print_heading(out, request, solution.model->method());
+    print_sizes(out, solution);
+    print_seconds(out, solution.stages);
+    print_memory(out, solution);
+    print_accuracy(out, solution);
+    print_displacement(out, solution.displacement);
+    for (const GroupReaction& reaction : solution.reactions) print_reaction(out, reaction);
+    for (const std::string& warning : solution.warnings) out << "  warning       " << warning << "\n";
+    out << "  kernels       BLAS " << blas_kernels() << ", " << thread_count() << " threads\n";
+}
+
+}  // namespace elastolab

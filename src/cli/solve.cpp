@@ -1,0 +1,84 @@
+#include "cli/solve.hpp"
+
+#include <algorithm>
+
+namespace elastolab {
+
+namespace {
+
+/// Findings that do not stop the method, for the user to know.
+void add_mesh_warnings(const MeshReport& report, const std::string& name, std::vector<std::string>& warnings) {
+    for (const Defect& defect : report.defects) warnings.push_back(name + ": " + defect.text);
+}
+
+std::vector<GroupReaction> totals(const std::vector<ConstraintGroup>& groups, const Reactions& reactions) {
+    std::vector<GroupReaction> result;
+    for (const ConstraintGroup& group : groups) {
+        const int n = group.end - group.begin;
+        result.push_back({.name = group.name,
+                          .force = reactions.forces.middleCols(group.begin, n).rowwise().sum(),
+                          .moment = reactions.moments.middleCols(group.begin, n).rowwise().sum()});
+    }
+    return result;
+}
+
+void append(std::vector<std::string>& all, const std::vector<std::string>& more) {
+    all.insert(all.end(), more.begin(), more.end());
+}
+
+Body load_body(const SolveRequest& request, Solution& solution, Control& control) {
+    const Stage stage("load", control, solution.stages);
+    SceneMesh mesh = load_scene_mesh(request.document.mesh, request.scene_file);
+    add_mesh_warnings(mesh.checked.report, mesh.name, solution.warnings);
+    return make_body(request.document, std::move(mesh), request.method.kind, request.scene_file);
+}
+
+void precompute_model(const SolveRequest& request, const Body& body, Solution& solution, Control& control) {
+    solution.predicted = predict_cost(*body.surface, request.method);
+    solution.model = precompute(body, request.method, control);
+    const ModelFacts& facts = solution.model->facts();
+    solution.stages.insert(solution.stages.end(), facts.stages.begin(), facts.stages.end());
+    append(solution.warnings, facts.warnings);
+}
+
+/// Applies the constraints and evaluates what follows from them.
+void apply(const Constraints& constraints, bool with_residual, Solution& solution, Control& control) {
+    Deformer deformer(solution.model);
+    {
+        const Stage stage("constrain", control, solution.stages);
+        deformer.constrain(constraints.set, control);
+    }
+    {
+        const Stage stage("displace", control, solution.stages);
+        const Eigen::VectorXd u = deformer.displace(constraints.values);
+        solution.displacement = Eigen::Map<const Eigen::Matrix3Xd>(u.data(), 3, u.size() / 3);
+    }
+    {
+        const Stage stage("reactions", control, solution.stages);
+        solution.reactions = totals(constraints.groups, deformer.reactions(constraints.values));
+    }
+    if (with_residual) {
+        const Stage stage("residual", control, solution.stages);
+        solution.residual = deformer.residual(constraints.values, control);
+    }
+    solution.condition_estimate =
+        std::max(solution.model->facts().condition_estimate, deformer.quality().condition_estimate);
+    append(solution.warnings, deformer.quality().warnings);
+}
+
+}  // namespace
+
+Solution solve(const SolveRequest& request, Control& control) {
+    Solution solution;
+    const Body body = load_body(request, solution, control);
+    const Constraints constraints = make_constraints(request.document, *body.surface, request.scene_file);
+    solution.n_constrained = static_cast<int>(constraints.set.base.size() + constraints.set.handles.size());
+    if (solution.n_constrained == 0)
+        solution.warnings.push_back(request.scene_file.string() +
+                                    ": no vertex is fixed or moved, so the body rests. Add a handle.");
+    precompute_model(request, body, solution, control);
+    apply(constraints, request.with_residual, solution, control);
+    return solution;
+}
+
+}  // namespace elastolab

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/control.hpp"
+#include "base/timer.hpp"
+#include "deform/cost.hpp"
+#include "deform/deformer.hpp"
+#include "scene/document.hpp"
+#include "scene/setup.hpp"
+
+namespace elastolab {
+
+/// What is to be solved.
+struct SolveRequest {
+    std::filesystem::path scene_file;
+    Document document;
+    Method method;              ///< with the kind that the command line or the scene asks for
+    bool with_residual = true;  ///< costs about as much as the assembly again
+};
+
+/// Total force [force] and moment about the origin [force * L] that one group of constrained vertices exerts on the
+/// body.
+struct GroupReaction {
+    std::string name;
+    Eigen::Vector3d force, moment;
+};
+
+/// Everything that solve writes or prints.
+struct Solution {
+    std::shared_ptr<const Model> model;
+    Cost predicted;
+    int n_constrained = 0;
+    Eigen::Matrix3Xd displacement;  ///< 3 x n_vertices [L]
+    std::vector<GroupReaction> reactions;
+    std::optional<double> residual;
+    double condition_estimate = 0.0;  ///< the larger of that of the factorised system and that of the update
+    StageTimes stages;
+    std::vector<std::string> warnings;
+};
+
+/// Loads the mesh, precomputes, constrains and displaces. Throws Error or Cancelled.
+Solution solve(const SolveRequest& request, Control& control);
+
+}  // namespace elastolab

@@ -1,0 +1,128 @@
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+#include "base/blas.hpp"
+#include "base/error.hpp"
+#include "cli/command.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/progress.hpp"
+#include "cli/report.hpp"
+#include "cli/solve.hpp"
+#include "cli/solve_outputs.hpp"
+#include "scene/scene_file.hpp"
+
+namespace elastolab {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What the command line says, word for word.
+struct SolveOptions {
+    std::string scene, method, mode, tractions, update;
+    std::string displacements, mesh_out, forces, report, matrices;
+    int threads = 0;
+    bool quiet = false;
+
+    OutputPaths outputs() const { return {displacements, mesh_out, forces, report, matrices}; }
+};
+
+void add_options(CLI::App& parser, SolveOptions& options) {
+    const CLI::IsMember methods({"fem", "constant-bem", "linear-bem"});
+    const CLI::IsMember modes({"on-demand", "full", "full-volume"});
+    const CLI::IsMember tractions({"discontinuous", "restricted", "continuous"});
+    const CLI::IsMember updates({"direct", "eqn9", "reduced"});
+    const CLI::Validator path([](std::string& text) { return text.empty() ? "the name is empty" : ""; }, "PATH");
+    parser.add_option("scene", options.scene, "scene file")->required()->check(path);
+    parser.add_option("--method", options.method, "instead of the scene's own method")->check(methods);
+    parser.add_option("--mode", options.mode, "what is computed ahead (default on-demand; full-volume is FEM's)")
+        ->check(modes);
+    parser.add_option("--tractions", options.tractions, "of linear BEM (default discontinuous)")->check(tractions);
+    parser.add_option("--update", options.update, "Eqn. 7 afresh, Eqn. 9, or its collapsed form (default reduced)")
+        ->check(updates);
+    parser.add_option("--displacements", options.displacements, "CSV: rest positions and displacements")->check(path);
+    parser.add_option("--mesh-out", options.mesh_out, "deformed mesh: .obj, .ply or .stl")->check(path);
+    parser.add_option("--forces", options.forces, "CSV: force and moment of every handle and the fixed part")
+        ->check(path);
+    parser.add_option("--report", options.report, "JSON: sizes, times, memory, accuracy, warnings")->check(path);
+    parser.add_option("--matrices", options.matrices, "folder for the matrices that the mode keeps (.npy, .mtx)")
+        ->check(path);
+    parser.add_option("--threads", options.threads, "at most this many (default: all cores)")
+        ->check(CLI::Range(1, 1024));
+    parser.add_flag("--quiet", options.quiet, "no summary and no progress bar");
+}
+
+/// The parser has checked the words already.
+template <class Value, class Parse>
+void choose(Value& value, const std::string& word, const Parse& parse) {
+    if (!word.empty()) value = parse(word).value();
+}
+
+/// Refuses choices that exclude each other.
+void require_sensible(const Method& method, bool with_matrices) {
+    if (method.mode == Mode::full_volume && method.kind != MethodKind::fem)
+        throw UsageError("--mode full-volume: only FEM has nodes inside, this is " + std::string(name(method.kind)) +
+                         ". Use --mode full, or --method fem.");
+    if (method.mode == Mode::on_demand && method.update == Update::eqn9)
+        throw UsageError(
+            "--update eqn9: needs K and its inverse, which the mode on-demand does not keep. Add --mode full.");
+    if (with_matrices && method.mode == Mode::on_demand && method.kind != MethodKind::fem)
+        throw UsageError("--matrices: the mode on-demand keeps none for " + std::string(name(method.kind)) +
+                         ". Add --mode full.");
+}
+
+Method choose_method(const SolveOptions& options, MethodKind of_scene) {
+    Method method;
+    method.kind = of_scene;
+    choose(method.kind, options.method, parse_method_kind);
+    choose(method.mode, options.mode, parse_mode);
+    choose(method.tractions, options.tractions, parse_tractions);
+    choose(method.update, options.update, parse_update);
+    require_sensible(method, !options.matrices.empty());
+    return method;
+}
+
+std::vector<fs::path> input_files(const SolveRequest& request) {
+    std::vector<fs::path> inputs = {request.scene_file};
+    if (const auto* mesh = std::get_if<MeshFile>(&request.document.mesh))
+        inputs.push_back(request.scene_file.parent_path() / mesh->file);
+    return inputs;
+}
+
+Solution solve_with_progress(const SolveRequest& request, Control& control, bool with_bar) {
+    const ProgressBar bar(control, with_bar);
+    try {
+        return solve(request, control);
+    } catch (const Error&) {
+        control.checkpoint();  // Ctrl-C reaches helper processes, too; their end is no error then
+        throw;
+    }
+}
+
+void run_solve(const SolveOptions& options) {
+    Control control;
+    const InterruptGuard interrupt(control);
+    if (options.threads > 0) set_thread_count(options.threads);
+    SolveRequest request;
+    request.scene_file = options.scene;
+    request.document = load_scene(request.scene_file);
+    request.method = choose_method(options, request.document.method);
+    request.with_residual = !options.quiet || !options.report.empty();
+    require_writable(options.outputs(), input_files(request));
+
+    const Solution solution = solve_with_progress(request, control, !options.quiet);
+    write_outputs(options.outputs(), solution);
+    if (!options.quiet) print_summary(std::cout, request, solution);
+}
+
+}  // namespace
+
+Command add_solve_command(CLI::App& program) {
+    const auto options = std::make_shared<SolveOptions>();
+    CLI::App* parser = program.add_subcommand("solve", "computes the displacements of a scene, without a window");
+    add_options(*parser, *options);
+    return {parser, [options] { run_solve(*options); }};
+}
+
+}  // namespace elastolab

@@ -1,0 +1,140 @@
+#include "cli/solve_outputs.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <deque>
+
+#include "base/atomic_file.hpp"
+#include "base/error.hpp"
+#include "cli/command.hpp"
+#include "cli/csv.hpp"
+#include "cli/matrix_market.hpp"
+#include "cli/npy.hpp"
+#include "cli/report.hpp"
+#include "mesh/export.hpp"
+
+namespace elastolab {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::vector<fs::path> files(const OutputPaths& paths) {
+    std::vector<fs::path> result;
+    for (const fs::path& path : {paths.displacements, paths.mesh, paths.forces, paths.report})
+        if (!path.empty()) result.push_back(path);
+    return result;
+}
+
+fs::path resolved(const fs::path& path) {
+    std::error_code error;
+    const fs::path full = fs::weakly_canonical(fs::absolute(path), error);
+    return error ? path.lexically_normal() : full;
+}
+
+void require_distinct(const std::vector<fs::path>& outputs, const std::vector<fs::path>& inputs) {
+    std::vector<fs::path> taken;
+    for (const fs::path& input : inputs) taken.push_back(resolved(input));
+    for (const fs::path& output : outputs) {
+        const auto found = std::find(taken.begin(), taken.end(), resolved(output));
+        if (found != taken.end() && found - taken.begin() < std::ssize(inputs))
+            throw UsageError(output.string() + ": is an input. Name another file to write.");
+        if (found != taken.end()) throw UsageError(output.string() + ": is named as an output twice. Name two files.");
+        taken.push_back(resolved(output));
+    }
+}
+
+void require_mesh_extension(const fs::path& mesh) {
+    std::string extension = mesh.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return std::tolower(c); });
+    if (extension != ".obj" && extension != ".ply" && extension != ".stl")
+        throw UsageError(mesh.string() + ": a mesh is written as .obj, .ply or .stl. Choose one of these extensions.");
+}
+
+/// The folder for matrices, or the one it will be made in.
+void require_writable_folder(const fs::path& folder) {
+    std::error_code error;
+    if (fs::is_directory(folder, error)) return AtomicFile::require_writable(folder / "H.npy");
+    if (fs::exists(folder, error)) throw Error(folder.string() + ": is a file, not a folder. Name a folder.");
+    AtomicFile::require_writable(folder);
+}
+
+/// Writers fill it; commit() puts everything in place. What was not committed leaves nothing behind.
+class OutputSet {
+public:
+    AtomicFile& add(const fs::path& destination) { return files_.emplace_back(destination); }
+
+    void commit() {
+        for (AtomicFile& file : files_) file.close();
+        for (AtomicFile& file : files_) file.commit();
+    }
+
+private:
+    std::deque<AtomicFile> files_;  ///< references to its members stay valid
+};
+
+void write_deformed_mesh(AtomicFile& file, const Solution& solution) {
+    SurfaceMesh mesh = *solution.model->body().surface;
+    mesh.vertices += solution.displacement;
+    save_surface(file.temporary(), mesh);
+}
+
+void write_matrices(OutputSet& outputs, const fs::path& folder, const Model& model) {
+    model.visit_matrices([&](const NamedMatrix& matrix) {
+        AtomicFile& file = outputs.add(folder / (matrix.name + ".npy"));
+        write_npy(file.stream(), matrix.values);
+        file.close();
+    });
+    model.visit_sparse_stiffness([&](const std::string& name, const SparseStiffness& matrix) {
+        AtomicFile& file = outputs.add(folder / (name + ".mtx"));
+        write_matrix_market(file.stream(), matrix);
+        file.close();
+    });
+}
+
+/// A folder that goes again unless it is kept.
+class NewFolder {
+public:
+    explicit NewFolder(fs::path folder) : folder_(std::move(folder)) {
+        std::error_code error;
+        made_ = !folder_.empty() && fs::create_directory(folder_, error);
+        if (error) throw Error(folder_.string() + ": cannot be made (" + error.message() + "). Choose another place.");
+    }
+    ~NewFolder() {
+        std::error_code ignored;
+        if (made_) fs::remove(folder_, ignored);  // only if it is empty
+    }
+    NewFolder(const NewFolder&) = delete;
+    NewFolder& operator=(const NewFolder&) = delete;
+
+private:
+    fs::path folder_;
+    bool made_ = false;
+};
+
+}  // namespace
+
+bool OutputPaths::any() const { return !files(*this).empty() || !matrices.empty(); }
+
+void require_writable(const OutputPaths& paths, const std::vector<fs::path>& inputs) {
+    require_distinct(files(paths), inputs);
+    if (!paths.mesh.empty()) require_mesh_extension(paths.mesh);
+    for (const fs::path& path : files(paths)) AtomicFile::require_writable(path);
+    if (!paths.matrices.empty()) require_writable_folder(paths.matrices);
+}
+
+void write_outputs(const OutputPaths& paths, const Solution& solution) {
+    const NewFolder folder(paths.matrices);  // goes after `outputs`, whose temporaries lie in it
+    OutputSet outputs;
+    if (!paths.displacements.empty())
+        write_displacements(outputs.add(paths.displacements).stream(), *solution.model->body().surface,
+                            solution.displacement);
+    if (!paths.mesh.empty()) write_deformed_mesh(outputs.add(paths.mesh), solution);
+    if (!paths.forces.empty()) write_forces(outputs.add(paths.forces).stream(), solution.reactions);
+    if (!paths.matrices.empty()) write_matrices(outputs, paths.matrices, *solution.model);
+    if (!paths.report.empty()) write_report(outputs.add(paths.report).stream(), solution);
+    outputs.commit();
+}
+
+}  // namespace elastolab

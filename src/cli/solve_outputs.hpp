@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "cli/solve.hpp"
+
+namespace elastolab {
+
+/// Where solve writes; an empty path is an output that is not wanted.
+struct OutputPaths {
+    std::filesystem::path displacements, mesh, forces, report;
+    std::filesystem::path matrices;  ///< a folder, made when it is missing
+
+    bool any() const;
+};
+
+/// Refuses what can be known to fail before anything is computed. `inputs` are files that must not be overwritten.
+/// Throws UsageError (the same file twice, an input, an unknown extension) or Error (a place that cannot be written).
+void require_writable(const OutputPaths& paths, const std::vector<std::filesystem::path>& inputs);
+
+/// Writes all outputs, then puts them in their places together: when one fails, none is there.
+void write_outputs(const OutputPaths& paths, const Solution& solution);
+
+}  // namespace elastolab

@@ -1,0 +1,76 @@
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/program.hpp"
+#include "mesh/export.hpp"
+#include "mesh/primitives.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace elastolab {
+namespace {
+
+using test::ProgramRun;
+using test::run_program;
+using testing::HasSubstr;
+
+nlohmann::json info(const std::string& file, const std::filesystem::path& folder) {
+    const ProgramRun run = run_program({"info", "--json", file}, folder);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return nlohmann::json::parse(run.out);
+}
+
+TEST(Info, DescribesASoundMesh) {
+    const test::TemporaryFolder folder;
+    save_surface(folder.path() / "cube.ply", make_box(3));
+    const nlohmann::json json = info("cube.ply", folder.path());
+    EXPECT_EQ(json["vertices"], 56);
+    EXPECT_EQ(json["faces"], 108);
+    EXPECT_EQ(json["components"], 1);
+    EXPECT_EQ(json["closed"], true);
+    EXPECT_NEAR(json["volume"].get<double>(), 1.0, 1e-12);
+    EXPECT_NEAR(json["area"].get<double>(), 6.0, 1e-12);
+    EXPECT_TRUE(json["defects"].empty());
+    EXPECT_TRUE(json["usable_for_fem"].get<bool>());
+}
+
+TEST(Info, PredictsTheCostOfEveryMethodInEveryMode) {
+    const test::TemporaryFolder folder;
+    save_surface(folder.path() / "cube.ply", make_box(3));
+    const nlohmann::json methods = info("cube.ply", folder.path())["methods"];
+    ASSERT_EQ(methods.size(), 7U);
+    for (const auto& row : methods) {
+        EXPECT_GT(row["degrees_of_freedom"].get<int>(), 0);
+        EXPECT_GT(row["memory_bytes"].get<double>(), 0.0);
+        EXPECT_GE(row["seconds"].get<double>(), 0.0);
+    }
+}
+
+TEST(Info, DescribesTheMeshOfAScene) {
+    const test::TemporaryFolder folder;
+    folder.write("scene.json", test::cube_scene("fem", 2));
+    EXPECT_EQ(info("scene.json", folder.path())["vertices"], 26);
+}
+
+TEST(Info, PrintsATable) {
+    const test::TemporaryFolder folder;
+    folder.write("scene.json", test::cube_scene("fem", 2));
+    const ProgramRun run = run_program({"info", "scene.json"}, folder.path());
+    for (const char* text : {"vertices", "26", "closed", "yes", "volume", "none", "constant-bem", "full-volume"})
+        EXPECT_THAT(run.out, HasSubstr(text));
+}
+
+TEST(Info, ListsTheDefectsOfAMeshThatNoMethodCanUse) {
+    const test::TemporaryFolder folder;
+    folder.write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    const nlohmann::json json = info("open.obj", folder.path());
+    EXPECT_FALSE(json["closed"].get<bool>());
+    EXPECT_FALSE(json["usable"].get<bool>());
+    EXPECT_EQ(json["defects"][0]["kind"], "open-edges");
+    EXPECT_EQ(json["defects"][0]["count"], 3);
+    for (const auto& row : json["methods"]) EXPECT_FALSE(row["usable"].get<bool>());
+    EXPECT_EQ(run_program({"info", "open.obj"}, folder.path()).exit_code, 0);
+}
+
+}  // namespace
+}  // namespace elastolab

@@ -1,0 +1,234 @@
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/program.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace elastolab {
+namespace {
+
+using test::ProgramRun;
+using test::run_program;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+const std::vector<std::string> kMethods = {"fem", "constant-bem", "linear-bem"};
+
+class SolveTest : public testing::Test {
+protected:
+    /// Runs solve on a scene with these options; it must succeed silently.
+    ProgramRun solve(const std::string& scene, std::vector<std::string> options) {
+        folder_.write("scene.json", scene);
+        options.insert(options.begin(), {"solve", "scene.json"});
+        const ProgramRun run = run_program(options, folder_.path());
+        EXPECT_EQ(run.exit_code, 0) << run.err;
+        EXPECT_EQ(run.err, "");
+        return run;
+    }
+    std::filesystem::path file(const std::string& name) const { return folder_.path() / name; }
+    nlohmann::json json(const std::string& name) const { return nlohmann::json::parse(test::read_text(file(name))); }
+
+    test::TemporaryFolder folder_;
+};
+
+/// Displacements are prescribed exactly for nodal methods; constant BEM shows a vertex at the mean of its triangles.
+void expect_prescribed(const test::Table& table, const std::string& method) {
+    const double tolerance = method == "constant-bem" ? 0.05 : 1e-9;  // relative to the motion of 0.11
+    for (const std::vector<double>& row : table.rows) {
+        if (row[0] != 0.0 && row[0] != 1.0) continue;
+        const bool moved = row[0] == 1.0;
+        EXPECT_NEAR(row[3], moved ? 0.1 : 0.0, tolerance);
+        EXPECT_NEAR(row[4], 0.0, tolerance);
+        EXPECT_NEAR(row[5], moved ? 0.05 : 0.0, tolerance);
+    }
+}
+
+/// Largest sum of what the fixed part and the handle exert, over some columns, as a part of the pull.
+double imbalance(const test::Table& forces, std::size_t begin, std::size_t end) {
+    double largest = 0.0;
+    for (std::size_t column = begin; column < end; ++column)
+        largest = std::max(largest, std::abs(forces.rows[0][column] + forces.rows[1][column]));
+    return largest / forces.rows[1][0];
+}
+
+TEST_F(SolveTest, WritesTheDisplacementOfEveryVertex) {
+    for (const std::string& method : kMethods) {
+        SCOPED_TRACE(method);
+        solve(test::cube_scene(method), {"--displacements", "u.csv", "--quiet"});
+        const test::Table table = test::read_csv(file("u.csv"));
+        EXPECT_EQ(table.header, "vertex,x,y,z,ux,uy,uz");
+        ASSERT_EQ(table.rows.size(), 98U);  // 6 * 4^2 + 2
+        EXPECT_EQ(table.labels[97], "97");
+        expect_prescribed(table, method);
+    }
+}
+
+TEST_F(SolveTest, WritesForcesThatBalance) {
+    for (const std::string& method : kMethods) {
+        SCOPED_TRACE(method);
+        solve(test::cube_scene(method), {"--forces", "f.csv", "--quiet"});
+        const test::Table table = test::read_csv(file("f.csv"));
+        EXPECT_EQ(table.header, "name,fx,fy,fz,mx,my,mz");
+        ASSERT_THAT(table.labels, ElementsAre("fixed", "right"));
+        EXPECT_GT(table.rows[1][0], 0.0) << "a pull needs a force along it";
+        EXPECT_LT(imbalance(table, 0, 3), 1e-6);  // the mirror symmetry of this scene makes it exact for all methods
+        if (method == "fem") {
+            EXPECT_LT(imbalance(table, 3, 6), 1e-6);
+        }
+    }
+}
+
+TEST_F(SolveTest, MomentsOfBoundaryElementsBalanceBetterOnAFinerMesh) {
+    for (const std::string method : {"constant-bem", "linear-bem"}) {  // collocation balances them only in the limit
+        SCOPED_TRACE(method);
+        std::vector<double> imbalances;
+        for (const int cells : {2, 4, 8}) {
+            solve(test::cube_scene(method, cells), {"--forces", "f.csv", "--quiet"});
+            imbalances.push_back(imbalance(test::read_csv(file("f.csv")), 3, 6));
+        }
+        EXPECT_GT(imbalances[0], 1.5 * imbalances[1]);
+        EXPECT_GT(imbalances[1], 1.5 * imbalances[2]);
+    }
+}
+
+TEST_F(SolveTest, ForcesScaleWithYoungsModulusAndDisplacementsDoNot) {
+    std::string stiff = test::cube_scene("linear-bem", 2);
+    stiff.replace(stiff.find("1000"), 4, "2000");
+    solve(test::cube_scene("linear-bem", 2), {"--forces", "f1.csv", "--displacements", "u1.csv", "--quiet"});
+    solve(stiff, {"--forces", "f2.csv", "--displacements", "u2.csv", "--quiet"});
+    const test::Table f1 = test::read_csv(file("f1.csv")), f2 = test::read_csv(file("f2.csv"));
+    EXPECT_NEAR(f2.rows[1][0], 2.0 * f1.rows[1][0], 1e-9 * f2.rows[1][0]);
+    const test::Table u1 = test::read_csv(file("u1.csv")), u2 = test::read_csv(file("u2.csv"));
+    for (std::size_t v = 0; v < u1.rows.size(); ++v) EXPECT_NEAR(u1.rows[v][3], u2.rows[v][3], 1e-10);
+}
+
+TEST_F(SolveTest, WritesTheDeformedMesh) {
+    for (const char* name : {"out.obj", "out.ply", "out.stl"}) {
+        solve(test::cube_scene("linear-bem", 2), {"--mesh-out", name, "--quiet"});
+        const ProgramRun info = run_program({"info", "--json", name}, folder_.path());
+        const auto json = nlohmann::json::parse(info.out);
+        EXPECT_EQ(json["vertices"], 26);
+        EXPECT_NEAR(json["max"][0].get<double>(), 1.1, 1e-6);
+    }
+}
+
+TEST_F(SolveTest, WritesAReportWithEveryKey) {
+    const std::vector<std::string> keys = {"version",
+                                           "machine",
+                                           "blas_kernels",
+                                           "threads",
+                                           "method",
+                                           "mode",
+                                           "tractions",
+                                           "update",
+                                           "vertices",
+                                           "faces",
+                                           "tetrahedra",
+                                           "degrees_of_freedom",
+                                           "constrained_vertices",
+                                           "seconds",
+                                           "peak_memory_bytes",
+                                           "predicted_memory_bytes",
+                                           "residual",
+                                           "condition_estimate",
+                                           "warnings"};
+    for (const std::string& method : kMethods) {
+        SCOPED_TRACE(method);
+        solve(test::cube_scene(method), {"--report", "r.json", "--threads", "1", "--quiet"});
+        const nlohmann::json report = json("r.json");
+        EXPECT_EQ(report.size(), keys.size());
+        for (const std::string& key : keys) EXPECT_TRUE(report.contains(key)) << key;
+        EXPECT_EQ(report["method"], method);
+        EXPECT_EQ(report["vertices"], 98);
+        EXPECT_EQ(report["faces"], 192);
+        EXPECT_EQ(report["constrained_vertices"], 50);
+        EXPECT_EQ(report["threads"], 1);
+        EXPECT_EQ(report["tetrahedra"].get<int>() > 0, method == "fem");
+        EXPECT_LT(report["residual"].get<double>(), 1e-9);
+        EXPECT_GE(report["condition_estimate"].get<double>(), 1.0);
+        EXPECT_GT(report["seconds"]["total"].get<double>(), 0.0);
+    }
+}
+
+TEST_F(SolveTest, PrintsASummaryUnlessItShallBeQuiet) {
+    const ProgramRun run = solve(test::cube_scene("linear-bem", 2), {});
+    for (const char* text : {"linear-bem, on-demand", "26 vertices", "residual", "right", "kernels"})
+        EXPECT_THAT(run.out, HasSubstr(text));
+    EXPECT_EQ(solve(test::cube_scene("linear-bem", 2), {"--quiet"}).out, "");
+}
+
+TEST_F(SolveTest, TheCommandLineOverridesTheMethodOfTheScene) {
+    EXPECT_THAT(solve(test::cube_scene("linear-bem", 2), {"--method", "fem"}).out, HasSubstr("fem, on-demand"));
+}
+
+TEST_F(SolveTest, ModesAndUpdatesAgree) {
+    for (const std::string& method : kMethods) {
+        solve(test::cube_scene(method, 2), {"--displacements", "reference.csv", "--quiet"});
+        const test::Table reference = test::read_csv(file("reference.csv"));
+        for (const char* update : {"direct", "eqn9", "reduced"}) {
+            SCOPED_TRACE(method + " " + update);
+            solve(test::cube_scene(method, 2),
+                  {"--mode", "full", "--update", update, "--displacements", "u.csv", "--quiet"});
+            const test::Table table = test::read_csv(file("u.csv"));
+            for (std::size_t v = 0; v < table.rows.size(); ++v)
+                for (std::size_t axis = 3; axis < 6; ++axis)
+                    EXPECT_NEAR(table.rows[v][axis], reference.rows[v][axis], 1e-9 * 0.1);
+        }
+    }
+}
+
+TEST_F(SolveTest, WritesTheMatricesOfTheMode) {
+    solve(test::cube_scene("linear-bem", 2), {"--mode", "full", "--matrices", "m", "--quiet"});
+    EXPECT_THAT(folder_.listing(), testing::IsSupersetOf({"m/H.npy", "m/G.npy", "m/K.npy", "m/Kinv.npy"}));
+    const test::NpyFile h = test::read_npy(file("m/H.npy"));
+    ASSERT_EQ(h.rows, 3 * 26);
+    for (int row = 0; row < h.rows; ++row) {  // a translation needs no traction
+        double sum = 0.0;
+        for (int column = 0; column < h.columns; column += 3) sum += h(row, column);
+        EXPECT_NEAR(sum, 0.0, 1e-12);
+    }
+}
+
+TEST_F(SolveTest, WritesTheStiffnessOfFemAsMatrixMarket) {
+    solve(test::cube_scene("fem", 2), {"--matrices", "m", "--quiet"});
+    EXPECT_THAT(folder_.listing(), ElementsAre("m", "m/K.mtx", "scene.json"));
+    EXPECT_THAT(test::read_text(file("m/K.mtx")), testing::StartsWith("%%MatrixMarket matrix coordinate real"));
+}
+
+TEST_F(SolveTest, ReplacesAnOutputThatIsThere) {
+    folder_.write("u.csv", "before");
+    solve(test::cube_scene("linear-bem", 2), {"--displacements", "u.csv", "--quiet"});
+    EXPECT_EQ(test::read_csv(file("u.csv")).rows.size(), 26U);
+    EXPECT_THAT(folder_.listing(), ElementsAre("scene.json", "u.csv"));
+}
+
+TEST_F(SolveTest, EndsWithoutOutputsWhenItIsInterrupted) {
+    folder_.write("u.csv", "before");
+    for (const std::string& method : kMethods) {
+        SCOPED_TRACE(method);
+        folder_.write("scene.json", test::cube_scene(method, 16));
+        const ProgramRun run =
+            test::interrupt_program({"solve", "scene.json", "--displacements", "u.csv"}, folder_.path());
+        EXPECT_EQ(run.exit_code, 130);
+        EXPECT_EQ(run.out, "");
+        EXPECT_EQ(run.err, "elastolab: Interrupted; no output was written.\n");
+        EXPECT_EQ(test::read_text(file("u.csv")), "before");
+        EXPECT_THAT(folder_.listing(), ElementsAre("scene.json", "u.csv"));
+    }
+}
+
+TEST(Program, HelpsAndTellsItsVersion) {
+    const std::vector<std::vector<std::string>> commands = {{}, {"--help"}, {"solve", "--help"}, {"info", "--help"}};
+    for (const auto& arguments : commands) {
+        const ProgramRun run = run_program(arguments, ".");
+        EXPECT_EQ(run.exit_code, 0);
+        EXPECT_THAT(run.out, HasSubstr("Usage"));
+        EXPECT_THAT(run.err, IsEmpty());
+    }
+    EXPECT_THAT(run_program({"--version"}, ".").out, testing::StartsWith("elastolab "));
+}
+
+}  // namespace
+}  // namespace elastolab
