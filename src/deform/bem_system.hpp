@@ -69,6 +69,8 @@ private:
     };
     void factorise(Eigen::MatrixXd&& bordered);
     void complete(Eigen::MatrixXd H, StageTimes& stages, Control& control);
+    /// The columns of a whole shape function, out of K^-1; null when K^-1 is not in memory or does not have them.
+    Columns::Block from_inverse(const LoadPlan::Block& block) const;
     std::vector<Columns::Block> compute(const std::vector<const LoadPlan::Block*>& missing, Elements::Order order,
                                         Control& control) const;
 

@@ -96,8 +96,8 @@ std::vector<int> support_of_hat(const Patch& patch, Tractions tractions, int v) 
 }
 
 void add_hat(PlanBuilder& builder, const Boundary& boundary, int vertex, int constrained,
-             const std::vector<int>& support) {
-    LoadPlan::Block block{{kHat, vertex}, {}, 1};
+             const std::vector<int>& support, bool whole) {
+    LoadPlan::Block block{{kHat, vertex}, {}, 1, whole ? vertex : -1};
     for (const int t : support) {
         const int corner = corner_of(boundary.mesh(), t, vertex);
         Elements::Element element{t, {-1, -1, -1}};
@@ -113,7 +113,7 @@ void add_triangle(PlanBuilder& builder, const Boundary& boundary, const Patch& p
     for (int corner = 0; corner < 3; ++corner)
         builder.share_corner(builder.next_slot() + corner, patch.number[index(boundary.mesh().triangles(corner, t))], t,
                              corner);
-    builder.add_block({{kTriangle, t}, {{t, {0, 1, 2}}}, 3});
+    builder.add_block({{kTriangle, t}, {{t, {0, 1, 2}}}, 3, -1});
     builder.plan().interior_triangles.push_back(t);
 }
 
@@ -130,7 +130,7 @@ LoadPlan plan_constant_loads(const Boundary& boundary, const std::vector<int>& t
             const double area = entry.value() * boundary.area(t);
             builder.share(slot, static_cast<int>(entry.col() / 3), area, area * centroid);
         }
-        builder.add_block({{kConstant, t}, {{t, {0, -1, -1}}}, 1});
+        builder.add_block({{kConstant, t}, {{t, {0, -1, -1}}}, 1, t});
     }
     return std::move(builder.plan());
 }
@@ -146,11 +146,12 @@ LoadPlan plan_linear_loads(const Boundary& boundary, const VertexTriangles& arou
         if (support.empty())
             builder.plan().dropped_collocation.push_back(vertices[i]);
         else
-            add_hat(builder, boundary, vertices[i], static_cast<int>(i), support);
+            add_hat(builder, boundary, vertices[i], static_cast<int>(i), support,
+                    support.size() == around[vertices[i]].size());
     }
     for (int t = 0; t < boundary.n_triangles(); ++t)
         if (patch.by_itself[index(t)]) add_triangle(builder, boundary, patch, t);
-    for (const int v : builder.plan().dropped_collocation) builder.add_block({{kResidual, v}, {}, 0});
+    for (const int v : builder.plan().dropped_collocation) builder.add_block({{kResidual, v}, {}, 0, -1});
     return std::move(builder.plan());
 }
 

@@ -35,6 +35,7 @@ struct LoadPlan {
         ColumnKey key;
         std::vector<Elements::Element> elements;  ///< slots count from 0 within the block
         int n_slots = 0;                          ///< 0: the residual of vertex key.back()
+        int whole_node = -1;                      ///< node whose whole shape function it is: a column of K^-1
     };
     std::vector<Block> blocks;
 

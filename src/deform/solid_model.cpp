@@ -1,7 +1,7 @@
 #include "deform/solid_model.hpp"
 
-#include <Eigen/Geometry>
 #include <cassert>
+#include <Eigen/Geometry>
 
 namespace elastolab {
 

@@ -1,0 +1,229 @@
+// Speed of the core beside the LAPACK calls or memory traffic that it cannot do without. Every benchmark alternates the
+// two and reports `ratio`, the median over the rounds of one divided by the other, so that a busy machine slows both.
+//   build/release/tests/benchmarks/core_benchmark
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+#include <random>
+
+#include "base/blas.hpp"
+#include "base/lapack.hpp"
+#include "bem/assembly.hpp"
+#include "deform/deformer.hpp"
+#include "deform/load_plan.hpp"
+#include "deform/problem.hpp"
+#include "elasticity/rigid_motion.hpp"
+#include "mesh/primitives.hpp"
+
+namespace elastolab::test {
+namespace {
+
+constexpr int kCells = 13;  // 1016 vertices, the size of the paper's largest cubes
+
+double median(std::vector<double> values) {
+    std::nth_element(values.begin(), values.begin() + std::ssize(values) / 2, values.end());
+    return values[values.size() / 2];
+}
+
+double seconds_of(const std::function<void()>& work) {
+    const Stopwatch watch;
+    work();
+    return watch.seconds();
+}
+
+/// Times `work` and, beside it in every round, `reference`; `prepare` runs before each of them, untimed.
+void compare(
+    benchmark::State& state, const std::function<void()>& work, const std::function<void()>& reference,
+    const std::function<void()>& prepare = [] {}) {
+    std::vector<double> ours, theirs, ratios;
+    for (auto _ : state) {
+        prepare();
+        theirs.push_back(seconds_of(reference));
+        prepare();
+        ours.push_back(seconds_of(work));
+        ratios.push_back(ours.back() / theirs.back());
+        state.SetIterationTime(ours.back());
+    }
+    state.counters["ms"] = 1e3 * median(ours);
+    state.counters["reference_ms"] = 1e3 * median(theirs);
+    state.counters["ratio"] = median(ratios);
+}
+
+const SurfaceMesh& cube() {
+    static const SurfaceMesh mesh = make_box(kCells);
+    return mesh;
+}
+
+/// H of linear elements, bordered: what the precomputation factorises.
+const Eigen::MatrixXd& bordered_matrix() {
+    static const Eigen::MatrixXd matrix = [] {
+        const Boundary boundary(cube());
+        const Eigen::Index n = 3 * cube().n_vertices();
+        Eigen::MatrixXd bordered = Eigen::MatrixXd::Zero(n + 6, n + 6);
+        Control control;
+        assemble(Layer::double_layer, boundary, vertex_sources(boundary), vertex_elements(boundary), {1.0, 0.3}, 1e-10,
+                 bordered.topLeftCorner(n, n), control);
+        const Eigen::MatrixXd modes = rigid_modes(cube().vertices);
+        bordered.topRightCorner(n, 6) = modes;
+        bordered.bottomLeftCorner(6, n) = modes.transpose();
+        return bordered;
+    }();
+    return matrix;
+}
+
+void assembly_beside_its_lu(benchmark::State& state) {
+    const Boundary boundary(cube());
+    const Sources sources = vertex_sources(boundary);
+    const Elements elements = vertex_elements(boundary);
+    Eigen::MatrixXd H(3 * sources.size(), 3 * elements.n_slots), copy;
+    compare(
+        state,
+        [&] {
+            Control control;
+            assemble(Layer::double_layer, boundary, sources, elements, {1.0, 0.3}, 1e-10, H, control);
+        },
+        [&] { LuFactorization(std::move(copy), "H"); }, [&] { copy = bordered_matrix(); });
+}
+
+void on_demand_precomputation_beside_its_lu(benchmark::State& state) {
+    const Body body = make_body(cube());
+    Eigen::MatrixXd copy;
+    compare(
+        state, [&] { benchmark::DoNotOptimize(precomputed(body, Method{})); },
+        [&] { LuFactorization(std::move(copy), "H"); }, [&] { copy = bordered_matrix(); });
+}
+
+/// K = G^-1 H and K^-1 = H^-1 G: two factorisations, two solves of full rank.
+void full_precomputation_beside_its_lapack_calls(benchmark::State& state) {
+    const Body body = make_body(cube());
+    Method method;
+    method.mode = Mode::full;
+    Eigen::MatrixXd H, G, right;
+    compare(
+        state, [&] { benchmark::DoNotOptimize(precomputed(body, method)); },
+        [&] {
+            const LuFactorization lu_H(std::move(H), "H"), lu_G(std::move(G), "G");
+            lu_G.solve_in_place(right);
+            lu_H.solve_in_place(right);
+        },
+        [&] { H = G = right = bordered_matrix(); });
+}
+
+std::vector<int> random_vertices(double share, unsigned seed) {
+    std::vector<int> vertices(static_cast<std::size_t>(cube().n_vertices()));
+    std::iota(vertices.begin(), vertices.end(), 0);
+    std::shuffle(vertices.begin(), vertices.end(), std::mt19937(seed));
+    vertices.resize(static_cast<std::size_t>(share * cube().n_vertices()));
+    return vertices;
+}
+
+/// A tenth of the vertices constrained, none of whose columns is known: solves for the columns of its unknowns and the
+/// factorisation of the small system. `state.range(0)`: the traction model.
+void set_change_beside_its_lapack_calls(benchmark::State& state) {
+    Method method;
+    method.tractions = static_cast<Tractions>(state.range(0));
+    const Body body = make_body(cube());
+    const LuFactorization lu(Eigen::MatrixXd(bordered_matrix()), "H");
+    std::shared_ptr<const Model> model;
+    const auto prepare = [&] { model = precomputed(body, method); };
+    const ConstrainedSet set{{}, random_vertices(0.1, 1)};
+    const Eigen::Index unknowns = [&] {
+        const Boundary boundary(cube());
+        const LoadPlan plan = plan_linear_loads(boundary, VertexTriangles(cube()), method.tractions, set.handles);
+        return static_cast<Eigen::Index>(3 * plan.n_slots() + 3 * std::ssize(plan.dropped_collocation));
+    }();
+    compare(
+        state,
+        [&] {
+            Control control;
+            Deformer deformer(model);
+            deformer.constrain(set, control);
+        },
+        [&] {
+            Eigen::MatrixXd columns = Eigen::MatrixXd::Ones(lu.size(), unknowns);
+            lu.solve_in_place(columns);
+            Eigen::MatrixXd small = Eigen::MatrixXd::Random(unknowns + 6, unknowns + 6);
+            LuFactorization(std::move(small), "small system");
+        },
+        prepare);
+    state.counters["unknowns"] = static_cast<double>(unknowns);
+}
+
+/// The same with all columns known: only the small system is left.
+void set_change_with_known_columns(benchmark::State& state) {
+    Method method;
+    method.tractions = Tractions::restricted;
+    const ConstrainedSet set{{}, random_vertices(0.1, 1)};
+    Deformer deformer(precomputed(make_body(cube()), method));
+    Control control;
+    deformer.constrain(set, control);
+    const Eigen::Index n = 3 * std::ssize(set.handles) + 6;
+    compare(
+        state, [&] { deformer.constrain(set, control); },
+        [&] {
+            Eigen::MatrixXd small = Eigen::MatrixXd::Random(n, n);
+            LuFactorization(std::move(small), "small system");
+        });
+}
+
+void drag_frame_beside_a_copy_of_its_columns(benchmark::State& state) {
+    const SurfaceMesh mesh = make_box(static_cast<int>(state.range(1)));
+    const Method method = make_method(static_cast<MethodKind>(state.range(0)), Tractions::restricted);
+    const auto base = vertices_where(mesh, [](const auto& x) { return x[0] < 1e-9; });
+    const auto pull = vertices_where(mesh, [](const auto& x) { return x[0] > 1 - 1e-9 && x[1] > 0.7 && x[2] > 0.7; });
+    Deformer deformer(precomputed(make_body(mesh), method));
+    Control control;
+    deformer.constrain({base, pull}, control);
+    const DragResponse drag = deformer.drag_response(Eigen::VectorXd::Zero(3 * std::ssize(pull)),
+                                                     Eigen::MatrixXd::Identity(3, 3).replicate(std::ssize(pull), 1));
+    Eigen::VectorXd u(drag.rest.size()), shift = Eigen::Vector3d(0.1, 0.2, 0.3);
+    Eigen::MatrixXd copy(drag.X.rows(), 3);
+    constexpr int kFrames = 100;
+    compare(
+        state,
+        [&] {
+            for (int frame = 0; frame < kFrames; ++frame) {
+                shift[0] += 1e-3;
+                drag.displace(shift, u);
+                benchmark::ClobberMemory();
+            }
+        },
+        [&] {
+            for (int frame = 0; frame < kFrames; ++frame) {
+                copy = drag.X;
+                benchmark::ClobberMemory();
+            }
+        });
+    state.counters["vertices"] = mesh.n_vertices();
+}
+
+BENCHMARK(assembly_beside_its_lu)->UseManualTime()->Iterations(9)->Unit(benchmark::kMillisecond);
+BENCHMARK(on_demand_precomputation_beside_its_lu)->UseManualTime()->Iterations(9)->Unit(benchmark::kMillisecond);
+BENCHMARK(full_precomputation_beside_its_lapack_calls)->UseManualTime()->Iterations(3)->Unit(benchmark::kMillisecond);
+BENCHMARK(set_change_beside_its_lapack_calls)
+    ->ArgName("tractions")
+    ->DenseRange(0, 2)
+    ->UseManualTime()
+    ->Iterations(5)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(set_change_with_known_columns)->UseManualTime()->Iterations(9)->Unit(benchmark::kMillisecond);
+BENCHMARK(drag_frame_beside_a_copy_of_its_columns)
+    ->ArgNames({"method", "cells"})
+    ->ArgsProduct({{0, 1, 2}, {4, 13}})
+    ->UseManualTime()
+    ->Iterations(30)
+    ->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+}  // namespace elastolab::test
+
+int main(int argc, char** argv) {
+    elastolab::select_blas_kernels(argv);
+    benchmark::Initialize(&argc, argv);
+    benchmark::AddCustomContext("blas_kernels", elastolab::blas_kernels());
+    benchmark::AddCustomContext("threads", std::to_string(elastolab::thread_count()));
+    benchmark::RunSpecifiedBenchmarks();
+}
