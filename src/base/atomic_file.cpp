@@ -22,11 +22,31 @@ fs::path temporary_beside(const fs::path& destination) {
     return destination.parent_path() / (stem + destination.extension().string());
 }
 
+/// Whether a path leads to a stream that this process holds open, as /dev/stdout and /dev/fd/3 do. Behind it may be a
+/// regular file, which must be written on, not replaced under the hands of others who write on it.
+bool is_open_stream(fs::path path) {
+    constexpr int kMostLinks = 40;
+    std::error_code error;
+    for (int i = 0; i < kMostLinks; ++i) {
+        const fs::path folder = fs::canonical(fs::absolute(path).parent_path(), error);
+        if (error) return false;
+        if (folder.string().rfind("/proc/", 0) == 0 && folder.filename() == "fd") return true;
+        if (!fs::is_symlink(path, error)) return false;
+        path = folder / fs::read_symlink(path, error);
+    }
+    return false;
+}
+
 /// The file that has to be replaced, which for a symbolic link is the one it leads to.
 fs::path replaced_file(const fs::path& destination) {
     std::error_code error;
     const fs::path target = fs::canonical(destination, error);
     return error ? destination : target;
+}
+
+bool is_written_directly(const fs::path& destination) {
+    std::error_code error;
+    return is_open_stream(destination) || (fs::exists(destination, error) && !fs::is_regular_file(destination, error));
 }
 
 [[noreturn]] void fail(const fs::path& shown, const std::string& finding) {
@@ -47,8 +67,8 @@ AtomicFile::AtomicFile(const fs::path& destination) : shown_(destination) {
     std::error_code error;
     if (fs::is_directory(destination, error)) fail(shown_, "is a folder. Name a file to write.");
     require_folder(shown_);
-    destination_ = replaced_file(destination);
-    const bool direct = fs::exists(destination_, error) && !fs::is_regular_file(destination_, error);
+    const bool direct = is_written_directly(destination);
+    destination_ = direct ? destination : replaced_file(destination);
     temporary_ = direct ? destination_ : temporary_beside(destination_);
     errno = 0;
     stream_.open(temporary_, std::ios::binary | (direct ? std::ios::app : std::ios::trunc));

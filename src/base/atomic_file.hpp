@@ -6,8 +6,9 @@
 namespace elastolab {
 
 /// A file that is written beside its destination and takes its place once it is complete, so that no reader ever sees
-/// half a file and a failure leaves what was there before. A destination that exists and is no regular file (a pipe, a
-/// terminal) is written directly; through a symbolic link the file it leads to is replaced.
+/// half a file and a failure leaves what was there before. A destination that is no regular file (a pipe, a terminal)
+/// or an open stream of this process (/dev/stdout) is written directly; through any other symbolic link the file that
+/// it leads to is replaced.
 class AtomicFile {
 public:
     /// Opens the temporary. Throws Error, naming `destination`, when it is empty or a directory, or when its folder is

@@ -33,7 +33,8 @@ int run(int argc, char** argv) {
     } catch (const CLI::Success& request) {
         return program.exit(request);  // --help and --version
     } catch (const CLI::ParseError& error) {
-        return complain(std::string(error.what()) + " See elastolab --help.", kBadUsage);
+        const std::string finding = error.what();
+        return complain(finding + (finding.ends_with('.') ? "" : ".") + " See elastolab --help.", kBadUsage);
     }
     for (const Command& command : commands) {
         if (!command.parser->parsed()) continue;

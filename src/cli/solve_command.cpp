@@ -1,3 +1,5 @@
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
@@ -111,9 +113,13 @@ void run_solve(const SolveOptions& options) {
     request.with_residual = !options.quiet || !options.report.empty();
     require_writable(options.outputs(), input_files(request));
 
-    const Solution solution = solve_with_progress(request, control, !options.quiet);
+    Solution solution = solve_with_progress(request, control, !options.quiet);
+    if (!options.tractions.empty() && request.method.kind != MethodKind::linear_bem)
+        solution.warnings.push_back("--tractions: only linear-bem has a choice of them; it was left aside.");
     write_outputs(options.outputs(), solution);
-    if (!options.quiet) print_summary(std::cout, request, solution);
+    if (options.quiet) return;
+    lseek(STDOUT_FILENO, 0, SEEK_END);  // behind an output that went to /dev/stdout, if that is a file
+    print_summary(std::cout, request, solution);
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cstdio>
+
 #include "base/error.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -56,6 +58,24 @@ TEST(AtomicFile, WritesDevicesDirectly) {
     out.stream() << "gone";
     out.commit();
     EXPECT_TRUE(is_character_file(std::filesystem::path("/dev/null")));
+}
+
+TEST(AtomicFile, WritesOnAnOpenStreamWithoutReplacingItsFile) {
+    const test::TemporaryFolder folder;
+    const auto file = folder.write("log", "before ");
+    FILE* stream = std::fopen(file.c_str(), "a");
+    ASSERT_NE(stream, nullptr);
+    const std::string descriptor = std::to_string(fileno(stream));
+    create_symlink("/dev/fd/" + descriptor, folder.path() / "link");
+    for (const auto& path : {std::filesystem::path("/dev/fd/" + descriptor), folder.path() / "link"}) {
+        AtomicFile out(path);
+        out.stream() << "written ";
+        out.commit();
+    }
+    std::fputs("after", stream);
+    std::fclose(stream);
+    EXPECT_EQ(test::read_text(file), "before written written after");
+    EXPECT_THAT(folder.listing(), ElementsAre("link", "log"));
 }
 
 TEST(AtomicFile, NoticesAFullDisk) {

@@ -204,6 +204,32 @@ TEST_F(SolveTest, ReplacesAnOutputThatIsThere) {
     EXPECT_THAT(folder_.listing(), ElementsAre("scene.json", "u.csv"));
 }
 
+TEST_F(SolveTest, WritesOnStandardOutputWhenAskedTo) {
+    const ProgramRun run = solve(test::cube_scene("linear-bem", 2), {"--forces", "/dev/stdout"});
+    EXPECT_THAT(run.out, testing::StartsWith("name,fx,fy,fz"));
+    EXPECT_THAT(run.out, HasSubstr("scene.json: linear-bem"));
+}
+
+TEST_F(SolveTest, SaysThatOnlyLinearBemHasAChoiceOfTractions) {
+    EXPECT_THAT(solve(test::cube_scene("fem", 2), {"--tractions", "restricted"}).out, HasSubstr("was left aside"));
+}
+
+TEST_F(SolveTest, TreatsTheSolidsOfASceneByThemselves) {
+    folder_.write("two.obj",
+                  "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 5 0 0\nv 6 0 0\nv 5 1 0\nv 5 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n"
+                  "f 2 3 4\nf 5 7 6\nf 5 6 8\nf 5 8 7\nf 6 7 8\n");
+    const std::string scene = R"({"elastolab": 1, "mesh": {"file": "two.obj"}, "fixed": {"vertices": [0, 1, 2]},
+                                  "handles": [{"select": {"vertices": [3]}, "translate": [0, 0, 0.1]}]})";
+    for (const std::string& method : kMethods) {
+        SCOPED_TRACE(method);
+        solve(scene, {"--method", method, "--mode", "full", "--displacements", "u.csv", "--matrices", "m", "--quiet"});
+        const test::Table table = test::read_csv(file("u.csv"));
+        ASSERT_EQ(table.rows.size(), 8U);
+        for (std::size_t v = 4; v < 8; ++v) EXPECT_EQ(table.rows[v][5], 0.0) << "nothing holds or moves this solid";
+        EXPECT_THAT(folder_.listing(), testing::IsSupersetOf({"m/K-solid1.npy", "m/K-solid2.npy"}));
+    }
+}
+
 TEST_F(SolveTest, EndsWithoutOutputsWhenItIsInterrupted) {
     folder_.write("u.csv", "before");
     for (const std::string& method : kMethods) {
