@@ -85,8 +85,8 @@ TEST(Tetrahedralize, MakesAboutAsManyInteriorVerticesAsAUniformGridOfTheSurfaces
     for (const int cells : {8, 13}) {
         const TetMesh mesh = fill(make_box(cells));
         const double uniform = std::pow(cells - 1, 3), interior = mesh.n_vertices() - mesh.n_surface_vertices;
-        EXPECT_GT(interior, 0.85 * uniform) << cells;
-        EXPECT_LT(interior, 1.2 * uniform) << cells;
+        EXPECT_GT(interior, 0.87 * uniform) << cells;
+        EXPECT_LT(interior, 1.15 * uniform) << cells;
     }
 }
 
