@@ -8,8 +8,11 @@ namespace elastolab {
 
 namespace {
 
+bool factorises(const Method& method) { return method.mode != Mode::on_demand || method.update != Update::direct; }
+
 bool same_system(const Method& a, const Method& b) {
-    return a.kind == b.kind && a.mode == b.mode && a.integral_tolerance == b.integral_tolerance;
+    return a.kind == b.kind && a.mode == b.mode && a.integral_tolerance == b.integral_tolerance &&
+           factorises(a) == factorises(b);
 }
 
 bool same_integrals(const Method& a, const Method& b) {
@@ -97,8 +100,7 @@ std::unique_ptr<ConstrainedSolid> BemModel::constrain(std::span<const int> base,
 void BemModel::visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const {
     const auto operators = system_->operators();
     if (!operators) return;
-    Control control;
-    visit({"H", *system_->whole_double_layer(control)});
+    visit({"H", *system_->double_layer_matrix()});
     visit({"G", *system_->single_layer_matrix()});
     visit({"K", operators->K});
     visit({"Kinv", operators->D()});

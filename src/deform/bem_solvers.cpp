@@ -1,7 +1,11 @@
 #include "deform/bem_solvers.hpp"
 
+#include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <functional>
 #include <numeric>
+#include <span>
 
 #include "base/error.hpp"
 
@@ -35,8 +39,15 @@ std::vector<int> free_nodes(const Partition& partition) {
     return nodes;
 }
 
-Eigen::MatrixXd rows_of(const Eigen::MatrixXd& matrix, const std::vector<int>& nodes) {
-    return matrix(Partition(matrix.rows(), nodes).constrained, Eigen::all);
+/// Calls use(first, count) for strips of [0, n).
+void for_strips(int n, const std::function<void(int first, int count)>& use) {
+    for (int first = 0; first < n; first += kSourcesAtOnce) use(first, std::min(kSourcesAtOnce, n - first));
+}
+
+std::vector<int> range(int first, int count) {
+    std::vector<int> numbers(static_cast<std::size_t>(count));
+    std::iota(numbers.begin(), numbers.end(), first);
+    return numbers;
 }
 
 /// Where a strip of equations is off, and how large its terms are.
@@ -45,16 +56,14 @@ struct Balance {
 
     void add(const BemSystem& system, const LoadPlan& plan, const NodeSolution& solution, const Sources& sources,
              Control& control) {
-        for (int first = 0; first < sources.size(); first += kSourcesAtOnce) {
-            std::vector<int> numbers(static_cast<std::size_t>(std::min(kSourcesAtOnce, sources.size() - first)));
-            std::iota(numbers.begin(), numbers.end(), first);
-            const Sources strip = sources.subset(numbers);
+        for_strips(sources.size(), [&](int first, int count) {
+            const Sources strip = sources.subset(range(first, count));
             const Eigen::MatrixXd H = system.double_layer(strip, control);
             const Eigen::MatrixXd G = system.single_layer(strip, plan.elements, control);
             const Eigen::VectorXd u = solution.displacements.col(0), q = solution.loads.col(0);
             off += (H * u - G * q).squaredNorm();
             size += (H.cwiseAbs() * u.cwiseAbs() + G.cwiseAbs() * q.cwiseAbs()).squaredNorm();
-        }
+        });
     }
 };
 
@@ -63,42 +72,45 @@ struct Balance {
 MixedProblem::MixedProblem(const BemSystem& system, const LoadPlan& plan, const std::vector<int>& nodes,
                            Control& control)
     : partition(3 * system.n_nodes(), nodes) {
-    const std::vector<int> at = collocated(plan, nodes), free = free_nodes(partition);
+    std::vector<int> at = free_nodes(partition);
+    const Eigen::Index n_free = 3 * std::ssize(at), n = n_free + 3 * plan.n_slots();
+    for (const int node : collocated(plan, nodes)) at.push_back(node);
     const Sources points = interior_sources(system.boundary(), plan.interior_triangles);
-    const Eigen::Index n_at = 3 * std::ssize(at), n_points = 3 * points.size();
-    {
-        const auto H = system.whole_double_layer(control);
-        H0 = (*H)(partition.free, Eigen::all);
-        A.resize(n_at + n_points, H->cols());
-        A.topRows(n_at) = rows_of(*H, at);
-    }
-    A.bottomRows(n_points) = system.double_layer(points, control);
-    G0 = system.single_layer(system.nodes().subset(free), plan.elements, control);
-    Gp.resize(n_at + n_points, 3 * plan.n_slots());
-    Gp.topRows(n_at) = system.single_layer(system.nodes().subset(at), plan.elements, control);
-    Gp.bottomRows(n_points) = system.single_layer(points, plan.elements, control);
+    assert(3 * (std::ssize(at) + points.size()) == n);
+    unknown.resize(n, n);
+    known.resize(n, std::ssize(partition.constrained));
+    Eigen::Index row = 0;
+    const auto add = [&](const Eigen::MatrixXd& H, const Sources& sources) {
+        unknown.block(row, 0, H.rows(), n_free) = H(Eigen::all, partition.free);
+        unknown.block(row, n_free, H.rows(), n - n_free) = -system.single_layer(sources, plan.elements, control);
+        known.middleRows(row, H.rows()) = H(Eigen::all, partition.constrained);
+        row += H.rows();
+    };
+    for_strips(static_cast<int>(at.size()), [&](int first, int count) {
+        const std::span<const int> strip =
+            std::span(at).subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(count));
+        add(system.double_layer_at(strip, control), system.nodes().subset(strip));
+    });
+    for_strips(points.size(), [&](int first, int count) {
+        const Sources strip = points.subset(range(first, count));
+        add(system.double_layer(strip, control), strip);
+    });
 }
 
 MixedSolver::MixedSolver(const BemSystem& system, const LoadPlan& plan, const std::vector<int>& nodes, Control& control)
-    : partition_(3 * system.n_nodes(), nodes), n_nodes3_(3 * system.n_nodes()) {
-    const MixedProblem problem(system, plan, nodes, control);
-    const Eigen::Index n0 = problem.H0.rows(), n1 = problem.A.rows();
-    Eigen::MatrixXd mixed(n0 + n1, n0 + n1);
-    mixed << problem.H0(Eigen::all, partition_.free), -problem.G0, problem.A(Eigen::all, partition_.free), -problem.Gp;
-    known_.resize(n0 + n1, std::ssize(partition_.constrained));
-    known_ << problem.H0(Eigen::all, partition_.constrained), problem.A(Eigen::all, partition_.constrained);
-    lu_ = LuFactorization(std::move(mixed), "mixed boundary system");
+    : problem_(system, plan, nodes, control), lu_(std::move(problem_.unknown), "mixed boundary system") {
     require_held(lu_);
     condition_ = lu_.size() > 0 ? 1.0 / lu_.reciprocal_condition() : 1.0;
 }
 
 NodeSolution MixedSolver::solve(const Eigen::MatrixXd& prescribed, bool want_loads) const {
-    const Eigen::MatrixXd x = lu_.solve(-known_ * prescribed);
+    const auto& [free, constrained] = problem_.partition;
+    const Eigen::MatrixXd x = lu_.solve(-problem_.known * prescribed);
     NodeSolution solution;
-    solution.displacements.resize(n_nodes3_, prescribed.cols());
-    solution.displacements(partition_.free, Eigen::all) = x.topRows(std::ssize(partition_.free));
-    solution.displacements(partition_.constrained, Eigen::all) = prescribed;
-    if (want_loads) solution.loads = x.bottomRows(x.rows() - std::ssize(partition_.free));
+    solution.displacements.resize(std::ssize(free) + std::ssize(constrained), prescribed.cols());
+    solution.displacements(free, Eigen::all) = x.topRows(std::ssize(free));
+    solution.displacements(constrained, Eigen::all) = prescribed;
+    if (want_loads) solution.loads = x.bottomRows(x.rows() - std::ssize(free));
     return solution;
 }
 
@@ -106,9 +118,10 @@ BoundaryEqn9Solver::BoundaryEqn9Solver(const BemSystem& system, const LoadPlan& 
                                        Control& control)
     : problem_(system, plan, nodes, control),
       H00_inverse_(inverse_by_eqn9(system.bordered_inverse(), problem_.partition)) {
-    const Eigen::MatrixXd A0 = problem_.A(Eigen::all, problem_.partition.free);
-    Eigen::MatrixXd small = problem_.Gp;
-    small.noalias() -= A0 * (H00_inverse_ * problem_.G0);
+    const Eigen::Index q = 3 * plan.n_slots(), n_free = H00_inverse_.rows();
+    Eigen::MatrixXd small = -problem_.unknown.bottomRightCorner(q, q);
+    small.noalias() +=
+        problem_.unknown.bottomLeftCorner(q, n_free) * (H00_inverse_ * problem_.unknown.topRightCorner(n_free, q));
     tractions_ = LuFactorization(std::move(small), "traction system of Eqn. 9");
     require_held(tractions_);
     condition_ = tractions_.size() > 0 ? 1.0 / tractions_.reciprocal_condition() : 1.0;
@@ -116,27 +129,23 @@ BoundaryEqn9Solver::BoundaryEqn9Solver(const BemSystem& system, const LoadPlan& 
 
 NodeSolution BoundaryEqn9Solver::solve(const Eigen::MatrixXd& prescribed, bool want_loads) const {
     const auto& [free, constrained] = problem_.partition;
-    const Eigen::MatrixXd H01 = problem_.H0(Eigen::all, constrained), A1 = problem_.A(Eigen::all, constrained);
-    const Eigen::MatrixXd A0 = problem_.A(Eigen::all, free);
-    const Eigen::MatrixXd h = H01 * prescribed;
-    const Eigen::MatrixXd q = tractions_.solve(A1 * prescribed - A0 * (H00_inverse_ * h));
+    const Eigen::Index n_free = H00_inverse_.rows(), q = tractions_.size();
+    const Eigen::MatrixXd right = problem_.known * prescribed;
+    const Eigen::MatrixXd A0 = problem_.unknown.bottomLeftCorner(q, n_free),
+                          minus_G0 = problem_.unknown.topRightCorner(n_free, q);
+    const Eigen::MatrixXd loads = tractions_.solve(right.bottomRows(q) - A0 * (H00_inverse_ * right.topRows(n_free)));
     NodeSolution solution;
-    solution.displacements.resize(problem_.H0.cols(), prescribed.cols());
-    solution.displacements(free, Eigen::all) = H00_inverse_ * (problem_.G0 * q - h);
+    solution.displacements.resize(std::ssize(free) + std::ssize(constrained), prescribed.cols());
+    solution.displacements(free, Eigen::all) = -(H00_inverse_ * (minus_G0 * loads + right.topRows(n_free)));
     solution.displacements(constrained, Eigen::all) = prescribed;
-    if (want_loads) solution.loads = q;
+    if (want_loads) solution.loads = loads;
     return solution;
 }
 
 double boundary_residual(const BemSystem& system, const LoadPlan& plan, const NodeSolution& solution,
                          Control& control) {
-    std::vector<int> rows = collocated(plan, [&] {
-        std::vector<int> all(static_cast<std::size_t>(system.n_nodes()));
-        std::iota(all.begin(), all.end(), 0);
-        return all;
-    }());
     Balance balance;
-    balance.add(system, plan, solution, system.nodes().subset(rows), control);
+    balance.add(system, plan, solution, system.nodes().subset(collocated(plan, range(0, system.n_nodes()))), control);
     balance.add(system, plan, solution, interior_sources(system.boundary(), plan.interior_triangles), control);
     return balance.size > 0.0 ? std::sqrt(balance.off / balance.size) : 0.0;
 }

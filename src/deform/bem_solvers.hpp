@@ -14,12 +14,13 @@ namespace elastolab {
 /// The mixed boundary problem of one constrained set, with the traction coefficients q of a load plan:
 ///     H0 u = G0 q   at the free nodes,      A u = Gp q   at the collocated constrained nodes and the interior points
 /// For the traction models whose ansatz depends on the constrained set there is no K that serves all sets; these are
-/// the rows from which Eqns. 7 and 9 are formed then.
+/// the rows from which Eqns. 7 and 9 are formed then. As one matrix for the unknowns (u0, q):
 struct MixedProblem {
     Partition partition;
-    Eigen::MatrixXd H0, G0;  ///< 3*free x 3*n_nodes, 3*free x 3*slots
-    Eigen::MatrixXd A, Gp;   ///< 3*slots x 3*n_nodes, 3*slots square
+    Eigen::MatrixXd unknown;  ///< [H00 -G0; A0 -Gp], square, 3*free + 3*slots
+    Eigen::MatrixXd known;    ///< [H01; A1], columns of the prescribed displacements
 
+    /// Integrates in strips, so that nothing of the matrix's size is held beside it.
     MixedProblem(const BemSystem& system, const LoadPlan& plan, const std::vector<int>& nodes, Control& control);
 };
 
@@ -30,10 +31,8 @@ public:
     NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const override;
 
 private:
-    Partition partition_;
-    Eigen::MatrixXd known_;  ///< columns of the prescribed displacements
+    MixedProblem problem_;  ///< its matrix of the unknowns is given up to the factorisation
     LuFactorization lu_;
-    Eigen::Index n_nodes3_;
 };
 
 /// Eqn. 9 applied to H: H00^-1 = D'00 - D'01 D'11^-1 D'10, then q from the small system Gp - A0 H00^-1 G0.

@@ -40,6 +40,8 @@ BemSystem::BemSystem(std::shared_ptr<const Boundary> boundary, double poisson_ra
       integrals_(std::move(integrals)),
       modes_(rigid_modes(nodes_.points)) {
     const Eigen::Index n = 3 * n_nodes();
+    cache_ = std::make_unique<ColumnCache>(cache_budget(n));
+    if (method.mode == Mode::on_demand && method.update == Update::direct) return;
     Eigen::MatrixXd bordered(n + 6, n + 6);
     {
         const Stage stage(integrals_ ? "combine" : "integrate", control, stages);
@@ -59,7 +61,6 @@ BemSystem::BemSystem(std::shared_ptr<const Boundary> boundary, double poisson_ra
         factorise(std::move(bordered));
     }
     if (method.mode != Mode::on_demand) complete(std::move(H), stages, control);
-    cache_ = std::make_unique<ColumnCache>(cache_budget(n));
 }
 
 void BemSystem::factorise(Eigen::MatrixXd&& bordered) {
@@ -100,7 +101,7 @@ void BemSystem::complete(Eigen::MatrixXd H, StageTimes& stages, Control& control
         inverse.bottomRightCorner(6, 6).setIdentity();
         lu_.solve_in_place(inverse);
     }
-    full_->H = std::make_shared<const Eigen::MatrixXd>(std::move(H));
+    full_->H = std::move(H);
     full_->operators = std::move(operators);
 }
 
@@ -121,12 +122,12 @@ Eigen::MatrixXd BemSystem::single_layer(const Sources& sources, const Elements& 
     return rows;
 }
 
-std::shared_ptr<const Eigen::MatrixXd> BemSystem::whole_double_layer(Control& control) const {
-    if (full_) return full_->H;
-    if (!integrals_) return std::make_shared<const Eigen::MatrixXd>(double_layer(nodes_, control));
-    auto H = std::make_shared<Eigen::MatrixXd>(3 * n_nodes(), 3 * n_nodes());
-    integrals_->evaluate(material_, *H, control);
-    return H;
+Eigen::MatrixXd BemSystem::double_layer_at(std::span<const int> nodes, Control& control) const {
+    if (!full_) return double_layer(nodes_.subset(nodes), control);
+    Eigen::MatrixXd rows(3 * std::ssize(nodes), 3 * n_nodes());
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+        rows.middleRows<3>(3 * static_cast<Eigen::Index>(i)) = full_->H.middleRows<3>(3 * nodes[i]);
+    return rows;
 }
 
 const Eigen::MatrixXd& BemSystem::bordered_inverse() const {

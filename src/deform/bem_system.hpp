@@ -26,6 +26,7 @@ namespace elastolab {
 class BemSystem {
 public:
     /// `integrals`: those of H for this boundary and method, or null to integrate (and keep, if the method says so).
+    /// On demand with the update `direct` nothing is factorised here: each constrained set has a system of its own.
     BemSystem(std::shared_ptr<const Boundary> boundary, double poisson_ratio, const Method& method,
               std::shared_ptr<const LayerIntegrals> integrals, StageTimes& stages, Control& control);
 
@@ -38,7 +39,8 @@ public:
 
     /// E over J: (3*n_nodes + 6) x 6.
     const Eigen::MatrixXd& rigid() const { return rigid_; }
-    double condition() const { return 1.0 / lu_.reciprocal_condition(); }
+    /// Condition number of Hhat, estimated; 0 when it is not factorised.
+    double condition() const { return lu_.size() > 0 ? 1.0 / lu_.reciprocal_condition() : 0.0; }
     std::uint64_t memory_bytes() const;
 
     /// Collocation at every node.
@@ -46,15 +48,16 @@ public:
     /// Rows of H (3*sources x 3*n_nodes) and of G for a load ansatz (3*sources x 3*slots) at these sources.
     Eigen::MatrixXd double_layer(const Sources& sources, Control& control) const;
     Eigen::MatrixXd single_layer(const Sources& sources, const Elements& loads, Control& control) const;
+    /// Rows of H at these nodes: out of memory in the mode `full`, else integrated.
+    Eigen::MatrixXd double_layer_at(std::span<const int> nodes, Control& control) const;
 
     /// Responses Hhat^-1 [G; 0] to the unit loads of a plan, then to its residuals; cached.
     Columns responses(const LoadPlan& plan, Control& control) const;
     /// Equations at the plan's interior points for its unknowns and the border: 9*interior_triangles x (unknowns + 6).
     Eigen::MatrixXd closing_rows(const LoadPlan& plan, const Columns& responses, Control& control) const;
 
-    /// H, in memory in the mode `full`, else assembled for this call.
-    std::shared_ptr<const Eigen::MatrixXd> whole_double_layer(Control& control) const;
-    /// G, K and Khat^-1: only in the mode `full`, else null.
+    /// H, G, K and Khat^-1: only in the mode `full`, else null.
+    const Eigen::MatrixXd* double_layer_matrix() const { return full_ ? &full_->H : nullptr; }
     const Eigen::MatrixXd* single_layer_matrix() const { return full_ ? &full_->G : nullptr; }
     std::shared_ptr<const DenseOperators> operators() const { return full_ ? full_->operators : nullptr; }
     /// Hhat^-1 in full; computed on the first call.
@@ -63,8 +66,7 @@ public:
 
 private:
     struct Full {
-        std::shared_ptr<const Eigen::MatrixXd> H;
-        Eigen::MatrixXd G;
+        Eigen::MatrixXd H, G;
         std::shared_ptr<const DenseOperators> operators;
     };
     void factorise(Eigen::MatrixXd&& bordered);

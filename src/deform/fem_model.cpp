@@ -98,12 +98,8 @@ void FemModel::precompute(double poisson_ratio, Control& control) {
     facts_.n_tetrahedra = tets.n_tetrahedra();
     facts_.n_degrees_of_freedom = 3 * tets.n_vertices();
     facts_.memory_bytes = mesh_->analysis->factor_bytes();
-    if (method_.mode == Mode::on_demand) {
-        const Stage stage("factorise", control, facts_.stages);
-        free_body_ = std::make_shared<const GroundedBody>(system_, std::vector<int>{}, control);
-        facts_.condition_estimate = 1.0 / free_body_->compliance().reciprocal_condition();
-        return;
-    }
+    // On demand the first constrained set decides what is factorised: K with its base eliminated, or the free body.
+    if (method_.mode == Mode::on_demand) return;
     auto operators = std::make_shared<DenseOperators>();
     {
         const Stage stage("K", control, facts_.stages);
