@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
-# Installs what the program is built from and with: Debian packages, only those that are missing.
+# install.sh [PACKAGE...]: installs what the program is built from and with, and these packages: from Debian, only those
+# that are missing.
 set -euo pipefail
 
 packages=(
   g++ cmake ninja-build pkg-config
   libeigen3-dev libopenblas-dev liblapacke-dev libsuitesparse-dev libxsimd-dev
   libassimp-dev libtet1.5-dev nlohmann-json3-dev libcli11-dev libspdlog-dev
-  libgtest-dev libgmock-dev libbenchmark-dev
+  libgtest-dev libgmock-dev libbenchmark-dev "$@"
 )
 
 is_installed() { dpkg-query --show --showformat='${db:Status-Status}\n' "$1" 2>/dev/null | grep -qx installed; }

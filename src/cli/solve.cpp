@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "deform/node_solver.hpp"
+
 namespace elastolab {
 
 namespace {
@@ -33,9 +35,10 @@ Body load_body(const SolveRequest& request, Solution& solution, Control& control
     return make_body(request.document, std::move(mesh), request.method.kind, request.scene_file);
 }
 
-void precompute_model(const SolveRequest& request, const Body& body, Solution& solution, Control& control) {
-    solution.predicted = predict_cost(*body.surface, request.method);
-    solution.model = precompute(body, request.method, control);
+void precompute_model(const Method& method, const Body& body, Solution& solution, Control& control) {
+    solution.predicted = predict_cost(*body.surface, method);
+    solution.model = solution.model ? precompute_again(*solution.model, body.material, method, control)
+                                    : precompute(body, method, control);
     const ModelFacts& facts = solution.model->facts();
     solution.stages.insert(solution.stages.end(), facts.stages.begin(), facts.stages.end());
     append(solution.warnings, facts.warnings);
@@ -76,7 +79,18 @@ Solution solve(const SolveRequest& request, Control& control) {
     if (solution.n_constrained == 0)
         solution.warnings.push_back(request.scene_file.string() +
                                     ": no vertex is fixed or moved, so the body rests. Add a handle.");
-    precompute_model(request, body, solution, control);
+    Method method = request.method;
+    if (request.solve_once) {
+        try {
+            method.update = Update::direct;
+            precompute_model(method, body, solution, control);
+            apply(constraints, request.with_residual, solution, control);
+            return solution;
+        } catch (const NotHeldError&) {
+            method.update = Update::reduced;
+        }
+    }
+    precompute_model(method, body, solution, control);
     apply(constraints, request.with_residual, solution, control);
     return solution;
 }

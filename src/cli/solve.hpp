@@ -19,7 +19,10 @@ namespace elastolab {
 struct SolveRequest {
     std::filesystem::path scene_file;
     Document document;
-    Method method;              ///< with the kind that the command line or the scene asks for
+    Method method;  ///< with the kind that the command line or the scene asks for
+    /// Solving once, on demand: take the direct update, which factorises once and nothing else, unless the body is not
+    /// held; then the reduced one.
+    bool solve_once = false;
     bool with_residual = true;  ///< costs about as much as the assembly again
 };
 

@@ -41,7 +41,7 @@ void add_options(CLI::App& parser, SolveOptions& options) {
     parser.add_option("--mode", options.mode, "what is computed ahead (default on-demand; full-volume is FEM's)")
         ->check(modes);
     parser.add_option("--tractions", options.tractions, "of linear BEM (default discontinuous)")->check(tractions);
-    parser.add_option("--update", options.update, "Eqn. 7 afresh, Eqn. 9, or its collapsed form (default reduced)")
+    parser.add_option("--update", options.update, "Eqn. 7 afresh, Eqn. 9, or its collapsed form (default: reduced; on-demand: direct)")
         ->check(updates);
     parser.add_option("--displacements", options.displacements, "CSV: rest positions and displacements")->check(path);
     parser.add_option("--mesh-out", options.mesh_out, "deformed mesh: .obj, .ply or .stl")->check(path);
@@ -110,6 +110,7 @@ void run_solve(const SolveOptions& options) {
     request.scene_file = options.scene;
     request.document = load_scene(request.scene_file);
     request.method = choose_method(options, request.document.method);
+    request.solve_once = options.update.empty() && request.method.mode == Mode::on_demand;
     request.with_residual = !options.quiet || !options.report.empty();
     require_writable(options.outputs(), input_files(request));
 

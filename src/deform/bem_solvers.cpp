@@ -17,10 +17,7 @@ constexpr double kSingular = 1e-14;
 constexpr int kSourcesAtOnce = 192;
 
 void require_held(const LuFactorization& lu) {
-    if (lu.size() > 0 && lu.reciprocal_condition() < kSingular)
-        throw SolveError(
-            "constraints: leave the body free to move as a whole. Constrain three vertices that are not on "
-            "one line, or use the reduced update, which takes the smallest motion.");
+    if (lu.size() > 0 && lu.reciprocal_condition() < kSingular) throw NotHeldError();
 }
 
 /// Constrained nodes at which the integral equation is still asked to hold.

@@ -6,16 +6,11 @@ namespace elastolab {
 
 namespace {
 
-constexpr const char* kNotHeld =
-    "constraints: leave the body free to move as a whole. Constrain three vertices that are not on one line, or use "
-    "the "
-    "reduced update, which takes the smallest motion.";
-
 constexpr double kSingular = 1e-14;
 
 LuFactorization factorise_held(Eigen::MatrixXd&& A, const char* name) {
     LuFactorization lu(std::move(A), name);
-    if (lu.size() > 0 && lu.reciprocal_condition() < kSingular) throw SolveError(kNotHeld);
+    if (lu.size() > 0 && lu.reciprocal_condition() < kSingular) throw NotHeldError();
     return lu;
 }
 

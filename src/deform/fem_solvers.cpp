@@ -1,10 +1,10 @@
 #include "deform/fem_solvers.hpp"
 
+#include <Eigen/QR>
 #include "base/error.hpp"
+
 #include "elasticity/rigid_motion.hpp"
 #include "fem/constraints.hpp"
-
-#include <Eigen/QR>
 
 namespace elastolab {
 
@@ -24,10 +24,7 @@ ReducedSystem reduced_system(const GroundedBody& body, const std::vector<int>& v
 }
 
 SparseMatrix eliminated_held(const FemSystem& system, const std::vector<int>& vertices) {
-    if (!holds(system.positions(), vertices))
-        throw SolveError(
-            "constraints: leave the body free to move as a whole. Constrain three vertices that are not on "
-            "one line, or use the reduced update, which takes the smallest motion.");
+    if (!holds(system.positions(), vertices)) throw NotHeldError();
     return eliminated(system.K, vertices);
 }
 

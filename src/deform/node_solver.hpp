@@ -2,7 +2,18 @@
 
 #include <Eigen/Core>
 
+#include "base/error.hpp"
+
 namespace elastolab {
+
+/// The constraints leave a rigid motion free, and the update has no answer for that (the reduced one has).
+class NotHeldError : public SolveError {
+public:
+    NotHeldError()
+        : SolveError(
+              "constraints: leave the body free to move as a whole. Constrain three vertices that are not on one "
+              "line, or use the reduced update, which takes the smallest motion.") {}
+};
 
 /// Answer of a node solver, one column per column of prescribed values.
 struct NodeSolution {
