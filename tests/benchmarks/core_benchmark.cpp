@@ -120,37 +120,49 @@ std::vector<int> random_vertices(double share, unsigned seed) {
     return vertices;
 }
 
-/// A tenth of the vertices constrained, none of whose columns is known: solves for the columns of its unknowns and the
-/// factorisation of the small system. `state.range(0)`: the traction model.
-void set_change_beside_its_lapack_calls(benchmark::State& state) {
+/// A tenth of the vertices: the left end of the cube and a patch of the right one.
+std::vector<int> patches() {
+    return vertices_where(cube(), [](const Eigen::Vector3d& x) {
+        return (x[0] < 1e-9 && x[1] < 0.6) || (x[0] > 1 - 1e-9 && x[1] > 0.75 && x[2] > 0.75);
+    });
+}
+
+/// A set change with no column known, under the traction model state.range(0). It needs the solves for the columns of
+/// its unknowns, their product with the rows of the equations at interior points, and the factorisation of the small
+/// system.
+void change_set(benchmark::State& state, const std::vector<int>& vertices) {
     Method method;
     method.tractions = static_cast<Tractions>(state.range(0));
     const Body body = make_body(cube());
     const LuFactorization lu(Eigen::MatrixXd(bordered_matrix()), "H");
+    const Boundary boundary(cube());
+    const LoadPlan plan = plan_linear_loads(boundary, VertexTriangles(cube()), method.tractions, vertices);
+    const Eigen::Index unknowns = 3 * plan.n_slots() + 3 * std::ssize(plan.dropped_collocation);
+    const Eigen::MatrixXd rows = Eigen::MatrixXd::Ones(9 * std::ssize(plan.interior_triangles), lu.size());
     std::shared_ptr<const Model> model;
-    const auto prepare = [&] { model = precomputed(body, method); };
-    const ConstrainedSet set{{}, random_vertices(0.1, 1)};
-    const Eigen::Index unknowns = [&] {
-        const Boundary boundary(cube());
-        const LoadPlan plan = plan_linear_loads(boundary, VertexTriangles(cube()), method.tractions, set.handles);
-        return static_cast<Eigen::Index>(3 * plan.n_slots() + 3 * std::ssize(plan.dropped_collocation));
-    }();
     compare(
         state,
         [&] {
             Control control;
             Deformer deformer(model);
-            deformer.constrain(set, control);
+            deformer.constrain({{}, vertices}, control);
         },
         [&] {
             Eigen::MatrixXd columns = Eigen::MatrixXd::Ones(lu.size(), unknowns);
             lu.solve_in_place(columns);
+            benchmark::DoNotOptimize((rows * columns).eval());
             Eigen::MatrixXd small = Eigen::MatrixXd::Random(unknowns + 6, unknowns + 6);
             LuFactorization(std::move(small), "small system");
         },
-        prepare);
+        [&] { model = precomputed(body, method); });
     state.counters["unknowns"] = static_cast<double>(unknowns);
+    state.counters["constrained"] = static_cast<double>(vertices.size());
 }
+
+void set_change_of_random_vertices_beside_its_lapack_calls(benchmark::State& state) {
+    change_set(state, random_vertices(0.1, 1));
+}
+void set_change_of_patches_beside_its_lapack_calls(benchmark::State& state) { change_set(state, patches()); }
 
 /// The same with all columns known: only the small system is left.
 void set_change_with_known_columns(benchmark::State& state) {
@@ -203,7 +215,13 @@ void drag_frame_beside_a_copy_of_its_columns(benchmark::State& state) {
 BENCHMARK(assembly_beside_its_lu)->UseManualTime()->Iterations(9)->Unit(benchmark::kMillisecond);
 BENCHMARK(on_demand_precomputation_beside_its_lu)->UseManualTime()->Iterations(9)->Unit(benchmark::kMillisecond);
 BENCHMARK(full_precomputation_beside_its_lapack_calls)->UseManualTime()->Iterations(3)->Unit(benchmark::kMillisecond);
-BENCHMARK(set_change_beside_its_lapack_calls)
+BENCHMARK(set_change_of_random_vertices_beside_its_lapack_calls)
+    ->ArgName("tractions")
+    ->DenseRange(0, 2)
+    ->UseManualTime()
+    ->Iterations(5)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(set_change_of_patches_beside_its_lapack_calls)
     ->ArgName("tractions")
     ->DenseRange(0, 2)
     ->UseManualTime()

@@ -124,5 +124,23 @@ TEST(FullMode, ExportsAStiffnessWhoseBorderedInverseItIs) {
     }
 }
 
+/// A uniform pressure on a closed surface displaces nothing when the volume cannot change.
+TEST(FullMode, SaysThatKCarriesNoDigitsByConstantElementsAtOneHalf) {
+    Method method = make_method(MethodKind::constant_bem, Tractions::continuous, Mode::full);
+    EXPECT_FALSE(precomputed(make_body(make_box(3), {1.0, 0.5}), method)->facts().warnings.empty());
+    EXPECT_TRUE(precomputed(make_body(make_box(3), {1.0, 0.3}), method)->facts().warnings.empty());
+}
+
+/// The columns of the mixed system keep their meaning there.
+TEST(OnDemandMode, SolvesAnIncompressibleBodyByConstantElements) {
+    const Pull pull;
+    const auto displacements = [&](double nu) {
+        return displaced(precomputed(make_body(pull.mesh, {1.0, nu}), make_method(MethodKind::constant_bem)), pull.set,
+                         pull.values);
+    };
+    const Eigen::VectorXd near = displacements(0.4999), at = displacements(0.5);
+    EXPECT_LT((near - at).norm(), 1e-3 * at.norm());
+}
+
 }  // namespace
 }  // namespace elastolab::test
