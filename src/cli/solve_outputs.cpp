@@ -33,8 +33,8 @@ fs::path resolved(const fs::path& path) {
 }
 
 void require_distinct(const std::vector<fs::path>& outputs, const std::vector<fs::path>& inputs) {
-    std::vector<fs::path> taken;
-    for (const fs::path& input : inputs) taken.push_back(resolved(input));
+    std::vector<fs::path> taken(inputs.size());
+    std::transform(inputs.begin(), inputs.end(), taken.begin(), resolved);
     for (const fs::path& output : outputs) {
         const auto found = std::find(taken.begin(), taken.end(), resolved(output));
         if (found != taken.end() && found - taken.begin() < std::ssize(inputs))

@@ -87,8 +87,8 @@ VertexSelector read_vertices(const JsonNode& node) {
 
 BoxSelector read_box(const JsonNode& node) {
     node.require_keys({"min", "max"});
-    const BoxSelector box{.min = node.at("min", "Give the lower corner.").vector3(),
-                          .max = node.at("max", "Give the upper corner.").vector3()};
+    BoxSelector box{.min = node.at("min", "Give the lower corner.").vector3(),
+                    .max = node.at("max", "Give the upper corner.").vector3()};
     for (int axis = 0; axis < 3; ++axis)
         if (box.min(axis) > box.max(axis))
             node.fail("min is above max along " + std::string(1, "xyz"[axis]) + " (" + exact(box.min(axis)) + " > " +
@@ -104,9 +104,9 @@ SphereSelector read_sphere(const JsonNode& node) {
 
 PlaneSelector read_plane(const JsonNode& node) {
     node.require_keys({"point", "normal", "tolerance"});
-    const PlaneSelector plane{.point = node.at("point", "Give a point of the plane.").vector3(),
-                              .normal = node.at("normal", "Give the normal of the plane.").vector3(),
-                              .tolerance = node.at("tolerance", "Give the largest distance from the plane.").number()};
+    PlaneSelector plane{.point = node.at("point", "Give a point of the plane.").vector3(),
+                        .normal = node.at("normal", "Give the normal of the plane.").vector3(),
+                        .tolerance = node.at("tolerance", "Give the largest distance from the plane.").number()};
     if (plane.normal.isZero(0.0)) node.at("normal", "").fail("is zero, so it has no direction. Give a normal.");
     if (plane.tolerance < 0.0)
         node.at("tolerance", "").fail("must not be negative, is " + exact(plane.tolerance) + ". Give a distance.");
@@ -118,6 +118,7 @@ Selector read_selector(const JsonNode& node) {
         std::vector<Selector> members;
         const int n = node.array_size();
         if (n == 0) node.fail("selects nothing. Give at least one selector.");
+        members.reserve(static_cast<std::size_t>(n));
         for (int i = 0; i < n; ++i) members.push_back(read_selector(node[i]));
         return {std::move(members)};
     }

@@ -11,6 +11,8 @@ template <class... Functions>
 struct Overloaded : Functions... {
     using Functions::operator()...;
 };
+template <class... Functions>
+Overloaded(Functions...) -> Overloaded<Functions...>;
 
 Json to_json(const Eigen::Vector3d& vector) { return Json::array({vector.x(), vector.y(), vector.z()}); }
 
