@@ -30,4 +30,10 @@ public:
     using Error::Error;
 };
 
+/// A matrix that is exactly singular.
+class SingularMatrixError : public SolveError {
+public:
+    using SolveError::SolveError;
+};
+
 }  // namespace elastolab

@@ -29,7 +29,7 @@ LuFactorization::LuFactorization(Eigen::MatrixXd&& A, const std::string& name) :
     const int info = LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, n, n, factors_.data(), n, pivots_.data());
     assert(info >= 0);
     if (info > 0)
-        throw SolveError(name + ": is singular (pivot " + std::to_string(info) + " of " + std::to_string(n) +
+        throw SingularMatrixError(name + ": is singular (pivot " + std::to_string(info) + " of " + std::to_string(n) +
                          " vanishes). Check the mesh for degenerate or duplicate parts.");
     std::vector<double> work(4 * static_cast<std::size_t>(n));
     std::vector<int> iwork(static_cast<std::size_t>(n));

@@ -11,7 +11,7 @@ class LuFactorization {
 public:
     LuFactorization() = default;
     /// Factors A in place of its own storage: no second matrix. `name` is what the error message calls the matrix.
-    /// Throws SolveError when A is exactly singular or has entries that are not finite.
+    /// Throws SingularMatrixError when A is exactly singular, SolveError when it has entries that are not finite.
     LuFactorization(Eigen::MatrixXd&& A, const std::string& name);
 
     Eigen::Index size() const { return factors_.rows(); }

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstdint>
 #include <numbers>
+#include <span>
+#include <utility>
 
 #include "base/parallel.hpp"
 #include "elasticity/far_field.hpp"
@@ -17,22 +20,42 @@ int numbers_of(Layer layer) { return layer == Layer::single_layer ? kSingleLayer
 
 int n_packs(int n_sources, int lanes) { return (n_sources + lanes - 1) / lanes; }
 
+/// Sources along a space-filling (Morton) curve, so that those integrated together lie together, however the mesh is
+/// numbered: one rule serves them all, chosen for the nearest.
+std::vector<int> along_a_curve(const Sources& sources) {
+    constexpr int kBits = 20;
+    const Eigen::Array3d low = sources.points.rowwise().minCoeff(), high = sources.points.rowwise().maxCoeff();
+    const double step = std::max((high - low).maxCoeff(), 1e-300) / ((1 << kBits) - 1);
+    std::vector<std::pair<std::uint64_t, int>> keys;
+    for (int i = 0; i < sources.size(); ++i) {
+        const Eigen::Array3d cell = (sources.points.col(i).array() - low) / step;
+        std::uint64_t key = 0;
+        for (int bit = kBits - 1; bit >= 0; --bit)
+            for (int axis = 0; axis < 3; ++axis) key = 2 * key + ((static_cast<std::uint64_t>(cell[axis]) >> bit) & 1u);
+        keys.emplace_back(key, i);
+    }
+    std::sort(keys.begin(), keys.end());
+    std::vector<int> order;
+    for (const auto& [key, source] : keys) order.push_back(source);
+    return order;
+}
+
 /// As many sources as a kernel takes at once, and the ball around them.
 struct Pack {
     SourceLanes lanes{};
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();
     double radius = 0.0;
 
-    Pack(const Sources& sources, int first, int n_lanes) {
-        const int last = std::min(first + n_lanes, sources.size()) - 1;
+    Pack(const Sources& sources, std::span<const int> numbers, int n_lanes) {
+        Positions points(3, n_lanes);
         for (int i = 0; i < n_lanes; ++i) {
-            const int source = std::min(first + i, last);
+            const int source = numbers[std::min(static_cast<std::size_t>(i), numbers.size() - 1)];
+            points.col(i) = sources.points.col(source);
             lanes.x[i] = sources.points(0, source);
             lanes.y[i] = sources.points(1, source);
             lanes.z[i] = sources.points(2, source);
             lanes.own_triangle[i] = sources.own_triangle[static_cast<std::size_t>(source)];
         }
-        const auto points = sources.points.middleCols(first, last - first + 1);
         centre = points.rowwise().mean();
         radius = (points.colwise() - centre).colwise().norm().maxCoeff();
     }
@@ -43,7 +66,12 @@ class PackIntegrator {
 public:
     PackIntegrator(Layer layer, const Boundary& boundary, const Sources& sources, const Elements& elements,
                    double tolerance)
-        : layer_(layer), boundary_(boundary), sources_(sources), elements_(elements), far_field_(tolerance) {
+        : layer_(layer),
+          boundary_(boundary),
+          sources_(sources),
+          elements_(elements),
+          far_field_(tolerance),
+          order_(along_a_curve(sources)) {
         const bool linear = elements.order == Elements::Order::linear;
         if (layer == Layer::single_layer)
             kernel_ = linear ? kernels_.single_layer_linear : kernels_.single_layer_constant;
@@ -56,11 +84,17 @@ public:
     /// One slot more than there are: what is not wanted goes there.
     std::size_t buffer_size() const { return slot_size() * static_cast<std::size_t>(elements_.n_slots + 1); }
 
+    /// Numbers of the sources in a pack: as many as lanes, fewer in the last.
+    std::span<const int> sources_of(int pack) const {
+        const auto first = static_cast<std::size_t>(pack * lanes());
+        return std::span(order_).subspan(first, std::min(static_cast<std::size_t>(lanes()), order_.size() - first));
+    }
+
     /// buffer [slot][number][lane] <- the integrals of pack number `pack`.
     void integrate(int pack, double* buffer) const {
         std::fill(buffer, buffer + buffer_size(), 0.0);
-        const int first = pack * lanes();
-        const Pack points(sources_, first, lanes());
+        const std::span<const int> numbers = sources_of(pack);
+        const Pack points(sources_, numbers, lanes());
         for (const Elements::Element& element : elements_.elements) {
             const TriangleGeometry& triangle = boundary_.triangle(element.triangle);
             const double distance =
@@ -69,7 +103,7 @@ public:
                                     slot(buffer, element.slots[2])};
             kernel_(triangle, points.lanes, far_field_.rule(distance / triangle.longest_edge), out);
         }
-        if (layer_ == Layer::double_layer) add_free_terms(first, buffer);
+        if (layer_ == Layer::double_layer) add_free_terms(numbers, buffer);
     }
 
 private:
@@ -77,15 +111,14 @@ private:
         return buffer + slot_size() * static_cast<std::size_t>(number < 0 ? elements_.n_slots : number);
     }
 
-    void add_free_terms(int first, double* buffer) const {
+    void add_free_terms(std::span<const int> numbers, double* buffer) const {
         std::vector<double> sum(slot_size(), 0.0);
         for (int s = 0; s < elements_.n_slots; ++s)
             for (std::size_t i = 0; i < slot_size(); ++i) sum[i] += slot(buffer, s)[i];
-        for (int lane = 0; lane < std::min(lanes(), sources_.size() - first); ++lane)
-            for (const Sources::Weight& weight : sources_.weights[static_cast<std::size_t>(first + lane)]) {
+        for (std::size_t lane = 0; lane < numbers.size(); ++lane)
+            for (const Sources::Weight& weight : sources_.weights[static_cast<std::size_t>(numbers[lane])]) {
                 if (weight.slot < 0) continue;
-                for (std::size_t i = static_cast<std::size_t>(lane); i < slot_size();
-                     i += static_cast<std::size_t>(lanes()))
+                for (std::size_t i = lane; i < slot_size(); i += static_cast<std::size_t>(lanes()))
                     slot(buffer, weight.slot)[i] -= weight.value * sum[i];
             }
     }
@@ -95,6 +128,7 @@ private:
     const Sources& sources_;
     const Elements& elements_;
     FarField far_field_;
+    std::vector<int> order_;
     const TriangleKernels& kernels_ = best_triangle_kernels();
     void (*kernel_)(const TriangleGeometry&, const SourceLanes&, const GaussRule*, double* const*) = nullptr;
 };
@@ -113,13 +147,13 @@ public:
         }
     }
 
-    /// Rows of sources first ... of out <- buffer [slot][number][lane].
-    void write(const double* buffer, int first, int lanes, Eigen::Ref<Eigen::MatrixXd> out) const {
-        const Eigen::Index n_rows = std::min<Eigen::Index>(lanes, out.rows() / 3 - first), n_slots = out.cols() / 3;
-        const int stride = numbers_of(layer_) * lanes;
+    /// Rows of these sources <- buffer [slot][number][lane].
+    void write(const double* buffer, std::span<const int> sources, int lanes, Eigen::Ref<Eigen::MatrixXd> out) const {
+        const Eigen::Index n_slots = out.cols() / 3, stride = numbers_of(layer_) * lanes;
         for (Eigen::Index s = 0; s < n_slots; ++s)
-            for (Eigen::Index lane = 0; lane < n_rows; ++lane)
-                out.block<3, 3>(3 * (first + lane), 3 * s) = block(buffer + s * stride + lane, lanes);
+            for (std::size_t lane = 0; lane < sources.size(); ++lane)
+                out.block<3, 3>(3 * sources[lane], 3 * s) =
+                    block(buffer + s * stride + static_cast<Eigen::Index>(lane), lanes);
     }
 
 private:
@@ -156,7 +190,7 @@ void assemble(Layer layer, const Boundary& boundary, const Sources& sources, con
         std::vector<double> buffer(integrator.buffer_size());
         for (int pack = begin; pack < end; ++pack) {
             integrator.integrate(pack, buffer.data());
-            combination.write(buffer.data(), pack * integrator.lanes(), integrator.lanes(), out);
+            combination.write(buffer.data(), integrator.sources_of(pack), integrator.lanes(), out);
         }
     };
     parallel_blocks(n_packs(sources.size(), integrator.lanes()), kPacksPerBlock, control, run);
@@ -177,6 +211,13 @@ LayerIntegrals::LayerIntegrals(Layer layer, const Boundary& boundary, const Sour
         }
     };
     parallel_blocks(packs, kPacksPerBlock, control, run);
+    for (int pack = 0; pack < packs; ++pack)
+        order_.insert(order_.end(), integrator.sources_of(pack).begin(), integrator.sources_of(pack).end());
+}
+
+std::span<const int> LayerIntegrals::sources_of(int pack) const {
+    const auto first = static_cast<std::size_t>(pack * lanes_);
+    return std::span(order_).subspan(first, std::min(static_cast<std::size_t>(lanes_), order_.size() - first));
 }
 
 void LayerIntegrals::evaluate(const Material& material, Eigen::Ref<Eigen::MatrixXd> out, Control& control) const {
@@ -186,12 +227,8 @@ void LayerIntegrals::evaluate(const Material& material, Eigen::Ref<Eigen::Matrix
                                   static_cast<std::size_t>(n_slots_);
     parallel_blocks(n_packs(n_sources_, lanes_), kPacksPerBlock, control, [&](int begin, int end) {
         for (int pack = begin; pack < end; ++pack)
-            combination.write(data_.data() + pack_size * static_cast<std::size_t>(pack), pack * lanes_, lanes_, out);
+            combination.write(data_.data() + pack_size * static_cast<std::size_t>(pack), sources_of(pack), lanes_, out);
     });
-}
-
-std::uint64_t LayerIntegrals::predict_bytes(Layer layer, std::int64_t n_sources, std::int64_t n_slots) {
-    return static_cast<std::uint64_t>(numbers_of(layer) * n_sources * n_slots) * sizeof(double);
 }
 
 }  // namespace elastolab

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <cstdint>
 #include <Eigen/Core>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/control.hpp"
@@ -37,11 +38,13 @@ public:
     void evaluate(const Material& material, Eigen::Ref<Eigen::MatrixXd> out, Control& control) const;
 
     std::uint64_t memory_bytes() const { return data_.size() * sizeof(double); }
-    static std::uint64_t predict_bytes(Layer layer, std::int64_t n_sources, std::int64_t n_slots);
 
 private:
+    std::span<const int> sources_of(int pack) const;
+
     Layer layer_;
     int n_sources_, n_slots_, lanes_;
+    std::vector<int> order_;    ///< sources as they are packed
     std::vector<double> data_;  ///< [pack of sources][slot][number][lane]
 };
 

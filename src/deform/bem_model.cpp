@@ -24,7 +24,7 @@ bool same_integrals(const Method& a, const Method& b) {
 BemModel::BemModel(const SurfaceMesh& surface, double poisson_ratio, const Method& method, Control& control)
     : method_(method), poisson_ratio_(poisson_ratio) {
     system_ = std::make_shared<const BemSystem>(std::make_shared<const Boundary>(surface), poisson_ratio, method,
-                                                nullptr, facts_.stages, control);
+                                                BemIntegrals{}, facts_.stages, control);
     note_facts();
 }
 
@@ -33,7 +33,7 @@ BemModel::BemModel(const BemModel& before, double poisson_ratio, const Method& m
     if (same_system(before.method_, method) && before.poisson_ratio_ == poisson_ratio) {
         system_ = before.system_;
     } else {
-        const auto integrals = same_integrals(before.method_, method) ? before.system_->integrals() : nullptr;
+        const auto integrals = same_integrals(before.method_, method) ? before.system_->integrals() : BemIntegrals{};
         system_ = std::make_shared<const BemSystem>(before.system_->shared_boundary(), poisson_ratio, method, integrals,
                                                     facts_.stages, control);
     }

@@ -13,12 +13,7 @@ namespace elastolab {
 
 namespace {
 
-constexpr double kSingular = 1e-14;
 constexpr int kSourcesAtOnce = 192;
-
-void require_held(const LuFactorization& lu) {
-    if (lu.size() > 0 && lu.reciprocal_condition() < kSingular) throw NotHeldError();
-}
 
 /// Constrained nodes at which the integral equation is still asked to hold.
 std::vector<int> collocated(const LoadPlan& plan, const std::vector<int>& nodes) {
@@ -95,8 +90,12 @@ MixedProblem::MixedProblem(const BemSystem& system, const LoadPlan& plan, const 
 }
 
 MixedSolver::MixedSolver(const BemSystem& system, const LoadPlan& plan, const std::vector<int>& nodes, Control& control)
-    : problem_(system, plan, nodes, control), lu_(std::move(problem_.unknown), "mixed boundary system") {
-    require_held(lu_);
+    : problem_(system, plan, nodes, control) {
+    // Tractions have another unit than displacements; without a common scale the condition would depend on it.
+    auto tractions = problem_.unknown.rightCols(3 * plan.n_slots());
+    if (tractions.size() > 0) traction_scale_ = 1.0 / tractions.cwiseAbs().maxCoeff();
+    tractions *= traction_scale_;
+    lu_ = factorise_held(std::move(problem_.unknown), "mixed boundary system");
     condition_ = lu_.size() > 0 ? 1.0 / lu_.reciprocal_condition() : 1.0;
 }
 
@@ -107,7 +106,7 @@ NodeSolution MixedSolver::solve(const Eigen::MatrixXd& prescribed, bool want_loa
     solution.displacements.resize(std::ssize(free) + std::ssize(constrained), prescribed.cols());
     solution.displacements(free, Eigen::all) = x.topRows(std::ssize(free));
     solution.displacements(constrained, Eigen::all) = prescribed;
-    if (want_loads) solution.loads = x.bottomRows(x.rows() - std::ssize(free));
+    if (want_loads) solution.loads = traction_scale_ * x.bottomRows(x.rows() - std::ssize(free));
     return solution;
 }
 
@@ -119,8 +118,7 @@ BoundaryEqn9Solver::BoundaryEqn9Solver(const BemSystem& system, const LoadPlan& 
     Eigen::MatrixXd small = -problem_.unknown.bottomRightCorner(q, q);
     small.noalias() +=
         problem_.unknown.bottomLeftCorner(q, n_free) * (H00_inverse_ * problem_.unknown.topRightCorner(n_free, q));
-    tractions_ = LuFactorization(std::move(small), "traction system of Eqn. 9");
-    require_held(tractions_);
+    tractions_ = factorise_held(std::move(small), "traction system of Eqn. 9");
     condition_ = tractions_.size() > 0 ? 1.0 / tractions_.reciprocal_condition() : 1.0;
 }
 

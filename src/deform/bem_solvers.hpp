@@ -32,6 +32,7 @@ public:
 
 private:
     MixedProblem problem_;  ///< its matrix of the unknowns is given up to the factorisation
+    double traction_scale_ = 1.0;
     LuFactorization lu_;
 };
 

@@ -15,6 +15,15 @@ constexpr Eigen::Index kColumnsAtOnce = 384;
 constexpr int kSourcesAtOnce = 192;
 constexpr double kUselessCondition = 1e13;
 
+/// X <- A^-1 X, with a checkpoint after every strip of columns.
+void solve_in_strips(const LuFactorization& A, Eigen::MatrixXd& X, Control& control) {
+    for (Eigen::Index first = 0; first < X.cols(); first += kColumnsAtOnce) {
+        A.solve_in_place(X.middleCols(first, std::min(kColumnsAtOnce, X.cols() - first)));
+        control.set_progress(static_cast<double>(first) / static_cast<double>(X.cols()));
+        control.checkpoint();
+    }
+}
+
 std::vector<int> all_triangles(const Boundary& boundary) {
     std::vector<int> triangles(static_cast<std::size_t>(boundary.n_triangles()));
     std::iota(triangles.begin(), triangles.end(), 0);
@@ -29,7 +38,7 @@ std::uint64_t cache_budget(Eigen::Index n_rows) {
 }  // namespace
 
 BemSystem::BemSystem(std::shared_ptr<const Boundary> boundary, double poisson_ratio, const Method& method,
-                     std::shared_ptr<const LayerIntegrals> integrals, StageTimes& stages, Control& control)
+                     BemIntegrals integrals, StageTimes& stages, Control& control)
     : boundary_(std::move(boundary)),
       material_{1.0, poisson_ratio},
       tolerance_(method.integral_tolerance),
@@ -44,12 +53,12 @@ BemSystem::BemSystem(std::shared_ptr<const Boundary> boundary, double poisson_ra
     if (method.mode == Mode::on_demand && method.update == Update::direct) return;
     Eigen::MatrixXd bordered(n + 6, n + 6);
     {
-        const Stage stage(integrals_ ? "combine" : "integrate", control, stages);
-        if (method.keep_integrals && !integrals_)
-            integrals_ = std::make_shared<LayerIntegrals>(Layer::double_layer, *boundary_, nodes_, elements_,
-                                                          tolerance_, control);
-        if (integrals_)
-            integrals_->evaluate(material_, bordered.topLeftCorner(n, n), control);
+        const Stage stage(integrals_.H ? "combine" : "integrate", control, stages);
+        if (method.keep_integrals && !integrals_.H)
+            integrals_.H = std::make_shared<LayerIntegrals>(Layer::double_layer, *boundary_, nodes_, elements_,
+                                                            tolerance_, control);
+        if (integrals_.H)
+            integrals_.H->evaluate(material_, bordered.topLeftCorner(n, n), control);
         else
             assemble(Layer::double_layer, *boundary_, nodes_, elements_, material_, tolerance_,
                      bordered.topLeftCorner(n, n), control);
@@ -60,7 +69,7 @@ BemSystem::BemSystem(std::shared_ptr<const Boundary> boundary, double poisson_ra
         const Stage stage("factorise", control, stages);
         factorise(std::move(bordered));
     }
-    if (method.mode != Mode::on_demand) complete(std::move(H), stages, control);
+    if (method.mode != Mode::on_demand) complete(std::move(H), method, stages, control);
 }
 
 void BemSystem::factorise(Eigen::MatrixXd&& bordered) {
@@ -74,14 +83,20 @@ void BemSystem::factorise(Eigen::MatrixXd&& bordered) {
     lu_.solve_in_place(rigid_);
 }
 
-void BemSystem::complete(Eigen::MatrixXd H, StageTimes& stages, Control& control) {
+void BemSystem::complete(Eigen::MatrixXd H, const Method& method, StageTimes& stages, Control& control) {
     const Eigen::Index n = 3 * n_nodes();
     auto operators = std::make_shared<DenseOperators>();
     full_ = std::make_unique<Full>();
     full_->G.resize(n, n);
     {
-        const Stage stage("integrate G", control, stages);
-        assemble(Layer::single_layer, *boundary_, nodes_, elements_, material_, tolerance_, full_->G, control);
+        const Stage stage(integrals_.G ? "combine G" : "integrate G", control, stages);
+        if (method.keep_integrals && !integrals_.G)
+            integrals_.G = std::make_shared<LayerIntegrals>(Layer::single_layer, *boundary_, nodes_, elements_,
+                                                            tolerance_, control);
+        if (integrals_.G)
+            integrals_.G->evaluate(material_, full_->G, control);
+        else
+            assemble(Layer::single_layer, *boundary_, nodes_, elements_, material_, tolerance_, full_->G, control);
     }
     {
         const Stage stage("K = G^-1 H", control, stages);
@@ -91,7 +106,7 @@ void BemSystem::complete(Eigen::MatrixXd H, StageTimes& stages, Control& control
                 "K = G^-1 H: G is singular to rounding (constant elements at Poisson's ratio 1/2), so K "
                 "carries no digits; use the mode on-demand.");
         operators->K = H;
-        G.solve_in_place(operators->K);
+        solve_in_strips(G, operators->K, control);
     }
     {
         const Stage stage("K^-1", control, stages);
@@ -99,7 +114,7 @@ void BemSystem::complete(Eigen::MatrixXd H, StageTimes& stages, Control& control
         inverse = Eigen::MatrixXd::Zero(n + 6, n + 6);
         inverse.topLeftCorner(n, n) = full_->G;
         inverse.bottomRightCorner(6, 6).setIdentity();
-        lu_.solve_in_place(inverse);
+        solve_in_strips(lu_, inverse, control);
     }
     full_->H = std::move(H);
     full_->operators = std::move(operators);
@@ -107,7 +122,8 @@ void BemSystem::complete(Eigen::MatrixXd H, StageTimes& stages, Control& control
 
 std::uint64_t BemSystem::memory_bytes() const {
     const auto n = static_cast<std::uint64_t>(lu_.size());
-    return 8 * n * n * (full_ ? 5u : 1u) + (integrals_ ? integrals_->memory_bytes() : 0u);
+    return 8 * n * n * (full_ ? 5u : 1u) + (integrals_.H ? integrals_.H->memory_bytes() : 0u) +
+           (integrals_.G ? integrals_.G->memory_bytes() : 0u);
 }
 
 Eigen::MatrixXd BemSystem::double_layer(const Sources& sources, Control& control) const {

@@ -18,6 +18,11 @@
 
 namespace elastolab {
 
+/// The material-free integrals of both layers over all nodes, as far as they are kept.
+struct BemIntegrals {
+    std::shared_ptr<const LayerIntegrals> H, G;
+};
+
 /// The boundary equation H u = G t of one solid with unit Young's modulus, bordered by the rigid modes B = C of its
 /// nodes and factorised:
 ///   Hhat = | H   B |      Hhat^-1 = | D'  E |
@@ -25,17 +30,17 @@ namespace elastolab {
 /// Nodes are vertices (linear elements) or triangles (constant elements). Any thread may use it.
 class BemSystem {
 public:
-    /// `integrals`: those of H for this boundary and method, or null to integrate (and keep, if the method says so).
+    /// `integrals`: those of this boundary and method; what is missing is integrated (and kept, if the method says so).
     /// On demand with the update `direct` nothing is factorised here: each constrained set has a system of its own.
     BemSystem(std::shared_ptr<const Boundary> boundary, double poisson_ratio, const Method& method,
-              std::shared_ptr<const LayerIntegrals> integrals, StageTimes& stages, Control& control);
+              BemIntegrals integrals, StageTimes& stages, Control& control);
 
     const Boundary& boundary() const { return *boundary_; }
     std::shared_ptr<const Boundary> shared_boundary() const { return boundary_; }
     const VertexTriangles& around() const { return around_; }
     bool is_constant() const { return elements_.order == Elements::Order::constant; }
     int n_nodes() const { return nodes_.size(); }
-    std::shared_ptr<const LayerIntegrals> integrals() const { return integrals_; }
+    const BemIntegrals& integrals() const { return integrals_; }
 
     /// E over J: (3*n_nodes + 6) x 6.
     const Eigen::MatrixXd& rigid() const { return rigid_; }
@@ -70,7 +75,7 @@ private:
         std::shared_ptr<const DenseOperators> operators;
     };
     void factorise(Eigen::MatrixXd&& bordered);
-    void complete(Eigen::MatrixXd H, StageTimes& stages, Control& control);
+    void complete(Eigen::MatrixXd H, const Method& method, StageTimes& stages, Control& control);
     /// The columns of a whole shape function, out of K^-1; null when K^-1 is not in memory or does not have them.
     Columns::Block from_inverse(const LoadPlan::Block& block) const;
     std::vector<Columns::Block> compute(const std::vector<const LoadPlan::Block*>& missing, Elements::Order order,
@@ -82,7 +87,7 @@ private:
     VertexTriangles around_;
     Sources nodes_;
     Elements elements_;
-    std::shared_ptr<const LayerIntegrals> integrals_;
+    BemIntegrals integrals_;
     Eigen::MatrixXd modes_;
     LuFactorization lu_;
     Eigen::MatrixXd rigid_;

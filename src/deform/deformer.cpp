@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <iomanip>
+#include <sstream>
 
 #include "base/error.hpp"
 #include "deform/solid_model.hpp"
@@ -12,6 +14,20 @@ namespace {
 
 /// Condition of the small system from which on fewer than six digits are left.
 constexpr double kPoorCondition = 1e10;
+
+[[maybe_unused]] bool all_differ(const ConstrainedSet& set, int n_vertices) {
+    std::vector<int> vertices = set.base;
+    vertices.insert(vertices.end(), set.handles.begin(), set.handles.end());
+    std::sort(vertices.begin(), vertices.end());
+    return std::adjacent_find(vertices.begin(), vertices.end()) == vertices.end() &&
+           (vertices.empty() || (vertices.front() >= 0 && vertices.back() < n_vertices));
+}
+
+std::string short_number(double value) {
+    std::ostringstream text;
+    text << std::setprecision(2) << value;
+    return text.str();
+}
 
 }  // namespace
 
@@ -43,6 +59,7 @@ Deformer::Deformer(Deformer&&) noexcept = default;
 Deformer& Deformer::operator=(Deformer&&) noexcept = default;
 
 void Deformer::constrain(ConstrainedSet set, Control& control) {
+    assert(all_differ(set, model_->facts().n_vertices));
     std::vector<SolidState> solids;
     SolutionQuality quality;
     for (const Model::Part& part : model_->parts()) {
@@ -73,7 +90,7 @@ void Deformer::constrain(ConstrainedSet set, Control& control) {
             "Constrain three vertices that are not on one line.");
     else if (quality.condition_estimate > kPoorCondition)
         quality.warnings.push_back("constraints: nearly dependent (condition " +
-                                   std::to_string(quality.condition_estimate) +
+                                   short_number(quality.condition_estimate) +
                                    "), so forces may be wrong. Remove handles that nearly coincide.");
     solids_ = std::move(solids);
     set_ = std::move(set);

@@ -8,12 +8,6 @@ namespace {
 
 constexpr double kSingular = 1e-14;
 
-LuFactorization factorise_held(Eigen::MatrixXd&& A, const char* name) {
-    LuFactorization lu(std::move(A), name);
-    if (lu.size() > 0 && lu.reciprocal_condition() < kSingular) throw NotHeldError();
-    return lu;
-}
-
 double condition_of(const LuFactorization& lu) { return lu.size() > 0 ? 1.0 / lu.reciprocal_condition() : 1.0; }
 
 /// U from its two parts, and T1 = K10 U0 + K11 U1.
@@ -31,6 +25,16 @@ NodeSolution assemble_solution(const DenseOperators& operators, const Partition&
 }
 
 }  // namespace
+
+LuFactorization factorise_held(Eigen::MatrixXd&& A, const char* name) {
+    try {
+        LuFactorization lu(std::move(A), name);
+        if (lu.size() > 0 && lu.reciprocal_condition() < kSingular) throw NotHeldError();
+        return lu;
+    } catch (const SingularMatrixError&) {
+        throw NotHeldError();
+    }
+}
 
 Partition::Partition(Eigen::Index n_dofs, const std::vector<int>& nodes) {
     std::vector<char> is_constrained(static_cast<std::size_t>(n_dofs), 0);

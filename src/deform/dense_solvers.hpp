@@ -24,6 +24,9 @@ struct Partition {
     Partition(Eigen::Index n_dofs, const std::vector<int>& nodes);
 };
 
+/// Factors of a matrix that is singular when the constraints do not hold the body: then throws NotHeldError.
+LuFactorization factorise_held(Eigen::MatrixXd&& A, const char* name);
+
 /// K00^-1 by Eqn. 9, D00 - D01 D11^-1 D10, from the inverse of a bordered matrix; the border belongs to part 1.
 /// Throws SolveError when D11 is singular: the constraints do not hold the body.
 Eigen::MatrixXd inverse_by_eqn9(const Eigen::MatrixXd& bordered_inverse, const Partition& partition);

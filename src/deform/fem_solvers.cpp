@@ -1,5 +1,6 @@
 #include "deform/fem_solvers.hpp"
 
+#include <algorithm>
 #include <Eigen/QR>
 #include "base/error.hpp"
 
@@ -34,6 +35,7 @@ GroundedBody::GroundedBody(std::shared_ptr<const FemSystem> system, std::vector<
     : system_(std::move(system)),
       base_(std::move(base)),
       compliance_(system_->K, *system_->mesh->analysis, system_->positions(), system_->n_surface(), base_, control),
+      reciprocal_condition_(compliance_.reciprocal_condition()),
       cache_(kCacheBudget) {}
 
 Columns GroundedBody::responses(const std::vector<int>& vertices, Control& control) const {
@@ -69,7 +71,7 @@ Eigen::MatrixXd GroundedBody::volume_displacements(const Eigen::MatrixXd& surfac
 
 GroundedSolver::GroundedSolver(std::shared_ptr<const GroundedBody> body, std::vector<int> vertices, Control& control)
     : body_(std::move(body)), vertices_(std::move(vertices)), reduced_(reduced_system(*body_, vertices_, control)) {
-    condition_ = reduced_.condition();
+    condition_ = std::max(reduced_.condition(), 1.0 / body_->reciprocal_condition());
     held_ = reduced_.held();
 }
 

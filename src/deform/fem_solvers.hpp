@@ -39,6 +39,8 @@ public:
     const FemSystem& system() const { return *system_; }
     const std::vector<int>& base() const { return base_; }
     const SurfaceCompliance& compliance() const { return compliance_; }
+    /// Of the factorised matrix, estimated.
+    double reciprocal_condition() const { return reciprocal_condition_; }
     /// D over R^T for these vertices (with a base: D alone); cached.
     Columns responses(const std::vector<int>& vertices, Control& control) const;
     /// Displacements of all nodes for displacements of the surface and the loads on it that cause them.
@@ -48,6 +50,7 @@ private:
     std::shared_ptr<const FemSystem> system_;
     std::vector<int> base_;
     SurfaceCompliance compliance_;
+    double reciprocal_condition_;
     mutable ColumnCache cache_;
 };
 

@@ -105,6 +105,8 @@ std::shared_ptr<const Model> precompute_again(const Model& before, const Materia
     Body body = before.body();
     body.material = material;
     require_sensible(method);
+    if (method.kind != before.method().kind || method.mode != before.method().mode)
+        require_memory(predict_cost(*body.surface, method), method);
     std::vector<Model::Part> parts;
     for (const Model::Part& part : before.parts()) {
         SolidPointer solid = reuse_solid(*part.solid, material.poisson_ratio, method, control);

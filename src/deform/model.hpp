@@ -35,7 +35,9 @@ struct ModelFacts {
     std::vector<std::string> warnings;
 };
 
-/// A named dense matrix for export; filled only when asked for.
+/// A named dense matrix for export; filled only when asked for. K^ is K bordered by six columns and rows: by the rigid
+/// modes C of its nodes on both sides for FEM, by G^-1 C and C^T for BEM (C^T the orthonormal basis that
+/// elasticity/rigid_motion.hpp makes).
 struct NamedMatrix {
     std::string name;  ///< "H", "G", "K", "Kinv" (D of the bordered inverse), "Khatinv" (the whole bordered inverse)
     Eigen::MatrixXd values;
@@ -80,8 +82,9 @@ private:
 /// needs before anything is allocated), Cancelled.
 std::shared_ptr<const Model> precompute(const Body& body, const Method& method, Control& control);
 
-/// The same body with another material or method; takes over whatever does not change (integrals, tetrahedra), so
-/// that a change of Poisson's ratio integrates nothing and a change of Young's modulus costs nothing.
+/// The same body with another material or method; takes over whatever does not change. A change of Young's modulus
+/// costs nothing. A change of Poisson's ratio integrates nothing by FEM, nor by BEM where Method::keep_integrals was
+/// set (but for the single layer of the constrained triangles on demand, a few columns). Throws as precompute does.
 std::shared_ptr<const Model> precompute_again(const Model& before, const Material& material, const Method& method,
                                               Control& control);
 

@@ -38,8 +38,10 @@ ReducedSolver::ReducedSolver(ReducedSystem system) : system_(std::move(system)) 
     system_.closing.resize(0, 0);
     if (S.size() == 0) return;
     // Loads and border values have different units; dividing each column by its largest entry makes the condition
-    // independent of them.
+    // independent of them. The border has one scale for all its columns: where the body is not held, the smallest
+    // border values are to mean the smallest motion.
     scale_ = S.cwiseAbs().colwise().maxCoeff().transpose();
+    if (auto border = scale_.tail(system_.rigid.cols()); border.size() > 0) border.setConstant(border.maxCoeff());
     if (!scale_.allFinite()) throw SolveError("constrained system: has entries that are not finite. Check the mesh.");
     scale_ = (scale_.array() > 0.0).select(scale_, 1.0);
     S.array().rowwise() /= scale_.transpose().array();
@@ -68,7 +70,10 @@ NodeSolution ReducedSolver::solve(const Eigen::MatrixXd& prescribed, bool want_l
     const Eigen::Index n_border = system_.rigid.cols(), n_rows = system_.rigid.rows() - n_border;
     NodeSolution solution;
     solution.displacements = Eigen::MatrixXd::Zero(n_rows, prescribed.cols());
-    if (scale_.size() == 0) return solution;
+    if (scale_.size() == 0) {
+        solution.loads = Eigen::MatrixXd::Zero(system_.n_loads, prescribed.cols());
+        return solution;
+    }
     const Eigen::MatrixXd x = unknowns(prescribed);
     if (!x.allFinite())
         throw SolveError("constrained system: its solution is not finite. Remove handles that nearly coincide.");

@@ -356,13 +356,12 @@ void closed_form(const TriangleGeometry& T, const SourceLanes& sources, double* 
 
 /// The kernel at one point, times weight: 7 or 10 numbers in the global frame; d = y - x.
 template <class B>
-void point_values(const TriangleGeometry& T, const B (&d)[3], const B& inverse_r, double weight,
+void point_values(const TriangleGeometry&, const B (&d)[3], const B& inverse_r, double weight,
                   B (&values)[kSingleLayerNumbers]) {
     const B inverse_r3 = weight * inverse_r * inverse_r * inverse_r;
     values[0] = weight * inverse_r;
     constexpr int kRow[6] = {0, 1, 2, 0, 0, 1}, kColumn[6] = {0, 1, 2, 1, 2, 2};
     for (int k = 0; k < 6; ++k) values[1 + k] = inverse_r3 * d[kRow[k]] * d[kColumn[k]];
-    static_cast<void>(T);
 }
 template <class B>
 void point_values(const TriangleGeometry& T, const B (&d)[3], const B& inverse_r, double weight,

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <Eigen/Geometry>
 #include <numeric>
+#include <random>
 
 #include "base/blas.hpp"
 #include "elasticity/exact_fields.hpp"
@@ -165,6 +167,32 @@ TEST(BemAssembly, DoesNotDependOnTheNumberOfThreads) {
     const Eigen::MatrixXd one = assembled(1), three = assembled(3);
     set_thread_count(threads);
     EXPECT_EQ(one, three);
+}
+
+/// Long and fine enough that distant pairs are integrated by Gauss rules; numbered at random, so that neighbours in
+/// number are far apart.
+TEST(BemAssembly, KeepsTheToleranceOnALongBodyNumberedAtRandom) {
+    const SurfaceMesh ordered = make_box(2, {40.0, 1.0, 1.0});
+    std::vector<int> place(static_cast<std::size_t>(ordered.n_vertices()));
+    std::iota(place.begin(), place.end(), 0);
+    std::shuffle(place.begin(), place.end(), std::mt19937(41));
+    SurfaceMesh shuffled = ordered;
+    for (int v = 0; v < ordered.n_vertices(); ++v)
+        shuffled.vertices.col(place[static_cast<std::size_t>(v)]) = ordered.vertices.col(v);
+    for (int& v : shuffled.triangles.reshaped()) v = place[static_cast<std::size_t>(v)];
+    const Boundary boundary(shuffled);
+    const auto double_layer = [&](double tolerance) {
+        return matrix(Layer::double_layer, boundary, vertex_sources(boundary), vertex_elements(boundary), {1.0, 0.3},
+                      tolerance);
+    };
+    const Eigen::MatrixXd exact = double_layer(1e-14);
+    for (const double tolerance : {1e-6, 1e-10}) {
+        const Eigen::MatrixXd H = double_layer(tolerance);
+        EXPECT_GT((H - exact).norm(), 0.0);  // the far field is used
+        EXPECT_LT((H - exact).norm(), tolerance * exact.norm()) << tolerance;
+    }
+    const Eigen::VectorXd u = rigid_motion(shuffled.vertices, Eigen::Vector3d::Zero(), {0.3, -0.5, 0.8});
+    EXPECT_LT((double_layer(1e-10) * u).norm(), 1e-10 * exact.norm() * u.norm());
 }
 
 TEST(BemAssembly, StopsWhenCancelled) {

@@ -17,7 +17,7 @@ const std::vector<std::pair<Mode, Update>> kWays = {{Mode::on_demand, Update::di
                                                     {Mode::full, Update::direct},
                                                     {Mode::full, Update::eqn9},
                                                     {Mode::full, Update::reduced}};
-constexpr double kTolerance = 1e-9;
+constexpr double kTolerance = 1e-9;  // of displacements and forces, relative
 
 /// A random set of this share of the vertices; the first part of it is the base, at rest.
 ConstrainedSet random_set(const SurfaceMesh& mesh, double share, bool with_base, std::mt19937& random) {
@@ -37,6 +37,18 @@ Eigen::VectorXd random_values(const ConstrainedSet& set, std::mt19937& random) {
     return values;
 }
 
+struct Outcome {
+    Eigen::VectorXd displacements;
+    Eigen::Matrix3Xd forces;
+};
+
+Outcome outcome(std::shared_ptr<const Model> model, const ConstrainedSet& set, const Eigen::VectorXd& values) {
+    Control control;
+    Deformer deformer(std::move(model));
+    deformer.constrain(set, control);
+    return {deformer.displace(values), deformer.reactions(values).forces};
+}
+
 struct Agreement : ::testing::TestWithParam<Method> {};
 
 void expect_agreement(const SurfaceMesh& mesh, const Method& method, unsigned seed) {
@@ -51,10 +63,13 @@ void expect_agreement(const SurfaceMesh& mesh, const Method& method, unsigned se
             const ConstrainedSet set = random_set(mesh, share, with_base, random);
             if (set.handles.empty()) continue;
             const Eigen::VectorXd values = random_values(set, random);
-            const Eigen::VectorXd reference = displaced(reference_model, set, values);
+            const Outcome reference = outcome(reference_model, set, values);
             for (const auto& model : models) {
-                const Eigen::VectorXd other = displaced(model, set, values);
-                EXPECT_LT((other - reference).norm(), kTolerance * reference.norm())
+                const Outcome other = outcome(model, set, values);
+                EXPECT_LT((other.displacements - reference.displacements).norm(),
+                          kTolerance * reference.displacements.norm())
+                    << describe(model->method()) << ", " << share << (with_base ? " with a base" : "");
+                EXPECT_LT((other.forces - reference.forces).norm(), kTolerance * reference.forces.norm())
                     << describe(model->method()) << ", " << share << (with_base ? " with a base" : "");
             }
         }

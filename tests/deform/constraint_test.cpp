@@ -20,23 +20,43 @@ SurfaceMesh joined(const SurfaceMesh& a, const SurfaceMesh& b, const Eigen::Vect
 }
 
 TEST(Constraints, ThatHoldTooLittleGiveTheSmallestMotionAndSaySo) {
-    const SurfaceMesh mesh = make_box(3);
+    const SurfaceMesh mesh = make_box(4);
+    // A corner, the centre of a face (where the axes of rotations pass) and a vertex beside it.
+    const auto held_at = vertices_where(
+        mesh, [](const auto& x) { return x.norm() < 1e-9 || (x - Eigen::Vector3d(0.5, 0.5, 0.0)).norm() < 0.26; });
+    ASSERT_GE(held_at.size(), 4u);
     for (const Method& method : all_methods()) {
         Control control;
-        Deformer deformer(precomputed(make_body(mesh), method));
-        deformer.constrain({{}, {0}}, control);
-        const Eigen::VectorXd u = deformer.displace(Eigen::Vector3d(0.1, 0.2, 0.3));
-        if (method.kind != MethodKind::constant_bem) {  // whose lone vertex holds the triangles around it
-            EXPECT_FALSE(deformer.quality().held) << describe(method);
-            EXPECT_FALSE(deformer.quality().warnings.empty()) << describe(method);
+        const auto model = precomputed(make_body(mesh), method);
+        for (const int vertex : held_at) {
+            Deformer deformer(model);
+            deformer.constrain({{}, {vertex}}, control);
+            const Eigen::VectorXd u = deformer.displace(Eigen::Vector3d(0.1, 0.2, 0.3));
+            if (method.kind != MethodKind::constant_bem) {  // whose lone vertex holds the triangles around it
+                EXPECT_FALSE(deformer.quality().held) << describe(method);
+                EXPECT_FALSE(deformer.quality().warnings.empty()) << describe(method);
+            }
+            // One vertex moved, nothing strained: a rigid motion, and no larger than the translation.
+            const Eigen::MatrixXd modes = rigid_modes(mesh.vertices);
+            const double strained = (u - modes * (modes.transpose() * u)).norm();
+            EXPECT_LT(strained, (method.kind == MethodKind::constant_bem ? 0.3 : 1e-8) * u.norm()) << describe(method);
+            const double translation = Eigen::Vector3d(0.1, 0.2, 0.3).norm() * std::sqrt(mesh.n_vertices());
+            EXPECT_LT(u.norm(), 1.0001 * translation) << describe(method) << ", vertex " << vertex;
         }
-        // One vertex moved, nothing strained: a rigid motion, and no larger than the translation.
-        const Eigen::MatrixXd modes = rigid_modes(mesh.vertices);
-        const double strained = (u - modes * (modes.transpose() * u)).norm();
-        EXPECT_LT(strained, (method.kind == MethodKind::constant_bem ? 0.3 : 1e-8) * u.norm()) << describe(method);
-        const double translation = Eigen::Vector3d(0.1, 0.2, 0.3).norm() * std::sqrt(mesh.n_vertices());
-        EXPECT_LT(u.norm(), 1.0001 * translation) << describe(method);
     }
+}
+
+TEST(Constraints, OfABaseAloneNeedNoForces) {
+    const SurfaceMesh mesh = make_box(3);
+    const auto base = vertices_where(mesh, [](const auto& x) { return x[0] < 1e-9; });
+    for (const Update update : {Update::reduced, Update::direct})
+        for (const Method& method : all_methods(Mode::on_demand, update)) {
+            Control control;
+            Deformer deformer(precomputed(make_body(mesh), method));
+            deformer.constrain({base, {}}, control);
+            EXPECT_EQ(deformer.displace(Eigen::VectorXd(0)).norm(), 0.0) << describe(method);
+            EXPECT_EQ(deformer.reactions(Eigen::VectorXd(0)).forces.norm(), 0.0) << describe(method);
+        }
 }
 
 TEST(Constraints, OnALineLeaveARotationFree) {

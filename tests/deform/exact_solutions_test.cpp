@@ -207,7 +207,7 @@ TEST(Reactions, OfAStretchedBoxAreStressTimesArea) {
     }
 }
 
-TEST(Residual, IsRoundingForASolutionAndNotForAWrongOne) {
+TEST(Residual, IsRoundingForASolution) {
     const SurfaceMesh mesh = make_box(4);
     const auto base = vertices_where(mesh, [](const auto& x) { return x[0] < kEdge; });
     const auto pull = vertices_where(mesh, [](const auto& x) { return x[0] > 1.0 - kEdge; });
