@@ -6,7 +6,7 @@ set -euo pipefail
 packages=(
   g++ cmake ninja-build pkg-config
   libeigen3-dev libopenblas-dev liblapacke-dev libsuitesparse-dev libxsimd-dev
-  libassimp-dev libtet1.5-dev nlohmann-json3-dev libcli11-dev libspdlog-dev
+  libassimp-dev libtet1.5-dev nlohmann-json3-dev libcli11-dev
   libgtest-dev libgmock-dev libbenchmark-dev "$@"
 )
 
