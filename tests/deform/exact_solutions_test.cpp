@@ -81,6 +81,10 @@ TEST(ExactSolutions, ShowTheLeakOfContinuousTractionsInThePatchTest) {
 struct Study {
     std::vector<double> errors;
     double order(double refinement) const { return std::log(errors[0] / errors[1]) / std::log(refinement); }
+    void print(const std::string& what, const Method& method, double refinement) const {
+        print_measured(what + ", " + describe(method) + ", relative L2 error", errors.back());
+        print_measured(what + ", " + describe(method) + ", observed order", order(refinement));
+    }
 };
 
 std::ostream& operator<<(std::ostream& out, const Study& study) {
@@ -134,11 +138,13 @@ const Method kFem = make_method(MethodKind::fem);
 TEST(PureBending, ConvergesWithTheOrderOfEachMethod) {
     for (const auto& [method, order] : {std::pair{kFem, 1.8}, {kConstant, 0.9}}) {
         const Study study = bend(method, 0.3, {3, 6});
+        study.print("bending", method, 2.0);
         EXPECT_GT(study.order(2.0), order) << describe(method) << ": " << study;
     }
     // The order of linear elements rises slowly to 2 (1.6 from 2 to 4 cells, 1.8 from 8 to 12).
     for (const auto& [method, order] : {std::pair{kRestricted, 1.8}, {kDiscontinuous, 1.65}}) {
         const Study study = bend(method, 0.3, {8, 12});
+        study.print("bending", method, 1.5);
         EXPECT_GT(study.order(1.5), order) << describe(method) << ": " << study;
     }
 }
@@ -153,6 +159,7 @@ TEST(Torsion, ConvergesWithTheOrderOfEachMethod) {
     for (const auto& [method, order] :
          {std::pair{kRestricted, 1.8}, {kDiscontinuous, 1.8}, {kFem, 1.8}, {kConstant, 0.9}}) {
         const Study study = twist(method, 0.3, {3, 6});
+        study.print("torsion", method, 2.0);
         EXPECT_GT(study.order(2.0), order) << describe(method) << ": " << study;
     }
 }
@@ -161,6 +168,7 @@ TEST(HollowSphere, ConvergesWithTheOrderOfEachMethod) {
     for (const auto& [method, order] :
          {std::pair{kRestricted, 1.8}, {kDiscontinuous, 1.8}, {kFem, 1.8}, {kConstant, 0.9}}) {
         const Study study = inflate(method, 0.3, {5, 10});
+        study.print("hollow sphere", method, 2.0);
         EXPECT_GT(study.order(2.0), order) << describe(method) << ": " << study;
     }
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdio>
 #include <Eigen/Core>
 #include <memory>
 #include <random>
@@ -30,6 +31,11 @@ inline std::vector<Method> all_methods(Mode mode = Mode::on_demand, Update updat
     for (const Tractions tractions : kAllTractions)
         methods.push_back(make_method(MethodKind::linear_bem, tractions, mode, update));
     return methods;
+}
+
+/// Prints a measured figure among the lines of the test run, for people and for the README's table.
+inline void print_measured(const std::string& what, double value) {
+    std::printf("[ measured ] %s: %.3g\n", what.c_str(), value);
 }
 
 inline std::string describe(const Method& method) {
