@@ -52,21 +52,21 @@ void BemModel::note_facts() {
         display_ = std::make_shared<const SparseRows>(average_of_triangles(mesh, system_->around()));
 }
 
-std::unique_ptr<NodeSolver> BemModel::make_solver(const LoadPlan& plan, const std::vector<int>& nodes,
+std::unique_ptr<NodeSolver> BemModel::make_solver(const LoadPlan& plan, const std::vector<int>& nodes, int n_base,
                                                   Control& control) const {
     // Eqns. 7 and 9 on K itself where one K serves every constrained set.
     const bool has_K = system_->operators() && (system_->is_constant() || method_.tractions == Tractions::continuous);
     switch (method_.update) {
         case Update::direct:
             if (has_K) return std::make_unique<DirectSolver>(system_->operators(), nodes);
-            return std::make_unique<MixedSolver>(*system_, plan, nodes, control);
+            return std::make_unique<MixedSolver>(*system_, plan, nodes, n_base, control);
         case Update::eqn9:
             if (!system_->operators())
                 throw SolveError("update eqn9: needs K and its inverse in memory. Choose the mode full.");
             if (has_K) return make_paper_solver(system_->operators(), nodes);
             if (2 * std::ssize(nodes) >= system_->n_nodes())
-                return std::make_unique<MixedSolver>(*system_, plan, nodes, control);
-            return std::make_unique<BoundaryEqn9Solver>(*system_, plan, nodes, control);
+                return std::make_unique<MixedSolver>(*system_, plan, nodes, n_base, control);
+            return std::make_unique<BoundaryEqn9Solver>(*system_, plan, nodes, n_base, control);
         case Update::reduced:
             break;
     }
@@ -89,7 +89,9 @@ std::unique_ptr<ConstrainedSolid> BemModel::constrain(std::span<const int> base,
     LoadPlan plan = system_->is_constant()
                         ? plan_constant_loads(boundary, nodes.nodes, nodes.prescribe)
                         : plan_linear_loads(boundary, system_->around(), method_.tractions, vertices);
-    std::unique_ptr<NodeSolver> solver = make_solver(plan, nodes.nodes, control);
+    // Constant elements mix base and handles in their triangles; none of those counts as resting then.
+    const int n_base = system_->is_constant() ? 0 : static_cast<int>(base.size());
+    std::unique_ptr<NodeSolver> solver = make_solver(plan, nodes.nodes, n_base, control);
     const auto residual = [system = system_, plan](const NodeSolution& solution, Control& its_control) {
         return boundary_residual(*system, plan, solution, its_control);
     };

@@ -20,7 +20,7 @@ public:
 
 private:
     void note_facts();
-    std::unique_ptr<NodeSolver> make_solver(const LoadPlan& plan, const std::vector<int>& nodes,
+    std::unique_ptr<NodeSolver> make_solver(const LoadPlan& plan, const std::vector<int>& nodes, int n_base,
                                             Control& control) const;
 
     Method method_;

@@ -61,7 +61,7 @@ struct Balance {
 
 }  // namespace
 
-MixedProblem::MixedProblem(const BemSystem& system, const LoadPlan& plan, const std::vector<int>& nodes,
+MixedProblem::MixedProblem(const BemSystem& system, const LoadPlan& plan, const std::vector<int>& nodes, int n_base,
                            Control& control)
     : partition(3 * system.n_nodes(), nodes) {
     std::vector<int> at = free_nodes(partition);
@@ -70,12 +70,13 @@ MixedProblem::MixedProblem(const BemSystem& system, const LoadPlan& plan, const 
     const Sources points = interior_sources(system.boundary(), plan.interior_triangles);
     assert(3 * (std::ssize(at) + points.size()) == n);
     unknown.resize(n, n);
-    known.resize(n, std::ssize(partition.constrained));
+    const std::vector<Eigen::Index> moving(partition.constrained.begin() + 3 * n_base, partition.constrained.end());
+    known.resize(n, std::ssize(moving));
     Eigen::Index row = 0;
     const auto add = [&](const Eigen::MatrixXd& H, const Sources& sources) {
         unknown.block(row, 0, H.rows(), n_free) = H(Eigen::all, partition.free);
         unknown.block(row, n_free, H.rows(), n - n_free) = -system.single_layer(sources, plan.elements, control);
-        known.middleRows(row, H.rows()) = H(Eigen::all, partition.constrained);
+        known.middleRows(row, H.rows()) = H(Eigen::all, moving);
         row += H.rows();
     };
     for_strips(static_cast<int>(at.size()), [&](int first, int count) {
@@ -89,8 +90,9 @@ MixedProblem::MixedProblem(const BemSystem& system, const LoadPlan& plan, const 
     });
 }
 
-MixedSolver::MixedSolver(const BemSystem& system, const LoadPlan& plan, const std::vector<int>& nodes, Control& control)
-    : problem_(system, plan, nodes, control) {
+MixedSolver::MixedSolver(const BemSystem& system, const LoadPlan& plan, const std::vector<int>& nodes, int n_base,
+                         Control& control)
+    : problem_(system, plan, nodes, n_base, control) {
     // Tractions have another unit than displacements; without a common scale the condition would depend on it.
     auto tractions = problem_.unknown.rightCols(3 * plan.n_slots());
     if (tractions.size() > 0) traction_scale_ = 1.0 / tractions.cwiseAbs().maxCoeff();
@@ -101,7 +103,7 @@ MixedSolver::MixedSolver(const BemSystem& system, const LoadPlan& plan, const st
 
 NodeSolution MixedSolver::solve(const Eigen::MatrixXd& prescribed, bool want_loads) const {
     const auto& [free, constrained] = problem_.partition;
-    const Eigen::MatrixXd x = lu_.solve(-problem_.known * prescribed);
+    const Eigen::MatrixXd x = lu_.solve(-problem_.times_known(prescribed));
     NodeSolution solution;
     solution.displacements.resize(std::ssize(free) + std::ssize(constrained), prescribed.cols());
     solution.displacements(free, Eigen::all) = x.topRows(std::ssize(free));
@@ -111,8 +113,8 @@ NodeSolution MixedSolver::solve(const Eigen::MatrixXd& prescribed, bool want_loa
 }
 
 BoundaryEqn9Solver::BoundaryEqn9Solver(const BemSystem& system, const LoadPlan& plan, const std::vector<int>& nodes,
-                                       Control& control)
-    : problem_(system, plan, nodes, control),
+                                       int n_base, Control& control)
+    : problem_(system, plan, nodes, n_base, control),
       H00_inverse_(inverse_by_eqn9(system.bordered_inverse(), problem_.partition)) {
     const Eigen::Index q = 3 * plan.n_slots(), n_free = H00_inverse_.rows();
     Eigen::MatrixXd small = -problem_.unknown.bottomRightCorner(q, q);
@@ -125,7 +127,7 @@ BoundaryEqn9Solver::BoundaryEqn9Solver(const BemSystem& system, const LoadPlan& 
 NodeSolution BoundaryEqn9Solver::solve(const Eigen::MatrixXd& prescribed, bool want_loads) const {
     const auto& [free, constrained] = problem_.partition;
     const Eigen::Index n_free = H00_inverse_.rows(), q = tractions_.size();
-    const Eigen::MatrixXd right = problem_.known * prescribed;
+    const Eigen::MatrixXd right = problem_.times_known(prescribed);
     const Eigen::MatrixXd A0 = problem_.unknown.bottomLeftCorner(q, n_free),
                           minus_G0 = problem_.unknown.topRightCorner(n_free, q);
     const Eigen::MatrixXd loads = tractions_.solve(right.bottomRows(q) - A0 * (H00_inverse_ * right.topRows(n_free)));

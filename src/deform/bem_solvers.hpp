@@ -18,16 +18,23 @@ namespace elastolab {
 struct MixedProblem {
     Partition partition;
     Eigen::MatrixXd unknown;  ///< [H00 -G0; A0 -Gp], square, 3*free + 3*slots
-    Eigen::MatrixXd known;    ///< [H01; A1], columns of the prescribed displacements
+    Eigen::MatrixXd known;    ///< [H01; A1], columns of the prescribed displacements, without those of the base
 
-    /// Integrates in strips, so that nothing of the matrix's size is held beside it.
-    MixedProblem(const BemSystem& system, const LoadPlan& plan, const std::vector<int>& nodes, Control& control);
+    /// The first n_base nodes rest. Integrates in strips, so that nothing of the matrix's size is held beside it.
+    MixedProblem(const BemSystem& system, const LoadPlan& plan, const std::vector<int>& nodes, int n_base,
+                 Control& control);
+
+    /// The prescribed displacements of all constrained nodes, times their columns.
+    Eigen::MatrixXd times_known(const Eigen::MatrixXd& prescribed) const {
+        return known * prescribed.bottomRows(known.cols());
+    }
 };
 
 /// Eqn. 7 with the tractions kept: the mixed system for free displacements and q, factorised afresh.
 class MixedSolver : public NodeSolver {
 public:
-    MixedSolver(const BemSystem& system, const LoadPlan& plan, const std::vector<int>& nodes, Control& control);
+    MixedSolver(const BemSystem& system, const LoadPlan& plan, const std::vector<int>& nodes, int n_base,
+                Control& control);
     NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const override;
 
 private:
@@ -39,7 +46,8 @@ private:
 /// Eqn. 9 applied to H: H00^-1 = D'00 - D'01 D'11^-1 D'10, then q from the small system Gp - A0 H00^-1 G0.
 class BoundaryEqn9Solver : public NodeSolver {
 public:
-    BoundaryEqn9Solver(const BemSystem& system, const LoadPlan& plan, const std::vector<int>& nodes, Control& control);
+    BoundaryEqn9Solver(const BemSystem& system, const LoadPlan& plan, const std::vector<int>& nodes, int n_base,
+                       Control& control);
     NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const override;
 
 private:
