@@ -133,12 +133,16 @@ SceneMesh load_scene_mesh(const MeshSource& source, const fs::path& scene_file) 
     return {file.string(), check_and_repair(load_surface(file))};
 }
 
-Body make_body(const Document& document, SceneMesh mesh, MethodKind kind, const fs::path& scene_file) {
+void require_fit(const SceneMesh& mesh, const Material& material, MethodKind kind, const fs::path& scene_file) {
     const bool for_fem = kind == MethodKind::fem;
     require_usable(mesh.checked.report, mesh.name, for_fem);
-    if (for_fem && document.material.poisson_ratio >= 0.5)
+    if (for_fem && material.poisson_ratio >= 0.5)
         fail(scene_file, "/material/poisson_ratio",
              "FEM needs a value below 0.5. Lower it, or use linear-bem, which takes 0.5.");
+}
+
+Body make_body(const Document& document, SceneMesh mesh, MethodKind kind, const fs::path& scene_file) {
+    require_fit(mesh, document.material, kind, scene_file);
     return {.name = std::move(mesh.name),
             .surface = std::make_shared<const SurfaceMesh>(std::move(mesh.checked.mesh)),
             .material = document.material};

@@ -22,6 +22,10 @@ struct SceneMesh {
 /// Throws MeshError (a file that cannot be read) or SceneError (a primitive that cannot be made).
 SceneMesh load_scene_mesh(const MeshSource& source, const std::filesystem::path& scene_file);
 
+/// Throws MeshError when a mesh is not usable for a method of `kind`, SceneError when the material is not.
+void require_fit(const SceneMesh& mesh, const Material& material, MethodKind kind,
+                 const std::filesystem::path& scene_file);
+
 /// The body of a scene, fit for a method of `kind` (which need not be the one that the document names).
 /// Throws MeshError when the mesh is not usable for it, SceneError when the material is not.
 Body make_body(const Document& document, SceneMesh mesh, MethodKind kind, const std::filesystem::path& scene_file);

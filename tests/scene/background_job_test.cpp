@@ -1,4 +1,4 @@
-#include "scene/precompute_job.hpp"
+#include "scene/background_job.hpp"
 
 #include <gmock/gmock.h>
 
@@ -41,20 +41,20 @@ void wait_until(const Condition& condition) {
     while (!condition()) std::this_thread::sleep_for(1ms);
 }
 
-PrecomputeJob::Event wait_for_event(PrecomputeJob& job) {
-    PrecomputeJob::Event event = PrecomputeJob::Event::none;
-    wait_until([&] { return (event = job.poll()) != PrecomputeJob::Event::none; });
+JobEvent wait_for_event(PrecomputeJob& job) {
+    JobEvent event = JobEvent::none;
+    wait_until([&] { return (event = job.poll()) != JobEvent::none; });
     return event;
 }
 
 TEST(PrecomputeJob, BringsTheModelOnce) {
     PrecomputeJob job;
     job.start(giving("first"));
-    EXPECT_EQ(wait_for_event(job), PrecomputeJob::Event::finished);
-    EXPECT_EQ(job.model()->body().name, "first");
+    EXPECT_EQ(wait_for_event(job), JobEvent::finished);
+    EXPECT_EQ(job.result()->body().name, "first");
     EXPECT_FALSE(job.running());
     EXPECT_GE(job.elapsed_seconds(), 0.0);
-    EXPECT_EQ(job.poll(), PrecomputeJob::Event::none);
+    EXPECT_EQ(job.poll(), JobEvent::none);
 }
 
 TEST(PrecomputeJob, ShowsStageAndProgressWhileItRuns) {
@@ -66,7 +66,7 @@ TEST(PrecomputeJob, ShowsStageAndProgressWhileItRuns) {
     EXPECT_STREQ(job.stage(), "forever");
     EXPECT_EQ(job.progress(), 0.5);
     EXPECT_GT(job.elapsed_seconds(), 0.0);
-    EXPECT_EQ(job.poll(), PrecomputeJob::Event::none);
+    EXPECT_EQ(job.poll(), JobEvent::none);
 }
 
 TEST(PrecomputeJob, KeepsTheOldModelAfterACancel) {
@@ -77,8 +77,8 @@ TEST(PrecomputeJob, KeepsTheOldModelAfterACancel) {
     job.start(endless(begun));
     wait_until([&] { return begun.load(); });
     job.cancel();
-    EXPECT_EQ(wait_for_event(job), PrecomputeJob::Event::cancelled);
-    EXPECT_EQ(job.model()->body().name, "old");
+    EXPECT_EQ(wait_for_event(job), JobEvent::cancelled);
+    EXPECT_EQ(job.result()->body().name, "old");
     EXPECT_EQ(job.failure(), "");
 }
 
@@ -91,8 +91,8 @@ TEST(PrecomputeJob, DropsAResultThatComesAfterACancel) {
     });
     job.cancel();
     go = true;
-    EXPECT_EQ(wait_for_event(job), PrecomputeJob::Event::cancelled);
-    EXPECT_EQ(job.model(), nullptr);
+    EXPECT_EQ(wait_for_event(job), JobEvent::cancelled);
+    EXPECT_EQ(job.result(), nullptr);
 }
 
 TEST(PrecomputeJob, KeepsTheOldModelAfterAFailureAndSaysWhy) {
@@ -100,14 +100,14 @@ TEST(PrecomputeJob, KeepsTheOldModelAfterAFailureAndSaysWhy) {
     job.start(giving("old"));
     wait_for_event(job);
     job.start([](Control&) -> std::shared_ptr<const Model> { throw MeshError("bunny.obj: is broken. Mend it."); });
-    EXPECT_EQ(wait_for_event(job), PrecomputeJob::Event::failed);
-    EXPECT_EQ(job.model()->body().name, "old");
+    EXPECT_EQ(wait_for_event(job), JobEvent::failed);
+    EXPECT_EQ(job.result()->body().name, "old");
     EXPECT_EQ(job.failure(), "bunny.obj: is broken. Mend it.");
     job.start([](Control&) -> std::shared_ptr<const Model> { throw std::bad_alloc(); });
-    EXPECT_EQ(wait_for_event(job), PrecomputeJob::Event::failed);
+    EXPECT_EQ(wait_for_event(job), JobEvent::failed);
     EXPECT_THAT(job.failure(), HasSubstr("memory"));
     job.start(giving("new"));
-    EXPECT_EQ(wait_for_event(job), PrecomputeJob::Event::finished);
+    EXPECT_EQ(wait_for_event(job), JobEvent::finished);
     EXPECT_EQ(job.failure(), "");
 }
 
@@ -122,8 +122,8 @@ TEST(PrecomputeJob, ANewRequestReplacesTheOldOnesAndNeverRunsBesideThem) {
             control.checkpoint();
             return model_called(std::to_string(i));
         });
-    EXPECT_EQ(wait_for_event(job), PrecomputeJob::Event::finished);
-    EXPECT_EQ(job.model()->body().name, "19");
+    EXPECT_EQ(wait_for_event(job), JobEvent::finished);
+    EXPECT_EQ(job.result()->body().name, "19");
     EXPECT_EQ(most, 1);
 }
 
@@ -148,7 +148,7 @@ TEST(PrecomputeJob, ShutsDownWhileItRuns) {
 TEST(PrecomputeJob, CannotBeCancelledWhenItIsIdle) {
     PrecomputeJob job;
     job.cancel();
-    EXPECT_EQ(job.poll(), PrecomputeJob::Event::none);
+    EXPECT_EQ(job.poll(), JobEvent::none);
     EXPECT_FALSE(job.running());
     EXPECT_STREQ(job.stage(), "");
 }

@@ -1,0 +1,111 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <future>
+#include <memory>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "base/control.hpp"
+#include "base/timer.hpp"
+#include "deform/model.hpp"
+#include "scene/user_text.hpp"
+
+namespace elastolab {
+
+/// What a poll of a background job found.
+enum class JobEvent { none, finished, failed, cancelled };
+
+/// Runs computations on a worker thread, one at a time, for a watcher that polls once per frame and never blocks.
+/// All members are for the watcher's thread. Destruction cancels and waits for the worker's next checkpoint.
+template <class Result>
+class BackgroundJob {
+public:
+    /// What the worker does. It owns its inputs, by value or by pointer to const, and shares nothing but the Control.
+    using Work = std::function<Result(Control&)>;
+
+    /// `wake` is called by the worker whenever a computation has ended, so that a sleeping watcher polls.
+    explicit BackgroundJob(std::function<void()> wake = {}) : wake_(std::move(wake)) {}
+    BackgroundJob(const BackgroundJob&) = delete;
+    BackgroundJob& operator=(const BackgroundJob&) = delete;
+
+    /// Starts a computation. One that is running is cancelled; the new one begins when it has stopped, so that two
+    /// never compete for memory. The present result stays until the new one is there.
+    void start(Work work) {
+        cancel();
+        auto ticket = std::make_unique<Ticket>();
+        // The worker takes the job before it along and joins that first: the watcher does not wait, only one computes.
+        std::packaged_task<Result()> task(
+            [before = std::move(ticket_), work = std::move(work), control = &ticket->control]() mutable {
+                before.reset();
+                control->checkpoint();
+                return work(*control);
+            });
+        ticket->result = task.get_future();
+        ticket->thread = std::jthread([task = std::move(task), wake = wake_]() mutable {
+            task();
+            if (wake) wake();
+        });
+        ticket_ = std::move(ticket);
+    }
+
+    /// Asks the running computation to stop; it does so at its next checkpoint. The present result stays.
+    void cancel() {
+        if (ticket_) ticket_->control.cancel();
+    }
+
+    /// Takes over the result of a computation that has ended, once for each. After `finished` result() is the new one;
+    /// after `failed` it is still the old one and failure() says why.
+    JobEvent poll() {
+        using namespace std::chrono_literals;
+        if (!ticket_ || ticket_->result.wait_for(0s) != std::future_status::ready) return JobEvent::none;
+        const std::unique_ptr<Ticket> ticket = std::move(ticket_);
+        last_seconds_ = ticket->watch.seconds();
+        failure_.clear();
+        try {
+            Result result = ticket->result.get();
+            ticket->control.checkpoint();  // a cancel that came too late for the worker still counts
+            result_ = std::move(result);
+            return JobEvent::finished;
+        } catch (const Cancelled&) {
+            return JobEvent::cancelled;
+        } catch (const std::exception& error) {
+            failure_ = user_text(error);
+            return JobEvent::failed;
+        }
+    }
+
+    bool running() const { return ticket_ != nullptr; }
+    /// Of the running computation: what it is at, how far in [0, 1], and since when.
+    const char* stage() const { return ticket_ ? ticket_->control.stage() : ""; }
+    double progress() const { return ticket_ ? ticket_->control.progress() : 0.0; }
+    /// Seconds since the start of the running computation, or that the last one took.
+    double elapsed_seconds() const { return ticket_ ? ticket_->watch.seconds() : last_seconds_; }
+
+    /// The last result that was completed; as default-constructed before the first.
+    const Result& result() const { return result_; }
+    /// Why the last computation failed, for the user; empty when it did not.
+    const std::string& failure() const { return failure_; }
+
+private:
+    /// One computation. Its thread is declared last, so that it is joined before what it uses goes.
+    struct Ticket {
+        ~Ticket() { control.cancel(); }
+        Control control;
+        Stopwatch watch;
+        std::future<Result> result;
+        std::jthread thread;
+    };
+
+    std::function<void()> wake_;
+    std::unique_ptr<Ticket> ticket_;
+    Result result_{};
+    std::string failure_;
+    double last_seconds_ = 0.0;
+};
+
+using PrecomputeJob = BackgroundJob<std::shared_ptr<const Model>>;
+
+}  // namespace elastolab

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "deform/deformer.hpp"
+
+namespace elastolab {
+
+/// Displacements for values that change little by little, as they do while a person drags: as long as they differ from
+/// those at the start by an affine motion of one handle, a frame costs one pass over the columns of that motion (three
+/// for a translation). Any other change starts anew. No answer depends on the way to it, but for rounding.
+class DragSolver {
+public:
+    /// handle_ends[i]: where the vertices of handle i end in the list of all handles' vertices (deformer->set()).
+    DragSolver(std::shared_ptr<const Deformer> deformer, std::vector<int> handle_ends);
+
+    /// u <- the displacements for `values` (as Deformer::displace takes them). Throws SolveError.
+    void displace(const Eigen::VectorXd& values, Eigen::VectorXd& u);
+
+    /// Columns in use: 0 (nothing moved yet), 3 or 12.
+    Eigen::Index n_columns() const { return response_.X.cols(); }
+
+private:
+    static constexpr int kNone = -1, kSeveral = -2;
+
+    int changed_handle(const Eigen::VectorXd& change) const;
+    int begin_of(int handle) const { return handle == 0 ? 0 : handle_ends_[static_cast<std::size_t>(handle) - 1]; }
+    int size_of(int handle) const { return handle_ends_[static_cast<std::size_t>(handle)] - begin_of(handle); }
+    void start(const Eigen::VectorXd& values);
+    void grab(int handle, bool affine);
+    bool follow(int handle, const Eigen::Matrix3Xd& change, Eigen::VectorXd& u);
+
+    std::shared_ptr<const Deformer> deformer_;
+    std::vector<int> handle_ends_;
+    Eigen::VectorXd start_values_;
+    int handle_ = kNone;      ///< whose columns response_ holds
+    Eigen::MatrixXd shapes_;  ///< 1 or 4 x vertices of the handle: 1, and the scaled rest position about its mean
+    Eigen::MatrixXd fit_;     ///< vertices x 1 or 4, pseudo-inverse of shapes_
+    DragResponse response_;   ///< rest: for start_values_; one column for each shape and axis
+};
+
+}  // namespace elastolab

@@ -1,0 +1,215 @@
+#include "scene/method_runner.hpp"
+
+#include <utility>
+
+namespace elastolab {
+
+namespace {
+
+bool same(const Material& a, const Material& b) {
+    return a.young_modulus == b.young_modulus && a.poisson_ratio == b.poisson_ratio;
+}
+
+bool same(const Method& a, const Method& b) {
+    return a.kind == b.kind && a.mode == b.mode && a.tractions == b.tractions && a.update == b.update &&
+           a.integral_tolerance == b.integral_tolerance && a.keep_integrals == b.keep_integrals;
+}
+
+bool same(const ConstrainedSet& a, const ConstrainedSet& b) { return a.base == b.base && a.handles == b.handles; }
+
+std::vector<int> handle_ends(const Constraints& constraints) {
+    std::vector<int> ends;
+    const auto n_base = static_cast<int>(constraints.set.base.size());
+    for (const ConstraintGroup& group : constraints.groups)
+        if (group.end > n_base) ends.push_back(group.end - n_base);
+    return ends;
+}
+
+}  // namespace
+
+MethodRunner::MethodRunner(std::function<void()> wake) : precompute_(wake), completion_(wake), prepare_(wake) {}
+MethodRunner::~MethodRunner() = default;
+
+void MethodRunner::set_body(const Body& body, const Method& method) {
+    const bool same_surface = body.surface == body_.surface;
+    if (body_wanted_ && same_surface && same(body.material, body_.material) && same(method, method_)) return;
+    if (!same_surface) forget_answers();
+    body_ = body;
+    method_ = method;
+    body_wanted_ = true;
+    begin_precompute();
+}
+
+void MethodRunner::clear() {
+    precompute_.cancel();
+    completion_.cancel();
+    prepare_.cancel();
+    forget_answers();
+    body_ = {};
+    failure_.clear();
+    body_wanted_ = model_is_wanted_ = false;
+}
+
+/// A new mesh: nothing that is there can be shown on it.
+void MethodRunner::forget_answers() {
+    model_.reset();
+    deformer_.reset();
+    spare_.reset();
+    drag_.reset();
+    displacement_.resize(0);
+    ++version_;
+}
+
+void MethodRunner::begin_precompute() {
+    failure_.clear();
+    completion_.cancel();
+    completion_tried_ = false;
+    model_is_wanted_ = false;
+    precompute_.start([before = model_, body = body_, method = method_](Control& control) {
+        return before ? precompute_again(*before, body.material, method, control) : precompute(body, method, control);
+    });
+}
+
+void MethodRunner::set_constraints(const Constraints& constraints) {
+    if (!same(constraints.set, wanted_set_)) {
+        wanted_set_ = constraints.set;
+        set_failed_ = false;
+    }
+    handle_ends_ = handle_ends(constraints);
+    wanted_values_ = constraints.values;
+}
+
+void MethodRunner::set_frame_rule(FrameRule rule) {
+    if (rule == rule_) return;
+    rule_ = rule;
+    drag_.reset();
+    values_.resize(0);
+}
+
+void MethodRunner::prefetch(const ConstrainedSet& set) { prefetch_ = set; }
+
+void MethodRunner::complete() {
+    if (!model_ || !model_is_wanted_ || completion_tried_ || has_inverse() || precompute_.running()) return;
+    completion_tried_ = true;
+    Method method = model_->method();
+    method.mode = Mode::full;
+    completion_.start([before = model_, method](Control& control) {
+        return precompute_again(*before, before->body().material, method, control);
+    });
+}
+
+void MethodRunner::poll() {
+    poll_models();
+    poll_preparation();
+    if (model_) use_or_prepare();
+    // A model of an earlier material or mode answers until the next one is prepared.
+    if (deformer_ && same(deformer_->set(), wanted_set_)) update_displacement();
+}
+
+void MethodRunner::poll_models() {
+    switch (precompute_.poll()) {
+        case JobEvent::finished: take_model(precompute_.result()); break;
+        case JobEvent::failed: failure_ = precompute_.failure(); break;
+        case JobEvent::cancelled:
+        case JobEvent::none: break;
+    }
+    // A completion that fails, for want of memory, costs nothing: the model at hand answers as before.
+    if (completion_.poll() == JobEvent::finished && model_is_wanted_) take_model(completion_.result());
+}
+
+void MethodRunner::take_model(const std::shared_ptr<const Model>& model) {
+    model_ = model;
+    model_is_wanted_ = true;
+    set_failed_ = false;
+    spare_.reset();
+    prepare_.cancel();
+}
+
+void MethodRunner::poll_preparation() {
+    switch (prepare_.poll()) {
+        case JobEvent::finished: {
+            std::shared_ptr<const Deformer> prepared = prepare_.result();
+            if (&prepared->model() != model_.get()) break;
+            spare_ = std::move(prepared);
+            break;
+        }
+        case JobEvent::failed:
+            if (!same(preparing_set_, wanted_set_)) break;  // a prefetch: nobody asked for it yet
+            failure_ = prepare_.failure();
+            set_failed_ = true;
+            break;
+        case JobEvent::cancelled:
+        case JobEvent::none: break;
+    }
+}
+
+bool MethodRunner::set_is_current() const {
+    return deformer_ && &deformer_->model() == model_.get() && same(deformer_->set(), wanted_set_);
+}
+
+void MethodRunner::use_or_prepare() {
+    if (!set_is_current() && spare_ && same(spare_->set(), wanted_set_)) {
+        const bool keep = deformer_ && &deformer_->model() == model_.get();
+        std::swap(deformer_, spare_);
+        if (!keep) spare_.reset();
+        drag_.reset();
+        values_.resize(0);
+        failure_.clear();
+    }
+    if (!set_is_current()) {
+        if (!set_failed_ && !(prepare_.running() && same(preparing_set_, wanted_set_))) prepare(wanted_set_);
+    } else if (prefetch_ && !prepare_.running()) {
+        if (!same(*prefetch_, wanted_set_) && !(spare_ && same(spare_->set(), *prefetch_))) prepare(*prefetch_);
+        prefetch_.reset();
+    }
+}
+
+void MethodRunner::prepare(const ConstrainedSet& set) {
+    preparing_set_ = set;
+    prepare_.start([model = model_, set](Control& control) {
+        auto deformer = std::make_shared<Deformer>(model);
+        deformer->constrain(set, control);
+        return std::shared_ptr<const Deformer>(std::move(deformer));
+    });
+}
+
+void MethodRunner::update_displacement() {
+    if (values_.size() == wanted_values_.size() && values_ == wanted_values_ && displacement_.size() > 0) return;
+    try {
+        if (rule_ == FrameRule::drag_columns) {
+            if (!drag_) drag_.emplace(deformer_, handle_ends_);
+            drag_->displace(wanted_values_, displacement_);
+        } else {
+            displacement_ = deformer_->displace(wanted_values_);
+        }
+    } catch (const std::exception& error) {
+        failure_ = user_text(error);
+        drag_.reset();
+    }
+    values_ = wanted_values_;
+    ++version_;
+}
+
+void MethodRunner::cancel() {
+    precompute_.cancel();
+    completion_.cancel();
+    if (!prepare_.running()) return;
+    prepare_.cancel();
+    set_failed_ = true;
+    failure_ = "The preparation of this constrained set was stopped. Retry, or change the set.";
+}
+
+void MethodRunner::retry() {
+    set_failed_ = false;
+    failure_.clear();
+    if (!model_is_wanted_ && body_wanted_ && !precompute_.running()) begin_precompute();
+}
+
+MethodRunner::State MethodRunner::state() const {
+    if (precompute_.running()) return State::precomputing;
+    if (!failure_.empty()) return State::failed;
+    if (!model_ || !model_is_wanted_) return State::idle;
+    return set_is_current() ? State::ready : State::preparing;
+}
+
+}  // namespace elastolab

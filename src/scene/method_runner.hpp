@@ -1,0 +1,130 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "deform/deformer.hpp"
+#include "scene/background_job.hpp"
+#include "scene/drag_solver.hpp"
+#include "scene/setup.hpp"
+
+namespace elastolab {
+
+/// How a frame gets its displacements.
+enum class FrameRule {
+    drag_columns,  ///< three columns of the moving handle, computed when it is grabbed
+    displace       ///< the method's update rule, every frame
+};
+
+/// One method's answer to a scene that is being edited: precomputes on a worker thread, prepares changed constrained
+/// sets on another, and gives the displacements of every frame at once. The last complete answer stays until the next
+/// one is there. All members are for one thread, which calls poll() once per frame.
+class MethodRunner {
+public:
+    enum class State {
+        idle,          ///< no body yet, or the precomputation was cancelled before there was any model
+        precomputing,  ///< no model of this body, material and method yet
+        preparing,     ///< the model is there; the constrained set is being prepared
+        ready,         ///< displacements are those of the scene
+        failed         ///< see failure(); the last complete answer stays
+    };
+
+    /// `wake` is called by the workers when poll() will find something.
+    explicit MethodRunner(std::function<void()> wake);
+    ~MethodRunner();
+
+    /// Asks for this body and method; a running precomputation of something else is cancelled. Nothing happens when
+    /// it is the present one. Takes over from the model at hand what does not change.
+    void set_body(const Body& body, const Method& method);
+    /// Forgets the body and all that belongs to it.
+    void clear();
+    /// Of the body last set; null before.
+    const SurfaceMesh* surface() const { return body_.surface.get(); }
+    /// Asks for the displacements under these constraints, which belong to the body last set.
+    void set_constraints(const Constraints& constraints);
+    void set_frame_rule(FrameRule rule);
+    /// Prepares a constrained set that may be asked for soon, when there is nothing else to do.
+    void prefetch(const ConstrainedSet& set);
+    /// Computes K and its inverse for the present model (Mode::full) in the background, when there is nothing else to
+    /// do and it is not there yet. The present model answers until then.
+    void complete();
+
+    /// Takes over what the workers finished, starts what is due and brings the displacements up to date.
+    void poll();
+
+    /// Stops the precomputation, the completion or the preparation that runs. What is there stays; what was stopped
+    /// begins again with retry() or with the next change.
+    void cancel();
+    void retry();
+
+    State state() const;
+    const std::string& failure() const { return failure_; }
+    /// 3*n_vertices [L]; zero until the first answer. version() grows with every change.
+    const Eigen::VectorXd& displacement() const { return displacement_; }
+    std::uint64_t version() const { return version_; }
+    /// Whether displacement() is of the body last set (its vertices, at least) and not just zero.
+    bool has_answer() const { return deformer_ != nullptr; }
+    /// The model that answers now; null before the first.
+    const std::shared_ptr<const Model>& model() const { return model_; }
+    const Method& method() const { return method_; }
+    /// What answers now (null before the first), for reactions and quality.
+    const std::shared_ptr<const Deformer>& deformer() const { return deformer_; }
+    const Eigen::VectorXd& values() const { return values_; }  ///< those that displacement() belongs to
+
+    bool precomputing() const { return precompute_.running(); }
+    bool preparing() const { return prepare_.running(); }
+    bool completing() const { return completion_.running(); }
+    bool has_inverse() const { return model_ && model_->method().mode != Mode::on_demand; }
+    /// Of what runs now: stage, progress in [0, 1] and seconds so far.
+    const char* stage() const { return running_job().stage(); }
+    double progress() const { return running_job().progress(); }
+    double elapsed_seconds() const { return running_job().elapsed_seconds(); }
+    /// Seconds that the last preparation of a constrained set took.
+    double prepare_seconds() const { return prepare_.elapsed_seconds(); }
+
+private:
+    using PrepareJob = BackgroundJob<std::shared_ptr<const Deformer>>;
+
+    const PrecomputeJob& running_job() const { return precompute_.running() ? precompute_ : completion_; }
+    void forget_answers();
+    void begin_precompute();
+    void poll_models();
+    void take_model(const std::shared_ptr<const Model>& model);
+    void poll_preparation();
+    bool set_is_current() const;
+    void use_or_prepare();
+    void prepare(const ConstrainedSet& set);
+    void update_displacement();
+
+    Body body_;
+    Method method_;
+    bool body_wanted_ = false;      ///< set_body was called
+    bool model_is_wanted_ = false;  ///< model_ is of body_ and method_ (possibly completed)
+    bool completion_tried_ = false;
+    ConstrainedSet wanted_set_;
+    Eigen::VectorXd wanted_values_;
+    std::vector<int> handle_ends_;
+    FrameRule rule_ = FrameRule::drag_columns;
+    std::optional<ConstrainedSet> prefetch_;
+
+    std::shared_ptr<const Model> model_;
+    std::shared_ptr<const Deformer> deformer_;
+    std::shared_ptr<const Deformer> spare_;  ///< of the same model: prefetched, or the one used before
+    ConstrainedSet preparing_set_;
+    bool set_failed_ = false;  ///< wanted_set_ cannot be prepared
+    std::string failure_;
+
+    std::optional<DragSolver> drag_;
+    Eigen::VectorXd values_, displacement_;
+    std::uint64_t version_ = 0;
+
+    // Last: their threads end before what they wake goes.
+    PrecomputeJob precompute_, completion_;
+    PrepareJob prepare_;
+};
+
+}  // namespace elastolab

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <variant>
+
+#include "mesh/surface_mesh.hpp"
+#include "scene/document.hpp"
+
+namespace elastolab {
+
+using Motion = std::variant<AffineMotion, VertexMotion>;
+
+/// `motion`, followed by a shift of every vertex by `shift` [L].
+Motion translated(const Motion& motion, const Eigen::Vector3d& shift);
+
+/// `motion`, followed by the linear map `map` about the point `center`: x + u becomes center + map (x + u - center).
+/// `rest` holds the rest positions of the vertices that a VertexMotion moves, in its order.
+Motion transformed(const Motion& motion, const Eigen::Matrix3d& map, const Eigen::Vector3d& center,
+                   const Positions& rest);
+
+/// `motion` with every displacement multiplied by `factor`.
+Motion scaled(const Motion& motion, double factor);
+
+}  // namespace elastolab

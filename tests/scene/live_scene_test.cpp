@@ -1,0 +1,123 @@
+#include "scene/live_scene.hpp"
+
+#include <gmock/gmock.h>
+
+#include "base/error.hpp"
+
+namespace elastolab {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+/// A cube of 2 cells (26 vertices), held at x = 0.
+LiveScene cube() {
+    Document document;
+    document.mesh = Primitive{.name = "cube", .resolution = 2, .size = {}};
+    document.fixed = Selector{PlaneSelector{{0, 0, 0}, {1, 0, 0}, 1e-9}};
+    return {document, "cube.json"};
+}
+
+std::vector<int> right_face(const LiveScene& scene) {
+    std::vector<int> vertices;
+    for (int v = 0; v < scene.mesh().n_vertices(); ++v)
+        if (scene.mesh().vertices(0, v) > 0.99) vertices.push_back(v);
+    return vertices;
+}
+
+TEST(LiveScene, AHandleOwnsItsVertices) {
+    LiveScene scene = cube();
+    const std::vector<int> face = right_face(scene);
+    ASSERT_EQ(scene.add_handle(face), 0);
+    EXPECT_EQ(scene.owner(face[3]), 0);
+    EXPECT_EQ(std::vector<int>(scene.vertices(0).begin(), scene.vertices(0).end()), face);
+    EXPECT_EQ(scene.vertices(LiveScene::kFixed).size(), 9u);
+    EXPECT_EQ(scene.constraints().set.handles, face);
+}
+
+TEST(LiveScene, NoVertexIsTakenTwice) {
+    LiveScene scene = cube();
+    const std::vector<int> face = right_face(scene);
+    scene.add_handle(std::vector<int>{face[0], face[1]});
+    EXPECT_EQ(scene.add_handle(face), 1);
+    EXPECT_EQ(scene.vertices(1).size(), face.size() - 2);
+    EXPECT_EQ(scene.add_handle(face), LiveScene::kNobody);
+    scene.fix(face);
+    EXPECT_EQ(scene.vertices(LiveScene::kFixed).size(), 9u);
+}
+
+TEST(LiveScene, AMotionReachesTheValuesOfItsHandleOnly) {
+    LiveScene scene = cube();
+    const std::vector<int> face = right_face(scene);
+    scene.add_handle(std::vector<int>{face[0]});
+    scene.add_handle(std::vector<int>{face[1], face[2]});
+    scene.set_motion(1, AffineMotion{.translate = {1, 2, 3}});
+    Eigen::VectorXd expected(9);
+    expected << 0, 0, 0, 1, 2, 3, 1, 2, 3;
+    EXPECT_EQ(scene.constraints().values, expected);
+}
+
+TEST(LiveScene, UndoAndRedoGoThroughTheSteps) {
+    LiveScene scene = cube();
+    const std::vector<int> face = right_face(scene);
+    scene.add_handle(face);
+    scene.set_motion(0, AffineMotion{.translate = {0.1, 0, 0}});
+    scene.commit();
+    scene.commit();  // nothing changed: no step
+    scene.set_motion(0, AffineMotion{.translate = {0.2, 0, 0}});
+    scene.commit();
+    scene.undo();
+    EXPECT_EQ(scene.constraints().values(0), 0.1);
+    scene.undo();
+    EXPECT_EQ(scene.n_handles(), 0);
+    EXPECT_FALSE(scene.can_undo());
+    EXPECT_FALSE(scene.modified());
+    scene.redo();
+    scene.redo();
+    EXPECT_EQ(scene.constraints().values(0), 0.2);
+    EXPECT_FALSE(scene.can_redo());
+}
+
+TEST(LiveScene, FixedVerticesCanBeTakenBack) {
+    LiveScene scene = cube();
+    const std::vector<int> all(scene.vertices(LiveScene::kFixed).begin(), scene.vertices(LiveScene::kFixed).end());
+    scene.unfix(std::vector<int>{all[0]});
+    EXPECT_EQ(scene.vertices(LiveScene::kFixed).size(), 8u);
+    EXPECT_EQ(scene.owner(all[0]), LiveScene::kNobody);
+    scene.unfix(all);
+    EXPECT_THAT(scene.vertices(LiveScene::kFixed), IsEmpty());
+    scene.fix(std::vector<int>{3, 1});
+    EXPECT_THAT(scene.vertices(LiveScene::kFixed), ElementsAre(1, 3));
+}
+
+TEST(LiveScene, NewNamesAvoidThoseThatAreTaken) {
+    LiveScene scene = cube();
+    const std::vector<int> face = right_face(scene);
+    scene.add_handle(std::vector<int>{face[0]});
+    scene.add_handle(std::vector<int>{face[1]});
+    scene.remove_handle(0);
+    scene.add_handle(std::vector<int>{face[2]});
+    EXPECT_EQ(scene.handle_name(0), "handle-1");
+    EXPECT_EQ(scene.handle_name(1), "handle-0");
+}
+
+TEST(LiveScene, RefusesAMeshOfNoUse) {
+    Document document;
+    document.mesh = MeshFile{"no-such-file.obj"};
+    EXPECT_THROW(LiveScene(document, "scene.json"), MeshError);
+}
+
+TEST(Motion, ARotationTurnsWhatIsMovedAlready) {
+    const Eigen::Matrix3d turn = (Eigen::Matrix3d() << 0, -1, 0, 1, 0, 0, 0, 0, 1).finished();
+    const Eigen::Vector3d x(1, 2, 3), center(0.5, 0, 0);
+    const AffineMotion start{.matrix = 0.1 * Eigen::Matrix3d::Ones(), .translate = {1, 0, 0}};
+    const Eigen::Vector3d expected = center + turn * (x + start.matrix * x + start.translate - center) - x;
+
+    const auto affine = std::get<AffineMotion>(transformed(start, turn, center, x));
+    EXPECT_LT((affine.matrix * x + affine.translate - expected).norm(), 1e-14);
+    const VertexMotion single{{start.matrix * x + start.translate}};
+    EXPECT_LT((std::get<VertexMotion>(transformed(single, turn, center, x)).displacements[0] - expected).norm(), 1e-14);
+}
+
+}  // namespace
+}  // namespace elastolab

@@ -1,0 +1,205 @@
+#include "scene/simulation.hpp"
+
+#include <gmock/gmock.h>
+
+#include <Eigen/Geometry>
+#include <thread>
+
+#include "base/error.hpp"
+
+namespace elastolab {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using State = MethodRunner::State;
+
+const std::vector<MethodKind> kLinear = {MethodKind::linear_bem};
+
+LiveScene cube(int cells = 3) {
+    Document document;
+    document.mesh = Primitive{.name = "cube", .resolution = cells, .size = {}};
+    document.fixed = Selector{PlaneSelector{{0, 0, 0}, {1, 0, 0}, 1e-9}};
+    return {document, "cube.json"};
+}
+
+std::vector<int> where(const LiveScene& scene, double x_min, double y_min) {
+    std::vector<int> vertices;
+    for (int v = 0; v < scene.mesh().n_vertices(); ++v)
+        if (scene.mesh().vertices(0, v) > x_min && scene.mesh().vertices(1, v) > y_min) vertices.push_back(v);
+    return vertices;
+}
+
+/// What a fresh computation says.
+Eigen::VectorXd truth(const LiveScene& scene, const Method& method) {
+    Control control;
+    Deformer deformer(precompute(scene.body(method.kind), method, control));
+    deformer.constrain(scene.constraints().set, control);
+    return deformer.displace(scene.constraints().values);
+}
+
+void expect_near(const Eigen::VectorXd& u, const Eigen::VectorXd& expected) {
+    ASSERT_EQ(u.size(), expected.size());
+    EXPECT_LT((u - expected).norm(), 1e-9 * expected.norm());
+}
+
+/// A simulation with its choices, updated like a window would.
+struct Bench {
+    explicit Bench(std::vector<MethodKind> kinds = kLinear) : shown(std::move(kinds)) {}
+
+    Simulation simulation{[] {}};
+    MethodChoices choices;
+    std::vector<MethodKind> shown;
+
+    void settle(const LiveScene& scene) {
+        do {
+            simulation.update(scene, shown, choices);
+            std::this_thread::sleep_for(1ms);
+        } while (simulation.busy());
+        simulation.update(scene, shown, choices);
+    }
+    const MethodRunner& runner(MethodKind kind = MethodKind::linear_bem) { return simulation.runner(kind); }
+};
+
+class EveryMethod : public testing::TestWithParam<MethodKind> {};
+INSTANTIATE_TEST_SUITE_P(Simulation, EveryMethod, testing::ValuesIn(all_method_kinds()));
+
+TEST_P(EveryMethod, ShowsWhatAFreshComputationSays) {
+    LiveScene scene = cube();
+    Bench bench({GetParam()});
+    bench.settle(scene);
+    ASSERT_EQ(bench.runner(GetParam()).state(), State::ready);
+    EXPECT_TRUE(bench.runner(GetParam()).has_inverse());  // small: completed by itself
+    scene.add_handle(where(scene, 0.9, 0.6));
+    scene.set_motion(0, AffineMotion{.translate = {0.1, 0.02, 0}});
+    bench.settle(scene);
+    expect_near(bench.runner(GetParam()).displacement(), truth(scene, bench.choices.of(GetParam())));
+}
+
+TEST(Simulation, FollowsTranslationsRotationsAndSeveralHandles) {
+    LiveScene scene = cube();
+    const int first = scene.add_handle(where(scene, 0.9, 0.6));
+    const int second = scene.add_handle(where(scene, 0.9, -1.0));
+    Bench bench;
+    bench.settle(scene);
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitX()).toRotationMatrix();
+    const std::vector<std::pair<int, Motion>> steps = {
+        {first, AffineMotion{.translate = {0.1, 0, 0}}},
+        {first, AffineMotion{.translate = {0.2, 0.1, 0}}},
+        {second, AffineMotion{.translate = {0, 0, 0.1}}},
+        {second, transformed(AffineMotion{.translate = {0, 0, 0.1}}, turn, {1, 0.2, 0.5}, Positions())},
+        {second, AffineMotion{.matrix = 0.1 * turn}},
+    };
+    for (const auto& [handle, motion] : steps) {
+        scene.set_motion(handle, motion);
+        bench.simulation.update(scene, bench.shown, bench.choices);  // in the same frame
+        expect_near(bench.runner().displacement(), truth(scene, bench.choices.of(MethodKind::linear_bem)));
+    }
+}
+
+TEST(Simulation, EveryFrameRuleAndUpdateShowsTheSame) {
+    LiveScene scene = cube();
+    scene.add_handle(where(scene, 0.9, 0.6));
+    scene.set_motion(0, AffineMotion{.translate = {0.1, 0, 0}});
+    Bench bench;
+    const Eigen::VectorXd expected = truth(scene, bench.choices.of(MethodKind::linear_bem));
+    for (const Update update : {Update::direct, Update::eqn9, Update::reduced})
+        for (const FrameRule rule : {FrameRule::drag_columns, FrameRule::displace}) {
+            bench.choices.mode = Mode::full;
+            bench.choices.update = update;
+            bench.choices.frame_rule = rule;
+            bench.settle(scene);
+            expect_near(bench.runner().displacement(), expected);
+        }
+}
+
+TEST(Simulation, AHandleThatWasPrefetchedAnswersAtOnce) {
+    LiveScene scene = cube();
+    Bench bench;
+    bench.settle(scene);
+    const std::vector<int> patch = where(scene, 0.9, 0.6);
+    bench.simulation.prefetch(scene.set_with_handle(patch));
+    do {
+        bench.simulation.update(scene, bench.shown, bench.choices);
+        std::this_thread::sleep_for(1ms);
+    } while (bench.runner().preparing());
+    EXPECT_EQ(bench.runner().displacement().norm(), 0.0);
+    scene.add_handle(patch);
+    scene.set_motion(0, AffineMotion{.translate = {0.1, 0, 0}});
+    EXPECT_TRUE(bench.simulation.update(scene, bench.shown, bench.choices));
+    EXPECT_EQ(bench.runner().state(), State::ready);
+    EXPECT_GT(bench.runner().displacement().norm(), 0.1);
+}
+
+TEST(Simulation, TheOldAnswerStaysWhileAnotherMaterialIsPrecomputed) {
+    LiveScene scene = cube(6);
+    scene.add_handle(where(scene, 0.9, 0.6));
+    scene.set_motion(0, AffineMotion{.translate = {0.1, 0, 0}});
+    Bench bench;
+    bench.settle(scene);
+    const Eigen::VectorXd before = bench.runner().displacement();
+    scene.set_material({.young_modulus = 1.0, .poisson_ratio = 0.45});
+    bench.simulation.update(scene, bench.shown, bench.choices);
+    EXPECT_EQ(bench.runner().state(), State::precomputing);
+    EXPECT_EQ(bench.runner().displacement(), before);
+    bench.settle(scene);
+    expect_near(bench.runner().displacement(), truth(scene, bench.choices.of(MethodKind::linear_bem)));
+}
+
+TEST(Simulation, ACancelledPrecomputationCanBeTriedAgain) {
+    LiveScene scene = cube(10);
+    Bench bench;
+    bench.simulation.update(scene, bench.shown, bench.choices);
+    ASSERT_EQ(bench.runner().state(), State::precomputing);
+    bench.simulation.runner(MethodKind::linear_bem).cancel();
+    bench.settle(scene);
+    EXPECT_EQ(bench.runner().state(), State::idle);
+    EXPECT_FALSE(bench.runner().has_answer());
+    bench.simulation.runner(MethodKind::linear_bem).retry();
+    bench.choices.complete_up_to = 0;
+    bench.settle(scene);
+    EXPECT_EQ(bench.runner().state(), State::ready);
+    EXPECT_FALSE(bench.runner().has_inverse());
+}
+
+TEST(Simulation, SwitchingBackIsInstant) {
+    LiveScene scene = cube();
+    Bench bench;
+    bench.settle(scene);
+    bench.shown = {MethodKind::fem};
+    bench.settle(scene);
+    bench.shown = kLinear;
+    bench.simulation.update(scene, bench.shown, bench.choices);
+    EXPECT_EQ(bench.runner().state(), State::ready);
+}
+
+TEST(Simulation, AMethodThatCannotTakeTheMaterialSaysSoAndTheOthersGoOn) {
+    LiveScene scene = cube();
+    scene.set_material({.young_modulus = 1.0, .poisson_ratio = 0.5});
+    Bench bench({MethodKind::fem, MethodKind::linear_bem});
+    bench.settle(scene);
+    EXPECT_THAT(bench.simulation.problem(MethodKind::fem), HasSubstr("below 0.5"));
+    EXPECT_THAT(bench.simulation.problem(MethodKind::linear_bem), IsEmpty());
+    EXPECT_EQ(bench.runner().state(), State::ready);
+}
+
+TEST(Simulation, AnotherMeshReplacesEverything) {
+    LiveScene small = cube(2), large = cube(3);
+    Bench bench;
+    bench.settle(small);
+    bench.simulation.update(large, bench.shown, bench.choices);
+    EXPECT_FALSE(bench.runner().has_answer());
+    bench.settle(large);
+    EXPECT_EQ(bench.runner().displacement().size(), 3 * large.mesh().n_vertices());
+}
+
+TEST(Simulation, EndsWhileItComputes) {
+    LiveScene scene = cube(10);
+    Bench bench(all_method_kinds());
+    bench.simulation.update(scene, bench.shown, bench.choices);
+    EXPECT_TRUE(bench.simulation.busy());
+}
+
+}  // namespace
+}  // namespace elastolab
