@@ -1,0 +1,161 @@
+#include "render/camera.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+namespace elastolab {
+
+namespace {
+
+constexpr double kNearestZoom = 1e-4, kFarthestZoom = 1e3;  // distance / scene radius
+constexpr double kFrameMargin = 1.08;                       // room around a framed ball
+constexpr double kInFront = 1.6, kBehind = 8.0;             // scene radii before and after its centre that are in sight
+constexpr double kNearestPlane = 0.02;                      // of the distance
+
+Eigen::Quaterniond turn(double angle, const Eigen::Vector3d& axis) {
+    return Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis));
+}
+
+double slope_per_pixel(const Viewport& viewport) {
+    return 2.0 * std::tan(0.5 * Camera::kFieldOfView) / viewport.height;
+}
+
+/// Eye coordinates, at depth 1, of what a pixel shows.
+Eigen::Vector3d eye_direction(const Eigen::Vector2d& pixel, const Viewport& viewport) {
+    const Eigen::Vector2d offset = (pixel - viewport.center()) * slope_per_pixel(viewport);
+    return {offset.x(), -offset.y(), -1.0};
+}
+
+/// Any direction across this one.
+Eigen::Vector3d across(const Eigen::Vector3d& direction) {
+    Eigen::Index smallest = 0;
+    direction.cwiseAbs().minCoeff(&smallest);
+    return direction.cross(Eigen::Vector3d::Unit(smallest));
+}
+
+}  // namespace
+
+Eigen::Matrix4d Camera::view() const {
+    const Eigen::Matrix3d to_eye = pose_.orientation.conjugate().toRotationMatrix();
+    Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
+    matrix.topLeftCorner<3, 3>() = to_eye;
+    matrix.topRightCorner<3, 1>() = -(to_eye * eye());
+    return matrix;
+}
+
+Eigen::Matrix4d Camera::projection(double aspect, double unit) const {
+    const double depth = (eye() - scene_.center).dot(backward());
+    const double least = kNearestPlane * pose_.distance;
+    const double near = std::max(depth - kInFront * scene_.radius, least) / unit;
+    const double far = std::max((depth + kBehind * scene_.radius) / unit, 2.0 * near);
+    const double scale = 1.0 / std::tan(0.5 * kFieldOfView);
+    Eigen::Matrix4d matrix = Eigen::Matrix4d::Zero();
+    matrix(0, 0) = scale / aspect;
+    matrix(1, 1) = scale;
+    matrix(2, 2) = -(far + near) / (far - near);
+    matrix(2, 3) = -2.0 * far * near / (far - near);
+    matrix(3, 2) = -1.0;
+    return matrix;
+}
+
+void Camera::orbit(double dx, double dy, const Viewport& viewport) {
+    const double per_pixel = std::numbers::pi / viewport.height;
+    pose_.orientation = turn(-dx * per_pixel, up_axis_) * pose_.orientation;
+    const double polar = std::acos(std::clamp(backward().dot(up_axis_), -1.0, 1.0));  // 0 when looking down
+    const double side = up().dot(up_axis_) >= -1e-9 ? 1.0 : -1.0;                     // upside down after a tumble
+    const double wanted = std::clamp(polar - side * dy * per_pixel, 0.0, std::numbers::pi);
+    pose_.orientation = (turn(side * (wanted - polar), right()) * pose_.orientation).normalized();
+}
+
+void Camera::tumble(double dx, double dy, const Viewport& viewport) {
+    const double per_pixel = std::numbers::pi / viewport.height;
+    const Eigen::Vector3d axis = -dx * up() - dy * right();
+    const double length = axis.norm();
+    if (length > 0.0) pose_.orientation = (turn(length * per_pixel, axis / length) * pose_.orientation).normalized();
+}
+
+void Camera::pan(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Viewport& viewport) {
+    pose_.target -= drag_in_plane(pose_.target, from, to, viewport);
+}
+
+void Camera::zoom_to(const Eigen::Vector2d& cursor, double factor, const Eigen::Vector3d& anchor,
+                     const Viewport& viewport) {
+    const double distance =
+        std::clamp(pose_.distance / factor, kNearestZoom * scene_.radius, kFarthestZoom * scene_.radius);
+    const double depth = (eye() - anchor).dot(backward());
+    const Eigen::Vector3d fixed = unproject(cursor, depth > 0.0 ? depth : pose_.distance, viewport);
+    pose_.target = fixed + (pose_.target - fixed) * (distance / pose_.distance);
+    pose_.distance = distance;
+}
+
+void Camera::frame(const SceneFrame& ball, double aspect) {
+    const double half = std::atan(std::tan(0.5 * kFieldOfView) * std::min(aspect, 1.0));
+    pose_.target = ball.center;
+    pose_.distance = kFrameMargin * ball.radius / std::sin(half);
+}
+
+void Camera::set_view(ViewDirection from) {
+    const bool y_up = up_axis_.y() > 0.5;
+    const Eigen::Vector3d front = y_up ? Eigen::Vector3d(0, 0, 1) : Eigen::Vector3d(across(up_axis_).normalized());
+    const Eigen::Vector3d facing = !y_up && up_axis_.z() > 0.5 ? Eigen::Vector3d(0, -1, 0) : front;
+    const Eigen::Vector3d side = up_axis_.cross(facing);
+    switch (from) {
+        case ViewDirection::front:
+            return look_from(facing, up_axis_);
+        case ViewDirection::back:
+            return look_from(-facing, up_axis_);
+        case ViewDirection::left:
+            return look_from(-side, up_axis_);
+        case ViewDirection::right:
+            return look_from(side, up_axis_);
+        case ViewDirection::top:
+            return look_from(up_axis_, -facing);
+        case ViewDirection::bottom:
+            return look_from(-up_axis_, facing);
+        case ViewDirection::isometric:
+            return look_from(1.1 * facing + 0.75 * side + 0.7 * up_axis_, up_axis_);
+    }
+}
+
+void Camera::look_from(const Eigen::Vector3d& direction, const Eigen::Vector3d& top) {
+    Eigen::Matrix3d axes;
+    axes.col(2) = direction.normalized();
+    Eigen::Vector3d side = top.cross(axes.col(2));
+    if (side.norm() < 1e-9 * top.norm()) side = across(axes.col(2));
+    axes.col(0) = side.normalized();
+    axes.col(1) = axes.col(2).cross(axes.col(0));
+    pose_.orientation = Eigen::Quaterniond(axes).normalized();
+}
+
+Ray Camera::ray(const Eigen::Vector2d& cursor, const Viewport& viewport) const {
+    return {eye(), (pose_.orientation * eye_direction(cursor, viewport)).normalized()};
+}
+
+ProjectedPoint Camera::project(const Eigen::Vector3d& point, const Viewport& viewport) const {
+    const Eigen::Vector3d seen = pose_.orientation.conjugate() * (point - eye());
+    const double depth = -seen.z(), per_slope = 1.0 / slope_per_pixel(viewport);
+    return {viewport.center() + Eigen::Vector2d(seen.x(), -seen.y()) * (per_slope / depth), depth};
+}
+
+Eigen::Vector3d Camera::unproject(const Eigen::Vector2d& pixel, double depth, const Viewport& viewport) const {
+    return eye() + pose_.orientation * (depth * eye_direction(pixel, viewport));
+}
+
+Eigen::Vector3d Camera::drag_in_plane(const Eigen::Vector3d& anchor, const Eigen::Vector2d& from,
+                                      const Eigen::Vector2d& to, const Viewport& viewport) const {
+    const double depth = (eye() - anchor).dot(backward());
+    assert(depth > 0.0);
+    const Eigen::Vector2d offset = (to - from) * pixel_size(depth, viewport);
+    return offset.x() * right() - offset.y() * up();
+}
+
+double Camera::pixel_size(double depth, const Viewport& viewport) const { return depth * slope_per_pixel(viewport); }
+
+CameraPose blend(const CameraPose& from, const CameraPose& to, double t) {
+    return {from.target + t * (to.target - from.target), from.orientation.slerp(t, to.orientation),
+            from.distance * std::pow(to.distance / from.distance, t)};
+}
+
+}  // namespace elastolab

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "render/scene_frame.hpp"
+#include "render/viewport.hpp"
+
+namespace elastolab {
+
+struct Ray {
+    Eigen::Vector3d origin, direction;  ///< direction of unit length
+};
+
+/// Where a point appears, and how far it is from the eye along the viewing direction [L]; behind the eye if not > 0.
+struct ProjectedPoint {
+    Eigen::Vector2d pixel;
+    double depth = 0.0;
+};
+
+/// Directions to look from. World axes: the camera's up axis is up, `front` looks along +Y (or along -Z when Y is up).
+enum class ViewDirection { front, back, left, right, top, bottom, isometric };
+
+/// Where the camera is: enough to come back to a view.
+struct CameraPose {
+    Eigen::Vector3d target = Eigen::Vector3d::Zero();                 ///< the point it turns about
+    Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< camera axes (right, up, backward) to world
+    double distance = 4.0;                                            ///< from the eye to the target [L]
+};
+
+/// Perspective camera. Pixels are logical, with the origin at the top left of the window and y downward. Everything is
+/// relative to the size of the scene, which may be anything between 1e-9 and 1e9 and far from the origin.
+class Camera {
+public:
+    static constexpr double kFieldOfView = 0.6;  ///< vertical [radians]
+
+    /// What must be in sight: sets the near and far planes and the range of zoom, not the view.
+    void set_scene(const SceneFrame& scene) { scene_ = scene; }
+    const SceneFrame& scene() const { return scene_; }
+    /// The axis that orbit() turns about and that the views have on top: +Z unless set. Of unit length.
+    void set_up_axis(const Eigen::Vector3d& axis) { up_axis_ = axis; }
+    const Eigen::Vector3d& up_axis() const { return up_axis_; }
+
+    const CameraPose& pose() const { return pose_; }
+    void set_pose(const CameraPose& pose) { pose_ = pose; }
+    Eigen::Vector3d eye() const { return pose_.target + pose_.distance * backward(); }
+    Eigen::Vector3d right() const { return pose_.orientation * Eigen::Vector3d::UnitX(); }
+    Eigen::Vector3d up() const { return pose_.orientation * Eigen::Vector3d::UnitY(); }
+    Eigen::Vector3d backward() const { return pose_.orientation * Eigen::Vector3d::UnitZ(); }
+
+    /// World to eye coordinates (x right, y up, z backward) [L].
+    Eigen::Matrix4d view() const;
+    /// Eye to clip coordinates, for eye coordinates in units of `unit` [L]. The depth range holds a few scene radii
+    /// around the scene, and stays clear of the eye.
+    Eigen::Matrix4d projection(double aspect, double unit = 1.0) const;
+
+    /// A drag of the cursor by (dx, dy) pixels turns the view about the target: sideways about the up axis, upward
+    /// until looking along it. The height of the viewport is half a turn.
+    void orbit(double dx, double dy, const Viewport& viewport);
+    /// The same without an up axis: turns about the axes of the screen.
+    void tumble(double dx, double dy, const Viewport& viewport);
+    /// Moves the view so that what is seen at `from` in the plane of the target is then seen at `to`.
+    void pan(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Viewport& viewport);
+    /// Comes closer by `factor` > 1, or goes back by factor < 1. The point under the cursor in the plane through
+    /// `anchor` parallel to the screen stays there. The distance stays within 1e-4 to 1e3 scene radii.
+    void zoom_to(const Eigen::Vector2d& cursor, double factor, const Eigen::Vector3d& anchor, const Viewport& viewport);
+    /// Puts this ball in the middle, as large as fits. Keeps the orientation.
+    void frame(const SceneFrame& ball, double aspect);
+    /// Turns about the target to look from there.
+    void set_view(ViewDirection from);
+    /// Turns about the target to look from this direction (any length but 0) with `top` on top where possible.
+    void look_from(const Eigen::Vector3d& direction, const Eigen::Vector3d& top);
+
+    /// From the eye through the cursor.
+    Ray ray(const Eigen::Vector2d& cursor, const Viewport& viewport) const;
+    ProjectedPoint project(const Eigen::Vector3d& point, const Viewport& viewport) const;
+    /// The point seen at `pixel` at this depth along the viewing direction [L].
+    Eigen::Vector3d unproject(const Eigen::Vector2d& pixel, double depth, const Viewport& viewport) const;
+    /// World displacement, parallel to the screen, that moves `anchor` on the screen by `to` - `from`: it stays
+    /// exactly under the cursor that drags it. `anchor` must be in front of the eye.
+    Eigen::Vector3d drag_in_plane(const Eigen::Vector3d& anchor, const Eigen::Vector2d& from, const Eigen::Vector2d& to,
+                                  const Viewport& viewport) const;
+    /// Length of one pixel at this depth [L].
+    double pixel_size(double depth, const Viewport& viewport) const;
+
+private:
+    CameraPose pose_;
+    SceneFrame scene_;
+    Eigen::Vector3d up_axis_ = Eigen::Vector3d::UnitZ();
+};
+
+/// A view between two, t in [0, 1]: turns along the shorter way, distances change in proportion.
+CameraPose blend(const CameraPose& from, const CameraPose& to, double t);
+
+}  // namespace elastolab

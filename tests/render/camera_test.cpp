@@ -1,0 +1,196 @@
+#include "render/camera.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <Eigen/Geometry>
+#include <numbers>
+#include <random>
+#include <vector>
+
+namespace elastolab {
+namespace {
+
+constexpr Viewport kViewport{40.0, 25.0, 1200.0, 800.0};
+constexpr double kTight = 1e-9;  // relative to the size of the scene, and in pixels
+
+/// A camera that looks at a ball of this size, somewhat from the side.
+Camera camera_at(const SceneFrame& ball) {
+    Camera camera;
+    camera.set_scene(ball);
+    camera.set_view(ViewDirection::isometric);
+    camera.frame(ball, kViewport.aspect());
+    return camera;
+}
+
+/// Sizes and places of scenes that must all work alike.
+std::vector<SceneFrame> scenes() {
+    return {
+        {Eigen::Vector3d::Zero(), 1.0}, {{3.0, -2.0, 5.0}, 1.0}, {{1e-9, 2e-9, 0.0}, 1e-9}, {{-4e9, 1e9, 2e9}, 1e9}};
+}
+
+class Random {
+public:
+    double operator()(double low, double high) { return std::uniform_real_distribution<>(low, high)(engine_); }
+    Eigen::Vector2d pixel() { return {(*this)(40.0, 1240.0), (*this)(25.0, 825.0)}; }
+    Eigen::Vector3d point(const SceneFrame& ball) {
+        return ball.center + 0.57 * ball.radius * Eigen::Vector3d((*this)(-1, 1), (*this)(-1, 1), (*this)(-1, 1));
+    }
+
+private:
+    std::mt19937 engine_{7};
+};
+
+double distance(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return (a - b).norm(); }
+
+TEST(Camera, ProjectsEveryPointOfARayToItsPixel) {
+    Random random;
+    for (const SceneFrame& ball : scenes()) {
+        const Camera camera = camera_at(ball);
+        for (int i = 0; i < 100; ++i) {
+            const Eigen::Vector2d pixel = random.pixel();
+            const Ray ray = camera.ray(pixel, kViewport);
+            const Eigen::Vector3d point = ray.origin + ball.radius * random(0.5, 9.0) * ray.direction;
+            EXPECT_NEAR(ray.direction.norm(), 1.0, 1e-14);
+            EXPECT_LT(distance(camera.project(point, kViewport).pixel, pixel), kTight);
+        }
+    }
+}
+
+TEST(Camera, UnprojectsWhatItProjects) {
+    Random random;
+    for (const SceneFrame& ball : scenes()) {
+        const Camera camera = camera_at(ball);
+        const Eigen::Vector3d point = random.point(ball);
+        const ProjectedPoint seen = camera.project(point, kViewport);
+        EXPECT_LT((camera.unproject(seen.pixel, seen.depth, kViewport) - point).norm(), kTight * ball.radius);
+    }
+}
+
+TEST(Camera, AgreesWithItsMatrices) {
+    Random random;
+    for (const SceneFrame& ball : scenes()) {
+        const Camera camera = camera_at(ball);
+        const Eigen::Vector3d point = random.point(ball);
+        const Eigen::Vector4d clip = camera.projection(kViewport.aspect()) * camera.view() * point.homogeneous();
+        const Eigen::Vector3d ndc = clip.head<3>() / clip.w();
+        const Eigen::Vector2d pixel(kViewport.x + 0.5 * (1.0 + ndc.x()) * kViewport.width,
+                                    kViewport.y + 0.5 * (1.0 - ndc.y()) * kViewport.height);
+        EXPECT_LT(distance(camera.project(point, kViewport).pixel, pixel), 1e-6);
+        EXPECT_LT(std::abs(ndc.z()), 1.0);
+    }
+}
+
+TEST(Camera, KeepsADraggedPointUnderTheCursor) {
+    Random random;
+    for (const SceneFrame& ball : scenes()) {
+        const Camera camera = camera_at(ball);
+        for (int i = 0; i < 100; ++i) {
+            const Eigen::Vector3d anchor = random.point(ball);
+            const ProjectedPoint from = camera.project(anchor, kViewport);
+            const Eigen::Vector2d to = random.pixel();
+            const Eigen::Vector3d moved = anchor + camera.drag_in_plane(anchor, from.pixel, to, kViewport);
+            const ProjectedPoint seen = camera.project(moved, kViewport);
+            EXPECT_LT(distance(seen.pixel, to), 1e-6);
+            EXPECT_NEAR(seen.depth, from.depth, kTight * ball.radius);
+        }
+    }
+}
+
+TEST(Camera, PansThePlaneOfItsTargetWithTheCursor) {
+    for (const SceneFrame& ball : scenes()) {
+        Camera camera = camera_at(ball);
+        const Eigen::Vector2d from(300, 200), to(900, 640);
+        const Eigen::Vector3d point = camera.unproject(from, camera.pose().distance, kViewport);
+        camera.pan(from, to, kViewport);
+        EXPECT_LT(distance(camera.project(point, kViewport).pixel, to), 1e-6);
+    }
+}
+
+TEST(Camera, ZoomsAboutThePointUnderTheCursor) {
+    Random random;
+    for (const SceneFrame& ball : scenes()) {
+        Camera camera = camera_at(ball);
+        const Eigen::Vector2d cursor = random.pixel();
+        const Eigen::Vector3d anchor = random.point(ball);
+        const double depth = camera.project(anchor, kViewport).depth, distance_before = camera.pose().distance;
+        const Eigen::Vector3d point = camera.unproject(cursor, depth, kViewport);
+        camera.zoom_to(cursor, 1.5, anchor, kViewport);
+        EXPECT_LT(distance(camera.project(point, kViewport).pixel, cursor), 1e-6);
+        EXPECT_NEAR(camera.pose().distance, distance_before / 1.5, 1e-12 * distance_before);
+    }
+}
+
+TEST(Camera, StopsZoomingBeforeItLosesTheScene) {
+    Camera camera = camera_at({});
+    for (int i = 0; i < 1000; ++i) camera.zoom_to(kViewport.center(), 1.2, Eigen::Vector3d::Zero(), kViewport);
+    EXPECT_GT(camera.pose().distance, 0.99e-4);
+    for (int i = 0; i < 1000; ++i) camera.zoom_to(kViewport.center(), 0.8, Eigen::Vector3d::Zero(), kViewport);
+    EXPECT_LT(camera.pose().distance, 1.01e3);
+}
+
+TEST(Camera, FramesABallThatTouchesNoBorder) {
+    for (const SceneFrame& ball : scenes())
+        for (const Viewport& viewport : {Viewport{0, 0, 1200, 500}, Viewport{0, 0, 500, 1200}}) {
+            Camera camera = camera_at(ball);
+            camera.frame(ball, viewport.aspect());
+            const double reach = ball.radius / std::sin(std::acos(ball.radius / camera.pose().distance));
+            const double shorter = std::min(viewport.width, viewport.height);
+            const ProjectedPoint side = camera.project(ball.center + reach * camera.right(), viewport);
+            EXPECT_LT(distance(side.pixel, viewport.center()), 0.5 * shorter);
+            EXPECT_GT(distance(side.pixel, viewport.center()), 0.45 * shorter);
+        }
+}
+
+TEST(Camera, OrbitKeepsTheUpAxisUprightAndStopsAtThePoles) {
+    Random random;
+    Camera camera = camera_at({});
+    for (int i = 0; i < 500; ++i) {
+        camera.orbit(random(-80, 80), random(-80, 80), kViewport);
+        EXPECT_NEAR(camera.right().dot(camera.up_axis()), 0.0, 1e-9);
+        EXPECT_GT(camera.up().dot(camera.up_axis()), -1e-9);
+    }
+    camera.orbit(0.0, 1e5, kViewport);
+    EXPECT_NEAR(camera.backward().z(), 1.0, kTight);
+    camera.orbit(0.0, -1e5, kViewport);
+    EXPECT_NEAR(camera.backward().z(), -1.0, kTight);
+}
+
+TEST(Camera, TurnsTheSceneTheWayThatItIsDragged) {
+    const Eigen::Vector3d front(0.0, -1.0, 0.0);
+    for (const bool free : {false, true}) {
+        Camera camera;
+        camera.set_view(ViewDirection::front);
+        const Eigen::Vector2d before = camera.project(front, kViewport).pixel;
+        const auto turn = free ? &Camera::tumble : &Camera::orbit;
+        (camera.*turn)(30.0, 20.0, kViewport);
+        const Eigen::Vector2d after = camera.project(front, kViewport).pixel;
+        EXPECT_GT(after.x(), before.x() + 10.0);
+        EXPECT_GT(after.y(), before.y() + 5.0);
+    }
+}
+
+TEST(Camera, LooksFromTheNamedDirections) {
+    Camera camera;
+    camera.set_view(ViewDirection::front);
+    EXPECT_TRUE(camera.backward().isApprox(Eigen::Vector3d(0, -1, 0), kTight));
+    EXPECT_TRUE(camera.right().isApprox(Eigen::Vector3d(1, 0, 0), kTight));
+    camera.set_view(ViewDirection::right);
+    EXPECT_TRUE(camera.backward().isApprox(Eigen::Vector3d(1, 0, 0), kTight));
+    camera.set_view(ViewDirection::top);
+    EXPECT_TRUE(camera.right().isApprox(Eigen::Vector3d(1, 0, 0), kTight));
+    camera.set_up_axis(Eigen::Vector3d::UnitY());
+    camera.set_view(ViewDirection::front);
+    EXPECT_TRUE(camera.backward().isApprox(Eigen::Vector3d(0, 0, 1), kTight));
+    EXPECT_TRUE(camera.right().isApprox(Eigen::Vector3d(1, 0, 0), kTight));
+}
+
+TEST(Camera, BlendsBetweenTwoViews) {
+    const Camera a = camera_at({}), b = camera_at({{1, 2, 3}, 5.0});
+    EXPECT_TRUE(blend(a.pose(), b.pose(), 0.0).target.isApprox(a.pose().target));
+    EXPECT_NEAR(blend(a.pose(), b.pose(), 1.0).distance, b.pose().distance, 1e-12);
+    EXPECT_NEAR(blend(a.pose(), b.pose(), 0.5).distance, std::sqrt(a.pose().distance * b.pose().distance), 1e-12);
+}
+
+}  // namespace
+}  // namespace elastolab
