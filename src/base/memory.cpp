@@ -1,6 +1,7 @@
 #include "base/memory.hpp"
 
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <fstream>
@@ -36,6 +37,16 @@ std::uint64_t control_group_available() {
     return limit > used ? limit - used : 0;
 }
 
+/// What the limit of the address space (ulimit -v) leaves.
+std::uint64_t address_space_available() {
+    rlimit limit{};
+    if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return kUnlimited;
+    const std::uint64_t pages = read_number("/proc/self/statm");
+    if (pages == kUnlimited) return kUnlimited;
+    const std::uint64_t used = pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+    return limit.rlim_cur > used ? limit.rlim_cur - used : 0;
+}
+
 }  // namespace
 
 std::uint64_t peak_memory_bytes() {
@@ -44,6 +55,8 @@ std::uint64_t peak_memory_bytes() {
     return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
-std::uint64_t available_memory_bytes() { return std::min(system_available(), control_group_available()); }
+std::uint64_t available_memory_bytes() {
+    return std::min({system_available(), control_group_available(), address_space_available()});
+}
 
 }  // namespace elastolab

@@ -7,7 +7,8 @@ namespace elastolab {
 /// Largest resident set of this process so far [bytes].
 std::uint64_t peak_memory_bytes();
 
-/// Memory that can still be taken without swapping [bytes], as the system estimates it (and as a control group allows).
+/// Memory that can still be taken without swapping [bytes], as the system estimates it (and as a control
+/// group and the limit of the address space allow).
 std::uint64_t available_memory_bytes();
 
 }  // namespace elastolab

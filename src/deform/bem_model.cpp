@@ -1,6 +1,7 @@
 #include "deform/bem_model.hpp"
 
 #include "base/error.hpp"
+#include "deform/bem_responses.hpp"
 #include "deform/bem_solvers.hpp"
 #include "deform/reduced_solver.hpp"
 
@@ -12,7 +13,7 @@ bool factorises(const Method& method) { return method.mode != Mode::on_demand ||
 
 bool same_system(const Method& a, const Method& b) {
     return a.kind == b.kind && a.mode == b.mode && a.integral_tolerance == b.integral_tolerance &&
-           factorises(a) == factorises(b);
+           a.column_memory == b.column_memory && factorises(a) == factorises(b);
 }
 
 bool same_integrals(const Method& a, const Method& b) {
@@ -54,16 +55,14 @@ void BemModel::note_facts() {
 
 std::unique_ptr<NodeSolver> BemModel::make_solver(const LoadPlan& plan, const std::vector<int>& nodes, int n_base,
                                                   Control& control) const {
-    // Eqns. 7 and 9 on K itself where one K serves every constrained set.
-    const bool has_K = system_->operators() && (system_->is_constant() || method_.tractions == Tractions::continuous);
     switch (method_.update) {
         case Update::direct:
-            if (has_K) return std::make_unique<DirectSolver>(system_->operators(), nodes);
+            if (has_K()) return std::make_unique<DirectSolver>(system_->operators(), nodes);
             return std::make_unique<MixedSolver>(*system_, plan, nodes, n_base, control);
         case Update::eqn9:
             if (!system_->operators())
                 throw SolveError("update eqn9: needs K and its inverse in memory. Choose the mode full.");
-            if (has_K) return make_paper_solver(system_->operators(), nodes);
+            if (has_K()) return make_paper_solver(system_->operators(), nodes);
             if (2 * std::ssize(nodes) >= system_->n_nodes())
                 return std::make_unique<MixedSolver>(*system_, plan, nodes, n_base, control);
             return std::make_unique<BoundaryEqn9Solver>(*system_, plan, nodes, n_base, control);
@@ -71,31 +70,51 @@ std::unique_ptr<NodeSolver> BemModel::make_solver(const LoadPlan& plan, const st
             break;
     }
     ReducedSystem reduced;
-    reduced.columns = system_->responses(plan, control);
+    reduced.responses = std::make_shared<const BemResponses>(system_, plan, control);
     reduced.rigid = system_->rigid();
     reduced.nodes = nodes;
-    if (!plan.interior_triangles.empty()) reduced.closing = system_->closing_rows(plan, reduced.columns, control);
     reduced.n_loads = 3 * plan.n_slots();
-    return std::make_unique<ReducedSolver>(std::move(reduced));
+    return std::make_unique<ReducedSolver>(std::move(reduced), control);
+}
+
+bool BemModel::has_K() const {
+    return system_->operators() && (system_->is_constant() || method_.tractions == Tractions::continuous);
+}
+
+BemModel::Setting BemModel::setting_of(std::span<const int> base, std::span<const int> handles) const {
+    std::vector<int> vertices(base.begin(), base.end());
+    vertices.insert(vertices.end(), handles.begin(), handles.end());
+    const Boundary& boundary = system_->boundary();
+    if (!system_->is_constant())
+        return {constrain_vertices(vertices),
+                plan_linear_loads(boundary, system_->around(), method_.tractions, vertices),
+                static_cast<int>(base.size())};
+    ConstrainedNodes nodes = constrain_triangles(boundary.mesh(), system_->around(), vertices);
+    LoadPlan plan = plan_constant_loads(boundary, nodes.nodes, nodes.prescribe);
+    // Constant elements mix base and handles in their triangles; none of those counts as resting then.
+    return {std::move(nodes), std::move(plan), 0};
+}
+
+std::uint64_t BemModel::constrain_memory(std::span<const int> base, std::span<const int> handles) const {
+    const Setting setting = setting_of(base, handles);
+    if (method_.update == Update::reduced) return response_memory(*system_, setting.plan);
+    const auto all = 3 * static_cast<std::uint64_t>(system_->n_nodes());
+    const auto constrained = 3 * static_cast<std::uint64_t>(setting.nodes.nodes.size()), free = all - constrained;
+    const bool inverts = method_.update == Update::eqn9 && 2 * constrained < all;
+    if (has_K()) return 8 * free * (inverts ? 2 * free + constrained : all);
+    return mixed_memory(*system_, setting.plan, static_cast<int>(setting.nodes.nodes.size()), setting.n_base) +
+           (inverts ? 16 * free * free : 0);
 }
 
 std::unique_ptr<ConstrainedSolid> BemModel::constrain(std::span<const int> base, std::span<const int> handles,
                                                       Control& control) const {
-    std::vector<int> vertices(base.begin(), base.end());
-    vertices.insert(vertices.end(), handles.begin(), handles.end());
-    const Boundary& boundary = system_->boundary();
-    ConstrainedNodes nodes = system_->is_constant() ? constrain_triangles(boundary.mesh(), system_->around(), vertices)
-                                                    : constrain_vertices(vertices);
-    LoadPlan plan = system_->is_constant()
-                        ? plan_constant_loads(boundary, nodes.nodes, nodes.prescribe)
-                        : plan_linear_loads(boundary, system_->around(), method_.tractions, vertices);
-    // Constant elements mix base and handles in their triangles; none of those counts as resting then.
-    const int n_base = system_->is_constant() ? 0 : static_cast<int>(base.size());
-    std::unique_ptr<NodeSolver> solver = make_solver(plan, nodes.nodes, n_base, control);
+    Setting setting = setting_of(base, handles);
+    const LoadPlan& plan = setting.plan;
+    std::unique_ptr<NodeSolver> solver = make_solver(plan, setting.nodes.nodes, setting.n_base, control);
     const auto residual = [system = system_, plan](const NodeSolution& solution, Control& its_control) {
         return boundary_residual(*system, plan, solution, its_control);
     };
-    return std::make_unique<ConstrainedSolid>(boundary.mesh().n_vertices(), std::move(nodes), plan.shares, display_,
+    return std::make_unique<ConstrainedSolid>(facts_.n_vertices, std::move(setting.nodes), plan.shares, display_,
                                               std::move(solver), residual);
 }
 

@@ -16,9 +16,19 @@ public:
 
     std::unique_ptr<ConstrainedSolid> constrain(std::span<const int> base, std::span<const int> handles,
                                                 Control& control) const override;
+    std::uint64_t constrain_memory(std::span<const int> base, std::span<const int> handles) const override;
     void visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const override;
 
 private:
+    /// A constrained set in terms of nodes and loads.
+    struct Setting {
+        ConstrainedNodes nodes;
+        LoadPlan plan;
+        int n_base = 0;  ///< so many of the nodes rest
+    };
+    Setting setting_of(std::span<const int> base, std::span<const int> handles) const;
+    /// Whether Eqns. 7 and 9 act on K itself: where one K serves every constrained set.
+    bool has_K() const;
     void note_facts();
     std::unique_ptr<NodeSolver> make_solver(const LoadPlan& plan, const std::vector<int>& nodes, int n_base,
                                             Control& control) const;

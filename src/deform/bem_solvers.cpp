@@ -90,6 +90,12 @@ MixedProblem::MixedProblem(const BemSystem& system, const LoadPlan& plan, const 
     });
 }
 
+std::uint64_t mixed_memory(const BemSystem& system, const LoadPlan& plan, int n_constrained, int n_base) {
+    const Eigen::Index nodes = system.n_nodes(), n = 3 * (nodes - n_constrained + plan.n_slots());
+    const Eigen::Index strip = 9 * kSourcesAtOnce * (nodes + plan.n_slots());
+    return 8 * static_cast<std::uint64_t>(n * (n + 3 * (n_constrained - n_base)) + strip);
+}
+
 MixedSolver::MixedSolver(const BemSystem& system, const LoadPlan& plan, const std::vector<int>& nodes, int n_base,
                          Control& control)
     : problem_(system, plan, nodes, n_base, control) {

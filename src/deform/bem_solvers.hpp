@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <Eigen/Core>
 #include <memory>
 
@@ -29,6 +30,9 @@ struct MixedProblem {
         return known * prescribed.bottomRows(known.cols());
     }
 };
+
+/// Bytes that a MixedProblem of this many constrained nodes takes while it is made.
+std::uint64_t mixed_memory(const BemSystem& system, const LoadPlan& plan, int n_constrained, int n_base);
 
 /// Eqn. 7 with the tractions kept: the mixed system for free displacements and q, factorised afresh.
 class MixedSolver : public NodeSolver {

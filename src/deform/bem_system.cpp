@@ -11,8 +11,6 @@ namespace {
 
 /// Columns solved or multiplied at once: large enough for BLAS-3, small beside the matrix, often enough to cancel.
 constexpr Eigen::Index kColumnsAtOnce = 384;
-/// Sources per strip of equations at interior points.
-constexpr int kSourcesAtOnce = 192;
 constexpr double kUselessCondition = 1e13;
 
 /// X <- A^-1 X, with a checkpoint after every strip of columns.
@@ -30,9 +28,11 @@ std::vector<int> all_triangles(const Boundary& boundary) {
     return triangles;
 }
 
-/// Kept columns may take a fifth of the matrix, and something where the matrix is small.
-std::uint64_t cache_budget(Eigen::Index n_rows) {
-    return (64ull << 20) + static_cast<std::uint64_t>(n_rows * n_rows) * 8 / 5;
+/// Kept columns may take an eighth of the matrix, and something where the matrix is small; more where there are five
+/// such matrices anyway.
+std::uint64_t budget_for(Eigen::Index n_rows, Mode mode) {
+    const auto matrix = static_cast<std::uint64_t>(n_rows * n_rows) * 8;
+    return (40ull << 20) + (mode == Mode::on_demand ? matrix / 8 : matrix);
 }
 
 }  // namespace
@@ -49,7 +49,8 @@ BemSystem::BemSystem(std::shared_ptr<const Boundary> boundary, double poisson_ra
       integrals_(std::move(integrals)),
       modes_(rigid_modes(nodes_.points)) {
     const Eigen::Index n = 3 * n_nodes();
-    cache_ = std::make_unique<ColumnCache>(cache_budget(n));
+    cache_budget_ = method.column_memory.value_or(budget_for(n, method.mode));
+    cache_ = std::make_unique<ColumnCache>(cache_budget_);
     if (method.mode == Mode::on_demand && method.update == Update::direct) return;
     Eigen::MatrixXd bordered(n + 6, n + 6);
     {
@@ -152,6 +153,28 @@ const Eigen::MatrixXd& BemSystem::bordered_inverse() const {
     return inverse_;
 }
 
+bool BemSystem::keeps(const LoadPlan& plan) const {
+    const auto rows = 3 * static_cast<std::uint64_t>(n_nodes()) + 6;
+    return 8 * rows * static_cast<std::uint64_t>(plan.n_unknowns()) <= cache_budget_;
+}
+
+void BemSystem::visit_responses(const LoadPlan& plan, const std::function<void(const Columns&)>& visit,
+                                Control& control) const {
+    const auto row_bytes = 24 * (3 * static_cast<std::uint64_t>(n_nodes()) + 6);  // of a load, which has three columns
+    const auto loads_at_once = std::max<std::uint64_t>(cache_budget_ / 2 / row_bytes, 64);
+    cache_->drop_unused();
+    std::vector<const LoadPlan::Block*> group;
+    std::uint64_t n_loads = 0;
+    for (const LoadPlan::Block& block : plan.blocks) {
+        group.push_back(&block);
+        n_loads += static_cast<std::uint64_t>(std::max(block.n_slots, 1));
+        if (n_loads < loads_at_once && &block != &plan.blocks.back()) continue;
+        visit(Columns(compute(group, plan.elements.order, control)));
+        group.clear();
+        n_loads = 0;
+    }
+}
+
 Columns BemSystem::responses(const LoadPlan& plan, Control& control) const {
     std::vector<ColumnKey> keys;
     std::map<ColumnKey, const LoadPlan::Block*> blocks;
@@ -159,7 +182,11 @@ Columns BemSystem::responses(const LoadPlan& plan, Control& control) const {
         keys.push_back(block.key);
         blocks[block.key] = &block;
     }
-    return cache_->get(keys, [&](const std::vector<ColumnKey>& missing) {
+    const auto row_bytes = 24 * (3 * static_cast<std::uint64_t>(n_nodes()) + 6);
+    const auto bytes = [&](const ColumnKey& key) {
+        return row_bytes * static_cast<std::uint64_t>(std::max(blocks.at(key)->n_slots, 1));
+    };
+    return cache_->get(keys, bytes, [&](const std::vector<ColumnKey>& missing) {
         std::vector<Columns::Block> result;
         std::vector<const LoadPlan::Block*> wanted;
         for (const ColumnKey& key : missing) {
@@ -213,26 +240,6 @@ std::vector<Columns::Block> BemSystem::compute(const std::vector<const LoadPlan:
         }
     }
     return result;
-}
-
-Eigen::MatrixXd BemSystem::closing_rows(const LoadPlan& plan, const Columns& responses, Control& control) const {
-    const Sources points = interior_sources(*boundary_, plan.interior_triangles);
-    const Eigen::Index n = 3 * n_nodes(), n_unknowns = responses.cols(), n_loads = 3 * plan.n_slots();
-    Eigen::MatrixXd rows(3 * points.size(), n_unknowns + 6);
-    for (int first = 0; first < points.size(); first += kSourcesAtOnce) {
-        std::vector<int> numbers(static_cast<std::size_t>(std::min(kSourcesAtOnce, points.size() - first)));
-        std::iota(numbers.begin(), numbers.end(), first);
-        const Sources strip = points.subset(numbers);
-        const Eigen::MatrixXd A = double_layer(strip, control);
-        auto out = rows.middleRows(3 * first, 3 * strip.size());
-        for (Eigen::Index c = 0; c < n_unknowns; c += kColumnsAtOnce) {
-            const Eigen::Index count = std::min(kColumnsAtOnce, n_unknowns - c);
-            out.middleCols(c, count).noalias() = A * responses.middle(c, count).topRows(n);
-        }
-        out.leftCols(n_loads) -= single_layer(strip, plan.elements, control);
-        out.rightCols(6).noalias() = A * rigid_.topRows(n);
-    }
-    return rows;
 }
 
 }  // namespace elastolab

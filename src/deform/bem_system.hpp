@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <Eigen/Core>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -56,10 +58,17 @@ public:
     /// Rows of H at these nodes: out of memory in the mode `full`, else integrated.
     Eigen::MatrixXd double_layer_at(std::span<const int> nodes, Control& control) const;
 
+    /// Bytes of columns that are kept at most.
+    std::uint64_t cache_budget() const { return cache_budget_; }
+    /// Whether the responses to a plan fit into what is kept.
+    bool keeps(const LoadPlan& plan) const;
     /// Responses Hhat^-1 [G; 0] to the unit loads of a plan, then to its residuals; cached.
     Columns responses(const LoadPlan& plan, Control& control) const;
-    /// Equations at the plan's interior points for its unknowns and the border: 9*interior_triangles x (unknowns + 6).
-    Eigen::MatrixXd closing_rows(const LoadPlan& plan, const Columns& responses, Control& control) const;
+    /// The same, computed afresh, a group of columns at a time; none is kept.
+    void visit_responses(const LoadPlan& plan, const std::function<void(const Columns&)>& visit,
+                         Control& control) const;
+    /// X <- Hhat^-1 X.
+    void solve_in_place(Eigen::Ref<Eigen::MatrixXd> X) const { lu_.solve_in_place(X); }
 
     /// H, G, K and Khat^-1: only in the mode `full`, else null.
     const Eigen::MatrixXd* double_layer_matrix() const { return full_ ? &full_->H : nullptr; }
@@ -93,6 +102,7 @@ private:
     Eigen::MatrixXd rigid_;
     std::unique_ptr<Full> full_;
     std::vector<std::string> warnings_;
+    std::uint64_t cache_budget_ = 0;
     std::unique_ptr<ColumnCache> cache_;
     mutable std::mutex inverse_mutex_;
     mutable Eigen::MatrixXd inverse_;

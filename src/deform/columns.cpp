@@ -53,31 +53,40 @@ void Columns::add_product(const Eigen::MatrixXd& coefficients, Eigen::Ref<Eigen:
 }
 
 Columns ColumnCache::get(const std::vector<ColumnKey>& keys,
+                         const std::function<std::uint64_t(const ColumnKey&)>& bytes,
                          const std::function<std::vector<Columns::Block>(const std::vector<ColumnKey>&)>& compute) {
     const std::scoped_lock lock(mutex_);
     ++clock_;
     std::vector<ColumnKey> missing;
+    std::uint64_t incoming = 0;
     for (const ColumnKey& key : keys)
-        if (const auto found = entries_.find(key); found != entries_.end())
+        if (const auto found = entries_.find(key); found != entries_.end()) {
             found->second.last_use = clock_;
-        else
+        } else {
             missing.push_back(key);
+            incoming += bytes(key);
+        }
+    make_room(incoming);
     if (!missing.empty()) {
         const std::vector<Columns::Block> blocks = compute(missing);
         for (std::size_t i = 0; i < missing.size(); ++i) entries_[missing[i]] = {blocks[i], clock_};
     }
     std::vector<Columns::Block> blocks;
     for (const ColumnKey& key : keys) blocks.push_back(entries_.at(key).block);
-    evict();
     return Columns(std::move(blocks));
 }
 
-void ColumnCache::evict() {
-    std::uint64_t total = 0;
+void ColumnCache::drop_unused() {
+    const std::scoped_lock lock(mutex_);
+    std::erase_if(entries_, [](const auto& entry) { return entry.second.block.use_count() == 1; });
+}
+
+void ColumnCache::make_room(std::uint64_t incoming) {
+    std::uint64_t total = incoming;
     std::vector<std::map<ColumnKey, Entry>::iterator> unused;
     for (auto entry = entries_.begin(); entry != entries_.end(); ++entry) {
         total += bytes_of(entry->second.block);
-        if (entry->second.block.use_count() == 1) unused.push_back(entry);
+        if (entry->second.block.use_count() == 1 && entry->second.last_use < clock_) unused.push_back(entry);
     }
     std::sort(unused.begin(), unused.end(),
               [](const auto& a, const auto& b) { return a->second.last_use < b->second.last_use; });

@@ -41,16 +41,21 @@ public:
     explicit ColumnCache(std::uint64_t budget_bytes) : budget_bytes_(budget_bytes) {}
 
     /// The blocks for these keys; `compute` is called once with the keys that are missing (if any) and returns their
-    /// blocks. Blocks that nobody else holds are dropped, oldest first, when all would exceed the budget.
-    Columns get(const std::vector<ColumnKey>& keys,
+    /// blocks. When all would exceed the budget, blocks that nobody else holds are dropped first, oldest first, for
+    /// which `bytes` tells the size of a block that is missing.
+    Columns get(const std::vector<ColumnKey>& keys, const std::function<std::uint64_t(const ColumnKey&)>& bytes,
                 const std::function<std::vector<Columns::Block>(const std::vector<ColumnKey>&)>& compute);
+
+    /// Drops all blocks that nobody else holds.
+    void drop_unused();
 
 private:
     struct Entry {
         Columns::Block block;
         std::uint64_t last_use = 0;
     };
-    void evict();
+    /// Drops blocks that nobody holds and that were not asked for just now, until so many more bytes fit.
+    void make_room(std::uint64_t incoming);
 
     std::mutex mutex_;
     std::uint64_t budget_bytes_;

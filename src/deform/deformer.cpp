@@ -6,6 +6,8 @@
 #include <sstream>
 
 #include "base/error.hpp"
+#include "base/memory.hpp"
+#include "base/text.hpp"
 #include "deform/solid_model.hpp"
 
 namespace elastolab {
@@ -34,7 +36,10 @@ std::string short_number(double value) {
 /// One solid's share of the constrained set.
 struct Deformer::SolidState {
     std::unique_ptr<ConstrainedSolid> solid;  ///< null: no constrained vertex, so it rests
-    std::vector<int> base_rows, handle_rows;  ///< positions in the lists of the whole set
+    std::vector<int> base, handles;           ///< vertices of the solid
+    std::vector<int> base_rows, handle_rows;  ///< their positions in the lists of the whole set
+
+    bool is_constrained() const { return !base.empty() || !handles.empty(); }
 
     /// Values of the base (zero) and the handles of this solid, out of those of the whole body.
     Eigen::MatrixXd values(const Eigen::MatrixXd& all) const {
@@ -58,27 +63,49 @@ Deformer::~Deformer() = default;
 Deformer::Deformer(Deformer&&) noexcept = default;
 Deformer& Deformer::operator=(Deformer&&) noexcept = default;
 
+Deformer::SolidState Deformer::split(const ConstrainedSet& set, const Model::Part& part) const {
+    std::vector<int> local(static_cast<std::size_t>(model_->facts().n_vertices), -1);
+    for (std::size_t i = 0; i < part.vertices.size(); ++i)
+        local[static_cast<std::size_t>(part.vertices[i])] = static_cast<int>(i);
+    SolidState state;
+    const auto pick = [&](const std::vector<int>& vertices, std::vector<int>& own, std::vector<int>& rows) {
+        for (std::size_t i = 0; i < vertices.size(); ++i)
+            if (const int v = local[static_cast<std::size_t>(vertices[i])]; v >= 0) {
+                own.push_back(v);
+                rows.push_back(static_cast<int>(i));
+            }
+    };
+    pick(set.base, state.base, state.base_rows);
+    pick(set.handles, state.handles, state.handle_rows);
+    return state;
+}
+
+std::uint64_t Deformer::predict_memory(const ConstrainedSet& set) const {
+    std::uint64_t sum = 0;
+    for (const Model::Part& part : model_->parts())
+        if (const SolidState state = split(set, part); state.is_constrained())
+            sum += part.solid->constrain_memory(state.base, state.handles);
+    return sum;
+}
+
+void Deformer::require_memory(const ConstrainedSet& set) const {
+    const std::uint64_t needed = predict_memory(set), available = available_memory_bytes();
+    if (needed <= available) return;
+    throw SolveError(model_->body().name + ": " + std::to_string(set.base.size() + set.handles.size()) +
+                     " constrained vertices need " + readable_bytes(static_cast<double>(needed)) + " of memory, " +
+                     readable_bytes(static_cast<double>(available)) + " are free. Constrain fewer vertices" +
+                     (model_->method().kind == MethodKind::fem ? ", or use a coarser mesh." : ", or choose fem."));
+}
+
 void Deformer::constrain(ConstrainedSet set, Control& control) {
     assert(all_differ(set, model_->facts().n_vertices));
+    require_memory(set);
     std::vector<SolidState> solids;
     SolutionQuality quality;
     for (const Model::Part& part : model_->parts()) {
-        std::vector<int> local(static_cast<std::size_t>(model_->facts().n_vertices), -1);
-        for (std::size_t i = 0; i < part.vertices.size(); ++i)
-            local[static_cast<std::size_t>(part.vertices[i])] = static_cast<int>(i);
-        SolidState state;
-        std::vector<int> base, handles;
-        const auto pick = [&](const std::vector<int>& vertices, std::vector<int>& own, std::vector<int>& rows) {
-            for (std::size_t i = 0; i < vertices.size(); ++i)
-                if (const int v = local[static_cast<std::size_t>(vertices[i])]; v >= 0) {
-                    own.push_back(v);
-                    rows.push_back(static_cast<int>(i));
-                }
-        };
-        pick(set.base, base, state.base_rows);
-        pick(set.handles, handles, state.handle_rows);
-        if (!base.empty() || !handles.empty()) {
-            state.solid = part.solid->constrain(base, handles, control);
+        SolidState state = split(set, part);
+        if (state.is_constrained()) {
+            state.solid = part.solid->constrain(state.base, state.handles, control);
             quality.condition_estimate = std::max(quality.condition_estimate, state.solid->condition());
             quality.held = quality.held && state.solid->held();
         }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <Eigen/Core>
 #include <memory>
 #include <span>
@@ -50,9 +51,14 @@ public:
 
     /// Changes which vertices are constrained: computes the columns that are not known yet, refactors the small system.
     /// Waits for another thread that computes columns of the same model.
-    /// Strong guarantee: on an exception the previous set stays. Throws SolveError, Cancelled.
+    /// Strong guarantee: on an exception the previous set stays. Throws SolveError (also, before anything is computed,
+    /// where predict_memory is more than is free), Cancelled.
     void constrain(ConstrainedSet set, Control& control);
     const ConstrainedSet& set() const { return set_; }
+
+    /// Bytes that constrain(set) would take beyond what is held now, at its peak; tens of microseconds. An upper
+    /// estimate: columns that are known already are counted as new.
+    std::uint64_t predict_memory(const ConstrainedSet& set) const;
 
     /// Displacements of all vertices, 3*n_vertices [L], for those prescribed at the handles: values is
     /// 3*set().handles.size(), node-major, in the order of set().handles. A solid with no constrained vertex rests.
@@ -81,6 +87,10 @@ public:
 
 private:
     struct SolidState;
+    /// The share of a part in a set, not yet constrained.
+    SolidState split(const ConstrainedSet& set, const Model::Part& part) const;
+    void require_memory(const ConstrainedSet& set) const;
+
     std::shared_ptr<const Model> model_;
     ConstrainedSet set_;
     std::vector<SolidState> solids_;  ///< one for each part of the model

@@ -38,7 +38,7 @@ ReducedSystem reduced_from(const DenseOperators& operators, const std::vector<in
     std::vector<Columns::Block> blocks;
     for (const int node : nodes)
         blocks.push_back(std::make_shared<const Eigen::MatrixXd>(operators.Khatinv.middleCols<3>(3 * node)));
-    reduced.columns = Columns(std::move(blocks));
+    reduced.responses = std::make_shared<const KeptResponses>(Columns(std::move(blocks)));
     reduced.rigid = operators.Khatinv.rightCols<6>();
     reduced.nodes = nodes;
     reduced.n_loads = 3 * std::ssize(nodes);
@@ -126,9 +126,23 @@ std::shared_ptr<const GroundedBody> FemModel::grounded_on(std::span<const int> b
     return body;
 }
 
+std::uint64_t FemModel::constrain_memory(std::span<const int> base, std::span<const int> handles) const {
+    const auto n_base = 3 * static_cast<std::uint64_t>(base.size());
+    const auto constrained = n_base + 3 * static_cast<std::uint64_t>(handles.size());
+    const auto surface = 3 * static_cast<std::uint64_t>(system_->n_surface());
+    if (operators_ && method_.update != Update::reduced) {
+        const auto all = static_cast<std::uint64_t>(operators_->K.rows()), free = all - constrained;
+        return 8 * free * (method_.update == Update::eqn9 ? 2 * free + constrained : all);
+    }
+    const std::uint64_t factor = operators_ ? 0 : mesh_->analysis->factor_bytes();
+    if (method_.update == Update::direct) return factor;
+    const auto unknowns = 6 + (!operators_ && holds(system_->positions(), base) ? constrained - n_base : constrained);
+    return factor + 8 * unknowns * (unknowns + surface);
+}
+
 std::unique_ptr<ConstrainedSolid> FemModel::constrain(std::span<const int> base, std::span<const int> handles,
                                                       Control& control) const {
-    if (operators_) return constrain_dense(joined(base, handles));
+    if (operators_) return constrain_dense(joined(base, handles), control);
     if (method_.update == Update::eqn9)
         throw SolveError("update eqn9: needs K and its inverse in memory. Choose the mode full.");
     if (method_.update == Update::reduced) return constrain_reduced(base, handles, control);
@@ -142,7 +156,7 @@ std::unique_ptr<ConstrainedSolid> FemModel::constrain(std::span<const int> base,
         std::make_unique<SparseDirectSolver>(system_, vertices, control), residual);
 }
 
-std::unique_ptr<ConstrainedSolid> FemModel::constrain_dense(const std::vector<int>& vertices) const {
+std::unique_ptr<ConstrainedSolid> FemModel::constrain_dense(const std::vector<int>& vertices, Control& control) const {
     std::unique_ptr<NodeSolver> solver;
     switch (method_.update) {
         case Update::direct:
@@ -152,7 +166,7 @@ std::unique_ptr<ConstrainedSolid> FemModel::constrain_dense(const std::vector<in
             solver = make_paper_solver(operators_, vertices);
             break;
         case Update::reduced:
-            solver = std::make_unique<ReducedSolver>(reduced_from(*operators_, vertices));
+            solver = std::make_unique<ReducedSolver>(reduced_from(*operators_, vertices), control);
             break;
     }
     const auto residual = [operators = operators_, vertices](const NodeSolution& solution, Control&) {

@@ -22,12 +22,13 @@ public:
 
     std::unique_ptr<ConstrainedSolid> constrain(std::span<const int> base, std::span<const int> handles,
                                                 Control& control) const override;
+    std::uint64_t constrain_memory(std::span<const int> base, std::span<const int> handles) const override;
     void visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const override;
     const SparseStiffness* sparse_stiffness() const override { return &system_->K; }
 
 private:
     void precompute(double poisson_ratio, Control& control);
-    std::unique_ptr<ConstrainedSolid> constrain_dense(const std::vector<int>& vertices) const;
+    std::unique_ptr<ConstrainedSolid> constrain_dense(const std::vector<int>& vertices, Control& control) const;
     std::unique_ptr<ConstrainedSolid> constrain_reduced(std::span<const int> base, std::span<const int> handles,
                                                         Control& control) const;
     std::shared_ptr<const GroundedBody> grounded_on(std::span<const int> base, Control& control) const;

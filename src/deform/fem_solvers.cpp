@@ -12,11 +12,13 @@ namespace elastolab {
 namespace {
 
 constexpr std::uint64_t kCacheBudget = 512ull << 20;
+/// Columns are copied from strips of these into the blocks that are kept.
+constexpr std::size_t kVerticesAtOnce = 128;
 
 ReducedSystem reduced_system(const GroundedBody& body, const std::vector<int>& vertices, Control& control) {
     const Eigen::MatrixXd& R = body.compliance().rigid();
     ReducedSystem reduced;
-    reduced.columns = body.responses(vertices, control);
+    reduced.responses = std::make_shared<const KeptResponses>(body.responses(vertices, control));
     reduced.rigid = Eigen::MatrixXd::Zero(R.rows() + R.cols(), R.cols());
     reduced.rigid.topRows(R.rows()) = R;
     reduced.nodes = vertices;
@@ -41,20 +43,30 @@ GroundedBody::GroundedBody(std::shared_ptr<const FemSystem> system, std::vector<
 Columns GroundedBody::responses(const std::vector<int>& vertices, Control& control) const {
     std::vector<ColumnKey> keys;
     for (const int v : vertices) keys.push_back({v});
-    return cache_.get(keys, [&](const std::vector<ColumnKey>& missing) {
-        std::vector<int> wanted;
-        for (const ColumnKey& key : missing) wanted.push_back(key.front());
-        const Eigen::MatrixXd columns = compliance_.columns(wanted, control);
-        const Eigen::MatrixXd& R = compliance_.rigid();
-        std::vector<Columns::Block> blocks;
-        for (std::size_t i = 0; i < wanted.size(); ++i) {
-            Eigen::MatrixXd block(columns.rows() + R.cols(), 3);
-            block.topRows(columns.rows()) = columns.middleCols<3>(3 * static_cast<Eigen::Index>(i));
-            block.bottomRows(R.cols()) = R.middleRows<3>(3 * wanted[i]).transpose();
-            blocks.push_back(std::make_shared<const Eigen::MatrixXd>(std::move(block)));
-        }
-        return blocks;
-    });
+    const auto block_bytes = 24 * static_cast<std::uint64_t>(3 * system_->n_surface() + compliance_.rigid().cols());
+    return cache_.get(
+        keys, [&](const ColumnKey&) { return block_bytes; },
+        [&](const std::vector<ColumnKey>& missing) {
+            std::vector<int> wanted;
+            for (const ColumnKey& key : missing) wanted.push_back(key.front());
+            std::vector<Columns::Block> blocks;
+            for (std::size_t first = 0; first < wanted.size(); first += kVerticesAtOnce)
+                add_blocks(std::span(wanted).subspan(first, std::min(kVerticesAtOnce, wanted.size() - first)), blocks,
+                           control);
+            return blocks;
+        });
+}
+
+void GroundedBody::add_blocks(std::span<const int> vertices, std::vector<Columns::Block>& blocks,
+                              Control& control) const {
+    const Eigen::MatrixXd columns = compliance_.columns(vertices, control);
+    const Eigen::MatrixXd& R = compliance_.rigid();
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        Eigen::MatrixXd block(columns.rows() + R.cols(), 3);
+        block.topRows(columns.rows()) = columns.middleCols<3>(3 * static_cast<Eigen::Index>(i));
+        block.bottomRows(R.cols()) = R.middleRows<3>(3 * vertices[i]).transpose();
+        blocks.push_back(std::make_shared<const Eigen::MatrixXd>(std::move(block)));
+    }
 }
 
 Eigen::MatrixXd GroundedBody::volume_displacements(const Eigen::MatrixXd& surface, const Eigen::MatrixXd& loads) const {
@@ -70,7 +82,9 @@ Eigen::MatrixXd GroundedBody::volume_displacements(const Eigen::MatrixXd& surfac
 }
 
 GroundedSolver::GroundedSolver(std::shared_ptr<const GroundedBody> body, std::vector<int> vertices, Control& control)
-    : body_(std::move(body)), vertices_(std::move(vertices)), reduced_(reduced_system(*body_, vertices_, control)) {
+    : body_(std::move(body)),
+      vertices_(std::move(vertices)),
+      reduced_(reduced_system(*body_, vertices_, control), control) {
     condition_ = std::max(reduced_.condition(), 1.0 / body_->reciprocal_condition());
     held_ = reduced_.held();
 }

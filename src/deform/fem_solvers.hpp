@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,8 @@ public:
     Eigen::MatrixXd volume_displacements(const Eigen::MatrixXd& surface, const Eigen::MatrixXd& loads) const;
 
 private:
+    void add_blocks(std::span<const int> vertices, std::vector<Columns::Block>& blocks, Control& control) const;
+
     std::shared_ptr<const FemSystem> system_;
     std::vector<int> base_;
     SurfaceCompliance compliance_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string_view>
 
@@ -37,6 +38,9 @@ struct Method {
     /// BEM: keep the material-free integrals (1.1 times the memory of the matrix itself), so that another Poisson's
     /// ratio integrates nothing.
     bool keep_integrals = false;
+    /// BEM: bytes of response columns kept at most; sets that need more are served without keeping any. Nothing: an
+    /// eighth of the matrix and 40 MiB on demand, one matrix and 40 MiB in the mode `full`.
+    std::optional<std::uint64_t> column_memory = {};
 };
 
 /// The names used in scene files, command lines and tables; parse_* return nothing for an unknown name.

@@ -13,19 +13,6 @@ constexpr double kSingular = 1e-13;
 /// Relative size of what counts as zero when its rank is decided.
 constexpr double kRankTolerance = 1e-10;
 
-Eigen::MatrixXd small_matrix(const ReducedSystem& system) {
-    const Eigen::Index n_border = system.rigid.cols(), n_nodes = system.rigid.rows() - n_border;
-    const Eigen::Index q = system.columns.cols(), p = system.closing.rows(), k = 3 * std::ssize(system.nodes);
-    Eigen::MatrixXd S(k + n_border + p, q + n_border);
-    assert(S.rows() == S.cols());
-    S.topLeftCorner(k + n_border, q) = system.columns.rows_of(system.nodes, n_nodes);
-    for (std::size_t i = 0; i < system.nodes.size(); ++i)
-        S.block(3 * static_cast<Eigen::Index>(i), q, 3, n_border) = system.rigid.middleRows(3 * system.nodes[i], 3);
-    S.block(k, q, n_border, n_border) = system.rigid.bottomRows(n_border);
-    if (p > 0) S.bottomRows(p) = system.closing;
-    return S;
-}
-
 }  // namespace
 
 void set_prescribed(const std::vector<int>& nodes, const Eigen::MatrixXd& prescribed, Eigen::MatrixXd& displacements) {
@@ -33,9 +20,26 @@ void set_prescribed(const std::vector<int>& nodes, const Eigen::MatrixXd& prescr
         displacements.middleRows<3>(3 * nodes[i]) = prescribed.middleRows<3>(3 * static_cast<Eigen::Index>(i));
 }
 
-ReducedSolver::ReducedSolver(ReducedSystem system) : system_(std::move(system)) {
-    Eigen::MatrixXd S = small_matrix(system_);
-    system_.closing.resize(0, 0);
+Eigen::MatrixXd border_columns(const std::vector<int>& nodes, const Eigen::MatrixXd& rigid) {
+    const Eigen::Index n_border = rigid.cols();
+    Eigen::MatrixXd columns(3 * std::ssize(nodes) + n_border, n_border);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+        columns.middleRows(3 * static_cast<Eigen::Index>(i), 3) = rigid.middleRows(3 * nodes[i], 3);
+    columns.bottomRows(n_border) = rigid.bottomRows(n_border);
+    return columns;
+}
+
+Eigen::MatrixXd KeptResponses::small_matrix(const std::vector<int>& nodes, const Eigen::MatrixXd& rigid,
+                                            Control&) const {
+    Eigen::MatrixXd S(3 * std::ssize(nodes) + rigid.cols(), cols() + rigid.cols());
+    S.leftCols(cols()) = columns_.rows_of(nodes, rigid.rows() - rigid.cols());
+    S.rightCols(rigid.cols()) = border_columns(nodes, rigid);
+    return S;
+}
+
+ReducedSolver::ReducedSolver(ReducedSystem system, Control& control) : system_(std::move(system)) {
+    Eigen::MatrixXd S = system_.responses->small_matrix(system_.nodes, system_.rigid, control);
+    assert(S.rows() == S.cols());
     if (S.size() == 0) return;
     // Loads and border values have different units; dividing each column by its largest entry makes the condition
     // independent of them. The border has one scale for all its columns: where the body is not held, the smallest
@@ -45,7 +49,6 @@ ReducedSolver::ReducedSolver(ReducedSystem system) : system_(std::move(system)) 
     if (!scale_.allFinite()) throw SolveError("constrained system: has entries that are not finite. Check the mesh.");
     scale_ = (scale_.array() > 0.0).select(scale_, 1.0);
     S.array().rowwise() /= scale_.transpose().array();
-    Eigen::MatrixXd copy = S;
     try {
         lu_ = LuFactorization(std::move(S), "constrained system");
         condition_ = 1.0 / std::max(lu_.reciprocal_condition(), 1e-300);
@@ -53,8 +56,11 @@ ReducedSolver::ReducedSolver(ReducedSystem system) : system_(std::move(system)) 
         condition_ = 1e300;
     }
     if (condition_ * kSingular < 1.0) return;
+    // Rare, and the system may be large: it is made again rather than copied every time.
     held_ = false;
-    deficient_ = std::move(copy);
+    lu_ = LuFactorization();
+    deficient_ = system_.responses->small_matrix(system_.nodes, system_.rigid, control);
+    deficient_.array().rowwise() /= scale_.transpose().array();
 }
 
 Eigen::MatrixXd ReducedSolver::unknowns(const Eigen::MatrixXd& prescribed) const {
@@ -77,7 +83,7 @@ NodeSolution ReducedSolver::solve(const Eigen::MatrixXd& prescribed, bool want_l
     const Eigen::MatrixXd x = unknowns(prescribed);
     if (!x.allFinite())
         throw SolveError("constrained system: its solution is not finite. Remove handles that nearly coincide.");
-    system_.columns.add_product(x.topRows(system_.columns.cols()), solution.displacements);
+    system_.responses->add_product(x.topRows(system_.responses->cols()), solution.displacements);
     solution.displacements.noalias() += system_.rigid.topRows(n_rows) * x.bottomRows(n_border);
     set_prescribed(system_.nodes, prescribed, solution.displacements);
     if (want_loads) solution.loads = x.topRows(system_.n_loads);

@@ -1,23 +1,55 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
+#include <memory>
 #include <vector>
 
+#include "base/control.hpp"
 #include "base/lapack.hpp"
 #include "deform/columns.hpp"
 #include "deform/node_solver.hpp"
 
 namespace elastolab {
 
+/// The responses W of a solid to the unit loads of one constrained set, and F, their border rows.
+class Responses {
+public:
+    virtual ~Responses() = default;
+
+    /// Number of unknown loads.
+    virtual Eigen::Index cols() const = 0;
+    /// The small system, unknown loads first, then border values: prescribed displacements at `nodes`, the border rows,
+    /// and what rows the ansatz needs to be closed. rigid: E over J. May throw Cancelled.
+    virtual Eigen::MatrixXd small_matrix(const std::vector<int>& nodes, const Eigen::MatrixXd& rigid,
+                                         Control& control) const = 0;
+    /// displacements += W_u * loads
+    virtual void add_product(const Eigen::MatrixXd& loads, Eigen::Ref<Eigen::MatrixXd> displacements) const = 0;
+};
+
+/// Responses that are all in memory, as many as prescribed displacements.
+class KeptResponses : public Responses {
+public:
+    /// columns  W over F: (3*n_nodes + n_border) x n_unknown_loads
+    explicit KeptResponses(Columns columns) : columns_(std::move(columns)) {}
+
+    Eigen::Index cols() const override { return columns_.cols(); }
+    Eigen::MatrixXd small_matrix(const std::vector<int>& nodes, const Eigen::MatrixXd& rigid,
+                                 Control& control) const override;
+    void add_product(const Eigen::MatrixXd& loads, Eigen::Ref<Eigen::MatrixXd> displacements) const override {
+        columns_.add_product(loads, displacements);
+    }
+
+private:
+    Columns columns_;
+};
+
 /// The small system of FORMULATION section 2: with W the responses to unit loads, [E; J] the response to unit border
 /// values c and F the border rows of W,
 ///     u = W_u q + E c,    u at the constrained nodes prescribed,    F q + J c = 0,    closing rows [q; c] = 0.
 struct ReducedSystem {
-    Columns columns;           ///< W over F: (3*n_nodes + n_border) x n_unknown_loads
+    std::shared_ptr<const Responses> responses;
     Eigen::MatrixXd rigid;     ///< E over J: (3*n_nodes + n_border) x n_border
     std::vector<int> nodes;    ///< constrained nodes
-    Eigen::MatrixXd closing;   ///< extra rows, n_extra x (n_unknown_loads + n_border); none for square ansatzes
     Eigen::Index n_loads = 0;  ///< the first so many unknowns are loads, the others residuals of dropped rows
 };
 
@@ -25,7 +57,7 @@ struct ReducedSystem {
 /// substitution and one product with W.
 class ReducedSolver : public NodeSolver {
 public:
-    explicit ReducedSolver(ReducedSystem system);
+    ReducedSolver(ReducedSystem system, Control& control);
     NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const override;
 
 private:
@@ -36,6 +68,9 @@ private:
     LuFactorization lu_;
     Eigen::MatrixXd deficient_;  ///< the small system itself, kept only when it is rank-deficient
 };
+
+/// Rows of [E; J] at the nodes, then its border rows: the columns of the border values in the small system.
+Eigen::MatrixXd border_columns(const std::vector<int>& nodes, const Eigen::MatrixXd& rigid);
 
 /// u at the constrained nodes <- what was prescribed, which it equals but for rounding.
 void set_prescribed(const std::vector<int>& nodes, const Eigen::MatrixXd& prescribed, Eigen::MatrixXd& displacements);

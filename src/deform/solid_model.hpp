@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <Eigen/Core>
 #include <functional>
 #include <memory>
@@ -57,6 +58,9 @@ public:
     /// Throws SolveError, Cancelled.
     virtual std::unique_ptr<ConstrainedSolid> constrain(std::span<const int> base, std::span<const int> handles,
                                                         Control& control) const = 0;
+    /// Bytes that constrain() takes beyond what is held, at its peak. An upper estimate from the arrays it makes:
+    /// columns that are known already are counted as new.
+    virtual std::uint64_t constrain_memory(std::span<const int> base, std::span<const int> handles) const = 0;
     /// The matrices that the mode keeps, for unit Young's modulus.
     virtual void visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const = 0;
     /// The sparse stiffness of all nodes, or null (BEM).

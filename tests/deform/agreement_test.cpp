@@ -5,7 +5,7 @@
 
 #include "deform/problem.hpp"
 #include "mesh/primitives.hpp"
-#include "support/organic_body.hpp"
+#include "study/organic_body.hpp"
 
 namespace elastolab::test {
 namespace {
@@ -111,6 +111,23 @@ TEST_P(Agreement, OfManySetChangesWithFreshModels) {
         deformer.constrain(set, control);
         const Eigen::VectorXd fresh = displaced(precomputed(body, GetParam()), set, values);
         EXPECT_LT((deformer.displace(values) - fresh).norm(), kTolerance * fresh.norm()) << "change " << change;
+    }
+}
+
+/// A set whose columns do not fit into what is kept is served without keeping any.
+TEST_P(Agreement, OfKeptWithRecomputedColumns) {
+    const OrganicBody organic = make_potato(150);
+    const Body body = make_body(organic.surface);
+    std::mt19937 random(9);
+    Method lean = GetParam();
+    lean.column_memory = 0;
+    const auto model = precomputed(body, GetParam()), lean_model = precomputed(body, lean);
+    for (const ConstrainedSet& set :
+         {ConstrainedSet{organic.base, organic.pull}, random_set(organic.surface, 0.3, false, random)}) {
+        const Eigen::VectorXd values = random_values(set, random);
+        const Outcome kept = outcome(model, set, values), recomputed = outcome(lean_model, set, values);
+        EXPECT_LT((kept.displacements - recomputed.displacements).norm(), 1e-11 * kept.displacements.norm());
+        EXPECT_LT((kept.forces - recomputed.forces).norm(), 1e-11 * kept.forces.norm());
     }
 }
 

@@ -4,8 +4,8 @@
 #include <set>
 
 #include "deform/problem.hpp"
-#include "support/organic_body.hpp"
-#include "support/organic_truth.hpp"
+#include "study/organic_body.hpp"
+#include "study/organic_truth.hpp"
 
 namespace elastolab::test {
 namespace {

@@ -1,0 +1,165 @@
+#include <gtest/gtest.h>
+#include <malloc.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <fstream>
+#include <numeric>
+#include <string>
+
+#include "base/error.hpp"
+#include "base/memory.hpp"
+#include "deform/problem.hpp"
+#include "mesh/primitives.hpp"
+
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define ELASTOLAB_TEST_SANITIZED
+#endif
+#endif
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define ELASTOLAB_TEST_SANITIZED
+#endif
+
+namespace elastolab::test {
+namespace {
+
+/// VmHWM and the like of this process, in bytes.
+double memory_of_process(const std::string& key) {
+    std::ifstream status("/proc/self/status");
+    for (std::string line; std::getline(status, line);)
+        if (line.rfind(key + ":", 0) == 0) return 1024.0 * std::stod(line.substr(key.size() + 1));
+    return 0.0;
+}
+
+/// From here on, the peak of the resident memory is that of what follows. False where the system does not let us.
+bool reset_peak() {
+    malloc_trim(0);
+    std::ofstream("/proc/self/clear_refs") << "5";
+    return memory_of_process("VmHWM") < 1.1 * memory_of_process("VmRSS");
+}
+
+/// These vertices in some order, as far as a share of them reaches.
+std::vector<int> share_of(int n_vertices, double share, const std::function<void(std::vector<int>&)>& order) {
+    std::vector<int> vertices(static_cast<std::size_t>(n_vertices));
+    std::iota(vertices.begin(), vertices.end(), 0);
+    order(vertices);
+    vertices.resize(static_cast<std::size_t>(share * n_vertices));
+    return vertices;
+}
+
+std::vector<int> random_vertices(const SurfaceMesh& mesh, double share, unsigned seed) {
+    return share_of(mesh.n_vertices(), share,
+                    [&](std::vector<int>& v) { std::shuffle(v.begin(), v.end(), std::mt19937(seed)); });
+}
+
+/// The vertices nearest to a corner: one contiguous patch.
+std::vector<int> patch(const SurfaceMesh& mesh, double share, const Eigen::Vector3d& corner) {
+    const auto nearer = [&](int a, int b) {
+        return (mesh.vertices.col(a) - corner).norm() < (mesh.vertices.col(b) - corner).norm();
+    };
+    return share_of(mesh.n_vertices(), share, [&](std::vector<int>& v) { std::sort(v.begin(), v.end(), nearer); });
+}
+
+/// Moves these vertices together; all others must follow.
+void expect_translation(Deformer& deformer, const std::vector<int>& vertices) {
+    Control control;
+    deformer.constrain({{}, vertices}, control);
+    const Eigen::VectorXd u = deformer.displace(Eigen::VectorXd::Constant(3 * std::ssize(vertices), 0.1));
+    EXPECT_LT((u.array() - 0.1).abs().maxCoeff(), 1e-9);
+}
+
+class MemoryOfTractions : public ::testing::TestWithParam<Tractions> {};
+
+/// On demand, linear BEM keeps one matrix and what the constrained sets need; nothing else of the matrix's size. The
+/// last set has nothing in common with the one before, which stays alive until the new one is ready.
+TEST_P(MemoryOfTractions, StaysWithinAThirdMoreThanTheMatrix) {
+#ifdef ELASTOLAB_TEST_SANITIZED
+    GTEST_SKIP() << "a sanitizer has memory of its own";
+#endif
+    const SurfaceMesh mesh = make_box(13);
+    const double n = 3.0 * mesh.n_vertices() + 6.0, bound = 1.3 * n * n * 8.0 + 200e6;
+    for (const bool contiguous : {true, false}) {
+        ASSERT_TRUE(reset_peak());
+        Deformer deformer(precomputed(make_body(mesh), make_method(MethodKind::linear_bem, GetParam())));
+        unsigned seed = 0;
+        for (const double share : {0.1, 0.2, 0.4, 0.4}) {
+            const Eigen::Vector3d corner = Eigen::Vector3d::Constant(seed++ < 3 ? 0.0 : 1.0);
+            expect_translation(deformer, contiguous ? patch(mesh, share, corner) : random_vertices(mesh, share, seed));
+            const double peak = memory_of_process("VmHWM");
+            print_measured(std::string(contiguous ? "patch" : "random set") + " of " + std::to_string(share) +
+                               " of the vertices, peak memory over the bound",
+                           peak / bound);
+            EXPECT_LT(peak, bound) << share << (contiguous ? " patch" : " random");
+        }
+    }
+}
+
+/// What predict_memory says, against what the process then takes.
+TEST_P(MemoryOfTractions, IsPredicted) {
+#ifdef ELASTOLAB_TEST_SANITIZED
+    GTEST_SKIP() << "a sanitizer has memory of its own";
+#endif
+    const SurfaceMesh mesh = make_box(13);
+    for (const Update update : {Update::reduced, Update::direct})
+        for (const bool contiguous : {true, false}) {
+            Deformer deformer(
+                precomputed(make_body(mesh), make_method(MethodKind::linear_bem, GetParam(), Mode::on_demand, update)));
+            const std::vector<int> vertices =
+                contiguous ? patch(mesh, 0.3, Eigen::Vector3d::Zero()) : random_vertices(mesh, 0.3, 1);
+            const auto predicted = static_cast<double>(deformer.predict_memory({{}, vertices}));
+            ASSERT_TRUE(reset_peak());
+            const double before = memory_of_process("VmRSS");
+            Control control;
+            deformer.constrain({{}, vertices}, control);
+            const double taken = memory_of_process("VmHWM") - before;
+            EXPECT_GT(predicted, 0.9 * taken) << name(update) << (contiguous ? " patch" : " random");
+            EXPECT_LT(predicted, 1.6 * taken + 20e6) << name(update) << (contiguous ? " patch" : " random");
+        }
+}
+
+INSTANTIATE_TEST_SUITE_P(LinearBem, MemoryOfTractions, ::testing::ValuesIn(kAllTractions),
+                         [](const auto& test) { return std::string(name(test.param)); });
+
+/// Limits the address space to what is taken already and some bytes more, while it lives.
+class AddressSpaceLimit {
+public:
+    explicit AddressSpaceLimit(std::uint64_t more) {
+        getrlimit(RLIMIT_AS, &before_);
+        rlimit limit = before_;
+        limit.rlim_cur = static_cast<rlim_t>(memory_of_process("VmSize")) + more;
+        setrlimit(RLIMIT_AS, &limit);
+    }
+    ~AddressSpaceLimit() { setrlimit(RLIMIT_AS, &before_); }
+    AddressSpaceLimit(const AddressSpaceLimit&) = delete;
+    AddressSpaceLimit& operator=(const AddressSpaceLimit&) = delete;
+
+private:
+    rlimit before_{};
+};
+
+TEST(Memory, ThatASetWouldLackIsSaidBeforeItIsComputedAndThePreviousSetStays) {
+    const SurfaceMesh mesh = make_box(8);
+    const auto base = vertices_where(mesh, [](const auto& x) { return x[0] < 1e-9; });
+    const ConstrainedSet large{base, vertices_where(mesh, [](const auto& x) { return x[0] > 0.2; })};
+    for (const Method& method : all_methods()) {
+        Control control;
+        Deformer deformer(precomputed(make_body(mesh), method));
+        deformer.constrain({base, {mesh.n_vertices() - 1}}, control);
+        const Eigen::VectorXd before = deformer.displace(Eigen::Vector3d(0.1, 0.0, 0.0));
+        try {
+            const AddressSpaceLimit limit(deformer.predict_memory(large) / 2);
+            deformer.constrain(large, control);
+            FAIL() << "was begun, " << describe(method);
+        } catch (const SolveError& error) {
+            EXPECT_NE(std::string(error.what()).find("body: "), std::string::npos) << error.what();
+            EXPECT_NE(std::string(error.what()).find("MB"), std::string::npos) << error.what();
+            EXPECT_NE(std::string(error.what()).find("fewer"), std::string::npos) << error.what();
+        }
+        EXPECT_EQ(deformer.displace(Eigen::Vector3d(0.1, 0.0, 0.0)), before) << describe(method);
+        EXPECT_NO_THROW(deformer.constrain(large, control)) << describe(method);
+    }
+}
+
+}  // namespace
+}  // namespace elastolab::test
