@@ -6,8 +6,8 @@ vec3 lit(vec3 albedo, vec3 normal, vec3 to_eye, float gloss) {
     const vec3 key = normalize(vec3(-0.42, 0.62, 0.85));
     const vec3 fill = normalize(vec3(0.85, -0.10, 0.45));
     float dome = 0.5 + 0.5 * dot(normal, up);
-    vec3 light = mix(vec3(0.17, 0.165, 0.16), vec3(0.32, 0.335, 0.355), dome);
-    light += vec3(0.70, 0.685, 0.66) * max(0.94 * dot(normal, key) + 0.06, 0.0);
+    vec3 light = mix(vec3(0.115, 0.11, 0.11), vec3(0.285, 0.30, 0.325), dome);
+    light += vec3(0.86, 0.84, 0.81) * max(0.95 * dot(normal, key) + 0.05, 0.0);
     light += vec3(0.15, 0.16, 0.18) * max(dot(normal, fill), 0.0);
     float grazing = 1.0 - max(dot(normal, to_eye), 0.0);
     float rim = pow(grazing, 4.0) * (0.3 + 0.7 * dome);

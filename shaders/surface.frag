@@ -55,9 +55,12 @@ void main() {
     vec3 normal = side * normalize(fragment.normal);
     vec3 to_eye = normalize(-fragment.eye_position);
     vec3 albedo = surface_colour();
-    if (!gl_FrontFacing) albedo = mix(albedo, to_linear(inside.rgb), 0.7 * inside.a);
+    if (!gl_FrontFacing && opacity == 1.0) albedo = mix(albedo, to_linear(inside.rgb), 0.7 * inside.a);
     float gloss = scalar_source == 0 ? 1.0 : 0.45;
     vec3 bright = mix(albedo, lit(albedo, normal, to_eye, gloss), light);
     float covered = wire_cover() * wire.a;
-    shown = vec4(mix(to_srgb(bright), wire.rgb, covered), mix(opacity, 1.0, covered * float(opacity < 1.0) * 0.6));
+    float grazing = 1.0 - abs(dot(normal, to_eye));
+    float cover = mix(opacity, 1.0, 0.5 * grazing * grazing);  // as glass: denser towards its outline
+    if (opacity == 1.0) cover = 1.0;
+    shown = vec4(mix(to_srgb(bright), wire.rgb, covered), mix(cover, 1.0, 0.6 * covered));
 }

@@ -53,13 +53,13 @@ std::vector<Eigen::Vector2d> even_points(std::span<const Eigen::Vector2d> contro
 
 std::vector<ColourMap> make_maps() {
     const std::vector<Eigen::Vector2d> lagoon = {{0.070, -0.125}, {-0.010, -0.105}, {-0.075, -0.035},
-                                                 {-0.115, 0.055}, {-0.085, 0.150},  {-0.020, 0.178}};
+                                                 {-0.115, 0.055}, {-0.085, 0.150},  {-0.025, 0.170}};
     const std::vector<Eigen::Vector2d> ember = {{0.040, -0.075}, {0.125, -0.030}, {0.165, 0.065},
                                                 {0.100, 0.125},  {0.020, 0.130},  {-0.020, 0.075}};
     const std::vector<Eigen::Vector2d> slate = {{0.000, -0.020}, {0.000, -0.004}};
-    return {ColourMap::sequential("lagoon", 0.30, 0.91, lagoon), ColourMap::sequential("ember", 0.25, 0.95, ember),
+    return {ColourMap::sequential("lagoon", 0.30, 0.905, lagoon), ColourMap::sequential("ember", 0.25, 0.95, ember),
             ColourMap::sequential("slate", 0.25, 0.95, slate),
-            ColourMap::diverging("balance", 0.47, 0.95, {-0.045, -0.135}, {0.165, 0.085})};
+            ColourMap::diverging("balance", 0.49, 0.95, {-0.032, -0.150}, {0.136, 0.071})};
 }
 
 }  // namespace
