@@ -15,8 +15,14 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-/// A subcommand: its place in the parser, and what it does once its options are parsed. `run` throws UsageError, Error
-/// or Cancelled; main turns these into words and exit codes.
+/// Ctrl-C in a command that says itself what was kept; others let Cancelled pass.
+class Interrupted : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+/// A subcommand: its place in the parser, and what it does once its options are parsed. `run` throws UsageError, Error,
+/// Interrupted or Cancelled; main turns these into words and exit codes.
 struct Command {
     CLI::App* parser = nullptr;
     std::function<void()> run;
@@ -25,5 +31,6 @@ struct Command {
 /// Each adds itself to the program's parser. A new subcommand is one source file, one line here and one in main.cpp.
 Command add_solve_command(CLI::App& program);
 Command add_info_command(CLI::App& program);
+Command add_bench_command(CLI::App& program);
 
 }  // namespace elastolab

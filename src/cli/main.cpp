@@ -27,7 +27,8 @@ int run(int argc, char** argv) {
     CLI::App program("Elastolab: elastic bodies by FEM, constant BEM and linear BEM.", "elastolab");
     program.set_version_flag("--version", "elastolab " ELASTOLAB_VERSION);
     program.require_subcommand(0, 1);
-    const std::vector<Command> commands = {add_solve_command(program), add_info_command(program)};
+    const std::vector<Command> commands = {add_solve_command(program), add_info_command(program),
+                                           add_bench_command(program)};
     try {
         program.parse(argc, argv);
     } catch (const CLI::Success& request) {
@@ -55,6 +56,8 @@ int main(int argc, char** argv) {
         return std::cout ? code : complain("Standard output cannot be written. Is the disk full?", kFailure);
     } catch (const elastolab::UsageError& error) {
         return complain(error.what(), kBadUsage);
+    } catch (const elastolab::Interrupted& interrupted) {
+        return complain(interrupted.what(), interrupt_exit_code());
     } catch (const elastolab::Cancelled&) {
         return complain("Interrupted; no output was written.", interrupt_exit_code());
     } catch (const std::exception& error) {

@@ -11,7 +11,7 @@
 #include "elasticity/exact_fields.hpp"
 #include "elasticity/rigid_motion.hpp"
 #include "mesh/primitives.hpp"
-#include "support/organic_body.hpp"
+#include "study/organic_body.hpp"
 
 namespace elastolab {
 namespace {
@@ -36,7 +36,7 @@ std::vector<std::pair<std::string, SurfaceMesh>> bodies() {
     return {{"cube", make_box(4)},
             {"sphere", make_sphere(4)},
             {"hollow sphere", make_hollow_sphere(3)},
-            {"rabbit", test::make_rabbit(300).surface}};
+            {"rabbit", make_rabbit(300).surface}};
 }
 
 /// Rounding is all that is left of a rotation's tractions: the integrals are exact, and only translations were used for
@@ -54,7 +54,7 @@ TEST(BemAssembly, GivesNoTractionToARotationByLinearElements) {
 }
 
 TEST(BemAssembly, GivesNoTractionToARotationAtInteriorPoints) {
-    const SurfaceMesh mesh = test::make_rabbit(300).surface;
+    const SurfaceMesh mesh = make_rabbit(300).surface;
     const Boundary boundary(mesh);
     const std::vector<int> triangles = {0, 5, 17, 100};
     const Eigen::MatrixXd H = matrix(Layer::double_layer, boundary, interior_sources(boundary, triangles),
@@ -126,7 +126,7 @@ TEST(BemAssembly, SatisfiesSomiglianasIdentityToSecondOrder) {
 }
 
 TEST(BemAssembly, SumsTheLinearFunctionsOfATriangleToTheConstantOne) {
-    const Boundary boundary(test::make_rabbit(300).surface);
+    const Boundary boundary(make_rabbit(300).surface);
     const std::vector<int> triangles = {3, 50, 200};
     const Material material{1.0, 0.3};
     const Sources sources = centroid_sources(boundary);
@@ -157,7 +157,7 @@ TEST(BemAssembly, NeedsNoIntegrationForAnotherPoissonsRatio) {
 }
 
 TEST(BemAssembly, DoesNotDependOnTheNumberOfThreads) {
-    const Boundary boundary(test::make_rabbit(300).surface);
+    const Boundary boundary(make_rabbit(300).surface);
     const int threads = thread_count();
     const auto assembled = [&](int n) {
         set_thread_count(n);

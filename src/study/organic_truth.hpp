@@ -5,7 +5,7 @@
 #include "elasticity/material.hpp"
 #include "mesh/surface_mesh.hpp"
 
-namespace elastolab::test {
+namespace elastolab {
 
 /// Displacements of the vertices of a surface, converged, and how far they may still be off.
 struct OrganicTruth {
@@ -34,4 +34,4 @@ struct TruthOptions {
 OrganicTruth compute_truth(const SurfaceMesh& surface, std::span<const int> constrained, const Positions& values,
                            const Material& material, const TruthOptions& options = {});
 
-}  // namespace elastolab::test
+}  // namespace elastolab

@@ -1,4 +1,4 @@
-#include "support/quadratic_fem.hpp"
+#include "study/quadratic_fem.hpp"
 
 #include <algorithm>
 #include <Eigen/Dense>
@@ -6,7 +6,7 @@
 #include "fem/constraints.hpp"
 #include "fem/sparse_cholesky.hpp"
 
-namespace elastolab::test {
+namespace elastolab {
 
 namespace {
 
@@ -126,4 +126,4 @@ Positions solve_quadratic(const QuadraticMesh& mesh, const Material& material, s
     return u;
 }
 
-}  // namespace elastolab::test
+}  // namespace elastolab

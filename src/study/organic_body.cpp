@@ -1,4 +1,4 @@
-#include "support/organic_body.hpp"
+#include "study/organic_body.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +8,9 @@
 #include <numbers>
 #include <random>
 
-#include "support/sphere_triangulation.hpp"
+#include "study/sphere_triangulation.hpp"
 
-namespace elastolab::test {
+namespace elastolab {
 
 namespace {
 
@@ -137,4 +137,4 @@ OrganicBody make_cactus(int n_vertices) {
 
 std::vector<OrganicBody> organic_bodies() { return {make_rabbit(), make_potato(), make_cactus()}; }
 
-}  // namespace elastolab::test
+}  // namespace elastolab

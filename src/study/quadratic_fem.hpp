@@ -10,7 +10,7 @@
 #include "fem/sparse_matrix.hpp"
 #include "mesh/surface_mesh.hpp"
 
-namespace elastolab::test {
+namespace elastolab {
 
 /// Ten-node tetrahedra with straight edges on a tetrahedral mesh: the truth that the three methods are measured
 /// against, with an assembly of its own. Nodes are the vertices, then the midpoints of the edges.
@@ -34,4 +34,4 @@ SparseMatrix quadratic_stiffness(const QuadraticMesh& mesh, const Material& mate
 Positions solve_quadratic(const QuadraticMesh& mesh, const Material& material, std::span<const int> nodes,
                           const Positions& values);
 
-}  // namespace elastolab::test
+}  // namespace elastolab

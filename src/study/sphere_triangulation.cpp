@@ -1,4 +1,4 @@
-#include "support/sphere_triangulation.hpp"
+#include "study/sphere_triangulation.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace elastolab::test {
+namespace elastolab {
 
 namespace {
 
@@ -106,4 +106,4 @@ void flip_to_delaunay(Triangles& triangles, const Positions& directions, const P
     }
 }
 
-}  // namespace elastolab::test
+}  // namespace elastolab

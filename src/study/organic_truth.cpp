@@ -1,4 +1,4 @@
-#include "support/organic_truth.hpp"
+#include "study/organic_truth.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "mesh/tetrahedralize.hpp"
-#include "support/quadratic_fem.hpp"
-#include "support/refine.hpp"
+#include "study/quadratic_fem.hpp"
+#include "study/refine.hpp"
 
-namespace elastolab::test {
+namespace elastolab {
 
 namespace {
 
@@ -126,4 +126,4 @@ OrganicTruth compute_truth(const SurfaceMesh& surface, std::span<const int> cons
     return {last.u, size_of(last.u - before.u, problem) / size_of(last.u, problem), last.n_nodes};
 }
 
-}  // namespace elastolab::test
+}  // namespace elastolab

@@ -2,7 +2,7 @@
 
 #include "mesh/surface_mesh.hpp"
 
-namespace elastolab::test {
+namespace elastolab {
 
 /// Delaunay triangulation of points on the unit sphere: the faces of their convex hull, outward. Points in general
 /// position, the origin inside their hull.
@@ -12,4 +12,4 @@ Triangles triangulate_sphere(const Positions& directions);
 /// directions stays valid: for a surface that is star-shaped about the origin but far from a sphere.
 void flip_to_delaunay(Triangles& triangles, const Positions& directions, const Positions& places);
 
-}  // namespace elastolab::test
+}  // namespace elastolab

@@ -1,4 +1,4 @@
-#include "support/refine.hpp"
+#include "study/refine.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-namespace elastolab::test {
+namespace elastolab {
 
 namespace {
 
@@ -145,4 +145,4 @@ std::vector<char> around_rim(const RefinedSurface& surface, const std::vector<ch
     return marked;
 }
 
-}  // namespace elastolab::test
+}  // namespace elastolab

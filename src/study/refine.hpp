@@ -6,7 +6,7 @@
 
 #include "mesh/surface_mesh.hpp"
 
-namespace elastolab::test {
+namespace elastolab {
 
 /// A finer triangulation of the same polyhedron. The vertices of the coarse one come first, unmoved.
 struct RefinedSurface {
@@ -38,4 +38,4 @@ TetMesh refine_tetrahedra(const TetMesh& mesh, const RefinedSurface& fine);
 /// Marks the triangles that touch the rim of a region of coarse triangles.
 std::vector<char> around_rim(const RefinedSurface& surface, const std::vector<char>& in_region);
 
-}  // namespace elastolab::test
+}  // namespace elastolab

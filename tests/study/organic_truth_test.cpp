@@ -1,4 +1,4 @@
-#include "support/organic_truth.hpp"
+#include "study/organic_truth.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,9 @@
 
 #include "elasticity/exact_fields.hpp"
 #include "fem/fem_body.hpp"
-#include "support/organic_body.hpp"
-#include "support/quadratic_fem.hpp"
-#include "support/refine.hpp"
+#include "study/organic_body.hpp"
+#include "study/quadratic_fem.hpp"
+#include "study/refine.hpp"
 
 namespace elastolab {
 namespace {
@@ -46,7 +46,7 @@ double smallest_altitude_ratio(const SurfaceMesh& mesh) {
 }
 
 TEST(OrganicBodies, AreClosedAndIrregularAndHaveTheirPatches) {
-    for (const test::OrganicBody& body : test::organic_bodies()) {
+    for (const OrganicBody& body : organic_bodies()) {
         SCOPED_TRACE(body.name);
         EXPECT_TRUE(closed(body.surface));
         EXPECT_EQ(body.surface.n_triangles(), 2 * body.surface.n_vertices() - 4);
@@ -64,12 +64,12 @@ TEST(OrganicBodies, AreClosedAndIrregularAndHaveTheirPatches) {
 
 TEST(Refinement, KeepsThePolyhedron) {
     const SurfaceMesh coarse = test::boundary(test::make_tet_box({3, 2, 2}, {1.0, 1.0, 1.0}, 0.15));
-    test::RefinedSurface fine = test::refine_all(test::unrefined(coarse));
+    RefinedSurface fine = refine_all(unrefined(coarse));
     EXPECT_EQ(fine.mesh.n_triangles(), 4 * coarse.n_triangles());
     std::vector<char> in_region(static_cast<std::size_t>(coarse.n_triangles()), 0);
     for (std::size_t t = 0; t < 5; ++t) in_region[t] = 1;
     for (int round = 0; round < 3; ++round) {
-        fine = test::refine_marked(fine, test::around_rim(fine, in_region));
+        fine = refine_marked(fine, around_rim(fine, in_region));
         EXPECT_TRUE(closed(fine.mesh));
         EXPECT_NEAR(volume(fine.mesh), 1.0, 1e-13);
         EXPECT_GT(smallest_altitude_ratio(fine.mesh), 0.4 * smallest_altitude_ratio(coarse));
@@ -81,19 +81,19 @@ TEST(Refinement, KeepsThePolyhedron) {
 /// Largest error of the quadratic solution of a problem on a box with both ends prescribed, relative.
 template <class Field>
 double error_on_box(const Field& field, const Eigen::Vector3i& cells, const Eigen::Vector3d& size, double jitter) {
-    const test::QuadraticMesh mesh(test::make_tet_box(cells, size, jitter));
+    const QuadraticMesh mesh(test::make_tet_box(cells, size, jitter));
     const Positions exact = displacements(field, mesh.positions).reshaped(3, mesh.n_nodes());
     std::vector<int> ends;
     for (int node = 0; node < mesh.n_nodes(); ++node)
         if (mesh.positions(0, node) == 0.0 || mesh.positions(0, node) == size[0]) ends.push_back(node);
-    const Positions u = test::solve_quadratic(mesh, kMaterial, ends, exact(Eigen::all, ends));
+    const Positions u = solve_quadratic(mesh, kMaterial, ends, exact(Eigen::all, ends));
     return test::relative_error(u, exact);
 }
 
 TEST(Refinement, SplitsTetrahedraInEight) {
     const TetMesh coarse = test::make_tet_box({3, 2, 2}, {1.0, 1.0, 1.0}, 0.15);
-    const test::RefinedSurface surface = test::refine_all(test::unrefined(test::boundary(coarse)));
-    const TetMesh fine = test::refine_tetrahedra(coarse, surface);
+    const RefinedSurface surface = refine_all(unrefined(test::boundary(coarse)));
+    const TetMesh fine = refine_tetrahedra(coarse, surface);
     double sum = 0.0;
     for (const auto& t : fine.tetrahedra.colwise()) {
         Eigen::Matrix3d edges;
@@ -118,13 +118,13 @@ TEST(QuadraticFem, ConvergesWithThirdOrder) {
     const PointForceField field{kMaterial, {-0.4, 0.5, 0.6}, {1.0, 2.0, -1.0}};
     std::vector<double> errors;
     for (int cells : {2, 4, 8}) {
-        const test::QuadraticMesh mesh(test::make_tet_box({cells, cells, cells}, {1.0, 1.0, 1.0}, 0.1));
+        const QuadraticMesh mesh(test::make_tet_box({cells, cells, cells}, {1.0, 1.0, 1.0}, 0.1));
         const Positions exact = displacements(field, mesh.positions).reshaped(3, mesh.n_nodes());
         std::vector<int> outside;
         for (int node = 0; node < mesh.n_nodes(); ++node)
             if ((mesh.positions.col(node).array() == 0.0).any() || (mesh.positions.col(node).array() == 1.0).any())
                 outside.push_back(node);
-        const Positions u = test::solve_quadratic(mesh, kMaterial, outside, exact(Eigen::all, outside));
+        const Positions u = solve_quadratic(mesh, kMaterial, outside, exact(Eigen::all, outside));
         errors.push_back((u - exact).norm() / exact.norm());
     }
     EXPECT_GT(std::log2(errors[1] / errors[2]), 0.9 * 3.0) << errors[0] << " " << errors[1] << " " << errors[2];
@@ -136,16 +136,15 @@ TEST(Truth, OfAStretchedBoxIsExact) {
     const std::vector<int> ends =
         test::vertices_where(box.vertices, box.n_vertices(), [](const auto& p) { return p[0] == 0.0 || p[0] == 2.0; });
     const Positions exact = displacements(field, box.vertices).reshaped(3, box.n_vertices());
-    const test::OrganicTruth truth =
-        test::compute_truth(box, ends, exact(Eigen::all, ends), kMaterial, {.rim_refinements = 1});
+    const OrganicTruth truth = compute_truth(box, ends, exact(Eigen::all, ends), kMaterial, {.rim_refinements = 1});
     EXPECT_LT(test::relative_error(truth.displacements, exact), 1e-10);
     EXPECT_LT(truth.relative_error, 1e-10);
 }
 
 TEST(Truth, OfAPulledEarIsConverged) {
-    const test::OrganicBody rabbit = test::make_rabbit(300);
-    const test::OrganicTruth truth = test::compute_truth(rabbit.surface, rabbit.constrained(), rabbit.values(0.1),
-                                                         kMaterial, {.rim_refinements = 2});
+    const OrganicBody rabbit = make_rabbit(300);
+    const OrganicTruth truth =
+        compute_truth(rabbit.surface, rabbit.constrained(), rabbit.values(0.1), kMaterial, {.rim_refinements = 2});
     // An order below the errors of the methods (2e-2 to 1e-1).
     EXPECT_LT(truth.relative_error, 6e-3) << truth.n_nodes << " nodes";
     RecordProperty("relative_error", std::to_string(truth.relative_error));

@@ -1,0 +1,110 @@
+#include <unistd.h>
+
+#include <algorithm>
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+#include "base/blas.hpp"
+#include "base/text.hpp"
+#include "cli/bench_bar.hpp"
+#include "cli/command.hpp"
+#include "cli/interrupt.hpp"
+#include "study/runner.hpp"
+
+namespace elastolab {
+
+namespace {
+
+/// What the command line says, word for word.
+struct BenchOptions {
+    std::string study, folder;
+    bool quick = false, fresh = false, quiet = false;
+    unsigned seed = 1;
+    int threads = 0;
+};
+
+std::string study_list() {
+    std::string text = "Studies:\n";
+    for (const StudyEntry& entry : studies())
+        text += "  " + entry.name + std::string(12 - entry.name.size(), ' ') + entry.description + "\n";
+    return text +
+           "Each writes STUDY.csv, plots (SVG and PNG, drawn by gnuplot from scripts beside them) and README.md.\n"
+           "Finished cases of a stopped run are kept in STUDY.partial.csv, and the same command goes on from there.";
+}
+
+void add_options(CLI::App& parser, BenchOptions& options) {
+    std::vector<std::string> names;
+    for (const StudyEntry& entry : studies()) names.push_back(entry.name);
+    parser.add_option("study", options.study, "which study")->required()->check(CLI::IsMember(names));
+    parser.add_option("--out", options.folder, "folder for the results, made when it is missing (default bench-STUDY)");
+    parser.add_flag("--quick", options.quick, "small sizes: under a minute");
+    parser.add_option("--seed", options.seed, "of all random choices (default 1)");
+    parser.add_option("--threads", options.threads, "at most this many (default: all cores)")
+        ->check(CLI::Range(1, 1024));
+    parser.add_flag("--fresh", options.fresh, "do not go on with a stopped run, begin anew");
+    parser.add_flag("--quiet", options.quiet, "no list of cases and no progress bar");
+    parser.footer(study_list());
+}
+
+const StudyEntry& entry_of(const std::string& name) {
+    return *std::find_if(studies().begin(), studies().end(), [&](const auto& entry) { return entry.name == name; });
+}
+
+/// The command that gives the same numbers again.
+std::string command_line(const BenchOptions& options) {
+    return "elastolab bench " + options.study + " --out " + options.folder + (options.quick ? " --quick" : "") +
+           " --seed " + std::to_string(options.seed) + " --threads " + std::to_string(thread_count());
+}
+
+RunSettings settings_of(const BenchOptions& options) {
+    RunSettings settings;
+    settings.folder = options.folder;
+    settings.command = command_line(options);
+    settings.options = {.quick = options.quick, .seed = options.seed};
+    settings.fresh = options.fresh;
+    // On a terminal there is the bar; a log gets a line for each case.
+    if (!options.quiet && isatty(STDERR_FILENO) == 0)
+        settings.on_case = [](const std::string& key, double seconds) {
+            std::cout << key << ": " << readable_seconds(seconds) << std::endl;
+        };
+    return settings;
+}
+
+RunResult run_with_bar(const Study& study, const RunSettings& settings, bool with_bar, Control& control) {
+    StudyProgress progress;
+    const BenchBar bar(progress, with_bar);
+    try {
+        return run_study(study, settings, progress, control);
+    } catch (const Cancelled&) {
+        const StudyState state = progress.state();
+        throw Interrupted("Interrupted after " + std::to_string(state.n_done) + " of " + std::to_string(state.n_cases) +
+                          " cases, which are kept: the same command goes on from there.");
+    }
+}
+
+void run_bench(BenchOptions options) {
+    if (options.folder.empty()) options.folder = "bench-" + options.study;
+    Control control;
+    const InterruptGuard interrupt(control);
+    if (options.threads > 0) set_thread_count(options.threads);
+    const RunSettings settings = settings_of(options);
+    const RunResult result =
+        run_with_bar(entry_of(options.study).make(settings.options), settings, !options.quiet, control);
+    for (const std::string& warning : result.warnings) std::cerr << "elastolab: warning: " << one_line(warning) << "\n";
+    if (options.quiet) return;
+    std::cout << "Wrote " << result.files.size() << " files, " << result.table.rows.size() << " rows:\n";
+    for (const auto& file : result.files)
+        if (file.extension() == ".csv" || file.extension() == ".md") std::cout << "  " << file.string() << "\n";
+}
+
+}  // namespace
+
+Command add_bench_command(CLI::App& program) {
+    const auto options = std::make_shared<BenchOptions>();
+    CLI::App* parser = program.add_subcommand("bench", "runs a study and writes its table, plots and report");
+    add_options(*parser, *options);
+    return {parser, [options] { run_bench(*options); }};
+}
+
+}  // namespace elastolab

@@ -1,0 +1,68 @@
+#include "study/report.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "base/text.hpp"
+
+namespace elastolab {
+
+namespace {
+
+std::string formatted(const char* format, double value) {
+    if (!std::isfinite(value)) return "-";
+    std::array<char, 64> buffer{};
+    std::snprintf(buffer.data(), buffer.size(), format, value);
+    return buffer.data();
+}
+
+std::string markdown_line(const std::vector<std::string>& fields) {
+    std::string line = "|";
+    for (const std::string& field : fields) {
+        line += ' ';
+        for (const char c : field) line += c == '|' ? std::string("\\|") : std::string(1, c);
+        line += " |";
+    }
+    return line + "\n";
+}
+
+std::string machine_text(const Table& table) {
+    if (table.rows.empty()) return "No case was run.\n";
+    const Row& row = table.rows.front();
+    return "Elastolab " + row.text("version") + " on " + row.text("cpu") + ", " + row.text("cores") + " cores, " +
+           readable_bytes(row.number("memory_bytes")) + " of memory; BLAS kernels " + row.text("blas_kernels") + ", " +
+           row.text("threads") + " threads; seed " + row.text("seed") +
+           (row.text("quick") == "yes" ? ". A quick run: small sizes, few repeats" : "") + ".\n";
+}
+
+}  // namespace
+
+std::string short_number(double value) { return formatted("%.3g", value); }
+std::string times(double value) { return formatted(value < 10.0 ? "%.2g times" : "%.0f times", value); }
+std::string percent(double share) { return formatted("%.2g %%", 100.0 * share); }
+std::string duration(double seconds) {
+    if (!std::isfinite(seconds)) return "-";
+    return seconds < 1e-5 ? formatted("%.2g us", 1e6 * seconds) : readable_seconds(seconds);
+}
+
+std::string markdown_table(const std::vector<std::string>& titles, const std::vector<std::vector<std::string>>& rows) {
+    std::string text = markdown_line(titles) + markdown_line(std::vector<std::string>(titles.size(), "---"));
+    for (const std::vector<std::string>& row : rows) text += markdown_line(row);
+    return text;
+}
+
+std::string report(const Study& study, const Conclusions& conclusions, const Table& table, const std::string& command) {
+    std::string text = "# " + study.title + "\n\n" + machine_text(table) + "\n```sh\n" + command + "\n```\n\n" +
+                       conclusions.findings + "\n";
+    for (const Plot& plot : conclusions.plots)
+        text += "## " + plot.title + "\n\n" + plot.caption + "\n\n![" + plot.title + "](" + plot.name + ".svg)\n\n";
+    text += "## Files\n\n`" + study.name +
+            ".csv` holds every number above: a line of names, then a row for each measurement; its last columns are "
+            "the machine, the BLAS kernels, the threads, the seed and the version of the program. Plots are drawn from "
+            "it by the `.gp` files (`gnuplot NAME.gp`), as SVG and PNG.\n";
+    for (const StudyFile& file : conclusions.files) text += "`" + file.name + "` belongs to it.\n";
+    return text;
+}
+
+}  // namespace elastolab

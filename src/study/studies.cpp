@@ -1,0 +1,12 @@
+#include "study/study.hpp"
+
+namespace elastolab {
+
+const std::vector<StudyEntry>& studies() {
+    static const std::vector<StudyEntry> all = {
+        {"paper", "the paper's Figs. 1, 4, 5 and 6, in its own way and in ours", make_paper_study},
+    };
+    return all;
+}
+
+}  // namespace elastolab

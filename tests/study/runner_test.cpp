@@ -1,0 +1,139 @@
+#include "study/runner.hpp"
+
+#include <gmock/gmock.h>
+
+#include "base/error.hpp"
+#include "study/journal.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace elastolab::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+/// Two cases that count how often they run; the second can be told to fail.
+struct Counting {
+    int first = 0, second = 0;
+    std::function<void()> before_second = [] {};
+
+    Study study() {
+        Study study;
+        study.name = "tiny";
+        study.title = "A tiny study";
+        study.columns = {"case", "x", "y"};
+        study.cases.push_back(
+            {Row().set("case", std::string("first")), 1.0, [this](Control&) {
+                 ++first;
+                 return std::vector<Row>{Row().set("x", 1).set("y", 2.5), Row().set("x", 2).set("y", 3)};
+             }});
+        study.cases.push_back({Row().set("case", std::string("second, quoted")), 1.0, [this](Control&) {
+                                   before_second();
+                                   ++second;
+                                   return std::vector<Row>{Row().set("x", 3)};
+                               }});
+        study.conclude = [](const Table& table, Control&) {
+            Conclusions conclusions;
+            conclusions.findings = std::to_string(table.rows.size()) + " rows";
+            conclusions.plots.push_back(Plot{.name = "xy",
+                                             .title = "y over x",
+                                             .caption = "A line.",
+                                             .x_label = "x",
+                                             .y_label = "y",
+                                             .series = {{"first", {{"case", "first"}}, "x", "y"}}});
+            return conclusions;
+        };
+        return study;
+    }
+};
+
+class RunnerTest : public testing::Test {
+protected:
+    RunResult run(Counting& counting, unsigned seed = 1, bool fresh = false) {
+        Control control;
+        StudyProgress progress;
+        RunSettings settings;
+        settings.folder = folder_.path() / "out";
+        settings.command = "elastolab bench tiny";
+        settings.options.seed = seed;
+        settings.fresh = fresh;
+        return run_study(counting.study(), settings, progress, control);
+    }
+    std::string text(const std::string& name) const { return read_text(folder_.path() / "out" / name); }
+    bool exists(const std::string& name) const { return std::filesystem::exists(folder_.path() / "out" / name); }
+
+    TemporaryFolder folder_;
+};
+
+TEST_F(RunnerTest, WritesTableReportAndPlots) {
+    Counting counting;
+    const RunResult result = run(counting);
+    EXPECT_EQ(result.table.rows.size(), 3U);
+    EXPECT_THAT(text("tiny.csv"),
+                HasSubstr("case,x,y,note,version,cpu,cores,memory_bytes,blas_kernels,threads,seed,quick\n"));
+    EXPECT_THAT(text("tiny.csv"), HasSubstr("\"second, quoted\",3,,,"));
+    EXPECT_THAT(text("README.md"), HasSubstr("3 rows"));
+    EXPECT_THAT(text("README.md"), HasSubstr("elastolab bench tiny"));
+    EXPECT_THAT(text("xy.gp"), HasSubstr("'tiny.csv'"));
+    EXPECT_FALSE(exists("tiny.partial.csv"));
+    if (result.warnings.empty()) {
+        EXPECT_THAT(text("xy.svg"), HasSubstr("y over x"));
+        EXPECT_TRUE(exists("xy.png"));
+    }
+}
+
+TEST_F(RunnerTest, GoesOnWhereItWasStopped) {
+    Counting counting;
+    counting.before_second = [] { throw Cancelled{}; };
+    EXPECT_THROW(run(counting), Cancelled);
+    EXPECT_FALSE(exists("tiny.csv"));
+    EXPECT_TRUE(exists("tiny.partial.csv"));
+    counting.before_second = [] {};
+    const RunResult result = run(counting);
+    EXPECT_EQ(counting.first, 1) << "its rows were kept";
+    EXPECT_EQ(counting.second, 1);
+    EXPECT_EQ(result.table.rows.front().number("y"), 2.5);
+}
+
+TEST_F(RunnerTest, KeepsNothingOfAnotherSeedNorWhenAskedToBeginAnew) {
+    Counting counting;
+    counting.before_second = [] { throw Cancelled{}; };
+    EXPECT_THROW(run(counting, 1), Cancelled);
+    EXPECT_THROW(run(counting, 2), Cancelled);
+    EXPECT_EQ(counting.first, 2);
+    EXPECT_THROW(run(counting, 2, true), Cancelled);
+    EXPECT_EQ(counting.first, 3);
+}
+
+TEST_F(RunnerTest, NotesACaseThatFails) {
+    Counting counting;
+    counting.before_second = [] { throw SolveError("second: is singular. Choose another."); };
+    const RunResult result = run(counting);
+    ASSERT_EQ(result.table.rows.size(), 3U);
+    EXPECT_EQ(result.table.rows.back().text("note"), "second: is singular. Choose another.");
+}
+
+TEST(Journal, DropsACaseWhoseRowsAreNotAllThere) {
+    const TemporaryFolder folder;
+    folder.write("j.csv", "same\nrow,one,x,1\ndone,one\nrow,two,x,2\n");
+    EXPECT_EQ(Journal(folder.path() / "j.csv", "same").n_finished(), 1);
+    folder.write("j.csv", "same\nrow,one,x,1\ndone,o");
+    EXPECT_EQ(Journal(folder.path() / "j.csv", "same").n_finished(), 0);
+    folder.write("j.csv", "other\nrow,one,x,1\ndone,one\n");
+    EXPECT_EQ(Journal(folder.path() / "j.csv", "same").n_finished(), 0);
+}
+
+TEST(StudyProgress, EstimatesTheTimeLeftFromTheWeightDone) {
+    StudyProgress progress;
+    progress.begin(3, 0, 4.0);
+    EXPECT_LT(progress.state().seconds_left, 0.0);
+    progress.begin_case("a");
+    progress.end_case(1.0);
+    EXPECT_GE(progress.state().seconds_left, 0.0);
+    EXPECT_EQ(progress.state().n_done, 1);
+    EXPECT_DOUBLE_EQ(progress.state().fraction, 0.25);
+}
+
+}  // namespace
+}  // namespace elastolab::test
