@@ -7,6 +7,6 @@ flat in vec4 arrow_colour;
 out vec4 shown;
 
 void main() {
-    vec3 bright = lit(to_linear(arrow_colour.rgb), normalize(normal), normalize(-eye_position), 0.8);
+    vec3 bright = lit(arrow_colour.rgb, normalize(normal), normalize(-eye_position), 0.8);
     shown = vec4(to_srgb(bright), arrow_colour.a * opacity);
 }

@@ -1,4 +1,5 @@
 #version 330 core
+#include "colour.glsl"
 layout(location = 0) in vec2 circle;   // cosine and sine of the angle about the axis
 layout(location = 1) in vec4 profile;  // distance from the axis: x shaft radii + y head radii; along: z necks + w lengths
 layout(location = 2) in vec2 profile_normal;
@@ -12,7 +13,7 @@ const float kHeadRadius = 2.3;  // in radii of the shaft
 const float kHeadSlope = 2.6;   // length of the head / its radius
 
 out vec3 eye_position, normal;
-flat out vec4 arrow_colour;
+flat out vec4 arrow_colour;  // linear
 
 void main() {
     vec3 tail = (model_view * vec4(from, 1.0)).xyz, span = mat3(model_view) * vector;
@@ -31,6 +32,6 @@ void main() {
     vec3 outward = circle.x * first + circle.y * second;
     eye_position = tail + along * axis + across * outward;
     normal = profile_normal.x * outward + profile_normal.y * axis;
-    arrow_colour = colour;
+    arrow_colour = vec4(to_linear(colour.rgb), colour.a);
     gl_Position = projection * vec4(eye_position, 1.0);
 }

@@ -10,7 +10,8 @@ vec3 lit(vec3 albedo, vec3 normal, vec3 to_eye, float gloss) {
     light += vec3(0.86, 0.84, 0.81) * max(0.95 * dot(normal, key) + 0.05, 0.0);
     light += vec3(0.15, 0.16, 0.18) * max(dot(normal, fill), 0.0);
     float grazing = 1.0 - max(dot(normal, to_eye), 0.0);
-    float rim = pow(grazing, 4.0) * (0.3 + 0.7 * dome);
-    float glint = pow(max(dot(normal, normalize(key + to_eye)), 0.0), 56.0);
+    float rim = grazing * grazing * grazing * grazing * (0.3 + 0.7 * dome);
+    float glint = max(dot(normal, normalize(key + to_eye)), 0.0);
+    for (int i = 0; i < 6; ++i) glint *= glint;  // to the power of 64
     return albedo * (light + 0.22 * rim) + gloss * (0.16 * glint + 0.05 * rim);
 }

@@ -1,7 +1,8 @@
 #version 330 core
 #include "colour.glsl"
 #include "lighting.glsl"
-uniform vec4 colour, inside, wire;
+uniform vec4 colour, inside;  // linear, as the colours of the map and the tint
+uniform vec4 wire;
 uniform float opacity, light, wire_width;
 uniform int scalar_source;
 uniform float scalar_low, scalar_scale, scalar_offset, contour_bands;
@@ -17,26 +18,23 @@ out vec4 shown;
 
 float pixels_per_unit(float x) { return 1.0 / max(length(vec2(dFdx(x), dFdy(x))), 1e-12); }
 
-vec3 map_colour(float t) {
-    return to_linear(texture(colour_map, vec2((clamp(t, 0.0, 1.0) * 255.0 + 0.5) / 256.0, 0.5)).rgb);
-}
-
-// Bands of one colour each, with a line of about a pixel between them.
-vec3 banded(float t) {
-    float place = clamp(t, 0.0, 1.0) * contour_bands;
-    float band = min(floor(place), contour_bands - 1.0);
+// Of the map at t. With bands, one colour each, and a line of about a pixel between them.
+vec3 mapped(float t) {
+    t = clamp(t, 0.0, 1.0);
+    float bands = max(contour_bands, 1.0), place = t * bands;
+    float banded_t = (min(floor(place), bands - 1.0) + 0.5) / bands;
     float from_line = abs(place - round(place)) * pixels_per_unit(place);
-    float at_end = step(place, 0.5) + step(contour_bands - 0.5, place);
-    float line = (1.0 - smoothstep(0.3, 1.3, from_line)) * (1.0 - min(at_end, 1.0));
-    return map_colour((band + 0.5) / contour_bands) * mix(1.0, 0.45, line);
+    float inner = step(0.5, place) * step(place, bands - 0.5);
+    float line = (1.0 - smoothstep(0.3, 1.3, from_line)) * inner;
+    bool banded = contour_bands > 0.5;
+    vec3 colour = texture(colour_map, vec2(((banded ? banded_t : t) * 255.0 + 0.5) / 256.0, 0.5)).rgb;
+    return colour * (banded ? mix(1.0, 0.45, line) : 1.0);
 }
 
 vec3 surface_colour() {
-    vec3 plain = to_linear(colour.rgb);
     float t = (fragment.scalar - scalar_low) * scalar_scale + scalar_offset;
     bool has_value = scalar_source != 0 && !isnan(t) && !isinf(t);
-    vec3 mapped = contour_bands > 0.5 ? banded(t) : map_colour(t);
-    return mix(has_value ? mapped : plain, to_linear(fragment.tint.rgb), fragment.tint.a);
+    return mix(has_value ? mapped(t) : colour.rgb, fragment.tint.rgb, fragment.tint.a);
 }
 
 // How much of this pixel the edges of the triangle cover. Fades where triangles are but a few pixels.
@@ -55,7 +53,7 @@ void main() {
     vec3 normal = side * normalize(fragment.normal);
     vec3 to_eye = normalize(-fragment.eye_position);
     vec3 albedo = surface_colour();
-    if (!gl_FrontFacing && opacity == 1.0) albedo = mix(albedo, to_linear(inside.rgb), 0.7 * inside.a);
+    if (!gl_FrontFacing && opacity == 1.0) albedo = mix(albedo, inside.rgb, 0.7 * inside.a);
     float gloss = scalar_source == 0 ? 1.0 : 0.45;
     vec3 bright = mix(albedo, lit(albedo, normal, to_eye, gloss), light);
     float covered = wire_cover() * wire.a;

@@ -1,4 +1,5 @@
 #version 330 core
+#include "colour.glsl"
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in float scalar;
@@ -16,6 +17,6 @@ void main() {
     vertex.eye_position = eye_position.xyz;
     vertex.normal = mat3(model_view) * normal;
     vertex.scalar = scalar;
-    vertex.tint = tint;
+    vertex.tint = vec4(to_linear(tint.rgb), tint.a);
     gl_Position = projection * eye_position;
 }

@@ -1,7 +1,6 @@
 #include "render/arrays.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <utility>
 #include <vector>
 

@@ -35,6 +35,11 @@ double to_srgb(double linear) {
     return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
 }
 
+Colour linear(const Colour& colour) {
+    const auto part = [](float srgb) { return static_cast<float>(to_linear(srgb)); };
+    return {part(colour.r), part(colour.g), part(colour.b), colour.a};
+}
+
 Eigen::Vector3d to_oklab(const Colour& colour) {
     const Eigen::Vector3d linear(to_linear(colour.r), to_linear(colour.g), to_linear(colour.b));
     const Eigen::Vector3d response = cones() * linear;

@@ -17,6 +17,8 @@ Colour colour_of_hex(unsigned rgb);
 /// Linear light of an sRGB component, and back.
 double to_linear(double srgb);
 double to_srgb(double linear);
+/// The components in linear light, as shaders compute with them; the opacity as it is.
+Colour linear(const Colour& colour);
 
 /// OKLab coordinates (lightness L in [0, 1], a: green to red, b: blue to yellow), in which equal distances look equally
 /// different. Reference: B. Ottosson, "A perceptual color space for image processing", 2020.

@@ -16,10 +16,10 @@ constexpr unsigned kPosition = 0, kNormal = 1, kScalar = 2, kTint = 3;  // locat
 constexpr int kMapUnit = 0, kTriangleUnit = 1;                          // of textures
 
 void upload_map(const GlTexture& texture, const ColourMap& map) {
-    std::vector<PackedColour> texels;
-    for (const Colour& colour : map.table()) texels.push_back(pack(colour));
+    std::vector<Colour> texels;
+    for (const Colour& colour : map.table()) texels.push_back(linear(colour));
     glBindTexture(GL_TEXTURE_2D, texture.id());
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, ColourMap::kEntries, 1, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels.data());
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, ColourMap::kEntries, 1, 0, GL_RGBA, GL_FLOAT, texels.data());
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
@@ -89,8 +89,8 @@ void SurfaceDrawing::set_tints(std::span<const Colour> tints) {
 
 void SurfaceDrawing::set_uniforms(const SceneView& view, const SurfaceStyle& style) {
     view.set_uniforms(*shader_, frame_);
-    shader_->set("colour", style.colour);
-    shader_->set("inside", style.inside);
+    shader_->set("colour", linear(style.colour));
+    shader_->set("inside", linear(style.inside));
     shader_->set("opacity", style.opacity);
     shader_->set("light", style.light);
     shader_->set("flat_normals", style.flat ? 1 : 0);

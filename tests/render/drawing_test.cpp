@@ -80,7 +80,7 @@ std::vector<float> heights(const Eigen::Matrix3Xd& positions) {
     return values;
 }
 
-double linear(int byte) { return to_linear(byte / 255.0); }
+double linear_of_byte(int byte) { return to_linear(byte / 255.0); }
 
 TEST_F(Drawing, ShowsALitSphereBeforeAnUntouchedBackground) {
     const SurfaceMesh mesh = make_sphere(12, 0.9);
@@ -119,9 +119,9 @@ TEST_F(Drawing, GivesAScalarTheColourOfItsMapUpToShading) {
             sphere.draw(start(), {.light = light});
             const auto seen = at(finish(), Eigen::Vector3d::Zero());
             const Colour map = colour_maps().front().sample(value);
-            const double shade = linear(seen[1]) / to_linear(map.g);
+            const double shade = linear_of_byte(seen[1]) / to_linear(map.g);
             EXPECT_NEAR(shade, 1.0, light > 0.0f ? 0.3 : 0.04);
-            EXPECT_NEAR(linear(seen[2]) / to_linear(map.b) / shade, 1.0, 0.15);
+            EXPECT_NEAR(linear_of_byte(seen[2]) / to_linear(map.b) / shade, 1.0, 0.15);
         }
     }
 }
@@ -289,6 +289,33 @@ TEST_F(Showcase, Bands) {
         values.push_back(static_cast<float>(mesh.vertices(0, i) + 0.5 * mesh.vertices(2, i)));
     torus.set_vertex_scalars(values);
     torus.draw(start(), {.low = -0.9, .high = 0.9, .contour_bands = 12});
+    finish();
+}
+
+TEST_F(Showcase, ManyTriangles) {
+    const SurfaceMesh mesh = make_torus(60, 0.65, 0.27);
+    SurfaceDrawing torus(mesh.vertices, mesh.triangles);
+    torus.draw(start(), {.wireframe = true});
+    finish();
+}
+
+TEST_F(Showcase, CloseBy) {
+    const SurfaceMesh mesh = make_box(8, {3.0, 1.0, 1.0});
+    camera_.set_scene(frame_of(mesh.vertices));
+    camera_.frame(camera_.scene(), kViewport.aspect());
+    const Eigen::Vector3d corner(0.0, 0.0, 1.0);
+    camera_.zoom_to(camera_.project(corner, kViewport).pixel, 6.0, corner, kViewport);
+    SurfaceDrawing surface(mesh.vertices, mesh.triangles);
+    const SceneView view = start();
+    surface.draw(view, {.wireframe = true, .feature_edges = true});
+    ground_.draw(view, camera_.scene(), Eigen::Vector3d::UnitZ(), {.line = colour_of_hex(0xffffff)});
+    finish();
+}
+
+TEST_F(Showcase, Glass) {
+    const SurfaceMesh mesh = make_hollow_sphere(16, 0.9, 0.4);
+    SurfaceDrawing surface(mesh.vertices, mesh.triangles);
+    surface.draw(start(), {.opacity = 0.35f, .wireframe = true, .wire_opacity = 0.2f});
     finish();
 }
 
