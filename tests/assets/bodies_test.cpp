@@ -61,8 +61,8 @@ TEST_P(Bodies, HaveNoDefectsAndWellShapedTriangles) {
     EXPECT_LT(std::filesystem::file_size(file()), 300'000U);
 }
 
-/// Bytes, not nearly: make_bodies uses only arithmetic that IEEE 754 rounds one way, and is compiled so (GCC and clang on
-/// x86-64 have been compared).
+/// Bytes, not nearly: make_bodies uses only arithmetic that IEEE 754 rounds one way, and is compiled so (GCC and clang
+/// on x86-64 have been compared).
 TEST_P(Bodies, AreWhatMakeBodiesMakes) {
     const test::TemporaryFolder folder;
     const std::string command = std::string("\"") + MAKE_BODIES + "\" " + folder.path().string() + " " + GetParam();
