@@ -19,7 +19,7 @@ namespace {
 /// What the command line says, word for word.
 struct BenchOptions {
     std::string study, folder;
-    bool quick = false, fresh = false, quiet = false;
+    bool quick = false, fresh = false, report = false, quiet = false;
     unsigned seed = 1;
     int threads = 0;
 };
@@ -43,6 +43,7 @@ void add_options(CLI::App& parser, BenchOptions& options) {
     parser.add_option("--threads", options.threads, "at most this many (default: all cores)")
         ->check(CLI::Range(1, 1024));
     parser.add_flag("--fresh", options.fresh, "do not go on with a stopped run, begin anew");
+    parser.add_flag("--report", options.report, "run nothing: plots and report again from the table that is there");
     parser.add_flag("--quiet", options.quiet, "no list of cases and no progress bar");
     parser.footer(study_list());
 }
@@ -51,18 +52,12 @@ const StudyEntry& entry_of(const std::string& name) {
     return *std::find_if(studies().begin(), studies().end(), [&](const auto& entry) { return entry.name == name; });
 }
 
-/// The command that gives the same numbers again.
-std::string command_line(const BenchOptions& options) {
-    return "elastolab bench " + options.study + " --out " + options.folder + (options.quick ? " --quick" : "") +
-           " --seed " + std::to_string(options.seed) + " --threads " + std::to_string(thread_count());
-}
-
 RunSettings settings_of(const BenchOptions& options) {
     RunSettings settings;
     settings.folder = options.folder;
-    settings.command = command_line(options);
     settings.options = {.quick = options.quick, .seed = options.seed};
     settings.fresh = options.fresh;
+    settings.report_only = options.report;
     // On a terminal there is the bar; a log gets a line for each case.
     if (!options.quiet && isatty(STDERR_FILENO) == 0)
         settings.on_case = [](const std::string& key, double seconds) {

@@ -36,6 +36,14 @@ std::string machine_text(const Table& table) {
            (row.text("quick") == "yes" ? ". A quick run: small sizes, few repeats" : "") + ".\n";
 }
 
+std::string command(const std::string& study, const Table& table, const std::string& folder) {
+    std::string text = "elastolab bench " + study + " --out " + folder;
+    if (table.rows.empty()) return text;
+    const Row& row = table.rows.front();
+    if (row.text("quick") == "yes") text += " --quick";
+    return text + " --seed " + row.text("seed") + " --threads " + row.text("threads");
+}
+
 }  // namespace
 
 std::string short_number(double value) { return formatted("%.3g", value); }
@@ -52,9 +60,9 @@ std::string markdown_table(const std::vector<std::string>& titles, const std::ve
     return text;
 }
 
-std::string report(const Study& study, const Conclusions& conclusions, const Table& table, const std::string& command) {
-    std::string text = "# " + study.title + "\n\n" + machine_text(table) + "\n```sh\n" + command + "\n```\n\n" +
-                       conclusions.findings + "\n";
+std::string report(const Study& study, const Conclusions& conclusions, const Table& table, const std::string& folder) {
+    std::string text = "# " + study.title + "\n\n" + machine_text(table) + "\n```sh\n" +
+                       command(study.name, table, folder) + "\n```\n\n" + conclusions.findings + "\n";
     for (const Plot& plot : conclusions.plots)
         text += "## " + plot.title + "\n\n" + plot.caption + "\n\n![" + plot.title + "](" + plot.name + ".svg)\n\n";
     text += "## Files\n\n`" + study.name +

@@ -9,8 +9,8 @@
 
 namespace elastolab {
 
-/// README.md of a finished study: machine, command, findings, plots, files.
-std::string report(const Study& study, const Conclusions& conclusions, const Table& table, const std::string& command);
+/// README.md of a finished study in `folder`: machine, the command that gives it again, findings, plots, files.
+std::string report(const Study& study, const Conclusions& conclusions, const Table& table, const std::string& folder);
 
 /// A Markdown table: a title for each column, then the rows.
 std::string markdown_table(const std::vector<std::string>& titles, const std::vector<std::vector<std::string>>& rows);

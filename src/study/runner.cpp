@@ -2,6 +2,7 @@
 
 #include <fstream>
 #include <optional>
+#include <sstream>
 
 #include "base/atomic_file.hpp"
 #include "base/blas.hpp"
@@ -72,6 +73,12 @@ Table run_cases(const Study& study, const RunSettings& settings, Journal& journa
     return table;
 }
 
+Table read_table(const fs::path& path) {
+    std::ifstream in(path);
+    if (!in) throw Error(path.string() + ": cannot be read. Run the study without --report first.");
+    return read_csv(in);
+}
+
 void write_file(const fs::path& path, const std::string& text, RunResult& result) {
     AtomicFile file(path);
     file.stream() << text;
@@ -114,26 +121,38 @@ Row provenance(const StudyOptions& options) {
         .set("quick", std::string(options.quick ? "yes" : "no"));
 }
 
+namespace {
+
+/// Plots, files and report.
+void write_conclusions(const Study& study, const RunSettings& settings, RunResult& result, Control& control) {
+    const Conclusions conclusions = study.conclude(result.table, control);
+    for (const StudyFile& file : conclusions.files) write_file(settings.folder / file.name, file.text, result);
+    draw_plots(conclusions.plots, study.name + ".csv", settings.folder, result, control);
+    write_file(settings.folder / "README.md", report(study, conclusions, result.table, settings.folder.string()),
+               result);
+}
+
+}  // namespace
+
 RunResult run_study(const Study& study, const RunSettings& settings, StudyProgress& progress, Control& control) {
+    RunResult result;
+    const fs::path csv = settings.folder / (study.name + ".csv");
+    if (settings.report_only) {
+        result.table = read_table(csv);
+        write_conclusions(study, settings, result, control);
+        return result;
+    }
     std::error_code error;
     fs::create_directories(settings.folder, error);
     if (error) throw Error(settings.folder.string() + ": cannot be made (" + error.message() + "). Choose another.");
     const fs::path journal_file = settings.folder / (study.name + ".partial.csv");
     if (settings.fresh) fs::remove(journal_file, error);
     Journal journal(journal_file, fingerprint(study, provenance(settings.options)));
-    RunResult result;
     result.table = run_cases(study, settings, journal, progress, control);
-    const Conclusions conclusions = study.conclude(result.table, control);
-    const std::string csv = study.name + ".csv";
-    {
-        AtomicFile file(settings.folder / csv);
-        write_csv(file.stream(), result.table);
-        file.commit();
-        result.files.push_back(settings.folder / csv);
-    }
-    for (const StudyFile& file : conclusions.files) write_file(settings.folder / file.name, file.text, result);
-    draw_plots(conclusions.plots, csv, settings.folder, result, control);
-    write_file(settings.folder / "README.md", report(study, conclusions, result.table, settings.command), result);
+    std::ostringstream text;
+    write_csv(text, result.table);
+    write_file(csv, text.str(), result);
+    write_conclusions(study, settings, result, control);
     journal.remove();
     return result;
 }

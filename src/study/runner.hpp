@@ -14,9 +14,9 @@ namespace elastolab {
 /// Where and how a study runs.
 struct RunSettings {
     std::filesystem::path folder;
-    std::string command;  ///< for the report
     StudyOptions options;
-    bool fresh = false;  ///< do not go on with a stopped run
+    bool fresh = false;        ///< do not go on with a stopped run
+    bool report_only = false;  ///< run nothing: plots and report from the STUDY.csv that is there
     /// Called after each case with its key and seconds (0: finished in an earlier run).
     std::function<void(const std::string& key, double seconds)> on_case = [](const std::string&, double) {};
 };
@@ -33,7 +33,7 @@ struct RunResult {
 /// seed and options are the same.
 ///
 /// STUDY.csv: a header, the study's columns, `note`, then those of provenance().
-/// Throws Error when a file cannot be written, Cancelled (the finished cases are kept).
+/// Throws Error when a file cannot be written (or, for the report only, read), Cancelled (the finished cases are kept).
 RunResult run_study(const Study& study, const RunSettings& settings, StudyProgress& progress, Control& control);
 
 /// Cells that every row carries: version, cpu, cores, memory_bytes, blas_kernels, threads, seed, quick.

@@ -5,6 +5,7 @@ namespace elastolab {
 const std::vector<StudyEntry>& studies() {
     static const std::vector<StudyEntry> all = {
         {"paper", "the paper's Figs. 1, 4, 5 and 6, in its own way and in ours", make_paper_study},
+        {"error", "run time against error on problems with known answers, and who is fastest", make_error_study},
     };
     return all;
 }

@@ -58,5 +58,6 @@ struct StudyEntry {
 const std::vector<StudyEntry>& studies();
 
 Study make_paper_study(const StudyOptions& options);
+Study make_error_study(const StudyOptions& options);
 
 }  // namespace elastolab

@@ -113,4 +113,17 @@ void write_csv(std::ostream& out, const Table& table) {
     }
 }
 
+Table read_csv(std::istream& in) {
+    Table table;
+    std::string line;
+    if (std::getline(in, line)) table.columns = csv_fields(line);
+    while (std::getline(in, line)) {
+        const std::vector<std::string> fields = csv_fields(line);
+        Row& row = table.rows.emplace_back();
+        for (std::size_t i = 0; i < std::min(fields.size(), table.columns.size()); ++i)
+            if (!fields[i].empty()) row.set(table.columns[i], fields[i]);
+    }
+    return table;
+}
+
 }  // namespace elastolab

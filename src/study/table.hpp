@@ -1,6 +1,7 @@
 #pragma once
 
 #include <concepts>
+#include <istream>
 #include <ostream>
 #include <string>
 #include <string_view>
@@ -53,5 +54,7 @@ std::vector<std::string> csv_fields(std::string_view line);
 
 /// Header, then a line for each row.
 void write_csv(std::ostream& out, const Table& table);
+/// What write_csv wrote.
+Table read_csv(std::istream& in);
 
 }  // namespace elastolab

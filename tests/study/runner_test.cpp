@@ -55,7 +55,6 @@ protected:
         StudyProgress progress;
         RunSettings settings;
         settings.folder = folder_.path() / "out";
-        settings.command = "elastolab bench tiny";
         settings.options.seed = seed;
         settings.fresh = fresh;
         return run_study(counting.study(), settings, progress, control);
@@ -112,6 +111,19 @@ TEST_F(RunnerTest, NotesACaseThatFails) {
     const RunResult result = run(counting);
     ASSERT_EQ(result.table.rows.size(), 3U);
     EXPECT_EQ(result.table.rows.back().text("note"), "second: is singular. Choose another.");
+}
+
+TEST_F(RunnerTest, MakesTheReportAgainFromTheTable) {
+    Counting counting;
+    run(counting);
+    RunSettings settings;
+    settings.folder = folder_.path() / "out";
+    settings.report_only = true;
+    Control control;
+    StudyProgress progress;
+    EXPECT_EQ(run_study(counting.study(), settings, progress, control).table.rows.size(), 3U);
+    EXPECT_EQ(counting.first, 1);
+    EXPECT_THAT(text("README.md"), HasSubstr("3 rows"));
 }
 
 TEST(Journal, DropsACaseWhoseRowsAreNotAllThere) {

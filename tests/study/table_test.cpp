@@ -35,6 +35,8 @@ TEST(Table, SelectsRowsByTheirCells) {
     std::ostringstream out;
     write_csv(out, table);
     EXPECT_EQ(out.str(), "method,x\nfem,1\nbem,1\nfem,1\n");
+    std::istringstream in(out.str());
+    EXPECT_EQ(read_csv(in).rows, table.rows);
 }
 
 }  // namespace

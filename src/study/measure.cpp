@@ -1,0 +1,96 @@
+#include "study/measure.hpp"
+
+#include <optional>
+
+#include "fem/assembly.hpp"
+#include "fem/prescribed.hpp"
+#include "study/setups.hpp"
+#include "study/statistics.hpp"
+
+namespace elastolab {
+
+namespace {
+
+std::string joined(const std::vector<std::string>& lines) {
+    std::string text;
+    for (const std::string& line : lines) text += (text.empty() ? "" : "; ") + line;
+    return text;
+}
+
+void set_errors(Row& row, const Problem& problem, const Eigen::VectorXd& u) {
+    row.set("error", problem.error(u)).set("error_max", problem.largest_error(u));
+}
+
+/// Mesh to displacements with one factorisation, as `solve` does it.
+double once_seconds(const Problem& problem, Method method, const Repeats& repeats, Control& control) {
+    method.update = Update::direct;
+    return median_seconds(
+        [&] {
+            Deformer deformer(precompute(problem.body, method, control));
+            deformer.constrain({{}, problem.constrained}, control);
+            deformer.displace(problem.values());
+        },
+        repeats.budget_seconds, repeats.most);
+}
+
+double frame_seconds(const Deformer& deformer, const Problem& problem) {
+    const DragResponse drag = deformer.drag_response(problem.values(), translation_basis(problem.constrained.size()));
+    Eigen::VectorXd u;
+    const Eigen::VectorXd shift = Eigen::Vector3d(0.1, 0.2, 0.3);
+    return median_seconds_of_short([&] { drag.displace(shift, u); }, 0.02);
+}
+
+}  // namespace
+
+Row measure(const Problem& problem, const Method& method, const Repeats& repeats, Control& control) {
+    std::vector<double> precomputed, set_change, ready;
+    std::optional<Deformer> deformer;
+    median_seconds(
+        [&] {
+            const Stopwatch watch;
+            deformer.emplace(precompute(problem.body, method, control));
+            precomputed.push_back(watch.seconds());
+            deformer->constrain({{}, problem.constrained}, control);
+            ready.push_back(watch.seconds());
+            set_change.push_back(ready.back() - precomputed.back());
+        },
+        repeats.budget_seconds, repeats.most);
+    const Eigen::VectorXd u = deformer->displace(problem.values());
+    const ModelFacts& facts = deformer->model().facts();
+    std::vector<std::string> warnings = facts.warnings;
+    warnings.insert(warnings.end(), deformer->quality().warnings.begin(), deformer->quality().warnings.end());
+    Row row;
+    row.set("vertices", facts.n_vertices)
+        .set("unknowns", facts.n_degrees_of_freedom)
+        .set("constrained", std::ssize(problem.constrained))
+        .set("precompute_s", median(precomputed))
+        .set("set_change_s", median(set_change))
+        .set("ready_s", median(ready))
+        .set("once_s", once_seconds(problem, method, repeats, control))
+        .set("frame_s", frame_seconds(*deformer, problem));
+    set_errors(row, problem, u);
+    return row.set("condition", std::max(facts.condition_estimate, deformer->quality().condition_estimate))
+        .set("residual", deformer->residual(problem.values(), control))
+        .set("warnings", joined(warnings));
+}
+
+Row measure_tetrahedra(const Problem& problem, const TetOptions& tetrahedra, const Repeats& repeats, Control& control) {
+    TetMesh mesh;
+    std::optional<PrescribedSolution> solution;
+    const double once = median_seconds(
+        [&] {
+            mesh = tetrahedralize(*problem.body.surface, problem.body.name, tetrahedra, control);
+            const SparseMatrix K = stiffness(assemble_stiffness_parts(mesh, control), problem.body.material);
+            solution = solve_prescribed(K, CholeskyAnalysis(K), problem.constrained, problem.values(), control);
+        },
+        repeats.budget_seconds, repeats.most);
+    Row row;
+    row.set("vertices", mesh.n_surface_vertices)
+        .set("unknowns", 3 * mesh.n_vertices())
+        .set("constrained", std::ssize(problem.constrained))
+        .set("once_s", once);
+    set_errors(row, problem, solution->displacements.topRows(3 * mesh.n_surface_vertices));
+    return row.set("condition", 1.0 / solution->reciprocal_condition);
+}
+
+}  // namespace elastolab

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "deform/method.hpp"
+#include "mesh/tetrahedralize.hpp"
+#include "study/problems.hpp"
+#include "study/table.hpp"
+
+namespace elastolab {
+
+/// How often and how long something is repeated for its median.
+struct Repeats {
+    double budget_seconds = 0.4;
+    int most = 5;
+};
+
+/// Cells of one method on one problem:
+///   vertices, unknowns, constrained
+///   precompute_s   precomputation, no set known
+///   set_change_s   first constrained set: columns and small system
+///   ready_s        both: from the mesh to the first displacement of a drag
+///   once_s         a single solve and nothing kept (the program's `solve`)
+///   frame_s        a frame of a drag
+///   error, error_max, condition, residual, warnings
+Row measure(const Problem& problem, const Method& method, const Repeats& repeats, Control& control);
+
+/// The same for FEM on tetrahedra of another size or quality, which the program does not offer: a single solve only.
+Row measure_tetrahedra(const Problem& problem, const TetOptions& tetrahedra, const Repeats& repeats, Control& control);
+
+}  // namespace elastolab

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "deform/model.hpp"
+
+namespace elastolab {
+
+/// A displacement problem whose answer is known.
+struct Problem {
+    Body body;
+    std::vector<int> constrained;
+    Eigen::VectorXd truth;     ///< of all vertices, 3*n_vertices
+    double truth_error = 0.0;  ///< how far the truth itself may be off, relative; 0: exact
+
+    Eigen::VectorXd values() const;
+    /// Root mean square error over the free vertices, relative to that of their true displacements.
+    double error(const Eigen::VectorXd& u) const;
+    /// Largest error of a vertex, relative to the largest true displacement.
+    double largest_error(const Eigen::VectorXd& u) const;
+};
+
+/// Problems of one kind in all sizes. Their sides are free of traction but where they are constrained.
+///   bending             bar of 2 x 1 x 1 in pure bending, both ends prescribed
+///   bending-irregular   the same, vertices moved at random in their faces
+///   torsion             circular cylinder twisted, both ends prescribed: a curved free side
+///   torsion-irregular   the same, vertices moved at random on the surface
+///   hollow-sphere       inner sphere displaced, outer free: curved everywhere, two surfaces
+///   rabbit, potato, cactus   organic bodies pulled at a small patch; truth by quadratic FEM graded towards the rims,
+///                       refined and extrapolated, which shares no code with the three methods but the sparse solver
+struct ProblemFamily {
+    std::string name;
+    std::string truth;  ///< how the truth is known, in words
+    bool organic = false;
+    /// `size`: cells of the primitive, or vertices of an organic body.
+    std::function<Problem(int size, double poisson_ratio)> make;
+};
+
+const std::vector<ProblemFamily>& problem_families();
+const ProblemFamily& problem_family(const std::string& name);
+
+}  // namespace elastolab
