@@ -1,7 +1,7 @@
 #version 330 core
 #include "colour.glsl"
 layout(location = 0) in vec2 circle;   // cosine and sine of the angle about the axis
-layout(location = 1) in vec4 profile;  // distance from the axis: x shaft radii + y head radii; along: z necks + w lengths
+layout(location = 1) in vec4 profile;  // off the axis: x shaft + y head radii; along it: z necks + w lengths
 layout(location = 2) in vec2 profile_normal;
 layout(location = 3) in vec3 from;
 layout(location = 4) in vec3 vector;
