@@ -56,4 +56,12 @@ Motion scaled(const Motion& motion, double factor) {
     return result;
 }
 
+Eigen::Vector3d mean_displacement(const Motion& motion, const Positions& rest) {
+    if (const auto* affine = std::get_if<AffineMotion>(&motion))
+        return affine->matrix * rest.rowwise().mean() + affine->translate;
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const Eigen::Vector3d& u : std::get<VertexMotion>(motion).displacements) sum += u;
+    return sum / static_cast<double>(rest.cols());
+}
+
 }  // namespace elastolab

@@ -21,4 +21,7 @@ Motion transformed(const Motion& motion, const Eigen::Matrix3d& map, const Eigen
 /// `motion` with every displacement multiplied by `factor`.
 Motion scaled(const Motion& motion, double factor);
 
+/// Mean displacement of the vertices at these rest positions.
+Eigen::Vector3d mean_displacement(const Motion& motion, const Positions& rest);
+
 }  // namespace elastolab

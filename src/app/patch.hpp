@@ -1,0 +1,24 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "mesh/surface_mesh.hpp"
+
+namespace elastolab {
+
+/// Neighbours of every vertex along edges, for walks over a surface.
+class VertexGraph {
+public:
+    explicit VertexGraph(const SurfaceMesh& mesh);
+    std::span<const int> operator[](int vertex) const;
+
+private:
+    std::vector<int> offsets_, neighbours_;
+};
+
+/// Vertices around `center` (first in the list): those within `radius` [L] of it that can be reached over others of
+/// them, so that a patch does not jump to the other side of a thin part. Rest positions.
+std::vector<int> patch_around(const SurfaceMesh& mesh, const VertexGraph& graph, int center, double radius);
+
+}  // namespace elastolab
