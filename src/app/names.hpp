@@ -1,0 +1,21 @@
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "app/settings.hpp"
+
+namespace elastolab {
+
+/// For headings: the name of a method with a capital ("Linear BEM"), made from its name in scene files.
+std::string title(MethodKind kind);
+
+/// An entry of a list of choices: its words, and what it does in physical ones.
+template <class Value>
+struct Choice {
+    Value value;
+    const char* label;
+    const char* explanation;
+};
+
+}  // namespace elastolab

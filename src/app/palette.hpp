@@ -1,0 +1,29 @@
+#pragma once
+
+#include <array>
+
+#include "deform/method.hpp"
+#include "render/colour.hpp"
+
+namespace elastolab {
+
+/// The colours of a theme, for the scene and the panels.
+struct Palette {
+    Colour background_top, background_bottom;
+    Colour panel, panel_raised, border, text, text_dim, accent;
+    Colour good, busy, bad;
+    Colour wire, grid, outline;
+    Colour fixed, handle, active, hover;
+    std::array<Colour, 3> axes;
+    std::array<Colour, 6> bodies;  ///< one for each method, in the order of all_method_kinds()
+
+    const Colour& body(MethodKind kind) const;
+};
+
+const Palette& dark_palette();
+const Palette& light_palette();
+
+/// Gives Dear ImGui these colours, and measures for this scale.
+void apply_style(const Palette& palette, float scale);
+
+}  // namespace elastolab

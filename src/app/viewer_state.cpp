@@ -1,0 +1,272 @@
+#include "app/viewer_state.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/recent_files.hpp"
+#include "mesh/export.hpp"
+#include "scene/scene_file.hpp"
+#include "scene/user_text.hpp"
+
+namespace elastolab {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double kPatchPart = 0.06;   ///< default radius of a patch, of the body's diagonal
+constexpr double kLowestPart = 0.06;  ///< of a bare mesh that is held, of its height
+
+bool is_scene_file(const fs::path& file) { return file.extension() == ".json"; }
+
+double diagonal(const MeshReport& report) { return (report.max_corner - report.min_corner).norm(); }
+
+/// Meshes from files mostly have Y up, as most modelling programs do; ours have Z.
+Eigen::Vector3d up_axis_of(const Document& document) {
+    const auto* file = std::get_if<MeshFile>(&document.mesh);
+    return file != nullptr ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitZ();
+}
+
+/// Holds the lowest part of a body that nothing holds yet.
+void hold_lowest(LiveScene& scene) {
+    const Eigen::Vector3d up = up_axis_of(scene.document());
+    const Eigen::RowVectorXd heights = up.transpose() * scene.mesh().vertices;
+    const double limit = heights.minCoeff() + kLowestPart * (heights.maxCoeff() - heights.minCoeff());
+    std::vector<int> lowest;
+    for (Eigen::Index v = 0; v < heights.size(); ++v)
+        if (heights[v] <= limit) lowest.push_back(static_cast<int>(v));
+    scene.fix(lowest);
+    scene.commit();
+}
+
+std::unique_ptr<LiveScene> load(const fs::path& file) {
+    if (is_scene_file(file)) return std::make_unique<LiveScene>(load_scene(file), file);
+    auto scene = std::make_unique<LiveScene>(document_for_mesh(file), file.parent_path() / "scene.json");
+    hold_lowest(*scene);
+    return scene;
+}
+
+}  // namespace
+
+Document default_document() {
+    Document document;
+    document.mesh = Primitive{.name = "cube", .resolution = 13, .size = {}};
+    document.fixed = Selector{PlaneSelector{{0, 0, 0}, {1, 0, 0}, 1e-6}};
+    return document;
+}
+
+Document document_for_mesh(const fs::path& mesh) {
+    Document document;
+    document.mesh = MeshFile{fs::absolute(mesh).string()};
+    return document;
+}
+
+ViewerState::ViewerState(const std::function<void()>& wake)
+    : simulation(wake), recent_(load_recent_files()), load_job_(wake) {
+    take_scene(std::make_unique<LiveScene>(default_document(), fs::path("cube.json")));
+}
+
+template <class Action>
+void ViewerState::attempt(const Action& action) {
+    try {
+        action();
+    } catch (const std::exception& error) {
+        messages.error(user_text(error));
+    }
+}
+
+const ShownBody* ViewerState::body(MethodKind kind) const {
+    const auto found = std::find_if(bodies.begin(), bodies.end(), [&](const ShownBody& b) { return b.kind() == kind; });
+    return found == bodies.end() ? nullptr : &*found;
+}
+
+std::vector<MethodKind> ViewerState::shown_kinds() const {
+    std::vector<MethodKind> kinds = {method};
+    if (comparing())
+        for (const MethodKind kind : compare.kinds)
+            if (kind != method) kinds.push_back(kind);
+    return kinds;
+}
+
+std::vector<MethodKind> ViewerState::needed_kinds() const {
+    std::vector<MethodKind> kinds = shown_kinds();
+    const bool needs_reference = comparing() || display.field == Field::difference;
+    if (needs_reference && std::find(kinds.begin(), kinds.end(), compare.reference) == kinds.end())
+        kinds.push_back(compare.reference);
+    return kinds;
+}
+
+const MethodRunner* ViewerState::reference() const {
+    const std::vector<MethodKind> kinds = needed_kinds();
+    const bool is_there = std::find(kinds.begin(), kinds.end(), compare.reference) != kinds.end();
+    return is_there && (comparing() || display.field == Field::difference) ? &simulation.runner(compare.reference)
+                                                                           : nullptr;
+}
+
+std::pair<double, double> ViewerState::field_range() const {
+    if (!display.auto_range) return {display.range_low, display.range_high};
+    double high = 0.0;
+    for (const ShownBody& shown : bodies) high = std::max(high, shown.max_value());
+    return {0.0, high > 0.0 ? high : 1.0};
+}
+
+void ViewerState::open(const fs::path& file) {
+    finish_gesture();
+    load_job_.start([file](Control&) { return std::make_shared<std::unique_ptr<LiveScene>>(load(file)); });
+    pending_file_ = file;
+}
+
+void ViewerState::open_document(Document document, const fs::path& scene_file) {
+    finish_gesture();
+    attempt([&] { take_scene(std::make_unique<LiveScene>(std::move(document), scene_file)); });
+}
+
+void ViewerState::take_scene(std::unique_ptr<LiveScene> scene) {
+    gestures.reset();
+    scene_ = std::move(scene);
+    graph_ = std::make_unique<VertexGraph>(scene_->mesh());
+    ++scene_number_;
+    method = scene_->document().method;
+    tools.patch_radius = kPatchPart * diagonal(scene_->report());
+    bodies.clear();
+    camera.set_scene(frame_of(scene_->mesh().vertices));
+    camera.set_up_axis(up_axis_of(scene_->document()));
+    camera.set_view(ViewDirection::isometric);
+    frame_body();
+    for (const Defect& defect : scene_->report().defects) messages.note(scene_->name() + ": " + defect.text);
+}
+
+void ViewerState::frame_body() {
+    SceneFrame ball = frame_of(scene_->mesh().vertices);
+    for (const ShownBody& shown : bodies)
+        if (shown.positions().cols() > 0) ball = united(ball, frame_of(shown.positions()));
+    camera.frame(ball, viewports.empty() ? 1.3 : viewports.front().place.aspect());
+}
+
+void ViewerState::save_scene(const fs::path& file) {
+    finish_gesture();
+    attempt([&] {
+        Document document = scene_->document();
+        document.method = method;
+        if (auto* mesh = std::get_if<MeshFile>(&document.mesh)) {
+            const fs::path absolute = fs::absolute(scene_->file().parent_path() / mesh->file).lexically_normal();
+            const fs::path relative = absolute.lexically_relative(fs::absolute(file).parent_path());
+            mesh->file = relative.empty() ? absolute.string() : relative.string();
+        }
+        elastolab::save_scene(file, document);
+        add_recent(file);
+        messages.note("Saved " + file.string());
+    });
+}
+
+void ViewerState::export_mesh(const fs::path& file) {
+    attempt([&] {
+        const ShownBody* shown = body(method);
+        SurfaceMesh mesh = scene_->mesh();
+        const Eigen::VectorXd& u = simulation.runner(method).displacement();
+        if (shown != nullptr && u.size() == mesh.vertices.size())
+            mesh.vertices += Eigen::Map<const Eigen::Matrix3Xd>(u.data(), 3, u.size() / 3);
+        save_surface(file, mesh);
+        messages.note("Exported " + file.string());
+    });
+}
+
+void ViewerState::record_timings(const fs::path& file) {
+    attempt([&] {
+        stop_timings();
+        timings = std::make_unique<TimingsRecorder>(file);
+    });
+}
+
+void ViewerState::stop_timings() {
+    attempt([&] {
+        const std::unique_ptr<TimingsRecorder> ended = std::move(timings);
+        if (!ended) return;
+        ended->finish();
+        messages.note(std::to_string(ended->n_rows()) + " frames in " + ended->file().string());
+    });
+}
+
+GestureContext ViewerState::gesture_context() {
+    GestureContext context{.scene = *scene_,
+                           .camera = camera,
+                           .graph = *graph_,
+                           .tools = tools,
+                           .deformation_scale = display.deformation_scale,
+                           .targets = {}};
+    for (const SceneViewport& viewport : viewports)
+        if (const ShownBody* shown = body(viewport.kinds.front()))
+            context.targets.push_back({viewport.place, &shown->positions()});
+    return context;
+}
+
+void ViewerState::finish_gesture() {
+    GestureContext context = gesture_context();
+    gestures.finish(context);
+}
+
+void ViewerState::undo() {
+    finish_gesture();
+    if (scene_->can_undo()) scene_->undo();
+    gestures.select_handle(-1);
+}
+
+void ViewerState::redo() {
+    finish_gesture();
+    if (scene_->can_redo()) scene_->redo();
+    gestures.select_handle(-1);
+}
+
+void ViewerState::remove_handle(int handle) {
+    finish_gesture();
+    if (handle < 0 || handle >= scene_->n_handles()) return;
+    scene_->remove_handle(handle);
+    scene_->commit();
+    gestures.select_handle(-1);
+}
+
+void ViewerState::clear_handles() {
+    finish_gesture();
+    scene_->clear_handles();
+    scene_->commit();
+    gestures.select_handle(-1);
+}
+
+void ViewerState::select_method(MethodKind kind) { method = kind; }
+
+void ViewerState::add_recent(const fs::path& file) {
+    recent_ = with_recent_file(recent_, fs::absolute(file));
+    save_recent_files(recent_);
+}
+
+bool ViewerState::update_displacements() {
+    switch (load_job_.poll()) {
+        case JobEvent::finished:
+            take_scene(std::move(*load_job_.result()));
+            add_recent(pending_file_);
+            break;
+        case JobEvent::failed: messages.error(load_job_.failure()); break;
+        case JobEvent::cancelled:
+        case JobEvent::none: break;
+    }
+    const bool changed = simulation.update(*scene_, needed_kinds(), choices);
+    const std::vector<int>& patch = gestures.hover().patch;
+    if (gestures.action() == Gestures::Action::none && !patch.empty() && patch != prefetched_)
+        simulation.prefetch(scene_->set_with_handle(patch));
+    prefetched_ = patch;
+    return changed;
+}
+
+bool ViewerState::update_bodies() {
+    const std::vector<MethodKind> kinds = shown_kinds();
+    std::erase_if(bodies, [&](const ShownBody& b) { return std::find(kinds.begin(), kinds.end(), b.kind()) == kinds.end(); });
+    bool changed = false;
+    for (const MethodKind kind : kinds) {
+        if (body(kind) == nullptr) bodies.emplace_back(kind);
+        ShownBody& shown = *std::find_if(bodies.begin(), bodies.end(), [&](const ShownBody& b) { return b.kind() == kind; });
+        changed = shown.update(*scene_, simulation.runner(kind), reference(), display) || changed;
+    }
+    return changed;
+}
+
+}  // namespace elastolab

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+
+#include "elasticity/material.hpp"
+#include "mesh/surface_mesh.hpp"
+
+namespace elastolab {
+
+/// Traction at every vertex, 3 x n_vertices [force / L^2]: the force at a constrained vertex (one column of `forces`
+/// for each of `constrained`) over a third of the area of the triangles around it that have only constrained vertices;
+/// of all triangles around it when there is none. Zero elsewhere.
+Eigen::Matrix3Xd vertex_tractions(const SurfaceMesh& surface, std::span<const int> constrained,
+                                  const Eigen::Matrix3Xd& forces);
+
+/// Von Mises stress on the surface, at every vertex the mean over its triangles by area [force / L^2]. In a triangle
+/// the strain within its plane comes from the displacements u (3*n_vertices [L]) of its corners, the stress on its
+/// plane from the mean traction where all corners have one (it is zero on the free surface), and Hooke's law gives the
+/// rest; so it means the same for all methods. First order in the mesh size.
+Eigen::VectorXd surface_von_mises(const SurfaceMesh& surface, const Material& material, const Eigen::VectorXd& u,
+                                  const Eigen::Matrix3Xd& tractions);
+
+}  // namespace elastolab

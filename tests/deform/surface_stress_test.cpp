@@ -1,0 +1,73 @@
+#include "deform/surface_stress.hpp"
+
+#include <gtest/gtest.h>
+
+#include "deform/deformer.hpp"
+#include "elasticity/exact_fields.hpp"
+#include "mesh/primitives.hpp"
+
+namespace elastolab {
+namespace {
+
+constexpr Material kRubber{.young_modulus = 2.0e3, .poisson_ratio = 0.4};
+
+std::vector<int> ends(const SurfaceMesh& bar) {
+    std::vector<int> vertices;
+    for (int v = 0; v < bar.n_vertices(); ++v)
+        if (bar.vertices(0, v) < 1e-9 || bar.vertices(0, v) > 2.0 - 1e-9) vertices.push_back(v);
+    return vertices;
+}
+
+/// Forces of linear BEM (restricted tractions: exact here) where the ends follow u = (x, -nu y, -nu z).
+TEST(SurfaceStress, StretchedBarHasTheStressOfItsStretchEverywhere) {
+    const auto bar = std::make_shared<const SurfaceMesh>(make_box(2, {2, 1, 1}));
+    const double nu = kRubber.poisson_ratio;
+    const Eigen::Matrix3Xd u = Eigen::Vector3d(1, -nu, -nu).asDiagonal() * bar->vertices;
+    Control control;
+    Deformer deformer(precompute({"bar", bar, kRubber}, Method{.tractions = Tractions::restricted}, control));
+    deformer.constrain({{}, ends(*bar)}, control);
+    const Eigen::Matrix3Xd values = u(Eigen::all, ends(*bar));
+    const Reactions reactions = deformer.reactions(Eigen::Map<const Eigen::VectorXd>(values.data(), values.size()));
+
+    const Eigen::Matrix3Xd tractions = vertex_tractions(*bar, ends(*bar), reactions.forces);
+    const Eigen::VectorXd stress =
+        surface_von_mises(*bar, kRubber, Eigen::Map<const Eigen::VectorXd>(u.data(), u.size()), tractions);
+    // The sides have no traction; on the ends the nodal forces are those of hats, which a third of the area is not.
+    for (int v = 0; v < bar->n_vertices(); ++v)
+        if (bar->vertices(0, v) > 0.1 && bar->vertices(0, v) < 1.9) {
+            EXPECT_NEAR(stress[v], kRubber.young_modulus, 1e-9 * kRubber.young_modulus) << v;
+        }
+    EXPECT_NEAR((tractions.row(0).array().abs() * (tractions.row(0).array().abs() > 0).cast<double>()).maxCoeff(),
+                kRubber.young_modulus, 0.5 * kRubber.young_modulus);
+}
+
+TEST(SurfaceStress, PressureOnEverySideMakesNoVonMisesStress) {
+    const SurfaceMesh cube = make_box(2);
+    const double pressure = 10.0, strain = -pressure * (1.0 - 2.0 * kRubber.poisson_ratio) / kRubber.young_modulus;
+    const Eigen::Matrix3Xd u = strain * cube.vertices;
+    // Flat faces only: at an edge of the cube no single traction is right.
+    SurfaceMesh face = cube;
+    std::vector<int> top;
+    for (int t = 0; t < cube.n_triangles(); ++t)
+        if ((cube.vertices(2, cube.triangles.col(t)).array() > 1.0 - 1e-9).all()) top.push_back(t);
+    face.triangles = cube.triangles(Eigen::all, top).eval();
+    Eigen::Matrix3Xd tractions = Eigen::Matrix3Xd::Zero(3, cube.n_vertices());
+    tractions.row(2).setConstant(-pressure);
+    const Eigen::VectorXd stress =
+        surface_von_mises(face, kRubber, Eigen::Map<const Eigen::VectorXd>(u.data(), u.size()), tractions);
+    for (const int t : top)
+        for (const int v : face.triangles.col(0)) EXPECT_NEAR(stress[v], 0.0, 1e-9 * pressure) << t;
+}
+
+TEST(SurfaceStress, ARotationMakesNone) {
+    const SurfaceMesh sphere = make_sphere(4);
+    const Eigen::Matrix3d spin = (Eigen::Matrix3d() << 0, -0.3, 0.2, 0.3, 0, -0.1, -0.2, 0.1, 0).finished();
+    const Eigen::Matrix3Xd u = spin * sphere.vertices;
+    const Eigen::VectorXd stress =
+        surface_von_mises(sphere, kRubber, Eigen::Map<const Eigen::VectorXd>(u.data(), u.size()),
+                          Eigen::Matrix3Xd::Zero(3, sphere.n_vertices()));
+    EXPECT_LT(stress.maxCoeff(), 1e-12 * kRubber.young_modulus);
+}
+
+}  // namespace
+}  // namespace elastolab
