@@ -34,6 +34,8 @@ struct GestureContext {
 struct Hover {
     int vertex = -1;
     std::vector<int> patch;  ///< that a press would grab: of the handle it belongs to, or a new one
+
+    bool operator==(const Hover&) const = default;
 };
 
 /// Turns mouse events into camera moves and edits of the scene. Owned by one thread; knows no window.

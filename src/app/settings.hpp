@@ -51,6 +51,8 @@ struct DisplaySettings {
     bool section_flip = false;
     bool dark = true;
     float ui_scale = 1.0f;
+
+    bool operator==(const DisplaySettings&) const = default;
 };
 
 }  // namespace elastolab

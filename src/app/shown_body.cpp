@@ -52,6 +52,8 @@ bool ShownBody::update(const LiveScene& scene, const MethodRunner& runner, const
                   .arrows = display.arrows};
     if (key == key_ && positions_.cols() == scene.mesh().n_vertices()) return false;
     key_ = key;
+    static std::uint64_t last_revision = 0;  // one thread owns all of them
+    revision_ = ++last_revision;
     update_positions(scene, runner, display.deformation_scale);
     const bool needs_tractions = display.field == Field::traction || display.field == Field::von_mises;
     update_reactions(scene, runner, display.arrows || needs_tractions);

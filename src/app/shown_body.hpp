@@ -36,6 +36,7 @@ public:
                 const DisplaySettings& display);
 
     MethodKind kind() const { return kind_; }
+    std::uint64_t revision() const { return revision_; }  ///< grows with every change; different for every body
     const Positions& positions() const { return positions_; }  ///< rest + scale * displacement
     /// One value a vertex for the chosen field; empty when there is none.
     const std::vector<float>& values() const { return values_; }
@@ -62,6 +63,7 @@ private:
 
     MethodKind kind_;
     Key key_;
+    std::uint64_t revision_ = 0;
     Positions positions_;
     std::vector<float> values_;
     double max_value_ = 0.0, max_displacement_ = 0.0;

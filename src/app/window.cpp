@@ -13,8 +13,6 @@ namespace elastolab {
 
 namespace {
 
-constexpr int kSamples = 4;
-
 std::string last_glfw_error() {
     const char* description = nullptr;
     glfwGetError(&description);
@@ -97,7 +95,6 @@ Window::Window(const Options& options) : state_(std::make_unique<State>()) {
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
-    glfwWindowHint(GLFW_SAMPLES, kSamples);
     glfwWindowHint(GLFW_VISIBLE, options.visible ? GLFW_TRUE : GLFW_FALSE);
     handle_ = glfwCreateWindow(options.width, options.height, options.title.c_str(), nullptr, nullptr);
     if (handle_ == nullptr) {

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace elastolab {
+
+/// A window in which a person finds a file to open, or a name to save under.
+class FileDialog {
+public:
+    struct Purpose {
+        std::string title;                    ///< "Open a mesh or scene"
+        std::vector<std::string> extensions;  ///< of the files shown, with dot; empty: all
+        std::string suggestion;               ///< name to save under; empty: an existing file is to be opened
+        std::function<void(const std::filesystem::path&)> done;
+    };
+
+    void open(Purpose purpose);
+    bool is_open() const { return open_; }
+    /// Draws it, when it is open, in the middle of the window.
+    void draw(float scale);
+
+private:
+    struct Entry {
+        std::filesystem::path path;
+        std::string shown;
+        bool is_folder = false;
+    };
+    void list_folder();
+    void draw_places();
+    void draw_entries(float scale);
+    void draw_name(float scale);
+    void accept(const std::filesystem::path& file);
+    bool is_saving() const { return !purpose_.suggestion.empty(); }
+
+    Purpose purpose_;
+    bool open_ = false, opening_ = false;
+    std::filesystem::path folder_;
+    std::vector<Entry> entries_;
+    std::string name_, problem_;
+    std::filesystem::path to_replace_;  ///< asked for confirmation
+};
+
+}  // namespace elastolab

@@ -1,0 +1,178 @@
+#include <imgui.h>
+
+#include <array>
+
+#include "app/panels.hpp"
+#include "app/widgets.hpp"
+#include "base/memory.hpp"
+#include "base/text.hpp"
+
+namespace elastolab {
+
+namespace {
+
+using State = MethodRunner::State;
+
+constexpr std::array<Choice<Mode>, 2> kModes = {
+    {{Mode::on_demand, "on demand", "One factorisation; columns of the inverse when a handle needs them. Soonest ready."},
+     {Mode::full, "K and inverse", "The stiffness K and its (bordered) inverse in memory, as the paper has it."}}};
+
+constexpr std::array<Choice<Update>, 3> kUpdates = {
+    {{Update::reduced, "collapsed (9')", "A system as small as the set of held vertices. Same displacements, least work."},
+     {Update::eqn9, "Eqn. 9", "As the paper writes it: the free block's inverse from K's inverse. Needs K and inverse."},
+     {Update::direct, "Eqn. 7", "Factorises the free block of K anew whenever the set of held vertices changes."}}};
+
+constexpr std::array<Choice<FrameRule>, 2> kFrameRules = {
+    {{FrameRule::drag_columns, "moving columns", "Three columns of the moving handle, found when it is grabbed: a frame "
+                                                 "reads them once, the limit of memory bandwidth."},
+     {FrameRule::displace, "whole update", "Every frame goes through the update rule above, to see what it costs."}}};
+
+constexpr std::array<Choice<Tractions>, 3> kTractions = {
+    {{Tractions::discontinuous, "discontinuous", "Forces per area may jump at the rim of a held patch, where they are "
+                                                 "singular. Most accurate."},
+     {Tractions::restricted, "restricted", "Linear over a held patch, ending at its rim."},
+     {Tractions::continuous, "continuous", "As in the paper: they leak one ring onto the free surface."}}};
+
+const char* state_word(const MethodRunner& runner) {
+    switch (runner.state()) {
+        case State::idle: return runner.has_answer() ? "stopped; the last answer stays" : "not computed";
+        case State::precomputing: return "precomputing";
+        case State::preparing: return "preparing the new set of held vertices";
+        case State::ready: return "ready";
+        case State::failed: return "failed";
+    }
+    return "";
+}
+
+const Colour& state_colour(const MethodRunner& runner, const Palette& palette) {
+    switch (runner.state()) {
+        case State::ready: return palette.good;
+        case State::failed: return palette.bad;
+        case State::idle: return palette.text_dim;
+        default: return palette.busy;
+    }
+}
+
+/// A button for each method with a lamp: computed or not.
+void draw_buttons(const PanelContext& context) {
+    ViewerState& state = context.state;
+    const auto n = static_cast<float>(all_method_kinds().size());
+    const float width = (ImGui::GetContentRegionAvail().x - (n - 1.0f) * ImGui::GetStyle().ItemSpacing.x) / n;
+    int number = 0;
+    for (const MethodKind kind : all_method_kinds()) {
+        if (number++ > 0) ImGui::SameLine();
+        const bool active = kind == state.method;
+        const Colour& colour = context.palette.body(kind);
+        if (active) {
+            ImGui::PushStyleColor(ImGuiCol_Button, imgui_colour(colour));
+            ImGui::PushStyleColor(ImGuiCol_ButtonHovered, imgui_colour(colour));
+            ImGui::PushStyleColor(ImGuiCol_Text, imgui_colour(dark_palette().wire));
+        }
+        if (ImGui::Button(title(kind).c_str(), {width, 1.35f * ImGui::GetFrameHeight()})) state.select_method(kind);
+        if (active) ImGui::PopStyleColor(3);
+        tooltip(("Key " + std::to_string(number)).c_str());
+        const ImVec2 corner = ImGui::GetItemRectMax();
+        const float r = 3.5f * context.gui.scale();
+        ImGui::GetWindowDrawList()->AddCircleFilled(
+            {corner.x - 2.2f * r, ImGui::GetItemRectMin().y + 2.2f * r}, r,
+            imgui_packed(state_colour(state.simulation.runner(kind), context.palette)));
+    }
+}
+
+void draw_progress(const PanelContext& context, MethodRunner& runner, const Cost& cost) {
+    const double fraction = runner.progress(), elapsed = runner.elapsed_seconds();
+    const std::string text = std::string(runner.stage()) + "  " + readable_seconds(elapsed) + " of about " +
+                             readable_seconds(std::max(cost.seconds, elapsed));
+    const float button = 60.0f * context.gui.scale();
+    ImGui::ProgressBar(static_cast<float>(fraction), {ImGui::GetContentRegionAvail().x - button - 8.0f, 0.0f}, "");
+    ImGui::SameLine();
+    if (ImGui::Button("Cancel", {button, 0.0f})) runner.cancel();
+    paragraph(text, context.palette.text_dim);
+}
+
+/// What is there of the model: unknowns, and whether K and its inverse are.
+std::string readiness(const MethodRunner& runner) {
+    if (!runner.model()) return "";
+    const ModelFacts& facts = runner.model()->facts();
+    std::string text = count_text(facts.n_degrees_of_freedom) + " unknowns, " +
+                       readable_bytes(static_cast<double>(facts.memory_bytes));
+    if (facts.n_tetrahedra > 0) text += ", " + count_text(facts.n_tetrahedra) + " tetrahedra";
+    if (runner.completing()) return text + "; completing K and its inverse";
+    return text + (runner.has_inverse() ? "; K and its inverse are ready" : "; columns on demand");
+}
+
+void draw_warnings(const PanelContext& context, const MethodRunner& runner) {
+    if (runner.model())
+        for (const std::string& warning : runner.model()->facts().warnings) paragraph(warning, context.palette.busy);
+    if (runner.deformer())
+        for (const std::string& warning : runner.deformer()->quality().warnings)
+            paragraph(warning, context.palette.busy);
+}
+
+}  // namespace
+
+void Panels::draw_method(const PanelContext& context) {
+    ViewerState& state = context.state;
+    const Palette& palette = context.palette;
+    draw_buttons(context);
+    MethodRunner& runner = state.simulation.runner(state.method);
+    ImGui::TextColored(imgui_colour(state_colour(runner, palette)), "%s", state_word(runner));
+    const Method method = state.choices.of(state.method);
+    if (runner.precomputing())
+        draw_progress(context, runner, cost(state, method));
+    else if (runner.completing()) {
+        Method full = method;
+        full.mode = Mode::full;
+        draw_progress(context, runner, cost(state, full));
+    }
+    if (runner.state() == State::idle || runner.state() == State::failed) {
+        const std::string problem = state.simulation.problem(state.method);
+        if (!problem.empty()) paragraph(problem, palette.bad);
+        if (ImGui::Button("Compute")) runner.retry();
+    }
+    if (const std::string text = readiness(runner); !text.empty()) paragraph(text, palette.text_dim);
+    draw_warnings(context, runner);
+
+    if (!ImGui::TreeNode("How it computes")) return;
+    draw_mode(context);
+    const float scale = context.gui.scale();
+    set_item_width(scale);
+    choose<Update>("update", state.choices.update, kUpdates);
+    if (state.choices.update == Update::eqn9 && method.update != Update::eqn9)
+        paragraph("Eqn. 9 needs K and its inverse: choose that mode. Until then the collapsed form answers, which "
+                  "gives the same displacements.", palette.text_dim);
+    set_item_width(scale);
+    choose<FrameRule>("each frame", state.choices.frame_rule, kFrameRules);
+    set_item_width(scale);
+    choose<Tractions>("tractions", state.choices.tractions, kTractions);
+    ImGui::TreePop();
+}
+
+/// The modes with what each would cost; those that would not fit cannot be chosen.
+void Panels::draw_mode(const PanelContext& context) {
+    ViewerState& state = context.state;
+    set_item_width(context.gui.scale());
+    if (begin_choice("ahead", state.choices.mode == Mode::full ? kModes[1].label : kModes[0].label)) {
+        for (const Choice<Mode>& choice : kModes) {
+            Method method = state.choices.of(state.method);
+            method.mode = choice.value;
+            const Cost& price = cost(state, method);
+            const bool fits = price.memory_bytes < available_memory_bytes();
+            const std::string label = std::string(choice.label) + "   " + readable_seconds(price.seconds) + ", " +
+                                      readable_bytes(static_cast<double>(price.memory_bytes)) +
+                                      (fits ? "" : " (does not fit)");
+            ImGui::BeginDisabled(!fits);
+            if (choice_entry(label.c_str(), choice.explanation, choice.value == state.choices.mode))
+                state.choices.mode = choice.value;
+            ImGui::EndDisabled();
+        }
+        end_choice();
+    }
+    if (state.choices.mode != Mode::on_demand) return;
+    set_item_width(context.gui.scale());
+    ImGui::SliderInt("complete up to", &state.choices.complete_up_to, 0, 5000, "%d vertices");
+    tooltip("Bodies of at most so many vertices get K and its inverse in the background, once they can be pulled. "
+            "After that a new handle is ready sooner.");
+}
+
+}  // namespace elastolab

@@ -1,0 +1,77 @@
+#include <imgui.h>
+
+#include "app/panels.hpp"
+#include "app/shortcuts.hpp"
+#include "app/widgets.hpp"
+#include "base/text.hpp"
+
+namespace elastolab {
+
+namespace {
+
+std::string left_text(const ViewerState& state) {
+    if (state.loading()) return "Loading...";
+    const Gestures& gestures = state.gestures;
+    if (gestures.hover().vertex >= 0) {
+        const int v = gestures.hover().vertex, owner = state.scene().owner(v);
+        std::string text = "vertex " + std::to_string(v);
+        if (owner == LiveScene::kFixed) text += ", fixed";
+        if (owner >= 0) text += ", of " + state.scene().handle_name(owner);
+        const auto n = std::ssize(gestures.hover().patch);
+        if (n > 0) text += ", patch of " + count_text(n) + (n == 1 ? " vertex" : " vertices");
+        return text;
+    }
+    return std::filesystem::path(state.scene().name()).filename().string() + (state.scene().modified() ? " (changed)" : "");
+}
+
+std::string right_text(const ViewerState& state) {
+    const FrameHistory& history = state.history;
+    std::array<char, 96> text{};
+    std::snprintf(text.data(), text.size(), "update %.3f ms   frame %.2f ms   ", state.last_frame.update_ms,
+                  history.percentile(&FrameTimes::frame_ms, 0.5));
+    return text.data() + std::string(state.timings ? "recording timings   " : "") +
+           (state.recorder ? "recording the interaction   " : "");
+}
+
+}  // namespace
+
+void Panels::draw_status(const PanelContext& context) {
+    const Viewport& place = context.layout.status;
+    ImGui::SetNextWindowPos({static_cast<float>(place.x), static_cast<float>(place.y)});
+    ImGui::SetNextWindowSize({static_cast<float>(place.width), static_cast<float>(place.height)});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0f);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {12.0f * context.gui.scale(), 4.0f * context.gui.scale()});
+    ImGui::Begin("##status", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoBringToFrontOnFocus);
+    ImGui::PopStyleVar(2);
+    ImGui::TextUnformatted(left_text(context.state).c_str());
+    const std::string right = right_text(context.state);
+    ImGui::SameLine(static_cast<float>(place.width) - ImGui::CalcTextSize(right.c_str()).x);
+    ImGui::TextColored(imgui_colour(context.palette.text_dim), "%s", right.c_str());
+    ImGui::End();
+}
+
+void Panels::draw_help(const PanelContext& context) {
+    const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    const float scale = context.gui.scale();
+    ImGui::SetNextWindowPos({0.5f * screen.x, 0.5f * screen.y}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::SetNextWindowSize({std::min(820.0f * scale, screen.x), std::min(520.0f * scale, screen.y)});
+    if (ImGui::Begin("Mouse and keys", &context.state.show_help,
+                     ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove)) {
+        ImGui::Columns(2, "help", false);
+        const auto row = [&](const std::string& keys, const std::string& action) {
+            ImGui::TextColored(imgui_colour(context.palette.accent), "%s", keys.c_str());
+            ImGui::SameLine(ImGui::GetColumnOffset() + 140.0f * scale);
+            ImGui::PushTextWrapPos(ImGui::GetColumnOffset() + ImGui::GetColumnWidth() - 12.0f * scale);
+            ImGui::TextUnformatted(action.c_str());
+            ImGui::PopTextWrapPos();
+        };
+        for (const GestureHelp& help : gesture_help()) row(help.gesture, help.action);
+        ImGui::NextColumn();
+        for (const Shortcut& shortcut : shortcuts()) row(shortcut.keys, shortcut.action);
+        ImGui::Columns();
+    }
+    ImGui::End();
+}
+
+}  // namespace elastolab

@@ -1,0 +1,287 @@
+#include "app/viewer.hpp"
+
+#include <cstdlib>
+#include <memory>
+#include <thread>
+#include <utility>
+
+#include "app/gui.hpp"
+#include "app/interaction_log.hpp"
+#include "app/layout.hpp"
+#include "app/palette.hpp"
+#include "app/panels.hpp"
+#include "app/shortcuts.hpp"
+#include "app/stage.hpp"
+#include "app/viewer_state.hpp"
+#include "app/window.hpp"
+#include "app/window_picture.hpp"
+#include "base/atomic_file.hpp"
+#include "base/error.hpp"
+#include "base/timer.hpp"
+
+namespace elastolab {
+
+namespace {
+
+constexpr double kProgressSeconds = 1.0 / 15.0;  ///< between frames while a progress bar moves
+constexpr int kSettlingFrames = 3;               ///< Dear ImGui needs as many after an event to come to rest
+constexpr double kCaretSeconds = 0.4;            ///< between frames while a text cursor blinks
+constexpr double kPatienceSeconds = 1.0;         ///< for workers at the end
+constexpr Eigen::Vector2i kDefaultSize(1280, 800);
+
+/// A replay and how far it is.
+struct Replay {
+    InteractionLog log;
+    std::size_t next = 0;
+    bool done() const { return next == log.frames.size(); }
+};
+
+class Viewer {
+public:
+    explicit Viewer(const ViewerOptions& options)
+        : options_(options),
+          replay_(load_replay(options)),
+          window_({.title = "Elastolab",
+                   .width = window_size().x(),
+                   .height = window_size().y(),
+                   .visible = !options.hidden}),
+          gui_(window_),
+          state_([] { Window::wake(); }) {
+        if (options.n_frames > 0 || options.hidden) window_.set_vsync(false);
+        if (!options.timings.empty()) state_.timings = std::make_unique<TimingsRecorder>(options.timings);
+        if (!options.record.empty())
+            state_.recorder = std::make_unique<InteractionRecorder>(options.record, window_.size());
+        if (!options.screenshot.empty()) AtomicFile::require_writable(options.screenshot);
+        open_input();
+    }
+
+    void run() {
+        while (!finished()) {
+            window_.wait(timeout());
+            if (!must_draw()) continue;
+            draw_frame();
+        }
+        finish_outputs();
+        end_workers();
+    }
+
+private:
+    static std::optional<Replay> load_replay(const ViewerOptions& options) {
+        if (options.replay.empty()) return std::nullopt;
+        return Replay{load_interaction(options.replay)};
+    }
+
+    Eigen::Vector2i window_size() const {
+        if (options_.size) return *options_.size;
+        return replay_ ? replay_->log.window_size : kDefaultSize;
+    }
+
+    bool nobody_watches() const { return options_.hidden || options_.n_frames > 0; }
+
+    /// Where somebody sees the window, a file that cannot be opened is told there.
+    void open_input() {
+        if (!options_.input.empty()) {
+            if (nobody_watches())
+                state_.open_now(options_.input);
+            else
+                state_.open(options_.input);
+        }
+        if (options_.method) state_.start_with(*options_.method);
+    }
+
+    bool computing() const { return state_.loading() || state_.simulation.waiting(); }
+
+    /// Frames by number and replays go on only when the scene is ready.
+    bool held_back() const {
+        const bool late_frames = options_.n_frames > 0 && 2 * state_.frame >= options_.n_frames && !replay_;
+        return late_frames && computing();
+    }
+
+    double timeout() const {
+        if (held_back()) return kProgressSeconds;
+        if (options_.n_frames > 0 || pending_frames_ > 0 || !queue_.empty()) return 0.0;
+        if (replay_ && !replay_->done() && !state_.simulation.busy()) return 0.0;
+        if (computing() || state_.simulation.busy()) return kProgressSeconds;
+        if (message_seconds_ >= 0.0) return std::max(message_seconds_, 0.01);
+        return gui_.wants_text() ? kCaretSeconds : -1.0;
+    }
+
+    bool must_draw() {
+        std::vector<InputEvent> events = window_.take_events();
+        if (!replay_) queue_.insert(queue_.end(), events.begin(), events.end());
+        for (const std::filesystem::path& file : window_.take_dropped_files()) state_.open(file);
+        const bool damaged = window_.take_damage();
+        if (!queue_.empty() || damaged || state_.simulation.busy() || computing()) pending_frames_ = kSettlingFrames;
+        if (message_seconds_ >= 0.0 || gui_.wants_text()) pending_frames_ = std::max(pending_frames_, 1);
+        if (window_.close_requested()) return false;
+        if (held_back()) {
+            state_.update_displacements();
+            return false;
+        }
+        if (options_.n_frames == 0 && pending_frames_ == 0 && !replay_) {
+            if (!state_.update_displacements()) return false;  // a worker woke us for nothing to see
+            pending_frames_ = 1;
+        }
+        return window_.size().minCoeff() > 0;
+    }
+
+    /// The events of this frame: from the log when there is one, else as many as one frame can take.
+    std::vector<InputEvent> take_events() {
+        std::vector<InputEvent> events;
+        if (replay_) {
+            if (!replay_->done() && !state_.simulation.busy() && !state_.loading() && state_.frame > 2)
+                events = replay_->log.frames[replay_->next++].events;
+        } else {
+            const auto n = static_cast<std::ptrdiff_t>(Gui::n_for_one_frame(queue_));
+            events.assign(queue_.begin(), queue_.begin() + n);
+            queue_.erase(queue_.begin(), queue_.begin() + n);
+        }
+        if (state_.recorder && !events.empty()) state_.recorder->add({Window::seconds(), events});
+        if (!events.empty()) pending_frames_ = kSettlingFrames;
+        return events;
+    }
+
+    void dispatch(const std::vector<InputEvent>& events) {
+        GestureContext context = state_.gesture_context();
+        for (const InputEvent& event : events) {
+            const bool is_text = event.kind == InputEvent::Kind::text;
+            if (is_text && event.code == '?' && !gui_.wants_text()) state_.show_help = !state_.show_help;
+            if (event.kind == InputEvent::Kind::key && !gui_.wants_text() && !state_.gestures.pulling() &&
+                run_shortcut(event, state_, panels_)) {
+                context.targets = state_.gesture_context().targets;
+                continue;
+            }
+            const bool for_panels = gui_.wants_mouse() && state_.gestures.action() == Gestures::Action::none;
+            if (for_panels)
+                state_.gestures.clear_hover();
+            else
+                state_.gestures.handle(event, context);
+        }
+        if (state_.gestures.take_frame_request()) state_.frame_body();
+        if (state_.gestures.animate(Window::seconds(), context)) pending_frames_ = kSettlingFrames;
+    }
+
+    const Palette& palette() const { return state_.display.dark ? dark_palette() : light_palette(); }
+
+    void draw_frame() {
+        const Stopwatch whole;
+        const double now = Window::seconds();
+        prepare_look();
+        const std::vector<InputEvent> events = take_events();
+        FrameTimes times;
+        Stopwatch part;
+        gui_.begin(events, now - std::exchange(last_frame_seconds_, now));
+        const Layout layout = layout_of(window_.size(), gui_.scale());
+        state_.viewports = viewports_of(state_, layout.scene);
+        times.gui_ms = 1e3 * part.seconds();
+
+        part = {};
+        dispatch(events);
+        state_.update_displacements();
+        times.update_ms = 1e3 * part.seconds();
+
+        part = {};
+        state_.update_bodies();
+        stage_.upload(state_, palette());
+        times.upload_ms = 1e3 * part.seconds();
+
+        part = {};
+        const double ratio = static_cast<double>(window_.framebuffer_size().x()) / window_.size().x();
+        stage_.draw(state_, palette(), ratio);
+        stage_.show(state_, ratio, window_.framebuffer_size());
+        times.draw_ms = 1e3 * part.seconds();
+
+        part = {};
+        panels_.draw({state_, gui_, layout, palette()});
+        gui_.end();
+        times.gui_ms += 1e3 * part.seconds();
+        take_screenshots();
+        window_.swap_buffers();
+        times.frame_ms = 1e3 * whole.seconds();
+        end_frame(times, now);
+    }
+
+    void prepare_look() {
+        const float scale = window_.content_scale() * state_.display.ui_scale;
+        const bool is_new = scale != gui_.scale() || &palette() != styled_palette_;
+        gui_.set_scale(scale);
+        if (is_new) apply_style(palette(), scale);
+        styled_palette_ = &palette();
+    }
+
+    bool is_last_frame() const {
+        if (options_.n_frames > 0) return state_.frame + 1 >= options_.n_frames;
+        return replay_over() && options_.hidden;
+    }
+
+    bool replay_over() const { return replay_ && replay_->done() && pending_frames_ <= 1 && !state_.simulation.busy(); }
+
+    void take_screenshots() {
+        if (state_.screenshot_request) {
+            try {
+                write_png(*state_.screenshot_request, window_picture(window_.framebuffer_size()));
+                state_.messages.note("Saved " + state_.screenshot_request->string());
+            } catch (const Error& error) {
+                state_.messages.error(error.what());
+            }
+            state_.screenshot_request.reset();
+        }
+        if (!options_.screenshot.empty()) last_picture_due_ = true;
+        if (last_picture_due_ && is_last_frame()) last_picture_ = window_picture(window_.framebuffer_size());
+    }
+
+    void end_frame(const FrameTimes& times, double now) {
+        state_.last_frame = times;
+        state_.history.add(times);
+        if (state_.timings) state_.timings->add(state_.frame_record(times, now));
+        ++state_.frame;
+        pending_frames_ = std::max(0, pending_frames_ - 1);
+        message_seconds_ = state_.messages.expire(now);
+        if (state_.quit_requested) window_.request_close(true);
+    }
+
+    bool finished() const {
+        if (window_.close_requested()) return true;
+        if (options_.n_frames > 0) return state_.frame >= options_.n_frames;
+        return replay_over() && options_.hidden;
+    }
+
+    void finish_outputs() {
+        if (state_.timings) state_.timings->finish();
+        if (state_.recorder) state_.recorder->finish();
+        if (options_.screenshot.empty()) return;
+        if (!last_picture_) last_picture_ = window_picture(window_.framebuffer_size());
+        write_png(options_.screenshot, *last_picture_);
+    }
+
+    /// A worker inside a library call that cannot be interrupted must not keep a closed window's process alive:
+    /// everything that was to be written is.
+    void end_workers() {
+        state_.simulation.cancel();
+        window_.hide();
+        const Stopwatch waiting;
+        while (state_.simulation.stopping() && waiting.seconds() < kPatienceSeconds)
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        if (state_.simulation.stopping()) std::_Exit(EXIT_SUCCESS);
+    }
+
+    ViewerOptions options_;
+    std::optional<Replay> replay_;
+    Window window_;
+    Gui gui_;
+    ViewerState state_;
+    Stage stage_;
+    Panels panels_;
+    std::vector<InputEvent> queue_;
+    int pending_frames_ = kSettlingFrames;
+    double last_frame_seconds_ = 0.0, message_seconds_ = -1.0;
+    const Palette* styled_palette_ = nullptr;
+    bool last_picture_due_ = false;
+    std::optional<Image> last_picture_;
+};
+
+}  // namespace
+
+void run_viewer(const ViewerOptions& options) { Viewer(options).run(); }
+
+}  // namespace elastolab

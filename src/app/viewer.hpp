@@ -1,0 +1,28 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <optional>
+
+#include "deform/method.hpp"
+
+namespace elastolab {
+
+/// How the viewer is started.
+struct ViewerOptions {
+    std::filesystem::path input;        ///< scene or mesh; empty: the default scene
+    std::optional<MethodKind> method;   ///< instead of the scene's own
+    int n_frames = 0;                   ///< quit after so many; 0: when the person closes the window
+    std::filesystem::path screenshot;   ///< of the last frame; empty: none
+    std::filesystem::path timings, replay, record;  ///< likewise
+    std::optional<Eigen::Vector2i> size;            ///< of the window [logical pixels]
+    bool hidden = false;
+};
+
+/// Opens the viewer and returns when it is closed. Frames that are asked for by number: the first half is drawn as
+/// they come, the rest (and every frame of a replay) once the scene is ready, so that they show and measure it.
+/// Throws Error when there is no display, when an output cannot be written, or when the input cannot be read and
+/// nobody is there to see it (hidden, or with a number of frames).
+void run_viewer(const ViewerOptions& options);
+
+}  // namespace elastolab

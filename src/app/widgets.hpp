@@ -1,0 +1,57 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "app/names.hpp"
+#include "render/colour.hpp"
+
+struct ImVec4;
+
+namespace elastolab {
+
+/// Numbers for people: "12 480", "0.0123". Bytes and seconds: base/text.hpp.
+std::string count_text(long long count);
+std::string number_text(double value);
+
+ImVec4 imgui_colour(const Colour& colour, float opacity = 1.0f);
+unsigned imgui_packed(const Colour& colour, float opacity = 1.0f);
+
+/// An explanation that appears when the mouse rests on the item before.
+void tooltip(const char* text);
+/// A paragraph in this colour.
+void paragraph(const std::string& text, const Colour& colour);
+/// Label left, value right, in one line.
+void fact(const char* label, const std::string& value, const Colour& label_colour);
+/// Width for items whose label stands to their right.
+void set_item_width(float scale);
+
+/// A list of choices, each with its explanation. True when another one was chosen.
+template <class Value>
+bool choose(const char* label, Value& value, std::span<const Choice<Value>> choices);
+
+bool begin_choice(const char* label, const char* preview);
+bool choice_entry(const char* label, const char* explanation, bool selected);
+void end_choice();
+
+template <class Value>
+bool choose(const char* label, Value& value, std::span<const Choice<Value>> choices) {
+    const Choice<Value>* present = &choices.front();
+    for (const Choice<Value>& choice : choices)
+        if (choice.value == value) present = &choice;
+    const bool open = begin_choice(label, present->label);
+    bool changed = false;
+    if (open) {
+        for (const Choice<Value>& choice : choices)
+            if (choice_entry(choice.label, choice.explanation, choice.value == value)) {
+                changed = choice.value != value;
+                value = choice.value;
+            }
+        end_choice();
+    } else {
+        tooltip(present->explanation);
+    }
+    return changed;
+}
+
+}  // namespace elastolab
