@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cstdlib>
 #include <system_error>
+#include <utility>
 
 namespace elastolab {
 

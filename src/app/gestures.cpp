@@ -126,7 +126,10 @@ void Gestures::press_body(const InputEvent&, GestureContext& context, int vertex
 void Gestures::begin_pull(GestureContext& context, int handle, bool created, int vertex, int triangle) {
     action_ = Action::pull;
     selected_ = handle;
-    pull_ = {.handle = handle, .created = created, .vertex = vertex};
+    pull_ = {};
+    pull_.handle = handle;
+    pull_.created = created;
+    pull_.vertex = vertex;
     if (triangle >= 0)
         pull_.normal = triangle_normal(*context.targets[target_].positions, context.scene.mesh().triangles, triangle);
     set_baseline(context);

@@ -177,6 +177,6 @@ void Gui::update_cursor_shape() {
 }
 
 bool Gui::wants_mouse() const { return ImGui::GetIO().WantCaptureMouse; }
-bool Gui::wants_keyboard() const { return ImGui::GetIO().WantCaptureKeyboard || ImGui::GetIO().WantTextInput; }
+bool Gui::wants_text() const { return ImGui::GetIO().WantTextInput; }
 
 }  // namespace elastolab

@@ -34,7 +34,7 @@ public:
     void end();
 
     bool wants_mouse() const;
-    bool wants_keyboard() const;
+    bool wants_text() const;  ///< a field is being typed in
     const Fonts& fonts() const { return fonts_; }
     /// Logical pixels for a length that is 1 on an ordinary screen.
     float scale() const { return scale_; }

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "app/panels.hpp"
-#include "app/stage.hpp"
+#include "app/scene_renderer.hpp"
 #include "app/widgets.hpp"
 #include "render/legend.hpp"
 

@@ -60,9 +60,7 @@ std::vector<Shortcut> make_shortcuts() {
         {GLFW_KEY_O, GLFW_MOD_CONTROL, "Ctrl+O", "open a mesh or scene",
          [](ViewerState& s, Panels& p) { p.ask_open(s); }},
         {GLFW_KEY_S, GLFW_MOD_CONTROL, "Ctrl+S", "save the scene", [](ViewerState& s, Panels& p) { p.ask_save(s); }},
-        {GLFW_KEY_SLASH, GLFW_MOD_SHIFT, "?", "show or hide this help",
-         [](ViewerState& s, Panels&) { s.show_help = !s.show_help; }},
-        {GLFW_KEY_F1, 0, "F1", "show or hide this help", [](ViewerState& s, Panels&) { s.show_help = !s.show_help; }},
+        {GLFW_KEY_F1, 0, "F1 or ?", "show or hide this help", [](ViewerState& s, Panels&) { s.show_help = !s.show_help; }},
         {GLFW_KEY_ESCAPE, 0, "Esc", "close help and messages",
          [](ViewerState& s, Panels&) {
              s.show_help = false;

@@ -11,7 +11,7 @@
 #include "app/palette.hpp"
 #include "app/panels.hpp"
 #include "app/shortcuts.hpp"
-#include "app/stage.hpp"
+#include "app/scene_renderer.hpp"
 #include "app/viewer_state.hpp"
 #include "app/window.hpp"
 #include "app/window_picture.hpp"
@@ -27,7 +27,7 @@ constexpr double kProgressSeconds = 1.0 / 15.0;  ///< between frames while a pro
 constexpr int kSettlingFrames = 3;               ///< Dear ImGui needs as many after an event to come to rest
 constexpr double kCaretSeconds = 0.4;            ///< between frames while a text cursor blinks
 constexpr double kPatienceSeconds = 1.0;         ///< for workers at the end
-constexpr Eigen::Vector2i kDefaultSize(1280, 800);
+const Eigen::Vector2i kDefaultSize(1280, 800);
 
 /// A replay and how far it is.
 struct Replay {
@@ -58,8 +58,7 @@ public:
     void run() {
         while (!finished()) {
             window_.wait(timeout());
-            if (!must_draw()) continue;
-            draw_frame();
+            if (must_draw()) draw_frame();
         }
         finish_outputs();
         end_workers();
@@ -87,13 +86,14 @@ private:
                 state_.open(options_.input);
         }
         if (options_.method) state_.start_with(*options_.method);
+        state_.update_displacements();  // begins the precomputation
     }
 
     bool computing() const { return state_.loading() || state_.simulation.waiting(); }
 
     /// Frames by number and replays go on only when the scene is ready.
     bool held_back() const {
-        const bool late_frames = options_.n_frames > 0 && 2 * state_.frame >= options_.n_frames && !replay_;
+        const bool late_frames = options_.n_frames > 0 && 2 * (state_.frame + 1) > options_.n_frames && !replay_;
         return late_frames && computing();
     }
 
@@ -182,13 +182,13 @@ private:
 
         part = {};
         state_.update_bodies();
-        stage_.upload(state_, palette());
+        renderer_.upload(state_, palette());
         times.upload_ms = 1e3 * part.seconds();
 
         part = {};
         const double ratio = static_cast<double>(window_.framebuffer_size().x()) / window_.size().x();
-        stage_.draw(state_, palette(), ratio);
-        stage_.show(state_, ratio, window_.framebuffer_size());
+        renderer_.draw(state_, palette(), ratio);
+        renderer_.show(state_, ratio, window_.framebuffer_size());
         times.draw_ms = 1e3 * part.seconds();
 
         part = {};
@@ -210,6 +210,7 @@ private:
     }
 
     bool is_last_frame() const {
+        if (window_.close_requested()) return true;
         if (options_.n_frames > 0) return state_.frame + 1 >= options_.n_frames;
         return replay_over() && options_.hidden;
     }
@@ -217,17 +218,15 @@ private:
     bool replay_over() const { return replay_ && replay_->done() && pending_frames_ <= 1 && !state_.simulation.busy(); }
 
     void take_screenshots() {
-        if (state_.screenshot_request) {
-            try {
-                write_png(*state_.screenshot_request, window_picture(window_.framebuffer_size()));
-                state_.messages.note("Saved " + state_.screenshot_request->string());
-            } catch (const Error& error) {
-                state_.messages.error(error.what());
-            }
-            state_.screenshot_request.reset();
+        if (!options_.screenshot.empty() && is_last_frame()) picture_ = window_picture(window_.framebuffer_size());
+        if (!state_.screenshot_request) return;
+        const std::filesystem::path file = *std::exchange(state_.screenshot_request, std::nullopt);
+        try {
+            write_png(file, window_picture(window_.framebuffer_size()));
+            state_.messages.note("Saved " + file.string());
+        } catch (const Error& error) {
+            state_.messages.error(error.what());
         }
-        if (!options_.screenshot.empty()) last_picture_due_ = true;
-        if (last_picture_due_ && is_last_frame()) last_picture_ = window_picture(window_.framebuffer_size());
     }
 
     void end_frame(const FrameTimes& times, double now) {
@@ -250,8 +249,8 @@ private:
         if (state_.timings) state_.timings->finish();
         if (state_.recorder) state_.recorder->finish();
         if (options_.screenshot.empty()) return;
-        if (!last_picture_) last_picture_ = window_picture(window_.framebuffer_size());
-        write_png(options_.screenshot, *last_picture_);
+        if (!picture_) draw_frame();  // closed by hand: one more, for the picture
+        write_png(options_.screenshot, *picture_);
     }
 
     /// A worker inside a library call that cannot be interrupted must not keep a closed window's process alive:
@@ -270,14 +269,13 @@ private:
     Window window_;
     Gui gui_;
     ViewerState state_;
-    Stage stage_;
+    SceneRenderer renderer_;
     Panels panels_;
     std::vector<InputEvent> queue_;
     int pending_frames_ = kSettlingFrames;
     double last_frame_seconds_ = 0.0, message_seconds_ = -1.0;
     const Palette* styled_palette_ = nullptr;
-    bool last_picture_due_ = false;
-    std::optional<Image> last_picture_;
+    std::optional<Image> picture_;  ///< of the last frame
 };
 
 }  // namespace

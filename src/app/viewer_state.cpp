@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "app/recent_files.hpp"
 #include "mesh/export.hpp"
@@ -116,6 +117,16 @@ void ViewerState::open(const fs::path& file) {
     pending_file_ = file;
 }
 
+void ViewerState::open_now(const fs::path& file) {
+    take_scene(load(file));
+    add_recent(file);
+}
+
+void ViewerState::start_with(MethodKind kind) {
+    method = kind;
+    if (loading()) first_method_ = kind;
+}
+
 void ViewerState::open_document(Document document, const fs::path& scene_file) {
     finish_gesture();
     attempt([&] { take_scene(std::make_unique<LiveScene>(std::move(document), scene_file)); });
@@ -126,7 +137,7 @@ void ViewerState::take_scene(std::unique_ptr<LiveScene> scene) {
     scene_ = std::move(scene);
     graph_ = std::make_unique<VertexGraph>(scene_->mesh());
     ++scene_number_;
-    method = scene_->document().method;
+    method = std::exchange(first_method_, std::nullopt).value_or(scene_->document().method);
     tools.patch_radius = kPatchPart * diagonal(scene_->report());
     bodies.clear();
     camera.set_scene(frame_of(scene_->mesh().vertices));
@@ -230,6 +241,22 @@ void ViewerState::clear_handles() {
     scene_->clear_handles();
     scene_->commit();
     gestures.select_handle(-1);
+}
+
+FrameRecord ViewerState::frame_record(const FrameTimes& times, double now) const {
+    const ConstrainedSet& set = scene_->constraints().set;
+    const auto n_handle = static_cast<int>(set.handles.size());
+    std::string state = "idle";
+    if (simulation.runner(method).precomputing()) state = "precomputing";
+    if (simulation.runner(method).state() == MethodRunner::State::ready) state = "ready";
+    return {.frame = frame,
+            .time_s = now,
+            .method = std::string(name(method)),
+            .vertices = scene_->mesh().n_vertices(),
+            .constrained_vertices = static_cast<int>(set.base.size()) + n_handle,
+            .handle_vertices = n_handle,
+            .state = state,
+            .times = times};
 }
 
 void ViewerState::select_method(MethodKind kind) { method = kind; }

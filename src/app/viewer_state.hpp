@@ -63,12 +63,17 @@ public:
     FrameHistory history;
     FrameTimes last_frame;
     int frame = 0;
+    FrameRecord frame_record(const FrameTimes& times, double now) const;
     std::unique_ptr<TimingsRecorder> timings;
     std::unique_ptr<InteractionRecorder> recorder;
 
     // Commands. Failures become messages; what was there stays.
     /// Opens a scene file (.json) or a mesh, on a worker.
     void open(const std::filesystem::path& file);
+    /// The same, here and now. Throws.
+    void open_now(const std::filesystem::path& file);
+    /// The method to begin with, for the scene that is there and the one that is being opened.
+    void start_with(MethodKind kind);
     void open_document(Document document, const std::filesystem::path& scene_file);
     void save_scene(const std::filesystem::path& file);
     void export_mesh(const std::filesystem::path& file);
@@ -110,6 +115,7 @@ private:
     std::vector<std::filesystem::path> recent_;
     std::vector<int> prefetched_;
     std::filesystem::path pending_file_;
+    std::optional<MethodKind> first_method_;
     BackgroundJob<std::shared_ptr<std::unique_ptr<LiveScene>>> load_job_;
 };
 

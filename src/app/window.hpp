@@ -46,6 +46,7 @@ public:
     void swap_buffers();
     /// Waiting for the screen's refresh in swap_buffers(), or not.
     void set_vsync(bool on);
+    void hide();
     void set_title(const std::string& title);
     void resize(int width, int height);
 

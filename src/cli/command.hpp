@@ -31,6 +31,7 @@ struct Command {
 /// Each adds itself to the program's parser. A new subcommand is one source file, one line here and one in main.cpp.
 Command add_solve_command(CLI::App& program);
 Command add_info_command(CLI::App& program);
+Command add_view_command(CLI::App& program);
 Command add_bench_command(CLI::App& program);
 
 }  // namespace elastolab

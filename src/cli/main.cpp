@@ -3,6 +3,7 @@
 #include <iostream>
 #include <vector>
 
+#include "app/viewer.hpp"
 #include "base/blas.hpp"
 #include "base/control.hpp"
 #include "base/text.hpp"
@@ -27,7 +28,7 @@ int run(int argc, char** argv) {
     CLI::App program("Elastolab: elastic bodies by FEM, constant BEM and linear BEM.", "elastolab");
     program.set_version_flag("--version", "elastolab " ELASTOLAB_VERSION);
     program.require_subcommand(0, 1);
-    const std::vector<Command> commands = {add_solve_command(program), add_info_command(program),
+    const std::vector<Command> commands = {add_view_command(program), add_solve_command(program), add_info_command(program),
                                            add_bench_command(program)};
     try {
         program.parse(argc, argv);
@@ -42,7 +43,7 @@ int run(int argc, char** argv) {
         command.run();
         return kSuccess;
     }
-    std::cout << program.help();
+    run_viewer({});
     return kSuccess;
 }
 

@@ -78,6 +78,10 @@ public:
     }
 
     bool running() const { return ticket_ != nullptr; }
+    /// Whether the worker itself has not ended yet; without a poll().
+    bool working() const {
+        return ticket_ && ticket_->result.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
+    }
     /// Of the running computation: what it is at, how far in [0, 1], and since when.
     const char* stage() const { return ticket_ ? ticket_->control.stage() : ""; }
     double progress() const { return ticket_ ? ticket_->control.progress() : 0.0; }

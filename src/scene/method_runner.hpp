@@ -60,6 +60,7 @@ public:
     /// begins again with retry() or with the next change.
     void cancel();
     void retry();
+    bool stopping() const { return precompute_.working() || completion_.working() || prepare_.working(); }
 
     State state() const;
     const std::string& failure() const { return failure_; }

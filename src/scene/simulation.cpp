@@ -105,11 +105,24 @@ void Simulation::prefetch(const ConstrainedSet& set) {
     for (const MethodKind kind : shown_) runner(kind).prefetch(set);
 }
 
-bool Simulation::busy() const {
+bool Simulation::waiting() const {
     return std::any_of(shown_.begin(), shown_.end(), [&](MethodKind kind) {
         const State state = runner(kind).state();
-        return state == State::precomputing || state == State::preparing || runner(kind).completing();
+        return state == State::precomputing || state == State::preparing;
     });
+}
+
+bool Simulation::busy() const {
+    return waiting() ||
+           std::any_of(shown_.begin(), shown_.end(), [&](MethodKind kind) { return runner(kind).completing(); });
+}
+
+void Simulation::cancel() {
+    for (Entry& entry : entries_) entry.runner->cancel();
+}
+
+bool Simulation::stopping() const {
+    return std::any_of(entries_.begin(), entries_.end(), [](const Entry& entry) { return entry.runner->stopping(); });
 }
 
 }  // namespace elastolab

@@ -47,7 +47,10 @@ public:
     /// neither.
     std::string problem(MethodKind kind) const;
 
-    bool busy() const;  ///< a worker runs for a method of the last update
+    bool waiting() const;   ///< a method of the last update is not ready yet, and will be by itself
+    bool busy() const;      ///< the same, or K and its inverse are being completed
+    void cancel();          ///< stops all workers at their next checkpoints
+    bool stopping() const;  ///< some worker has not stopped yet; for use after cancel(), without update()
 
 private:
     struct Entry {

@@ -1,4 +1,4 @@
-#include "app/stage.hpp"
+#include "app/scene_renderer.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -29,15 +29,15 @@ Viewport gizmo_place(const Viewport& viewport) {
     return {viewport.x + 8.0, viewport.y + viewport.height - kGizmoSize - 8.0, kGizmoSize, kGizmoSize};
 }
 
-Stage::Stage() = default;
+SceneRenderer::SceneRenderer() = default;
 
-Stage::BodyDrawing& Stage::drawing(MethodKind kind) {
+SceneRenderer::BodyDrawing& SceneRenderer::drawing(MethodKind kind) {
     const auto found = drawings_.find(kind);
     if (found != drawings_.end()) return found->second;
     return drawings_.try_emplace(kind, *mesh_, edges_).first->second;
 }
 
-void Stage::upload(const ViewerState& state, const Palette& palette) {
+void SceneRenderer::upload(const ViewerState& state, const Palette& palette) {
     if (scene_number_ != state.scene_number()) {
         scene_number_ = state.scene_number();
         mesh_ = &state.scene().mesh();
@@ -54,7 +54,7 @@ void Stage::upload(const ViewerState& state, const Palette& palette) {
     for (const ShownBody& body : state.bodies) upload_body(state, body, palette);
 }
 
-void Stage::upload_body(const ViewerState& state, const ShownBody& body, const Palette& palette) {
+void SceneRenderer::upload_body(const ViewerState& state, const ShownBody& body, const Palette& palette) {
     BodyDrawing& target = drawing(body.kind());
     if (target.revision != body.revision()) {
         target.revision = body.revision();
@@ -72,7 +72,7 @@ void Stage::upload_body(const ViewerState& state, const ShownBody& body, const P
     upload_points(state, body, target, palette);
 }
 
-void Stage::upload_points(const ViewerState& state, const ShownBody& body, BodyDrawing& target,
+void SceneRenderer::upload_points(const ViewerState& state, const ShownBody& body, BodyDrawing& target,
                           const Palette& palette) {
     const LiveScene& scene = state.scene();
     const float crowd = crowd_factor(scene.mesh().n_vertices());
@@ -94,7 +94,7 @@ void Stage::upload_points(const ViewerState& state, const ShownBody& body, BodyD
     target.points.update(points, frame_);
 }
 
-void Stage::upload_arrows(const ViewerState& state, const ShownBody& body, BodyDrawing& target,
+void SceneRenderer::upload_arrows(const ViewerState& state, const ShownBody& body, BodyDrawing& target,
                           const Palette& palette) {
     std::vector<Arrow> arrows;
     double largest = 0.0;
@@ -107,7 +107,7 @@ void Stage::upload_arrows(const ViewerState& state, const ShownBody& body, BodyD
     target.arrows.update(arrows, frame_);
 }
 
-SurfaceStyle Stage::surface_style(const ViewerState& state, MethodKind kind, const Palette& palette) const {
+SurfaceStyle SceneRenderer::surface_style(const ViewerState& state, MethodKind kind, const Palette& palette) const {
     const DisplaySettings& display = state.display;
     SurfaceStyle style;
     style.colour = palette.body(kind);
@@ -124,7 +124,7 @@ SurfaceStyle Stage::surface_style(const ViewerState& state, MethodKind kind, con
     return style;
 }
 
-void Stage::draw_ground(const ViewerState& state, const SceneView& view, const Palette& palette) {
+void SceneRenderer::draw_ground(const ViewerState& state, const SceneView& view, const Palette& palette) {
     const Eigen::Vector3d up = state.camera.up_axis();
     const double floor = (up.transpose() * mesh_->vertices).minCoeff();
     SceneFrame area = frame_;
@@ -133,7 +133,7 @@ void Stage::draw_ground(const ViewerState& state, const SceneView& view, const P
     ground_.draw(view, area, up, {palette.grid.with_opacity(0.30f), round_step(frame_.radius / 8.0)});
 }
 
-void Stage::draw_viewport(const ViewerState& state, const SceneViewport& viewport, const Palette& palette,
+void SceneRenderer::draw_viewport(const ViewerState& state, const SceneViewport& viewport, const Palette& palette,
                           double pixel_ratio) {
     const SceneView view(state.camera, viewport.place, pixel_ratio);
     const MethodKind solid = viewport.kinds.front();
@@ -153,7 +153,7 @@ void Stage::draw_viewport(const ViewerState& state, const SceneViewport& viewpor
     gizmo_->draw(state.camera, viewport.place, gizmo_place(viewport.place), pixel_ratio);
 }
 
-Stage::Look Stage::look_of(const ViewerState& state, const SceneViewport& viewport, const Palette& palette,
+SceneRenderer::Look SceneRenderer::look_of(const ViewerState& state, const SceneViewport& viewport, const Palette& palette,
                            double pixel_ratio) const {
     Look look;
     look.kinds = viewport.kinds;
@@ -179,7 +179,7 @@ Stage::Look Stage::look_of(const ViewerState& state, const SceneViewport& viewpo
     return look;
 }
 
-int Stage::draw(const ViewerState& state, const Palette& palette, double pixel_ratio) {
+int SceneRenderer::draw(const ViewerState& state, const Palette& palette, double pixel_ratio) {
     int n_drawn = 0;
     pictures_.resize(state.viewports.size());
     for (std::size_t i = 0; i < pictures_.size(); ++i) {
@@ -199,7 +199,7 @@ int Stage::draw(const ViewerState& state, const Palette& palette, double pixel_r
     return n_drawn;
 }
 
-void Stage::show(const ViewerState& state, double pixel_ratio, const Eigen::Vector2i& framebuffer) {
+void SceneRenderer::show(const ViewerState& state, double pixel_ratio, const Eigen::Vector2i& framebuffer) {
     for (std::size_t i = 0; i < pictures_.size(); ++i) {
         const Viewport& place = state.viewports[i].place;
         const int x = static_cast<int>(std::lround(place.x * pixel_ratio));

@@ -20,9 +20,9 @@
 namespace elastolab {
 
 /// The scene on the graphics card: hands over what changed and draws the viewports. Needs a current OpenGL context.
-class Stage {
+class SceneRenderer {
 public:
-    Stage();
+    SceneRenderer();
 
     /// Hands vertex data to OpenGL; nothing that is there already.
     void upload(const ViewerState& state, const Palette& palette);

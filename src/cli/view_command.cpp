@@ -1,0 +1,73 @@
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <memory>
+#include <string>
+
+#include "app/viewer.hpp"
+#include "base/blas.hpp"
+#include "cli/command.hpp"
+
+namespace elastolab {
+
+namespace {
+
+constexpr int kMaxWindow = 16384;
+
+/// What the command line says, word for word.
+struct ViewWords {
+    std::string input, method, screenshot, timings, replay, record, size;
+    int frames = 0, threads = 0;
+    bool hidden = false;
+};
+
+Eigen::Vector2i parse_size(const std::string& text) {
+    Eigen::Vector2i size;
+    const char* end = text.data() + text.size();
+    const auto [cross, first] = std::from_chars(text.data(), end, size.x());
+    if (first == std::errc() && cross != end && *cross == 'x') {
+        const auto [last, second] = std::from_chars(cross + 1, end, size.y());
+        if (second == std::errc() && last == end && size.minCoeff() >= 1 && size.maxCoeff() <= kMaxWindow) return size;
+    }
+    throw UsageError("--size " + text + ": give width and height in pixels, as in 1280x800.");
+}
+
+ViewerOptions options_of(const ViewWords& words) {
+    ViewerOptions options;
+    options.input = words.input;
+    options.method = parse_method_kind(words.method);
+    options.n_frames = words.frames;
+    options.screenshot = words.screenshot;
+    options.timings = words.timings;
+    options.replay = words.replay;
+    options.record = words.record;
+    options.hidden = words.hidden;
+    if (!words.size.empty()) options.size = parse_size(words.size);
+    if (options.hidden && options.n_frames == 0 && options.replay.empty())
+        throw UsageError("--hidden: nobody could close that window. Add --frames N or --replay FILE.");
+    return options;
+}
+
+}  // namespace
+
+Command add_view_command(CLI::App& program) {
+    const auto words = std::make_shared<ViewWords>();
+    CLI::App* parser = program.add_subcommand("view", "opens the viewer on a scene or a mesh (default: a cube)");
+    const CLI::Validator path([](std::string& text) { return text.empty() ? "the name is empty" : ""; }, "PATH");
+    parser->add_option("input", words->input, "scene file (.json) or mesh")->check(path);
+    parser->add_option("--method", words->method, "instead of the scene's own method")
+        ->check(CLI::IsMember({"fem", "constant-bem", "linear-bem"}));
+    parser->add_option("--frames", words->frames, "quit after so many frames")->check(CLI::Range(1, 1000000000));
+    parser->add_option("--screenshot", words->screenshot, "PNG of the last frame")->check(path);
+    parser->add_option("--timings", words->timings, "CSV: records frame timings from the start")->check(path);
+    parser->add_option("--replay", words->replay, "repeats a recorded interaction")->check(path);
+    parser->add_option("--record", words->record, "records the interaction")->check(path);
+    parser->add_option("--size", words->size, "of the window in pixels, as in 1280x800");
+    parser->add_option("--threads", words->threads, "at most this many (default: all cores)")->check(CLI::Range(1, 1024));
+    parser->add_flag("--hidden", words->hidden, "no visible window; still real OpenGL");
+    return {parser, [words] {
+                if (words->threads > 0) set_thread_count(words->threads);
+                run_viewer(options_of(*words));
+            }};
+}
+
+}  // namespace elastolab
