@@ -40,6 +40,12 @@ std::string readable_seconds(double seconds) {
     return formatted("%.1f h", seconds / 3600.0);
 }
 
+std::string readable_number(double value, int digits) {
+    std::array<char, 64> buffer{};
+    std::snprintf(buffer.data(), buffer.size(), "%.*g", digits, value);
+    return buffer.data();
+}
+
 std::string exact(double value) { return formatted("%.17g", value); }
 
 }  // namespace elastolab

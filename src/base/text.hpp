@@ -14,6 +14,9 @@ std::string readable_bytes(double bytes);
 /// A duration for people: "85 us", "12.3 ms", "4.52 s", "7.4 min".
 std::string readable_seconds(double seconds);
 
+/// A number for people, few digits: "0.13", "1.2e+07".
+std::string readable_number(double value, int digits = 2);
+
 /// All 17 significant digits, so that the number is read back exactly.
 std::string exact(double value);
 

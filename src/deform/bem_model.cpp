@@ -3,6 +3,8 @@
 #include "base/error.hpp"
 #include "deform/bem_responses.hpp"
 #include "deform/bem_solvers.hpp"
+#include "deform/discretisation.hpp"
+#include "deform/guards.hpp"
 #include "deform/reduced_solver.hpp"
 
 namespace elastolab {
@@ -18,6 +20,16 @@ bool same_system(const Method& a, const Method& b) {
 
 bool same_integrals(const Method& a, const Method& b) {
     return a.kind == b.kind && a.integral_tolerance == b.integral_tolerance;
+}
+
+ReducedSystem reduced_system(const std::shared_ptr<const BemSystem>& system, const LoadPlan& plan,
+                             const std::vector<int>& nodes, Control& control) {
+    ReducedSystem reduced;
+    reduced.responses = std::make_shared<const BemResponses>(system, plan, control);
+    reduced.rigid = system->rigid();
+    reduced.nodes = nodes;
+    reduced.n_loads = 3 * plan.n_slots();
+    return reduced;
 }
 
 }  // namespace
@@ -49,6 +61,8 @@ void BemModel::note_facts() {
     facts_.memory_bytes = system_->memory_bytes();
     facts_.condition_estimate = system_->condition();
     facts_.warnings = system_->warnings();
+    for (const auto& more : {warn_of_surface(mesh), warn_of_condition("boundary-element matrix", system_->condition())})
+        facts_.warnings.insert(facts_.warnings.end(), more.begin(), more.end());
     if (system_->is_constant())
         display_ = std::make_shared<const SparseRows>(average_of_triangles(mesh, system_->around()));
 }
@@ -69,12 +83,7 @@ std::unique_ptr<NodeSolver> BemModel::make_solver(const LoadPlan& plan, const st
         case Update::reduced:
             break;
     }
-    ReducedSystem reduced;
-    reduced.responses = std::make_shared<const BemResponses>(system_, plan, control);
-    reduced.rigid = system_->rigid();
-    reduced.nodes = nodes;
-    reduced.n_loads = 3 * plan.n_slots();
-    return std::make_unique<ReducedSolver>(std::move(reduced), control);
+    return std::make_unique<ReducedSolver>(reduced_system(system_, plan, nodes, control), control);
 }
 
 bool BemModel::has_K() const {
@@ -111,11 +120,26 @@ std::unique_ptr<ConstrainedSolid> BemModel::constrain(std::span<const int> base,
     Setting setting = setting_of(base, handles);
     const LoadPlan& plan = setting.plan;
     std::unique_ptr<NodeSolver> solver = make_solver(plan, setting.nodes.nodes, setting.n_base, control);
-    const auto residual = [system = system_, plan](const NodeSolution& solution, Control& its_control) {
-        return boundary_residual(*system, plan, solution, its_control);
-    };
+    SolutionChecks its_checks = checks(plan, setting.nodes.nodes);
     return std::make_unique<ConstrainedSolid>(facts_.n_vertices, std::move(setting.nodes), plan.shares, display_,
-                                              std::move(solver), residual);
+                                              std::move(solver), std::move(its_checks));
+}
+
+SolutionChecks BemModel::checks(const LoadPlan& plan, const std::vector<int>& nodes) const {
+    SolutionChecks checks;
+    checks.residual = [system = system_, plan](const NodeSolution& solution, Control& control) {
+        return boundary_residual(*system, plan, solution, control);
+    };
+    if (system_->is_constant()) return checks;
+    checks.error = [system = system_, plan, nodes](const NodeSolver& solver, const NodeSolution& solution,
+                                                   Control& control) -> Eigen::VectorXd {
+        const Eigen::VectorXd residual = -residual_between_nodes(*system, plan, solution, control);
+        Eigen::VectorXd error = solver.response_to_residual(residual, control);
+        if (error.size() > 0) return error;
+        return ReducedSolver(reduced_system(system, plan, nodes, control), control)  // Eqns. 7 and 9 on K
+            .response_to_residual(residual, control);
+    };
+    return checks;
 }
 
 void BemModel::visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const {

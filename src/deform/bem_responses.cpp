@@ -1,25 +1,15 @@
 #include "deform/bem_responses.hpp"
 
 #include <algorithm>
-#include <functional>
-#include <numeric>
+
+#include "deform/source_strips.hpp"
 
 namespace elastolab {
 
 namespace {
 
-/// Sources per strip of equations, and columns per product with them.
-constexpr int kSourcesAtOnce = 192;
+/// Columns per product with a strip of equations.
 constexpr Eigen::Index kColumnsAtOnce = 384;
-
-/// Calls use(strip) for strips of all these sources.
-void for_strips(const Sources& sources, const std::function<void(int first, const Sources& strip)>& use) {
-    for (int first = 0; first < sources.size(); first += kSourcesAtOnce) {
-        std::vector<int> numbers(static_cast<std::size_t>(std::min(kSourcesAtOnce, sources.size() - first)));
-        std::iota(numbers.begin(), numbers.end(), first);
-        use(first, sources.subset(numbers));
-    }
-}
 
 }  // namespace
 
@@ -50,24 +40,26 @@ Eigen::MatrixXd BemResponses::small_matrix(const std::vector<int>& nodes, const 
 
 void BemResponses::add_closing(const Columns& columns, Eigen::Index first, Eigen::Ref<Eigen::MatrixXd> rows,
                                Control& control) const {
-    for_strips(interior_sources(system_->boundary(), plan_.interior_triangles), [&](int source, const Sources& strip) {
-        const Eigen::MatrixXd A = system_->double_layer(strip, control);
-        for (Eigen::Index c = 0; c < columns.cols(); c += kColumnsAtOnce) {
-            const Eigen::Index count = std::min(kColumnsAtOnce, columns.cols() - c);
-            rows.block(3 * source, first + c, A.rows(), count).noalias() =
-                A * columns.middle(c, count).topRows(A.cols());
-        }
-    });
+    for_source_strips(interior_sources(system_->boundary(), plan_.interior_triangles),
+                      [&](int source, const Sources& strip) {
+                          const Eigen::MatrixXd A = system_->double_layer(strip, control);
+                          for (Eigen::Index c = 0; c < columns.cols(); c += kColumnsAtOnce) {
+                              const Eigen::Index count = std::min(kColumnsAtOnce, columns.cols() - c);
+                              rows.block(3 * source, first + c, A.rows(), count).noalias() =
+                                  A * columns.middle(c, count).topRows(A.cols());
+                          }
+                      });
 }
 
 void BemResponses::add_closing_of_border_and_loads(const Eigen::MatrixXd& rigid, Eigen::Ref<Eigen::MatrixXd> rows,
                                                    Control& control) const {
-    for_strips(interior_sources(system_->boundary(), plan_.interior_triangles), [&](int source, const Sources& strip) {
-        auto out = rows.middleRows(3 * source, 3 * strip.size());
-        out.rightCols(rigid.cols()).noalias() =
-            system_->double_layer(strip, control) * rigid.topRows(3 * system_->n_nodes());
-        out.leftCols(3 * plan_.n_slots()) -= system_->single_layer(strip, plan_.elements, control);
-    });
+    for_source_strips(interior_sources(system_->boundary(), plan_.interior_triangles),
+                      [&](int source, const Sources& strip) {
+                          auto out = rows.middleRows(3 * source, 3 * strip.size());
+                          out.rightCols(rigid.cols()).noalias() =
+                              system_->double_layer(strip, control) * rigid.topRows(3 * system_->n_nodes());
+                          out.leftCols(3 * plan_.n_slots()) -= system_->single_layer(strip, plan_.elements, control);
+                      });
 }
 
 void BemResponses::add_product(const Eigen::MatrixXd& loads, Eigen::Ref<Eigen::MatrixXd> displacements) const {
@@ -78,7 +70,7 @@ void BemResponses::add_product(const Eigen::MatrixXd& loads, Eigen::Ref<Eigen::M
     const Eigen::Index n = 3 * system_->n_nodes(), n_loads = 3 * plan_.n_slots();
     Eigen::MatrixXd response = Eigen::MatrixXd::Zero(n + 6, loads.cols());
     Control control;
-    for_strips(system_->nodes(), [&](int source, const Sources& strip) {
+    for_source_strips(system_->nodes(), [&](int source, const Sources& strip) {
         response.middleRows(3 * source, 3 * strip.size()).noalias() =
             system_->single_layer(strip, plan_.elements, control) * loads.topRows(n_loads);
     });
@@ -87,6 +79,21 @@ void BemResponses::add_product(const Eigen::MatrixXd& loads, Eigen::Ref<Eigen::M
             loads.middleRows<3>(n_loads + 3 * static_cast<Eigen::Index>(i));
     system_->solve_in_place(response);
     displacements += response.topRows(displacements.rows());
+}
+
+Responses::Particular BemResponses::particular(const Eigen::VectorXd& residual, Control& control) const {
+    const Eigen::Index n = residual.size();
+    Particular result;
+    result.solution = Eigen::VectorXd::Zero(n + 6);
+    result.solution.head(n) = residual;
+    system_->solve_in_place(result.solution);
+    result.closing.resize(9 * std::ssize(plan_.interior_triangles));
+    for_source_strips(interior_sources(system_->boundary(), plan_.interior_triangles),
+                      [&](int source, const Sources& strip) {
+                          result.closing.segment(3 * source, 3 * strip.size()) =
+                              system_->double_layer(strip, control) * result.solution.head(n);
+                      });
+    return result;
 }
 
 std::uint64_t response_memory(const BemSystem& system, const LoadPlan& plan) {

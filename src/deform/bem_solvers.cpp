@@ -8,12 +8,11 @@
 #include <span>
 
 #include "base/error.hpp"
+#include "deform/source_strips.hpp"
 
 namespace elastolab {
 
 namespace {
-
-constexpr int kSourcesAtOnce = 192;
 
 /// Constrained nodes at which the integral equation is still asked to hold.
 std::vector<int> collocated(const LoadPlan& plan, const std::vector<int>& nodes) {
@@ -24,6 +23,9 @@ std::vector<int> collocated(const LoadPlan& plan, const std::vector<int>& nodes)
             kept.push_back(node);
     return kept;
 }
+
+/// Sources at which the residual is evaluated, of each kind.
+constexpr int kSampledSources = 128;
 
 std::vector<int> free_nodes(const Partition& partition) {
     std::vector<int> nodes;
@@ -42,14 +44,21 @@ std::vector<int> range(int first, int count) {
     return numbers;
 }
 
+/// At most this many of some sources, evenly spread over their order.
+Sources some_of(const Sources& sources, int most) {
+    std::vector<int> numbers;
+    const int step = std::max(1, sources.size() / most);
+    for (int i = step / 2; i < sources.size(); i += step) numbers.push_back(i);
+    return sources.subset(numbers);
+}
+
 /// Where a strip of equations is off, and how large its terms are.
 struct Balance {
     double off = 0.0, size = 0.0;
 
     void add(const BemSystem& system, const LoadPlan& plan, const NodeSolution& solution, const Sources& sources,
              Control& control) {
-        for_strips(sources.size(), [&](int first, int count) {
-            const Sources strip = sources.subset(range(first, count));
+        for_source_strips(sources, [&](int, const Sources& strip) {
             const Eigen::MatrixXd H = system.double_layer(strip, control);
             const Eigen::MatrixXd G = system.single_layer(strip, plan.elements, control);
             const Eigen::VectorXd u = solution.displacements.col(0), q = solution.loads.col(0);
@@ -64,7 +73,7 @@ struct Balance {
 MixedProblem::MixedProblem(const BemSystem& system, const LoadPlan& plan, const std::vector<int>& nodes, int n_base,
                            Control& control)
     : partition(3 * system.n_nodes(), nodes) {
-    std::vector<int> at = free_nodes(partition);
+    at = free_nodes(partition);
     const Eigen::Index n_free = 3 * std::ssize(at), n = n_free + 3 * plan.n_slots();
     for (const int node : collocated(plan, nodes)) at.push_back(node);
     const Sources points = interior_sources(system.boundary(), plan.interior_triangles);
@@ -84,10 +93,7 @@ MixedProblem::MixedProblem(const BemSystem& system, const LoadPlan& plan, const 
             std::span(at).subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(count));
         add(system.double_layer_at(strip, control), system.nodes().subset(strip));
     });
-    for_strips(points.size(), [&](int first, int count) {
-        const Sources strip = points.subset(range(first, count));
-        add(system.double_layer(strip, control), strip);
-    });
+    for_source_strips(points, [&](int, const Sources& strip) { add(system.double_layer(strip, control), strip); });
 }
 
 std::uint64_t mixed_memory(const BemSystem& system, const LoadPlan& plan, int n_constrained, int n_base) {
@@ -116,6 +122,15 @@ NodeSolution MixedSolver::solve(const Eigen::MatrixXd& prescribed, bool want_loa
     solution.displacements(constrained, Eigen::all) = prescribed;
     if (want_loads) solution.loads = traction_scale_ * x.bottomRows(x.rows() - std::ssize(free));
     return solution;
+}
+
+Eigen::VectorXd MixedSolver::response_to_residual(const Eigen::VectorXd& residual, Control&) const {
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(lu_.size());
+    for (std::size_t i = 0; i < problem_.at.size(); ++i)
+        right.segment<3>(3 * static_cast<Eigen::Index>(i)) = residual.segment<3>(3 * problem_.at[i]);
+    Eigen::VectorXd response = Eigen::VectorXd::Zero(residual.size());
+    response(problem_.partition.free) = lu_.solve(right).topRows(std::ssize(problem_.partition.free));
+    return response;
 }
 
 BoundaryEqn9Solver::BoundaryEqn9Solver(const BemSystem& system, const LoadPlan& plan, const std::vector<int>& nodes,
@@ -148,8 +163,10 @@ NodeSolution BoundaryEqn9Solver::solve(const Eigen::MatrixXd& prescribed, bool w
 double boundary_residual(const BemSystem& system, const LoadPlan& plan, const NodeSolution& solution,
                          Control& control) {
     Balance balance;
-    balance.add(system, plan, solution, system.nodes().subset(collocated(plan, range(0, system.n_nodes()))), control);
-    balance.add(system, plan, solution, interior_sources(system.boundary(), plan.interior_triangles), control);
+    const Sources nodes = system.nodes().subset(collocated(plan, range(0, system.n_nodes())));
+    const Sources points = interior_sources(system.boundary(), plan.interior_triangles);
+    balance.add(system, plan, solution, some_of(nodes, kSampledSources), control);
+    balance.add(system, plan, solution, some_of(points, kSampledSources), control);
     return balance.size > 0.0 ? std::sqrt(balance.off / balance.size) : 0.0;
 }
 

@@ -18,6 +18,7 @@ namespace elastolab {
 /// the rows from which Eqns. 7 and 9 are formed then. As one matrix for the unknowns (u0, q):
 struct MixedProblem {
     Partition partition;
+    std::vector<int> at;      ///< nodes of its first rows, three each; interior points follow
     Eigen::MatrixXd unknown;  ///< [H00 -G0; A0 -Gp], square, 3*free + 3*slots
     Eigen::MatrixXd known;    ///< [H01; A1], columns of the prescribed displacements, without those of the base
 
@@ -40,6 +41,7 @@ public:
     MixedSolver(const BemSystem& system, const LoadPlan& plan, const std::vector<int>& nodes, int n_base,
                 Control& control);
     NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const override;
+    Eigen::VectorXd response_to_residual(const Eigen::VectorXd& residual, Control& control) const override;
 
 private:
     MixedProblem problem_;  ///< its matrix of the unknowns is given up to the factorisation
@@ -60,8 +62,8 @@ private:
     LuFactorization tractions_;
 };
 
-/// Relative residual |H u - G q| / | |H| |u| + |G| |q| | over all collocated equations, in the Euclidean norm, with
-/// integrals computed afresh.
+/// Relative residual |H u - G q| / | |H| |u| + |G| |q| | in the Euclidean norm, with integrals computed afresh, over a
+/// sample of the collocated equations: those of at least 128 nodes and 128 interior points, evenly spread, or of all.
 double boundary_residual(const BemSystem& system, const LoadPlan& plan, const NodeSolution& solution, Control& control);
 
 }  // namespace elastolab

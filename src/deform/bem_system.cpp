@@ -11,7 +11,8 @@ namespace {
 
 /// Columns solved or multiplied at once: large enough for BLAS-3, small beside the matrix, often enough to cancel.
 constexpr Eigen::Index kColumnsAtOnce = 384;
-constexpr double kUselessCondition = 1e13;
+/// Of G, from which on K = G^-1 H has fewer than six digits.
+constexpr double kPoorCondition = 4.5e9;
 
 /// X <- A^-1 X, with a checkpoint after every strip of columns.
 void solve_in_strips(const LuFactorization& A, Eigen::MatrixXd& X, Control& control) {
@@ -102,10 +103,10 @@ void BemSystem::complete(Eigen::MatrixXd H, const Method& method, StageTimes& st
     {
         const Stage stage("K = G^-1 H", control, stages);
         const LuFactorization G(Eigen::MatrixXd(full_->G), "single-layer matrix");
-        if (1.0 / G.reciprocal_condition() > kUselessCondition)
+        if (1.0 / G.reciprocal_condition() > kPoorCondition)
             warnings_.push_back(
-                "K = G^-1 H: G is singular to rounding (constant elements at Poisson's ratio 1/2), so K "
-                "carries no digits; use the mode on-demand.");
+                "K = G^-1 H: G is singular to rounding, or nearly so (constant elements at Poisson's ratio 1/2), so K "
+                "and Eqns. 7 and 9 carry few digits or none. Use the update reduced, or the mode on-demand.");
         operators->K = H;
         solve_in_strips(G, operators->K, control);
     }
@@ -127,15 +128,18 @@ std::uint64_t BemSystem::memory_bytes() const {
            (integrals_.G ? integrals_.G->memory_bytes() : 0u);
 }
 
-Eigen::MatrixXd BemSystem::double_layer(const Sources& sources, Control& control) const {
+Eigen::MatrixXd BemSystem::double_layer(const Sources& sources, Control& control, double tolerance) const {
     Eigen::MatrixXd rows(3 * sources.size(), 3 * n_nodes());
-    assemble(Layer::double_layer, *boundary_, sources, elements_, material_, tolerance_, rows, control);
+    assemble(Layer::double_layer, *boundary_, sources, elements_, material_, std::max(tolerance, tolerance_), rows,
+             control);
     return rows;
 }
 
-Eigen::MatrixXd BemSystem::single_layer(const Sources& sources, const Elements& loads, Control& control) const {
+Eigen::MatrixXd BemSystem::single_layer(const Sources& sources, const Elements& loads, Control& control,
+                                        double tolerance) const {
     Eigen::MatrixXd rows(3 * sources.size(), 3 * loads.n_slots);
-    assemble(Layer::single_layer, *boundary_, sources, loads, material_, tolerance_, rows, control);
+    assemble(Layer::single_layer, *boundary_, sources, loads, material_, std::max(tolerance, tolerance_), rows,
+             control);
     return rows;
 }
 

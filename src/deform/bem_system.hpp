@@ -52,9 +52,11 @@ public:
 
     /// Collocation at every node.
     const Sources& nodes() const { return nodes_; }
-    /// Rows of H (3*sources x 3*n_nodes) and of G for a load ansatz (3*sources x 3*slots) at these sources.
-    Eigen::MatrixXd double_layer(const Sources& sources, Control& control) const;
-    Eigen::MatrixXd single_layer(const Sources& sources, const Elements& loads, Control& control) const;
+    /// Rows of H (3*sources x 3*n_nodes) and of G for a load ansatz (3*sources x 3*slots) at these sources, with the
+    /// tolerance of the method or a larger one.
+    Eigen::MatrixXd double_layer(const Sources& sources, Control& control, double tolerance = 0.0) const;
+    Eigen::MatrixXd single_layer(const Sources& sources, const Elements& loads, Control& control,
+                                 double tolerance = 0.0) const;
     /// Rows of H at these nodes: out of memory in the mode `full`, else integrated.
     Eigen::MatrixXd double_layer_at(std::span<const int> nodes, Control& control) const;
 

@@ -2,33 +2,56 @@
 
 #include <algorithm>
 #include <cassert>
-#include <iomanip>
-#include <sstream>
 
 #include "base/error.hpp"
 #include "base/memory.hpp"
 #include "base/text.hpp"
+#include "deform/guards.hpp"
 #include "deform/solid_model.hpp"
 
 namespace elastolab {
 
 namespace {
 
-/// Condition of the small system from which on fewer than six digits are left.
-constexpr double kPoorCondition = 1e10;
-
-[[maybe_unused]] bool all_differ(const ConstrainedSet& set, int n_vertices) {
+std::vector<int> all_of(const ConstrainedSet& set) {
     std::vector<int> vertices = set.base;
     vertices.insert(vertices.end(), set.handles.begin(), set.handles.end());
+    return vertices;
+}
+
+void append(std::vector<std::string>& all, const std::vector<std::string>& more) {
+    all.insert(all.end(), more.begin(), more.end());
+}
+
+[[maybe_unused]] bool all_differ(const ConstrainedSet& set, int n_vertices) {
+    std::vector<int> vertices = all_of(set);
     std::sort(vertices.begin(), vertices.end());
     return std::adjacent_find(vertices.begin(), vertices.end()) == vertices.end() &&
            (vertices.empty() || (vertices.front() >= 0 && vertices.back() < n_vertices));
 }
 
-std::string short_number(double value) {
-    std::ostringstream text;
-    text << std::setprecision(2) << value;
-    return text.str();
+/// Estimated error of the worst vertex from which on the user should know.
+constexpr double kLargeError = 0.08;
+
+/// The vertex that moves most, and how far.
+double largest_motion(const Eigen::VectorXd& u, Eigen::Index& vertex) {
+    return u.size() == 0
+               ? 0.0
+               : Eigen::Map<const Eigen::Matrix3Xd>(u.data(), 3, u.size() / 3).colwise().norm().maxCoeff(&vertex);
+}
+
+DiscretisationCheck check_of(const Eigen::VectorXd& u, const Eigen::VectorXd& error, const SurfaceMesh& surface) {
+    Eigen::Index moving_most = 0, worst = 0;
+    const double size = largest_motion(u, moving_most), off = largest_motion(error, worst);
+    DiscretisationCheck check{size > 0.0 ? off / size : 0.0, static_cast<int>(worst), {}};
+    if (check.relative_error > kLargeError) {
+        const Eigen::Vector3d x = surface.vertices.col(worst);
+        check.warning = "linear-bem: the mesh is too coarse near (" + readable_number(x[0]) + ", " +
+                        readable_number(x[1]) + ", " + readable_number(x[2]) +
+                        "): displacements there are off by about " + readable_number(100.0 * check.relative_error) +
+                        " % of the largest. Refine thin parts, or compare with fem.";
+    }
+    return check;
 }
 
 }  // namespace
@@ -39,6 +62,13 @@ struct Deformer::SolidState {
     std::vector<int> base, handles;           ///< vertices of the solid
     std::vector<int> base_rows, handle_rows;  ///< their positions in the lists of the whole set
 
+    /// The constrained vertices of the solid, as vertices of the mesh.
+    std::vector<int> in_mesh(const Model::Part& part) const {
+        std::vector<int> vertices;
+        for (const std::vector<int>* own : {&base, &handles})
+            for (const int v : *own) vertices.push_back(part.vertices[static_cast<std::size_t>(v)]);
+        return vertices;
+    }
     bool is_constrained() const { return !base.empty() || !handles.empty(); }
 
     /// Values of the base (zero) and the handles of this solid, out of those of the whole body.
@@ -108,6 +138,7 @@ void Deformer::constrain(ConstrainedSet set, Control& control) {
             state.solid = part.solid->constrain(state.base, state.handles, control);
             quality.condition_estimate = std::max(quality.condition_estimate, state.solid->condition());
             quality.held = quality.held && state.solid->held();
+            append(quality.warnings, warn_of_weak_hold(*model_->body().surface, part.vertices, state.in_mesh(part)));
         }
         solids.push_back(std::move(state));
     }
@@ -115,31 +146,36 @@ void Deformer::constrain(ConstrainedSet set, Control& control) {
         quality.warnings.push_back(
             "constraints: leave the body free to move as a whole; the smallest motion is taken. "
             "Constrain three vertices that are not on one line.");
-    else if (quality.condition_estimate > kPoorCondition)
-        quality.warnings.push_back("constraints: nearly dependent (condition " +
-                                   short_number(quality.condition_estimate) +
-                                   "), so forces may be wrong. Remove handles that nearly coincide.");
+    else
+        append(quality.warnings, warn_of_condition("constraints", quality.condition_estimate));
+    append(quality.warnings, warn_of_point_constraints(*model_->body().surface, all_of(set)));
     solids_ = std::move(solids);
     set_ = std::move(set);
     quality_ = std::move(quality);
 }
 
+void Deformer::place(std::size_t part, Eigen::MatrixXd&& own, Eigen::MatrixXd& all) const {
+    if (model_->parts().size() == 1) {
+        all = std::move(own);  // one solid has all vertices, in order
+        return;
+    }
+    const std::vector<int>& vertices = model_->parts()[part].vertices;
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+        all.middleRows<3>(3 * vertices[i]) = own.middleRows<3>(3 * static_cast<Eigen::Index>(i));
+}
+
+void Deformer::require_finite(const Eigen::MatrixXd& u) const {
+    if (!u.allFinite())
+        throw SolveError(model_->body().name + ": displacements are not finite. Check the mesh and the handles.");
+}
+
 Eigen::MatrixXd Deformer::displace_all(const Eigen::MatrixXd& values) const {
     assert(values.rows() == 3 * std::ssize(set_.handles));
     Eigen::MatrixXd u = Eigen::MatrixXd::Zero(3 * model_->facts().n_vertices, values.cols());
-    for (std::size_t s = 0; s < solids_.size(); ++s) {
-        if (!solids_[s].solid) continue;
-        Eigen::MatrixXd own = solids_[s].solid->displace(solids_[s].values(values));
-        const std::vector<int>& vertices = model_->parts()[s].vertices;
-        if (model_->parts().size() == 1) {
-            u = std::move(own);  // one solid has all vertices, in order
-        } else {
-            for (std::size_t i = 0; i < vertices.size(); ++i)
-                u.middleRows<3>(3 * vertices[i]) = own.middleRows<3>(3 * static_cast<Eigen::Index>(i));
-        }
-    }
-    if (!u.allFinite())
-        throw SolveError(model_->body().name + ": displacements are not finite. Check the mesh and the handles.");
+    for (std::size_t s = 0; s < solids_.size(); ++s)
+        if (const ConstrainedSolid* solid = solids_[s].solid.get())
+            place(s, solid->displacements(solid->solve(solids_[s].values(values), false)), u);
+    require_finite(u);
     return u;
 }
 
@@ -152,28 +188,53 @@ DragResponse Deformer::drag_response(const Eigen::VectorXd& values, const Eigen:
     return {u.col(0), u.rightCols(basis.cols())};
 }
 
+void Deformer::add_reactions(const SolidState& state, const NodeSolution& solution, Reactions& sum) const {
+    const Reactions own = state.solid->reactions(solution);
+    Eigen::Index column = 0;
+    const auto place_at = [&](Eigen::Index target) {
+        sum.forces.col(target) = own.forces.col(column) * model_->body().material.young_modulus;
+        sum.moments.col(target) = own.moments.col(column++) * model_->body().material.young_modulus;
+    };
+    for (const int row : state.base_rows) place_at(row);
+    for (const int row : state.handle_rows) place_at(std::ssize(set_.base) + row);
+}
+
 Reactions Deformer::reactions(const Eigen::VectorXd& values) const {
-    const Eigen::Index n_base = std::ssize(set_.base), n = n_base + std::ssize(set_.handles);
-    Reactions sum{Eigen::Matrix3Xd::Zero(3, n), Eigen::Matrix3Xd::Zero(3, n)};
-    for (const SolidState& state : solids_) {
-        if (!state.solid) continue;
-        const Reactions own = state.solid->reactions(state.values(values).col(0));
-        Eigen::Index column = 0;
-        const auto place = [&](Eigen::Index target) {
-            sum.forces.col(target) = own.forces.col(column) * model_->body().material.young_modulus;
-            sum.moments.col(target) = own.moments.col(column++) * model_->body().material.young_modulus;
-        };
-        for (const int row : state.base_rows) place(row);
-        for (const int row : state.handle_rows) place(n_base + row);
-    }
-    return sum;
+    Control control;
+    return answer(values, false, false, control).reactions;
 }
 
 double Deformer::residual(const Eigen::VectorXd& values, Control& control) const {
-    double worst = 0.0;
-    for (const SolidState& state : solids_)
-        if (state.solid) worst = std::max(worst, state.solid->residual(state.values(values).col(0), control));
-    return worst;
+    return answer(values, true, false, control).residual.value();
+}
+
+std::optional<DiscretisationCheck> Deformer::discretisation_check(const Eigen::VectorXd& values,
+                                                                  Control& control) const {
+    return answer(values, false, true, control).check;
+}
+
+Deformer::Answer Deformer::answer(const Eigen::VectorXd& values, bool with_residual, bool with_check,
+                                  Control& control) const {
+    const Eigen::Index n = 3 * model_->facts().n_vertices;
+    const Eigen::Index n_constrained = std::ssize(set_.base) + std::ssize(set_.handles);
+    Eigen::MatrixXd u = Eigen::MatrixXd::Zero(n, 1), error = u;
+    Answer answer;
+    answer.reactions = {Eigen::Matrix3Xd::Zero(3, n_constrained), Eigen::Matrix3Xd::Zero(3, n_constrained)};
+    if (with_residual) answer.residual = 0.0;
+    with_check = with_check && model_->method().kind == MethodKind::linear_bem;
+    for (std::size_t s = 0; s < solids_.size(); ++s) {
+        const ConstrainedSolid* solid = solids_[s].solid.get();
+        if (solid == nullptr) continue;
+        NodeSolution solution = solid->solve(solids_[s].values(values), true);
+        add_reactions(solids_[s], solution, answer.reactions);
+        if (with_residual) answer.residual = std::max(*answer.residual, solid->residual(solution, control));
+        if (with_check) place(s, solid->error(solution, control), error);
+        place(s, solid->displacements(std::move(solution)), u);
+    }
+    require_finite(u);
+    if (with_check) answer.check = check_of(u, error, *model_->body().surface);
+    answer.displacements = std::move(u);
+    return answer;
 }
 
 }  // namespace elastolab

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -41,6 +42,15 @@ struct SolutionQuality {
     std::vector<std::string> warnings;  ///< in words, for the user
 };
 
+/// How far displacements may be off because the mesh is coarse.
+struct DiscretisationCheck {
+    double relative_error = 0.0;  ///< estimated error of the worst vertex, over the largest displacement
+    int vertex = -1;              ///< the worst
+    std::string warning;          ///< in words, from an error on of which one should know; else empty
+};
+
+struct NodeSolution;
+
 /// Displacements of a Model for one constrained set at a time. Owned by one thread; several may share a Model.
 class Deformer {
 public:
@@ -76,10 +86,26 @@ public:
     /// Reactions at the base vertices, then at the handle vertices, for these values.
     Reactions reactions(const Eigen::VectorXd& values) const;
 
+    /// Displacements and reactions of one solution; what displace and reactions do, at the price of one of them.
+    struct Answer {
+        Eigen::VectorXd displacements;
+        Reactions reactions;
+        std::optional<double> residual;            ///< when asked for
+        std::optional<DiscretisationCheck> check;  ///< when asked for, and where there is one
+    };
+    Answer answer(const Eigen::VectorXd& values, bool with_residual, bool with_check, Control& control) const;
+
+    /// How far the displacements for these values may be off because the mesh is coarse: linear BEM lets thin free
+    /// parts (ears, plates, needles) follow too far. An estimate from one pass over the integral equation between the
+    /// nodes, within a factor of two of the largest error on the bodies of tests/deform/discretisation_test.cpp.
+    /// Nothing for the other methods, which have no such weakness. Twice as long as the assembly: not for every frame.
+    std::optional<DiscretisationCheck> discretisation_check(const Eigen::VectorXd& values, Control& control) const;
+
     /// Relative residual of the full system for these values, evaluated independently of the factorisation (BEM: the
     /// integrals are computed afresh): |H u - G t| / | |H||u| + |G||t| | or |K u - f| / | |K||u| + |f| |, absolute
     /// values entry by entry, in the Euclidean norm: rounding (1e-16 to 1e-12) unless the solution is wrong. It does
-    /// not tell the error of the discretisation. About as long as the assembly; not for every frame.
+    /// not tell the error of the discretisation. BEM: over a sample of the equations, at least 128 nodes and 128
+    /// interior points, evenly spread.
     double residual(const Eigen::VectorXd& values, Control& control) const;
 
     const SolutionQuality& quality() const { return quality_; }
@@ -90,6 +116,10 @@ private:
     /// The share of a part in a set, not yet constrained.
     SolidState split(const ConstrainedSet& set, const Model::Part& part) const;
     void require_memory(const ConstrainedSet& set) const;
+    /// Rows of all vertices <- those of a part.
+    void place(std::size_t part, Eigen::MatrixXd&& own, Eigen::MatrixXd& all) const;
+    void require_finite(const Eigen::MatrixXd& u) const;
+    void add_reactions(const SolidState& state, const NodeSolution& solution, Reactions& sum) const;
 
     std::shared_ptr<const Model> model_;
     ConstrainedSet set_;

@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "base/lapack.hpp"
+#include "deform/guards.hpp"
 #include "elasticity/rigid_motion.hpp"
 #include "fem/condensation.hpp"
 #include "fem/constraints.hpp"
@@ -98,6 +99,7 @@ void FemModel::precompute(double poisson_ratio, Control& control) {
     facts_.n_tetrahedra = tets.n_tetrahedra();
     facts_.n_degrees_of_freedom = 3 * tets.n_vertices();
     facts_.memory_bytes = mesh_->analysis->factor_bytes();
+    facts_.warnings = warn_of_locking(poisson_ratio);
     // On demand the first constrained set decides what is factorised: K with its base eliminated, or the free body.
     if (method_.mode == Mode::on_demand) return;
     auto operators = std::make_shared<DenseOperators>();
@@ -115,6 +117,8 @@ void FemModel::precompute(double poisson_ratio, Control& control) {
     facts_.condition_estimate =
         operators->K.cwiseAbs().colwise().sum().maxCoeff() *
         inverse.topLeftCorner(operators->K.rows(), operators->K.cols()).cwiseAbs().colwise().sum().maxCoeff();
+    const auto precision = warn_of_condition("stiffness matrix", facts_.condition_estimate);
+    facts_.warnings.insert(facts_.warnings.end(), precision.begin(), precision.end());
     operators_ = std::move(operators);
 }
 
@@ -153,7 +157,7 @@ std::unique_ptr<ConstrainedSolid> FemModel::constrain(std::span<const int> base,
     };
     return std::make_unique<ConstrainedSolid>(
         system_->n_surface(), constrain_vertices(vertices), nodal_shares(system_->positions(), vertices), nullptr,
-        std::make_unique<SparseDirectSolver>(system_, vertices, control), residual);
+        std::make_unique<SparseDirectSolver>(system_, vertices, control), SolutionChecks{residual, {}});
 }
 
 std::unique_ptr<ConstrainedSolid> FemModel::constrain_dense(const std::vector<int>& vertices, Control& control) const {
@@ -178,7 +182,7 @@ std::unique_ptr<ConstrainedSolid> FemModel::constrain_dense(const std::vector<in
     };
     return std::make_unique<ConstrainedSolid>(system_->n_surface(), constrain_vertices(vertices),
                                               nodal_shares(system_->positions(), vertices), nullptr, std::move(solver),
-                                              residual);
+                                              SolutionChecks{residual, {}});
 }
 
 std::unique_ptr<ConstrainedSolid> FemModel::constrain_reduced(std::span<const int> base, std::span<const int> handles,
@@ -195,7 +199,7 @@ std::unique_ptr<ConstrainedSolid> FemModel::constrain_reduced(std::span<const in
     };
     return std::make_unique<ConstrainedSolid>(
         system_->n_surface(), constrain_vertices(vertices), nodal_shares(system_->positions(), vertices), nullptr,
-        std::make_unique<GroundedSolver>(body, std::move(others), control), residual);
+        std::make_unique<GroundedSolver>(body, std::move(others), control), SolutionChecks{residual, {}});
 }
 
 void FemModel::visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const {

@@ -6,6 +6,7 @@
 #include "deform/bem_model.hpp"
 #include "deform/cost.hpp"
 #include "deform/fem_model.hpp"
+#include "deform/guards.hpp"
 #include "mesh/solids.hpp"
 
 namespace elastolab {
@@ -15,8 +16,11 @@ namespace {
 using SolidPointer = std::shared_ptr<const SolidModel>;
 
 /// Sums the facts of the solids; the condition is that of the worst.
-ModelFacts sum_up(const std::vector<Model::Part>& parts) {
+ModelFacts sum_up(const std::vector<Model::Part>& parts, const SurfaceMesh& surface) {
     ModelFacts sum;
+    std::vector<std::vector<int>> vertices;
+    for (const Model::Part& part : parts) vertices.push_back(part.vertices);
+    sum.warnings = warn_of_contact(surface, vertices);
     for (const Model::Part& part : parts) {
         const ModelFacts& facts = part.solid->facts();
         sum.n_vertices += facts.n_vertices;
@@ -25,7 +29,9 @@ ModelFacts sum_up(const std::vector<Model::Part>& parts) {
         sum.n_degrees_of_freedom += facts.n_degrees_of_freedom;
         sum.memory_bytes += facts.memory_bytes;
         sum.condition_estimate = std::max(sum.condition_estimate, facts.condition_estimate);
-        sum.warnings.insert(sum.warnings.end(), facts.warnings.begin(), facts.warnings.end());
+        for (const std::string& warning : facts.warnings)  // that of the material is the same for all
+            if (std::find(sum.warnings.begin(), sum.warnings.end(), warning) == sum.warnings.end())
+                sum.warnings.push_back(warning);
         for (const StageTime& stage : facts.stages) {
             const auto same = std::find_if(sum.stages.begin(), sum.stages.end(),
                                            [&](const StageTime& other) { return other.name == stage.name; });
@@ -96,7 +102,7 @@ std::shared_ptr<const Model> precompute(const Body& body, const Method& method, 
     std::vector<Model::Part> parts;
     for (const Solid& solid : split_solids(*body.surface))
         parts.push_back({precompute_solid(solid, body, method, control), solid.vertices});
-    ModelFacts facts = sum_up(parts);
+    ModelFacts facts = sum_up(parts, *body.surface);
     return std::make_shared<const Model>(body, method, std::move(parts), std::move(facts));
 }
 
@@ -113,7 +119,7 @@ std::shared_ptr<const Model> precompute_again(const Model& before, const Materia
         if (!solid) return precompute(body, method, control);
         parts.push_back({std::move(solid), part.vertices});
     }
-    ModelFacts facts = sum_up(parts);
+    ModelFacts facts = sum_up(parts, *body.surface);
     return std::make_shared<const Model>(std::move(body), method, std::move(parts), std::move(facts));
 }
 

@@ -63,31 +63,48 @@ ReducedSolver::ReducedSolver(ReducedSystem system, Control& control) : system_(s
     deficient_.array().rowwise() /= scale_.transpose().array();
 }
 
-Eigen::MatrixXd ReducedSolver::unknowns(const Eigen::MatrixXd& prescribed) const {
-    Eigen::MatrixXd right = Eigen::MatrixXd::Zero(scale_.size(), prescribed.cols());
-    right.topRows(prescribed.rows()) = prescribed;
-    Eigen::MatrixXd x = held_ ? lu_.solve(std::move(right)) : solve_minimum_norm(deficient_, right, kRankTolerance).X;
+Eigen::MatrixXd ReducedSolver::unknowns(const Eigen::MatrixXd& right) const {
+    Eigen::MatrixXd all = Eigen::MatrixXd::Zero(scale_.size(), right.cols());
+    all.topRows(right.rows()) = right;
+    Eigen::MatrixXd x = held_ ? lu_.solve(std::move(all)) : solve_minimum_norm(deficient_, all, kRankTolerance).X;
     x.array().colwise() /= scale_.array();
+    if (!x.allFinite())
+        throw SolveError("constrained system: its solution is not finite. Remove handles that nearly coincide.");
     return x;
+}
+
+Eigen::MatrixXd ReducedSolver::displacements(const Eigen::MatrixXd& unknowns) const {
+    const Eigen::Index n_border = system_.rigid.cols(), n_rows = system_.rigid.rows() - n_border;
+    Eigen::MatrixXd u = system_.rigid.topRows(n_rows) * unknowns.bottomRows(n_border);
+    system_.responses->add_product(unknowns.topRows(system_.responses->cols()), u);
+    return u;
 }
 
 NodeSolution ReducedSolver::solve(const Eigen::MatrixXd& prescribed, bool want_loads) const {
     assert(prescribed.rows() == 3 * std::ssize(system_.nodes));
-    const Eigen::Index n_border = system_.rigid.cols(), n_rows = system_.rigid.rows() - n_border;
     NodeSolution solution;
-    solution.displacements = Eigen::MatrixXd::Zero(n_rows, prescribed.cols());
     if (scale_.size() == 0) {
+        solution.displacements = Eigen::MatrixXd::Zero(system_.rigid.rows() - system_.rigid.cols(), prescribed.cols());
         solution.loads = Eigen::MatrixXd::Zero(system_.n_loads, prescribed.cols());
         return solution;
     }
     const Eigen::MatrixXd x = unknowns(prescribed);
-    if (!x.allFinite())
-        throw SolveError("constrained system: its solution is not finite. Remove handles that nearly coincide.");
-    system_.responses->add_product(x.topRows(system_.responses->cols()), solution.displacements);
-    solution.displacements.noalias() += system_.rigid.topRows(n_rows) * x.bottomRows(n_border);
+    solution.displacements = displacements(x);
     set_prescribed(system_.nodes, prescribed, solution.displacements);
     if (want_loads) solution.loads = x.topRows(system_.n_loads);
     return solution;
+}
+
+Eigen::VectorXd ReducedSolver::response_to_residual(const Eigen::VectorXd& residual, Control& control) const {
+    const Responses::Particular particular = system_.responses->particular(residual, control);
+    if (particular.solution.size() == 0) return {};
+    const Eigen::Index n_border = system_.rigid.cols(), n = residual.size(), k = 3 * std::ssize(system_.nodes);
+    Eigen::VectorXd right(k + n_border + particular.closing.size());
+    for (std::size_t i = 0; i < system_.nodes.size(); ++i)
+        right.segment<3>(3 * static_cast<Eigen::Index>(i)) = -particular.solution.segment<3>(3 * system_.nodes[i]);
+    right.segment(k, n_border) = -particular.solution.tail(n_border);
+    right.tail(particular.closing.size()) = -particular.closing;
+    return particular.solution.head(n) + displacements(unknowns(right)).col(0);
 }
 
 }  // namespace elastolab

@@ -24,6 +24,13 @@ public:
                                          Control& control) const = 0;
     /// displacements += W_u * loads
     virtual void add_product(const Eigen::MatrixXd& loads, Eigen::Ref<Eigen::MatrixXd> displacements) const = 0;
+
+    /// What a residual of the equations at the nodes causes with no load: displacements over border values, and what
+    /// the closing rows say of them. Empty where there is no such thing.
+    struct Particular {
+        Eigen::VectorXd solution, closing;
+    };
+    virtual Particular particular(const Eigen::VectorXd&, Control&) const { return {}; }
 };
 
 /// Responses that are all in memory, as many as prescribed displacements.
@@ -59,9 +66,13 @@ class ReducedSolver : public NodeSolver {
 public:
     ReducedSolver(ReducedSystem system, Control& control);
     NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const override;
+    Eigen::VectorXd response_to_residual(const Eigen::VectorXd& residual, Control& control) const override;
 
 private:
-    Eigen::MatrixXd unknowns(const Eigen::MatrixXd& prescribed) const;
+    /// The small system solved for its right sides, whose columns may be shorter.
+    Eigen::MatrixXd unknowns(const Eigen::MatrixXd& right) const;
+    /// Displacements of all nodes for these unknowns.
+    Eigen::MatrixXd displacements(const Eigen::MatrixXd& unknowns) const;
 
     ReducedSystem system_;
     Eigen::VectorXd scale_;  ///< columns of the small system are divided by these

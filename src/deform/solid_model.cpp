@@ -7,26 +7,28 @@ namespace elastolab {
 
 ConstrainedSolid::ConstrainedSolid(int n_vertices, ConstrainedNodes nodes, std::vector<LoadShare> shares,
                                    std::shared_ptr<const SparseRows> display, std::unique_ptr<NodeSolver> solver,
-                                   Residual residual)
+                                   SolutionChecks checks)
     : n_vertices_(n_vertices),
+      n_constrained_(static_cast<int>(nodes.prescribe.cols() / 3)),
       nodes_(std::move(nodes)),
       shares_(std::move(shares)),
       display_(std::move(display)),
       solver_(std::move(solver)),
-      residual_(std::move(residual)) {}
+      checks_(std::move(checks)) {}
 
-Eigen::MatrixXd ConstrainedSolid::displace(const Eigen::MatrixXd& values) const {
+NodeSolution ConstrainedSolid::solve(const Eigen::MatrixXd& values, bool want_loads) const {
     assert(values.rows() == nodes_.prescribe.cols());
-    NodeSolution solution = solver_->solve(nodes_.prescribe * values, false);
+    return solver_->solve(nodes_.prescribe * values, want_loads);
+}
+
+Eigen::MatrixXd ConstrainedSolid::displacements(NodeSolution&& solution) const {
     if (display_) return *display_ * solution.displacements;
     if (solution.displacements.rows() == 3 * n_vertices_) return std::move(solution.displacements);
     return solution.displacements.topRows(3 * n_vertices_);
 }
 
-Reactions ConstrainedSolid::reactions(const Eigen::VectorXd& values) const {
-    const NodeSolution solution = solver_->solve(nodes_.prescribe * values, true);
-    const Eigen::Index n = values.size() / 3;
-    Reactions reactions{Eigen::Matrix3Xd::Zero(3, n), Eigen::Matrix3Xd::Zero(3, n)};
+Reactions ConstrainedSolid::reactions(const NodeSolution& solution) const {
+    Reactions reactions{Eigen::Matrix3Xd::Zero(3, n_constrained_), Eigen::Matrix3Xd::Zero(3, n_constrained_)};
     for (const LoadShare& share : shares_) {
         const Eigen::Vector3d load = solution.loads.col(0).segment<3>(3 * share.slot);
         reactions.forces.col(share.constrained) += share.weight * load;
@@ -35,8 +37,13 @@ Reactions ConstrainedSolid::reactions(const Eigen::VectorXd& values) const {
     return reactions;
 }
 
-double ConstrainedSolid::residual(const Eigen::VectorXd& values, Control& control) const {
-    return residual_(solver_->solve(nodes_.prescribe * values, true), control);
+double ConstrainedSolid::residual(const NodeSolution& solution, Control& control) const {
+    return checks_.residual(solution, control);
+}
+
+Eigen::VectorXd ConstrainedSolid::error(const NodeSolution& solution, Control& control) const {
+    if (!checks_.error) return {};
+    return checks_.error(*solver_, solution, control);
 }
 
 }  // namespace elastolab

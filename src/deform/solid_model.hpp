@@ -17,35 +17,45 @@
 
 namespace elastolab {
 
+/// What can be asked about a solution with loads besides its displacements.
+struct SolutionChecks {
+    /// Relative residual of the full system.
+    std::function<double(const NodeSolution&, Control&)> residual;
+    /// Estimated error of the displacements of all nodes (3*n_nodes), to be added to them; null where there is none.
+    std::function<Eigen::VectorXd(const NodeSolver&, const NodeSolution&, Control&)> error;
+};
+
 /// Displacements of one solid's vertices for one constrained set, whatever the method. Loads are those of unit Young's
 /// modulus; the Deformer scales them.
 class ConstrainedSolid {
 public:
-    using Residual = std::function<double(const NodeSolution&, Control&)>;
-
     /// nodes       how the constrained vertices act on the nodes
     /// shares      which constrained vertex carries which load
     /// display     3*n_vertices x 3*n_nodes; empty: the first vertices are the nodes themselves
-    /// residual    relative residual of the full system for a solution with loads
     ConstrainedSolid(int n_vertices, ConstrainedNodes nodes, std::vector<LoadShare> shares,
-                     std::shared_ptr<const SparseRows> display, std::unique_ptr<NodeSolver> solver, Residual residual);
+                     std::shared_ptr<const SparseRows> display, std::unique_ptr<NodeSolver> solver,
+                     SolutionChecks checks);
 
-    /// values: 3*n_constrained x m, base (zero) first, then handles. Result 3*n_vertices x m.
-    Eigen::MatrixXd displace(const Eigen::MatrixXd& values) const;
-    /// Forces and moments at the constrained vertices, for one column of values.
-    Reactions reactions(const Eigen::VectorXd& values) const;
-    double residual(const Eigen::VectorXd& values, Control& control) const;
+    /// values: 3*n_constrained x m, base (zero) first, then handles.
+    NodeSolution solve(const Eigen::MatrixXd& values, bool want_loads) const;
+    /// Displacements of the vertices out of a solution, 3*n_vertices x m.
+    Eigen::MatrixXd displacements(NodeSolution&& solution) const;
+    /// Forces and moments at the constrained vertices, for the first column of a solution with loads.
+    Reactions reactions(const NodeSolution& solution) const;
+    double residual(const NodeSolution& solution, Control& control) const;
+    /// Estimated error of the displacements, 3*n_vertices; empty where the method has no estimate.
+    Eigen::VectorXd error(const NodeSolution& solution, Control& control) const;
 
     double condition() const { return solver_->condition(); }
     bool held() const { return solver_->held(); }
 
 private:
-    int n_vertices_;
+    int n_vertices_, n_constrained_;
     ConstrainedNodes nodes_;
     std::vector<LoadShare> shares_;
     std::shared_ptr<const SparseRows> display_;
     std::unique_ptr<NodeSolver> solver_;
-    Residual residual_;
+    SolutionChecks checks_;
 };
 
 /// One solid under one method, for unit Young's modulus (displacements of a displacement problem do not depend on it).

@@ -1,0 +1,36 @@
+#include "deform/discretisation.hpp"
+
+#include "deform/source_strips.hpp"
+
+namespace elastolab {
+
+namespace {
+
+constexpr double kTolerance = 1e-6;
+
+}  // namespace
+
+Eigen::VectorXd residual_between_nodes(const BemSystem& system, const LoadPlan& plan, const NodeSolution& solution,
+                                       Control& control) {
+    const Boundary& boundary = system.boundary();
+    const SurfaceMesh& mesh = boundary.mesh();
+    const Eigen::VectorXd u = solution.displacements.col(0), q = solution.loads.col(0);
+    Eigen::VectorXd at_centroids(3 * mesh.n_triangles());
+    for_source_strips(linear_centroid_sources(boundary), [&](int first, const Sources& strip) {
+        at_centroids.segment(3 * first, 3 * strip.size()) =
+            system.double_layer(strip, control, kTolerance) * u -
+            system.single_layer(strip, plan.elements, control, kTolerance) * q;
+        control.set_progress(static_cast<double>(first) / mesh.n_triangles());
+    });
+    Eigen::VectorXd mean = Eigen::VectorXd::Zero(3 * mesh.n_vertices()),
+                    area = Eigen::VectorXd::Zero(mesh.n_vertices());
+    for (int t = 0; t < mesh.n_triangles(); ++t)
+        for (const int v : mesh.triangles.col(t)) {
+            mean.segment<3>(3 * v) += 0.75 * boundary.area(t) * at_centroids.segment<3>(3 * t);
+            area[v] += boundary.area(t);
+        }
+    for (int v = 0; v < mesh.n_vertices(); ++v) mean.segment<3>(3 * v) /= area[v];
+    return mean;
+}
+
+}  // namespace elastolab

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+#include "bem/boundary.hpp"
+
+namespace elastolab {
+
+/// Sources whose equations are integrated at once: many enough for BLAS-3, few beside the matrix.
+constexpr int kSourcesAtOnce = 192;
+
+/// Calls use(first, strip) for strips of all these sources.
+template <class Use>
+void for_source_strips(const Sources& sources, const Use& use) {
+    for (int first = 0; first < sources.size(); first += kSourcesAtOnce) {
+        std::vector<int> numbers(static_cast<std::size_t>(std::min(kSourcesAtOnce, sources.size() - first)));
+        std::iota(numbers.begin(), numbers.end(), first);
+        use(first, sources.subset(numbers));
+    }
+}
+
+}  // namespace elastolab

@@ -1,0 +1,148 @@
+#include "deform/guards.hpp"
+
+#include <gmock/gmock.h>
+
+#include "deform/problem.hpp"
+#include "deform/surface_distance.hpp"
+#include "elasticity/exact_fields.hpp"
+#include "mesh/primitives.hpp"
+#include "study/organic_body.hpp"
+
+namespace elastolab::test {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+double bending_error(const SurfaceMesh& mesh, double nu, const Method& method) {
+    const Material material{1.0, nu};
+    const Eigen::VectorXd exact = exact_displacements(mesh, PureBending{material});
+    const double length = mesh.vertices.row(0).maxCoeff();
+    const auto ends = vertices_where(mesh, [&](const auto& x) { return x[0] < 1e-9 || x[0] > length - 1e-9; });
+    const Eigen::VectorXd u = displaced(precomputed(make_body(mesh, material), method), {{}, ends}, at(exact, ends));
+    return (u - exact).norm() / exact.norm();
+}
+
+SurfaceMesh joined(const SurfaceMesh& a, const SurfaceMesh& b, const Eigen::Vector3d& shift) {
+    SurfaceMesh both;
+    both.vertices.resize(3, a.n_vertices() + b.n_vertices());
+    both.vertices << a.vertices, b.vertices.colwise() + shift;
+    both.triangles.resize(3, a.n_triangles() + b.n_triangles());
+    both.triangles << a.triangles, b.triangles.array() + a.n_vertices();
+    return both;
+}
+
+/// A plate of 1 x 1 whose faces are split into 8 x 8 cells.
+SurfaceMesh plate(double thickness) {
+    SurfaceMesh mesh = make_box(1, {8, 8, 1});
+    mesh.vertices.topRows(2) /= 8.0;
+    mesh.vertices.row(2) *= thickness;
+    mesh.vertices.row(2).array() -= 0.5 * thickness;
+    return mesh;
+}
+
+std::vector<std::string> warnings_of(const SurfaceMesh& mesh, const Method& method, double nu = 0.3) {
+    return precomputed(make_body(mesh, {1.0, nu}), method)->facts().warnings;
+}
+
+std::vector<std::string> warnings_of(const SurfaceMesh& mesh, const std::vector<int>& constrained,
+                                     const Method& method = {}) {
+    Control control;
+    Deformer deformer(precomputed(make_body(mesh), method));
+    deformer.constrain({{}, constrained}, control);
+    return deformer.quality().warnings;
+}
+
+TEST(Guards, SayNothingOfSoundBodies) {
+    for (const Method& method : all_methods())
+        for (const SurfaceMesh& mesh : {make_box(4), make_sphere(4), make_torus(3), make_rabbit(300).surface}) {
+            EXPECT_THAT(warnings_of(mesh, method), IsEmpty()) << describe(method);
+            const auto low =
+                vertices_where(mesh, [&](const auto& x) { return x[2] < mesh.vertices.row(2).minCoeff() + 0.5; });
+            EXPECT_THAT(warnings_of(mesh, low, method), Not(Contains(HasSubstr("nearly")))) << describe(method);
+            EXPECT_THAT(warnings_of(mesh, low, method), Not(Contains(HasSubstr("line")))) << describe(method);
+        }
+}
+
+TEST(Guards, TellOfLockingFromWhereTheErrorHasDoubled) {
+    const Method fem = make_method(MethodKind::fem);
+    const SurfaceMesh bar = make_box(6, {2.0, 1.0, 1.0});
+    const double usual = bending_error(bar, 0.3, fem);
+    for (const auto& [nu, factor] : {std::pair{0.48, 2.0}, {0.49, 3.0}, {0.499, 9.0}, {0.4999, 29.0}}) {
+        const double measured = bending_error(bar, nu, fem) / usual;
+        print_measured("fem, bending at nu " + std::to_string(nu) + ", error over that at 0.3", measured);
+        EXPECT_NEAR(measured, factor, 0.3 * factor);
+    }
+    EXPECT_THAT(warnings_of(make_box(3), fem, 0.47), IsEmpty());
+    EXPECT_THAT(warnings_of(make_box(3), fem, 0.49), Contains(HasSubstr("lock")));
+    EXPECT_THAT(warnings_of(make_box(3), Method{}, 0.5), IsEmpty());
+}
+
+TEST(Guards, TellOfThinWalls) {
+    for (const auto& [kind, least] : {std::pair{MethodKind::linear_bem, 0.03}, {MethodKind::constant_bem, 0.3}}) {
+        EXPECT_GT(bending_error(plate(0.02), 0.3, make_method(kind)), least);
+        EXPECT_THAT(warnings_of(plate(0.02), make_method(kind)), Contains(HasSubstr("thin")));
+        EXPECT_THAT(warnings_of(plate(0.1), make_method(kind)), IsEmpty());
+    }
+    EXPECT_THAT(warnings_of(plate(0.02), make_method(MethodKind::fem)), IsEmpty());
+}
+
+TEST(Guards, MeasureTheWallAndTheGap) {
+    EXPECT_NEAR(closest_facing_approach(plate(0.02)).ratio, 0.02 / (std::sqrt(2.0) / 8.0), 1e-12);
+    // Two plates side by side, one above the other: what is between them is a gap, as wide as they are apart.
+    const SurfaceMesh thick = plate(0.2), two = joined(thick, thick, {0.0, 0.0, 0.21});
+    EXPECT_NEAR(closest_facing_approach(two).ratio, 0.01 / (std::sqrt(2.0) / 8.0), 1e-10);
+}
+
+TEST(Guards, TellOfTrianglesWhoseIntegralsLoseDigits) {
+    SurfaceMesh mesh = make_box(2);
+    const int v = mesh.triangles(0, 0), w = mesh.triangles(1, 0);
+    mesh.vertices.col(v) = mesh.vertices.col(w) + 1e-5 * (mesh.vertices.col(v) - mesh.vertices.col(w));
+    EXPECT_THAT(warn_of_surface(mesh), Contains(HasSubstr("Remesh")));
+    EXPECT_THAT(warn_of_surface(make_box(2)), IsEmpty());
+}
+
+TEST(Guards, TellOfSolidsThatTouch) {
+    const SurfaceMesh cube = make_box(3);
+    const Method method = make_method(MethodKind::linear_bem);
+    EXPECT_THAT(warnings_of(joined(cube, cube, {1.001, 0.0, 0.0}), method), Contains(HasSubstr("solids 1 and 2")));
+    EXPECT_THAT(warnings_of(joined(cube, cube, {1.2, 0.0, 0.0}), method), IsEmpty());
+}
+
+TEST(Guards, TellOfPointConstraintsAndWhereTheyAre) {
+    const SurfaceMesh mesh = make_box(4);
+    auto held = vertices_where(mesh, [](const auto& x) { return x[0] < 1e-9; });
+    for (const Method& method : all_methods()) {
+        EXPECT_THAT(warnings_of(mesh, held, method), IsEmpty()) << describe(method);
+        auto with_a_point = held;
+        with_a_point.push_back(vertices_where(mesh, [](const auto& x) { return x.minCoeff() > 1.0 - 1e-9; }).front());
+        EXPECT_THAT(warnings_of(mesh, with_a_point, method), Contains(HasSubstr("at (1, 1, 1) is held or moved alone")))
+            << describe(method);
+    }
+}
+
+TEST(Guards, TellOfABodyThatIsBarelyHeld) {
+    SurfaceMesh mesh = make_box(4);
+    auto edge = vertices_where(mesh, [](const auto& x) { return x[1] < 1e-9 && x[2] < 1e-9; });
+    mesh.vertices(1, edge[2]) -= 0.002;  // just off the line
+    for (const Method& method : {make_method(MethodKind::fem), make_method(MethodKind::linear_bem)})
+        EXPECT_THAT(warnings_of(mesh, edge, method), Contains(HasSubstr("almost on one line"))) << describe(method);
+    edge.push_back(mesh.n_vertices() - 1);
+    EXPECT_THAT(warnings_of(mesh, edge), Not(Contains(HasSubstr("almost on one line"))));
+}
+
+TEST(Guards, TellOfTheDigitsThatAConditionLeaves) {
+    EXPECT_THAT(warn_of_condition("matrix", 1e9), IsEmpty());
+    EXPECT_THAT(warn_of_condition("matrix", 1e11), Contains(HasSubstr("2.2e-05")));
+    EXPECT_THAT(warn_of_condition("matrix", std::numeric_limits<double>::infinity()),
+                Contains(HasSubstr("1 of their")));
+    // Poisson's ratio so near 1/2 that the stiffness keeps few digits.
+    EXPECT_THAT(
+        warnings_of(make_box(3), make_method(MethodKind::fem, Tractions::discontinuous, Mode::full), 0.5 - 1e-12),
+        Contains(HasSubstr("nearly dependent")));
+}
+
+}  // namespace
+}  // namespace elastolab::test
