@@ -31,9 +31,12 @@ double product_speed() {
 /// Nodes that a tetrahedral mesh of this surface has, from its volume and mean edge.
 double predict_tet_nodes(const SurfaceMesh& mesh) {
     double volume = 0.0, edges = 0.0;
+    // About a vertex of the body: about the origin the volume of a body far away would be lost in cancellation.
+    const Eigen::Vector3d center = mesh.vertices.leftCols(1).rowwise().sum();
     for (int t = 0; t < mesh.n_triangles(); ++t) {
-        const Eigen::Vector3d a = mesh.vertices.col(mesh.triangles(0, t)), b = mesh.vertices.col(mesh.triangles(1, t)),
-                              c = mesh.vertices.col(mesh.triangles(2, t));
+        const Eigen::Vector3d a = mesh.vertices.col(mesh.triangles(0, t)) - center,
+                              b = mesh.vertices.col(mesh.triangles(1, t)) - center,
+                              c = mesh.vertices.col(mesh.triangles(2, t)) - center;
         volume += a.dot(b.cross(c)) / 6.0;
         edges += ((b - a).norm() + (c - b).norm() + (a - c).norm()) / 3.0;
     }
