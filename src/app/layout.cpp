@@ -6,7 +6,7 @@ namespace elastolab {
 
 namespace {
 
-constexpr double kMenu = 27.0, kStatus = 27.0, kPanel = 320.0, kGap = 2.0;
+constexpr double kMenu = 23.0, kStatus = 27.0, kPanel = 320.0, kGap = 2.0;
 constexpr double kLeastScene = 160.0;
 
 }  // namespace

@@ -53,11 +53,12 @@ const Colour& state_colour(const MethodRunner& runner, const Palette& palette) {
     }
 }
 
-/// A button for each method with a lamp: computed or not.
+/// A button for each method, underlined with how it is doing.
 void draw_buttons(const PanelContext& context) {
     ViewerState& state = context.state;
     const auto n = static_cast<float>(all_method_kinds().size());
     const float width = (ImGui::GetContentRegionAvail().x - (n - 1.0f) * ImGui::GetStyle().ItemSpacing.x) / n;
+    const float scale = context.gui.scale();
     int number = 0;
     for (const MethodKind kind : all_method_kinds()) {
         if (number++ > 0) ImGui::SameLine();
@@ -68,14 +69,13 @@ void draw_buttons(const PanelContext& context) {
             ImGui::PushStyleColor(ImGuiCol_ButtonHovered, imgui_colour(colour));
             ImGui::PushStyleColor(ImGuiCol_Text, imgui_colour(dark_palette().wire));
         }
-        if (ImGui::Button(title(kind).c_str(), {width, 1.35f * ImGui::GetFrameHeight()})) state.select_method(kind);
+        if (ImGui::Button(title(kind).c_str(), {width, 1.45f * ImGui::GetFrameHeight()})) state.select_method(kind);
         if (active) ImGui::PopStyleColor(3);
         tooltip(("Key " + std::to_string(number)).c_str());
-        const ImVec2 corner = ImGui::GetItemRectMax();
-        const float r = 3.5f * context.gui.scale();
-        ImGui::GetWindowDrawList()->AddCircleFilled(
-            {corner.x - 2.2f * r, ImGui::GetItemRectMin().y + 2.2f * r}, r,
-            imgui_packed(state_colour(state.simulation.runner(kind), context.palette)));
+        const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+        ImGui::GetWindowDrawList()->AddRectFilled(
+            {low.x + 8.0f * scale, high.y - 5.0f * scale}, {high.x - 8.0f * scale, high.y - 2.5f * scale},
+            imgui_packed(state_colour(state.simulation.runner(kind), context.palette), active ? 0.0f : 1.0f), scale);
     }
 }
 

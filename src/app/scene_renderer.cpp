@@ -63,6 +63,7 @@ void SceneRenderer::upload_body(const ViewerState& state, const ShownBody& body,
             target.surface.clear_scalars();
         else
             target.surface.set_vertex_scalars(body.values());
+        upload_section(body, target);
         upload_arrows(state, body, target, palette);
     }
     if (state.compare.mode == CompareMode::ghosts && target.ghost_revision != body.revision()) {
@@ -70,6 +71,23 @@ void SceneRenderer::upload_body(const ViewerState& state, const ShownBody& body,
         target.ghost.update(body.positions(), frame_);
     }
     upload_points(state, body, target, palette);
+}
+
+void SceneRenderer::upload_section(const ShownBody& body, BodyDrawing& target) {
+    if (!body.section() || body.section()->triangles.cols() == 0) {
+        target.section.reset();
+        return;
+    }
+    const ShownSection& section = *body.section();
+    if (!target.section || target.section_plane != section.plane) {
+        target.section.emplace(section.rest, section.triangles);
+        target.section_plane = section.plane;
+    }
+    target.section->update(section.positions, frame_);
+    if (section.values.empty())
+        target.section->clear_scalars();
+    else
+        target.section->set_vertex_scalars(section.values);
 }
 
 void SceneRenderer::upload_points(const ViewerState& state, const ShownBody& body, BodyDrawing& target,
@@ -139,7 +157,15 @@ void SceneRenderer::draw_viewport(const ViewerState& state, const SceneViewport&
     const MethodKind solid = viewport.kinds.front();
     background_.draw(palette.background_top, palette.background_bottom);
     BodyDrawing& main = drawing(solid);
-    main.surface.draw(view, surface_style(state, solid, palette));
+    SurfaceStyle style = surface_style(state, solid, palette);
+    if (main.section) {
+        style.feature_edges = false;  // every tetrahedron at the cut would have them
+        style.flat = true;
+        style.wireframe = true;
+        main.section->draw(view, style);
+    } else {
+        main.surface.draw(view, style);
+    }
     if (state.display.grid) draw_ground(state, view, palette);
     if (state.display.rest_shape)
         rest_->draw(view, {.colour = palette.text_dim.with_opacity(0.5f), .width = 1.0f, .hidden_opacity = 0.4f});

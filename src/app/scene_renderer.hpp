@@ -38,6 +38,8 @@ private:
         BodyDrawing(const SurfaceMesh& mesh, const Edges& edges)
             : surface(mesh.vertices, mesh.triangles), ghost(edges) {}
         SurfaceDrawing surface;
+        std::optional<SurfaceDrawing> section;
+        SectionPlane section_plane;
         LinesDrawing ghost;
         PointsDrawing points;
         ArrowsDrawing arrows;
@@ -67,6 +69,7 @@ private:
                  double pixel_ratio) const;
     BodyDrawing& drawing(MethodKind kind);
     void upload_body(const ViewerState& state, const ShownBody& body, const Palette& palette);
+    void upload_section(const ShownBody& body, BodyDrawing& target);
     void upload_points(const ViewerState& state, const ShownBody& body, BodyDrawing& target, const Palette& palette);
     void upload_arrows(const ViewerState& state, const ShownBody& body, BodyDrawing& target, const Palette& palette);
     void draw_viewport(const ViewerState& state, const SceneViewport& viewport, const Palette& palette,

@@ -38,10 +38,15 @@ Difference difference_of(const Eigen::VectorXd& u, const Eigen::VectorXd& refere
     return result;
 }
 
+SectionPlane plane_of(const MeshReport& report, const DisplaySettings& display) {
+    const double low = report.min_corner[display.section_axis], high = report.max_corner[display.section_axis];
+    return {display.section_axis, low + display.section_place * (high - low), display.section_flip};
+}
+
 }  // namespace
 
 bool ShownBody::update(const LiveScene& scene, const MethodRunner& runner, const MethodRunner* reference,
-                       const DisplaySettings& display) {
+                       const Volume* volume, const DisplaySettings& display) {
     const bool differs = comparable(runner, reference);
     const Key key{.mesh = &scene.mesh(),
                   .version = runner.version(),
@@ -49,7 +54,9 @@ bool ShownBody::update(const LiveScene& scene, const MethodRunner& runner, const
                   .reference = differs ? reference : nullptr,
                   .field = display.field,
                   .scale = display.deformation_scale,
-                  .arrows = display.arrows};
+                  .arrows = display.arrows,
+                  .volume = volume,
+                  .plane = plane_of(scene.report(), display)};
     if (key == key_ && positions_.cols() == scene.mesh().n_vertices()) return false;
     key_ = key;
     static std::uint64_t last_revision = 0;  // one thread owns all of them
@@ -59,6 +66,7 @@ bool ShownBody::update(const LiveScene& scene, const MethodRunner& runner, const
     update_reactions(scene, runner, display.arrows || needs_tractions);
     update_difference(scene, runner, reference);
     update_values(scene, runner, reference, display.field);
+    update_section(runner, volume, display);
     return true;
 }
 
@@ -95,6 +103,20 @@ void ShownBody::update_reactions(const LiveScene& scene, const MethodRunner& run
 void ShownBody::update_difference(const LiveScene&, const MethodRunner& runner, const MethodRunner* reference) {
     difference_.reset();
     if (comparable(runner, reference)) difference_ = difference_of(runner.displacement(), reference->displacement());
+}
+
+void ShownBody::update_section(const MethodRunner& runner, const Volume* volume, const DisplaySettings& display) {
+    if (volume == nullptr || runner.displacement().size() != positions_.size()) {
+        section_.reset();
+        return;
+    }
+    const TetMesh& mesh = volume->mesh();
+    if (!section_ || section_->plane != key_.plane || section_->rest.cols() != mesh.vertices.cols())
+        section_ = ShownSection{key_.plane, cut_faces(mesh, key_.plane), mesh.vertices, {}, {}};
+    const Eigen::VectorXd u = volume->displace(runner.displacement());
+    section_->positions = mesh.vertices + display.deformation_scale * columns(u);
+    section_->values.clear();
+    if (display.field == Field::displacement) section_->values = magnitudes(columns(u));
 }
 
 void ShownBody::update_values(const LiveScene& scene, const MethodRunner& runner, const MethodRunner* reference,

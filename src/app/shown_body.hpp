@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "app/section.hpp"
 #include "app/settings.hpp"
+#include "deform/volume.hpp"
 #include "scene/live_scene.hpp"
 #include "scene/simulation.hpp"
 
@@ -25,15 +27,24 @@ struct Difference {
     int worst_vertex = -1;
 };
 
+/// The body cut open: whole tetrahedra on one side of a plane, deformed.
+struct ShownSection {
+    SectionPlane plane;
+    Triangles triangles;        ///< of the volume's vertices
+    Positions rest, positions;  ///< of all vertices of the volume
+    std::vector<float> values;  ///< displacements, when these are shown; else empty
+};
+
 /// What is seen of one method's answer: made from it whenever it changes, and nothing otherwise.
 class ShownBody {
 public:
     explicit ShownBody(MethodKind kind) : kind_(kind) {}
 
     /// Brings everything up to date. `reference`: what differences are to; null when there is none.
+    /// `volume`: its inside, when it has one and is to be cut open; else null.
     /// Returns whether positions or values changed.
     bool update(const LiveScene& scene, const MethodRunner& runner, const MethodRunner* reference,
-                const DisplaySettings& display);
+                const Volume* volume, const DisplaySettings& display);
 
     MethodKind kind() const { return kind_; }
     std::uint64_t revision() const { return revision_; }  ///< grows with every change; different for every body
@@ -44,6 +55,7 @@ public:
     double max_displacement() const { return max_displacement_; }
     const std::optional<Difference>& difference() const { return difference_; }
     const std::vector<ShownReaction>& reactions() const { return reactions_; }
+    const std::optional<ShownSection>& section() const { return section_; }
 
 private:
     /// All that the shown depends on besides the values of settings.
@@ -54,11 +66,14 @@ private:
         Field field = Field::none;
         double scale = 1.0;
         bool arrows = false;
+        const Volume* volume = nullptr;
+        SectionPlane plane;
         bool operator==(const Key&) const = default;
     };
     void update_positions(const LiveScene& scene, const MethodRunner& runner, double scale);
     void update_reactions(const LiveScene& scene, const MethodRunner& runner, bool wanted);
     void update_difference(const LiveScene& scene, const MethodRunner& runner, const MethodRunner* reference);
+    void update_section(const MethodRunner& runner, const Volume* volume, const DisplaySettings& display);
     void update_values(const LiveScene& scene, const MethodRunner& runner, const MethodRunner* reference, Field field);
 
     MethodKind kind_;
@@ -69,6 +84,7 @@ private:
     double max_value_ = 0.0, max_displacement_ = 0.0;
     std::optional<Difference> difference_;
     std::vector<ShownReaction> reactions_;
+    std::optional<ShownSection> section_;
     Eigen::Matrix3Xd tractions_;
 };
 

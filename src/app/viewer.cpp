@@ -172,7 +172,7 @@ private:
         Stopwatch part;
         gui_.begin(events, now - std::exchange(last_frame_seconds_, now));
         const Layout layout = layout_of(window_.size(), gui_.scale());
-        state_.viewports = viewports_of(state_, layout.scene);
+        arrange(layout);
         times.gui_ms = 1e3 * part.seconds();
 
         part = {};
@@ -199,6 +199,13 @@ private:
         window_.swap_buffers();
         times.frame_ms = 1e3 * whole.seconds();
         end_frame(times, now);
+    }
+
+    /// Lays out the viewports; when their number changes, the body is made to fit again.
+    void arrange(const Layout& layout) {
+        const std::size_t before = state_.viewports.size();
+        state_.viewports = viewports_of(state_, layout.scene);
+        if (state_.viewports.size() != before) state_.frame_body();
     }
 
     void prepare_look() {

@@ -22,15 +22,8 @@ bool is_scene_file(const fs::path& file) { return file.extension() == ".json"; }
 
 double diagonal(const MeshReport& report) { return (report.max_corner - report.min_corner).norm(); }
 
-/// Meshes from files mostly have Y up, as most modelling programs do; ours have Z.
-Eigen::Vector3d up_axis_of(const Document& document) {
-    const auto* file = std::get_if<MeshFile>(&document.mesh);
-    return file != nullptr ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitZ();
-}
-
 /// Holds the lowest part of a body that nothing holds yet.
-void hold_lowest(LiveScene& scene) {
-    const Eigen::Vector3d up = up_axis_of(scene.document());
+void hold_lowest(LiveScene& scene, const Eigen::Vector3d& up) {
     const Eigen::RowVectorXd heights = up.transpose() * scene.mesh().vertices;
     const double limit = heights.minCoeff() + kLowestPart * (heights.maxCoeff() - heights.minCoeff());
     std::vector<int> lowest;
@@ -40,11 +33,15 @@ void hold_lowest(LiveScene& scene) {
     scene.commit();
 }
 
-std::unique_ptr<LiveScene> load(const fs::path& file) {
-    if (is_scene_file(file)) return std::make_unique<LiveScene>(load_scene(file), file);
+/// Our scenes have Z up; bare meshes mostly Y, as most modelling programs have it.
+std::shared_ptr<LoadedScene> load(const fs::path& file) {
+    if (is_scene_file(file))
+        return std::make_shared<LoadedScene>(
+            LoadedScene{std::make_unique<LiveScene>(load_scene(file), file), Eigen::Vector3d::UnitZ()});
     auto scene = std::make_unique<LiveScene>(document_for_mesh(file), file.parent_path() / "scene.json");
-    hold_lowest(*scene);
-    return scene;
+    const Eigen::Vector3d up = Eigen::Vector3d::UnitY();
+    hold_lowest(*scene, up);
+    return std::make_shared<LoadedScene>(LoadedScene{std::move(scene), up});
 }
 
 }  // namespace
@@ -63,8 +60,8 @@ Document document_for_mesh(const fs::path& mesh) {
 }
 
 ViewerState::ViewerState(const std::function<void()>& wake)
-    : simulation(wake), recent_(load_recent_files()), load_job_(wake) {
-    take_scene(std::make_unique<LiveScene>(default_document(), fs::path("cube.json")));
+    : simulation(wake), recent_(load_recent_files()), volume_job_(wake), load_job_(wake) {
+    take_scene({std::make_unique<LiveScene>(default_document(), fs::path("cube.json"))});
 }
 
 template <class Action>
@@ -113,12 +110,12 @@ std::pair<double, double> ViewerState::field_range() const {
 
 void ViewerState::open(const fs::path& file) {
     finish_gesture();
-    load_job_.start([file](Control&) { return std::make_shared<std::unique_ptr<LiveScene>>(load(file)); });
+    load_job_.start([file](Control&) { return load(file); });
     pending_file_ = file;
 }
 
 void ViewerState::open_now(const fs::path& file) {
-    take_scene(load(file));
+    take_scene(std::move(*load(file)));
     add_recent(file);
 }
 
@@ -129,19 +126,19 @@ void ViewerState::start_with(MethodKind kind) {
 
 void ViewerState::open_document(Document document, const fs::path& scene_file) {
     finish_gesture();
-    attempt([&] { take_scene(std::make_unique<LiveScene>(std::move(document), scene_file)); });
+    attempt([&] { take_scene({std::make_unique<LiveScene>(std::move(document), scene_file)}); });
 }
 
-void ViewerState::take_scene(std::unique_ptr<LiveScene> scene) {
+void ViewerState::take_scene(LoadedScene loaded) {
     gestures.reset();
-    scene_ = std::move(scene);
+    scene_ = std::move(loaded.scene);
     graph_ = std::make_unique<VertexGraph>(scene_->mesh());
     ++scene_number_;
     method = std::exchange(first_method_, std::nullopt).value_or(scene_->document().method);
     tools.patch_radius = kPatchPart * diagonal(scene_->report());
     bodies.clear();
     camera.set_scene(frame_of(scene_->mesh().vertices));
-    camera.set_up_axis(up_axis_of(scene_->document()));
+    camera.set_up_axis(loaded.up_axis);
     camera.set_view(ViewDirection::isometric);
     frame_body();
     for (const Defect& defect : scene_->report().defects) messages.note(scene_->name() + ": " + defect.text);
@@ -284,6 +281,19 @@ bool ViewerState::update_displacements() {
     return changed;
 }
 
+/// The inside of a method's body, when it is to be cut open; made on a worker, for one model at a time.
+const Volume* ViewerState::volume(MethodKind kind) {
+    const std::shared_ptr<const Model>& model = simulation.runner(kind).model();
+    if (!display.section || !model || simulation.runner(kind).surface() != &scene_->mesh()) return nullptr;
+    if (volume_job_.poll() == JobEvent::finished) volume_ = volume_job_.result();
+    if (model == volume_model_) return volume_.get();
+    if (!model->has_inside()) return nullptr;
+    volume_.reset();
+    volume_model_ = model;
+    volume_job_.start([model](Control& control) { return Volume::of(model, control); });
+    return nullptr;
+}
+
 bool ViewerState::update_bodies() {
     const std::vector<MethodKind> kinds = shown_kinds();
     std::erase_if(bodies, [&](const ShownBody& b) { return std::find(kinds.begin(), kinds.end(), b.kind()) == kinds.end(); });
@@ -291,7 +301,7 @@ bool ViewerState::update_bodies() {
     for (const MethodKind kind : kinds) {
         if (body(kind) == nullptr) bodies.emplace_back(kind);
         ShownBody& shown = *std::find_if(bodies.begin(), bodies.end(), [&](const ShownBody& b) { return b.kind() == kind; });
-        changed = shown.update(*scene_, simulation.runner(kind), reference(), display) || changed;
+        changed = shown.update(*scene_, simulation.runner(kind), reference(), volume(kind), display) || changed;
     }
     return changed;
 }

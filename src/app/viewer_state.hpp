@@ -26,6 +26,12 @@ struct SceneViewport {
     std::vector<MethodKind> kinds;  ///< the first is the solid one, the others are its ghosts
 };
 
+/// A scene as it comes from a file, and which axis it has upward.
+struct LoadedScene {
+    std::unique_ptr<LiveScene> scene;
+    Eigen::Vector3d up_axis = Eigen::Vector3d::UnitZ();
+};
+
 /// Everything that the viewer shows and edits, without any window: panels and gestures work on it. Owned by one thread.
 class ViewerState {
 public:
@@ -104,7 +110,8 @@ public:
     bool update_bodies();
 
 private:
-    void take_scene(std::unique_ptr<LiveScene> scene);
+    void take_scene(LoadedScene loaded);
+    const Volume* volume(MethodKind kind);
     void add_recent(const std::filesystem::path& file);
     template <class Action>
     void attempt(const Action& action);
@@ -116,12 +123,15 @@ private:
     std::vector<int> prefetched_;
     std::filesystem::path pending_file_;
     std::optional<MethodKind> first_method_;
-    BackgroundJob<std::shared_ptr<std::unique_ptr<LiveScene>>> load_job_;
+    std::shared_ptr<const Model> volume_model_;  ///< that volume_ is the inside of, or will be
+    std::shared_ptr<const Volume> volume_;
+    BackgroundJob<std::shared_ptr<const Volume>> volume_job_;
+    BackgroundJob<std::shared_ptr<LoadedScene>> load_job_;
 };
 
 /// The scene that the viewer begins with: the paper's cube of about 1000 vertices, its left face fixed.
 Document default_document();
-/// A bare mesh as a scene; held at its lowest part (along `up`) once it is loaded.
+/// A bare mesh as a scene in which nothing is held.
 Document document_for_mesh(const std::filesystem::path& mesh);
 
 }  // namespace elastolab

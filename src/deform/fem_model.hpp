@@ -25,6 +25,7 @@ public:
     std::uint64_t constrain_memory(std::span<const int> base, std::span<const int> handles) const override;
     void visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const override;
     const SparseStiffness* sparse_stiffness() const override { return &system_->K; }
+    const TetMesh* tetrahedra() const override { return &mesh_->tets; }
 
 private:
     void precompute(double poisson_ratio, Control& control);

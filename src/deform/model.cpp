@@ -87,6 +87,10 @@ void Model::visit_matrices(const std::function<void(const NamedMatrix&)>& visit)
         });
 }
 
+bool Model::has_inside() const {
+    return !parts_.empty() && parts_.front().solid->tetrahedra() != nullptr;
+}
+
 void Model::visit_sparse_stiffness(
     const std::function<void(const std::string& name, const SparseStiffness&)>& visit) const {
     for (std::size_t i = 0; i < parts_.size(); ++i)

@@ -66,6 +66,8 @@ public:
 
     /// The dense matrices that the mode keeps (none on demand), solid by solid when there are several.
     void visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const;
+    /// Whether the method has nodes inside, so that deform/volume.hpp can show them.
+    bool has_inside() const;
     /// FEM: the sparse stiffness over all nodes, surface vertices first, solid by solid; BEM has none.
     void visit_sparse_stiffness(
         const std::function<void(const std::string& name, const SparseStiffness&)>& visit) const;

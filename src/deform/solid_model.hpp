@@ -75,6 +75,8 @@ public:
     virtual void visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const = 0;
     /// The sparse stiffness of all nodes, or null (BEM).
     virtual const SparseStiffness* sparse_stiffness() const { return nullptr; }
+    /// The tetrahedra that it belongs to, or null.
+    virtual const TetMesh* tetrahedra() const { return nullptr; }
 
     const ModelFacts& facts() const { return facts_; }
 

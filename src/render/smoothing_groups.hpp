@@ -17,6 +17,6 @@ struct SmoothingGroups {
 
 /// A crease is an edge whose triangles turn by more than `crease_angle` [radians] at rest, or an edge of other than two
 /// triangles of equal orientation.
-SmoothingGroups smoothing_groups(const PositionsView& rest, const TrianglesView& triangles, double crease_angle = 0.7);
+SmoothingGroups smoothing_groups(const PositionsView& rest, const TrianglesView& triangles, double crease_angle = 1.0);
 
 }  // namespace elastolab

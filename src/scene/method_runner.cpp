@@ -98,6 +98,12 @@ void MethodRunner::complete() {
     });
 }
 
+void MethodRunner::postpone_completion() {
+    if (!completion_.running()) return;
+    completion_.cancel();
+    completion_tried_ = false;
+}
+
 void MethodRunner::poll() {
     poll_models();
     poll_preparation();

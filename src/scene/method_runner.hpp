@@ -52,6 +52,8 @@ public:
     /// Computes K and its inverse for the present model (Mode::full) in the background, when there is nothing else to
     /// do and it is not there yet. The present model answers until then.
     void complete();
+    /// Stops that for now; complete() begins it again.
+    void postpone_completion();
 
     /// Takes over what the workers finished, starts what is due and brings the displacements up to date.
     void poll();

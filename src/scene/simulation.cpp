@@ -87,13 +87,15 @@ bool Simulation::update(const LiveScene& scene, const std::vector<MethodKind>& s
     return changed;
 }
 
-/// Only when every shown method has its model, and one at a time: what is looked at comes first.
+/// Only when every shown method is ready, and one at a time: what is looked at comes first.
 void Simulation::complete_one(const LiveScene& scene, const MethodChoices& choices) {
     if (choices.mode != Mode::on_demand) return;
-    for (const MethodKind kind : shown_) {
-        const MethodRunner& shown = runner(kind);
-        if (shown.completing() || shown.state() == State::precomputing || shown.state() == State::preparing) return;
-    }
+    const auto is_shown = [&](MethodKind kind) { return std::find(shown_.begin(), shown_.end(), kind) != shown_.end(); };
+    const bool precomputing = std::any_of(shown_.begin(), shown_.end(),
+                                          [&](MethodKind kind) { return runner(kind).precomputing(); });
+    for (const Entry& entry : entries_)
+        if (precomputing || !is_shown(entry.kind)) entry.runner->postpone_completion();
+    if (busy()) return;
     for (const MethodKind kind : shown_) {
         if (!worth_completing(scene.mesh(), choices.of(kind), choices.complete_up_to)) continue;
         runner(kind).complete();

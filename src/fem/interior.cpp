@@ -1,0 +1,42 @@
+#include "fem/interior.hpp"
+
+#include <cassert>
+#include <vector>
+
+namespace elastolab {
+
+namespace {
+
+SparseMatrix block(const SparseMatrix& K, Eigen::Index column, Eigen::Index n_columns, Eigen::Index row) {
+    const SparseMatrix columns = K.middleCols(column, n_columns);
+    std::vector<Eigen::Triplet<double, int>> entries;
+    for (int j = 0; j < columns.outerSize(); ++j)
+        for (SparseMatrix::InnerIterator i(columns, j); i; ++i)
+            if (i.row() >= row) entries.emplace_back(static_cast<int>(i.row() - row), j, i.value());
+    SparseMatrix result(K.rows() - row, n_columns);
+    result.setFromTriplets(entries.begin(), entries.end());
+    return result;
+}
+
+SparseCholesky factorised(const SparseMatrix& K_ii) {
+    return SparseCholesky(CholeskyAnalysis(K_ii), K_ii, "stiffness matrix of the interior nodes");
+}
+
+}  // namespace
+
+InteriorExtension::InteriorExtension(const SparseMatrix& K, int n_surface)
+    : n_all_(K.rows()),
+      n_surface_(3 * n_surface),
+      to_surface_(block(K, 0, n_surface_, n_surface_)) {
+    if (n_all_ > n_surface_) factor_ = factorised(block(K, n_surface_, n_all_ - n_surface_, n_surface_));
+}
+
+Eigen::VectorXd InteriorExtension::extend(const Eigen::VectorXd& surface) const {
+    assert(surface.size() == n_surface_);
+    Eigen::VectorXd all(n_all_);
+    all.head(n_surface_) = surface;
+    if (factor_) all.tail(n_all_ - n_surface_) = factor_->solve(-(to_surface_ * surface));
+    return all;
+}
+
+}  // namespace elastolab
