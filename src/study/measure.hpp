@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/control.hpp"
 #include "deform/method.hpp"
 #include "mesh/tetrahedralize.hpp"
 #include "study/problems.hpp"

@@ -94,16 +94,19 @@ Eigen::VectorXd Problem::values() const { return values_at(truth, constrained); 
 
 double Problem::error(const Eigen::VectorXd& u) const {
     const std::set<int> fixed(constrained.begin(), constrained.end());
+    const double unit = truth.cwiseAbs().maxCoeff();  // keeps the squares of huge and tiny numbers in range
     double off = 0.0, size = 0.0;
     for (int v = 0; v < body.surface->n_vertices(); ++v) {
         if (fixed.contains(v)) continue;
-        off += (u - truth).segment<3>(3 * v).squaredNorm();
-        size += truth.segment<3>(3 * v).squaredNorm();
+        off += ((u - truth).segment<3>(3 * v) / unit).squaredNorm();
+        size += (truth.segment<3>(3 * v) / unit).squaredNorm();
     }
     return std::sqrt(off / size);
 }
 
-double Problem::largest_error(const Eigen::VectorXd& u) const { return elastolab::largest_error(u, truth); }
+double Problem::largest_error(const Eigen::VectorXd& u) const {
+    return elastolab::largest_error(u / truth.cwiseAbs().maxCoeff(), truth / truth.cwiseAbs().maxCoeff());
+}
 
 const std::vector<ProblemFamily>& problem_families() {
     static const std::vector<ProblemFamily> families = {

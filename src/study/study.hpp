@@ -59,5 +59,8 @@ const std::vector<StudyEntry>& studies();
 
 Study make_paper_study(const StudyOptions& options);
 Study make_error_study(const StudyOptions& options);
+Study make_stability_study(const StudyOptions& options);
+Study make_scale_study(const StudyOptions& options);
+Study make_skip_study(const StudyOptions& options);
 
 }  // namespace elastolab

@@ -1,0 +1,143 @@
+#include <gmock/gmock.h>
+
+#include "mesh/primitives.hpp"
+#include "study/error_frontier.hpp"
+#include "study/paper_way.hpp"
+#include "study/runner.hpp"
+#include "study/setups.hpp"
+#include "study/stress.hpp"
+#include "study/stress_edits.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace elastolab::test {
+namespace {
+
+using testing::HasSubstr;
+
+/// The quick study with only the cases whose key contains one of these texts.
+Study with_cases(const std::string& name, const std::vector<std::string>& texts) {
+    const auto& all = studies();
+    const auto entry = std::find_if(all.begin(), all.end(), [&](const auto& e) { return e.name == name; });
+    Study study = entry->make({.quick = true, .seed = 1});
+    std::erase_if(study.cases, [&](const Case& one) {
+        return std::none_of(texts.begin(), texts.end(),
+                            [&](const auto& text) { return one.key().find(text) != std::string::npos; });
+    });
+    EXPECT_FALSE(study.cases.empty());
+    return study;
+}
+
+RunResult run(const Study& study, const std::filesystem::path& folder) {
+    Control control;
+    StudyProgress progress;
+    RunSettings settings;
+    settings.folder = folder;
+    settings.options.quick = true;
+    return run_study(study, settings, progress, control);
+}
+
+/// Columns that are no times nor memory.
+std::string lasting_numbers(const Table& table) {
+    std::string text;
+    for (const Row& row : table.rows)
+        for (const auto& [column, value] : row.cells())
+            if (!column.ends_with("_s") && !column.ends_with("_bytes")) text += column + "=" + value + ",";
+    return text;
+}
+
+TEST(Studies, HaveCasesWithDifferentKeys) {
+    for (const StudyEntry& entry : studies())
+        for (const bool quick : {true, false}) {
+            std::vector<std::string> keys;
+            for (const Case& one : entry.make({.quick = quick, .seed = 1}).cases) keys.push_back(one.key());
+            std::sort(keys.begin(), keys.end());
+            EXPECT_TRUE(std::adjacent_find(keys.begin(), keys.end()) == keys.end()) << entry.name;
+        }
+}
+
+TEST(Studies, GiveTheSameNumbersForTheSameSeed) {
+    const TemporaryFolder folder;
+    const std::vector<std::pair<std::string, std::vector<std::string>>> some = {
+        {"paper", {"paper linear-bem 2", "ours fem 2"}},
+        {"error", {"refinement bending fem 0.3 3"}},
+        {"stability", {"edits 100 linear-bem"}}};
+    for (const auto& [name, cases] : some) {
+        const Table first = run(with_cases(name, cases), folder.path() / "a").table;
+        const Table second = run(with_cases(name, cases), folder.path() / "b").table;
+        EXPECT_EQ(lasting_numbers(first), lasting_numbers(second)) << name;
+    }
+}
+
+TEST(Studies, EndInFilesWhateverTheCases) {
+    const TemporaryFolder folder;
+    const std::vector<std::pair<std::string, std::string>> some = {{"paper", "fem 2"},
+                                                                   {"error", "bending linear-bem 0.3 2"},
+                                                                   {"stability", "share 0 fem"},
+                                                                   {"scale", "on-demand 3"},
+                                                                   {"skip", "young fem"}};
+    for (const auto& [name, one] : some) {
+        const RunResult result = run(with_cases(name, {one}), folder.path() / name);
+        EXPECT_GT(result.table.rows.size(), 0U);
+        EXPECT_TRUE(std::filesystem::exists(folder.path() / name / (name + ".csv")));
+        EXPECT_THAT(read_text(folder.path() / name / "README.md"), HasSubstr("elastolab bench " + name));
+        for (const std::string& warning : result.warnings) EXPECT_THAT(warning, HasSubstr("gnuplot"));
+    }
+}
+
+TEST(PaperWay, AgreesWithItselfInAllFourForms) {
+    Control control;
+    for (const MethodKind kind : all_kinds()) {
+        const PaperSystem system = paper_precomputation(study_body(make_box(2), Material{1.0, 0.3}), kind, control);
+        const auto updates = paper_updates(system, choose_share(system.n_nodes(), 0.3, 1));
+        ASSERT_EQ(updates.size(), 4U);
+        for (const PaperUpdate& update : updates)
+            EXPECT_LT(relative_error(update.displacements, updates[0].displacements), 1e-9) << update.name;
+    }
+}
+
+TEST(Frontier, FindsTheFastestBetweenTheSizes) {
+    Table table;
+    const auto add = [&](const char* variant, double vertices, double error, double seconds) {
+        table.rows.push_back(Row{{"part", "refinement"}, {"problem", "p"}, {"nu", "0.3"}, {"variant", variant}}
+                                 .set("vertices", vertices)
+                                 .set("error", error)
+                                 .set("ready_s", seconds));
+    };
+    add("fem", 100, 0.04, 0.1);
+    add("fem", 400, 0.01, 0.4);
+    add("linear-bem", 100, 0.004, 0.2);
+    const auto best = fastest(frontier(table, "ready_s"));
+    ASSERT_EQ(best.size(), 3U);  // 10, 3 and 1 %; nobody reaches 0.3 %
+    EXPECT_EQ(best[0].variant, "fem");
+    EXPECT_EQ(best[1].variant, "fem");
+    EXPECT_NEAR(best[1].seconds, 0.1 * 4.0 / 3.0, 1e-3);  // error falls like 1 / seconds
+    EXPECT_EQ(best[2].variant, "linear-bem");
+}
+
+TEST(Stress, SaysRightToldAndRefused) {
+    Control control;
+    const auto group = [](const std::string& name) {
+        for (const StressGroup& one : stress_groups(false))
+            if (one.name == name) return one;
+        throw std::logic_error(name);
+    };
+    const Method fem{.kind = MethodKind::fem};
+    EXPECT_EQ(attempt(group("nu-to-half").make(0.3), fem, control).text("outcome"), "right");
+    const Row locked = attempt(group("nu-to-half").make(0.4999), fem, control);
+    EXPECT_THAT(locked.text("message"), HasSubstr("lock"));
+    EXPECT_EQ(attempt(group("few-held").make(1), fem, control).text("outcome"), "told");
+    EXPECT_EQ(attempt(group("nu-to-half").make(0.5), fem, control).text("outcome"), "refused");
+    EXPECT_EQ(attempt(group("two-bodies").make(-0.1), fem, control).text("outcome"), "refused");
+}
+
+TEST(Stress, SurvivesRandomEdits) {
+    Control control;
+    for (const StressVariant& variant : stress_variants()) {
+        const Row row = random_edits(variant.method, 60, 6, 1, control);
+        EXPECT_EQ(row.text("outcome"), "right") << variant.name << " " << row.text("error");
+        EXPECT_GT(row.number("checks"), 0.0);
+    }
+}
+
+}  // namespace
+}  // namespace elastolab::test
