@@ -1,5 +1,7 @@
 #include "app/scene_renderer.hpp"
 
+#include <epoxy/gl.h>
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -14,9 +16,16 @@ constexpr double kArrowPart = 0.3;   ///< length of the longest reaction arrow, 
 constexpr double kGizmoSize = 72.0;  ///< [logical pixels]
 constexpr float kPointSize = 6.0f, kActivePointSize = 8.0f, kHoverPointSize = 7.0f;
 constexpr int kBands = 10;
+constexpr double kFullView = 800.0;  ///< width from which on points have their full size [logical pixels]
 
 /// Points grow smaller when a mesh is so fine that they would cover it.
 float crowd_factor(int n_vertices) { return n_vertices > 3000 ? 0.65f : n_vertices > 1500 ? 0.8f : 1.0f; }
+
+/// And in small views.
+float view_factor(const ViewerState& state) {
+    const double width = state.viewports.empty() ? kFullView : state.viewports.front().place.width;
+    return static_cast<float>(std::clamp(width / kFullView, 0.6, 1.0));
+}
 
 void add_points(std::span<const int> vertices, const Positions& x, const Colour& colour, float size,
                 std::vector<PointSprite>& points) {
@@ -93,7 +102,7 @@ void SceneRenderer::upload_section(const ShownBody& body, BodyDrawing& target) {
 void SceneRenderer::upload_points(const ViewerState& state, const ShownBody& body, BodyDrawing& target,
                           const Palette& palette) {
     const LiveScene& scene = state.scene();
-    const float crowd = crowd_factor(scene.mesh().n_vertices());
+    const float crowd = crowd_factor(scene.mesh().n_vertices()) * view_factor(state);
     std::vector<PointSprite> points;
     if (state.display.constraints) {
         add_points(scene.vertices(LiveScene::kFixed), body.positions(), palette.fixed, crowd * kPointSize, points);
@@ -226,6 +235,9 @@ int SceneRenderer::draw(const ViewerState& state, const Palette& palette, double
 }
 
 void SceneRenderer::show(const ViewerState& state, double pixel_ratio, const Eigen::Vector2i& framebuffer) {
+    bind_window(framebuffer.x(), framebuffer.y());
+    glClearColor(0.0f, 0.0f, 0.0f, 1.0f);  // between the viewports
+    glClear(GL_COLOR_BUFFER_BIT);
     for (std::size_t i = 0; i < pictures_.size(); ++i) {
         const Viewport& place = state.viewports[i].place;
         const int x = static_cast<int>(std::lround(place.x * pixel_ratio));

@@ -89,8 +89,10 @@ std::vector<MethodKind> ViewerState::shown_kinds() const {
 std::vector<MethodKind> ViewerState::needed_kinds() const {
     std::vector<MethodKind> kinds = shown_kinds();
     const bool needs_reference = comparing() || display.field == Field::difference;
-    if (needs_reference && std::find(kinds.begin(), kinds.end(), compare.reference) == kinds.end())
-        kinds.push_back(compare.reference);
+    if (needs_reference && method != compare.reference) {  // right after the active one: all differences wait for it
+        std::erase(kinds, compare.reference);
+        kinds.insert(kinds.begin() + 1, compare.reference);
+    }
     return kinds;
 }
 
@@ -145,10 +147,14 @@ void ViewerState::take_scene(LoadedScene loaded) {
 }
 
 void ViewerState::frame_body() {
-    SceneFrame ball = frame_of(scene_->mesh().vertices);
-    for (const ShownBody& shown : bodies)
-        if (shown.positions().cols() > 0) ball = united(ball, frame_of(shown.positions()));
-    camera.frame(ball, viewports.empty() ? 1.3 : viewports.front().place.aspect());
+    std::vector<const Positions*> all = {&scene_->mesh().vertices};
+    for (const ShownBody& shown : bodies) all.push_back(&shown.positions());
+    Positions points(3, 0);
+    for (const Positions* positions : all) {
+        points.conservativeResize(Eigen::NoChange, points.cols() + positions->cols());
+        points.rightCols(positions->cols()) = *positions;
+    }
+    camera.fit(points, viewports.empty() ? 1.3 : viewports.front().place.aspect());
 }
 
 void ViewerState::save_scene(const fs::path& file) {

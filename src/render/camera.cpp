@@ -90,6 +90,27 @@ void Camera::zoom_to(const Eigen::Vector2d& cursor, double factor, const Eigen::
     pose_.distance = distance;
 }
 
+void Camera::fit(const PositionsView& points, double aspect) {
+    constexpr double kMargin = 0.86;  // of half the picture
+    const double slope_y = kMargin * std::tan(0.5 * kFieldOfView), slope_x = slope_y * aspect;
+    const Eigen::Matrix3d axes = pose_.orientation.toRotationMatrix();
+    const Eigen::Vector3d origin = points.col(0);
+    const Eigen::Matrix3Xd local = axes.transpose() * (points.colwise() - origin);
+    // The eye is where the four sides of the picture's pyramid touch the points: the pairs of opposite sides each give
+    // a place across and a distance, and the farther one is taken.
+    const auto side = [&](Eigen::Index axis, double slope) {
+        const double high = (local.row(axis) + slope * local.row(2)).maxCoeff();
+        const double low = (local.row(axis) - slope * local.row(2)).minCoeff();
+        return std::pair(0.5 * (high + low), 0.5 * (high - low) / slope);  // place across, height of the eye
+    };
+    const auto [x, z_of_x] = side(0, slope_x);
+    const auto [y, z_of_y] = side(1, slope_y);
+    const double middle = 0.5 * (local.row(2).maxCoeff() + local.row(2).minCoeff());
+    const double distance = std::max(z_of_x, z_of_y) - middle;
+    pose_.target = origin + axes * Eigen::Vector3d(x, y, middle);
+    pose_.distance = std::max(distance, 1e-3 * scene_.radius);
+}
+
 void Camera::frame(const SceneFrame& ball, double aspect) {
     const double half = std::atan(std::tan(0.5 * kFieldOfView) * std::min(aspect, 1.0));
     pose_.target = ball.center;

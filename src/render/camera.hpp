@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "render/arrays.hpp"
 #include "render/scene_frame.hpp"
 #include "render/viewport.hpp"
 
@@ -66,6 +67,8 @@ public:
     void zoom_to(const Eigen::Vector2d& cursor, double factor, const Eigen::Vector3d& anchor, const Viewport& viewport);
     /// Puts this ball in the middle, as large as fits. Keeps the orientation.
     void frame(const SceneFrame& ball, double aspect);
+    /// Moves and comes as near as these points, one column each, fit with a margin. Keeps the orientation.
+    void fit(const PositionsView& points, double aspect);
     /// Turns about the target to look from there.
     void set_view(ViewDirection from);
     /// Turns about the target to look from this direction (any length but 0) with `top` on top where possible.

@@ -192,5 +192,22 @@ TEST(Camera, BlendsBetweenTwoViews) {
     EXPECT_NEAR(blend(a.pose(), b.pose(), 0.5).distance, std::sqrt(a.pose().distance * b.pose().distance), 1e-12);
 }
 
+TEST(Camera, FitsPointsSoThatTheyTouchTheMarginAndNoneIsOutside) {
+    Camera camera;
+    camera.set_scene({Eigen::Vector3d(5, 5, 5), 2.0});
+    camera.set_view(ViewDirection::isometric);
+    std::srand(7);
+    const Eigen::Matrix3Xd points = Eigen::Vector3d(1, 2, 0.3).asDiagonal() * Eigen::Matrix3Xd::Random(3, 50);
+    for (const Viewport& viewport : {Viewport{0, 0, 900, 300}, Viewport{0, 0, 300, 900}}) {
+        camera.fit(points, viewport.aspect());
+        Eigen::Vector2d farthest(0, 0);
+        for (const auto& point : points.colwise()) {
+            const Eigen::Vector2d d = camera.project(point, viewport).pixel - viewport.center();
+            farthest = farthest.cwiseMax(d.cwiseAbs().cwiseQuotient(0.5 * Eigen::Vector2d(viewport.width, viewport.height)));
+        }
+        EXPECT_NEAR(farthest.maxCoeff(), 0.86, 1e-9);
+    }
+}
+
 }  // namespace
 }  // namespace elastolab
