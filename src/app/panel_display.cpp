@@ -56,8 +56,7 @@ void draw_section(DisplaySettings& display, float scale) {
     const double low = 0.0, high = 1.0;
     set_item_width(scale);
     ImGui::SliderScalar("place", ImGuiDataType_Double, &display.section_place, &low, &high, "%.2f");
-    ImGui::SameLine();
-    ImGui::Checkbox("other side", &display.section_flip);
+    ImGui::Checkbox("keep the other side", &display.section_flip);
 }
 
 }  // namespace

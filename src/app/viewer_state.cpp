@@ -15,7 +15,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kPatchPart = 0.06;   ///< default radius of a patch, of the body's diagonal
+constexpr double kPatchPart = 0.07;   ///< default radius of a patch: of the body's diagonal,
+constexpr double kPatchEdges = 1.6;   ///< but so many edges, so that it has whole triangles
 constexpr double kLowestPart = 0.06;  ///< of a bare mesh that is held, of its height
 
 bool is_scene_file(const fs::path& file) { return file.extension() == ".json"; }
@@ -137,7 +138,8 @@ void ViewerState::take_scene(LoadedScene loaded) {
     graph_ = std::make_unique<VertexGraph>(scene_->mesh());
     ++scene_number_;
     method = std::exchange(first_method_, std::nullopt).value_or(scene_->document().method);
-    tools.patch_radius = kPatchPart * diagonal(scene_->report());
+    tools.patch_radius =
+        std::max(kPatchPart * diagonal(scene_->report()), kPatchEdges * scene_->report().mean_edge);
     bodies.clear();
     camera.set_scene(frame_of(scene_->mesh().vertices));
     camera.set_up_axis(loaded.up_axis);
