@@ -99,7 +99,7 @@ MixedProblem::MixedProblem(const BemSystem& system, const LoadPlan& plan, const 
 std::uint64_t mixed_memory(const BemSystem& system, const LoadPlan& plan, int n_constrained, int n_base) {
     const Eigen::Index nodes = system.n_nodes(), n = 3 * (nodes - n_constrained + plan.n_slots());
     const Eigen::Index strip = 9 * kSourcesAtOnce * (nodes + plan.n_slots());
-    return 8 * static_cast<std::uint64_t>(n * (n + 3 * (n_constrained - n_base)) + strip);
+    return 8 * static_cast<std::uint64_t>(n * 3 * (n_constrained - n_base) + strip) + RefinedLu::memory_bytes(n);
 }
 
 MixedSolver::MixedSolver(const BemSystem& system, const LoadPlan& plan, const std::vector<int>& nodes, int n_base,
@@ -109,7 +109,7 @@ MixedSolver::MixedSolver(const BemSystem& system, const LoadPlan& plan, const st
     auto tractions = problem_.unknown.rightCols(3 * plan.n_slots());
     if (tractions.size() > 0) traction_scale_ = 1.0 / tractions.cwiseAbs().maxCoeff();
     tractions *= traction_scale_;
-    lu_ = factorise_held(std::move(problem_.unknown), "mixed boundary system");
+    lu_ = factorise_held<RefinedLu>(std::move(problem_.unknown), "mixed boundary system");
     condition_ = lu_.size() > 0 ? 1.0 / lu_.reciprocal_condition() : 1.0;
 }
 
@@ -141,7 +141,7 @@ BoundaryEqn9Solver::BoundaryEqn9Solver(const BemSystem& system, const LoadPlan& 
     Eigen::MatrixXd small = -problem_.unknown.bottomRightCorner(q, q);
     small.noalias() +=
         problem_.unknown.bottomLeftCorner(q, n_free) * (H00_inverse_ * problem_.unknown.topRightCorner(n_free, q));
-    tractions_ = factorise_held(std::move(small), "traction system of Eqn. 9");
+    tractions_ = factorise_held<LuFactorization>(std::move(small), "traction system of Eqn. 9");
     condition_ = tractions_.size() > 0 ? 1.0 / tractions_.reciprocal_condition() : 1.0;
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "base/lapack.hpp"
+#include "base/refined_lu.hpp"
 #include "deform/bem_system.hpp"
 #include "deform/dense_solvers.hpp"
 #include "deform/load_plan.hpp"
@@ -46,7 +47,7 @@ public:
 private:
     MixedProblem problem_;  ///< its matrix of the unknowns is given up to the factorisation
     double traction_scale_ = 1.0;
-    LuFactorization lu_;
+    RefinedLu lu_;
 };
 
 /// Eqn. 9 applied to H: H00^-1 = D'00 - D'01 D'11^-1 D'10, then q from the small system Gp - A0 H00^-1 G0.

@@ -6,8 +6,6 @@ namespace elastolab {
 
 namespace {
 
-constexpr double kSingular = 1e-14;
-
 double condition_of(const LuFactorization& lu) { return lu.size() > 0 ? 1.0 / lu.reciprocal_condition() : 1.0; }
 
 /// U from its two parts, and T1 = K10 U0 + K11 U1.
@@ -26,16 +24,6 @@ NodeSolution assemble_solution(const DenseOperators& operators, const Partition&
 
 }  // namespace
 
-LuFactorization factorise_held(Eigen::MatrixXd&& A, const char* name) {
-    try {
-        LuFactorization lu(std::move(A), name);
-        if (lu.size() > 0 && lu.reciprocal_condition() < kSingular) throw NotHeldError();
-        return lu;
-    } catch (const SingularMatrixError&) {
-        throw NotHeldError();
-    }
-}
-
 Partition::Partition(Eigen::Index n_dofs, const std::vector<int>& nodes) {
     std::vector<char> is_constrained(static_cast<std::size_t>(n_dofs), 0);
     for (const int node : nodes)
@@ -51,7 +39,7 @@ Eigen::MatrixXd inverse_by_eqn9(const Eigen::MatrixXd& bordered_inverse, const P
     std::vector<Eigen::Index> rest = partition.constrained;
     const auto n_dofs = static_cast<Eigen::Index>(partition.free.size() + partition.constrained.size());
     for (Eigen::Index border = n_dofs; border < bordered_inverse.rows(); ++border) rest.push_back(border);
-    const LuFactorization D11 = factorise_held(bordered_inverse(rest, rest), "D11 of Eqn. 9");
+    const LuFactorization D11 = factorise_held<LuFactorization>(bordered_inverse(rest, rest), "D11 of Eqn. 9");
     const Eigen::MatrixXd D10 = bordered_inverse(rest, partition.free), D01 = bordered_inverse(partition.free, rest);
     Eigen::MatrixXd K00_inverse = bordered_inverse(partition.free, partition.free);
     K00_inverse.noalias() -= D01 * D11.solve(D10);
@@ -61,7 +49,7 @@ Eigen::MatrixXd inverse_by_eqn9(const Eigen::MatrixXd& bordered_inverse, const P
 DirectSolver::DirectSolver(std::shared_ptr<const DenseOperators> operators, const std::vector<int>& nodes)
     : operators_(std::move(operators)),
       partition_(operators_->K.rows(), nodes),
-      K00_(factorise_held(operators_->K(partition_.free, partition_.free), "K00")) {
+      K00_(factorise_held<LuFactorization>(operators_->K(partition_.free, partition_.free), "K00")) {
     condition_ = condition_of(K00_);
 }
 

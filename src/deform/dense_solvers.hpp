@@ -24,8 +24,19 @@ struct Partition {
     Partition(Eigen::Index n_dofs, const std::vector<int>& nodes);
 };
 
-/// Factors of a matrix that is singular when the constraints do not hold the body: then throws NotHeldError.
-LuFactorization factorise_held(Eigen::MatrixXd&& A, const char* name);
+/// Factors (LuFactorization or RefinedLu) of a matrix that is singular when the constraints do not hold the body: then
+/// throws NotHeldError.
+template <class Factors>
+Factors factorise_held(Eigen::MatrixXd&& A, const char* name) {
+    constexpr double kSingular = 1e-14;
+    try {
+        Factors factors(std::move(A), name);
+        if (factors.size() > 0 && factors.reciprocal_condition() < kSingular) throw NotHeldError();
+        return factors;
+    } catch (const SingularMatrixError&) {
+        throw NotHeldError();
+    }
+}
 
 /// K00^-1 by Eqn. 9, D00 - D01 D11^-1 D10, from the inverse of a bordered matrix; the border belongs to part 1.
 /// Throws SolveError when D11 is singular: the constraints do not hold the body.
