@@ -130,7 +130,13 @@ SolutionChecks BemModel::checks(const LoadPlan& plan, const std::vector<int>& no
     checks.residual = [system = system_, plan](const NodeSolution& solution, Control& control) {
         return boundary_residual(*system, plan, solution, control);
     };
-    if (system_->is_constant()) return checks;
+    if (system_->is_constant()) {
+        checks.error = [system = system_, display = display_](const NodeSolver&, const NodeSolution& solution,
+                                                              Control&) {
+            return spread_around_vertices(*system, *display, solution);
+        };
+        return checks;
+    }
     checks.error = [system = system_, plan, nodes](const NodeSolver& solver, const NodeSolution& solution,
                                                    Control& control) -> Eigen::VectorXd {
         const Eigen::VectorXd residual = -residual_between_nodes(*system, plan, solution, control);

@@ -8,6 +8,7 @@
 #include "base/text.hpp"
 #include "deform/guards.hpp"
 #include "deform/solid_model.hpp"
+#include "fem/constraints.hpp"
 
 namespace elastolab {
 
@@ -30,8 +31,8 @@ void append(std::vector<std::string>& all, const std::vector<std::string>& more)
            (vertices.empty() || (vertices.front() >= 0 && vertices.back() < n_vertices));
 }
 
-/// Estimated error of the worst vertex from which on the user should know.
-constexpr double kLargeError = 0.08;
+/// Estimated error of the worst vertex from which on the user should know. Constant elements are of the first order.
+constexpr double kLargeError = 0.08, kLargeSpread = 0.2;
 
 /// The vertex that moves most, and how far.
 double largest_motion(const Eigen::VectorXd& u, Eigen::Index& vertex) {
@@ -40,17 +41,23 @@ double largest_motion(const Eigen::VectorXd& u, Eigen::Index& vertex) {
                : Eigen::Map<const Eigen::Matrix3Xd>(u.data(), 3, u.size() / 3).colwise().norm().maxCoeff(&vertex);
 }
 
-DiscretisationCheck check_of(const Eigen::VectorXd& u, const Eigen::VectorXd& error, const SurfaceMesh& surface) {
+std::string coarse_warning(MethodKind kind, const Eigen::Vector3d& x, double error) {
+    const std::string percent = readable_number(100.0 * error) + " % of the largest";
+    const std::string place = readable_point(x);
+    if (kind == MethodKind::constant_bem)
+        return "constant-bem: near " + place + " displacements of neighbouring triangles differ by " + percent +
+               ". Refine, or choose linear-bem.";
+    return "linear-bem: the mesh is too coarse near " + place + ": displacements there are off by about " + percent +
+           ". Refine thin parts, or compare with fem.";
+}
+
+DiscretisationCheck check_of(MethodKind kind, const Eigen::VectorXd& u, const Eigen::VectorXd& error,
+                             const SurfaceMesh& surface) {
     Eigen::Index moving_most = 0, worst = 0;
     const double size = largest_motion(u, moving_most), off = largest_motion(error, worst);
     DiscretisationCheck check{size > 0.0 ? off / size : 0.0, static_cast<int>(worst), {}};
-    if (check.relative_error > kLargeError) {
-        const Eigen::Vector3d x = surface.vertices.col(worst);
-        check.warning = "linear-bem: the mesh is too coarse near (" + readable_number(x[0]) + ", " +
-                        readable_number(x[1]) + ", " + readable_number(x[2]) +
-                        "): displacements there are off by about " + readable_number(100.0 * check.relative_error) +
-                        " % of the largest. Refine thin parts, or compare with fem.";
-    }
+    if (check.relative_error > (kind == MethodKind::constant_bem ? kLargeSpread : kLargeError))
+        check.warning = coarse_warning(kind, surface.vertices.col(worst), check.relative_error);
     return check;
 }
 
@@ -67,6 +74,12 @@ struct Deformer::SolidState {
         std::vector<int> vertices;
         for (const std::vector<int>* own : {&base, &handles})
             for (const int v : *own) vertices.push_back(part.vertices[static_cast<std::size_t>(v)]);
+        return vertices;
+    }
+    /// As vertices of the solid.
+    std::vector<int> constrained() const {
+        std::vector<int> vertices = base;
+        vertices.insert(vertices.end(), handles.begin(), handles.end());
         return vertices;
     }
     bool is_constrained() const { return !base.empty() || !handles.empty(); }
@@ -137,8 +150,12 @@ void Deformer::constrain(ConstrainedSet set, Control& control) {
         if (state.is_constrained()) {
             state.solid = part.solid->constrain(state.base, state.handles, control);
             quality.condition_estimate = std::max(quality.condition_estimate, state.solid->condition());
-            quality.held = quality.held && state.solid->held();
-            append(quality.warnings, warn_of_weak_hold(*model_->body().surface, part.vertices, state.in_mesh(part)));
+            const SurfaceMesh& surface = *model_->body().surface;
+            // Constant elements hold the triangles around a lone vertex, and may not see that a body is held too
+            // little.
+            quality.held = quality.held && state.solid->held() &&
+                           holds(surface.vertices(Eigen::all, part.vertices), state.constrained());
+            append(quality.warnings, warn_of_weak_hold(surface, part.vertices, state.in_mesh(part)));
         }
         solids.push_back(std::move(state));
     }
@@ -221,7 +238,7 @@ Deformer::Answer Deformer::answer(const Eigen::VectorXd& values, bool with_resid
     Answer answer;
     answer.reactions = {Eigen::Matrix3Xd::Zero(3, n_constrained), Eigen::Matrix3Xd::Zero(3, n_constrained)};
     if (with_residual) answer.residual = 0.0;
-    with_check = with_check && model_->method().kind == MethodKind::linear_bem;
+    with_check = with_check && model_->method().kind != MethodKind::fem;
     for (std::size_t s = 0; s < solids_.size(); ++s) {
         const ConstrainedSolid* solid = solids_[s].solid.get();
         if (solid == nullptr) continue;
@@ -232,7 +249,7 @@ Deformer::Answer Deformer::answer(const Eigen::VectorXd& values, bool with_resid
         place(s, solid->displacements(std::move(solution)), u);
     }
     require_finite(u);
-    if (with_check) answer.check = check_of(u, error, *model_->body().surface);
+    if (with_check) answer.check = check_of(model_->method().kind, u, error, *model_->body().surface);
     answer.displacements = std::move(u);
     return answer;
 }

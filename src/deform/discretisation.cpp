@@ -6,7 +6,8 @@ namespace elastolab {
 
 namespace {
 
-constexpr double kTolerance = 1e-6;
+/// Of the integrals: far below what an estimate within a factor of two needs.
+constexpr double kTolerance = 1e-4;
 
 }  // namespace
 
@@ -31,6 +32,18 @@ Eigen::VectorXd residual_between_nodes(const BemSystem& system, const LoadPlan& 
         }
     for (int v = 0; v < mesh.n_vertices(); ++v) mean.segment<3>(3 * v) /= area[v];
     return mean;
+}
+
+Eigen::VectorXd spread_around_vertices(const BemSystem& system, const SparseRows& display,
+                                       const NodeSolution& solution) {
+    const Eigen::VectorXd u = solution.displacements.col(0), shown = display * u;
+    Eigen::VectorXd spread = Eigen::VectorXd::Zero(shown.size());
+    for (int v = 0; v < system.boundary().mesh().n_vertices(); ++v)
+        for (const int t : system.around()[v]) {
+            const Eigen::Vector3d off = u.segment<3>(3 * t) - shown.segment<3>(3 * v);
+            if (off.norm() > spread.segment<3>(3 * v).norm()) spread.segment<3>(3 * v) = off;
+        }
+    return spread;
 }
 
 }  // namespace elastolab

@@ -87,9 +87,7 @@ void Model::visit_matrices(const std::function<void(const NamedMatrix&)>& visit)
         });
 }
 
-bool Model::has_inside() const {
-    return !parts_.empty() && parts_.front().solid->tetrahedra() != nullptr;
-}
+bool Model::has_inside() const { return !parts_.empty() && parts_.front().solid->tetrahedra() != nullptr; }
 
 void Model::visit_sparse_stiffness(
     const std::function<void(const std::string& name, const SparseStiffness&)>& visit) const {

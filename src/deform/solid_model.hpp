@@ -21,7 +21,7 @@ namespace elastolab {
 struct SolutionChecks {
     /// Relative residual of the full system.
     std::function<double(const NodeSolution&, Control&)> residual;
-    /// Estimated error of the displacements of all nodes (3*n_nodes), to be added to them; null where there is none.
+    /// Estimated error of the displacements of all vertices (3*n_vertices); null where there is none.
     std::function<Eigen::VectorXd(const NodeSolver&, const NodeSolution&, Control&)> error;
 };
 

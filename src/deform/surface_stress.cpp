@@ -1,8 +1,8 @@
 #include "deform/surface_stress.hpp"
 
+#include <cmath>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <cmath>
 #include <vector>
 
 namespace elastolab {
@@ -36,12 +36,14 @@ Eigen::Matrix3d triangle_axes(const Eigen::Vector3d& a, const Eigen::Vector3d& b
 }
 
 double von_mises(const Eigen::Matrix3d& s) {
-    const double axial = std::pow(s(0, 0) - s(1, 1), 2) + std::pow(s(1, 1) - s(2, 2), 2) + std::pow(s(2, 2) - s(0, 0), 2);
+    const double axial =
+        std::pow(s(0, 0) - s(1, 1), 2) + std::pow(s(1, 1) - s(2, 2), 2) + std::pow(s(2, 2) - s(0, 0), 2);
     const double shear = std::pow(s(0, 1), 2) + std::pow(s(1, 2), 2) + std::pow(s(0, 2), 2);
     return std::sqrt(0.5 * axial + 3.0 * shear);
 }
 
-/// Stress from the strain within a plane and the traction on it (in axes whose third is the normal). Finite at nu = 1/2.
+/// Stress from the strain within a plane and the traction on it (in axes whose third is the normal). Finite at nu =
+/// 1/2.
 Eigen::Matrix3d stress(const Material& material, const Eigen::Matrix2d& strain, const Eigen::Vector3d& traction) {
     const double mu = material.shear_modulus(), nu = material.poisson_ratio;
     Eigen::Matrix3d sigma;

@@ -83,10 +83,17 @@ TEST(Guards, TellOfLockingFromWhereTheErrorHasDoubled) {
 TEST(Guards, TellOfThinWalls) {
     for (const auto& [kind, least] : {std::pair{MethodKind::linear_bem, 0.03}, {MethodKind::constant_bem, 0.3}}) {
         EXPECT_GT(bending_error(plate(0.02), 0.3, make_method(kind)), least);
-        EXPECT_THAT(warnings_of(plate(0.02), make_method(kind)), Contains(HasSubstr("thin")));
-        EXPECT_THAT(warnings_of(plate(0.1), make_method(kind)), IsEmpty());
+        EXPECT_THAT(warnings_of(plate(0.02), make_method(kind)), Contains(HasSubstr("thin bend")));
+        EXPECT_THAT(warnings_of(plate(0.1), make_method(kind)), Not(Contains(HasSubstr("thin bend"))));
     }
     EXPECT_THAT(warnings_of(plate(0.02), make_method(MethodKind::fem)), IsEmpty());
+}
+
+TEST(Guards, TellOfSlenderBodies) {
+    const SurfaceMesh bar = make_box(2, {20.0, 1.0, 1.0});
+    EXPECT_GT(bending_error(bar, 0.3, Method{}), 0.08);
+    EXPECT_THAT(warnings_of(bar, Method{}), Contains(HasSubstr("times as long as thick")));
+    EXPECT_THAT(warnings_of(make_box(1, {10.0, 1.0, 1.0}), Method{}), IsEmpty());
 }
 
 TEST(Guards, MeasureTheWallAndTheGap) {
@@ -131,6 +138,20 @@ TEST(Guards, TellOfABodyThatIsBarelyHeld) {
         EXPECT_THAT(warnings_of(mesh, edge, method), Contains(HasSubstr("almost on one line"))) << describe(method);
     edge.push_back(mesh.n_vertices() - 1);
     EXPECT_THAT(warnings_of(mesh, edge), Not(Contains(HasSubstr("almost on one line"))));
+}
+
+TEST(Guards, TellOfABodyThatIsNotHeldWhateverTheMethod) {
+    const SurfaceMesh mesh = make_box(4);
+    for (const Method& method : all_methods())
+        for (const auto& held : {vertices_where(mesh, [](const auto& x) { return x.norm() < 1e-9; }),
+                                 vertices_where(mesh, [](const auto& x) { return x[1] < 1e-9 && x[2] < 1e-9; })}) {
+            Control control;
+            Deformer deformer(precomputed(make_body(mesh), method));
+            deformer.constrain({{}, held}, control);
+            EXPECT_FALSE(deformer.quality().held) << describe(method);
+            EXPECT_THAT(deformer.quality().warnings, Contains(HasSubstr("free to move as a whole")))
+                << describe(method);
+        }
 }
 
 TEST(Guards, TellOfTheDigitsThatAConditionLeaves) {
