@@ -45,7 +45,7 @@ void precompute_model(const Method& method, const Body& body, Solution& solution
 }
 
 /// Applies the constraints and evaluates what follows from them.
-void apply(const Constraints& constraints, bool with_residual, Solution& solution, Control& control) {
+void apply(const Constraints& constraints, bool with_checks, Solution& solution, Control& control) {
     Deformer deformer(solution.model);
     {
         const Stage stage("constrain", control, solution.stages);
@@ -53,16 +53,16 @@ void apply(const Constraints& constraints, bool with_residual, Solution& solutio
     }
     {
         const Stage stage("displace", control, solution.stages);
-        const Eigen::VectorXd u = deformer.displace(constraints.values);
-        solution.displacement = Eigen::Map<const Eigen::Matrix3Xd>(u.data(), 3, u.size() / 3);
+        const Deformer::Answer answer = deformer.answer(constraints.values, with_checks, false, control);
+        solution.displacement =
+            Eigen::Map<const Eigen::Matrix3Xd>(answer.displacements.data(), 3, answer.displacements.size() / 3);
+        solution.reactions = totals(constraints.groups, answer.reactions);
+        solution.residual = answer.residual;
     }
-    {
-        const Stage stage("reactions", control, solution.stages);
-        solution.reactions = totals(constraints.groups, deformer.reactions(constraints.values));
-    }
-    if (with_residual) {
-        const Stage stage("residual", control, solution.stages);
-        solution.residual = deformer.residual(constraints.values, control);
+    if (with_checks) {
+        const Stage stage("check", control, solution.stages);
+        const auto check = deformer.discretisation_check(constraints.values, control);
+        if (check && !check->warning.empty()) solution.warnings.push_back(check->warning);
     }
     solution.condition_estimate =
         std::max(solution.model->facts().condition_estimate, deformer.quality().condition_estimate);
@@ -84,14 +84,14 @@ Solution solve(const SolveRequest& request, Control& control) {
         try {
             method.update = Update::direct;
             precompute_model(method, body, solution, control);
-            apply(constraints, request.with_residual, solution, control);
+            apply(constraints, request.with_checks, solution, control);
             return solution;
         } catch (const NotHeldError&) {
             method.update = Update::reduced;
         }
     }
     precompute_model(method, body, solution, control);
-    apply(constraints, request.with_residual, solution, control);
+    apply(constraints, request.with_checks, solution, control);
     return solution;
 }
 

@@ -23,7 +23,8 @@ struct SolveRequest {
     /// Solving once, on demand: take the direct update, which factorises once and nothing else, unless the body is not
     /// held; then the reduced one.
     bool solve_once = false;
-    bool with_residual = true;  ///< costs about as much as the assembly again
+    /// Residual, and linear BEM's error between the nodes, which costs as much as the assembly.
+    bool with_checks = true;
 };
 
 /// Total force [force] and moment about the origin [force * L] that one group of constrained vertices exerts on the

@@ -111,7 +111,7 @@ void run_solve(const SolveOptions& options) {
     request.document = load_scene(request.scene_file);
     request.method = choose_method(options, request.document.method);
     request.solve_once = options.update.empty() && request.method.mode == Mode::on_demand;
-    request.with_residual = !options.quiet || !options.report.empty();
+    request.with_checks = !options.quiet || !options.report.empty();
     require_writable(options.outputs(), input_files(request));
 
     Solution solution = solve_with_progress(request, control, !options.quiet);

@@ -77,15 +77,9 @@ private:
         const std::string other = owner == kFixed ? "/fixed" : handle_path(static_cast<std::size_t>(owner));
         const Eigen::Vector3d x = mesh_.vertices.col(vertex);
         fail(scene_file_, path,
-             "vertex " + std::to_string(vertex) + " at (" + short_text(x.x()) + ", " + short_text(x.y()) + ", " +
-                 short_text(x.z()) + ") also belongs to " + other + ". Make the selectors disjoint.");
-    }
-
-    static std::string short_text(double value) {
-        std::string text = std::to_string(value);
-        text.erase(text.find_last_not_of('0') + 1);
-        if (text.back() == '.') text.pop_back();
-        return text;
+             "vertex " + std::to_string(vertex) + " at (" + readable_number(x.x(), 6) + ", " +
+                 readable_number(x.y(), 6) + ", " + readable_number(x.z(), 6) + ") also belongs to " + other +
+                 ". Make the selectors disjoint.");
     }
 
     void add_values(const AffineMotion& motion, const std::vector<int>& vertices, std::size_t i) {
