@@ -322,7 +322,7 @@ const std::vector<StressGroup>& stress_groups(bool quick) {
     static const std::vector<StressGroup> few = [] {
         std::vector<StressGroup> groups = all_groups();
         for (StressGroup& group : groups) {  // the first, the middle and the last level
-            const std::vector<double>& levels = group.levels;
+            const std::vector<double> levels = group.levels;
             const bool costly = group.name == "graded";
             group.levels = {levels.front(), levels[levels.size() / 2]};
             if (!costly) group.levels.push_back(levels.back());
