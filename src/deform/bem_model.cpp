@@ -61,7 +61,8 @@ void BemModel::note_facts() {
     facts_.memory_bytes = system_->memory_bytes();
     facts_.condition_estimate = system_->condition();
     facts_.warnings = system_->warnings();
-    for (const auto& more : {warn_of_surface(mesh), warn_of_condition("boundary-element matrix", system_->condition())})
+    for (const auto& more : {warn_of_surface(mesh, system_->is_constant()),
+                             warn_of_condition("boundary-element matrix", system_->condition())})
         facts_.warnings.insert(facts_.warnings.end(), more.begin(), more.end());
     if (system_->is_constant())
         display_ = std::make_shared<const SparseRows>(average_of_triangles(mesh, system_->around()));

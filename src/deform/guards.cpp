@@ -21,7 +21,8 @@ using Eigen::Vector3d;
 constexpr double kEps = std::numeric_limits<double>::epsilon();
 constexpr double kLocking = 0.48;
 constexpr double kLostDigits = 1e-6;  ///< relative error of displacements from which on rounding is told
-constexpr double kThinWall = 0.2;     ///< of the longest edge of the triangle on the other side
+/// Distance of the other side over the longest edge of the triangle there. Constant elements bend one cell badly.
+constexpr double kThinWall = 0.5, kThinWallOfConstant = 0.8;
 constexpr double kSlender = 15.0;     ///< length over thickness
 constexpr double kTouching = 0.01;    ///< of the mean edge
 constexpr double kWeakLever = 100.0;  ///< by how much an error of a handle may be amplified
@@ -92,16 +93,18 @@ std::vector<std::string> warn_of_condition(const std::string& what, double condi
             "next to 1/2."};
 }
 
-std::vector<std::string> warn_of_surface(const SurfaceMesh& surface) {
+std::vector<std::string> warn_of_surface(const SurfaceMesh& surface, bool constant) {
     std::vector<std::string> warnings;
     warn_of_slivers(surface, warnings);
     warn_of_slenderness(surface, warnings);
     const Approach wall = closest_facing_approach(surface);
-    if (wall.ratio < kThinWall)
-        warnings.push_back("boundary elements: the surface near " + readable_point(surface.vertices.col(wall.vertex)) +
-                           " is only " + readable_number(wall.ratio) +
-                           " of a triangle's edge away from its other side. Walls and gaps that thin bend with errors "
-                           "of 5 to 10 % (constant-bem: 40 %). Refine there, or choose fem.");
+    if (wall.ratio < (constant ? kThinWallOfConstant : kThinWall))
+        warnings.push_back(
+            "boundary elements: the surface near " + readable_point(surface.vertices.col(wall.vertex)) + " is only " +
+            readable_number(wall.ratio) +
+            " of a triangle's edge away from its other side. Walls and gaps that thin bend with errors " +
+            (constant ? "of 30 to 40 %. Refine there, or choose linear-bem."
+                      : "of 5 to 20 %. Refine there, or compare with fem."));
     return warnings;
 }
 

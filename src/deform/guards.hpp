@@ -24,10 +24,10 @@ std::vector<std::string> warn_of_locking(double poisson_ratio);
 std::vector<std::string> warn_of_condition(const std::string& what, double condition);
 
 /// Boundary elements: triangles so thin (altitude / longest edge below 5e-5) that their integrals keep fewer than six
-/// digits, and walls or gaps thinner than a fifth of the triangles beside them: a plate of 8 x 8 cells in bending is
+/// digits, and walls or gaps thinner than half the edges beside them: a plate of 8 x 8 cells in bending is
 /// 5 to 10 % off by linear elements and 40 % by constant ones from there on down; and bodies more than 15 times as long
 /// as thick (4 volume / area): bars of two cells across in bending are 9 % off at 20 times, 15 % at 40 times.
-std::vector<std::string> warn_of_surface(const SurfaceMesh& surface);
+std::vector<std::string> warn_of_surface(const SurfaceMesh& surface, bool constant);
 
 /// Solids that come closer than a hundredth of an edge, and yet are separate bodies. parts: the vertices of each solid
 /// in the mesh.

@@ -58,7 +58,10 @@ std::vector<std::string> warnings_of(const SurfaceMesh& mesh, const std::vector<
 TEST(Guards, SayNothingOfSoundBodies) {
     for (const Method& method : all_methods())
         for (const SurfaceMesh& mesh : {make_box(4), make_sphere(4), make_torus(3), make_rabbit(300).surface}) {
-            EXPECT_THAT(warnings_of(mesh, method), IsEmpty()) << describe(method);
+            // The tube and the ears have a cell and a half across: sound for all but constant elements.
+            if (method.kind != MethodKind::constant_bem || closest_facing_approach(mesh).ratio > 0.8) {
+                EXPECT_THAT(warnings_of(mesh, method), IsEmpty()) << describe(method);
+            }
             const auto low =
                 vertices_where(mesh, [&](const auto& x) { return x[2] < mesh.vertices.row(2).minCoeff() + 0.5; });
             EXPECT_THAT(warnings_of(mesh, low, method), Not(Contains(HasSubstr("nearly")))) << describe(method);
@@ -84,9 +87,15 @@ TEST(Guards, TellOfThinWalls) {
     for (const auto& [kind, least] : {std::pair{MethodKind::linear_bem, 0.03}, {MethodKind::constant_bem, 0.3}}) {
         EXPECT_GT(bending_error(plate(0.02), 0.3, make_method(kind)), least);
         EXPECT_THAT(warnings_of(plate(0.02), make_method(kind)), Contains(HasSubstr("thin bend")));
-        EXPECT_THAT(warnings_of(plate(0.1), make_method(kind)), Not(Contains(HasSubstr("thin bend"))));
+        EXPECT_THAT(warnings_of(make_box(2, {4, 4, 1}), make_method(kind)), Not(Contains(HasSubstr("thin bend"))));
     }
     EXPECT_THAT(warnings_of(plate(0.02), make_method(MethodKind::fem)), IsEmpty());
+    // One cell through the thickness: linear elements bend it, constant ones do not.
+    const Method linear = make_method(MethodKind::linear_bem), constant = make_method(MethodKind::constant_bem);
+    EXPECT_LT(bending_error(plate(0.125), 0.3, linear), 0.05);
+    EXPECT_GT(bending_error(plate(0.125), 0.3, constant), 0.3);
+    EXPECT_THAT(warnings_of(plate(0.125), linear), Not(Contains(HasSubstr("thin bend"))));
+    EXPECT_THAT(warnings_of(plate(0.125), constant), Contains(HasSubstr("thin bend")));
 }
 
 TEST(Guards, TellOfSlenderBodies) {
@@ -107,8 +116,8 @@ TEST(Guards, TellOfTrianglesWhoseIntegralsLoseDigits) {
     SurfaceMesh mesh = make_box(2);
     const int v = mesh.triangles(0, 0), w = mesh.triangles(1, 0);
     mesh.vertices.col(v) = mesh.vertices.col(w) + 1e-5 * (mesh.vertices.col(v) - mesh.vertices.col(w));
-    EXPECT_THAT(warn_of_surface(mesh), Contains(HasSubstr("Remesh")));
-    EXPECT_THAT(warn_of_surface(make_box(2)), IsEmpty());
+    EXPECT_THAT(warn_of_surface(mesh, false), Contains(HasSubstr("Remesh")));
+    EXPECT_THAT(warn_of_surface(make_box(2), false), IsEmpty());
 }
 
 TEST(Guards, TellOfSolidsThatTouch) {
