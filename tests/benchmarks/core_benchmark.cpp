@@ -1,5 +1,6 @@
 // Speed of the core beside the LAPACK calls or memory traffic that it cannot do without. Every benchmark alternates the
-// two and reports `ratio`, the median over the rounds of one divided by the other, so that a busy machine slows both.
+// two and reports `ratio`, the median over the rounds of one divided by the other, so that a busy machine slows both,
+// and `target`, the ratio that is wanted.
 //   build/release/tests/benchmarks/core_benchmark
 
 #include <benchmark/benchmark.h>
@@ -16,7 +17,11 @@
 #include "deform/load_plan.hpp"
 #include "deform/problem.hpp"
 #include "elasticity/rigid_motion.hpp"
+#include "fem/assembly.hpp"
+#include "fem/compliance.hpp"
+#include "fem/constraints.hpp"
 #include "mesh/primitives.hpp"
+#include "mesh/tetrahedralize.hpp"
 
 namespace elastolab::test {
 namespace {
@@ -34,9 +39,10 @@ double seconds_of(const std::function<void()>& work) {
     return watch.seconds();
 }
 
-/// Times `work` and, beside it in every round, `reference`; `prepare` runs before each of them, untimed.
+/// Times `work` and, beside it in every round, `reference`; `prepare` runs before each of them, untimed. `target`: the
+/// largest ratio that is wanted, printed beside the measured one; 0: none is set.
 void compare(
-    benchmark::State& state, const std::function<void()>& work, const std::function<void()>& reference,
+    benchmark::State& state, double target, const std::function<void()>& work, const std::function<void()>& reference,
     const std::function<void()>& prepare = [] {}) {
     std::vector<double> ours, theirs, ratios;
     for (auto _ : state) {
@@ -50,6 +56,7 @@ void compare(
     state.counters["ms"] = 1e3 * median(ours);
     state.counters["reference_ms"] = 1e3 * median(theirs);
     state.counters["ratio"] = median(ratios);
+    if (target > 0.0) state.counters["target"] = target;
 }
 
 const SurfaceMesh& cube() {
@@ -80,7 +87,7 @@ void assembly_beside_its_lu(benchmark::State& state) {
     const Elements elements = vertex_elements(boundary);
     Eigen::MatrixXd H(3 * sources.size(), 3 * elements.n_slots), copy;
     compare(
-        state,
+        state, 1.0,
         [&] {
             Control control;
             assemble(Layer::double_layer, boundary, sources, elements, {1.0, 0.3}, 1e-10, H, control);
@@ -92,7 +99,7 @@ void on_demand_precomputation_beside_its_lu(benchmark::State& state) {
     const Body body = make_body(cube());
     Eigen::MatrixXd copy;
     compare(
-        state, [&] { benchmark::DoNotOptimize(precomputed(body, Method{})); },
+        state, 2.2, [&] { benchmark::DoNotOptimize(precomputed(body, Method{})); },
         [&] { LuFactorization(std::move(copy), "H"); }, [&] { copy = bordered_matrix(); });
 }
 
@@ -103,7 +110,7 @@ void full_precomputation_beside_its_lapack_calls(benchmark::State& state) {
     method.mode = Mode::full;
     Eigen::MatrixXd H, G, right;
     compare(
-        state, [&] { benchmark::DoNotOptimize(precomputed(body, method)); },
+        state, 1.5, [&] { benchmark::DoNotOptimize(precomputed(body, method)); },
         [&] {
             const LuFactorization lu_H(std::move(H), "H"), lu_G(std::move(G), "G");
             lu_G.solve_in_place(right);
@@ -141,7 +148,7 @@ void change_set(benchmark::State& state, const std::vector<int>& vertices) {
     const Eigen::MatrixXd rows = Eigen::MatrixXd::Ones(9 * std::ssize(plan.interior_triangles), lu.size());
     std::shared_ptr<const Model> model;
     compare(
-        state,
+        state, 2.0,
         [&] {
             Control control;
             Deformer deformer(model);
@@ -174,11 +181,62 @@ void set_change_with_known_columns(benchmark::State& state) {
     deformer.constrain(set, control);
     const Eigen::Index n = 3 * std::ssize(set.handles) + 6;
     compare(
-        state, [&] { deformer.constrain(set, control); },
+        state, 0.0, [&] { deformer.constrain(set, control); },
         [&] {
             Eigen::MatrixXd small = Eigen::MatrixXd::Random(n, n);
             LuFactorization(std::move(small), "small system");
         });
+}
+
+/// Bordered H of constant elements beside the LU of its system.
+void constant_bem_precomputation_beside_its_lu(benchmark::State& state) {
+    const Body body = make_body(cube());
+    const Eigen::Index n = 3 * cube().n_triangles() + 6;
+    Eigen::MatrixXd matrix;
+    compare(
+        state, 2.2, [&] { benchmark::DoNotOptimize(precomputed(body, make_method(MethodKind::constant_bem))); },
+        [&] { LuFactorization(std::move(matrix), "H"); }, [&] { matrix = Eigen::MatrixXd::Random(n, n); });
+}
+
+/// One set on demand, from the surface to the displacements, by the update `direct`, which factorises once.
+void single_solve_beside_the_lu_of_linear_bem(benchmark::State& state) {
+    const Method method =
+        make_method(static_cast<MethodKind>(state.range(0)), Tractions::discontinuous, Mode::on_demand, Update::direct);
+    const Body body = make_body(cube());
+    const ConstrainedSet set{
+        vertices_where(cube(), [](const auto& x) { return x[0] < 1e-9; }),
+        vertices_where(cube(), [](const auto& x) { return x[0] > 1 - 1e-9 && x[1] > 0.6 && x[2] > 0.6; })};
+    const Eigen::VectorXd values = Eigen::Vector3d(0.1, 0.05, 0.0).replicate(std::ssize(set.handles), 1);
+    Eigen::MatrixXd copy;
+    compare(
+        state, 0.0,
+        [&] {
+            Control control;
+            Deformer deformer(precomputed(body, method));
+            deformer.constrain(set, control);
+            benchmark::DoNotOptimize(deformer.answer(values, true, false, control));
+        },
+        [&] { LuFactorization(std::move(copy), "H"); }, [&] { copy = bordered_matrix(); });
+    state.counters["constrained"] = static_cast<double>(set.base.size() + set.handles.size());
+}
+
+/// FEM, stage by stage, beside the factorisation: 0 assembly, 1 factorisation, 2 a set change with no column known.
+void fem_beside_its_factorisation(benchmark::State& state) {
+    Control control;
+    const TetMesh tets = tetrahedralize(cube(), "cube", {}, control);
+    const StiffnessParts parts = assemble_stiffness_parts(tets, control);
+    const CholeskyAnalysis analysis(parts.mu);
+    const SparseMatrix K = stiffness(parts, Material{1.0, 0.3});
+    const auto base = vertices_where(cube(), [](const auto& x) { return x[0] < 1e-9; });
+    const auto pull = vertices_where(cube(), [](const auto& x) { return x[0] > 1 - 1e-9 && x[1] > 0.6; });
+    const SparseMatrix held = eliminated(K, base);
+    const auto factorise = [&] { benchmark::DoNotOptimize(SparseCholesky(analysis, held, "stiffness")); };
+    const SurfaceCompliance compliance(K, analysis, tets.vertices, tets.n_surface_vertices, base, control);
+    const std::function<void()> stages[] = {[&] { benchmark::DoNotOptimize(assemble_stiffness_parts(tets, control)); },
+                                            factorise,
+                                            [&] { benchmark::DoNotOptimize(compliance.columns(pull, control)); }};
+    compare(state, 0.0, stages[state.range(0)], factorise);
+    state.counters["degrees_of_freedom"] = static_cast<double>(K.rows());
 }
 
 void drag_frame_beside_a_copy_of_its_columns(benchmark::State& state) {
@@ -195,7 +253,7 @@ void drag_frame_beside_a_copy_of_its_columns(benchmark::State& state) {
     Eigen::MatrixXd copy(drag.X.rows(), 3);
     constexpr int kFrames = 100;
     compare(
-        state,
+        state, 4.0,
         [&] {
             for (int frame = 0; frame < kFrames; ++frame) {
                 shift[0] += 1e-3;
@@ -228,9 +286,23 @@ BENCHMARK(set_change_of_patches_beside_its_lapack_calls)
     ->Iterations(5)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(set_change_with_known_columns)->UseManualTime()->Iterations(9)->Unit(benchmark::kMillisecond);
+BENCHMARK(constant_bem_precomputation_beside_its_lu)->UseManualTime()->Iterations(3)->Unit(benchmark::kMillisecond);
+BENCHMARK(single_solve_beside_the_lu_of_linear_bem)
+    ->ArgName("method")
+    ->DenseRange(0, 2)
+    ->UseManualTime()
+    ->Iterations(5)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(fem_beside_its_factorisation)
+    ->ArgName("stage")
+    ->DenseRange(0, 2)
+    ->UseManualTime()
+    ->Iterations(9)
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK(drag_frame_beside_a_copy_of_its_columns)
     ->ArgNames({"method", "cells"})
     ->ArgsProduct({{0, 1, 2}, {4, 13}})
+    ->Args({0, 29})  // 5048 vertices; a frame is the same for all methods
     ->UseManualTime()
     ->Iterations(30)
     ->Unit(benchmark::kMicrosecond);
