@@ -23,7 +23,7 @@ struct SolveRequest {
     /// Solving once, on demand: take the direct update, which factorises once and nothing else, unless the body is not
     /// held; then the reduced one.
     bool solve_once = false;
-    /// Residual, and linear BEM's error between the nodes, which costs as much as the assembly.
+    /// Residual, and linear BEM's error between the nodes, which costs a few times the assembly.
     bool with_checks = true;
 };
 

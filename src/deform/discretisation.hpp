@@ -12,7 +12,7 @@ namespace elastolab {
 /// How far a solution of linear elements is from fulfilling the boundary equation between its nodes: at every node the
 /// mean of H u - G q over the triangles around it, weighted by the node's hat function; 3*n_nodes [L]. At the nodes
 /// themselves the equation holds, so one point a triangle, its centroid, tells the mean (with the corners, a rule of
-/// the third order). Integrals to four digits, all of them afresh: about an assembly.
+/// the third order). Integrals to four digits, all of them afresh: a few times the assembly.
 ///
 /// The displacements that would cause this residual, with its sign turned (NodeSolver::response_to_residual), are what
 /// an averaged (Galerkin) instead of a collocated equation would add: an estimate of the error. The residual alone says
