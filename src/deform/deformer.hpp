@@ -98,8 +98,8 @@ public:
     /// How far the displacements for these values may be off because the mesh is coarse. Linear BEM lets thin free
     /// parts (ears, plates, needles) follow too far: an estimate from one pass over the integral equation between the
     /// nodes, within a factor of two of the largest error on the bodies of tests/deform/discretisation_test.cpp (it
-    /// sees a third of the error of bars 40 times as long as thick, of which ModelFacts::warnings tell). About as long
-    /// as the assembly: not for every frame. Constant BEM: by how much the triangles around a vertex differ, at no
+    /// sees a third of the error of bars 40 times as long as thick, of which ModelFacts::warnings tell). Takes a few
+    /// assemblies: not for every frame. Constant BEM: by how much the triangles around a vertex differ, at no
     /// cost. Nothing for FEM.
     std::optional<DiscretisationCheck> discretisation_check(const Eigen::VectorXd& values, Control& control) const;
 
