@@ -13,6 +13,8 @@ namespace {
 
 using State = MethodRunner::State;
 
+constexpr float kStateLines = 5.2f;
+
 constexpr std::array<Choice<Mode>, 2> kModes = {
     {{Mode::on_demand, "on demand", "One factorisation; columns of the inverse when a handle needs them. Soonest ready."},
      {Mode::full, "K and inverse", "The stiffness K and its (bordered) inverse in memory, as the paper has it."}}};
@@ -90,6 +92,15 @@ void draw_progress(const PanelContext& context, MethodRunner& runner, const Cost
     paragraph(text, context.palette.text_dim);
 }
 
+void draw_completion(const PanelContext& context, MethodRunner& runner) {
+    const float button = 60.0f * context.gui.scale();
+    const std::string text = std::string(runner.stage()) + "  " + readable_seconds(runner.elapsed_seconds());
+    ImGui::ProgressBar(static_cast<float>(runner.progress()),
+                       {ImGui::GetContentRegionAvail().x - button - 8.0f, 0.0f}, text.c_str());
+    ImGui::SameLine();
+    if (ImGui::Button("Cancel", {button, 0.0f})) runner.cancel();
+}
+
 /// What is there of the model: unknowns, and whether K and its inverse are.
 std::string readiness(const MethodRunner& runner) {
     if (!runner.model()) return "";
@@ -116,21 +127,23 @@ void Panels::draw_method(const PanelContext& context) {
     const Palette& palette = context.palette;
     draw_buttons(context);
     MethodRunner& runner = state.simulation.runner(state.method);
-    ImGui::TextColored(imgui_colour(state_colour(runner, palette)), "%s", state_word(runner));
     const Method method = state.choices.of(state.method);
-    if (runner.precomputing())
+    // Of one height whatever there is to say, so that nothing below jumps away from the mouse.
+    ImGui::BeginChild("state", {0.0f, kStateLines * ImGui::GetTextLineHeightWithSpacing()}, false,
+                      ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+    ImGui::TextColored(imgui_colour(state_colour(runner, palette)), "%s", state_word(runner));
+    if (runner.precomputing()) {
         draw_progress(context, runner, cost(state, method));
-    else if (runner.completing()) {
-        Method full = method;
-        full.mode = Mode::full;
-        draw_progress(context, runner, cost(state, full));
+    } else {
+        if (const std::string text = readiness(runner); !text.empty()) paragraph(text, palette.text_dim);
+        if (runner.completing()) draw_completion(context, runner);
     }
+    ImGui::EndChild();
     if (runner.state() == State::idle || runner.state() == State::failed) {
         const std::string problem = state.simulation.problem(state.method);
         if (!problem.empty()) paragraph(problem, palette.bad);
         if (ImGui::Button("Compute")) runner.retry();
     }
-    if (const std::string text = readiness(runner); !text.empty()) paragraph(text, palette.text_dim);
     draw_warnings(context, runner);
 
     if (!ImGui::TreeNode("How it computes")) return;
