@@ -118,6 +118,7 @@ void draw_warnings(const PanelContext& context, const MethodRunner& runner) {
     if (runner.deformer())
         for (const std::string& warning : runner.deformer()->quality().warnings)
             paragraph(warning, context.palette.busy);
+    for (const std::string& warning : runner.check_warnings()) paragraph(warning, context.palette.busy);
 }
 
 }  // namespace

@@ -25,6 +25,7 @@ namespace {
 
 constexpr double kProgressSeconds = 1.0 / 15.0;  ///< between frames while a progress bar moves
 constexpr int kSettlingFrames = 3;               ///< Dear ImGui needs as many after an event to come to rest
+constexpr double kCheckSeconds = 0.25;           ///< between looks at a check that goes on in the background
 constexpr double kCaretSeconds = 0.4;            ///< between frames while a text cursor blinks
 constexpr double kPatienceSeconds = 1.0;         ///< for workers at the end
 const Eigen::Vector2i kDefaultSize(1280, 800);
@@ -102,6 +103,7 @@ private:
         if (options_.n_frames > 0 || pending_frames_ > 0 || !queue_.empty()) return 0.0;
         if (replay_ && !replay_->done() && !state_.simulation.busy()) return 0.0;
         if (computing() || state_.simulation.busy()) return kProgressSeconds;
+        if (state_.simulation.checking()) return kCheckSeconds;
         if (message_seconds_ >= 0.0) return std::max(message_seconds_, 0.01);
         return gui_.wants_text() ? kCaretSeconds : -1.0;
     }
@@ -119,7 +121,9 @@ private:
             return false;
         }
         if (options_.n_frames == 0 && pending_frames_ == 0 && !replay_) {
-            if (!state_.update_displacements()) return false;  // a worker woke us for nothing to see
+            const bool checking = state_.simulation.checking();
+            const bool changed = state_.update_displacements();
+            if (!changed && checking == state_.simulation.checking()) return false;  // nothing new to see
             pending_frames_ = 1;
         }
         return window_.size().minCoeff() > 0;

@@ -17,6 +17,22 @@ bool same(const Method& a, const Method& b) {
 
 bool same(const ConstrainedSet& a, const ConstrainedSet& b) { return a.base == b.base && a.handles == b.handles; }
 
+/// An answer that rests so long is worth checking.
+constexpr double kRestSeconds = 0.7;
+/// Relative residual from which on an answer is not what the equations say; rounding leaves 1e-10 at most.
+constexpr double kWrongResidual = 1e-6;
+
+/// What the person should know before believing these displacements.
+std::vector<std::string> findings(const Deformer& deformer, const Eigen::VectorXd& values, Control& control) {
+    std::vector<std::string> warnings;
+    const auto check = deformer.discretisation_check(values, control);
+    if (check && !check->warning.empty()) warnings.push_back(check->warning);
+    if (const double residual = deformer.residual(values, control); !(residual < kWrongResidual))
+        warnings.push_back(deformer.model().body().name + ": the solution leaves a relative residual of " +
+                           std::to_string(residual) + ", so it is wrong. Fix more vertices, or use another method.");
+    return warnings;
+}
+
 std::vector<int> handle_ends(const Constraints& constraints) {
     std::vector<int> ends;
     const auto n_base = static_cast<int>(constraints.set.base.size());
@@ -27,7 +43,7 @@ std::vector<int> handle_ends(const Constraints& constraints) {
 
 }  // namespace
 
-MethodRunner::MethodRunner(std::function<void()> wake) : precompute_(wake), completion_(wake), prepare_(wake) {}
+MethodRunner::MethodRunner(std::function<void()> wake) : precompute_(wake), completion_(wake), prepare_(wake), check_(wake) {}
 MethodRunner::~MethodRunner() = default;
 
 void MethodRunner::set_body(const Body& body, const Method& method) {
@@ -44,6 +60,7 @@ void MethodRunner::clear() {
     precompute_.cancel();
     completion_.cancel();
     prepare_.cancel();
+    check_.cancel();
     forget_answers();
     body_ = {};
     failure_.clear();
@@ -194,9 +211,20 @@ void MethodRunner::update_displacement() {
     }
     values_ = wanted_values_;
     ++version_;
+    check_.cancel();
+    check_warnings_.clear();
+    rest_ = {};
+}
+
+void MethodRunner::check_at_rest() {
+    if (check_.poll() == JobEvent::finished && checked_ == version_) check_warnings_ = check_.result();
+    if (!unchecked() || check_.running() || rest_.seconds() < kRestSeconds) return;
+    checked_ = version_;
+    check_.start([deformer = deformer_, values = values_](Control& control) { return findings(*deformer, values, control); });
 }
 
 void MethodRunner::cancel() {
+    check_.cancel();
     precompute_.cancel();
     completion_.cancel();
     if (!prepare_.running()) return;

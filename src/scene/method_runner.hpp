@@ -55,6 +55,12 @@ public:
     /// Stops that for now; complete() begins it again.
     void postpone_completion();
 
+    /// Once the answer has rested for a while: estimates in the background how far it can be trusted (residual, and what
+    /// the coarseness of the mesh does). What is found is in check_warnings() until the answer changes.
+    void check_at_rest();
+    bool unchecked() const { return state() == State::ready && has_motion() && (check_.running() || checked_ != version_); }
+    const std::vector<std::string>& check_warnings() const { return check_warnings_; }
+
     /// Takes over what the workers finished, starts what is due and brings the displacements up to date.
     void poll();
 
@@ -62,7 +68,9 @@ public:
     /// begins again with retry() or with the next change.
     void cancel();
     void retry();
-    bool stopping() const { return precompute_.working() || completion_.working() || prepare_.working(); }
+    bool stopping() const {
+        return precompute_.working() || completion_.working() || prepare_.working() || check_.working();
+    }
 
     State state() const;
     const std::string& failure() const { return failure_; }
@@ -102,6 +110,7 @@ private:
     void use_or_prepare();
     void prepare(const ConstrainedSet& set);
     void update_displacement();
+    bool has_motion() const { return values_.size() > 0 && !values_.isZero(0.0); }
 
     Body body_;
     Method method_;
@@ -125,9 +134,14 @@ private:
     Eigen::VectorXd values_, displacement_;
     std::uint64_t version_ = 0;
 
+    Stopwatch rest_;              ///< since the answer changed
+    std::uint64_t checked_ = 0;   ///< version that was checked last, or is being
+    std::vector<std::string> check_warnings_;
+
     // Last: their threads end before what they wake goes.
     PrecomputeJob precompute_, completion_;
     PrepareJob prepare_;
+    BackgroundJob<std::vector<std::string>> check_;
 };
 
 }  // namespace elastolab

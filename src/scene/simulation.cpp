@@ -83,6 +83,7 @@ bool Simulation::update(const LiveScene& scene, const std::vector<MethodKind>& s
         changed = changed || runner.version() != before;
         waiting = waiting || runner.precomputing();
     }
+    for (const MethodKind kind : shown) runner(kind).check_at_rest();
     complete_one(scene, choices);
     return changed;
 }
@@ -117,6 +118,10 @@ bool Simulation::waiting() const {
 bool Simulation::busy() const {
     return waiting() ||
            std::any_of(shown_.begin(), shown_.end(), [&](MethodKind kind) { return runner(kind).completing(); });
+}
+
+bool Simulation::checking() const {
+    return std::any_of(shown_.begin(), shown_.end(), [&](MethodKind kind) { return runner(kind).unchecked(); });
 }
 
 void Simulation::cancel() {

@@ -49,6 +49,7 @@ public:
 
     bool waiting() const;   ///< a method of the last update is not ready yet, and will be by itself
     bool busy() const;      ///< the same, or K and its inverse are being completed
+    bool checking() const;  ///< an answer is being checked, or will be once it has rested
     void cancel();          ///< stops all workers at their next checkpoints
     bool stopping() const;  ///< some worker has not stopped yet; for use after cancel(), without update()
 
