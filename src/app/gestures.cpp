@@ -132,14 +132,19 @@ void Gestures::begin_pull(GestureContext& context, int handle, bool created, int
     pull_.vertex = vertex;
     if (triangle >= 0)
         pull_.normal = triangle_normal(*context.targets[target_].positions, context.scene.mesh().triangles, triangle);
+    pull_.motion = context.scene.document().handles[static_cast<std::size_t>(handle)].motion;
+    pull_.place = context.targets[target_].positions->col(vertex);
     set_baseline(context);
 }
 
+/// What is shown may lag behind while a new handle is prepared: the place follows from the motion since the last one.
 void Gestures::set_baseline(GestureContext& context) {
     pull_.mode = pull_mode();
     pull_.cursor = cursor_;
-    pull_.motion = context.scene.document().handles[static_cast<std::size_t>(pull_.handle)].motion;
-    pull_.place = context.targets[target_].positions->col(pull_.vertex);
+    const Eigen::Vector3d x = context.scene.mesh().vertices.col(pull_.vertex);
+    const Motion& motion = context.scene.document().handles[static_cast<std::size_t>(pull_.handle)].motion;
+    pull_.place += context.deformation_scale * (mean_displacement(motion, x) - mean_displacement(pull_.motion, x));
+    pull_.motion = motion;
 }
 
 Gestures::PullMode Gestures::pull_mode() const {
