@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string_view>
@@ -17,6 +18,7 @@ using Json = nlohmann::json;
 
 constexpr int kVersion = 1;
 constexpr int kMaxWindow = 16384;
+constexpr int kLargestCode = 0x10FFFF;  ///< of characters; GLFW_KEY_UNKNOWN is -1
 /// In the order of InputEvent::Kind.
 constexpr std::array<std::string_view, 6> kKinds = {"cursor", "button", "scroll", "key", "text", "focus"};
 
@@ -25,16 +27,22 @@ Json to_json(const InputEvent& event) {
             event.cursor.x(), event.cursor.y(), event.code, event.pressed, event.repeated, event.modifiers};
 }
 
+int integer(const Json& json, int low, int high) {
+    const auto value = json.is_number_integer() ? json.get<std::int64_t>() : high + std::int64_t{1};
+    if (value < low || value > high) throw std::runtime_error("a number is out of its range");
+    return static_cast<int>(value);
+}
+
 InputEvent event_of(const Json& json, double seconds) {
     const auto kind = std::find(kKinds.begin(), kKinds.end(), json.at(0).get<std::string>());
     if (kind == kKinds.end() || json.size() != 7) throw std::runtime_error("is no event");
     InputEvent event;
     event.kind = static_cast<InputEvent::Kind>(kind - kKinds.begin());
     event.cursor = {json.at(1).get<double>(), json.at(2).get<double>()};
-    event.code = json.at(3).get<int>();
+    event.code = integer(json.at(3), -1, kLargestCode);
     event.pressed = json.at(4).get<bool>();
     event.repeated = json.at(5).get<bool>();
-    event.modifiers = json.at(6).get<int>();
+    event.modifiers = integer(json.at(6), 0, 0xFF);
     event.seconds = seconds;
     return event;
 }
@@ -46,10 +54,9 @@ LoggedFrame frame_of(const Json& json) {
 }
 
 Eigen::Vector2i window_size_of(const Json& header) {
-    if (header.at("elastolab_interaction").get<int>() != kVersion) throw std::runtime_error("has another version");
-    const Eigen::Vector2i size(header.at("window").at(0).get<int>(), header.at("window").at(1).get<int>());
-    if (size.minCoeff() < 1 || size.maxCoeff() > kMaxWindow) throw std::runtime_error("has no sensible window size");
-    return size;
+    if (header.at("elastolab_interaction") != kVersion) throw std::runtime_error("has another version");
+    const Json& size = header.at("window");
+    return {integer(size.at(0), 1, kMaxWindow), integer(size.at(1), 1, kMaxWindow)};
 }
 
 }  // namespace
