@@ -106,6 +106,7 @@ void FileDialog::draw_entries(float scale) {
 }
 
 void FileDialog::draw_name(float scale) {
+    if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
     ImGui::SetNextItemWidth(360.0f * scale);
     bool go = ImGui::InputText("##name", &name_, ImGuiInputTextFlags_EnterReturnsTrue);
     if (ImGui::IsItemEdited()) to_replace_.clear();
