@@ -52,7 +52,8 @@ public:
         if (!options.timings.empty()) state_.timings = std::make_unique<TimingsRecorder>(options.timings);
         if (!options.record.empty())
             state_.recorder = std::make_unique<InteractionRecorder>(options.record, window_.size());
-        if (!options.screenshot.empty()) AtomicFile::require_writable(options.screenshot);
+        for (const std::filesystem::path& file : {options.screenshot, options.scene_out, options.mesh_out})
+            if (!file.empty()) AtomicFile::require_writable(file);
         open_input();
     }
 
@@ -90,6 +91,8 @@ private:
         state_.update_displacements();  // begins the precomputation
     }
 
+    /// A replay that is over leaves the window to the person.
+    bool replaying() const { return replay_ && (options_.hidden || !replay_->done()); }
     bool computing() const { return state_.loading() || state_.simulation.waiting(); }
 
     /// Frames by number and replays go on only when the scene is ready.
@@ -110,7 +113,7 @@ private:
 
     bool must_draw() {
         std::vector<InputEvent> events = window_.take_events();
-        if (!replay_) queue_.insert(queue_.end(), events.begin(), events.end());
+        if (!replaying()) queue_.insert(queue_.end(), events.begin(), events.end());
         for (const std::filesystem::path& file : window_.take_dropped_files()) state_.open(file);
         const bool damaged = window_.take_damage();
         if (!queue_.empty() || damaged || state_.simulation.busy() || computing()) pending_frames_ = kSettlingFrames;
@@ -120,7 +123,7 @@ private:
             state_.update_displacements();
             return false;
         }
-        if (options_.n_frames == 0 && pending_frames_ == 0 && !replay_) {
+        if (options_.n_frames == 0 && pending_frames_ == 0 && !replaying()) {
             const bool checking = state_.simulation.checking();
             const bool changed = state_.update_displacements();
             if (!changed && checking == state_.simulation.checking()) return false;  // nothing new to see
@@ -132,7 +135,7 @@ private:
     /// The events of this frame: from the log when there is one, else as many as one frame can take.
     std::vector<InputEvent> take_events() {
         std::vector<InputEvent> events;
-        if (replay_) {
+        if (replaying()) {
             if (!replay_->done() && !state_.simulation.busy() && !state_.loading() && state_.frame > 2)
                 events = replay_->log.frames[replay_->next++].events;
         } else {
@@ -155,7 +158,11 @@ private:
                 context.targets = state_.gesture_context().targets;
                 continue;
             }
-            const bool for_panels = gui_.wants_mouse() && state_.gestures.action() == Gestures::Action::none;
+            // Keys that were held over the scene may be let go anywhere.
+            const bool lets_go =
+                event.kind == InputEvent::Kind::focus || (event.kind == InputEvent::Kind::key && !event.pressed);
+            const bool for_panels =
+                gui_.wants_mouse() && state_.gestures.action() == Gestures::Action::none && !lets_go;
             if (for_panels)
                 state_.gestures.clear_hover();
             else
@@ -257,22 +264,24 @@ private:
     }
 
     void finish_outputs() {
+        if (!options_.screenshot.empty() && !picture_ && window_.size().minCoeff() > 0)
+            draw_frame();  // closed by hand: one more, for the picture
+        if (picture_) write_png(options_.screenshot, *picture_);
         if (state_.timings) state_.timings->finish();
         if (state_.recorder) state_.recorder->finish();
-        if (options_.screenshot.empty()) return;
-        if (!picture_) draw_frame();  // closed by hand: one more, for the picture
-        write_png(options_.screenshot, *picture_);
+        if (!options_.scene_out.empty()) state_.write_scene(options_.scene_out);
+        if (!options_.mesh_out.empty()) state_.write_mesh(options_.mesh_out);
     }
 
     /// A worker inside a library call that cannot be interrupted must not keep a closed window's process alive:
     /// everything that was to be written is.
     void end_workers() {
-        state_.simulation.cancel();
+        state_.cancel_workers();
         window_.hide();
         const Stopwatch waiting;
-        while (state_.simulation.stopping() && waiting.seconds() < kPatienceSeconds)
+        while (state_.stopping() && waiting.seconds() < kPatienceSeconds)
             std::this_thread::sleep_for(std::chrono::milliseconds(5));
-        if (state_.simulation.stopping()) std::_Exit(EXIT_SUCCESS);
+        if (state_.stopping()) std::_Exit(EXIT_SUCCESS);
     }
 
     ViewerOptions options_;

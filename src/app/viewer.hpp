@@ -15,6 +15,7 @@ struct ViewerOptions {
     int n_frames = 0;                   ///< quit after so many; 0: when the person closes the window
     std::filesystem::path screenshot;   ///< of the last frame; empty: none
     std::filesystem::path timings, replay, record;  ///< likewise
+    std::filesystem::path scene_out, mesh_out;      ///< likewise: the scene and the deformed mesh as they are at the end
     std::optional<Eigen::Vector2i> size;            ///< of the window [logical pixels]
     bool hidden = false;
 };

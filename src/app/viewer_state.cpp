@@ -162,29 +162,43 @@ void ViewerState::frame_body() {
 void ViewerState::save_scene(const fs::path& file) {
     finish_gesture();
     attempt([&] {
-        Document document = scene_->document();
-        document.method = method;
-        if (auto* mesh = std::get_if<MeshFile>(&document.mesh)) {
-            const fs::path absolute = fs::absolute(scene_->file().parent_path() / mesh->file).lexically_normal();
-            const fs::path relative = absolute.lexically_relative(fs::absolute(file).parent_path());
-            mesh->file = relative.empty() ? absolute.string() : relative.string();
-        }
-        elastolab::save_scene(file, document);
+        write_scene(file);
+        scene_->mark_saved();
         add_recent(file);
         messages.note("Saved " + file.string());
     });
 }
 
+void ViewerState::write_scene(const fs::path& file) const {
+    Document document = scene_->document();
+    document.method = method;
+    if (auto* mesh = std::get_if<MeshFile>(&document.mesh)) {
+        const fs::path absolute = fs::absolute(scene_->file().parent_path() / mesh->file).lexically_normal();
+        const fs::path relative = absolute.lexically_relative(fs::absolute(file).parent_path());
+        mesh->file = relative.empty() ? absolute.string() : relative.string();
+    }
+    elastolab::save_scene(file, document);
+}
+
 void ViewerState::export_mesh(const fs::path& file) {
     attempt([&] {
-        const ShownBody* shown = body(method);
-        SurfaceMesh mesh = scene_->mesh();
-        const Eigen::VectorXd& u = simulation.runner(method).displacement();
-        if (shown != nullptr && u.size() == mesh.vertices.size())
-            mesh.vertices += Eigen::Map<const Eigen::Matrix3Xd>(u.data(), 3, u.size() / 3);
-        save_surface(file, mesh);
+        write_mesh(file);
         messages.note("Exported " + file.string());
     });
+}
+
+void ViewerState::write_mesh(const fs::path& file) const {
+    SurfaceMesh mesh = scene_->mesh();
+    const Eigen::VectorXd& u = simulation.runner(method).displacement();
+    if (u.size() == mesh.vertices.size())
+        mesh.vertices += Eigen::Map<const Eigen::Matrix3Xd>(u.data(), 3, u.size() / 3);
+    save_surface(file, mesh);
+}
+
+void ViewerState::cancel_workers() {
+    load_job_.cancel();
+    volume_job_.cancel();
+    simulation.cancel();
 }
 
 void ViewerState::record_timings(const fs::path& file) {
@@ -234,9 +248,11 @@ void ViewerState::redo() {
 }
 
 void ViewerState::remove_handle(int handle) {
-    finish_gesture();
     if (handle < 0 || handle >= scene_->n_handles()) return;
-    scene_->remove_handle(handle);
+    const int vertex = scene_->vertices(handle).front();
+    finish_gesture();  // which may remove another one: numbers change, vertices do not
+    if (scene_->owner(vertex) < 0) return;
+    scene_->remove_handle(scene_->owner(vertex));
     scene_->commit();
     gestures.select_handle(-1);
 }

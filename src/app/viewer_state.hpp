@@ -83,6 +83,9 @@ public:
     void open_document(Document document, const std::filesystem::path& scene_file);
     void save_scene(const std::filesystem::path& file);
     void export_mesh(const std::filesystem::path& file);
+    /// The same without words. Throw.
+    void write_scene(const std::filesystem::path& file) const;
+    void write_mesh(const std::filesystem::path& file) const;
     void record_timings(const std::filesystem::path& file);
     void stop_timings();
     void undo();
@@ -101,6 +104,9 @@ public:
     bool show_help = false;
 
     bool loading() const { return load_job_.running(); }
+    /// Stops all workers at their next checkpoints; stopping(): some have not stopped yet.
+    void cancel_workers();
+    bool stopping() const { return load_job_.working() || volume_job_.working() || simulation.stopping(); }
     std::uint64_t scene_number() const { return scene_number_; }  ///< grows when the scene is replaced
     const std::vector<std::filesystem::path>& recent_files() const { return recent_; }
 

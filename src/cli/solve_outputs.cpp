@@ -44,14 +44,6 @@ void require_distinct(const std::vector<fs::path>& outputs, const std::vector<fs
     }
 }
 
-void require_mesh_extension(const fs::path& mesh) {
-    std::string extension = mesh.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return std::tolower(c); });
-    if (extension != ".obj" && extension != ".ply" && extension != ".stl")
-        throw UsageError(mesh.string() + ": a mesh is written as .obj, .ply or .stl. Choose one of these extensions.");
-}
-
 /// The folder for matrices, or the one it will be made in.
 void require_writable_folder(const fs::path& folder) {
     std::error_code error;
@@ -116,6 +108,14 @@ private:
 }  // namespace
 
 bool OutputPaths::any() const { return !files(*this).empty() || !matrices.empty(); }
+
+void require_mesh_extension(const fs::path& mesh) {
+    std::string extension = mesh.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return std::tolower(c); });
+    if (extension != ".obj" && extension != ".ply" && extension != ".stl")
+        throw UsageError(mesh.string() + ": a mesh is written as .obj, .ply or .stl. Choose one of these extensions.");
+}
 
 void require_writable(const OutputPaths& paths, const std::vector<fs::path>& inputs) {
     require_distinct(files(paths), inputs);

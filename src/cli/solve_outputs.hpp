@@ -20,6 +20,9 @@ struct OutputPaths {
 /// Throws UsageError (the same file twice, an input, an unknown extension) or Error (a place that cannot be written).
 void require_writable(const OutputPaths& paths, const std::vector<std::filesystem::path>& inputs);
 
+/// Throws UsageError when meshes are not written under this extension.
+void require_mesh_extension(const std::filesystem::path& mesh);
+
 /// Writes all outputs, then puts them in their places together: when one fails, none is there.
 void write_outputs(const OutputPaths& paths, const Solution& solution);
 

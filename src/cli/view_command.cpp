@@ -1,11 +1,12 @@
-#include <CLI/CLI.hpp>
 #include <charconv>
+#include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 
 #include "app/viewer.hpp"
 #include "base/blas.hpp"
 #include "cli/command.hpp"
+#include "cli/solve_outputs.hpp"
 
 namespace elastolab {
 
@@ -15,7 +16,7 @@ constexpr int kMaxWindow = 16384;
 
 /// What the command line says, word for word.
 struct ViewWords {
-    std::string input, method, screenshot, timings, replay, record, size;
+    std::string input, method, screenshot, timings, replay, record, scene_out, mesh_out, size;
     int frames = 0, threads = 0;
     bool hidden = false;
 };
@@ -40,7 +41,10 @@ ViewerOptions options_of(const ViewWords& words) {
     options.timings = words.timings;
     options.replay = words.replay;
     options.record = words.record;
+    options.scene_out = words.scene_out;
+    options.mesh_out = words.mesh_out;
     options.hidden = words.hidden;
+    if (!words.mesh_out.empty()) require_mesh_extension(words.mesh_out);
     if (!words.size.empty()) options.size = parse_size(words.size);
     if (options.hidden && options.n_frames == 0 && options.replay.empty())
         throw UsageError("--hidden: nobody could close that window. Add --frames N or --replay FILE.");
@@ -61,8 +65,12 @@ Command add_view_command(CLI::App& program) {
     parser->add_option("--timings", words->timings, "CSV: records frame timings from the start")->check(path);
     parser->add_option("--replay", words->replay, "repeats a recorded interaction")->check(path);
     parser->add_option("--record", words->record, "records the interaction")->check(path);
+    parser->add_option("--scene-out", words->scene_out, "JSON: the scene as it is at the end")->check(path);
+    parser->add_option("--mesh-out", words->mesh_out, "OBJ, PLY or STL: the deformed mesh as it is at the end")
+        ->check(path);
     parser->add_option("--size", words->size, "of the window in pixels, as in 1280x800");
-    parser->add_option("--threads", words->threads, "at most this many (default: all cores)")->check(CLI::Range(1, 1024));
+    parser->add_option("--threads", words->threads, "at most this many (default: all cores)")
+        ->check(CLI::Range(1, 1024));
     parser->add_flag("--hidden", words->hidden, "no visible window; still real OpenGL");
     return {parser, [words] {
                 if (words->threads > 0) set_thread_count(words->threads);

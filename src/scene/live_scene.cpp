@@ -58,11 +58,6 @@ const std::string& LiveScene::handle_name(int handle) const {
     return constraints_.groups[static_cast<std::size_t>(handle) + (document_.fixed ? 1 : 0)].name;
 }
 
-void LiveScene::mark_saved(std::filesystem::path scene_file) {
-    file_ = std::move(scene_file);
-    saved_ = document_;
-}
-
 std::vector<int> LiveScene::only_free(std::span<const int> vertices) const {
     std::vector<int> result;
     for (const int v : vertices)

@@ -44,7 +44,7 @@ public:
     std::uint64_t revision() const { return revision_; }
     /// Whether something changed since the document was loaded or marked as saved.
     bool modified() const { return !(document_ == saved_); }
-    void mark_saved(std::filesystem::path scene_file);
+    void mark_saved() { saved_ = document_; }
 
     // Edits of the constrained set. Vertices that belong to others are left to them.
     /// Returns the new handle's number, or kNobody when no vertex of the list is free.
