@@ -10,8 +10,6 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "support/temporary_folder.hpp"
-
 namespace elastolab::test {
 
 namespace fs = std::filesystem;
@@ -41,14 +39,6 @@ pid_t start_program(const std::vector<std::string>& arguments, const fs::path& f
     return child;
 }
 
-ProgramRun wait_for(pid_t child, const fs::path& outputs) {
-    int status = 0;
-    waitpid(child, &status, 0);
-    return {.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status),
-            .out = read_text(outputs / "out"),
-            .err = read_text(outputs / "err")};
-}
-
 /// Whether a process has a handler for SIGINT, or has ended.
 bool handles_interrupt(pid_t process) {
     std::ifstream status("/proc/" + std::to_string(process) + "/status");
@@ -61,17 +51,39 @@ bool handles_interrupt(pid_t process) {
 
 }  // namespace
 
+RunningProgram::RunningProgram(const std::vector<std::string>& arguments, const fs::path& folder)
+    : id_(start_program(arguments, folder, outputs_.path())) {}
+
+RunningProgram::~RunningProgram() {
+    if (ended()) return;
+    kill(id_, SIGKILL);
+    waitpid(id_, nullptr, 0);
+}
+
+bool RunningProgram::ended() {
+    int status = 0;
+    if (!status_ && waitpid(id_, &status, WNOHANG) == id_) status_ = status;
+    return status_.has_value();
+}
+
+ProgramRun RunningProgram::wait() {
+    int status = 0;
+    if (!status_ && waitpid(id_, &status, 0) == id_) status_ = status;
+    status = status_.value();
+    return {.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status),
+            .out = read_text(outputs_.path() / "out"),
+            .err = read_text(outputs_.path() / "err")};
+}
+
 ProgramRun run_program(const std::vector<std::string>& arguments, const fs::path& folder) {
-    const TemporaryFolder outputs;
-    return wait_for(start_program(arguments, folder, outputs.path()), outputs.path());
+    return RunningProgram(arguments, folder).wait();
 }
 
 ProgramRun interrupt_program(const std::vector<std::string>& arguments, const fs::path& folder) {
-    const TemporaryFolder outputs;
-    const pid_t child = start_program(arguments, folder, outputs.path());
-    while (!handles_interrupt(child)) usleep(1000);
-    kill(child, SIGINT);
-    return wait_for(child, outputs.path());
+    RunningProgram program(arguments, folder);
+    while (!handles_interrupt(program.id())) usleep(1000);
+    kill(program.id(), SIGINT);
+    return program.wait();
 }
 
 Table read_csv(const fs::path& file) {

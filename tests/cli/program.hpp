@@ -1,9 +1,14 @@
 #pragma once
 
+#include <sys/types.h>
+
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "support/temporary_folder.hpp"
 
 namespace elastolab::test {
 
@@ -11,6 +16,26 @@ namespace elastolab::test {
 struct ProgramRun {
     int exit_code = -1;  ///< minus the signal when one ended it
     std::string out, err;
+};
+
+/// The real program while it runs. It is killed at the end unless it ended before.
+class RunningProgram {
+public:
+    /// Starts it with these arguments, in `folder`.
+    RunningProgram(const std::vector<std::string>& arguments, const std::filesystem::path& folder);
+    ~RunningProgram();
+    RunningProgram(const RunningProgram&) = delete;
+    RunningProgram& operator=(const RunningProgram&) = delete;
+
+    pid_t id() const { return id_; }
+    bool ended();
+    /// Waits for its end.
+    ProgramRun wait();
+
+private:
+    TemporaryFolder outputs_;
+    pid_t id_ = -1;
+    std::optional<int> status_;
 };
 
 /// Runs the real program with these arguments, in `folder`.

@@ -3,10 +3,11 @@
 set -euo pipefail
 if [[ -n ${DISPLAY:-} || " $* " == *" --gtest_list_tests"* ]]; then exec "$@"; fi
 
-# The server itself picks a free number, so any number of tests may start at once.
+# The server itself picks a free number, so any number of tests may start at once. It stays as it is when a program
+# leaves it, so that the next one finds it ready.
 folder=$(mktemp -d)
 mkfifo "$folder/number"
-Xvfb -displayfd 3 -screen 0 1920x1200x24 -nolisten tcp 3<>"$folder/number" 2>"$folder/log" &
+Xvfb -displayfd 3 -screen 0 1920x1200x24 -nolisten tcp -noreset 3<>"$folder/number" 2>"$folder/log" &
 server=$!
 trap 'kill $server 2>/dev/null || true; wait $server 2>/dev/null || true; rm -rf "$folder"' EXIT
 exec 4<>"$folder/number"

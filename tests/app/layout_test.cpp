@@ -1,0 +1,84 @@
+#include "app/layout.hpp"
+
+#include <gmock/gmock.h>
+
+#include "app/stage.hpp"
+
+namespace elastolab {
+namespace {
+
+using testing::ElementsAre;
+using testing::SizeIs;
+
+void expect_sensible(const Layout& layout, const Eigen::Vector2i& window) {
+    for (const Viewport& part : {layout.menu, layout.panel, layout.scene, layout.status}) {
+        EXPECT_GE(part.width, 0.0);
+        EXPECT_GE(part.height, 0.0);
+    }
+    EXPECT_GE(layout.scene.width, 1.0) << window.transpose();
+    EXPECT_GE(layout.scene.height, 1.0) << window.transpose();
+    EXPECT_LE(layout.scene.x + layout.scene.width, std::max(1, window.x()));
+}
+
+TEST(Layout, FillsTheWindowWithoutOverlap) {
+    const Layout layout = layout_of({1280, 800}, 1.0f);
+    EXPECT_EQ(layout.panel.width + layout.scene.width, 1280);
+    EXPECT_EQ(layout.menu.height + layout.scene.height + layout.status.height, 800);
+    EXPECT_EQ(layout.scene.y, layout.menu.height);
+    EXPECT_EQ(layout.status.y, layout.scene.y + layout.scene.height);
+}
+
+TEST(Layout, LeavesTheSceneSomethingInAnyWindow) {
+    for (const int width : {0, 1, 2, 50, 319, 400, 1280, 16384})
+        for (const int height : {0, 1, 2, 30, 60, 800, 16384})
+            for (const float scale : {0.5f, 1.0f, 2.0f, 3.5f})
+                expect_sensible(layout_of({width, height}, scale), {width, height});
+}
+
+TEST(Layout, ThePanelGivesWayInANarrowWindow) {
+    EXPECT_EQ(layout_of({300, 800}, 1.0f).panel.width, 0.0);
+    EXPECT_GT(layout_of({900, 800}, 1.0f).panel.width, 0.0);
+    EXPECT_EQ(layout_of({900, 800}, 2.5f).panel.width, 0.0);
+}
+
+TEST(Viewports, OneForTheActiveMethod) {
+    test::Stage stage(2);
+    const auto viewports = viewports_of(stage.state, {320, 27, 960, 746});
+    ASSERT_THAT(viewports, SizeIs(1));
+    EXPECT_THAT(viewports[0].kinds, ElementsAre(MethodKind::linear_bem));
+}
+
+TEST(Viewports, OfAComparisonSideBySideShareTheWidthInTheOrderOfAllMethods) {
+    test::Stage stage(2);
+    stage.state.compare.mode = CompareMode::side_by_side;
+    const auto viewports = viewports_of(stage.state, {320, 27, 960, 746});
+    ASSERT_THAT(viewports, SizeIs(3));
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_THAT(viewports[i].kinds, ElementsAre(all_method_kinds()[i]));
+        EXPECT_EQ(viewports[i].place.width, viewports[0].place.width);
+    }
+    for (std::size_t i = 1; i < 3; ++i)
+        EXPECT_GE(viewports[i].place.x, viewports[i - 1].place.x + viewports[i - 1].place.width);
+    EXPECT_NEAR(viewports[2].place.x + viewports[2].place.width, 1280.0, 1e-9);
+}
+
+TEST(Viewports, OfGhostsLieOverEachOtherTheActiveMethodFirst) {
+    test::Stage stage(2);
+    stage.state.compare.mode = CompareMode::ghosts;
+    stage.state.method = MethodKind::constant_bem;
+    const auto viewports = viewports_of(stage.state, {320, 27, 960, 746});
+    ASSERT_THAT(viewports, SizeIs(1));
+    EXPECT_THAT(viewports[0].kinds, ElementsAre(MethodKind::constant_bem, MethodKind::fem, MethodKind::linear_bem));
+}
+
+TEST(Viewports, OfASliverAreStillThere) {
+    test::Stage stage(2);
+    stage.state.compare.mode = CompareMode::side_by_side;
+    for (const SceneViewport& viewport : viewports_of(stage.state, {0, 0, 1, 1})) {
+        EXPECT_GE(viewport.place.width, 1.0);
+        EXPECT_GE(viewport.place.height, 1.0);
+    }
+}
+
+}  // namespace
+}  // namespace elastolab

@@ -1,0 +1,121 @@
+#include "app/real_window.hpp"
+
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <iterator>
+#include <sstream>
+#include <stdexcept>
+#include <thread>
+
+namespace elastolab::test {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr int kSleepingLooks = 6;  ///< in a row: a program that sleeps between frames works at one of them
+constexpr auto kLookEvery = 50ms;
+constexpr int kMaxLooks = 2400;  ///< a program that does not come to rest hangs
+
+std::vector<std::string> with_command(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "view");
+    return arguments;
+}
+
+std::string output_of(const std::string& command) {
+    FILE* const pipe = popen(command.c_str(), "r");
+    if (pipe == nullptr) throw std::runtime_error(command + ": cannot be run");
+    std::string text;
+    for (std::array<char, 256> part{}; fgets(part.data(), part.size(), pipe) != nullptr;) text += part.data();
+    if (pclose(pipe) != 0) throw std::runtime_error(command + ": failed");
+    return text;
+}
+
+/// Fields of a stat file of /proc from the state on ("S", parent, ...); empty when the process is gone.
+std::vector<std::string> stat_fields(const std::filesystem::path& file) {
+    const std::string text = read_text(file);
+    const std::size_t end_of_name = text.rfind(')');
+    if (end_of_name == std::string::npos) return {};
+    std::istringstream rest(text.substr(end_of_name + 1));
+    return {std::istream_iterator<std::string>(rest), {}};
+}
+
+}  // namespace
+
+RealWindow::RealWindow(std::vector<std::string> arguments, const std::filesystem::path& folder)
+    : program_(with_command(std::move(arguments)), folder) {
+    const std::string search =
+        "timeout 60 xdotool search --sync --onlyvisible --pid " + std::to_string(program_.id()) + " 2>&1 | tail -1";
+    id_ = output_of(search);
+    while (!id_.empty() && id_.back() == '\n') id_.pop_back();
+    if (id_.empty()) throw std::runtime_error("there is no window");
+    tell("windowfocus --sync " + id_);
+}
+
+void RealWindow::tell(const std::string& command) const { output_of("timeout 60 xdotool " + command + " 2>&1"); }
+
+void RealWindow::move(const Eigen::Vector2d& cursor) {
+    tell("mousemove --window " + id_ + " " + std::to_string(std::lround(cursor.x())) + " " +
+         std::to_string(std::lround(cursor.y())));
+}
+
+void RealWindow::drag(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+    move(from);
+    press();
+    if (from != to)
+        for (int i = 1; i <= 10; ++i) move(from + 0.1 * i * (to - from));
+    release();
+}
+
+void RealWindow::key(const std::string& name) { tell("key " + name); }
+
+void RealWindow::type(const std::string& text) {
+    tell("type --delay 20 '" + text + "'");
+    key("Return");
+}
+
+void RealWindow::resize(int width, int height) {
+    tell("windowsize " + id_ + " " + std::to_string(width) + " " + std::to_string(height));
+}
+
+/// Whether every thread of it sleeps.
+bool RealWindow::sleeps() const {
+    std::error_code gone;
+    for (const auto& task :
+         std::filesystem::directory_iterator("/proc/" + std::to_string(program_.id()) + "/task", gone)) {
+        const std::vector<std::string> fields = stat_fields(task.path() / "stat");
+        if (!fields.empty() && fields[0] != "S") return false;
+    }
+    return true;
+}
+
+void RealWindow::settle() {
+    double before = -1.0;
+    int n_sleeping = 0;
+    for (int look = 0; n_sleeping < kSleepingLooks; ++look) {
+        if (program_.ended()) throw std::runtime_error("the program has ended: " + program_.wait().err);
+        if (look == kMaxLooks) throw std::runtime_error("the program does not come to rest");
+        std::this_thread::sleep_for(kLookEvery);
+        const double now = processor_seconds();
+        n_sleeping = now == before && sleeps() ? n_sleeping + 1 : 0;
+        before = now;
+    }
+}
+
+ProgramRun RealWindow::quit() {
+    key("ctrl+q");
+    return program_.wait();
+}
+
+double RealWindow::processor_seconds() const {
+    const std::vector<std::string> fields = stat_fields("/proc/" + std::to_string(program_.id()) + "/stat");
+    if (fields.size() < 13) return 0.0;
+    return (std::stod(fields[11]) + std::stod(fields[12])) / static_cast<double>(sysconf(_SC_CLK_TCK));
+}
+
+}  // namespace elastolab::test

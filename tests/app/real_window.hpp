@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "cli/program.hpp"
+
+namespace elastolab::test {
+
+/// The real program in a real window, driven through the display's own mouse and keys (xdotool).
+class RealWindow {
+public:
+    /// Starts `elastolab view` with these arguments in `folder` and returns when its window is there.
+    RealWindow(std::vector<std::string> arguments, const std::filesystem::path& folder);
+
+    /// The mouse, in pixels of the window.
+    void move(const Eigen::Vector2d& cursor);
+    void press(int button = 1) { tell("mousedown " + std::to_string(button)); }
+    void release(int button = 1) { tell("mouseup " + std::to_string(button)); }
+    void drag(const Eigen::Vector2d& from, const Eigen::Vector2d& to);
+    void click(const Eigen::Vector2d& at) { drag(at, at); }
+    /// Keys as xdotool names them: "ctrl+q".
+    void key(const std::string& name);
+    /// Types a text and Enter.
+    void type(const std::string& text);
+    void resize(int width, int height);
+
+    /// Returns when the program sleeps because nothing is left to do.
+    void settle();
+    /// Ctrl+Q, and what the program left behind.
+    ProgramRun quit();
+    /// Processor time that it has used [s].
+    double processor_seconds() const;
+    bool ended() { return program_.ended(); }
+
+private:
+    void tell(const std::string& command) const;
+    bool sleeps() const;
+
+    RunningProgram program_;
+    std::string id_;  ///< of the window
+};
+
+}  // namespace elastolab::test

@@ -1,0 +1,146 @@
+#include "app/shown_body.hpp"
+
+#include <gmock/gmock.h>
+
+#include "app/stage.hpp"
+
+namespace elastolab {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+/// A cube that is pulled at the right face.
+class ShownBodyTest : public testing::Test {
+protected:
+    ShownBodyTest() {
+        std::vector<int> right;
+        for (int v = 0; v < stage.scene().mesh().n_vertices(); ++v)
+            if (stage.scene().mesh().vertices(0, v) > 0.99) right.push_back(v);
+        stage.scene().add_handle(right);
+        stage.scene().set_motion(0, AffineMotion{.translate = {0.1, 0, 0.05}});
+        stage.settle();
+    }
+    ViewerState& state = stage_.state;
+    test::Stage& stage = stage_;
+    const ShownBody& shown(MethodKind kind = MethodKind::linear_bem) { return *state.body(kind); }
+    Eigen::Map<const Eigen::Matrix3Xd> u(MethodKind kind = MethodKind::linear_bem) {
+        const Eigen::VectorXd& all = state.simulation.runner(kind).displacement();
+        return {all.data(), 3, all.size() / 3};
+    }
+    void show(Field field) {
+        state.display.field = field;
+        stage.settle();
+    }
+
+private:
+    test::Stage stage_{3};
+};
+
+TEST_F(ShownBodyTest, PositionsAreRestAndScaledDisplacement) {
+    state.display.deformation_scale = 2.5;
+    stage.settle();
+    const Positions expected = stage.scene().mesh().vertices + 2.5 * u();
+    EXPECT_LT((shown().positions() - expected).norm(), 1e-12);
+    EXPECT_NEAR(shown().max_displacement(), u().colwise().norm().maxCoeff(), 1e-12);
+}
+
+TEST_F(ShownBodyTest, DoesNothingWhenNothingChanged) {
+    const std::uint64_t before = shown().revision();
+    EXPECT_FALSE(state.update_bodies());
+    EXPECT_EQ(shown().revision(), before);
+    show(Field::displacement);
+    EXPECT_GT(shown().revision(), before);
+}
+
+TEST_F(ShownBodyTest, DisplacementIsItsMagnitude) {
+    EXPECT_THAT(shown().values(), IsEmpty());
+    show(Field::displacement);
+    ASSERT_EQ(std::ssize(shown().values()), u().cols());
+    for (Eigen::Index v = 0; v < u().cols(); ++v)
+        EXPECT_NEAR(shown().values()[static_cast<std::size_t>(v)], u().col(v).norm(), 1e-6);
+    EXPECT_NEAR(state.field_range().second, u().colwise().norm().maxCoeff(), 1e-6);
+}
+
+TEST_F(ShownBodyTest, TractionAndStressAreLargestWhereTheBodyIsHeld) {
+    for (const Field field : {Field::traction, Field::von_mises}) {
+        show(field);
+        ASSERT_EQ(std::ssize(shown().values()), u().cols());
+        const auto& values = shown().values();
+        const auto worst = std::max_element(values.begin(), values.end()) - values.begin();
+        EXPECT_NE(stage.scene().owner(static_cast<int>(worst)), LiveScene::kNobody);
+        EXPECT_GT(shown().max_value(), 0.0);
+    }
+}
+
+TEST_F(ShownBodyTest, ReactionsBalance) {
+    state.method = MethodKind::fem;  // exactly; those of BEM as far as the mesh is fine
+    state.display.arrows = true;
+    stage.settle();
+    const ShownBody& body = shown(MethodKind::fem);
+    ASSERT_THAT(body.reactions(), SizeIs(2));
+    Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = force;
+    for (const ShownReaction& reaction : body.reactions()) {
+        force += reaction.force;
+        moment += reaction.moment;
+    }
+    const double size = body.reactions()[1].force.norm();
+    EXPECT_EQ(body.reactions()[0].name, "fixed");
+    EXPECT_GT(body.reactions()[1].force.x(), 0.0);
+    EXPECT_LT(force.norm(), 1e-6 * size);
+    EXPECT_LT(moment.norm(), 1e-6 * size);
+}
+
+TEST_F(ShownBodyTest, DifferencesAreToTheReference) {
+    state.compare.mode = CompareMode::side_by_side;
+    state.compare.reference = MethodKind::fem;
+    show(Field::difference);
+    const Eigen::RowVectorXd d = (u(MethodKind::linear_bem) - u(MethodKind::fem)).colwise().norm();
+    ASSERT_TRUE(shown().difference());
+    const Difference& difference = *shown().difference();
+    EXPECT_NEAR(difference.max, d.maxCoeff(), 1e-12);
+    EXPECT_NEAR(difference.rms, std::sqrt(d.squaredNorm() / static_cast<double>(d.size())), 1e-12);
+    EXPECT_NEAR(d[difference.worst_vertex], difference.max, 1e-12);
+    EXPECT_NEAR(difference.relative_max, difference.max / u(MethodKind::fem).colwise().norm().maxCoeff(), 1e-12);
+    EXPECT_NEAR(shown().max_value(), difference.max, 1e-6);
+    EXPECT_FALSE(shown(MethodKind::fem).difference());
+    EXPECT_EQ(shown(MethodKind::fem).max_value(), 0.0);
+}
+
+TEST_F(ShownBodyTest, DifferencesFollowTheReference) {
+    state.compare.mode = CompareMode::ghosts;
+    show(Field::difference);
+    const double before = shown(MethodKind::fem).difference()->max;
+    stage.scene().set_motion(0, AffineMotion{.translate = {0.2, 0, 0.1}});
+    stage.settle();
+    EXPECT_NEAR(shown(MethodKind::fem).difference()->max, 2.0 * before, 1e-9);
+}
+
+TEST_F(ShownBodyTest, ADifferenceAloneHasTheReferenceComputed) {
+    state.method = MethodKind::fem;
+    show(Field::difference);
+    ASSERT_TRUE(shown(MethodKind::fem).difference());
+    EXPECT_GT(shown(MethodKind::fem).difference()->max, 0.0);
+    EXPECT_THAT(state.bodies, SizeIs(1));
+}
+
+TEST_F(ShownBodyTest, IsAtRestBeforeTheFirstAnswer) {
+    stage.scene().clear_handles();
+    const Document document = stage.scene().document();
+    state.open_document(document, "scene.json");
+    state.display.field = Field::von_mises;
+    state.display.arrows = true;
+    stage.frame();
+    EXPECT_EQ(shown().positions(), stage.scene().mesh().vertices);
+}
+
+TEST(FieldTitles, NameTheUnitAndTheReference) {
+    EXPECT_THAT(field_title(Field::difference, MethodKind::constant_bem), HasSubstr("Constant BEM"));
+    for (const Field field : {Field::displacement, Field::difference, Field::traction, Field::von_mises})
+        EXPECT_THAT(field_title(field, MethodKind::fem), HasSubstr("unit"));
+    EXPECT_EQ(field_title(Field::none, MethodKind::fem), "");
+}
+
+}  // namespace
+}  // namespace elastolab

@@ -1,0 +1,192 @@
+#include "app/viewer_state.hpp"
+
+#include <gmock/gmock.h>
+
+#include "app/stage.hpp"
+#include "base/error.hpp"
+#include "mesh/export.hpp"
+#include "mesh/primitives.hpp"
+#include "scene/scene_file.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace elastolab {
+namespace {
+
+using test::Stage;
+using test::TemporaryFolder;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using testing::SizeIs;
+
+int n_errors(const ViewerState& state) {
+    const auto& all = state.messages.all();
+    return static_cast<int>(std::count_if(all.begin(), all.end(), [](const auto& m) { return m.is_error; }));
+}
+
+TEST(ViewerState, BeginsWithTheCubeOfThePaperHeldAtItsLeft) {
+    ViewerState state([] {});
+    EXPECT_EQ(state.scene().mesh().n_vertices(), 1016);
+    for (const int v : state.scene().vertices(LiveScene::kFixed)) EXPECT_EQ(state.scene().mesh().vertices(0, v), 0.0);
+    EXPECT_EQ(state.method, MethodKind::linear_bem);
+}
+
+TEST(ViewerState, ABadFileIsTellingAndKeepsTheOldScene) {
+    const TemporaryFolder folder;
+    for (const auto& file :
+         {folder.write("bad.obj", "f 1 2 3\n"), folder.write("bad.json", "{}"),
+          folder.write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), folder.path() / "none.stl"}) {
+        Stage stage(2);
+        const LiveScene* before = &stage.scene();
+        stage.state.open(file);
+        EXPECT_TRUE(stage.state.loading());
+        stage.settle();
+        EXPECT_EQ(&stage.scene(), before);
+        EXPECT_EQ(n_errors(stage.state), 1);
+        EXPECT_THAT(stage.state.messages.all()[0].text,
+                    AllOf(HasSubstr(file.filename().string()), Not(HasSubstr("\n"))));
+        EXPECT_THROW(stage.state.open_now(file), Error);
+        EXPECT_THAT(stage.state.recent_files(), IsEmpty());
+    }
+}
+
+TEST(ViewerState, ABareMeshIsHeldAtItsLowestPart) {
+    const TemporaryFolder folder;
+    const auto file = folder.path() / "box.obj";
+    save_surface(file, make_box(3));
+    Stage stage(2);
+    stage.state.open(file);
+    stage.settle();
+    EXPECT_EQ(stage.scene().mesh().n_vertices(), 56);
+    const std::span<const int> fixed = stage.scene().vertices(LiveScene::kFixed);
+    EXPECT_THAT(fixed, SizeIs(16));
+    for (const int v : fixed) EXPECT_EQ(stage.scene().mesh().vertices(1, v), 0.0);  // meshes from files have Y up
+    EXPECT_THAT(stage.state.recent_files(), SizeIs(1));
+}
+
+TEST(ViewerState, TheMethodOfTheCommandLineOutlivesTheLoadingOfTheScene) {
+    const TemporaryFolder folder;
+    save_scene(folder.path() / "cube.json", test::cube_document(2));
+    Stage stage(2);
+    stage.state.open(folder.path() / "cube.json");
+    stage.state.start_with(MethodKind::fem);
+    stage.settle();
+    EXPECT_EQ(stage.state.method, MethodKind::fem);
+    stage.state.open(folder.path() / "cube.json");
+    stage.settle();
+    EXPECT_EQ(stage.state.method, MethodKind::linear_bem);  // the scene's own, from then on
+}
+
+TEST(ViewerState, ASavedSceneComesBackWithTheMethodAndTheHandles) {
+    const TemporaryFolder folder;
+    Stage stage(3);
+    stage.scene().add_handle(std::vector<int>{5, 7});
+    stage.scene().set_motion(0, AffineMotion{.translate = {0.1, 0.2, 1.0 / 3.0}});
+    stage.state.method = MethodKind::constant_bem;
+    EXPECT_TRUE(stage.scene().modified());
+    stage.state.save_scene(folder.path() / "saved.json");
+    EXPECT_EQ(n_errors(stage.state), 0);
+    EXPECT_FALSE(stage.scene().modified());
+    const Document saved = load_scene(folder.path() / "saved.json");
+    EXPECT_EQ(saved.method, MethodKind::constant_bem);
+    EXPECT_EQ(saved.handles, stage.scene().document().handles);
+}
+
+TEST(ViewerState, ASceneSavedElsewhereStillFindsItsMesh) {
+    const TemporaryFolder folder;
+    std::filesystem::create_directories(folder.path() / "a");
+    std::filesystem::create_directories(folder.path() / "b" / "c");
+    save_surface(folder.path() / "a" / "box.obj", make_box(2));
+    Stage stage(2);
+    stage.state.open_now(folder.path() / "a" / "box.obj");
+    stage.state.save_scene(folder.path() / "b" / "c" / "scene.json");
+    stage.state.save_scene(folder.path() / "scene.json");
+    for (const char* scene : {"b/c/scene.json", "scene.json"}) {
+        Stage other(2);
+        other.state.open_now(folder.path() / scene);
+        EXPECT_EQ(other.scene().mesh().n_vertices(), 26);
+        EXPECT_THAT(test::read_text(folder.path() / scene), Not(HasSubstr(folder.path().string())));
+    }
+}
+
+TEST(ViewerState, ExportsTheDeformedMesh) {
+    const TemporaryFolder folder;
+    Stage stage(2);
+    const int v = stage.vertex_near({1, 1, 1});
+    stage.scene().add_handle(std::vector<int>{v});
+    stage.scene().set_motion(0, AffineMotion{.translate = {0.5, 0, 0}});
+    stage.settle();
+    stage.state.export_mesh(folder.path() / "out.obj");
+    const LiveScene read(document_for_mesh(folder.path() / "out.obj"), folder.path() / "scene.json");
+    EXPECT_NEAR(read.mesh().vertices.row(0).maxCoeff(), 1.5, 1e-9);
+}
+
+TEST(ViewerState, FailuresOfOutputsBecomeMessages) {
+    Stage stage(2);
+    stage.state.save_scene("/no/such/folder/scene.json");
+    stage.state.export_mesh("/no/such/folder/out.obj");
+    stage.state.record_timings("/no/such/folder/t.csv");
+    EXPECT_EQ(n_errors(stage.state), 3);
+    EXPECT_EQ(stage.state.timings, nullptr);
+}
+
+TEST(ViewerState, AFrameRecordTellsMethodSizesAndState) {
+    Stage stage(2);
+    stage.scene().add_handle(std::vector<int>{stage.vertex_near({1, 1, 1})});
+    stage.settle();
+    const FrameRecord record = stage.state.frame_record({.update_ms = 1.0}, 2.0);
+    EXPECT_EQ(record.method, "linear-bem");
+    EXPECT_EQ(record.vertices, 26);
+    EXPECT_EQ(record.constrained_vertices, 10);
+    EXPECT_EQ(record.handle_vertices, 1);
+    EXPECT_EQ(record.state, "ready");
+    EXPECT_EQ(record.times.update_ms, 1.0);
+    stage.state.method = MethodKind::fem;
+    stage.frame();
+    EXPECT_EQ(stage.state.frame_record({}, 0.0).state, "precomputing");
+}
+
+TEST(ViewerState, SwitchingDuringAPrecomputationEndsAtTheLastChoice) {
+    Stage stage(8);
+    const int v = stage.vertex_near({1, 1, 1});
+    stage.scene().add_handle(std::vector<int>{v});
+    stage.scene().set_motion(0, AffineMotion{.translate = {0.1, 0, 0}});
+    for (const MethodKind kind : {MethodKind::fem, MethodKind::constant_bem, MethodKind::fem, MethodKind::linear_bem,
+                                  MethodKind::constant_bem}) {
+        stage.state.select_method(kind);
+        stage.frame();
+    }
+    stage.settle();
+    EXPECT_EQ(stage.state.frame_record({}, 0.0).state, "ready");
+    EXPECT_NEAR(stage.place(v).x(), 1.1, 1e-9);
+}
+
+TEST(ViewerState, CancelledWorkersStop) {
+    const TemporaryFolder folder;
+    save_scene(folder.path() / "cube.json", test::cube_document(12));
+    Stage stage(2);
+    stage.state.open(folder.path() / "cube.json");
+    stage.state.cancel_workers();
+    stage.settle();
+    EXPECT_EQ(stage.scene().mesh().n_vertices(), 26);  // the old scene
+    stage.open(test::cube_document(2));
+    stage.state.open_document(test::cube_document(10), "scene.json");
+    stage.frame();
+    stage.state.cancel_workers();
+    stage.settle();
+    EXPECT_FALSE(stage.state.stopping());
+    EXPECT_EQ(stage.state.frame_record({}, 0.0).state, "idle");
+}
+
+TEST(ViewerState, ARangeByHandIsKept) {
+    Stage stage(2);
+    EXPECT_EQ(stage.state.field_range(), std::pair(0.0, 1.0));  // never empty
+    stage.state.display.auto_range = false;
+    stage.state.display.range_low = 2.0;
+    stage.state.display.range_high = 3.0;
+    EXPECT_EQ(stage.state.field_range(), std::pair(2.0, 3.0));
+}
+
+}  // namespace
+}  // namespace elastolab

@@ -1,0 +1,201 @@
+// The viewer by its options, in a hidden window.
+#include "app/viewer.hpp"
+
+#include <gmock/gmock.h>
+#include <stb_image.h>
+
+#include <memory>
+#include <set>
+
+#include "app/interaction_log.hpp"
+#include "app/stage.hpp"
+#include "base/error.hpp"
+#include "cli/program.hpp"
+#include "scene/scene_file.hpp"
+
+namespace elastolab::test {
+namespace {
+
+using testing::AllOf;
+using testing::Contains;
+using testing::Each;
+using testing::EndsWith;
+using testing::Ge;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+constexpr const char* kHeader =
+    "frame,time_s,method,vertices,constrained_vertices,handle_vertices,state,update_ms,upload_ms,draw_ms,gui_ms,frame_"
+    "ms";
+
+struct Picture {
+    int width = 0, height = 0;
+    std::size_t n_colours = 0;
+};
+
+Picture read_picture(const std::filesystem::path& file) {
+    Picture picture;
+    int channels = 0;
+    const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
+        stbi_load(file.c_str(), &picture.width, &picture.height, &channels, 3), stbi_image_free);
+    if (!pixels) return {};
+    std::set<int> colours;
+    for (int i = 0; i < picture.width * picture.height; ++i)
+        colours.insert(pixels.get()[3 * i] << 16 | pixels.get()[3 * i + 1] << 8 | pixels.get()[3 * i + 2]);
+    picture.n_colours = colours.size();
+    return picture;
+}
+
+/// Lines of a file, and the fields of one.
+std::vector<std::string> split(const std::string& text, char separator) {
+    std::vector<std::string> parts;
+    std::istringstream in(text);
+    for (std::string part; std::getline(in, part, separator);) parts.push_back(part);
+    return parts;
+}
+
+class ViewerTest : public testing::Test {
+protected:
+    ViewerTest() {
+        save_scene(folder.path() / "cube.json", cube_document(4));
+        options.input = folder.path() / "cube.json";
+        options.hidden = true;
+        options.size = Eigen::Vector2i(640, 480);
+    }
+    /// Fields of the rows of the timings.
+    std::vector<std::vector<std::string>> timings() const {
+        std::vector<std::string> lines = split(read_text(folder.path() / "t.csv"), '\n');
+        EXPECT_EQ(lines.at(0), kHeader);
+        std::vector<std::vector<std::string>> rows;
+        for (std::size_t i = 1; i < lines.size(); ++i) rows.push_back(split(lines[i], ','));
+        return rows;
+    }
+    /// A drag in the middle of the body, as --record writes it.
+    void record_drag() {
+        const Eigen::Vector2d from(400, 240);
+        InteractionRecorder recorder(folder.path() / "drag.log", {640, 480});
+        const auto add = [&](InputEvent event) { recorder.add({.seconds = 0.0, .events = {event}}); };
+        using Kind = InputEvent::Kind;
+        add({.kind = Kind::cursor, .cursor = from});
+        add({.kind = Kind::button, .cursor = from, .pressed = true});
+        for (int i = 1; i <= 20; ++i) add({.kind = Kind::cursor, .cursor = from + Eigen::Vector2d(2.0 * i, -1.0 * i)});
+        add({.kind = Kind::button, .cursor = from + Eigen::Vector2d(40, -20)});
+        recorder.finish();
+        options.replay = folder.path() / "drag.log";
+    }
+    const TemporaryFolder folder;
+    ViewerOptions options;
+};
+
+TEST_F(ViewerTest, WritesARowForEachOfTheFramesAskedFor) {
+    for (const int n : {1, 2, 7}) {
+        options.n_frames = n;
+        options.timings = folder.path() / "t.csv";
+        run_viewer(options);
+        const auto rows = timings();
+        ASSERT_EQ(std::ssize(rows), n);
+        EXPECT_THAT(rows, Each(SizeIs(12)));
+        EXPECT_EQ(rows.back()[0], std::to_string(n - 1));
+        EXPECT_EQ(rows.back()[3], "98");
+        EXPECT_TRUE(n == 1 || rows.back()[6] == "ready");
+    }
+}
+
+TEST_F(ViewerTest, TakesAPictureOfTheLastFrame) {
+    options.n_frames = 4;
+    options.screenshot = folder.path() / "p.png";
+    run_viewer(options);
+    const Picture picture = read_picture(options.screenshot);
+    EXPECT_EQ(picture.width, 640);
+    EXPECT_EQ(picture.height, 480);
+    EXPECT_GT(picture.n_colours, 100u);
+}
+
+TEST_F(ViewerTest, DrawsInWindowsOfEverySize) {
+    for (const Eigen::Vector2i& size : {Eigen::Vector2i(1, 1), Eigen::Vector2i(50, 1100), Eigen::Vector2i(1800, 30)}) {
+        options.size = size;
+        options.n_frames = 4;
+        options.screenshot = folder.path() / "p.png";
+        run_viewer(options);
+        const Picture picture = read_picture(options.screenshot);
+        EXPECT_EQ(picture.width, size.x());
+        EXPECT_EQ(picture.height, size.y());
+    }
+}
+
+TEST_F(ViewerTest, AReplayedDragEndsAtTheSameHandleForEveryMethod) {
+    record_drag();
+    options.timings = folder.path() / "t.csv";
+    options.scene_out = folder.path() / "out.json";
+    options.mesh_out = folder.path() / "out.obj";
+    std::vector<Handle> handles;
+    for (const MethodKind kind : all_method_kinds()) {
+        options.method = kind;
+        run_viewer(options);
+        const auto rows = timings();
+        EXPECT_GE(std::count_if(rows.begin(), rows.end(), [](const auto& row) { return row[6] == "ready"; }), 20);
+        for (const auto& row : rows) EXPECT_EQ(row[2], name(kind));
+        const Document left = load_scene(options.scene_out);
+        EXPECT_EQ(left.method, kind);
+        ASSERT_THAT(left.handles, SizeIs(1));
+        handles.push_back(left.handles[0]);
+        EXPECT_EQ(handles.back(), handles.front());
+        EXPECT_TRUE(std::filesystem::exists(options.mesh_out));
+    }
+    EXPECT_GT(std::get<AffineMotion>(handles[0].motion).translate.norm(), 0.01);
+}
+
+TEST_F(ViewerTest, AReplayIsRecordedAgainAsItWas) {
+    record_drag();
+    options.record = folder.path() / "again.log";
+    options.timings = folder.path() / "t.csv";
+    options.screenshot = folder.path() / "p.png";
+    run_viewer(options);
+    const InteractionLog first = load_interaction(options.replay), again = load_interaction(options.record);
+    ASSERT_EQ(again.frames.size(), first.frames.size());
+    for (std::size_t i = 0; i < first.frames.size(); ++i)
+        EXPECT_EQ(again.frames[i].events.front().cursor, first.frames[i].events.front().cursor);
+    EXPECT_GT(read_picture(options.screenshot).n_colours, 100u);
+}
+
+TEST_F(ViewerTest, ABadFileIsAnErrorWhereNobodyWatches) {
+    options.n_frames = 2;
+    options.input = folder.write("bad.obj", "f 1 2 3\n");
+    EXPECT_THROW(run_viewer(options), MeshError);
+    options.input = folder.write("bad.json", "{}");
+    EXPECT_THROW(run_viewer(options), SceneError);
+    options.input.clear();
+    options.replay = folder.write("bad.log", "");
+    EXPECT_THROW(run_viewer(options), SceneError);
+    options.replay.clear();
+    for (std::filesystem::path ViewerOptions::*output :
+         {&ViewerOptions::screenshot, &ViewerOptions::timings, &ViewerOptions::record, &ViewerOptions::scene_out,
+          &ViewerOptions::mesh_out}) {
+        ViewerOptions bad = options;
+        bad.*output = folder.path() / "none" / "out.obj";
+        EXPECT_THROW(run_viewer(bad), Error);
+    }
+}
+
+TEST_F(ViewerTest, TheProgramEndsWithOneLineAndItsCode) {
+    folder.write("bad.obj", "f 1 2 3\n");
+    const ProgramRun bad = run_program({"view", "bad.obj", "--hidden", "--frames", "2"}, folder.path());
+    EXPECT_EQ(bad.exit_code, 1);
+    EXPECT_THAT(split(bad.err, '\n'), SizeIs(1));
+    EXPECT_THAT(bad.err, AllOf(HasSubstr("bad.obj"), EndsWith("\n")));
+    for (const std::vector<std::string>& wrong : {std::vector<std::string>{"--hidden"},
+                                                  {"--frames", "0"},
+                                                  {"--size", "12"},
+                                                  {"--size", "0x5"},
+                                                  {"--method", "x"},
+                                                  {"--mesh-out", "a.txt", "--frames", "1"}}) {
+        std::vector<std::string> arguments = {"view"};
+        arguments.insert(arguments.end(), wrong.begin(), wrong.end());
+        EXPECT_EQ(run_program(arguments, folder.path()).exit_code, 2) << wrong.back();
+    }
+    EXPECT_EQ(folder.listing(), (std::vector<std::string>{"bad.obj", "cube.json"}));
+}
+
+}  // namespace
+}  // namespace elastolab::test

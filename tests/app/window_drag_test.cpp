@@ -1,0 +1,96 @@
+// A person's drag in a real window: the vertex stays under the cursor, and the body is what `solve` computes.
+#include <gtest/gtest.h>
+
+#include "app/layout.hpp"
+#include "app/real_window.hpp"
+#include "app/stage.hpp"
+#include "scene/scene_file.hpp"
+
+namespace elastolab::test {
+namespace {
+
+constexpr double kCursorPixels = 2.0;
+constexpr double kSameAsSolve = 1e-6;  // of the largest displacement
+const Eigen::Vector2i kWindow(1000, 700);
+
+/// What the program shows at its start: its own camera and layout, computed here.
+class Screen {
+public:
+    explicit Screen(const std::filesystem::path& scene) {
+        state_.open_now(scene);
+        place_ = layout_of(kWindow, 1.0f).scene;
+        state_.viewports = viewports_of(state_, place_);
+        state_.frame_body();
+    }
+    const SurfaceMesh& mesh() const { return state_.scene().mesh(); }
+    Eigen::Vector2d pixel(const Eigen::Vector3d& point) const { return state_.camera.project(point, place_).pixel; }
+
+private:
+    ViewerState state_{[] {}};
+    Viewport place_;
+};
+
+int vertex_near(const SurfaceMesh& mesh, const Eigen::Vector3d& point) {
+    int nearest = 0;
+    (mesh.vertices.colwise() - point).colwise().squaredNorm().minCoeff(&nearest);
+    return nearest;
+}
+
+/// The vertices of an OBJ file, in its order.
+Positions read_vertices(const std::filesystem::path& file) {
+    std::ifstream in(file);
+    std::vector<Eigen::Vector3d> points;
+    std::string word;
+    for (std::string line; std::getline(in, line);) {
+        std::istringstream fields(line);
+        Eigen::Vector3d x;
+        if (fields >> word && word == "v" && fields >> x[0] >> x[1] >> x[2]) points.push_back(x);
+    }
+    Positions positions(3, std::ssize(points));
+    for (std::size_t i = 0; i < points.size(); ++i) positions.col(static_cast<Eigen::Index>(i)) = points[i];
+    return positions;
+}
+
+class RealDrag : public testing::TestWithParam<MethodKind> {};
+INSTANTIATE_TEST_SUITE_P(Window, RealDrag, testing::ValuesIn(all_method_kinds()),
+                         [](const auto& tested) { return test_name(tested.param); });
+
+TEST_P(RealDrag, KeepsTheVertexUnderTheCursorAndTheBodyIsThatOfSolve) {
+    const TemporaryFolder folder;
+    Document document = cube_document(4);
+    document.method = GetParam();
+    save_scene(folder.path() / "cube.json", document);
+    const Screen screen(folder.path() / "cube.json");
+    RealWindow window({"cube.json", "--size", "1000x700", "--scene-out", "out.json", "--mesh-out", "out.obj"},
+                      folder.path());
+    window.settle();
+
+    // Two handles, the second where the first has carried it.
+    Positions shown = screen.mesh().vertices;
+    const int first = vertex_near(screen.mesh(), {0.75, 0.5, 1}), second = vertex_near(screen.mesh(), {1, 0.25, 0.5});
+    const Eigen::Vector2d from = screen.pixel(shown.col(first)), to = from + Eigen::Vector2d(60, -50);
+    window.drag(from, to);
+    window.settle();
+    const Eigen::Vector2d there = screen.pixel(shown.col(second));
+    window.drag(there, there + Eigen::Vector2d(30, 40));
+    window.settle();
+    const ProgramRun run = window.quit();
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+
+    shown = read_vertices(folder.path() / "out.obj");
+    ASSERT_EQ(shown.cols(), screen.mesh().n_vertices());
+    EXPECT_LT((screen.pixel(shown.col(first)) - to).norm(), kCursorPixels);
+    const Document left = load_scene(folder.path() / "out.json");
+    EXPECT_EQ(left.handles.size(), 2u);
+    EXPECT_EQ(left.method, GetParam());
+
+    ASSERT_EQ(run_program({"solve", "out.json", "--mesh-out", "solved.obj", "--quiet"}, folder.path()).exit_code, 0);
+    const Positions solved = read_vertices(folder.path() / "solved.obj");
+    ASSERT_EQ(solved.cols(), shown.cols());
+    const double size = (solved - screen.mesh().vertices).colwise().norm().maxCoeff();
+    EXPECT_GT(size, 0.05);
+    EXPECT_LT((solved - shown).colwise().norm().maxCoeff(), kSameAsSolve * size);
+}
+
+}  // namespace
+}  // namespace elastolab::test

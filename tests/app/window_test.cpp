@@ -1,0 +1,143 @@
+// The real program in a real window: what must not make it crash, hang or work for nothing.
+#include <gmock/gmock.h>
+
+#include <chrono>
+#include <iostream>
+#include <set>
+#include <thread>
+
+#include "app/real_window.hpp"
+#include "app/stage.hpp"
+#include "scene/scene_file.hpp"
+
+namespace elastolab::test {
+namespace {
+
+using testing::IsEmpty;
+using testing::UnorderedElementsAre;
+
+using namespace std::chrono_literals;
+
+constexpr double kIdleShare = 0.05;  // of a core; a quiet machine shows below 0.01
+
+class RealProgram : public testing::Test {
+protected:
+    std::filesystem::path save_cube(int cells) {
+        save_scene(folder.path() / "cube.json", cube_document(cells));
+        return "cube.json";
+    }
+    void expect_good_end(RealWindow& window) {
+        const ProgramRun run = window.quit();
+        EXPECT_EQ(run.exit_code, 0);
+        EXPECT_THAT(run.err, IsEmpty());
+    }
+    const TemporaryFolder folder;
+};
+
+/// The methods of a timings file.
+std::set<std::string> methods_in(const std::filesystem::path& file) {
+    std::set<std::string> methods;
+    std::ifstream in(file);
+    std::string line;
+    std::getline(in, line);
+    while (std::getline(in, line)) {
+        std::istringstream fields(line);
+        for (int i = 0; i < 3; ++i) std::getline(fields, line, ',');
+        methods.insert(line);
+    }
+    return methods;
+}
+
+TEST_F(RealProgram, MethodsSwitchWhileTheyArePrecomputed) {
+    RealWindow window({save_cube(8), "--method", "linear-bem", "--timings", "t.csv"}, folder.path());
+    for (const char* key : {"2", "1", "3", "2", "1"}) {
+        window.key(key);
+        std::this_thread::sleep_for(50ms);
+    }
+    window.settle();
+    expect_good_end(window);
+    EXPECT_THAT(methods_in(folder.path() / "t.csv"), UnorderedElementsAre("fem", "constant-bem", "linear-bem"));
+}
+
+TEST_F(RealProgram, ClosesDuringAPrecomputation) {
+    for (const char* method : {"linear-bem", "fem"}) {
+        RealWindow window({save_cube(29), "--method", method}, folder.path());
+        std::this_thread::sleep_for(500ms);
+        expect_good_end(window);
+    }
+}
+
+TEST_F(RealProgram, ABadFileLeavesTheWindowAndItsSceneAlone) {
+    folder.write("bad.obj", "f 1 2 3\n");
+    RealWindow window({"bad.obj", "--scene-out", "out.json"}, folder.path());
+    std::this_thread::sleep_for(1s);
+    EXPECT_FALSE(window.ended());
+    window.key("Escape");
+    expect_good_end(window);
+    EXPECT_EQ(load_scene(folder.path() / "out.json"), default_document());
+}
+
+TEST_F(RealProgram, SurvivesEverySizeOfItsWindow) {
+    RealWindow window({save_cube(4), "--timings", "t.csv"}, folder.path());
+    window.settle();
+    for (const auto& [width, height] :
+         {std::pair(1, 1), std::pair(50, 1100), std::pair(1900, 20), std::pair(330, 60)}) {
+        window.resize(width, height);
+        window.settle();
+        window.key("c");  // side by side and back
+        window.settle();
+    }
+    window.resize(1000, 700);
+    window.settle();
+    expect_good_end(window);
+}
+
+TEST_F(RealProgram, KeysOpenAndCloseHelpAndDialogs) {
+    RealWindow window({save_cube(2)}, folder.path());
+    window.settle();
+    for (const char* key :
+         {"F1", "Escape", "ctrl+o", "Escape", "ctrl+s", "Escape", "question", "F1", "g", "c", "w", "t"}) {
+        window.key(key);
+        window.settle();
+    }
+    expect_good_end(window);
+}
+
+TEST_F(RealProgram, SavesTheSceneFromItsDialog) {
+    RealWindow window({save_cube(2)}, folder.path());
+    window.settle();
+    window.key("ctrl+s");
+    window.settle();
+    const std::string file = (folder.path() / "typed.json").string();
+    window.type(file);
+    window.settle();
+    expect_good_end(window);
+    EXPECT_TRUE(std::filesystem::exists(file));
+}
+
+TEST_F(RealProgram, UndoesAndRedoesADrag) {
+    RealWindow window({save_cube(4), "--size", "1000x700", "--scene-out", "out.json"}, folder.path());
+    window.settle();
+    window.drag({640, 350}, {700, 300});  // the middle of the body
+    window.settle();
+    for (const char* key : {"ctrl+z", "ctrl+y", "ctrl+z"}) {
+        window.key(key);
+        window.settle();
+    }
+    expect_good_end(window);
+    EXPECT_EQ(load_scene(folder.path() / "out.json"), cube_document(4));
+}
+
+TEST_F(RealProgram, AnIdleWindowUsesNoProcessor) {
+    RealWindow window({save_cube(5)}, folder.path());
+    window.settle();
+    constexpr double kSeconds = 10.0;
+    const double before = window.processor_seconds();
+    std::this_thread::sleep_for(std::chrono::duration<double>(kSeconds));
+    const double share = (window.processor_seconds() - before) / kSeconds;
+    std::cout << "idle: " << 100.0 * share << " % of a core\n";
+    EXPECT_LT(share, kIdleShare);
+}
+
+}  // namespace
+}  // namespace elastolab::test
