@@ -36,8 +36,8 @@ void FileDialog::open(Purpose purpose) {
 void FileDialog::list_folder() {
     entries_.clear();
     std::error_code error;
-    for (fs::directory_iterator i(folder_, fs::directory_options::skip_permission_denied, error), end; !error && i != end;
-         i.increment(error)) {
+    for (fs::directory_iterator i(folder_, fs::directory_options::skip_permission_denied, error), end;
+         !error && i != end; i.increment(error)) {
         const fs::path path = i->path();
         const std::string name = path.filename().string();
         if (name.starts_with('.')) continue;
@@ -45,7 +45,8 @@ void FileDialog::list_folder() {
         const bool is_folder = i->is_directory(ignored);
         const auto& wanted = purpose_.extensions;
         const std::string extension = lower(path.extension().string());
-        if (!is_folder && !wanted.empty() && std::find(wanted.begin(), wanted.end(), extension) == wanted.end()) continue;
+        if (!is_folder && !wanted.empty() && std::find(wanted.begin(), wanted.end(), extension) == wanted.end())
+            continue;
         entries_.push_back({path, is_folder ? name + "/" : name, is_folder});
     }
     problem_ = error ? folder_.string() + ": " + error.message() : "";

@@ -2,9 +2,9 @@
 
 #include <GLFW/glfw3.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <Eigen/Geometry>
 
 #include "render/picking.hpp"
 
@@ -12,11 +12,11 @@ namespace elastolab {
 
 namespace {
 
-constexpr double kClickPixels = 3.0;        ///< a press that moved no further is a click
+constexpr double kClickPixels = 3.0;  ///< a press that moved no further is a click
 constexpr double kDoubleClickSeconds = 0.35;
-constexpr double kZoomStep = 1.15;          ///< for a notch of the wheel
-constexpr double kTurnPerPixel = 0.01;      ///< [radians]
-constexpr double kScalePerPixel = 0.005;    ///< of the logarithm
+constexpr double kZoomStep = 1.15;        ///< for a notch of the wheel
+constexpr double kTurnPerPixel = 0.01;    ///< [radians]
+constexpr double kScalePerPixel = 0.005;  ///< of the logarithm
 constexpr double kSpringSeconds = 0.25;
 
 /// How far along the line (point, direction) the cursor has dragged a point of it: where the line comes nearest to the
@@ -41,13 +41,15 @@ void Gestures::handle(const InputEvent& event, GestureContext& context) {
     switch (event.kind) {
         case InputEvent::Kind::cursor:
             cursor_ = event.cursor;
-            move(event, context);
+            move(context);
             break;
         case InputEvent::Kind::button:
             if (event.pressed && action_ == Action::none) press(event, context);
-            if (!event.pressed && event.code == button_) release(event, context);
+            if (!event.pressed && event.code == button_) release(context);
             break;
-        case InputEvent::Kind::scroll: scroll(event, context); break;
+        case InputEvent::Kind::scroll:
+            scroll(event, context);
+            break;
         case InputEvent::Kind::key:
             std::erase(held_keys_, event.code);
             if (event.pressed) held_keys_.push_back(event.code);
@@ -56,7 +58,8 @@ void Gestures::handle(const InputEvent& event, GestureContext& context) {
         case InputEvent::Kind::focus:
             if (event.code == 0) held_keys_.clear();
             break;
-        case InputEvent::Kind::text: break;
+        case InputEvent::Kind::text:
+            break;
     }
 }
 
@@ -100,12 +103,12 @@ void Gestures::press(const InputEvent& event, GestureContext& context) {
     const std::optional<PickHit> hit =
         pick(context.camera, target->viewport, cursor_, *target->positions, context.scene.mesh().triangles);
     if (hit)
-        press_body(event, context, hit->vertex, hit->triangle);
+        press_body(context, hit->vertex, hit->triangle);
     else
         action_ = freeing_ ? Action::pan : Action::orbit;
 }
 
-void Gestures::press_body(const InputEvent&, GestureContext& context, int vertex, int triangle) {
+void Gestures::press_body(GestureContext& context, int vertex, int triangle) {
     if (context.tools.tool == Tool::brush) {
         action_ = Action::paint;
         return;
@@ -186,7 +189,8 @@ void Gestures::pull(GestureContext& context) {
         map = (Eigen::AngleAxisd(kTurnPerPixel * d.x(), context.camera.up()) *
                Eigen::AngleAxisd(kTurnPerPixel * d.y(), context.camera.right()))
                   .toRotationMatrix();
-    const Positions rest = context.scene.mesh().vertices(Eigen::all, std::vector<int>(vertices.begin(), vertices.end()));
+    const Positions rest =
+        context.scene.mesh().vertices(Eigen::all, std::vector<int>(vertices.begin(), vertices.end()));
     const Eigen::Vector3d center = rest.rowwise().mean() + mean_displacement(pull_.motion, rest);
     context.scene.set_motion(pull_.handle, transformed(pull_.motion, map, center, rest));
 }
@@ -205,7 +209,7 @@ void Gestures::end_pull(GestureContext& context) {
     }
 }
 
-void Gestures::release(const InputEvent&, GestureContext& context) {
+void Gestures::release(GestureContext& context) {
     const Action ended = std::exchange(action_, Action::none);
     button_ = -1;
     if (ended == Action::pull) end_pull(context);
@@ -217,7 +221,7 @@ void Gestures::release(const InputEvent&, GestureContext& context) {
     point(context);
 }
 
-void Gestures::move(const InputEvent&, GestureContext& context) {
+void Gestures::move(GestureContext& context) {
     const Eigen::Vector2d before = std::exchange(last_cursor_, cursor_);
     if (action_ == Action::none) {
         point(context);

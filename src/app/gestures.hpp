@@ -92,9 +92,9 @@ private:
     };
 
     void press(const InputEvent& event, GestureContext& context);
-    void press_body(const InputEvent& event, GestureContext& context, int vertex, int triangle);
-    void release(const InputEvent& event, GestureContext& context);
-    void move(const InputEvent& event, GestureContext& context);
+    void press_body(GestureContext& context, int vertex, int triangle);
+    void release(GestureContext& context);
+    void move(GestureContext& context);
     void scroll(const InputEvent& event, GestureContext& context);
     void point(GestureContext& context);
     void begin_pull(GestureContext& context, int handle, bool created, int vertex, int triangle);

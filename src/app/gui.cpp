@@ -1,7 +1,7 @@
 #include "app/gui.hpp"
 
-#include <GLFW/glfw3.h>
 #include <backends/imgui_impl_opengl3.h>
+#include <GLFW/glfw3.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -26,8 +26,8 @@ constexpr std::array kBoldFonts = {"/usr/share/fonts/truetype/roboto/unhinted/Ro
 
 /// Latin, Greek, and the punctuation, arrows and mathematical signs that the panels use.
 const ImWchar* glyph_ranges() {
-    static constexpr std::array<ImWchar, 11> ranges = {0x0020, 0x00FF, 0x0370, 0x03FF, 0x2010,
-                                                       0x2044, 0x2070, 0x209C, 0x2190, 0x22FF, 0};
+    static constexpr std::array<ImWchar, 11> ranges = {0x0020, 0x00FF, 0x0370, 0x03FF, 0x2010, 0x2044,
+                                                       0x2070, 0x209C, 0x2190, 0x22FF, 0};
     return ranges.data();
 }
 
@@ -140,8 +140,12 @@ void Gui::feed(const InputEvent& event) {
         case InputEvent::Kind::key:
             if (code < std::size(io.KeysDown)) io.KeysDown[code] = event.pressed;
             break;
-        case InputEvent::Kind::text: io.AddInputCharacter(static_cast<unsigned>(event.code)); break;
-        case InputEvent::Kind::focus: io.AddFocusEvent(event.code != 0); break;
+        case InputEvent::Kind::text:
+            io.AddInputCharacter(static_cast<unsigned>(event.code));
+            break;
+        case InputEvent::Kind::focus:
+            io.AddFocusEvent(event.code != 0);
+            break;
     }
     io.KeyShift = (event.modifiers & GLFW_MOD_SHIFT) != 0;
     io.KeyCtrl = (event.modifiers & GLFW_MOD_CONTROL) != 0;
@@ -168,11 +172,21 @@ void Gui::end() {
 
 void Gui::update_cursor_shape() {
     switch (ImGui::GetMouseCursor()) {
-        case ImGuiMouseCursor_TextInput: window_.set_cursor(Window::CursorShape::text); break;
-        case ImGuiMouseCursor_Hand: window_.set_cursor(Window::CursorShape::hand); break;
-        case ImGuiMouseCursor_ResizeEW: window_.set_cursor(Window::CursorShape::resize_horizontal); break;
-        case ImGuiMouseCursor_ResizeNS: window_.set_cursor(Window::CursorShape::resize_vertical); break;
-        default: window_.set_cursor(Window::CursorShape::arrow); break;
+        case ImGuiMouseCursor_TextInput:
+            window_.set_cursor(Window::CursorShape::text);
+            break;
+        case ImGuiMouseCursor_Hand:
+            window_.set_cursor(Window::CursorShape::hand);
+            break;
+        case ImGuiMouseCursor_ResizeEW:
+            window_.set_cursor(Window::CursorShape::resize_horizontal);
+            break;
+        case ImGuiMouseCursor_ResizeNS:
+            window_.set_cursor(Window::CursorShape::resize_vertical);
+            break;
+        default:
+            window_.set_cursor(Window::CursorShape::arrow);
+            break;
     }
 }
 

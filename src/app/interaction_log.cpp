@@ -24,7 +24,12 @@ constexpr std::array<std::string_view, 6> kKinds = {"cursor", "button", "scroll"
 
 Json to_json(const InputEvent& event) {
     return {std::string(kKinds[static_cast<std::size_t>(event.kind)]),
-            event.cursor.x(), event.cursor.y(), event.code, event.pressed, event.repeated, event.modifiers};
+            event.cursor.x(),
+            event.cursor.y(),
+            event.code,
+            event.pressed,
+            event.repeated,
+            event.modifiers};
 }
 
 int integer(const Json& json, int low, int high) {
@@ -63,7 +68,8 @@ Eigen::Vector2i window_size_of(const Json& header) {
 
 InteractionRecorder::InteractionRecorder(const std::filesystem::path& file, const Eigen::Vector2i& window_size)
     : path_(file), file_(std::make_unique<AtomicFile>(file)) {
-    file_->stream() << Json{{"elastolab_interaction", kVersion}, {"window", {window_size.x(), window_size.y()}}} << '\n';
+    file_->stream() << Json{{"elastolab_interaction", kVersion}, {"window", {window_size.x(), window_size.y()}}}
+                    << '\n';
 }
 
 InteractionRecorder::~InteractionRecorder() {

@@ -34,8 +34,9 @@ void draw_material(ViewerState& state, float scale) {
         material.poisson_ratio = nu;
         changed = true;
     }
-    tooltip("How much the body narrows when it is stretched: 0 not at all, 0.5 as rubber does, keeping its volume. "
-            "FEM with linear tetrahedra grows too stiff near 0.5 and cannot take 0.5 itself.");
+    tooltip(
+        "How much the body narrows when it is stretched: 0 not at all, 0.5 as rubber does, keeping its volume. "
+        "FEM with linear tetrahedra grows too stiff near 0.5 and cannot take 0.5 itself.");
     bool done = ImGui::IsItemDeactivatedAfterEdit();
     set_item_width(scale);
     if (ImGui::InputDouble("Young's modulus", &material.young_modulus, 0.0, 0.0, "%.4g")) {

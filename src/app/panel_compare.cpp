@@ -12,8 +12,9 @@ namespace {
 
 constexpr std::array<Choice<CompareMode>, 3> kModes = {
     {{CompareMode::off, "one method", "Only the chosen method."},
-     {CompareMode::side_by_side, "side by side", "C: every method in a view of its own, with the same handles and "
-                                                 "camera. Pull in any of them."},
+     {CompareMode::side_by_side, "side by side",
+      "C: every method in a view of its own, with the same handles and "
+      "camera. Pull in any of them."},
      {CompareMode::ghosts, "as ghosts", "G: the chosen method solid, the others as wireframes over it."}}};
 
 void draw_kinds(ViewerState& state, const Palette& palette) {
@@ -63,8 +64,9 @@ void draw_differences(const PanelContext& context) {
         ImGui::Text("%.2f %%", 100.0 * shown->difference()->relative_max);
     }
     ImGui::EndTable();
-    tooltip("Relative to the reference: root-mean-square and largest difference of the vertices' displacements, over "
-            "the root-mean-square and largest displacement of the reference.");
+    tooltip(
+        "Relative to the reference: root-mean-square and largest difference of the vertices' displacements, over "
+        "the root-mean-square and largest displacement of the reference.");
 }
 
 }  // namespace

@@ -15,8 +15,9 @@ constexpr std::array<Choice<Field>, 5> kFields = {
      {Field::displacement, "displacement", "How far every vertex has moved."},
      {Field::difference, "difference", "How far from where the reference method puts it (see Compare)."},
      {Field::traction, "traction", "Force per area that holds or pulls the constrained vertices; zero elsewhere."},
-     {Field::von_mises, "von Mises stress", "How near the material at the surface is to yielding: from the stretch of "
-                                            "each triangle and, where it is held, the traction."}}};
+     {Field::von_mises, "von Mises stress",
+      "How near the material at the surface is to yielding: from the stretch of "
+      "each triangle and, where it is held, the traction."}}};
 
 void draw_range(ViewerState& state, float scale) {
     DisplaySettings& display = state.display;

@@ -57,8 +57,8 @@ void draw_view(ViewerState& state) {
     ImGui::Separator();
     if (ImGui::MenuItem("Light theme", "T", !state.display.dark)) state.display.dark = !state.display.dark;
     for (const int percent : {80, 100, 125, 150, 200})
-        if (const float scale = 0.01f * static_cast<float>(percent);
-            ImGui::MenuItem(("Size " + std::to_string(percent) + " %").c_str(), nullptr, state.display.ui_scale == scale))
+        if (const float scale = 0.01f * static_cast<float>(percent); ImGui::MenuItem(
+                ("Size " + std::to_string(percent) + " %").c_str(), nullptr, state.display.ui_scale == scale))
             state.display.ui_scale = scale;
     ImGui::EndMenu();
 }

@@ -16,42 +16,56 @@ using State = MethodRunner::State;
 constexpr float kStateLines = 5.2f;
 
 constexpr std::array<Choice<Mode>, 2> kModes = {
-    {{Mode::on_demand, "on demand", "One factorisation; columns of the inverse when a handle needs them. Soonest ready."},
+    {{Mode::on_demand, "on demand",
+      "One factorisation; columns of the inverse when a handle needs them. Soonest ready."},
      {Mode::full, "K and inverse", "The stiffness K and its (bordered) inverse in memory, as the paper has it."}}};
 
 constexpr std::array<Choice<Update>, 3> kUpdates = {
-    {{Update::reduced, "collapsed (9')", "A system as small as the set of held vertices. Same displacements, least work."},
-     {Update::eqn9, "Eqn. 9", "As the paper writes it: the free block's inverse from K's inverse. Needs K and inverse."},
+    {{Update::reduced, "collapsed (9')",
+      "A system as small as the set of held vertices. Same displacements, least work."},
+     {Update::eqn9, "Eqn. 9",
+      "As the paper writes it: the free block's inverse from K's inverse. Needs K and inverse."},
      {Update::direct, "Eqn. 7", "Factorises the free block of K anew whenever the set of held vertices changes."}}};
 
 constexpr std::array<Choice<FrameRule>, 2> kFrameRules = {
-    {{FrameRule::drag_columns, "moving columns", "Three columns of the moving handle, found when it is grabbed: a frame "
-                                                 "reads them once, the limit of memory bandwidth."},
+    {{FrameRule::drag_columns, "moving columns",
+      "Three columns of the moving handle, found when it is grabbed: a frame "
+      "reads them once, the limit of memory bandwidth."},
      {FrameRule::displace, "whole update", "Every frame goes through the update rule above, to see what it costs."}}};
 
 constexpr std::array<Choice<Tractions>, 3> kTractions = {
-    {{Tractions::discontinuous, "discontinuous", "Forces per area may jump at the rim of a held patch, where they are "
-                                                 "singular. Most accurate."},
+    {{Tractions::discontinuous, "discontinuous",
+      "Forces per area may jump at the rim of a held patch, where they are "
+      "singular. Most accurate."},
      {Tractions::restricted, "restricted", "Linear over a held patch, ending at its rim."},
      {Tractions::continuous, "continuous", "As in the paper: they leak one ring onto the free surface."}}};
 
 const char* state_word(const MethodRunner& runner) {
     switch (runner.state()) {
-        case State::idle: return runner.has_answer() ? "stopped; the last answer stays" : "not computed";
-        case State::precomputing: return "precomputing";
-        case State::preparing: return "preparing the new set of held vertices";
-        case State::ready: return "ready";
-        case State::failed: return "failed";
+        case State::idle:
+            return runner.has_answer() ? "stopped; the last answer stays" : "not computed";
+        case State::precomputing:
+            return "precomputing";
+        case State::preparing:
+            return "preparing the new set of held vertices";
+        case State::ready:
+            return "ready";
+        case State::failed:
+            return "failed";
     }
     return "";
 }
 
 const Colour& state_colour(const MethodRunner& runner, const Palette& palette) {
     switch (runner.state()) {
-        case State::ready: return palette.good;
-        case State::failed: return palette.bad;
-        case State::idle: return palette.text_dim;
-        default: return palette.busy;
+        case State::ready:
+            return palette.good;
+        case State::failed:
+            return palette.bad;
+        case State::idle:
+            return palette.text_dim;
+        default:
+            return palette.busy;
     }
 }
 
@@ -95,8 +109,8 @@ void draw_progress(const PanelContext& context, MethodRunner& runner, const Cost
 void draw_completion(const PanelContext& context, MethodRunner& runner) {
     const float button = 60.0f * context.gui.scale();
     const std::string text = std::string(runner.stage()) + "  " + readable_seconds(runner.elapsed_seconds());
-    ImGui::ProgressBar(static_cast<float>(runner.progress()),
-                       {ImGui::GetContentRegionAvail().x - button - 8.0f, 0.0f}, text.c_str());
+    ImGui::ProgressBar(static_cast<float>(runner.progress()), {ImGui::GetContentRegionAvail().x - button - 8.0f, 0.0f},
+                       text.c_str());
     ImGui::SameLine();
     if (ImGui::Button("Cancel", {button, 0.0f})) runner.cancel();
 }
@@ -153,8 +167,10 @@ void Panels::draw_method(const PanelContext& context) {
     set_item_width(scale);
     choose<Update>("update", state.choices.update, kUpdates);
     if (state.choices.update == Update::eqn9 && method.update != Update::eqn9)
-        paragraph("Eqn. 9 needs K and its inverse: choose that mode. Until then the collapsed form answers, which "
-                  "gives the same displacements.", palette.text_dim);
+        paragraph(
+            "Eqn. 9 needs K and its inverse: choose that mode. Until then the collapsed form answers, which "
+            "gives the same displacements.",
+            palette.text_dim);
     set_item_width(scale);
     choose<FrameRule>("each frame", state.choices.frame_rule, kFrameRules);
     set_item_width(scale);
@@ -185,8 +201,9 @@ void Panels::draw_mode(const PanelContext& context) {
     if (state.choices.mode != Mode::on_demand) return;
     set_item_width(context.gui.scale());
     ImGui::SliderInt("complete up to", &state.choices.complete_up_to, 0, 5000, "%d vertices");
-    tooltip("Bodies of at most so many vertices get K and its inverse in the background, once they can be pulled. "
-            "After that a new handle is ready sooner.");
+    tooltip(
+        "Bodies of at most so many vertices get K and its inverse in the background, once they can be pulled. "
+        "After that a new handle is ready sooner.");
 }
 
 }  // namespace elastolab

@@ -122,7 +122,8 @@ void draw_tools(const PanelContext& context, ImDrawList& list) {
 std::string hint_text(const ViewerState& state) {
     if (!state.gestures.hint().empty()) return state.gestures.hint();
     if (state.scene().n_handles() > 0 || state.gestures.pulling()) return "";
-    if (state.tools.tool == Tool::brush) return "Paint over the vertices that are to stay where they are; with Shift, free them.";
+    if (state.tools.tool == Tool::brush)
+        return "Paint over the vertices that are to stay where they are; with Shift, free them.";
     if (state.tools.tool == Tool::box) return "Draw a box around the vertices that are to stay where they are.";
     if (state.scene().vertices(LiveScene::kFixed).empty())
         return "Nothing holds the body: fix some vertices with the brush (B), then pull.";
@@ -153,7 +154,8 @@ void draw_messages(const PanelContext& context) {
         const Messages::Message& message = messages.all()[i];
         ImGui::SetNextWindowPos({static_cast<float>(scene.x + scene.width) - width - kMargin * scale, y});
         ImGui::SetNextWindowSize({width, 0.0f});
-        ImGui::PushStyleColor(ImGuiCol_Border, imgui_colour(message.is_error ? context.palette.bad : context.palette.accent));
+        ImGui::PushStyleColor(ImGuiCol_Border,
+                              imgui_colour(message.is_error ? context.palette.bad : context.palette.accent));
         ImGui::Begin(("##message" + std::to_string(i)).c_str(), nullptr,
                      ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoFocusOnAppearing |
                          ImGuiWindowFlags_AlwaysAutoResize);

@@ -61,7 +61,8 @@ void draw_stages(const PanelContext& context) {
     fact("last set of held vertices", readable_seconds(runner.prepare_seconds()), context.palette.text_dim);
     fact("unknowns", count_text(facts.n_degrees_of_freedom), context.palette.text_dim);
     fact("memory of the model", readable_bytes(static_cast<double>(facts.memory_bytes)), context.palette.text_dim);
-    fact("memory of the program, at most", readable_bytes(static_cast<double>(peak_memory_bytes())), context.palette.text_dim);
+    fact("memory of the program, at most", readable_bytes(static_cast<double>(peak_memory_bytes())),
+         context.palette.text_dim);
 }
 
 }  // namespace

@@ -16,7 +16,8 @@ void draw_tools(ViewerState& state, float scale) {
     };
     tool("pull", Tool::pull, "V: grab a patch of the body and pull it.");
     ImGui::SameLine();
-    tool("fix: brush", Tool::brush, "B: hold vertices where they are; with Shift, let them go. A click takes one vertex.");
+    tool("fix: brush", Tool::brush,
+         "B: hold vertices where they are; with Shift, let them go. A click takes one vertex.");
     ImGui::SameLine();
     tool("fix: box", Tool::box, "N: the same for all vertices in a box on the screen.");
     set_item_width(scale);
@@ -36,8 +37,9 @@ void draw_patch(const PanelContext& context) {
     const double low = 0.0, high = 0.5 * (state.scene().report().max_corner - state.scene().report().min_corner).norm();
     set_item_width(context.gui.scale());
     ImGui::SliderScalar("patch radius", ImGuiDataType_Double, &state.tools.patch_radius, &low, &high, "%.3g");
-    tooltip("The part of the surface that a press takes hold of, in mesh units; keys [ and ]. A single vertex (0) is a "
-            "point load: how far the body follows then depends on the mesh, and no two methods agree.");
+    tooltip(
+        "The part of the surface that a press takes hold of, in mesh units; keys [ and ]. A single vertex (0) is a "
+        "point load: how far the body follows then depends on the mesh, and no two methods agree.");
     bool springs = state.tools.release == Release::spring_back;
     if (ImGui::Checkbox("let go on release", &springs))
         state.tools.release = springs ? Release::spring_back : Release::pin;
@@ -51,7 +53,8 @@ void draw_translation(ViewerState& state, int handle) {
     if (affine == nullptr) return;
     AffineMotion changed = *affine;
     ImGui::SetNextItemWidth(-1.0f);
-    if (ImGui::InputScalarN("##translate", ImGuiDataType_Double, changed.translate.data(), 3, nullptr, nullptr, "%.4g") &&
+    if (ImGui::InputScalarN("##translate", ImGuiDataType_Double, changed.translate.data(), 3, nullptr, nullptr,
+                            "%.4g") &&
         changed.translate.allFinite())
         state.scene().set_motion(handle, changed);
     if (ImGui::IsItemDeactivatedAfterEdit()) state.scene().commit();
@@ -73,7 +76,8 @@ void Panels::draw_pull(const PanelContext& context) {
         const bool selected = h == state.gestures.selected_handle();
         const std::string label = scene.handle_name(h) + ": " + count_text(std::ssize(scene.vertices(h))) + " vertices";
         ImGui::PushStyleColor(ImGuiCol_Text, imgui_colour(selected ? context.palette.active : context.palette.handle));
-        if (ImGui::Selectable(label.c_str(), selected, 0, {ImGui::GetContentRegionAvail().x - 60.0f * context.gui.scale(), 0}))
+        if (ImGui::Selectable(label.c_str(), selected, 0,
+                              {ImGui::GetContentRegionAvail().x - 60.0f * context.gui.scale(), 0}))
             state.gestures.select_handle(selected ? -1 : h);
         ImGui::PopStyleColor();
         ImGui::SameLine();

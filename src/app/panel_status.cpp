@@ -21,7 +21,8 @@ std::string left_text(const ViewerState& state) {
         if (n > 0) text += ", patch of " + count_text(n) + (n == 1 ? " vertex" : " vertices");
         return text;
     }
-    return std::filesystem::path(state.scene().name()).filename().string() + (state.scene().modified() ? " (changed)" : "");
+    return std::filesystem::path(state.scene().name()).filename().string() +
+           (state.scene().modified() ? " (changed)" : "");
 }
 
 std::string right_text(const ViewerState& state) {

@@ -28,8 +28,9 @@ void Panels::ask_open(ViewerState& state) {
 }
 
 void Panels::ask_save(ViewerState& state) {
-    files_.open({"Save the scene", {".json"}, suggested_name(state, ".json"),
-                 [&](const auto& file) { state.save_scene(file); }});
+    files_.open({"Save the scene", {".json"}, suggested_name(state, ".json"), [&](const auto& file) {
+                     state.save_scene(file);
+                 }});
 }
 
 void Panels::ask_export(ViewerState& state) {
@@ -38,13 +39,15 @@ void Panels::ask_export(ViewerState& state) {
 }
 
 void Panels::ask_screenshot(ViewerState& state) {
-    files_.open({"Save a screenshot", {".png"}, suggested_name(state, ".png"),
-                 [&](const auto& file) { state.screenshot_request = file; }});
+    files_.open({"Save a screenshot", {".png"}, suggested_name(state, ".png"), [&](const auto& file) {
+                     state.screenshot_request = file;
+                 }});
 }
 
 void Panels::ask_timings(ViewerState& state) {
-    files_.open({"Record frame timings", {".csv"}, suggested_name(state, "-timings.csv"),
-                 [&](const auto& file) { state.record_timings(file); }});
+    files_.open({"Record frame timings", {".csv"}, suggested_name(state, "-timings.csv"), [&](const auto& file) {
+                     state.record_timings(file);
+                 }});
 }
 
 const Cost& Panels::cost(const ViewerState& state, const Method& method) {
@@ -80,9 +83,9 @@ void Panels::draw_side(const PanelContext& context) {
         bool open;
     };
     constexpr Section kSections[] = {
-        {"Method", &Panels::draw_method, true},   {"Body", &Panels::draw_body, true},
-        {"Pull", &Panels::draw_pull, true},       {"Compare", &Panels::draw_compare, true},
-        {"Show", &Panels::draw_display, false},   {"Performance", &Panels::draw_performance, false},
+        {"Method", &Panels::draw_method, true}, {"Body", &Panels::draw_body, true},
+        {"Pull", &Panels::draw_pull, true},     {"Compare", &Panels::draw_compare, true},
+        {"Show", &Panels::draw_display, false}, {"Performance", &Panels::draw_performance, false},
     };
     for (const Section& section : kSections) {
         ImGui::PushFont(context.gui.fonts().bold);

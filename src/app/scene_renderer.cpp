@@ -100,7 +100,7 @@ void SceneRenderer::upload_section(const ShownBody& body, BodyDrawing& target) {
 }
 
 void SceneRenderer::upload_points(const ViewerState& state, const ShownBody& body, BodyDrawing& target,
-                          const Palette& palette) {
+                                  const Palette& palette) {
     const LiveScene& scene = state.scene();
     const float crowd = crowd_factor(scene.mesh().n_vertices()) * view_factor(state);
     std::vector<PointSprite> points;
@@ -122,7 +122,7 @@ void SceneRenderer::upload_points(const ViewerState& state, const ShownBody& bod
 }
 
 void SceneRenderer::upload_arrows(const ViewerState& state, const ShownBody& body, BodyDrawing& target,
-                          const Palette& palette) {
+                                  const Palette& palette) {
     std::vector<Arrow> arrows;
     double largest = 0.0;
     for (const ShownReaction& reaction : body.reactions()) largest = std::max(largest, reaction.force.norm());
@@ -161,7 +161,7 @@ void SceneRenderer::draw_ground(const ViewerState& state, const SceneView& view,
 }
 
 void SceneRenderer::draw_viewport(const ViewerState& state, const SceneViewport& viewport, const Palette& palette,
-                          double pixel_ratio) {
+                                  double pixel_ratio) {
     const SceneView view(state.camera, viewport.place, pixel_ratio);
     const MethodKind solid = viewport.kinds.front();
     background_.draw(palette.background_top, palette.background_bottom);
@@ -180,16 +180,16 @@ void SceneRenderer::draw_viewport(const ViewerState& state, const SceneViewport&
         rest_->draw(view, {.colour = palette.text_dim.with_opacity(0.5f), .width = 1.0f, .hidden_opacity = 0.4f});
     for (std::size_t i = 1; i < viewport.kinds.size(); ++i)
         drawing(viewport.kinds[i])
-            .ghost.draw(view, {.colour = palette.body(viewport.kinds[i]).with_opacity(0.9f),
-                               .width = 1.3f,
-                               .hidden_opacity = 0.25f});
+            .ghost.draw(
+                view,
+                {.colour = palette.body(viewport.kinds[i]).with_opacity(0.9f), .width = 1.3f, .hidden_opacity = 0.25f});
     main.points.draw(view, {.outline = palette.wire, .outline_width = 1.0f, .hidden_opacity = 0.12f});
     main.arrows.draw(view, {.width = 6.0f, .hidden_opacity = 0.5f});
     gizmo_->draw(state.camera, viewport.place, gizmo_place(viewport.place), pixel_ratio);
 }
 
-SceneRenderer::Look SceneRenderer::look_of(const ViewerState& state, const SceneViewport& viewport, const Palette& palette,
-                           double pixel_ratio) const {
+SceneRenderer::Look SceneRenderer::look_of(const ViewerState& state, const SceneViewport& viewport,
+                                           const Palette& palette, double pixel_ratio) const {
     Look look;
     look.kinds = viewport.kinds;
     for (const MethodKind kind : viewport.kinds)

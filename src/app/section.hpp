@@ -8,9 +8,9 @@ namespace elastolab {
 
 /// A plane through the rest shape.
 struct SectionPlane {
-    int axis = 0;            ///< 0, 1, 2: its normal
-    double coordinate = 0.0; ///< along the axis [L]
-    bool flip = false;       ///< keeps what is above instead of what is below
+    int axis = 0;             ///< 0, 1, 2: its normal
+    double coordinate = 0.0;  ///< along the axis [L]
+    bool flip = false;        ///< keeps what is above instead of what is below
     bool operator==(const SectionPlane&) const = default;
 };
 

@@ -25,8 +25,8 @@ enum class CompareMode { off, side_by_side, ghosts };
 
 struct CompareSettings {
     CompareMode mode = CompareMode::off;
-    std::vector<MethodKind> kinds = all_method_kinds();       ///< shown when comparing
-    MethodKind reference = MethodKind::linear_bem;            ///< differences are to this one
+    std::vector<MethodKind> kinds = all_method_kinds();  ///< shown when comparing
+    MethodKind reference = MethodKind::linear_bem;       ///< differences are to this one
 };
 
 enum class Field { none, displacement, difference, traction, von_mises };
@@ -40,9 +40,9 @@ struct DisplaySettings {
     bool flat = false;
     bool wireframe = true;
     bool feature_edges = true;
-    bool rest_shape = false;   ///< wireframe of the body at rest
-    bool constraints = true;   ///< points at fixed vertices and handles
-    bool arrows = false;       ///< reaction forces
+    bool rest_shape = false;  ///< wireframe of the body at rest
+    bool constraints = true;  ///< points at fixed vertices and handles
+    bool arrows = false;      ///< reaction forces
     bool grid = true;
     double deformation_scale = 1.0;
     bool section = false;

@@ -142,11 +142,16 @@ void ShownBody::update_values(const LiveScene& scene, const MethodRunner& runner
 
 std::string field_title(Field field, MethodKind reference) {
     switch (field) {
-        case Field::none: return "";
-        case Field::displacement: return "displacement [mesh units]";
-        case Field::difference: return "difference to " + std::string(title(reference)) + " [mesh units]";
-        case Field::traction: return "traction [force / unit\u00b2]";
-        case Field::von_mises: return "von Mises stress [force / unit\u00b2]";
+        case Field::none:
+            return "";
+        case Field::displacement:
+            return "displacement [mesh units]";
+        case Field::difference:
+            return "difference to " + std::string(title(reference)) + " [mesh units]";
+        case Field::traction:
+            return "traction [force / unit\u00b2]";
+        case Field::von_mises:
+            return "von Mises stress [force / unit\u00b2]";
     }
     return "";
 }

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
+#include <Eigen/Core>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,11 +43,11 @@ public:
     /// Brings everything up to date. `reference`: what differences are to; null when there is none.
     /// `volume`: its inside, when it has one and is to be cut open; else null.
     /// Returns whether positions or values changed.
-    bool update(const LiveScene& scene, const MethodRunner& runner, const MethodRunner* reference,
-                const Volume* volume, const DisplaySettings& display);
+    bool update(const LiveScene& scene, const MethodRunner& runner, const MethodRunner* reference, const Volume* volume,
+                const DisplaySettings& display);
 
     MethodKind kind() const { return kind_; }
-    std::uint64_t revision() const { return revision_; }  ///< grows with every change; different for every body
+    std::uint64_t revision() const { return revision_; }       ///< grows with every change; different for every body
     const Positions& positions() const { return positions_; }  ///< rest + scale * displacement
     /// One value a vertex for the chosen field; empty when there is none.
     const std::vector<float>& values() const { return values_; }

@@ -11,7 +11,8 @@
 namespace elastolab {
 
 /// What one frame took, in milliseconds, as measured: the displacements of all shown methods; making vertex data of
-/// them and handing it to OpenGL; drawing the scene; the panels; everything from the first event to the swap of buffers.
+/// them and handing it to OpenGL; drawing the scene; the panels; everything from the first event to the swap of
+/// buffers.
 struct FrameTimes {
     double update_ms = 0.0, upload_ms = 0.0, draw_ms = 0.0, gui_ms = 0.0, frame_ms = 0.0;
 };

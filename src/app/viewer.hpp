@@ -10,13 +10,13 @@ namespace elastolab {
 
 /// How the viewer is started.
 struct ViewerOptions {
-    std::filesystem::path input;        ///< scene or mesh; empty: the default scene
-    std::optional<MethodKind> method;   ///< instead of the scene's own
-    int n_frames = 0;                   ///< quit after so many; 0: when the person closes the window
-    std::filesystem::path screenshot;   ///< of the last frame; empty: none
+    std::filesystem::path input;                    ///< scene or mesh; empty: the default scene
+    std::optional<MethodKind> method;               ///< instead of the scene's own
+    int n_frames = 0;                               ///< quit after so many; 0: when the person closes the window
+    std::filesystem::path screenshot;               ///< of the last frame; empty: none
     std::filesystem::path timings, replay, record;  ///< likewise
-    std::filesystem::path scene_out, mesh_out;      ///< likewise: the scene and the deformed mesh as they are at the end
-    std::optional<Eigen::Vector2i> size;            ///< of the window [logical pixels]
+    std::filesystem::path scene_out, mesh_out;  ///< likewise: the scene and the deformed mesh as they are at the end
+    std::optional<Eigen::Vector2i> size;        ///< of the window [logical pixels]
     bool hidden = false;
 };
 

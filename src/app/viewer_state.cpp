@@ -45,6 +45,21 @@ std::shared_ptr<LoadedScene> load(const fs::path& file) {
     return std::make_shared<LoadedScene>(LoadedScene{std::move(scene), up});
 }
 
+/// As in the timings file: a frame shows what belongs to the scene, or that is being computed, or nothing is done.
+std::string recorded_name(MethodRunner::State state) {
+    switch (state) {
+        case MethodRunner::State::ready:
+            return "ready";
+        case MethodRunner::State::precomputing:
+        case MethodRunner::State::preparing:
+            return "precomputing";
+        case MethodRunner::State::idle:
+        case MethodRunner::State::failed:
+            return "idle";
+    }
+    return "idle";
+}
+
 }  // namespace
 
 Document default_document() {
@@ -138,8 +153,7 @@ void ViewerState::take_scene(LoadedScene loaded) {
     graph_ = std::make_unique<VertexGraph>(scene_->mesh());
     ++scene_number_;
     method = std::exchange(first_method_, std::nullopt).value_or(scene_->document().method);
-    tools.patch_radius =
-        std::max(kPatchPart * diagonal(scene_->report()), kPatchEdges * scene_->report().mean_edge);
+    tools.patch_radius = std::max(kPatchPart * diagonal(scene_->report()), kPatchEdges * scene_->report().mean_edge);
     bodies.clear();
     camera.set_scene(frame_of(scene_->mesh().vertices));
     camera.set_up_axis(loaded.up_axis);
@@ -267,16 +281,13 @@ void ViewerState::clear_handles() {
 FrameRecord ViewerState::frame_record(const FrameTimes& times, double now) const {
     const ConstrainedSet& set = scene_->constraints().set;
     const auto n_handle = static_cast<int>(set.handles.size());
-    std::string state = "idle";
-    if (simulation.runner(method).precomputing()) state = "precomputing";
-    if (simulation.runner(method).state() == MethodRunner::State::ready) state = "ready";
     return {.frame = frame,
             .time_s = now,
             .method = std::string(name(method)),
             .vertices = scene_->mesh().n_vertices(),
             .constrained_vertices = static_cast<int>(set.base.size()) + n_handle,
             .handle_vertices = n_handle,
-            .state = state,
+            .state = recorded_name(simulation.runner(method).state()),
             .times = times};
 }
 
@@ -293,9 +304,12 @@ bool ViewerState::update_displacements() {
             take_scene(std::move(*load_job_.result()));
             add_recent(pending_file_);
             break;
-        case JobEvent::failed: messages.error(load_job_.failure()); break;
+        case JobEvent::failed:
+            messages.error(load_job_.failure());
+            break;
         case JobEvent::cancelled:
-        case JobEvent::none: break;
+        case JobEvent::none:
+            break;
     }
     const bool changed = simulation.update(*scene_, needed_kinds(), choices);
     const std::vector<int>& patch = gestures.hover().patch;
@@ -320,11 +334,13 @@ const Volume* ViewerState::volume(MethodKind kind) {
 
 bool ViewerState::update_bodies() {
     const std::vector<MethodKind> kinds = shown_kinds();
-    std::erase_if(bodies, [&](const ShownBody& b) { return std::find(kinds.begin(), kinds.end(), b.kind()) == kinds.end(); });
+    std::erase_if(bodies,
+                  [&](const ShownBody& b) { return std::find(kinds.begin(), kinds.end(), b.kind()) == kinds.end(); });
     bool changed = false;
     for (const MethodKind kind : kinds) {
         if (body(kind) == nullptr) bodies.emplace_back(kind);
-        ShownBody& shown = *std::find_if(bodies.begin(), bodies.end(), [&](const ShownBody& b) { return b.kind() == kind; });
+        ShownBody& shown =
+            *std::find_if(bodies.begin(), bodies.end(), [&](const ShownBody& b) { return b.kind() == kind; });
         changed = shown.update(*scene_, simulation.runner(kind), reference(), volume(kind), display) || changed;
     }
     return changed;

@@ -100,7 +100,8 @@ Window::Window(const Options& options) : state_(std::make_unique<State>()) {
     if (handle_ == nullptr) {
         const std::string reason = last_glfw_error();
         glfwTerminate();
-        throw Error("window: no OpenGL 3.3 (" + reason + "). Update the graphics driver, or set LIBGL_ALWAYS_SOFTWARE=1.");
+        throw Error("window: no OpenGL 3.3 (" + reason +
+                    "). Update the graphics driver, or set LIBGL_ALWAYS_SOFTWARE=1.");
     }
     glfwSetWindowUserPointer(handle_, state_.get());
     glfwMakeContextCurrent(handle_);

@@ -16,7 +16,8 @@ Image window_picture(const Eigen::Vector2i& size) {
     glReadPixels(0, 0, size.x(), size.y(), GL_RGB, GL_UNSIGNED_BYTE, image.pixels.data());
     const auto begin = image.pixels.begin();
     for (std::size_t y = 0; y < n_rows / 2; ++y)  // OpenGL's rows begin at the bottom
-        std::swap_ranges(begin + static_cast<std::ptrdiff_t>(y * row), begin + static_cast<std::ptrdiff_t>((y + 1) * row),
+        std::swap_ranges(begin + static_cast<std::ptrdiff_t>(y * row),
+                         begin + static_cast<std::ptrdiff_t>((y + 1) * row),
                          begin + static_cast<std::ptrdiff_t>((n_rows - 1 - y) * row));
     return image;
 }

@@ -23,7 +23,7 @@ std::atomic<int>& threads() {
 
 /// Kernels of OpenBLAS that predate AVX2; a CPU with AVX2 that got one of these was not recognised.
 bool is_outdated(const std::string& kernels) {
-    static constexpr std::array kOld = {"Prescott", "Core2", "Penryn",    "Dunnington", "Nehalem",     "Sandybridge",
+    static constexpr std::array kOld = {"Prescott", "Core2",   "Penryn",    "Dunnington", "Nehalem",   "Sandybridge",
                                         "Atom",     "Opteron", "Barcelona", "Bobcat",     "Bulldozer", "Katmai"};
     return std::any_of(kOld.begin(), kOld.end(), [&](const char* old) { return kernels.rfind(old, 0) == 0; });
 }

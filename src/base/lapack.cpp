@@ -14,7 +14,9 @@ namespace {
 int as_int(Eigen::Index n) { return static_cast<int>(n); }
 
 /// The work array that a LAPACK routine asks for in its query answer.
-std::vector<double> work_array(double answer) { return std::vector<double>(static_cast<std::size_t>(std::max(1.0, answer))); }
+std::vector<double> work_array(double answer) {
+    return std::vector<double>(static_cast<std::size_t>(std::max(1.0, answer)));
+}
 
 }  // namespace
 
@@ -30,7 +32,7 @@ LuFactorization::LuFactorization(Eigen::MatrixXd&& A, const std::string& name) :
     assert(info >= 0);
     if (info > 0)
         throw SingularMatrixError(name + ": is singular (pivot " + std::to_string(info) + " of " + std::to_string(n) +
-                         " vanishes). Check the mesh for degenerate or duplicate parts.");
+                                  " vanishes). Check the mesh for degenerate or duplicate parts.");
     std::vector<double> work(4 * static_cast<std::size_t>(n));
     std::vector<int> iwork(static_cast<std::size_t>(n));
     LAPACKE_dgecon_work(LAPACK_COL_MAJOR, '1', n, factors_.data(), n, norm, &reciprocal_condition_, work.data(),

@@ -28,8 +28,8 @@ int run(int argc, char** argv) {
     CLI::App program("Elastolab: elastic bodies by FEM, constant BEM and linear BEM.", "elastolab");
     program.set_version_flag("--version", "elastolab " ELASTOLAB_VERSION);
     program.require_subcommand(0, 1);
-    const std::vector<Command> commands = {add_view_command(program), add_solve_command(program), add_info_command(program),
-                                           add_bench_command(program)};
+    const std::vector<Command> commands = {add_view_command(program), add_solve_command(program),
+                                           add_info_command(program), add_bench_command(program)};
     try {
         program.parse(argc, argv);
     } catch (const CLI::Success& request) {

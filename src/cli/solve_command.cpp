@@ -41,7 +41,9 @@ void add_options(CLI::App& parser, SolveOptions& options) {
     parser.add_option("--mode", options.mode, "what is computed ahead (default on-demand; full-volume is FEM's)")
         ->check(modes);
     parser.add_option("--tractions", options.tractions, "of linear BEM (default discontinuous)")->check(tractions);
-    parser.add_option("--update", options.update, "Eqn. 7 afresh, Eqn. 9, or its collapsed form (default: reduced; on-demand: direct)")
+    parser
+        .add_option("--update", options.update,
+                    "Eqn. 7 afresh, Eqn. 9, or its collapsed form (default: reduced; on-demand: direct)")
         ->check(updates);
     parser.add_option("--displacements", options.displacements, "CSV: rest positions and displacements")->check(path);
     parser.add_option("--mesh-out", options.mesh_out, "deformed mesh: .obj, .ply or .stl")->check(path);

@@ -25,9 +25,7 @@ SparseCholesky factorised(const SparseMatrix& K_ii) {
 }  // namespace
 
 InteriorExtension::InteriorExtension(const SparseMatrix& K, int n_surface)
-    : n_all_(K.rows()),
-      n_surface_(3 * n_surface),
-      to_surface_(block(K, 0, n_surface_, n_surface_)) {
+    : n_all_(K.rows()), n_surface_(3 * n_surface), to_surface_(block(K, 0, n_surface_, n_surface_)) {
     if (n_all_ > n_surface_) factor_ = factorised(block(K, n_surface_, n_all_ - n_surface_, n_surface_));
 }
 

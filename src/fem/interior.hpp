@@ -18,8 +18,8 @@ public:
     Eigen::VectorXd extend(const Eigen::VectorXd& surface) const;
 
 private:
-    Eigen::Index n_all_, n_surface_;  ///< degrees of freedom
-    SparseMatrix to_surface_;         ///< K_is
+    Eigen::Index n_all_, n_surface_;        ///< degrees of freedom
+    SparseMatrix to_surface_;               ///< K_is
     std::optional<SparseCholesky> factor_;  ///< of K_ii; none without interior nodes
 };
 

@@ -14,35 +14,23 @@ void delete_gl_framebuffer(unsigned id) { glDeleteFramebuffers(1, &id); }
 void delete_gl_shader(unsigned id) { glDeleteShader(id); }
 void delete_gl_program(unsigned id) { glDeleteProgram(id); }
 
-GlBuffer make_gl_buffer() {
+namespace {
+
+/// `generate` is one of OpenGL's glGen... functions.
+template <class Object, class Generate>
+Object generated(Generate generate) {
     unsigned id = 0;
-    glGenBuffers(1, &id);
-    return GlBuffer(id);
+    generate(1, &id);
+    return Object(id);
 }
 
-GlVertexArray make_gl_vertex_array() {
-    unsigned id = 0;
-    glGenVertexArrays(1, &id);
-    return GlVertexArray(id);
-}
+}  // namespace
 
-GlTexture make_gl_texture() {
-    unsigned id = 0;
-    glGenTextures(1, &id);
-    return GlTexture(id);
-}
-
-GlRenderbuffer make_gl_renderbuffer() {
-    unsigned id = 0;
-    glGenRenderbuffers(1, &id);
-    return GlRenderbuffer(id);
-}
-
-GlFramebuffer make_gl_framebuffer() {
-    unsigned id = 0;
-    glGenFramebuffers(1, &id);
-    return GlFramebuffer(id);
-}
+GlBuffer make_gl_buffer() { return generated<GlBuffer>(glGenBuffers); }
+GlVertexArray make_gl_vertex_array() { return generated<GlVertexArray>(glGenVertexArrays); }
+GlTexture make_gl_texture() { return generated<GlTexture>(glGenTextures); }
+GlRenderbuffer make_gl_renderbuffer() { return generated<GlRenderbuffer>(glGenRenderbuffers); }
+GlFramebuffer make_gl_framebuffer() { return generated<GlFramebuffer>(glGenFramebuffers); }
 
 void upload(const GlBuffer& buffer, std::span<const std::byte> bytes) {
     glBindBuffer(GL_ARRAY_BUFFER, buffer.id());

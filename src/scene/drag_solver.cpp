@@ -30,9 +30,8 @@ void DragSolver::displace(const Eigen::VectorXd& values, Eigen::VectorXd& u) {
     const Eigen::VectorXd change = values - start_values_;
     const int handle = changed_handle(change);
     if (handle >= 0) {
-        const Eigen::Matrix3Xd moved =
-            Eigen::Map<const Eigen::Matrix3Xd>(change.data(), 3, change.size() / 3)
-                .middleCols(begin_of(handle), size_of(handle));
+        const Eigen::Matrix3Xd moved = Eigen::Map<const Eigen::Matrix3Xd>(change.data(), 3, change.size() / 3)
+                                           .middleCols(begin_of(handle), size_of(handle));
         if (handle == handle_ && follow(handle, moved, u)) return;
         for (const bool affine : {false, true}) {
             grab(handle, affine);

@@ -68,9 +68,8 @@ std::vector<int> LiveScene::only_free(std::span<const int> vertices) const {
 int LiveScene::add_handle(std::span<const int> vertices) {
     std::vector<int> own = only_free(vertices);
     if (own.empty()) return kNobody;
-    document_.handles.push_back({.name = unused_name(document_.handles),
-                                 .select = {VertexSelector{std::move(own)}},
-                                 .motion = AffineMotion{}});
+    document_.handles.push_back(
+        {.name = unused_name(document_.handles), .select = {VertexSelector{std::move(own)}}, .motion = AffineMotion{}});
     refresh();
     return n_handles() - 1;
 }

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "base/text.hpp"
+
 namespace elastolab {
 
 namespace {
@@ -29,8 +31,14 @@ std::vector<std::string> findings(const Deformer& deformer, const Eigen::VectorX
     if (check && !check->warning.empty()) warnings.push_back(check->warning);
     if (const double residual = deformer.residual(values, control); !(residual < kWrongResidual))
         warnings.push_back(deformer.model().body().name + ": the solution leaves a relative residual of " +
-                           std::to_string(residual) + ", so it is wrong. Fix more vertices, or use another method.");
+                           readable_number(residual) + ", so it is wrong. Fix more vertices, or use another method.");
     return warnings;
+}
+
+template <class Result>
+void drop(BackgroundJob<Result>& job) {
+    job.cancel();
+    job.poll();
 }
 
 std::vector<int> handle_ends(const Constraints& constraints) {
@@ -43,7 +51,8 @@ std::vector<int> handle_ends(const Constraints& constraints) {
 
 }  // namespace
 
-MethodRunner::MethodRunner(std::function<void()> wake) : precompute_(wake), completion_(wake), prepare_(wake), check_(wake) {}
+MethodRunner::MethodRunner(std::function<void()> wake)
+    : precompute_(wake), completion_(wake), prepare_(wake), check_(wake) {}
 MethodRunner::~MethodRunner() = default;
 
 void MethodRunner::set_body(const Body& body, const Method& method) {
@@ -57,10 +66,12 @@ void MethodRunner::set_body(const Body& body, const Method& method) {
 }
 
 void MethodRunner::clear() {
-    precompute_.cancel();
-    completion_.cancel();
-    prepare_.cancel();
-    check_.cancel();
+    // Called every frame while a method cannot take the body: what was cancelled is let go as soon as it has ended.
+    drop(precompute_);
+    drop(completion_);
+    drop(prepare_);
+    drop(check_);
+    if (!body_wanted_) return;
     forget_answers();
     body_ = {};
     failure_.clear();
@@ -131,10 +142,15 @@ void MethodRunner::poll() {
 
 void MethodRunner::poll_models() {
     switch (precompute_.poll()) {
-        case JobEvent::finished: take_model(precompute_.result()); break;
-        case JobEvent::failed: failure_ = precompute_.failure(); break;
+        case JobEvent::finished:
+            take_model(precompute_.result());
+            break;
+        case JobEvent::failed:
+            failure_ = precompute_.failure();
+            break;
         case JobEvent::cancelled:
-        case JobEvent::none: break;
+        case JobEvent::none:
+            break;
     }
     // A completion that fails, for want of memory, costs nothing: the model at hand answers as before.
     if (completion_.poll() == JobEvent::finished && model_is_wanted_) take_model(completion_.result());
@@ -162,7 +178,8 @@ void MethodRunner::poll_preparation() {
             set_failed_ = true;
             break;
         case JobEvent::cancelled:
-        case JobEvent::none: break;
+        case JobEvent::none:
+            break;
     }
 }
 
@@ -220,7 +237,8 @@ void MethodRunner::check_at_rest() {
     if (check_.poll() == JobEvent::finished && checked_ == version_) check_warnings_ = check_.result();
     if (!unchecked() || check_.running() || rest_.seconds() < kRestSeconds) return;
     checked_ = version_;
-    check_.start([deformer = deformer_, values = values_](Control& control) { return findings(*deformer, values, control); });
+    check_.start(
+        [deformer = deformer_, values = values_](Control& control) { return findings(*deformer, values, control); });
 }
 
 void MethodRunner::cancel() {

@@ -40,7 +40,8 @@ public:
     /// Asks for this body and method; a running precomputation of something else is cancelled. Nothing happens when
     /// it is the present one. Takes over from the model at hand what does not change.
     void set_body(const Body& body, const Method& method);
-    /// Forgets the body and all that belongs to it.
+    /// Forgets the body and all that belongs to it. May be called again and again: that is how its workers come to
+    /// rest.
     void clear();
     /// Of the body last set; null before.
     const SurfaceMesh* surface() const { return body_.surface.get(); }
@@ -52,13 +53,15 @@ public:
     /// Computes K and its inverse for the present model (Mode::full) in the background, when there is nothing else to
     /// do and it is not there yet. The present model answers until then.
     void complete();
-    /// Stops that for now; complete() begins it again.
+    /// Stops the completion, which gives the processor to what is waited for; complete() starts it anew.
     void postpone_completion();
 
-    /// Once the answer has rested for a while: estimates in the background how far it can be trusted (residual, and what
-    /// the coarseness of the mesh does). What is found is in check_warnings() until the answer changes.
+    /// Once the answer has rested for a while: estimates in the background how far it can be trusted (residual, and
+    /// what the coarseness of the mesh does). What is found is in check_warnings() until the answer changes.
     void check_at_rest();
-    bool unchecked() const { return state() == State::ready && has_motion() && (check_.running() || checked_ != version_); }
+    bool unchecked() const {
+        return state() == State::ready && has_motion() && (check_.running() || checked_ != version_);
+    }
     const std::vector<std::string>& check_warnings() const { return check_warnings_; }
 
     /// Takes over what the workers finished, starts what is due and brings the displacements up to date.
@@ -134,8 +137,8 @@ private:
     Eigen::VectorXd values_, displacement_;
     std::uint64_t version_ = 0;
 
-    Stopwatch rest_;              ///< since the answer changed
-    std::uint64_t checked_ = 0;   ///< version that was checked last, or is being
+    Stopwatch rest_;             ///< since the answer changed
+    std::uint64_t checked_ = 0;  ///< version that was checked last, or is being
     std::vector<std::string> check_warnings_;
 
     // Last: their threads end before what they wake goes.

@@ -40,18 +40,17 @@ Simulation::Simulation(const std::function<void()>& wake) {
         entries_.push_back({kind, std::make_unique<MethodRunner>(wake), ""});
 }
 
-Simulation::Entry& Simulation::entry(MethodKind kind) {
-    return *std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.kind == kind; });
+/// Index in entries_.
+std::size_t Simulation::place(MethodKind kind) const {
+    const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.kind == kind; });
+    return static_cast<std::size_t>(found - entries_.begin());
 }
 
-MethodRunner& Simulation::runner(MethodKind kind) { return *entry(kind).runner; }
-
-const MethodRunner& Simulation::runner(MethodKind kind) const {
-    return *const_cast<Simulation*>(this)->entry(kind).runner;
-}
+MethodRunner& Simulation::runner(MethodKind kind) { return *entries_[place(kind)].runner; }
+const MethodRunner& Simulation::runner(MethodKind kind) const { return *entries_[place(kind)].runner; }
 
 std::string Simulation::problem(MethodKind kind) const {
-    const Entry& found = const_cast<Simulation*>(this)->entry(kind);
+    const Entry& found = entries_[place(kind)];
     return found.unfit.empty() ? found.runner->failure() : found.unfit;
 }
 
@@ -72,7 +71,7 @@ bool Simulation::update(const LiveScene& scene, const std::vector<MethodKind>& s
     shown_ = shown;
     bool changed = false, waiting = false;
     for (const MethodKind kind : shown) {
-        Entry& present = entry(kind);
+        Entry& present = entries_[place(kind)];
         MethodRunner& runner = *present.runner;
         const std::uint64_t before = runner.version();
         if (!waiting) give_body(present, scene, choices);
@@ -91,9 +90,11 @@ bool Simulation::update(const LiveScene& scene, const std::vector<MethodKind>& s
 /// Only when every shown method is ready, and one at a time: what is looked at comes first.
 void Simulation::complete_one(const LiveScene& scene, const MethodChoices& choices) {
     if (choices.mode != Mode::on_demand) return;
-    const auto is_shown = [&](MethodKind kind) { return std::find(shown_.begin(), shown_.end(), kind) != shown_.end(); };
-    const bool precomputing = std::any_of(shown_.begin(), shown_.end(),
-                                          [&](MethodKind kind) { return runner(kind).precomputing(); });
+    const auto is_shown = [&](MethodKind kind) {
+        return std::find(shown_.begin(), shown_.end(), kind) != shown_.end();
+    };
+    const bool precomputing =
+        std::any_of(shown_.begin(), shown_.end(), [&](MethodKind kind) { return runner(kind).precomputing(); });
     for (const Entry& entry : entries_)
         if (precomputing || !is_shown(entry.kind)) entry.runner->postpone_completion();
     if (busy()) return;

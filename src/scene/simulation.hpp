@@ -59,7 +59,7 @@ private:
         std::unique_ptr<MethodRunner> runner;
         std::string unfit;
     };
-    Entry& entry(MethodKind kind);
+    std::size_t place(MethodKind kind) const;
     static bool give_body(Entry& entry, const LiveScene& scene, const MethodChoices& choices);
     void complete_one(const LiveScene& scene, const MethodChoices& choices);
 

@@ -11,12 +11,6 @@ namespace elastolab {
 
 namespace {
 
-std::string joined(const std::vector<std::string>& lines) {
-    std::string text;
-    for (const std::string& line : lines) text += (text.empty() ? "" : "; ") + line;
-    return text;
-}
-
 void set_errors(Row& row, const Problem& problem, const Eigen::VectorXd& u) {
     row.set("error", problem.error(u)).set("error_max", problem.largest_error(u));
 }

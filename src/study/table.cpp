@@ -71,6 +71,12 @@ std::vector<double> Table::numbers(std::string_view column) const {
     return numbers;
 }
 
+std::string joined(const std::vector<std::string>& messages) {
+    std::string text;
+    for (const std::string& message : messages) text += (text.empty() ? "" : "; ") + message;
+    return text;
+}
+
 std::string csv_line(const std::vector<std::string>& fields) {
     std::string line;
     for (std::size_t i = 0; i < fields.size(); ++i) {

@@ -47,6 +47,9 @@ struct Table {
     std::vector<double> numbers(std::string_view column) const;
 };
 
+/// Several messages as the text of one cell, apart by semicolons.
+std::string joined(const std::vector<std::string>& messages);
+
 /// One line of CSV (RFC 4180: fields with commas, quotes or line breaks are quoted; line breaks become spaces).
 std::string csv_line(const std::vector<std::string>& fields);
 /// The fields of one line of CSV.

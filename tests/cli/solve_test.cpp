@@ -246,7 +246,8 @@ TEST_F(SolveTest, EndsWithoutOutputsWhenItIsInterrupted) {
 }
 
 TEST(Program, HelpsAndTellsItsVersion) {
-    const std::vector<std::vector<std::string>> commands = {{"--help"}, {"view", "--help"}, {"solve", "--help"}, {"info", "--help"}};
+    const std::vector<std::vector<std::string>> commands = {
+        {"--help"}, {"view", "--help"}, {"solve", "--help"}, {"info", "--help"}};
     for (const auto& arguments : commands) {
         const ProgramRun run = run_program(arguments, ".");
         EXPECT_EQ(run.exit_code, 0);

@@ -5,19 +5,11 @@
 #include "deform/cost.hpp"
 #include "deform/problem.hpp"
 #include "elasticity/rigid_motion.hpp"
+#include "mesh/meshes.hpp"
 #include "mesh/primitives.hpp"
 
 namespace elastolab::test {
 namespace {
-
-SurfaceMesh joined(const SurfaceMesh& a, const SurfaceMesh& b, const Eigen::Vector3d& shift) {
-    SurfaceMesh both;
-    both.vertices.resize(3, a.n_vertices() + b.n_vertices());
-    both.vertices << a.vertices, b.vertices.colwise() + shift;
-    both.triangles.resize(3, a.n_triangles() + b.n_triangles());
-    both.triangles << a.triangles, b.triangles.array() + a.n_vertices();
-    return both;
-}
 
 TEST(Constraints, ThatHoldTooLittleGiveTheSmallestMotionAndSaySo) {
     const SurfaceMesh mesh = make_box(4);
@@ -79,7 +71,7 @@ TEST(Constraints, OnALineLeaveARotationFree) {
 }
 
 TEST(Constraints, OfOneSolidDoNotMoveAnother) {
-    const SurfaceMesh one = make_box(3), two = joined(one, make_sphere(2), {5.0, 0.0, 0.0});
+    const SurfaceMesh one = make_box(3), two = joined(one, moved(make_sphere(2), {5.0, 0.0, 0.0}));
     const auto base = vertices_where(one, [](const auto& x) { return x[0] < 1e-9; });
     const auto pull = vertices_where(one, [](const auto& x) { return x[0] > 1.0 - 1e-9; });
     const Eigen::VectorXd values = Eigen::Vector3d(0.1, 0.05, 0.0).replicate(std::ssize(pull), 1);

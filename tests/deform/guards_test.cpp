@@ -5,6 +5,7 @@
 #include "deform/problem.hpp"
 #include "deform/surface_distance.hpp"
 #include "elasticity/exact_fields.hpp"
+#include "mesh/meshes.hpp"
 #include "mesh/primitives.hpp"
 #include "study/organic_body.hpp"
 
@@ -23,15 +24,6 @@ double bending_error(const SurfaceMesh& mesh, double nu, const Method& method) {
     const auto ends = vertices_where(mesh, [&](const auto& x) { return x[0] < 1e-9 || x[0] > length - 1e-9; });
     const Eigen::VectorXd u = displaced(precomputed(make_body(mesh, material), method), {{}, ends}, at(exact, ends));
     return (u - exact).norm() / exact.norm();
-}
-
-SurfaceMesh joined(const SurfaceMesh& a, const SurfaceMesh& b, const Eigen::Vector3d& shift) {
-    SurfaceMesh both;
-    both.vertices.resize(3, a.n_vertices() + b.n_vertices());
-    both.vertices << a.vertices, b.vertices.colwise() + shift;
-    both.triangles.resize(3, a.n_triangles() + b.n_triangles());
-    both.triangles << a.triangles, b.triangles.array() + a.n_vertices();
-    return both;
 }
 
 /// A plate of 1 x 1 whose faces are split into 8 x 8 cells.
@@ -108,7 +100,7 @@ TEST(Guards, TellOfSlenderBodies) {
 TEST(Guards, MeasureTheWallAndTheGap) {
     EXPECT_NEAR(closest_facing_approach(plate(0.02)).ratio, 0.02 / (std::sqrt(2.0) / 8.0), 1e-12);
     // Two plates side by side, one above the other: what is between them is a gap, as wide as they are apart.
-    const SurfaceMesh thick = plate(0.2), two = joined(thick, thick, {0.0, 0.0, 0.21});
+    const SurfaceMesh thick = plate(0.2), two = joined(thick, moved(thick, {0.0, 0.0, 0.21}));
     EXPECT_NEAR(closest_facing_approach(two).ratio, 0.01 / (std::sqrt(2.0) / 8.0), 1e-10);
 }
 
@@ -123,8 +115,9 @@ TEST(Guards, TellOfTrianglesWhoseIntegralsLoseDigits) {
 TEST(Guards, TellOfSolidsThatTouch) {
     const SurfaceMesh cube = make_box(3);
     const Method method = make_method(MethodKind::linear_bem);
-    EXPECT_THAT(warnings_of(joined(cube, cube, {1.001, 0.0, 0.0}), method), Contains(HasSubstr("solids 1 and 2")));
-    EXPECT_THAT(warnings_of(joined(cube, cube, {1.2, 0.0, 0.0}), method), IsEmpty());
+    EXPECT_THAT(warnings_of(joined(cube, moved(cube, {1.001, 0.0, 0.0})), method),
+                Contains(HasSubstr("solids 1 and 2")));
+    EXPECT_THAT(warnings_of(joined(cube, moved(cube, {1.2, 0.0, 0.0})), method), IsEmpty());
 }
 
 TEST(Guards, TellOfPointConstraintsAndWhereTheyAre) {

@@ -203,7 +203,8 @@ TEST(Camera, FitsPointsSoThatTheyTouchTheMarginAndNoneIsOutside) {
         Eigen::Vector2d farthest(0, 0);
         for (const auto& point : points.colwise()) {
             const Eigen::Vector2d d = camera.project(point, viewport).pixel - viewport.center();
-            farthest = farthest.cwiseMax(d.cwiseAbs().cwiseQuotient(0.5 * Eigen::Vector2d(viewport.width, viewport.height)));
+            farthest =
+                farthest.cwiseMax(d.cwiseAbs().cwiseQuotient(0.5 * Eigen::Vector2d(viewport.width, viewport.height)));
         }
         EXPECT_NEAR(farthest.maxCoeff(), 0.86, 1e-9);
     }

@@ -184,6 +184,18 @@ TEST(Simulation, AMethodThatCannotTakeTheMaterialSaysSoAndTheOthersGoOn) {
     EXPECT_EQ(bench.runner().state(), State::ready);
 }
 
+TEST(Simulation, ComesToRestWhenAMethodIsComputedThatTheMaterialForbidsMeanwhile) {
+    LiveScene scene = cube(8);
+    Bench bench({MethodKind::fem});
+    bench.simulation.update(scene, bench.shown, bench.choices);
+    ASSERT_TRUE(bench.simulation.waiting());
+    scene.set_material({.young_modulus = 1.0, .poisson_ratio = 0.5});
+    bench.settle(scene);
+    EXPECT_FALSE(bench.simulation.busy());
+    EXPECT_FALSE(bench.simulation.checking());
+    EXPECT_FALSE(bench.simulation.update(scene, bench.shown, bench.choices)) << "nothing changes any more";
+}
+
 TEST(Simulation, AnotherMeshReplacesEverything) {
     LiveScene small = cube(2), large = cube(3);
     Bench bench;
