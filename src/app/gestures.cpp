@@ -6,8 +6,6 @@
 #include <cmath>
 #include <Eigen/Geometry>
 
-#include "render/picking.hpp"
-
 namespace elastolab {
 
 namespace {
@@ -29,9 +27,22 @@ double along_line(const Ray& ray, const Eigen::Vector3d& point, const Eigen::Vec
     return (cosine * ray.direction.dot(to_point) - direction.dot(to_point)) / denominator;
 }
 
-Eigen::Vector3d triangle_normal(const Positions& x, const Triangles& triangles, int triangle) {
-    const Eigen::Vector3i t = triangles.col(triangle);
+Eigen::Vector3d triangle_normal(const PointingTarget& target, int triangle) {
+    const Positions& x = *target.positions;
+    const Eigen::Vector3i t = target.triangles->col(triangle);
     return (x.col(t[1]) - x.col(t[0])).cross(x.col(t[2]) - x.col(t[0])).stableNormalized();
+}
+
+/// Not so of vertices inside the body, which show where it is cut open and cannot be grabbed.
+bool is_on_surface(const GestureContext& context, int vertex) { return vertex < context.scene.mesh().n_vertices(); }
+
+/// Fixes these vertices, those inside the body aside, or frees them.
+void fix_or_free(const GestureContext& context, std::vector<int> vertices, bool free) {
+    std::erase_if(vertices, [&](int v) { return !is_on_surface(context, v); });
+    if (free)
+        context.scene.unfix(vertices);
+    else
+        context.scene.fix(vertices);
 }
 
 }  // namespace
@@ -69,6 +80,10 @@ const PointingTarget* Gestures::target_at(const GestureContext& context) const {
     return nullptr;
 }
 
+std::optional<PickHit> Gestures::hit_in(const GestureContext& context, const PointingTarget& target) const {
+    return pick(context.camera, target.viewport, cursor_, *target.positions, *target.triangles);
+}
+
 bool Gestures::is_double_click(const InputEvent& event) {
     const bool result = event.code == GLFW_MOUSE_BUTTON_LEFT && last_press_seconds_ >= 0.0 &&
                         event.seconds - last_press_seconds_ < kDoubleClickSeconds &&
@@ -100,9 +115,8 @@ void Gestures::press(const InputEvent& event, GestureContext& context) {
         action_ = Action::box;
         return;
     }
-    const std::optional<PickHit> hit =
-        pick(context.camera, target->viewport, cursor_, *target->positions, context.scene.mesh().triangles);
-    if (hit)
+    const std::optional<PickHit> hit = hit_in(context, *target);
+    if (hit && is_on_surface(context, hit->vertex))
         press_body(context, hit->vertex, hit->triangle);
     else
         action_ = freeing_ ? Action::pan : Action::orbit;
@@ -133,8 +147,7 @@ void Gestures::begin_pull(GestureContext& context, int handle, bool created, int
     pull_.handle = handle;
     pull_.created = created;
     pull_.vertex = vertex;
-    if (triangle >= 0)
-        pull_.normal = triangle_normal(*context.targets[target_].positions, context.scene.mesh().triangles, triangle);
+    if (triangle >= 0) pull_.normal = triangle_normal(context.targets[target_], triangle);
     pull_.motion = context.scene.document().handles[static_cast<std::size_t>(handle)].motion;
     pull_.place = context.targets[target_].positions->col(vertex);
     set_baseline(context);
@@ -241,9 +254,8 @@ void Gestures::point(GestureContext& context) {
     hover_ = {};
     const PointingTarget* target = target_at(context);
     if (target == nullptr) return;
-    const std::optional<PickHit> hit =
-        pick(context.camera, target->viewport, cursor_, *target->positions, context.scene.mesh().triangles);
-    if (!hit) return;
+    const std::optional<PickHit> hit = hit_in(context, *target);
+    if (!hit || !is_on_surface(context, hit->vertex)) return;
     hover_.vertex = hit->vertex;
     if (context.tools.tool != Tool::pull) return;
     const int owner = context.scene.owner(hit->vertex);
@@ -259,8 +271,7 @@ void Gestures::point(GestureContext& context) {
 void Gestures::scroll(const InputEvent& event, GestureContext& context) {
     const PointingTarget* target = target_at(context);
     if (target == nullptr) return;
-    const std::optional<PickHit> hit =
-        pick(context.camera, target->viewport, cursor_, *target->positions, context.scene.mesh().triangles);
+    const std::optional<PickHit> hit = hit_in(context, *target);
     const Eigen::Vector3d anchor = hit ? hit->point : context.camera.pose().target;
     context.camera.zoom_to(cursor_, std::pow(kZoomStep, event.cursor.y()), anchor, target->viewport);
     if (pulling()) set_baseline(context);
@@ -268,33 +279,23 @@ void Gestures::scroll(const InputEvent& event, GestureContext& context) {
 
 void Gestures::paint(GestureContext& context) {
     const PointingTarget& target = context.targets[target_];
-    const std::vector<int> vertices =
-        vertices_in_brush(context.camera, target.viewport, cursor_, context.tools.brush_pixels, *target.positions,
-                          context.scene.mesh().triangles, Reach::visible);
-    if (freeing_)
-        context.scene.unfix(vertices);
-    else
-        context.scene.fix(vertices);
+    fix_or_free(context,
+                vertices_in_brush(context.camera, target.viewport, cursor_, context.tools.brush_pixels,
+                                  *target.positions, *target.triangles, Reach::visible),
+                freeing_);
 }
 
 void Gestures::toggle_fixed(GestureContext& context, int vertex) {
-    const std::vector<int> one = {vertex};
-    if (context.scene.owner(vertex) == LiveScene::kFixed)
-        context.scene.unfix(one);
-    else
-        context.scene.fix(one);
+    fix_or_free(context, {vertex}, context.scene.owner(vertex) == LiveScene::kFixed);
 }
 
 void Gestures::end_box(GestureContext& context) {
     if (!dragged_ || target_ >= context.targets.size()) return;
     const PointingTarget& target = context.targets[target_];
-    const std::vector<int> vertices =
-        vertices_in_rectangle(context.camera, target.viewport, press_cursor_, cursor_, *target.positions,
-                              context.scene.mesh().triangles, context.tools.box_reach);
-    if (freeing_)
-        context.scene.unfix(vertices);
-    else
-        context.scene.fix(vertices);
+    fix_or_free(context,
+                vertices_in_rectangle(context.camera, target.viewport, press_cursor_, cursor_, *target.positions,
+                                      *target.triangles, context.tools.box_reach),
+                freeing_);
     context.scene.commit();
 }
 

@@ -10,6 +10,7 @@
 #include "app/patch.hpp"
 #include "app/settings.hpp"
 #include "render/camera.hpp"
+#include "render/picking.hpp"
 #include "scene/live_scene.hpp"
 
 namespace elastolab {
@@ -17,7 +18,9 @@ namespace elastolab {
 /// A view of the body that can be pointed at.
 struct PointingTarget {
     Viewport viewport;
-    const Positions* positions = nullptr;  ///< as shown
+    /// As shown. The vertices of the surface come first; where the body is cut open, those inside follow.
+    const Positions* positions = nullptr;
+    const Triangles* triangles = nullptr;
 };
 
 /// What gestures work on. All views share one camera.
@@ -108,6 +111,7 @@ private:
     void toggle_fixed(GestureContext& context, int vertex);
     bool is_double_click(const InputEvent& event);
     const PointingTarget* target_at(const GestureContext& context) const;
+    std::optional<PickHit> hit_in(const GestureContext& context, const PointingTarget& target) const;
     void end_spring(GestureContext& context);
 
     Action action_ = Action::none;

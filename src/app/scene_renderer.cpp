@@ -83,7 +83,7 @@ void SceneRenderer::upload_body(const ViewerState& state, const ShownBody& body,
 }
 
 void SceneRenderer::upload_section(const ShownBody& body, BodyDrawing& target) {
-    if (!body.section() || body.section()->triangles.cols() == 0) {
+    if (!body.section()) {
         target.section.reset();
         return;
     }

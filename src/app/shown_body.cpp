@@ -113,6 +113,10 @@ void ShownBody::update_section(const MethodRunner& runner, const Volume* volume,
     const TetMesh& mesh = volume->mesh();
     if (!section_ || section_->plane != key_.plane || section_->rest.cols() != mesh.vertices.cols())
         section_ = ShownSection{key_.plane, cut_faces(mesh, key_.plane), mesh.vertices, {}, {}};
+    if (section_->triangles.cols() == 0) {  // all cut away: the whole body says more
+        section_.reset();
+        return;
+    }
     const Eigen::VectorXd u = volume->displace(runner.displacement());
     section_->positions = mesh.vertices + display.deformation_scale * columns(u);
     section_->values.clear();

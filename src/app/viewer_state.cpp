@@ -238,9 +238,14 @@ GestureContext ViewerState::gesture_context() {
                            .tools = tools,
                            .deformation_scale = display.deformation_scale,
                            .targets = {}};
-    for (const SceneViewport& viewport : viewports)
-        if (const ShownBody* shown = body(viewport.kinds.front()))
-            context.targets.push_back({viewport.place, &shown->positions()});
+    for (const SceneViewport& viewport : viewports) {
+        const ShownBody* shown = body(viewport.kinds.front());
+        if (shown == nullptr) continue;
+        if (const auto& section = shown->section())
+            context.targets.push_back({viewport.place, &section->positions, &section->triangles});
+        else
+            context.targets.push_back({viewport.place, &shown->positions(), &scene_->mesh().triangles});
+    }
     return context;
 }
 

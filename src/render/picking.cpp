@@ -31,6 +31,13 @@ PickHit hit_on(const Camera& camera, const Viewport& viewport, const Eigen::Vect
     return hit;
 }
 
+/// For each vertex whether it is a corner of a triangle.
+std::vector<bool> is_corner(Eigen::Index n_vertices, const TrianglesView& triangles) {
+    std::vector<bool> corner(static_cast<std::size_t>(n_vertices), false);
+    for (const int vertex : triangles.reshaped()) corner[static_cast<std::size_t>(vertex)] = true;
+    return corner;
+}
+
 std::optional<PickHit> snapped(const Camera& camera, const Viewport& viewport, const Eigen::Vector2d& cursor,
                                const PositionsView& positions, const TrianglesView& triangles, double snap) {
     std::vector<std::pair<double, int>> near;
@@ -39,6 +46,9 @@ std::optional<PickHit> snapped(const Camera& camera, const Viewport& viewport, c
         if (seen.depth > 0.0 && pixel_distance(seen, cursor) <= snap)
             near.emplace_back(pixel_distance(seen, cursor), vertex);
     }
+    if (near.empty()) return std::nullopt;
+    const std::vector<bool> corner = is_corner(positions.cols(), triangles);
+    std::erase_if(near, [&](const auto& found) { return !corner[static_cast<std::size_t>(found.second)]; });
     std::sort(near.begin(), near.end());
     for (const auto& [distance, vertex] : near)
         if (is_visible(camera.eye(), vertex, positions, triangles))
@@ -50,8 +60,10 @@ using PixelTest = std::function<bool(const Eigen::Vector2d&)>;
 
 std::vector<int> selected(const Camera& camera, const Viewport& viewport, const PositionsView& positions,
                           const TrianglesView& triangles, Reach reach, const PixelTest& inside) {
+    const std::vector<bool> corner = is_corner(positions.cols(), triangles);
     std::vector<int> vertices;
     for (int vertex = 0; vertex < static_cast<int>(positions.cols()); ++vertex) {
+        if (!corner[static_cast<std::size_t>(vertex)]) continue;
         const ProjectedPoint seen = camera.project(positions.col(vertex), viewport);
         if (seen.depth > 0.0 && inside(seen.pixel)) vertices.push_back(vertex);
     }

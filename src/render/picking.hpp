@@ -9,7 +9,7 @@
 
 namespace elastolab {
 
-/// What is under the cursor.
+/// What is under the cursor. Here and below, vertices that are corners of no triangle are not there.
 struct PickHit {
     int triangle = -1;                                      ///< -1 when the ray misses and a vertex nearby was taken
     Eigen::Vector3d barycentric = Eigen::Vector3d::Zero();  ///< of the point in the triangle; zero without one

@@ -128,6 +128,18 @@ TEST(Picking, SortsIntoCellsWithoutChangingWhatIsVisible) {
     EXPECT_LT(expected.size(), all.size() * 3 / 4);
 }
 
+TEST(Picking, VerticesOfNoTriangleAreNotThere) {
+    const SurfaceMesh mesh = make_sphere(6);
+    const Camera camera = camera_at({});
+    Positions more(3, mesh.n_vertices() + 1);
+    more << mesh.vertices, Eigen::Vector3d(0.0, 0.0, 1.5);
+    const Eigen::Vector2d there = camera.project(more.col(mesh.n_vertices()), kViewport).pixel;
+    const auto hit = pick(camera, kViewport, there, more, mesh.triangles, 2000.0);
+    ASSERT_TRUE(hit);
+    EXPECT_LT(hit->vertex, mesh.n_vertices());
+    EXPECT_TRUE(vertices_in_brush(camera, kViewport, there, 1.0, more, mesh.triangles, Reach::visible).empty());
+}
+
 TEST(Picking, PaintsWithARoundBrush) {
     const SurfaceMesh mesh = make_sphere(12);
     const Camera camera = camera_at({});
