@@ -75,6 +75,7 @@ void draw_buttons(const PanelContext& context) {
     const auto n = static_cast<float>(all_method_kinds().size());
     const float width = (ImGui::GetContentRegionAvail().x - (n - 1.0f) * ImGui::GetStyle().ItemSpacing.x) / n;
     const float scale = context.gui.scale();
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {2.0f * scale, ImGui::GetStyle().FramePadding.y});  // long names
     int number = 0;
     for (const MethodKind kind : all_method_kinds()) {
         if (number++ > 0) ImGui::SameLine();
@@ -93,6 +94,7 @@ void draw_buttons(const PanelContext& context) {
             {low.x + 8.0f * scale, high.y - 5.0f * scale}, {high.x - 8.0f * scale, high.y - 2.5f * scale},
             imgui_packed(state_colour(state.simulation.runner(kind), context.palette), active ? 0.0f : 1.0f), scale);
     }
+    ImGui::PopStyleVar();
 }
 
 void draw_progress(const PanelContext& context, MethodRunner& runner, const Cost& cost) {
@@ -166,10 +168,10 @@ void Panels::draw_method(const PanelContext& context) {
     const float scale = context.gui.scale();
     set_item_width(scale);
     choose<Update>("update", state.choices.update, kUpdates);
-    if (state.choices.update == Update::eqn9 && method.update != Update::eqn9)
+    if (state.choices.update == Update::eqn9 && runner.model() && runner.model()->method().update != Update::eqn9)
         paragraph(
-            "Eqn. 9 needs K and its inverse: choose that mode. Until then the collapsed form answers, which "
-            "gives the same displacements.",
+            "Eqn. 9 needs K and its inverse: until they are completed, or with that mode, the collapsed form answers, "
+            "which gives the same displacements.",
             palette.text_dim);
     set_item_width(scale);
     choose<FrameRule>("each frame", state.choices.frame_rule, kFrameRules);

@@ -42,7 +42,9 @@ void draw_title(const PanelContext& context, ImDrawList& list, const SceneViewpo
         else if (!state.simulation.problem(kind).empty())
             text += "  \u2013  not available: see Method";
         else if (!runner.has_answer())
-            text += runner.preparing() ? "  \u2013  preparing the held vertices" : "  \u2013  waiting";
+            text += runner.preparing()           ? "  \u2013  preparing the held vertices"
+                    : state.simulation.waiting() ? "  \u2013  waiting"
+                                                 : "  \u2013  not computed";
         const Colour& colour = palette.body(kind);
         shaded_text(list, font, height, place, mix(colour, palette.text, 0.35), palette.background_bottom, text);
         place.y += 1.25f * height;

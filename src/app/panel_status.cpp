@@ -34,6 +34,21 @@ std::string right_text(const ViewerState& state) {
            (state.recorder ? "recording the interaction   " : "");
 }
 
+/// Two columns: what is done with the mouse or keyboard, and what it does.
+void draw_help_list(const char* id, const PanelContext& context, const auto& entries, const auto& keys_of) {
+    if (!ImGui::BeginTable(id, 2)) return;
+    ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthFixed, 132.0f * context.gui.scale());
+    ImGui::TableSetupColumn("action", ImGuiTableColumnFlags_WidthStretch);
+    for (const auto& entry : entries) {
+        const std::string keys = keys_of(entry), action = entry.action;
+        ImGui::TableNextColumn();
+        ImGui::TextColored(imgui_colour(context.palette.accent), "%s", keys.c_str());
+        ImGui::TableNextColumn();
+        ImGui::TextWrapped("%s", action.c_str());
+    }
+    ImGui::EndTable();
+}
+
 }  // namespace
 
 void Panels::draw_status(const PanelContext& context) {
@@ -59,18 +74,13 @@ void Panels::draw_help(const PanelContext& context) {
     ImGui::SetNextWindowSize({std::min(820.0f * scale, screen.x), std::min(520.0f * scale, screen.y)});
     if (ImGui::Begin("Mouse and keys", &context.state.show_help,
                      ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove)) {
-        ImGui::Columns(2, "help", false);
-        const auto row = [&](const std::string& keys, const std::string& action) {
-            ImGui::TextColored(imgui_colour(context.palette.accent), "%s", keys.c_str());
-            ImGui::SameLine(ImGui::GetColumnOffset() + 140.0f * scale);
-            ImGui::PushTextWrapPos(ImGui::GetColumnOffset() + ImGui::GetColumnWidth() - 12.0f * scale);
-            ImGui::TextUnformatted(action.c_str());
-            ImGui::PopTextWrapPos();
-        };
-        for (const GestureHelp& help : gesture_help()) row(help.gesture, help.action);
-        ImGui::NextColumn();
-        for (const Shortcut& shortcut : shortcuts()) row(shortcut.keys, shortcut.action);
-        ImGui::Columns();
+        if (ImGui::BeginTable("help", 2, ImGuiTableFlags_SizingStretchSame)) {
+            ImGui::TableNextColumn();
+            draw_help_list("mouse", context, gesture_help(), [](const GestureHelp& help) { return help.gesture; });
+            ImGui::TableNextColumn();
+            draw_help_list("keys", context, shortcuts(), [](const Shortcut& shortcut) { return shortcut.keys; });
+            ImGui::EndTable();
+        }
     }
     ImGui::End();
 }

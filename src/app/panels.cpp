@@ -73,10 +73,15 @@ void Panels::draw_side(const PanelContext& context) {
     ImGui::SetNextWindowPos({static_cast<float>(place.x), static_cast<float>(place.y)});
     ImGui::SetNextWindowSize({static_cast<float>(place.width), static_cast<float>(place.height)});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0f);
+    // Its place is kept, so that nothing moves when it is needed; until then nothing of it is seen.
+    ImGui::PushStyleColor(ImGuiCol_ScrollbarGrab,
+                          side_fits_ ? ImVec4() : ImGui::GetStyleColorVec4(ImGuiCol_ScrollbarGrab));
     ImGui::Begin("##side", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoBringToFrontOnFocus |
                      ImGuiWindowFlags_AlwaysVerticalScrollbar);
+    ImGui::PopStyleColor();
     ImGui::PopStyleVar();
+    side_fits_ = ImGui::GetScrollMaxY() <= 0.0f;
     struct Section {
         const char* title;
         void (Panels::*draw)(const PanelContext&);

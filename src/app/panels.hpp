@@ -53,6 +53,7 @@ private:
     FileDialog files_;
     std::string primitive_ = "cube";
     int resolution_ = 13;
+    bool side_fits_ = true;  ///< the side panel's content did, in the last frame
     std::uint64_t costs_of_scene_ = 0;
     std::map<std::pair<MethodKind, Mode>, Cost> costs_;
 };

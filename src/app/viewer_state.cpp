@@ -316,6 +316,8 @@ bool ViewerState::update_displacements() {
         case JobEvent::none:
             break;
     }
+    if (loading() && !simulated_) return false;  // the default scene would be computed for nothing
+    simulated_ = true;
     const bool changed = simulation.update(*scene_, needed_kinds(), choices);
     const std::vector<int>& patch = gestures.hover().patch;
     if (gestures.action() == Gestures::Action::none && !patch.empty() && patch != prefetched_)

@@ -125,6 +125,7 @@ private:
     std::unique_ptr<LiveScene> scene_;
     std::unique_ptr<VertexGraph> graph_;
     std::uint64_t scene_number_ = 0;
+    bool simulated_ = false;  ///< something was computed already
     std::vector<std::filesystem::path> recent_;
     std::vector<int> prefetched_;
     std::filesystem::path pending_file_;

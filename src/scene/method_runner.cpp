@@ -91,7 +91,7 @@ void MethodRunner::forget_answers() {
 void MethodRunner::begin_precompute() {
     failure_.clear();
     completion_.cancel();
-    completion_tried_ = false;
+    completion_tried_.reset();
     model_is_wanted_ = false;
     precompute_.start([before = model_, body = body_, method = method_](Control& control) {
         return before ? precompute_again(*before, body.material, method, control) : precompute(body, method, control);
@@ -116,11 +116,13 @@ void MethodRunner::set_frame_rule(FrameRule rule) {
 
 void MethodRunner::prefetch(const ConstrainedSet& set) { prefetch_ = set; }
 
-void MethodRunner::complete() {
-    if (!model_ || !model_is_wanted_ || completion_tried_ || has_inverse() || precompute_.running()) return;
-    completion_tried_ = true;
+void MethodRunner::complete(Update update) {
+    if (!model_ || !model_is_wanted_ || completion_tried_ == update || precompute_.running()) return;
+    if (has_inverse() && model_->method().update == update) return;
+    completion_tried_ = update;
     Method method = model_->method();
     method.mode = Mode::full;
+    method.update = update;
     completion_.start([before = model_, method](Control& control) {
         return precompute_again(*before, before->body().material, method, control);
     });
@@ -129,18 +131,18 @@ void MethodRunner::complete() {
 void MethodRunner::postpone_completion() {
     if (!completion_.running()) return;
     completion_.cancel();
-    completion_tried_ = false;
+    completion_tried_.reset();
 }
 
 void MethodRunner::poll() {
-    poll_models();
+    take_models();
     poll_preparation();
     if (model_) use_or_prepare();
     // A model of an earlier material or mode answers until the next one is prepared.
     if (deformer_ && same(deformer_->set(), wanted_set_)) update_displacement();
 }
 
-void MethodRunner::poll_models() {
+void MethodRunner::take_models() {
     switch (precompute_.poll()) {
         case JobEvent::finished:
             take_model(precompute_.result());

@@ -51,8 +51,8 @@ public:
     /// Prepares a constrained set that may be asked for soon, when there is nothing else to do.
     void prefetch(const ConstrainedSet& set);
     /// Computes K and its inverse for the present model (Mode::full) in the background, when there is nothing else to
-    /// do and it is not there yet. The present model answers until then.
-    void complete();
+    /// do and it is not there yet; `update` is the rule by which it then answers. The present model answers until then.
+    void complete(Update update);
     /// Stops the completion, which gives the processor to what is waited for; complete() starts it anew.
     void postpone_completion();
 
@@ -64,6 +64,8 @@ public:
     }
     const std::vector<std::string>& check_warnings() const { return check_warnings_; }
 
+    /// Takes over the models that the workers finished, and does nothing with them yet.
+    void take_models();
     /// Takes over what the workers finished, starts what is due and brings the displacements up to date.
     void poll();
 
@@ -106,7 +108,6 @@ private:
     const PrecomputeJob& running_job() const { return precompute_.running() ? precompute_ : completion_; }
     void forget_answers();
     void begin_precompute();
-    void poll_models();
     void take_model(const std::shared_ptr<const Model>& model);
     void poll_preparation();
     bool set_is_current() const;
@@ -119,7 +120,7 @@ private:
     Method method_;
     bool body_wanted_ = false;      ///< set_body was called
     bool model_is_wanted_ = false;  ///< model_ is of body_ and method_ (possibly completed)
-    bool completion_tried_ = false;
+    std::optional<Update> completion_tried_;
     ConstrainedSet wanted_set_;
     Eigen::VectorXd wanted_values_;
     std::vector<int> handle_ends_;

@@ -46,6 +46,10 @@ std::size_t Simulation::place(MethodKind kind) const {
     return static_cast<std::size_t>(found - entries_.begin());
 }
 
+bool Simulation::is_shown(MethodKind kind) const {
+    return std::find(shown_.begin(), shown_.end(), kind) != shown_.end();
+}
+
 MethodRunner& Simulation::runner(MethodKind kind) { return *entries_[place(kind)].runner; }
 const MethodRunner& Simulation::runner(MethodKind kind) const { return *entries_[place(kind)].runner; }
 
@@ -69,6 +73,7 @@ bool Simulation::give_body(Entry& entry, const LiveScene& scene, const MethodCho
 
 bool Simulation::update(const LiveScene& scene, const std::vector<MethodKind>& shown, const MethodChoices& choices) {
     shown_ = shown;
+    rest_hidden(scene);
     bool changed = false, waiting = false;
     for (const MethodKind kind : shown) {
         Entry& present = entries_[place(kind)];
@@ -87,12 +92,20 @@ bool Simulation::update(const LiveScene& scene, const std::vector<MethodKind>& s
     return changed;
 }
 
+/// What a hidden method was computing is taken over when it is done, and given up when it is of another body.
+void Simulation::rest_hidden(const LiveScene& scene) {
+    for (const Entry& entry : entries_) {
+        if (is_shown(entry.kind)) continue;
+        if (entry.runner->surface() == &scene.mesh())
+            entry.runner->take_models();
+        else
+            entry.runner->clear();
+    }
+}
+
 /// Only when every shown method is ready, and one at a time: what is looked at comes first.
 void Simulation::complete_one(const LiveScene& scene, const MethodChoices& choices) {
     if (choices.mode != Mode::on_demand) return;
-    const auto is_shown = [&](MethodKind kind) {
-        return std::find(shown_.begin(), shown_.end(), kind) != shown_.end();
-    };
     const bool precomputing =
         std::any_of(shown_.begin(), shown_.end(), [&](MethodKind kind) { return runner(kind).precomputing(); });
     for (const Entry& entry : entries_)
@@ -100,7 +113,7 @@ void Simulation::complete_one(const LiveScene& scene, const MethodChoices& choic
     if (busy()) return;
     for (const MethodKind kind : shown_) {
         if (!worth_completing(scene.mesh(), choices.of(kind), choices.complete_up_to)) continue;
-        runner(kind).complete();
+        runner(kind).complete(choices.update);
         if (runner(kind).completing()) return;
     }
 }

@@ -60,6 +60,8 @@ private:
         std::string unfit;
     };
     std::size_t place(MethodKind kind) const;
+    bool is_shown(MethodKind kind) const;
+    void rest_hidden(const LiveScene& scene);
     static bool give_body(Entry& entry, const LiveScene& scene, const MethodChoices& choices);
     void complete_one(const LiveScene& scene, const MethodChoices& choices);
 

@@ -114,6 +114,21 @@ TEST(Simulation, EveryFrameRuleAndUpdateShowsTheSame) {
         }
 }
 
+TEST(Simulation, ACompletedModelAnswersByTheUpdateThatWasChosen) {
+    LiveScene scene = cube();
+    scene.add_handle(where(scene, 0.9, 0.6));
+    scene.set_motion(0, AffineMotion{.translate = {0.1, 0, 0}});
+    Bench bench;
+    const Eigen::VectorXd expected = truth(scene, bench.choices.of(MethodKind::linear_bem));
+    for (const Update update : {Update::eqn9, Update::reduced, Update::direct}) {
+        bench.choices.update = update;
+        bench.settle(scene);
+        ASSERT_TRUE(bench.runner().has_inverse());
+        EXPECT_EQ(bench.runner().model()->method().update, update);
+        expect_near(bench.runner().displacement(), expected);
+    }
+}
+
 TEST(Simulation, AHandleThatWasPrefetchedAnswersAtOnce) {
     LiveScene scene = cube();
     Bench bench;
@@ -172,6 +187,28 @@ TEST(Simulation, SwitchingBackIsInstant) {
     bench.shown = kLinear;
     bench.simulation.update(scene, bench.shown, bench.choices);
     EXPECT_EQ(bench.runner().state(), State::ready);
+}
+
+TEST(Simulation, AHiddenMethodComesToAnEnd) {
+    LiveScene scene = cube(8);
+    Bench bench;
+    bench.simulation.update(scene, bench.shown, bench.choices);
+    ASSERT_TRUE(bench.runner().precomputing());
+    bench.shown = {MethodKind::fem};
+    const Stopwatch watch;
+    while (bench.runner().precomputing() && watch.seconds() < 60.0) bench.settle(scene);
+    EXPECT_FALSE(bench.runner().precomputing());
+    EXPECT_TRUE(bench.runner().model());
+}
+
+TEST(Simulation, AHiddenMethodForgetsABodyThatIsGone) {
+    LiveScene first = cube(2), second = cube(3);
+    Bench bench;
+    bench.settle(first);
+    bench.shown = {MethodKind::fem};
+    bench.settle(second);
+    EXPECT_FALSE(bench.runner().model());
+    EXPECT_FALSE(bench.runner().surface());
 }
 
 TEST(Simulation, AMethodThatCannotTakeTheMaterialSaysSoAndTheOthersGoOn) {
