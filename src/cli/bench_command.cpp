@@ -39,7 +39,7 @@ void add_options(CLI::App& parser, BenchOptions& options) {
     parser.add_option("study", options.study, "which study")->required()->check(CLI::IsMember(names));
     parser.add_option("--out", options.folder, "folder for the results, made when it is missing (default bench-STUDY)");
     parser.add_flag("--quick", options.quick, "small sizes: under a minute");
-    parser.add_option("--seed", options.seed, "of all random choices (default 1)");
+    parser.add_option("--seed", options.seed, "of the known nodes of paper and the edits of stability (default 1)");
     parser.add_option("--threads", options.threads, "at most this many (default: all cores)")
         ->check(CLI::Range(1, 1024));
     parser.add_flag("--fresh", options.fresh, "do not go on with a stopped run, begin anew");

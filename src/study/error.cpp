@@ -91,7 +91,7 @@ private:
 /// Refinement at a compressible and a nearly incompressible ratio.
 void add_refinements(CaseList& cases, bool quick) {
     for (const ProblemFamily& family : problem_families()) {
-        if (family.organic || (quick && family.name.ends_with("irregular"))) continue;
+        if (family.organic || family.reproduced || (quick && family.name.ends_with("irregular"))) continue;
         for (const double nu : {0.3, 0.49}) {
             if (quick && nu != 0.3) continue;
             for (const Variant& variant : main_variants(quick))
@@ -100,14 +100,24 @@ void add_refinements(CaseList& cases, bool quick) {
     }
 }
 
-/// All Poisson's ratios at one size.
+/// What linear elements hold exactly, at one size.
+void add_reproduced(CaseList& cases, bool quick) {
+    for (const ProblemFamily& family : problem_families())
+        for (const Variant& variant : main_variants(quick))
+            if (family.reproduced) cases.add("reproduced", family.name, variant, 0.3, quick ? 3 : 6);
+}
+
+/// All Poisson's ratios at one size, on flat and on curved surfaces.
 void add_ratios(CaseList& cases, bool quick) {
-    const int size = quick ? 3 : 6;
     const std::vector<double> ratios =
         quick ? std::vector{-0.5, 0.3, 0.49, 0.4999, 0.5} : std::vector{-0.5, 0.0, 0.3, 0.45, 0.49, 0.499, 0.4999, 0.5};
-    for (const double nu : ratios)
-        for (const Variant& variant : main_variants(quick))
-            if (nu < 0.5 || variant.method.kind != MethodKind::fem) cases.add("poisson", "bending", variant, nu, size);
+    std::vector<std::pair<std::string, int>> problems = {{"bending", 6}, {"torsion", 4}, {"hollow-sphere", 4}};
+    if (quick) problems = {{"bending", 3}};
+    for (const auto& [problem, size] : problems)
+        for (const double nu : ratios)
+            for (const Variant& variant : main_variants(quick))
+                if (nu < 0.5 || variant.method.kind != MethodKind::fem)
+                    cases.add("poisson", problem, variant, nu, size);
 }
 
 /// Tetrahedra of other sizes and qualities; integrals of other tolerances.
@@ -157,6 +167,7 @@ Study make_error_study(const StudyOptions& options) {
                      "error",    "error_max",   "condition",    "residual",     "truth",   "truth_error", "warnings"};
     CaseList cases(options.quick);
     add_refinements(cases, options.quick);
+    add_reproduced(cases, options.quick);
     add_ratios(cases, options.quick);
     add_choices(cases, options.quick);
     add_organic(cases, options.quick);

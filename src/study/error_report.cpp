@@ -75,7 +75,7 @@ std::string frontier_findings(const Table& table) {
         const auto single = std::find_if(once.begin(), once.end(), [&](const FrontierPoint& p) {
             return p.problem == best.problem && p.nu == best.nu && p.target == best.target;
         });
-        rows.push_back({best.problem, best.nu, target_text(best.target), best.variant, short_number(best.vertices),
+        rows.push_back({best.problem, best.nu, target_text(best.target), best.variant, count(best.vertices),
                         duration(best.seconds), others[0], others[1], others[2],
                         single == once.end() ? "-" : single->variant + ", " + duration(single->seconds)});
     }
@@ -146,20 +146,34 @@ std::string organic_findings(const Table& table) {
            markdown_table(titles, rows);
 }
 
-std::string ratio_findings(const Table& table) {
-    const Table poisson = table.where({{"part", "poisson"}});
+/// One row for each text of `column`, the error of every variant.
+std::string error_table(const Table& table, const std::string& column) {
     std::vector<std::vector<std::string>> rows;
-    for (const std::string& nu : poisson.values("nu")) {
-        std::vector<std::string> row = {nu};
+    for (const std::string& value : table.values(column)) {
+        std::vector<std::string> row = {value};
         for (const std::string& variant : kVariants) {
-            const Table some = poisson.where({{"nu", nu}, {"variant", variant}});
+            const Table some = table.where({{column, value}, {"variant", variant}});
             row.push_back(some.rows.empty() ? "-" : percent(some.rows.front().number("error")));
         }
         rows.push_back(row);
     }
-    std::vector<std::string> titles = {"nu"};
+    std::vector<std::string> titles = {column};
     titles.insert(titles.end(), kVariants.begin(), kVariants.end());
-    return "## Poisson's ratio\n\nError on the bending bar, same mesh for all:\n\n" + markdown_table(titles, rows);
+    return markdown_table(titles, rows);
+}
+
+std::string ratio_findings(const Table& table) {
+    const Table poisson = table.where({{"part", "poisson"}});
+    std::string text = "## Poisson's ratio\n\nError, the same mesh for all ratios and methods.\n";
+    for (const std::string& problem : poisson.values("problem"))
+        text += "\n" + problem + ":\n\n" + error_table(poisson.where({{"problem", problem}}), "nu");
+    return text;
+}
+
+std::string reproduced_findings(const Table& table) {
+    return "## Reproduced\n\nError on fields that linear elements hold exactly, on a bar with vertices moved at "
+           "random.\n\n" +
+           error_table(table.where({{"part", "reproduced"}}), "problem");
 }
 
 std::string choice_findings(const Table& table) {
@@ -192,15 +206,15 @@ Plot error_plot(const std::string& problem, const std::string& nu) {
     return plot;
 }
 
-Plot ratio_plot() {
-    Plot plot{.name = "error-poisson", .title = "Poisson's ratio: error on the bending bar"};
+Plot ratio_plot(const std::string& problem) {
+    Plot plot{.name = "error-poisson-" + problem, .title = "Poisson's ratio: error on " + problem};
     plot.caption = "One mesh for all; linear tetrahedra lock towards one half.";
     plot.x_label = "Poisson's ratio";
     plot.y_label = "relative error (rms)";
     plot.log_y = true;
     for (const std::string& variant : kVariants)
         plot.series.push_back({variant,
-                               {{"part", "poisson"}, {"variant", variant}},
+                               {{"part", "poisson"}, {"problem", problem}, {"variant", variant}},
                                "nu",
                                "error",
                                variant_color(variant),
@@ -208,8 +222,8 @@ Plot ratio_plot() {
     return plot;
 }
 
-Plot frontier_plot() {
-    Plot plot{.name = "error-frontier", .title = "Time for a given error: bending bar, nu 0.3"};
+Plot frontier_plot(const std::string& problem) {
+    Plot plot{.name = "error-frontier-" + problem, .title = "Time for a given error: " + problem + ", nu 0.3"};
     plot.caption = "Interpolated between the measured sizes, from error-frontier.csv.";
     plot.csv = "error-frontier.csv";
     plot.x_label = "error asked for";
@@ -218,7 +232,7 @@ Plot frontier_plot() {
     plot.extra = "set xrange [0.15:0.0007]";
     for (const std::string& variant : kVariants)
         plot.series.push_back({variant,
-                               {{"problem", "bending"}, {"nu", "0.3"}, {"time", "ready_s"}, {"variant", variant}},
+                               {{"problem", problem}, {"nu", "0.3"}, {"time", "ready_s"}, {"variant", variant}},
                                "target",
                                "seconds",
                                variant_color(variant),
@@ -231,17 +245,21 @@ Plot frontier_plot() {
 Conclusions conclude_error(const Table& table) {
     Conclusions conclusions;
     conclusions.findings = "## In short\n\n" + bar_finding(table) + "\n" + wins_finding(table) + "\n" +
-                           frontier_findings(table) + "\n" + ratio_findings(table) + "\n" + organic_findings(table) +
-                           "\n" + order_findings(table) + "\n" + choice_findings(table);
+                           frontier_findings(table) + "\n" + ratio_findings(table) + "\n" + reproduced_findings(table) +
+                           "\n" + organic_findings(table) + "\n" + order_findings(table) + "\n" +
+                           choice_findings(table);
     std::ostringstream text;
-    write_csv(text, frontier_table(table));
+    const Table times = frontier_table(table);
+    write_csv(text, times);
     conclusions.files.push_back({"error-frontier.csv", text.str()});
-    conclusions.plots.push_back(frontier_plot());
+    for (const std::string& problem : times.where({{"nu", "0.3"}}).values("problem"))
+        conclusions.plots.push_back(frontier_plot(problem));
     const Table refinement = table.where({{"part", "refinement"}});
     for (const std::string& problem : refinement.values("problem"))
         for (const std::string& nu : refinement.values("nu"))
             if (!problem.ends_with("irregular")) conclusions.plots.push_back(error_plot(problem, nu));
-    conclusions.plots.push_back(ratio_plot());
+    for (const std::string& problem : table.where({{"part", "poisson"}}).values("problem"))
+        conclusions.plots.push_back(ratio_plot(problem));
     return conclusions;
 }
 

@@ -18,7 +18,7 @@ struct Repeats {
 ///   vertices, unknowns, constrained
 ///   precompute_s   precomputation, no set known
 ///   set_change_s   first constrained set: columns and small system
-///   ready_s        both: from the mesh to the first displacement of a drag
+///   ready_s        both: from the mesh to a set that can be dragged
 ///   once_s         a single solve and nothing kept (the program's `solve`)
 ///   frame_s        a frame of a drag
 ///   error, error_max, condition, residual, warnings

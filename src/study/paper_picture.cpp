@@ -39,7 +39,7 @@ struct Polygon {
 };
 
 /// Triangles that face the eye, the farthest first.
-std::vector<Polygon> visible(const SurfaceMesh& mesh, double shift) {
+std::vector<Polygon> visible(const SurfaceMesh& mesh) {
     const Eigen::Matrix3Xd seen = view() * mesh.vertices;
     const Eigen::Vector3d lamp = Eigen::Vector3d(-0.15, 0.6, 0.75).normalized();
     std::vector<Polygon> polygons;
@@ -49,7 +49,6 @@ std::vector<Polygon> visible(const SurfaceMesh& mesh, double shift) {
         if (normal.z() <= 0.0) continue;
         Polygon polygon{(a + b + c).z(), std::clamp(normal.dot(lamp), 0.0, 1.0), {}};
         polygon.corners << a.head<2>(), b.head<2>(), c.head<2>();
-        polygon.corners.row(0).array() += shift;
         polygons.push_back(polygon);
     }
     std::sort(polygons.begin(), polygons.end(), [](const auto& a, const auto& b) { return a.depth < b.depth; });
@@ -68,10 +67,17 @@ std::string object(const Polygon& p) {
     return line.data();
 }
 
-std::string label(const EdgeArtefact& artefact, double shift) {
+std::string formatted(const char* format, auto... values) {
     std::array<char, 200> line{};
-    std::snprintf(line.data(), line.size(), "set label '%s' at %.3f,-0.75 center\n", artefact.method.c_str(), shift);
+    std::snprintf(line.data(), line.size(), format, values...);
     return line.data();
+}
+
+Eigen::AlignedBox2d bounds(const std::vector<Polygon>& polygons) {
+    Eigen::AlignedBox2d box;
+    for (const Polygon& polygon : polygons)
+        for (const auto& corner : polygon.corners.colwise()) box.extend(corner);
+    return box;
 }
 
 }  // namespace
@@ -99,15 +105,25 @@ Plot edge_picture(const std::vector<EdgeArtefact>& artefacts) {
     plot.name = "fig1-edge-artefact";
     plot.title = "Fig. 1: edges of a stretched cube by constant and by linear elements";
     plot.caption = "Both cubes have their left and right faces displaced in the same way.";
-    plot.body =
-        "unset border\nunset tics\nunset key\nset size ratio -1\nset xrange [-0.1:3.7]\nset yrange [-0.85:1.25]\n";
-    double shift = 0.0;
+    plot.body = "unset border\nunset tics\nunset key\nset size ratio -1\n";
+    constexpr double kGap = 0.2;
+    double right = 0.0, bottom = 0.0, top = 0.0;
     for (const EdgeArtefact& artefact : artefacts) {
-        for (const Polygon& polygon : visible(artefact.deformed, shift)) plot.body += object(polygon);
-        plot.body += label(artefact, shift + 0.95);
-        shift += 2.15;
+        std::vector<Polygon> polygons = visible(artefact.deformed);
+        const double shift = right - bounds(polygons).min().x();
+        for (Polygon& polygon : polygons) {
+            polygon.corners.row(0).array() += shift;
+            plot.body += object(polygon);
+        }
+        const Eigen::AlignedBox2d box = bounds(polygons);
+        plot.body += formatted("set label '%s' at %.3f,%.3f center\n", artefact.method.c_str(), box.center().x(),
+                               box.min().y() - kGap);
+        right = box.max().x() + kGap;
+        bottom = std::min(bottom, box.min().y());
+        top = std::max(top, box.max().y());
     }
-    plot.body += "plot NaN notitle\n";
+    plot.body += formatted("set xrange [%.3f:%.3f]\nset yrange [%.3f:%.3f]\nplot NaN notitle\n", -0.5 * kGap,
+                           right - 0.5 * kGap, bottom - 2.0 * kGap, top + 0.5 * kGap);
     return plot;
 }
 

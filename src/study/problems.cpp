@@ -20,11 +20,11 @@ namespace {
 constexpr double kNear = 1e-9;
 
 template <class Field, class Predicate>
-Problem exact_problem(SurfaceMesh mesh, const Field& field, Predicate&& constrained) {
+Problem exact_problem(SurfaceMesh mesh, const Field& field, const Material& material, Predicate&& constrained) {
     Problem problem;
     problem.truth = displacements(field, mesh.vertices);
     problem.constrained = vertices_where(mesh, constrained);
-    problem.body = study_body(std::move(mesh), field.material);
+    problem.body = study_body(std::move(mesh), material);
     return problem;
 }
 
@@ -41,14 +41,19 @@ private:
 
 constexpr double kJitter = 0.25;  // of a cell
 
-Problem bend(int cells, double nu, bool irregular) {
+SurfaceMesh bar(int cells, bool irregular) {
     const Eigen::Vector3d size(2.0, 1.0, 1.0);
     SurfaceMesh mesh = make_box(cells, size);
     Jitter jitter;
     for (auto x : mesh.vertices.colwise())
         for (int axis = 0; irregular && axis < 3; ++axis)
             if (x[axis] > kNear && x[axis] < size[axis] - kNear) x[axis] += kJitter / cells * jitter();
-    return exact_problem(std::move(mesh), PureBending{{1.0, nu}, 1.0},
+    return mesh;
+}
+
+template <class Field>
+Problem ends_of_bar(SurfaceMesh mesh, const Field& field, const Material& material) {
+    return exact_problem(std::move(mesh), field, material,
                          [](const auto& x) { return x[0] < kNear || x[0] > 2.0 - kNear; });
 }
 
@@ -64,12 +69,12 @@ Problem twist(int cells, double nu, bool irregular) {
         if (on_side && !on_cap) x[2] += step * jitter();
         if (on_cap && !on_side) x.template head<2>() += 0.5 * step * Eigen::Vector2d(jitter(), jitter());
     }
-    return exact_problem(std::move(mesh), Torsion{{1.0, nu}, 1.0},
+    return exact_problem(std::move(mesh), Torsion{{1.0, nu}, 1.0}, {1.0, nu},
                          [=](const auto& x) { return std::fabs(x[2]) > end; });
 }
 
 Problem inflate(int cells, double nu) {
-    return exact_problem(make_hollow_sphere(cells), HollowSphereField{.material = {1.0, nu}},
+    return exact_problem(make_hollow_sphere(cells), HollowSphereField{.material = {1.0, nu}}, {1.0, nu},
                          [](const auto& x) { return x.norm() < 0.75; });
 }
 
@@ -110,14 +115,28 @@ double Problem::largest_error(const Eigen::VectorXd& u) const {
 
 const std::vector<ProblemFamily>& problem_families() {
     static const std::vector<ProblemFamily> families = {
-        {"bending", kExact, false, [](int size, double nu) { return bend(size, nu, false); }},
-        {"bending-irregular", kExact, false, [](int size, double nu) { return bend(size, nu, true); }},
-        {"torsion", kExact, false, [](int size, double nu) { return twist(size, nu, false); }},
-        {"torsion-irregular", kExact, false, [](int size, double nu) { return twist(size, nu, true); }},
-        {"hollow-sphere", kExact, false, [](int size, double nu) { return inflate(size, nu); }},
-        {"rabbit", kConverged, true, [](int size, double nu) { return pull(make_rabbit(size), nu); }},
-        {"potato", kConverged, true, [](int size, double nu) { return pull(make_potato(size), nu); }},
-        {"cactus", kConverged, true, [](int size, double nu) { return pull(make_cactus(size), nu); }},
+        {"rotation", kExact, false, true,
+         [](int size, double nu) {
+             return ends_of_bar(bar(size, true), RigidMotionField{{0.1, 0.2, 0.3}, {0.3, -0.2, 0.1}}, {1.0, nu});
+         }},
+        {"stretch", kExact, false, true,
+         [](int size, double nu) {
+             return ends_of_bar(bar(size, true), UniaxialStretch{{1.0, nu}, 1.0}, {1.0, nu});
+         }},
+        {"bending", kExact, false, false,
+         [](int size, double nu) {
+             return ends_of_bar(bar(size, false), PureBending{{1.0, nu}, 1.0}, {1.0, nu});
+         }},
+        {"bending-irregular", kExact, false, false,
+         [](int size, double nu) {
+             return ends_of_bar(bar(size, true), PureBending{{1.0, nu}, 1.0}, {1.0, nu});
+         }},
+        {"torsion", kExact, false, false, [](int size, double nu) { return twist(size, nu, false); }},
+        {"torsion-irregular", kExact, false, false, [](int size, double nu) { return twist(size, nu, true); }},
+        {"hollow-sphere", kExact, false, false, [](int size, double nu) { return inflate(size, nu); }},
+        {"rabbit", kConverged, true, false, [](int size, double nu) { return pull(make_rabbit(size), nu); }},
+        {"potato", kConverged, true, false, [](int size, double nu) { return pull(make_potato(size), nu); }},
+        {"cactus", kConverged, true, false, [](int size, double nu) { return pull(make_cactus(size), nu); }},
     };
     return families;
 }

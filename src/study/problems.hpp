@@ -24,6 +24,8 @@ struct Problem {
 };
 
 /// Problems of one kind in all sizes. Their sides are free of traction but where they are constrained.
+///   rotation            bar of 2 x 1 x 1, vertices moved at random, both ends turned by the same rotation
+///   stretch             the same bar pulled along its axis
 ///   bending             bar of 2 x 1 x 1 in pure bending, both ends prescribed
 ///   bending-irregular   the same, vertices moved at random in their faces
 ///   torsion             circular cylinder twisted, both ends prescribed: a curved free side
@@ -35,6 +37,7 @@ struct ProblemFamily {
     std::string name;
     std::string truth;  ///< how the truth is known, in words
     bool organic = false;
+    bool reproduced = false;  ///< the field lies within linear elements: all that is left is rounding
     /// `size`: cells of the primitive, or vertices of an organic body.
     std::function<Problem(int size, double poisson_ratio)> make;
 };

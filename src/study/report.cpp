@@ -47,8 +47,9 @@ std::string command(const std::string& study, const Table& table, const std::str
 }  // namespace
 
 std::string short_number(double value) { return formatted("%.3g", value); }
+std::string count(double value) { return formatted("%.0f", value); }
 std::string times(double value) { return formatted(value < 10.0 ? "%.2g times" : "%.0f times", value); }
-std::string percent(double share) { return formatted("%.2g %%", 100.0 * share); }
+std::string percent(double share) { return formatted(share < 0.1 ? "%.2g %%" : "%.0f %%", 100.0 * share); }
 std::string duration(double seconds) {
     if (!std::isfinite(seconds)) return "-";
     return seconds < 1e-5 ? formatted("%.2g us", 1e6 * seconds) : readable_seconds(seconds);

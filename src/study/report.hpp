@@ -17,6 +17,8 @@ std::string markdown_table(const std::vector<std::string>& titles, const std::ve
 
 /// A number for people: three significant digits, "-" when it is not a number.
 std::string short_number(double value);
+/// A count for people that was computed: "1016", "-" when it is not a number.
+std::string count(double value);
 /// A ratio for people: "4.2 times".
 std::string times(double value);
 /// "1.3 %"

@@ -36,9 +36,9 @@ std::vector<Growth> growths(bool quick) {
     return {{method(MethodKind::fem, Mode::on_demand), cells(36)},
             {method(MethodKind::fem, Mode::full), cells(16)},
             {method(MethodKind::fem, Mode::full_volume), cells(10)},
-            {method(MethodKind::constant_bem, Mode::on_demand), cells(13)},
+            {method(MethodKind::constant_bem, Mode::on_demand), cells(20)},
             {method(MethodKind::constant_bem, Mode::full), cells(10)},
-            {method(MethodKind::linear_bem, Mode::on_demand), cells(20)},
+            {method(MethodKind::linear_bem, Mode::on_demand), cells(30)},
             {method(MethodKind::linear_bem, Mode::full), cells(16)}};
 }
 

@@ -26,7 +26,7 @@ Conclusions conclude_skip(const Table& table) {
         "A cube of " + vertices +
         " vertices, one face fixed, a patch of the opposite one as a handle. Every skip can be turned off, which is "
         "how "
-        "the third column was measured. That nothing is computed, uploaded or drawn while nothing changes is the "
+        "the time without it was measured. That nothing is computed, uploaded or drawn while nothing changes is the "
         "viewer's part, and not measured here.\n\n" +
         skip_table(table);
     Plot plot{.name = "skip", .title = "What each skip saves"};

@@ -1,6 +1,7 @@
 #include <array>
 #include <charconv>
 
+#include "base/error.hpp"
 #include "study/report.hpp"
 #include "study/stability_report.hpp"
 #include "study/stress.hpp"
@@ -30,6 +31,16 @@ void add_sweeps(std::vector<Case>& cases, bool quick) {
             }
 }
 
+/// What ends in an error is a row that failed: neither right nor refused with a reason.
+Row or_failed(const std::function<Row()>& work, Control& control) {
+    try {
+        return work();
+    } catch (const Error& error) {
+        control.checkpoint();
+        return Row().set("outcome", std::string("failed")).set("message", std::string(error.what()));
+    }
+}
+
 /// 100 000 edits over the five variants.
 void add_edits(std::vector<Case>& cases, const StudyOptions& options) {
     const int n_edits = options.quick ? 100 : 20000, n_checks = options.quick ? 10 : 200;
@@ -37,16 +48,17 @@ void add_edits(std::vector<Case>& cases, const StudyOptions& options) {
     for (const StressVariant& variant : stress_variants()) {
         const Row id = Row().set("group", std::string("edits")).set("level", n_edits).set("variant", variant.name);
         cases.push_back({id, options.quick ? 2.0 : 100.0, [=](Control& control) {
-                             return std::vector<Row>{
-                                 random_edits(variant.method, n_edits, n_checks, options.seed, control)
-                                     .set("parameter", std::string("edits"))};
+                             const auto edit = [&] {
+                                 return random_edits(variant.method, n_edits, n_checks, options.seed, control);
+                             };
+                             return std::vector<Row>{or_failed(edit, control).set("parameter", std::string("edits"))};
                          }});
         const Row threads = Row().set("group", std::string("threads")).set("level", most).set("variant", variant.name);
-        cases.push_back(
-            {threads, 2.0, [=](Control& control) {
-                 return std::vector<Row>{
-                     thread_counts(variant.method, most, control).set("parameter", std::string("threads, up to"))};
-             }});
+        cases.push_back({threads, 2.0, [=](Control& control) {
+                             const auto count = [&] { return thread_counts(variant.method, most, control); };
+                             return std::vector<Row>{
+                                 or_failed(count, control).set("parameter", std::string("threads, up to"))};
+                         }});
     }
 }
 

@@ -60,16 +60,21 @@ std::string heading(const Table& table, const std::string& group) {
 
 std::string count_findings(const Table& table) {
     const auto count = [&](const char* outcome) { return table.where({{"outcome", outcome}}).rows.size(); };
-    std::string text = "Of " + std::to_string(table.rows.size()) + " attempts " + std::to_string(count("right")) +
-                       " are right, " + std::to_string(count("told")) + " wrong with a warning, " +
-                       std::to_string(count("refused")) + " refused with a reason, and " +
-                       std::to_string(count("silent")) + " wrong without a word.\n";
+    const Table right = table.where({{"outcome", "right"}});
+    const auto warned = std::count_if(right.rows.begin(), right.rows.end(),
+                                      [](const Row& row) { return !row.text("message").empty(); });
+    std::string text = "Of " + std::to_string(table.rows.size()) + " attempts " + std::to_string(right.rows.size()) +
+                       " are right (" + std::to_string(warned) + " of them with a warning or remark), " +
+                       std::to_string(count("told")) + " wrong with a warning, " + std::to_string(count("refused")) +
+                       " refused with a reason, and " + std::to_string(count("silent")) + " wrong without a word; " +
+                       std::to_string(count("failed")) + " ended in an error that they should not have.\n";
     return text;
 }
 
 std::string edit_findings(const Table& table) {
     double edits = 0.0, checks = 0.0, worst = 0.0;
     for (const Row& row : table.where({{"group", "edits"}}).rows) {
+        if (row.text("outcome") == "failed") continue;
         edits += row.number("edits");
         checks += row.number("checks");
         worst = std::max(worst, row.number("error"));

@@ -71,9 +71,13 @@ double median_seconds(const std::function<void()>& work, double budget, int most
 }
 
 double median_seconds_of_short(const std::function<void()>& work, double budget) {
-    const Stopwatch first;
-    work();
-    const int runs = std::clamp(static_cast<int>(1e-3 / std::max(first.seconds(), 1e-9)), 1, 10000);
+    // A batch is long beside the clock; one run by itself may have been interrupted.
+    int runs = 1;
+    for (double seconds = 0.0; seconds < 1e-3 && runs < 16384; runs *= 2) {
+        const Stopwatch watch;
+        for (int i = 0; i < runs; ++i) work();
+        seconds = watch.seconds();
+    }
     return median_seconds(
                [&] {
                    for (int i = 0; i < runs; ++i) work();
