@@ -2,16 +2,9 @@
 
 #include <cassert>
 
+#include "base/overloaded.hpp"
+
 namespace elastolab {
-
-namespace {
-
-template <class... Visitors>
-struct Overloaded : Visitors... {
-    using Visitors::operator()...;
-};
-
-}  // namespace
 
 Motion translated(const Motion& motion, const Eigen::Vector3d& shift) {
     Motion result = motion;

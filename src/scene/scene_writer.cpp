@@ -1,18 +1,11 @@
 #include "base/error.hpp"
+#include "base/overloaded.hpp"
 #include "scene/json_text.hpp"
 #include "scene/scene_file.hpp"
 
 namespace elastolab {
 
 namespace {
-
-/// Calls the matching one of several functions; for std::visit.
-template <class... Functions>
-struct Overloaded : Functions... {
-    using Functions::operator()...;
-};
-template <class... Functions>
-Overloaded(Functions...) -> Overloaded<Functions...>;
 
 Json to_json(const Eigen::Vector3d& vector) { return Json::array({vector.x(), vector.y(), vector.z()}); }
 
