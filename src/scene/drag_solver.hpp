@@ -19,9 +19,6 @@ public:
     /// u <- the displacements for `values` (as Deformer::displace takes them). Throws SolveError.
     void displace(const Eigen::VectorXd& values, Eigen::VectorXd& u);
 
-    /// Columns in use: 0 (nothing moved yet), 3 or 12.
-    Eigen::Index n_columns() const { return response_.X.cols(); }
-
 private:
     static constexpr int kNone = -1, kSeveral = -2;
 

@@ -37,7 +37,7 @@ LiveScene::LiveScene(Document document, std::filesystem::path scene_file)
     history_ = History(document_);
     surface_ = std::make_shared<const SurfaceMesh>(std::move(mesh_.checked.mesh));
     mesh_.checked.mesh = {};
-    refresh();
+    become(document_);
 }
 
 Body LiveScene::body(MethodKind kind) const {
@@ -68,20 +68,23 @@ std::vector<int> LiveScene::only_free(std::span<const int> vertices) const {
 int LiveScene::add_handle(std::span<const int> vertices) {
     std::vector<int> own = only_free(vertices);
     if (own.empty()) return kNobody;
-    document_.handles.push_back(
+    Document changed = document_;
+    changed.handles.push_back(
         {.name = unused_name(document_.handles), .select = {VertexSelector{std::move(own)}}, .motion = AffineMotion{}});
-    refresh();
+    become(std::move(changed));
     return n_handles() - 1;
 }
 
 void LiveScene::remove_handle(int handle) {
-    document_.handles.erase(document_.handles.begin() + handle);
-    refresh();
+    Document changed = document_;
+    changed.handles.erase(changed.handles.begin() + handle);
+    become(std::move(changed));
 }
 
 void LiveScene::clear_handles() {
-    document_.handles.clear();
-    refresh();
+    Document changed = document_;
+    changed.handles.clear();
+    become(std::move(changed));
 }
 
 void LiveScene::fix(std::span<const int> vertices) {
@@ -100,17 +103,18 @@ void LiveScene::unfix(std::span<const int> vertices) {
 }
 
 void LiveScene::replace_fixed(std::vector<int> vertices) {
+    Document changed = document_;
     if (vertices.empty())
-        document_.fixed.reset();
+        changed.fixed.reset();
     else
-        document_.fixed = Selector{VertexSelector{std::move(vertices)}};
-    refresh();
+        changed.fixed = Selector{VertexSelector{std::move(vertices)}};
+    become(std::move(changed));
 }
 
 void LiveScene::set_motion(int handle, const Motion& motion) {
-    document_.handles[static_cast<std::size_t>(handle)].motion = motion;
     const std::span<const int> own = vertices(handle);
     const auto begin = own.data() - constraints_.set.handles.data();
+    Eigen::VectorXd values(3 * std::ssize(own));
     for (std::size_t i = 0; i < own.size(); ++i) {
         const Eigen::Vector3d x = surface_->vertices.col(own[i]);
         Eigen::Vector3d u;
@@ -118,8 +122,11 @@ void LiveScene::set_motion(int handle, const Motion& motion) {
             u = affine->matrix * x + affine->translate;
         else
             u = std::get<VertexMotion>(motion).displacements[i];
-        constraints_.values.segment<3>(3 * (begin + static_cast<Eigen::Index>(i))) = u;
+        values.segment<3>(3 * static_cast<Eigen::Index>(i)) = u;
     }
+    if (!values.allFinite()) return;
+    document_.handles[static_cast<std::size_t>(handle)].motion = motion;
+    constraints_.values.segment(3 * begin, values.size()) = values;
     ++revision_;
 }
 
@@ -128,20 +135,9 @@ void LiveScene::set_material(const Material& material) {
     ++revision_;
 }
 
-void LiveScene::set_method(MethodKind kind) {
-    document_.method = kind;
-    ++revision_;
-}
+void LiveScene::undo() { become(history_.undo()); }
 
-void LiveScene::undo() {
-    document_ = history_.undo();
-    refresh();
-}
-
-void LiveScene::redo() {
-    document_ = history_.redo();
-    refresh();
-}
+void LiveScene::redo() { become(history_.redo()); }
 
 ConstrainedSet LiveScene::set_with_handle(std::span<const int> vertices) const {
     ConstrainedSet set = constraints_.set;
@@ -150,8 +146,10 @@ ConstrainedSet LiveScene::set_with_handle(std::span<const int> vertices) const {
     return set;
 }
 
-void LiveScene::refresh() {
-    constraints_ = make_constraints(document_, *surface_, file_);
+/// The whole of it or, on an exception, nothing.
+void LiveScene::become(Document document) {
+    constraints_ = make_constraints(document, *surface_, file_);
+    document_ = std::move(document);
     owners_.assign(static_cast<std::size_t>(surface_->n_vertices()), kNobody);
     for (const int v : vertices(kFixed)) owners_[static_cast<std::size_t>(v)] = kFixed;
     for (int h = 0; h < n_handles(); ++h)

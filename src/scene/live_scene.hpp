@@ -55,9 +55,9 @@ public:
     void unfix(std::span<const int> vertices);
 
     // Edits of values.
+    /// A motion that is not finite at every vertex of the handle is ignored.
     void set_motion(int handle, const Motion& motion);
     void set_material(const Material& material);
-    void set_method(MethodKind kind);
 
     /// Ends a step; does nothing when it changed nothing.
     void commit() { history_.commit(document_); }
@@ -72,7 +72,7 @@ public:
 private:
     std::vector<int> only_free(std::span<const int> vertices) const;
     void replace_fixed(std::vector<int> vertices);
-    void refresh();
+    void become(Document document);
 
     Document document_, saved_;
     std::filesystem::path file_;

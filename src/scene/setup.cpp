@@ -57,6 +57,9 @@ private:
 
     void add_handle(std::size_t i) {
         const Handle& handle = document_.handles[i];
+        if (handle.name == "fixed")
+            fail(scene_file_, handle_path(i) + "/name",
+                 "\"fixed\" is what the fixed part is called. Choose another name.");
         const std::vector<int> vertices = claim(handle.select, handle_path(i) + "/select", static_cast<int>(i));
         std::visit([&](const auto& motion) { add_values(motion, vertices, i); }, handle.motion);
         result_.set.handles.insert(result_.set.handles.end(), vertices.begin(), vertices.end());

@@ -45,7 +45,8 @@ struct Constraints {
 };
 
 /// Throws SceneError naming the JSON path when a selector selects nothing or a vertex that is not there, when a vertex
-/// is constrained twice, or when the displacements of a handle are not one for each of its vertices or not finite.
+/// is constrained twice, when a handle is called "fixed" or as another one, or when its displacements are not one for
+/// each of its vertices or not finite.
 Constraints make_constraints(const Document& document, const SurfaceMesh& mesh,
                              const std::filesystem::path& scene_file);
 

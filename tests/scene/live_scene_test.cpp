@@ -2,12 +2,15 @@
 
 #include <gmock/gmock.h>
 
+#include <limits>
+
 #include "base/error.hpp"
 
 namespace elastolab {
 namespace {
 
 using testing::ElementsAre;
+using testing::HasSubstr;
 using testing::IsEmpty;
 
 /// A cube of 2 cells (26 vertices), held at x = 0.
@@ -99,6 +102,31 @@ TEST(LiveScene, NewNamesAvoidThoseThatAreTaken) {
     scene.add_handle(std::vector<int>{face[2]});
     EXPECT_EQ(scene.handle_name(0), "handle-1");
     EXPECT_EQ(scene.handle_name(1), "handle-0");
+}
+
+TEST(LiveScene, AMotionThatIsNotFiniteIsIgnored) {
+    LiveScene scene = cube();
+    scene.add_handle(right_face(scene));
+    const Motion motion = AffineMotion{.translate = {0.1, 0, 0}};
+    scene.set_motion(0, motion);
+    const Eigen::VectorXd before = scene.constraints().values;
+    const double nan = std::numeric_limits<double>::quiet_NaN(), most = std::numeric_limits<double>::max();
+    scene.set_motion(0, AffineMotion{.translate = {nan, 0, 0}});
+    scene.set_motion(0, AffineMotion{.matrix = Eigen::Matrix3d::Constant(most)});
+    EXPECT_EQ(scene.constraints().values, before);
+    EXPECT_EQ(scene.document().handles[0].motion, motion);
+}
+
+TEST(LiveScene, NoHandleIsCalledAsTheFixedPartIs) {
+    Document document;
+    document.mesh = Primitive{.name = "cube", .resolution = 2, .size = {}};
+    document.handles = {{.name = "fixed", .select = {VertexSelector{{0}}}, .motion = AffineMotion{}}};
+    try {
+        const LiveScene scene(document, "cube.json");
+        FAIL() << "was taken";
+    } catch (const SceneError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("cube.json: /handles/0/name"));
+    }
 }
 
 TEST(LiveScene, RefusesAMeshOfNoUse) {
