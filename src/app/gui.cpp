@@ -3,6 +3,7 @@
 #include <backends/imgui_impl_opengl3.h>
 #include <GLFW/glfw3.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <array>
@@ -169,6 +170,8 @@ void Gui::end() {
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
     update_cursor_shape();
 }
+
+void Gui::recover() { ImGui::ErrorCheckEndFrameRecover(nullptr); }
 
 void Gui::update_cursor_shape() {
     switch (ImGui::GetMouseCursor()) {

@@ -32,6 +32,8 @@ public:
     void begin(std::span<const InputEvent> events, double dt);
     /// Draws the panels.
     void end();
+    /// Closes the windows that a panel left open when it threw.
+    void recover();
 
     bool wants_mouse() const;
     bool wants_text() const;  ///< a field is being typed in

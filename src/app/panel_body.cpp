@@ -14,50 +14,31 @@ namespace {
 /// Cells along an edge of the paper's cubes: 98, 218, 386, 602, 866 and 1016 vertices.
 constexpr std::array kPaperCubes = {4, 6, 8, 10, 12, 13};
 
-/// Holds a body where its kind is usually held: cubes, boxes and beams at the left, others at the bottom.
-Selector usual_base(const std::string& primitive, const SurfaceMesh& mesh) {
-    const bool at_left = primitive == "cube" || primitive == "box" || primitive == "beam";
-    const int axis = at_left ? 0 : 2;
-    const double low = mesh.vertices.row(axis).minCoeff(), high = mesh.vertices.row(axis).maxCoeff();
-    const bool is_flat = at_left || primitive == "cylinder";
-    return {PlaneSelector{low * Eigen::Vector3d::Unit(axis), Eigen::Vector3d::Unit(axis),
-                          (is_flat ? 1e-6 : 0.12) * (high - low)}};
-}
-
-void draw_material(ViewerState& state, float scale) {
+void draw_poisson_ratio(ViewerState& state, float scale) {
     Material material = state.scene().document().material;
-    bool changed = false;
-    set_item_width(scale);
-    double nu = material.poisson_ratio;
-    const double low = -0.5, high = 0.5;
-    if (ImGui::SliderScalar("Poisson's ratio", ImGuiDataType_Double, &nu, &low, &high, "%.3f")) {
-        material.poisson_ratio = nu;
-        changed = true;
-    }
+    if (slider("Poisson's ratio", material.poisson_ratio, -0.5, 0.5, "%.3f", scale))
+        state.scene().set_material(material);
+    if (ImGui::IsItemDeactivatedAfterEdit()) state.scene().commit();
     tooltip(
         "How much the body narrows when it is stretched: 0 not at all, 0.5 as rubber does, keeping its volume. "
         "FEM with linear tetrahedra grows too stiff near 0.5 and cannot take 0.5 itself.");
-    bool done = ImGui::IsItemDeactivatedAfterEdit();
-    set_item_width(scale);
-    if (ImGui::InputDouble("Young's modulus", &material.young_modulus, 0.0, 0.0, "%.4g")) {
-        changed = material.young_modulus > 0.0;
-        if (!changed) state.messages.error("Young's modulus must be positive. Enter a force per area above 0.");
-    }
-    tooltip("Stiffness: force per area for a stretch by its own length. Displacements do not depend on it, forces do.");
-    done = done || ImGui::IsItemDeactivatedAfterEdit();
-    if (changed) state.scene().set_material(material);
-    if (done) state.scene().commit();
 }
 
 }  // namespace
 
+/// "0.5" passes through "0": the number counts when its field is left.
+void Panels::draw_young_modulus(ViewerState& state, float scale) {
+    double value = typed_modulus_.value_or(state.scene().document().material.young_modulus);
+    set_item_width(scale);
+    if (ImGui::InputDouble("Young's modulus", &value, 0.0, 0.0, "%.4g")) typed_modulus_ = value;
+    const bool left = ImGui::IsItemDeactivatedAfterEdit(), active = ImGui::IsItemActive();
+    tooltip("Stiffness: force per area for a stretch by its own length. Displacements do not depend on it, forces do.");
+    if (left && typed_modulus_) state.set_young_modulus(*typed_modulus_);
+    if (!active) typed_modulus_.reset();
+}
+
 void Panels::open_primitive(ViewerState& state) {
-    Document document;
-    document.material = state.scene().document().material;
-    document.method = state.method;
-    document.mesh = Primitive{.name = primitive_, .resolution = resolution_, .size = {}};
-    document.fixed = usual_base(primitive_, make_primitive(primitive_, resolution_));
-    state.open_document(std::move(document), primitive_ + ".json");
+    state.open_primitive({.name = primitive_, .resolution = resolution_, .size = {}});
 }
 
 void Panels::draw_body(const PanelContext& context) {
@@ -68,7 +49,8 @@ void Panels::draw_body(const PanelContext& context) {
     ImGui::SameLine();
     ImGui::TextColored(imgui_colour(context.palette.text_dim), "%s vertices, %s triangles",
                        count_text(scene.mesh().n_vertices()).c_str(), count_text(scene.mesh().n_triangles()).c_str());
-    draw_material(state, scale);
+    draw_poisson_ratio(state, scale);
+    draw_young_modulus(state, scale);
     if (!ImGui::TreeNode("New body")) return;
     set_item_width(scale);
     if (begin_choice("shape", primitive_.c_str())) {
@@ -76,8 +58,7 @@ void Panels::draw_body(const PanelContext& context) {
             if (choice_entry(name.c_str(), "", name == primitive_)) primitive_ = name;
         end_choice();
     }
-    set_item_width(scale);
-    ImGui::SliderInt("resolution", &resolution_, 1, 30, "%d cells");
+    slider("resolution", resolution_, 1, 30, "%d cells", scale);
     tooltip("Cells along the shortest edge, or around a quarter turn.");
     if (primitive_ == "cube") {
         ImGui::TextColored(imgui_colour(context.palette.text_dim), "the paper's:");

@@ -54,9 +54,7 @@ void draw_section(DisplaySettings& display, float scale) {
         if (ImGui::RadioButton(kAxes[static_cast<std::size_t>(axis)], display.section_axis == axis))
             display.section_axis = axis;
     }
-    const double low = 0.0, high = 1.0;
-    set_item_width(scale);
-    ImGui::SliderScalar("place", ImGuiDataType_Double, &display.section_place, &low, &high, "%.2f");
+    slider("place", display.section_place, 0.0, 1.0, "%.2f", scale);
     ImGui::Checkbox("keep the other side", &display.section_flip);
 }
 
@@ -68,10 +66,7 @@ void Panels::draw_display(const PanelContext& context) {
     set_item_width(scale);
     choose<Field>("colour by", display.field, kFields);
     if (display.field != Field::none) draw_range(context.state, scale);
-    const double low = 0.1, high = 10.0;
-    set_item_width(scale);
-    ImGui::SliderScalar("deformation", ImGuiDataType_Double, &display.deformation_scale, &low, &high, "x %.2f",
-                        ImGuiSliderFlags_Logarithmic);
+    factor_slider("deformation", display.deformation_scale, 0.1, 10.0, "x %.2f", scale);
     tooltip("Shows displacements larger or smaller than they are.");
     struct Switch {
         const char* label;

@@ -201,8 +201,7 @@ void Panels::draw_mode(const PanelContext& context) {
         end_choice();
     }
     if (state.choices.mode != Mode::on_demand) return;
-    set_item_width(context.gui.scale());
-    ImGui::SliderInt("complete up to", &state.choices.complete_up_to, 0, 5000, "%d vertices");
+    slider("complete up to", state.choices.complete_up_to, 0, 5000, "%d vertices", context.gui.scale());
     tooltip(
         "Bodies of at most so many vertices get K and its inverse in the background, once they can be pulled. "
         "After that a new handle is ready sooner.");

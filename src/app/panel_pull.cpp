@@ -20,10 +20,8 @@ void draw_tools(ViewerState& state, float scale) {
          "B: hold vertices where they are; with Shift, let them go. A click takes one vertex.");
     ImGui::SameLine();
     tool("fix: box", Tool::box, "N: the same for all vertices in a box on the screen.");
-    set_item_width(scale);
     if (state.tools.tool == Tool::brush) {
-        const double low = 4.0, high = 120.0;
-        ImGui::SliderScalar("brush", ImGuiDataType_Double, &state.tools.brush_pixels, &low, &high, "%.0f pixels");
+        slider("brush", state.tools.brush_pixels, 4.0, 120.0, "%.0f pixels", scale);
     } else if (state.tools.tool == Tool::box) {
         bool through = state.tools.box_reach == Reach::through;
         if (ImGui::Checkbox("through the body", &through))
@@ -34,9 +32,8 @@ void draw_tools(ViewerState& state, float scale) {
 
 void draw_patch(const PanelContext& context) {
     ViewerState& state = context.state;
-    const double low = 0.0, high = 0.5 * (state.scene().report().max_corner - state.scene().report().min_corner).norm();
-    set_item_width(context.gui.scale());
-    ImGui::SliderScalar("patch radius", ImGuiDataType_Double, &state.tools.patch_radius, &low, &high, "%.3g");
+    const double largest = 0.5 * (state.scene().report().max_corner - state.scene().report().min_corner).norm();
+    slider("patch radius", state.tools.patch_radius, 0.0, largest, "%.3g", context.gui.scale());
     tooltip(
         "The part of the surface that a press takes hold of, in mesh units; keys [ and ]. A single vertex (0) is a "
         "point load: how far the body follows then depends on the mesh, and no two methods agree.");

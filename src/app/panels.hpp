@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -47,13 +48,15 @@ private:
     void draw_status(const PanelContext& context);
     void draw_overlays(const PanelContext& context);
     void draw_help(const PanelContext& context);
+    void draw_young_modulus(ViewerState& state, float scale);
     void open_primitive(ViewerState& state);
     const Cost& cost(const ViewerState& state, const Method& method);
 
     FileDialog files_;
     std::string primitive_ = "cube";
     int resolution_ = 13;
-    bool side_fits_ = true;  ///< the side panel's content did, in the last frame
+    std::optional<double> typed_modulus_;  ///< Young's modulus while it is typed
+    bool side_fits_ = true;                ///< the side panel's content did, in the last frame
     std::uint64_t costs_of_scene_ = 0;
     std::map<std::pair<MethodKind, Mode>, Cost> costs_;
 };

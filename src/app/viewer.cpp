@@ -18,6 +18,7 @@
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
 #include "base/timer.hpp"
+#include "scene/user_text.hpp"
 
 namespace elastolab {
 
@@ -148,6 +149,19 @@ private:
         return events;
     }
 
+    /// No single edit ends a person's session; what went wrong is told. False when something did.
+    template <class Action>
+    bool guarded(const Action& action) {
+        try {
+            action();
+            return true;
+        } catch (const std::exception& error) {
+            if (nobody_watches()) throw;
+            state_.messages.error(user_text(error));
+            return false;
+        }
+    }
+
     void dispatch(const std::vector<InputEvent>& events) {
         GestureContext context = state_.gesture_context();
         for (const InputEvent& event : events) {
@@ -187,7 +201,7 @@ private:
         times.gui_ms = 1e3 * part.seconds();
 
         part = {};
-        dispatch(events);
+        guarded([&] { dispatch(events); });
         state_.update_displacements();
         times.update_ms = 1e3 * part.seconds();
 
@@ -203,7 +217,7 @@ private:
         times.draw_ms = 1e3 * part.seconds();
 
         part = {};
-        panels_.draw({state_, gui_, layout, palette()});
+        if (!guarded([&] { panels_.draw({state_, gui_, layout, palette()}); })) gui_.recover();
         gui_.end();
         times.gui_ms += 1e3 * part.seconds();
         take_screenshots();

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "app/recent_files.hpp"
+#include "app/usual_base.hpp"
 #include "mesh/export.hpp"
 #include "scene/scene_file.hpp"
 #include "scene/user_text.hpp"
@@ -145,6 +146,18 @@ void ViewerState::start_with(MethodKind kind) {
 void ViewerState::open_document(Document document, const fs::path& scene_file) {
     finish_gesture();
     attempt([&] { take_scene({std::make_unique<LiveScene>(std::move(document), scene_file)}); });
+}
+
+void ViewerState::open_primitive(const Primitive& primitive) {
+    Document document;
+    document.mesh = primitive;
+    document.material = scene_->document().material;
+    document.method = method;
+    finish_gesture();
+    attempt([&] {
+        document.fixed = usual_base(primitive);
+        take_scene({std::make_unique<LiveScene>(std::move(document), primitive.name + ".json")});
+    });
 }
 
 void ViewerState::take_scene(LoadedScene loaded) {
@@ -294,6 +307,17 @@ FrameRecord ViewerState::frame_record(const FrameTimes& times, double now) const
             .handle_vertices = n_handle,
             .state = recorded_name(simulation.runner(method).state()),
             .times = times};
+}
+
+void ViewerState::set_young_modulus(double value) {
+    if (!(value > 0.0 && std::isfinite(value))) {
+        messages.error("Young's modulus must be positive. Enter a force per area above 0.");
+        return;
+    }
+    Material material = scene_->document().material;
+    material.young_modulus = value;
+    scene_->set_material(material);
+    scene_->commit();
 }
 
 void ViewerState::select_method(MethodKind kind) { method = kind; }

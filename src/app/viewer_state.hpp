@@ -81,6 +81,8 @@ public:
     /// The method to begin with, for the scene that is there and the one that is being opened.
     void start_with(MethodKind kind);
     void open_document(Document document, const std::filesystem::path& scene_file);
+    /// A new body of the present material, held where its kind usually is.
+    void open_primitive(const Primitive& primitive);
     void save_scene(const std::filesystem::path& file);
     void export_mesh(const std::filesystem::path& file);
     /// The same without words. Throw.
@@ -92,6 +94,7 @@ public:
     void redo();
     void remove_handle(int handle);
     void clear_handles();
+    void set_young_modulus(double value);
     void select_method(MethodKind kind);
     void frame_body();
     /// Ends a gesture, so that an edit from elsewhere finds no half-done one.

@@ -59,6 +59,22 @@ void fact(const char* label, const std::string& value, const Colour& label_colou
 
 void set_item_width(float scale) { ImGui::SetNextItemWidth(165.0f * scale); }
 
+bool slider(const char* label, double& value, double low, double high, const char* format, float scale) {
+    set_item_width(scale);
+    return ImGui::SliderScalar(label, ImGuiDataType_Double, &value, &low, &high, format, ImGuiSliderFlags_AlwaysClamp);
+}
+
+bool slider(const char* label, int& value, int low, int high, const char* format, float scale) {
+    set_item_width(scale);
+    return ImGui::SliderInt(label, &value, low, high, format, ImGuiSliderFlags_AlwaysClamp);
+}
+
+bool factor_slider(const char* label, double& value, double low, double high, const char* format, float scale) {
+    set_item_width(scale);
+    return ImGui::SliderScalar(label, ImGuiDataType_Double, &value, &low, &high, format,
+                               ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic);
+}
+
 bool begin_choice(const char* label, const char* preview) { return ImGui::BeginCombo(label, preview); }
 
 bool choice_entry(const char* label, const char* explanation, bool selected) {

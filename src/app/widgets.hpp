@@ -26,6 +26,12 @@ void fact(const char* label, const std::string& value, const Colour& label_colou
 /// Width for items whose label stands to their right.
 void set_item_width(float scale);
 
+/// What is typed into a slider (after Ctrl + click) is kept between its ends, too.
+bool slider(const char* label, double& value, double low, double high, const char* format, float scale);
+bool slider(const char* label, int& value, int low, int high, const char* format, float scale);
+/// Logarithmic.
+bool factor_slider(const char* label, double& value, double low, double high, const char* format, float scale);
+
 /// A list of choices, each with its explanation. True when another one was chosen.
 template <class Value>
 bool choose(const char* label, Value& value, std::span<const Choice<Value>> choices);

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <limits>
+
 #include "app/stage.hpp"
 #include "base/error.hpp"
 #include "mesh/export.hpp"
@@ -63,6 +65,35 @@ TEST(ViewerState, ABareMeshIsHeldAtItsLowestPart) {
     EXPECT_THAT(fixed, SizeIs(16));
     for (const int v : fixed) EXPECT_EQ(stage.scene().mesh().vertices(1, v), 0.0);  // meshes from files have Y up
     EXPECT_THAT(stage.state.recent_files(), SizeIs(1));
+}
+
+TEST(ViewerState, ABodyThatCannotBeMadeIsTellingAndKeepsTheOldScene) {
+    Stage stage(2);
+    const LiveScene* before = &stage.scene();
+    stage.state.open_primitive({.name = "cube", .resolution = 0, .size = {}});
+    EXPECT_EQ(&stage.scene(), before);
+    EXPECT_EQ(n_errors(stage.state), 1);
+}
+
+TEST(ViewerState, ANewBodyHasThePresentMaterialAndIsHeld) {
+    for (const std::string& name : primitive_names()) {
+        Stage stage(2);
+        stage.scene().set_material({.young_modulus = 5.0, .poisson_ratio = 0.2});
+        stage.state.open_primitive({.name = name, .resolution = 3, .size = {}});
+        EXPECT_EQ(n_errors(stage.state), 0) << name;
+        EXPECT_EQ(stage.scene().document().material.poisson_ratio, 0.2);
+        EXPECT_THAT(stage.scene().vertices(LiveScene::kFixed), Not(IsEmpty())) << name;
+    }
+}
+
+TEST(ViewerState, YoungsModulusMustBeAPositiveNumber) {
+    Stage stage(2);
+    stage.state.set_young_modulus(4.0);
+    for (const double value : {0.0, -1.0, std::numeric_limits<double>::infinity()})
+        stage.state.set_young_modulus(value);
+    EXPECT_EQ(stage.scene().document().material.young_modulus, 4.0);
+    EXPECT_EQ(n_errors(stage.state), 1) << "the same text once";
+    EXPECT_TRUE(stage.scene().can_undo());
 }
 
 TEST(ViewerState, TheMethodOfTheCommandLineOutlivesTheLoadingOfTheScene) {
