@@ -1,5 +1,6 @@
 #include <imgui.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -74,7 +75,9 @@ void draw_axes_letters(const PanelContext& context, ImDrawList& list, const Scen
 /// The colour bar with round numbers, at the right of the scene.
 void draw_legend(const PanelContext& context, ImDrawList& list) {
     const ViewerState& state = context.state;
-    if (state.display.field == Field::none) return;
+    const auto is_coloured = [](const ShownBody& body) { return body.is_coloured(); };
+    if (state.display.field == Field::none || std::none_of(state.bodies.begin(), state.bodies.end(), is_coloured))
+        return;
     const Viewport& scene = context.layout.scene;
     const float scale = context.gui.scale(), width = 16.0f * scale;
     const float height = std::min(220.0f * scale, 0.5f * static_cast<float>(scene.height));

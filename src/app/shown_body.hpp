@@ -52,6 +52,8 @@ public:
     /// One value a vertex for the chosen field; empty when there is none.
     const std::vector<float>& values() const { return values_; }
     double max_value() const { return max_value_; }
+    /// Whether what is seen has these values: inside the body only displacements are known.
+    bool is_coloured() const { return !section_ || !section_->values.empty(); }
     double max_displacement() const { return max_displacement_; }
     const std::optional<Difference>& difference() const { return difference_; }
     const std::vector<ShownReaction>& reactions() const { return reactions_; }

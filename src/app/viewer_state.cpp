@@ -168,6 +168,7 @@ void ViewerState::take_scene(LoadedScene loaded) {
     method = std::exchange(first_method_, std::nullopt).value_or(scene_->document().method);
     tools.patch_radius = std::max(kPatchPart * diagonal(scene_->report()), kPatchEdges * scene_->report().mean_edge);
     bodies.clear();
+    forget_volume();
     camera.set_scene(frame_of(scene_->mesh().vertices));
     camera.set_up_axis(loaded.up_axis);
     camera.set_view(ViewDirection::isometric);
@@ -327,22 +328,44 @@ void ViewerState::add_recent(const fs::path& file) {
     save_recent_files(recent_);
 }
 
-bool ViewerState::update_displacements() {
+void ViewerState::poll_loading() {
     switch (load_job_.poll()) {
         case JobEvent::finished:
-            take_scene(std::move(*load_job_.result()));
+            take_scene(std::move(*load_job_.take()));
             add_recent(pending_file_);
             break;
         case JobEvent::failed:
             messages.error(load_job_.failure());
+            first_method_.reset();
             break;
         case JobEvent::cancelled:
+            first_method_.reset();
+            break;
         case JobEvent::none:
             break;
     }
+}
+
+/// Whether there is something new to see.
+bool ViewerState::poll_volume() {
+    const JobEvent event = volume_job_.poll();
+    if (event == JobEvent::finished) volume_ = volume_job_.take();
+    if (event == JobEvent::failed) messages.error(volume_job_.failure());
+    return event == JobEvent::finished || event == JobEvent::failed;
+}
+
+void ViewerState::forget_volume() {
+    volume_job_.cancel();
+    volume_.reset();
+    volume_poisson_ratio_.reset();
+}
+
+bool ViewerState::update_displacements() {
+    poll_loading();
+    const bool has_new_volume = poll_volume();
     if (loading() && !simulated_) return false;  // the default scene would be computed for nothing
     simulated_ = true;
-    const bool changed = simulation.update(*scene_, needed_kinds(), choices);
+    const bool changed = simulation.update(*scene_, needed_kinds(), choices) || has_new_volume;
     const std::vector<int>& patch = gestures.hover().patch;
     if (gestures.action() == Gestures::Action::none && !patch.empty() && patch != prefetched_)
         simulation.prefetch(scene_->set_with_handle(patch));
@@ -350,20 +373,22 @@ bool ViewerState::update_displacements() {
     return changed;
 }
 
-/// The inside of a method's body, when it is to be cut open; made on a worker, for one model at a time.
+/// The inside of a method's body, when it is to be cut open; made on a worker. It serves all models of the body that
+/// have the same Poisson's ratio: nothing else changes how the inside follows the surface.
 const Volume* ViewerState::volume(MethodKind kind) {
     const std::shared_ptr<const Model>& model = simulation.runner(kind).model();
     if (!display.section || !model || simulation.runner(kind).surface() != &scene_->mesh()) return nullptr;
-    if (volume_job_.poll() == JobEvent::finished) volume_ = volume_job_.result();
-    if (model == volume_model_) return volume_.get();
     if (!model->has_inside()) return nullptr;
-    volume_.reset();
-    volume_model_ = model;
+    const double poisson_ratio = model->body().material.poisson_ratio;
+    if (volume_poisson_ratio_ == poisson_ratio) return volume_.get();
+    forget_volume();
+    volume_poisson_ratio_ = poisson_ratio;
     volume_job_.start([model](Control& control) { return Volume::of(model, control); });
     return nullptr;
 }
 
 bool ViewerState::update_bodies() {
+    if (!display.section) forget_volume();
     const std::vector<MethodKind> kinds = shown_kinds();
     std::erase_if(bodies,
                   [&](const ShownBody& b) { return std::find(kinds.begin(), kinds.end(), b.kind()) == kinds.end(); });

@@ -107,6 +107,7 @@ public:
     bool show_help = false;
 
     bool loading() const { return load_job_.running(); }
+    bool cutting() const { return volume_job_.running(); }  ///< the inside of the body is being made
     /// Stops all workers at their next checkpoints; stopping(): some have not stopped yet.
     void cancel_workers();
     bool stopping() const { return load_job_.working() || volume_job_.working() || simulation.stopping(); }
@@ -120,6 +121,9 @@ public:
 
 private:
     void take_scene(LoadedScene loaded);
+    void poll_loading();
+    bool poll_volume();
+    void forget_volume();
     const Volume* volume(MethodKind kind);
     void add_recent(const std::filesystem::path& file);
     template <class Action>
@@ -133,8 +137,8 @@ private:
     std::vector<int> prefetched_;
     std::filesystem::path pending_file_;
     std::optional<MethodKind> first_method_;
-    std::shared_ptr<const Model> volume_model_;  ///< that volume_ is the inside of, or will be
-    std::shared_ptr<const Volume> volume_;
+    std::shared_ptr<const Volume> volume_;        ///< of the present scene's body
+    std::optional<double> volume_poisson_ratio_;  ///< that volume_ is for, or will be
     BackgroundJob<std::shared_ptr<const Volume>> volume_job_;
     BackgroundJob<std::shared_ptr<LoadedScene>> load_job_;
 };

@@ -32,7 +32,7 @@ public:
     BackgroundJob& operator=(const BackgroundJob&) = delete;
 
     /// Starts a computation. One that is running is cancelled; the new one begins when it has stopped, so that two
-    /// never compete for memory. The present result stays until the new one is there.
+    /// never compete for memory.
     void start(Work work) {
         cancel();
         auto ticket = std::make_unique<Ticket>();
@@ -51,13 +51,13 @@ public:
         ticket_ = std::move(ticket);
     }
 
-    /// Asks the running computation to stop; it does so at its next checkpoint. The present result stays.
+    /// Asks the running computation to stop; it does so at its next checkpoint.
     void cancel() {
         if (ticket_) ticket_->control.cancel();
     }
 
-    /// Takes over the result of a computation that has ended, once for each. After `finished` result() is the new one;
-    /// after `failed` it is still the old one and failure() says why.
+    /// What has become of the computation, told once. After `finished` take() gives the result; after `failed`
+    /// failure() says why.
     JobEvent poll() {
         using namespace std::chrono_literals;
         if (!ticket_ || ticket_->result.wait_for(0s) != std::future_status::ready) return JobEvent::none;
@@ -88,8 +88,9 @@ public:
     /// Seconds since the start of the running computation, or that the last one took.
     double elapsed_seconds() const { return ticket_ ? ticket_->watch.seconds() : last_seconds_; }
 
-    /// The last result that was completed; as default-constructed before the first.
-    const Result& result() const { return result_; }
+    /// Gives away the result of the last computation that was finished: what it holds lives no longer than its users
+    /// want. As default-constructed before the first and after each call.
+    Result take() { return std::exchange(result_, {}); }
     /// Why the last computation failed, for the user; empty when it did not.
     const std::string& failure() const { return failure_; }
 

@@ -145,7 +145,7 @@ void MethodRunner::poll() {
 void MethodRunner::take_models() {
     switch (precompute_.poll()) {
         case JobEvent::finished:
-            take_model(precompute_.result());
+            take_model(precompute_.take());
             break;
         case JobEvent::failed:
             failure_ = precompute_.failure();
@@ -155,11 +155,12 @@ void MethodRunner::take_models() {
             break;
     }
     // A completion that fails, for want of memory, costs nothing: the model at hand answers as before.
-    if (completion_.poll() == JobEvent::finished && model_is_wanted_) take_model(completion_.result());
+    if (completion_.poll() == JobEvent::finished)
+        if (std::shared_ptr<const Model> model = completion_.take(); model_is_wanted_) take_model(std::move(model));
 }
 
-void MethodRunner::take_model(const std::shared_ptr<const Model>& model) {
-    model_ = model;
+void MethodRunner::take_model(std::shared_ptr<const Model> model) {
+    model_ = std::move(model);
     model_is_wanted_ = true;
     set_failed_ = false;
     spare_.reset();
@@ -169,7 +170,7 @@ void MethodRunner::take_model(const std::shared_ptr<const Model>& model) {
 void MethodRunner::poll_preparation() {
     switch (prepare_.poll()) {
         case JobEvent::finished: {
-            std::shared_ptr<const Deformer> prepared = prepare_.result();
+            std::shared_ptr<const Deformer> prepared = prepare_.take();
             if (&prepared->model() != model_.get()) break;
             spare_ = std::move(prepared);
             break;
@@ -236,7 +237,7 @@ void MethodRunner::update_displacement() {
 }
 
 void MethodRunner::check_at_rest() {
-    if (check_.poll() == JobEvent::finished && checked_ == version_) check_warnings_ = check_.result();
+    if (check_.poll() == JobEvent::finished && checked_ == version_) check_warnings_ = check_.take();
     if (!unchecked() || check_.running() || rest_.seconds() < kRestSeconds) return;
     checked_ = version_;
     check_.start(

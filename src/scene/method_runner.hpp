@@ -108,7 +108,7 @@ private:
     const PrecomputeJob& running_job() const { return precompute_.running() ? precompute_ : completion_; }
     void forget_answers();
     void begin_precompute();
-    void take_model(const std::shared_ptr<const Model>& model);
+    void take_model(std::shared_ptr<const Model> model);
     void poll_preparation();
     bool set_is_current() const;
     void use_or_prepare();

@@ -52,6 +52,35 @@ TEST_F(CutOpen, WhatIsCutAwayIsNotPointedAt) {
     EXPECT_EQ(stage.hovered(), gone);
 }
 
+TEST_F(CutOpen, StaysOpenWhenTheModelIsCompleted) {
+    stage.state.choices.complete_up_to = 2000;
+    do {
+        stage.frame();
+        EXPECT_TRUE(stage.state.body(MethodKind::fem)->section());
+    } while (stage.state.simulation.busy());
+    EXPECT_TRUE(stage.state.simulation.runner(MethodKind::fem).has_inverse());
+    EXPECT_FALSE(stage.state.cutting());
+}
+
+TEST_F(CutOpen, TheCutAppearsByItself) {
+    stage.state.display.section = false;
+    stage.settle();
+    stage.state.display.section = true;
+    stage.frame();
+    ASSERT_TRUE(stage.state.cutting());
+    while (!stage.state.update_displacements()) EXPECT_TRUE(stage.state.cutting());
+    stage.state.update_bodies();
+    EXPECT_TRUE(stage.state.body(MethodKind::fem)->section());
+}
+
+TEST_F(CutOpen, OnlyDisplacementsColourTheCut) {
+    for (const Field field : {Field::displacement, Field::von_mises}) {
+        stage.state.display.field = field;
+        stage.settle();
+        EXPECT_EQ(stage.state.body(MethodKind::fem)->is_coloured(), field == Field::displacement);
+    }
+}
+
 TEST_F(CutOpen, ABoxFixesWhatIsLeft) {
     stage.state.tools.tool = Tool::box;
     stage.state.tools.box_reach = Reach::through;

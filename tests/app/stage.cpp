@@ -49,7 +49,7 @@ void Stage::settle() {
     do {
         frame();
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    } while (state.loading() || state.simulation.busy());
+    } while (state.loading() || state.cutting() || state.simulation.busy());
     frame();
 }
 

@@ -109,6 +109,18 @@ TEST(ViewerState, TheMethodOfTheCommandLineOutlivesTheLoadingOfTheScene) {
     EXPECT_EQ(stage.state.method, MethodKind::linear_bem);  // the scene's own, from then on
 }
 
+TEST(ViewerState, TheMethodOfTheCommandLineEndsWithAFileThatCannotBeLoaded) {
+    const TemporaryFolder folder;
+    save_scene(folder.path() / "cube.json", test::cube_document(2));
+    Stage stage(2);
+    stage.state.open(folder.write("bad.obj", "f 1 2 3\n"));
+    stage.state.start_with(MethodKind::fem);
+    stage.settle();
+    stage.state.open(folder.path() / "cube.json");
+    stage.settle();
+    EXPECT_EQ(stage.state.method, MethodKind::linear_bem);
+}
+
 TEST(ViewerState, ASavedSceneComesBackWithTheMethodAndTheHandles) {
     const TemporaryFolder folder;
     Stage stage(3);

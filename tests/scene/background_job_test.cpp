@@ -51,10 +51,21 @@ TEST(PrecomputeJob, BringsTheModelOnce) {
     PrecomputeJob job;
     job.start(giving("first"));
     EXPECT_EQ(wait_for_event(job), JobEvent::finished);
-    EXPECT_EQ(job.result()->body().name, "first");
+    EXPECT_EQ(job.take()->body().name, "first");
     EXPECT_FALSE(job.running());
     EXPECT_GE(job.elapsed_seconds(), 0.0);
     EXPECT_EQ(job.poll(), JobEvent::none);
+}
+
+TEST(PrecomputeJob, KeepsNothingOfAModelThatWasTaken) {
+    PrecomputeJob job;
+    job.start(giving("taken"));
+    wait_for_event(job);
+    std::shared_ptr<const Model> model = job.take();
+    const std::weak_ptr<const Model> trace = model;
+    model.reset();
+    EXPECT_TRUE(trace.expired());
+    EXPECT_EQ(job.take(), nullptr);
 }
 
 TEST(PrecomputeJob, ShowsStageAndProgressWhileItRuns) {
@@ -69,7 +80,7 @@ TEST(PrecomputeJob, ShowsStageAndProgressWhileItRuns) {
     EXPECT_EQ(job.poll(), JobEvent::none);
 }
 
-TEST(PrecomputeJob, KeepsTheOldModelAfterACancel) {
+TEST(PrecomputeJob, ACancelLeavesTheModelBeforeIt) {
     std::atomic<bool> begun{false};
     PrecomputeJob job;
     job.start(giving("old"));
@@ -78,7 +89,7 @@ TEST(PrecomputeJob, KeepsTheOldModelAfterACancel) {
     wait_until([&] { return begun.load(); });
     job.cancel();
     EXPECT_EQ(wait_for_event(job), JobEvent::cancelled);
-    EXPECT_EQ(job.result()->body().name, "old");
+    EXPECT_EQ(job.take()->body().name, "old");
     EXPECT_EQ(job.failure(), "");
 }
 
@@ -92,16 +103,16 @@ TEST(PrecomputeJob, DropsAResultThatComesAfterACancel) {
     job.cancel();
     go = true;
     EXPECT_EQ(wait_for_event(job), JobEvent::cancelled);
-    EXPECT_EQ(job.result(), nullptr);
+    EXPECT_EQ(job.take(), nullptr);
 }
 
-TEST(PrecomputeJob, KeepsTheOldModelAfterAFailureAndSaysWhy) {
+TEST(PrecomputeJob, AFailureLeavesTheModelBeforeItAndSaysWhy) {
     PrecomputeJob job;
     job.start(giving("old"));
     wait_for_event(job);
     job.start([](Control&) -> std::shared_ptr<const Model> { throw MeshError("bunny.obj: is broken. Mend it."); });
     EXPECT_EQ(wait_for_event(job), JobEvent::failed);
-    EXPECT_EQ(job.result()->body().name, "old");
+    EXPECT_EQ(job.take()->body().name, "old");
     EXPECT_EQ(job.failure(), "bunny.obj: is broken. Mend it.");
     job.start([](Control&) -> std::shared_ptr<const Model> { throw std::bad_alloc(); });
     EXPECT_EQ(wait_for_event(job), JobEvent::failed);
@@ -123,7 +134,7 @@ TEST(PrecomputeJob, ANewRequestReplacesTheOldOnesAndNeverRunsBesideThem) {
             return model_called(std::to_string(i));
         });
     EXPECT_EQ(wait_for_event(job), JobEvent::finished);
-    EXPECT_EQ(job.result()->body().name, "19");
+    EXPECT_EQ(job.take()->body().name, "19");
     EXPECT_EQ(most, 1);
 }
 
