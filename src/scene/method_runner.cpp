@@ -74,7 +74,7 @@ void MethodRunner::clear() {
     if (!body_wanted_) return;
     forget_answers();
     body_ = {};
-    failure_.clear();
+    precompute_failure_.clear();
     body_wanted_ = model_is_wanted_ = false;
 }
 
@@ -85,15 +85,27 @@ void MethodRunner::forget_answers() {
     spare_.reset();
     drag_.reset();
     displacement_.resize(0);
+    set_failure_.clear();
+    displace_failure_.clear();
+    completed_ = false;
     ++version_;
 }
 
+/// An inverse that was completed serves every choice but the mode and Poisson's ratio: it is kept, not computed twice.
+Method MethodRunner::method_to_compute() const {
+    Method method = method_;
+    if (model_ && completed_ && method.mode == Mode::on_demand && method.kind == model_->method().kind &&
+        body_.material.poisson_ratio == model_->body().material.poisson_ratio)
+        method.mode = model_->method().mode;
+    return method;
+}
+
 void MethodRunner::begin_precompute() {
-    failure_.clear();
+    precompute_failure_.clear();
     completion_.cancel();
     completion_tried_.reset();
     model_is_wanted_ = false;
-    precompute_.start([before = model_, body = body_, method = method_](Control& control) {
+    precompute_.start([before = model_, body = body_, method = method_to_compute()](Control& control) {
         return before ? precompute_again(*before, body.material, method, control) : precompute(body, method, control);
     });
 }
@@ -101,7 +113,7 @@ void MethodRunner::begin_precompute() {
 void MethodRunner::set_constraints(const Constraints& constraints) {
     if (!same(constraints.set, wanted_set_)) {
         wanted_set_ = constraints.set;
-        set_failed_ = false;
+        set_failure_.clear();
     }
     handle_ends_ = handle_ends(constraints);
     wanted_values_ = constraints.values;
@@ -148,7 +160,7 @@ void MethodRunner::take_models() {
             take_model(precompute_.take());
             break;
         case JobEvent::failed:
-            failure_ = precompute_.failure();
+            precompute_failure_ = precompute_.failure();
             break;
         case JobEvent::cancelled:
         case JobEvent::none:
@@ -162,7 +174,8 @@ void MethodRunner::take_models() {
 void MethodRunner::take_model(std::shared_ptr<const Model> model) {
     model_ = std::move(model);
     model_is_wanted_ = true;
-    set_failed_ = false;
+    completed_ = model_->method().mode != method_.mode;
+    set_failure_.clear();
     spare_.reset();
     prepare_.cancel();
 }
@@ -177,8 +190,7 @@ void MethodRunner::poll_preparation() {
         }
         case JobEvent::failed:
             if (!same(preparing_set_, wanted_set_)) break;  // a prefetch: nobody asked for it yet
-            failure_ = prepare_.failure();
-            set_failed_ = true;
+            set_failure_ = prepare_.failure();
             break;
         case JobEvent::cancelled:
         case JobEvent::none:
@@ -197,10 +209,10 @@ void MethodRunner::use_or_prepare() {
         if (!keep) spare_.reset();
         drag_.reset();
         values_.resize(0);
-        failure_.clear();
+        set_failure_.clear();
     }
     if (!set_is_current()) {
-        if (!set_failed_ && !(prepare_.running() && same(preparing_set_, wanted_set_))) prepare(wanted_set_);
+        if (set_failure_.empty() && !(prepare_.running() && same(preparing_set_, wanted_set_))) prepare(wanted_set_);
     } else if (prefetch_ && !prepare_.running()) {
         if (!same(*prefetch_, wanted_set_) && !(spare_ && same(spare_->set(), *prefetch_))) prepare(*prefetch_);
         prefetch_.reset();
@@ -225,8 +237,9 @@ void MethodRunner::update_displacement() {
         } else {
             displacement_ = deformer_->displace(wanted_values_);
         }
+        displace_failure_.clear();
     } catch (const std::exception& error) {
-        failure_ = user_text(error);
+        displace_failure_ = user_text(error);
         drag_.reset();
     }
     values_ = wanted_values_;
@@ -250,19 +263,28 @@ void MethodRunner::cancel() {
     completion_.cancel();
     if (!prepare_.running()) return;
     prepare_.cancel();
-    set_failed_ = true;
-    failure_ = "The preparation of this constrained set was stopped. Retry, or change the set.";
+    if (same(preparing_set_, wanted_set_) && !set_is_current())  // else a prefetch
+        set_failure_ = "The preparation of this constrained set was stopped. Retry, or change the set.";
 }
 
 void MethodRunner::retry() {
-    set_failed_ = false;
-    failure_.clear();
+    precompute_failure_.clear();
+    set_failure_.clear();
+    if (!displace_failure_.empty()) values_.resize(0);
+    displace_failure_.clear();
     if (!model_is_wanted_ && body_wanted_ && !precompute_.running()) begin_precompute();
+}
+
+const std::string& MethodRunner::failure() const {
+    static const std::string none;
+    if (!precompute_failure_.empty()) return precompute_failure_;
+    if (!set_failure_.empty()) return set_failure_;
+    return set_is_current() ? displace_failure_ : none;
 }
 
 MethodRunner::State MethodRunner::state() const {
     if (precompute_.running()) return State::precomputing;
-    if (!failure_.empty()) return State::failed;
+    if (!failure().empty()) return State::failed;
     if (!model_ || !model_is_wanted_) return State::idle;
     return set_is_current() ? State::ready : State::preparing;
 }

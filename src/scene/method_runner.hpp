@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "deform/deformer.hpp"
@@ -78,7 +79,8 @@ public:
     }
 
     State state() const;
-    const std::string& failure() const { return failure_; }
+    /// Why the present scene has no answer; empty when it has one or will have.
+    const std::string& failure() const;
     /// 3*n_vertices [L]; zero until the first answer. version() grows with every change.
     const Eigen::VectorXd& displacement() const { return displacement_; }
     std::uint64_t version() const { return version_; }
@@ -95,22 +97,33 @@ public:
     bool preparing() const { return prepare_.running(); }
     bool completing() const { return completion_.running(); }
     bool has_inverse() const { return model_ && model_->method().mode != Mode::on_demand; }
-    /// Of what runs now: stage, progress in [0, 1] and seconds so far.
-    const char* stage() const { return running_job().stage(); }
-    double progress() const { return running_job().progress(); }
-    double elapsed_seconds() const { return running_job().elapsed_seconds(); }
+    /// Of what runs now, what is waited for first: stage, progress in [0, 1] and seconds so far.
+    const char* stage() const {
+        return ask_running_job([](const auto& job) { return job.stage(); });
+    }
+    double progress() const {
+        return ask_running_job([](const auto& job) { return job.progress(); });
+    }
+    double elapsed_seconds() const {
+        return ask_running_job([](const auto& job) { return job.elapsed_seconds(); });
+    }
     /// Seconds that the last preparation of a constrained set took.
     double prepare_seconds() const { return prepare_.elapsed_seconds(); }
 
 private:
     using PrepareJob = BackgroundJob<std::shared_ptr<const Deformer>>;
 
-    const PrecomputeJob& running_job() const { return precompute_.running() ? precompute_ : completion_; }
+    template <class Question>
+    std::invoke_result_t<Question, const PrecomputeJob&> ask_running_job(const Question& ask) const {
+        if (precompute_.running()) return ask(precompute_);
+        return completion_.running() && state() != State::preparing ? ask(completion_) : ask(prepare_);
+    }
     void forget_answers();
     void begin_precompute();
     void take_model(std::shared_ptr<const Model> model);
     void poll_preparation();
     bool set_is_current() const;
+    Method method_to_compute() const;
     void use_or_prepare();
     void prepare(const ConstrainedSet& set);
     void update_displacement();
@@ -120,6 +133,7 @@ private:
     Method method_;
     bool body_wanted_ = false;      ///< set_body was called
     bool model_is_wanted_ = false;  ///< model_ is of body_ and method_ (possibly completed)
+    bool completed_ = false;        ///< model_ holds an inverse that nobody asked for
     std::optional<Update> completion_tried_;
     ConstrainedSet wanted_set_;
     Eigen::VectorXd wanted_values_;
@@ -131,8 +145,10 @@ private:
     std::shared_ptr<const Deformer> deformer_;
     std::shared_ptr<const Deformer> spare_;  ///< of the same model: prefetched, or the one used before
     ConstrainedSet preparing_set_;
-    bool set_failed_ = false;  ///< wanted_set_ cannot be prepared
-    std::string failure_;
+    // Each stands until its own stage succeeds or is asked for something else.
+    std::string precompute_failure_;  ///< of body_ and method_
+    std::string set_failure_;         ///< wanted_set_ cannot be prepared, or was stopped
+    std::string displace_failure_;    ///< of values_
 
     std::optional<DragSolver> drag_;
     Eigen::VectorXd values_, displacement_;

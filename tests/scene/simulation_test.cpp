@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <Eigen/Geometry>
+#include <limits>
 #include <thread>
 
 #include "base/error.hpp"
@@ -127,6 +128,98 @@ TEST(Simulation, ACompletedModelAnswersByTheUpdateThatWasChosen) {
         EXPECT_EQ(bench.runner().model()->method().update, update);
         expect_near(bench.runner().displacement(), expected);
     }
+}
+
+TEST(Simulation, ACompletedInverseIsKeptWhenPoissonsRatioStays) {
+    for (const MethodKind kind : all_method_kinds()) {
+        LiveScene scene = cube();
+        scene.add_handle(where(scene, 0.9, 0.6));
+        scene.set_motion(0, AffineMotion{.translate = {0.1, 0, 0}});
+        Bench bench({kind});
+        bench.settle(scene);
+        ASSERT_TRUE(bench.runner(kind).has_inverse());
+        for (int change = 0; change < 3; ++change) {
+            if (change == 0) scene.set_material({.young_modulus = 5.0, .poisson_ratio = 0.3});
+            if (change == 1) bench.choices.tractions = Tractions::continuous;
+            if (change == 2) bench.choices.update = Update::direct;
+            do bench.simulation.update(scene, bench.shown, bench.choices);
+            while (bench.runner(kind).precomputing());
+            EXPECT_TRUE(bench.runner(kind).has_inverse());
+            EXPECT_THAT(bench.runner(kind).model()->facts().stages, IsEmpty());
+            bench.settle(scene);
+            EXPECT_EQ(bench.runner(kind).model()->body().material.young_modulus, 5.0);
+            expect_near(bench.runner(kind).displacement(), truth(scene, bench.choices.of(kind)));
+        }
+    }
+}
+
+TEST(Simulation, AnInverseThatWasAskedForGoesWithItsMode) {
+    LiveScene scene = cube();
+    Bench bench;
+    bench.choices.mode = Mode::full;
+    bench.settle(scene);
+    ASSERT_TRUE(bench.runner().has_inverse());
+    bench.choices.mode = Mode::on_demand;
+    bench.choices.complete_up_to = 0;
+    bench.settle(scene);
+    EXPECT_FALSE(bench.runner().has_inverse());
+}
+
+TEST(Simulation, AStopOfTheCompletionLeavesTheAnswerReady) {
+    LiveScene scene = cube(8);
+    Bench bench;
+    do bench.simulation.update(scene, bench.shown, bench.choices);
+    while (!bench.runner().completing());
+    bench.simulation.prefetch(scene.set_with_handle(where(scene, 0.9, 0.6)));
+    do bench.simulation.update(scene, bench.shown, bench.choices);
+    while (bench.runner().completing() && !bench.runner().preparing());
+    bench.simulation.runner(MethodKind::linear_bem).cancel();
+    EXPECT_EQ(bench.runner().state(), State::ready);
+    EXPECT_THAT(bench.runner().failure(), IsEmpty());
+}
+
+TEST(Simulation, AStoppedSetIsForgottenByAnotherOne) {
+    LiveScene scene = cube(8);
+    Bench bench({MethodKind::fem});
+    bench.choices.complete_up_to = 0;
+    bench.settle(scene);
+    scene.commit();
+    scene.add_handle(where(scene, 0.9, 0.6));
+    scene.commit();
+    bench.simulation.update(scene, bench.shown, bench.choices);
+    ASSERT_EQ(bench.runner(MethodKind::fem).state(), State::preparing);
+    bench.simulation.runner(MethodKind::fem).cancel();
+    EXPECT_EQ(bench.runner(MethodKind::fem).state(), State::failed);
+    EXPECT_THAT(bench.simulation.problem(MethodKind::fem), HasSubstr("stopped"));
+    scene.undo();
+    bench.simulation.update(scene, bench.shown, bench.choices);
+    EXPECT_EQ(bench.runner(MethodKind::fem).state(), State::ready);
+}
+
+TEST(Simulation, AMotionThatCannotBeFollowedIsForgottenByTheNext) {
+    LiveScene scene = cube();
+    scene.add_handle(where(scene, 0.9, 0.6));
+    Bench bench;
+    bench.choices.frame_rule = FrameRule::displace;
+    bench.settle(scene);
+    const double most = std::numeric_limits<double>::max();
+    scene.set_motion(0, AffineMotion{.translate = {most, most, most}});
+    bench.settle(scene);
+    EXPECT_EQ(bench.runner().state(), State::failed);
+    scene.set_motion(0, AffineMotion{.translate = {0.1, 0, 0}});
+    bench.simulation.update(scene, bench.shown, bench.choices);
+    EXPECT_EQ(bench.runner().state(), State::ready);
+    expect_near(bench.runner().displacement(), truth(scene, bench.choices.of(MethodKind::linear_bem)));
+}
+
+TEST(Simulation, TellsTheProgressOfASetThatIsBeingPrepared) {
+    LiveScene scene = cube(8);
+    Bench bench({MethodKind::fem});
+    bench.choices.complete_up_to = 0;
+    do bench.simulation.update(scene, bench.shown, bench.choices);
+    while (bench.runner(MethodKind::fem).state() != State::preparing);
+    EXPECT_LT(bench.runner(MethodKind::fem).elapsed_seconds(), 60.0);
+    EXPECT_GT(bench.runner(MethodKind::fem).elapsed_seconds(), 0.0);
 }
 
 TEST(Simulation, AHandleThatWasPrefetchedAnswersAtOnce) {
