@@ -128,9 +128,13 @@ void MethodRunner::set_frame_rule(FrameRule rule) {
 
 void MethodRunner::prefetch(const ConstrainedSet& set) { prefetch_ = set; }
 
+bool MethodRunner::may_complete(Update update) const {
+    if (!model_ || !model_is_wanted_ || completion_tried_ == update || precompute_.running()) return false;
+    return !has_inverse() || model_->method().update != update;
+}
+
 void MethodRunner::complete(Update update) {
-    if (!model_ || !model_is_wanted_ || completion_tried_ == update || precompute_.running()) return;
-    if (has_inverse() && model_->method().update == update) return;
+    if (!may_complete(update)) return;
     completion_tried_ = update;
     Method method = model_->method();
     method.mode = Mode::full;

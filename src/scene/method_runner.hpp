@@ -54,6 +54,7 @@ public:
     /// Computes K and its inverse for the present model (Mode::full) in the background, when there is nothing else to
     /// do and it is not there yet; `update` is the rule by which it then answers. The present model answers until then.
     void complete(Update update);
+    bool may_complete(Update update) const;  ///< whether complete() would do anything
     /// Stops the completion, which gives the processor to what is waited for; complete() starts it anew.
     void postpone_completion();
 

@@ -80,7 +80,11 @@ bool Simulation::update(const LiveScene& scene, const std::vector<MethodKind>& s
         MethodRunner& runner = *present.runner;
         const std::uint64_t before = runner.version();
         if (!waiting) give_body(present, scene, choices);
-        if (runner.surface() != &scene.mesh()) continue;  // its turn has not come yet
+        if (runner.surface() != &scene.mesh()) {  // its turn has not come yet
+            runner.clear();
+            changed = changed || runner.version() != before;
+            continue;
+        }
         runner.set_frame_rule(choices.frame_rule);
         runner.set_constraints(scene.constraints());
         runner.poll();
@@ -112,6 +116,7 @@ void Simulation::complete_one(const LiveScene& scene, const MethodChoices& choic
         if (precomputing || !is_shown(entry.kind)) entry.runner->postpone_completion();
     if (busy()) return;
     for (const MethodKind kind : shown_) {
+        if (!runner(kind).may_complete(choices.update)) continue;  // far cheaper to ask than what it would cost
         if (!worth_completing(scene.mesh(), choices.of(kind), choices.complete_up_to)) continue;
         runner(kind).complete(choices.update);
         if (runner(kind).completing()) return;

@@ -336,6 +336,18 @@ TEST(Simulation, AnotherMeshReplacesEverything) {
     EXPECT_EQ(bench.runner().displacement().size(), 3 * large.mesh().n_vertices());
 }
 
+TEST(Simulation, AMethodThatWaitsForItsTurnForgetsABodyThatIsGone) {
+    LiveScene first = cube(2), second = cube(8);
+    Bench bench(all_method_kinds());
+    bench.settle(first);
+    bench.simulation.update(second, bench.shown, bench.choices);
+    ASSERT_TRUE(bench.runner(bench.shown.front()).precomputing());
+    EXPECT_FALSE(bench.runner(bench.shown.back()).surface());
+    EXPECT_FALSE(bench.runner(bench.shown.back()).has_answer());
+    bench.settle(second);
+    EXPECT_EQ(bench.runner(bench.shown.back()).state(), State::ready);
+}
+
 TEST(Simulation, EndsWhileItComputes) {
     LiveScene scene = cube(10);
     Bench bench(all_method_kinds());
