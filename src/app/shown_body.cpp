@@ -13,9 +13,15 @@ using Columns = Eigen::Map<const Eigen::Matrix3Xd>;
 
 Columns columns(const Eigen::VectorXd& u) { return {u.data(), 3, u.size() / 3}; }
 
+/// Only answers to the same question differ by their methods.
 bool comparable(const MethodRunner& runner, const MethodRunner* reference) {
-    return reference != nullptr && reference != &runner && runner.displacement().size() > 0 &&
-           reference->displacement().size() == runner.displacement().size();
+    constexpr auto kReady = MethodRunner::State::ready;
+    if (reference == nullptr || reference == &runner) return false;
+    if (runner.state() != kReady || reference->state() != kReady || runner.surface() != reference->surface())
+        return false;
+    const auto poisson_ratio = [](const MethodRunner& of) { return of.model()->body().material.poisson_ratio; };
+    return poisson_ratio(runner) == poisson_ratio(*reference) && runner.values().size() == reference->values().size() &&
+           runner.values() == reference->values();
 }
 
 std::vector<float> magnitudes(const Eigen::Matrix3Xd& vectors) {

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <utility>
+
 #include "app/stage.hpp"
 
 namespace elastolab {
@@ -115,6 +117,25 @@ TEST_F(ShownBodyTest, DifferencesFollowTheReference) {
     stage.scene().set_motion(0, AffineMotion{.translate = {0.2, 0, 0.1}});
     stage.settle();
     EXPECT_NEAR(shown(MethodKind::fem).difference()->max, 2.0 * before, 1e-9);
+}
+
+TEST_F(ShownBodyTest, OnlyAnswersToTheSameSceneAreCompared) {
+    state.compare.mode = CompareMode::side_by_side;
+    state.compare.reference = MethodKind::fem;
+    show(Field::difference);
+    ASSERT_TRUE(shown().difference());
+    stage.scene().set_material({.young_modulus = 1.0, .poisson_ratio = 0.45});
+    bool first = true;
+    do {
+        stage.frame();
+        const auto ratio = [&](MethodKind kind) {
+            return state.simulation.runner(kind).model()->body().material.poisson_ratio;
+        };
+        EXPECT_FALSE(std::exchange(first, false) && shown().difference());
+        EXPECT_TRUE(!shown().difference() || ratio(MethodKind::linear_bem) == ratio(MethodKind::fem));
+    } while (state.simulation.busy());
+    stage.frame();
+    EXPECT_TRUE(shown().difference());
 }
 
 TEST_F(ShownBodyTest, ADifferenceAloneHasTheReferenceComputed) {
