@@ -108,7 +108,8 @@ void draw_progress(const PanelContext& context, MethodRunner& runner, const Cost
     paragraph(text, context.palette.text_dim);
 }
 
-void draw_completion(const PanelContext& context, MethodRunner& runner) {
+/// Of what has no prediction: the completion, or a set of held vertices.
+void draw_stage(const PanelContext& context, MethodRunner& runner) {
     const float button = 60.0f * context.gui.scale();
     const std::string text = std::string(runner.stage()) + "  " + readable_seconds(runner.elapsed_seconds());
     ImGui::ProgressBar(static_cast<float>(runner.progress()), {ImGui::GetContentRegionAvail().x - button - 8.0f, 0.0f},
@@ -153,7 +154,7 @@ void Panels::draw_method(const PanelContext& context) {
         draw_progress(context, runner, cost(state, method));
     } else {
         if (const std::string text = readiness(runner); !text.empty()) paragraph(text, palette.text_dim);
-        if (runner.completing()) draw_completion(context, runner);
+        if (runner.completing() || runner.state() == State::preparing) draw_stage(context, runner);
     }
     ImGui::EndChild();
     if (runner.state() == State::idle || runner.state() == State::failed) {

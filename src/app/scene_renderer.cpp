@@ -65,7 +65,8 @@ void SceneRenderer::upload(const ViewerState& state, const Palette& palette) {
 
 void SceneRenderer::upload_body(const ViewerState& state, const ShownBody& body, const Palette& palette) {
     BodyDrawing& target = drawing(body.kind());
-    if (target.revision != body.revision()) {
+    const bool is_new = target.revision != body.revision();
+    if (is_new) {
         target.revision = body.revision();
         target.surface.update(body.positions(), frame_);
         if (body.values().empty())
@@ -73,6 +74,9 @@ void SceneRenderer::upload_body(const ViewerState& state, const ShownBody& body,
         else
             target.surface.set_vertex_scalars(body.values());
         upload_section(body, target);
+    }
+    if (is_new || target.palette != &palette) {
+        target.palette = &palette;
         upload_arrows(state, body, target, palette);
     }
     if (state.compare.mode == CompareMode::ghosts && target.ghost_revision != body.revision()) {

@@ -44,6 +44,7 @@ private:
         PointsDrawing points;
         ArrowsDrawing arrows;
         std::uint64_t revision = 0, ghost_revision = 0;
+        const Palette* palette = nullptr;  ///< of the arrows
     };
     /// All that the picture of a viewport depends on.
     struct Look {

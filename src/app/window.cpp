@@ -163,8 +163,6 @@ float Window::content_scale() const {
 void Window::swap_buffers() { glfwSwapBuffers(handle_); }
 void Window::set_vsync(bool on) { glfwSwapInterval(on ? 1 : 0); }
 void Window::hide() { glfwHideWindow(handle_); }
-void Window::set_title(const std::string& title) { glfwSetWindowTitle(handle_, title.c_str()); }
-void Window::resize(int width, int height) { glfwSetWindowSize(handle_, width, height); }
 
 std::string Window::clipboard() const {
     const char* text = glfwGetClipboardString(handle_);

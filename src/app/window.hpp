@@ -47,8 +47,6 @@ public:
     /// Waiting for the screen's refresh in swap_buffers(), or not.
     void set_vsync(bool on);
     void hide();
-    void set_title(const std::string& title);
-    void resize(int width, int height);
 
     std::string clipboard() const;
     void set_clipboard(const std::string& text);
