@@ -20,7 +20,19 @@ std::string lower(std::string text) {
     return text;
 }
 
+bool has_extension_of(const fs::path& file, const FileDialog::Purpose& purpose) {
+    const auto& wanted = purpose.extensions;
+    const std::string extension = lower(file.extension().string());
+    return wanted.empty() || std::find(wanted.begin(), wanted.end(), extension) != wanted.end();
+}
+
 }  // namespace
+
+fs::path with_extension(const fs::path& file, const FileDialog::Purpose& purpose) {
+    if (has_extension_of(file, purpose)) return file;
+    fs::path whole = file;
+    return whole += fs::path(purpose.suggestion).extension();
+}
 
 void FileDialog::open(Purpose purpose) {
     purpose_ = std::move(purpose);
@@ -43,10 +55,7 @@ void FileDialog::list_folder() {
         if (name.starts_with('.')) continue;
         std::error_code ignored;
         const bool is_folder = i->is_directory(ignored);
-        const auto& wanted = purpose_.extensions;
-        const std::string extension = lower(path.extension().string());
-        if (!is_folder && !wanted.empty() && std::find(wanted.begin(), wanted.end(), extension) == wanted.end())
-            continue;
+        if (!is_folder && !has_extension_of(path, purpose_)) continue;
         entries_.push_back({path, is_folder ? name + "/" : name, is_folder});
     }
     problem_ = error ? folder_.string() + ": " + error.message() : "";
@@ -55,13 +64,14 @@ void FileDialog::list_folder() {
     });
 }
 
-void FileDialog::accept(const fs::path& file) {
+void FileDialog::accept(const fs::path& typed) {
     std::error_code error;
-    if (fs::is_directory(file, error)) {
-        folder_ = fs::weakly_canonical(file, error);
+    if (fs::is_directory(typed, error)) {
+        folder_ = fs::weakly_canonical(typed, error);
         list_folder();
         return;
     }
+    const fs::path file = is_saving() ? with_extension(typed, purpose_) : typed;
     const bool exists = fs::exists(file, error);
     if (!is_saving() && !exists) {
         problem_ = file.string() + " is not there.";

@@ -18,7 +18,6 @@ public:
     };
 
     void open(Purpose purpose);
-    bool is_open() const { return open_; }
     /// Draws it, when it is open, in the middle of the window.
     void draw(float scale);
 
@@ -42,5 +41,8 @@ private:
     std::string name_, problem_;
     std::filesystem::path to_replace_;  ///< asked for confirmation
 };
+
+/// The name to save under: with the extension of the suggestion when it has none of those of the purpose.
+std::filesystem::path with_extension(const std::filesystem::path& file, const FileDialog::Purpose& purpose);
 
 }  // namespace elastolab

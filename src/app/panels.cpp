@@ -9,6 +9,7 @@ namespace elastolab {
 
 namespace {
 
+const std::vector<std::string> kExportFiles = {".obj", ".ply", ".stl"};
 const std::vector<std::string> kMeshFiles = {".obj", ".ply", ".stl", ".off", ".gltf", ".glb"};
 
 std::vector<std::string> with_scenes(std::vector<std::string> extensions) {
@@ -34,7 +35,7 @@ void Panels::ask_save(ViewerState& state) {
 }
 
 void Panels::ask_export(ViewerState& state) {
-    files_.open({"Export the deformed mesh (.obj, .ply, .stl)", kMeshFiles, suggested_name(state, "-deformed.obj"),
+    files_.open({"Export the deformed mesh (.obj, .ply, .stl)", kExportFiles, suggested_name(state, "-deformed.obj"),
                  [&](const auto& file) { state.export_mesh(file); }});
 }
 

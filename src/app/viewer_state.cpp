@@ -20,8 +20,6 @@ constexpr double kPatchPart = 0.07;   ///< default radius of a patch: of the bod
 constexpr double kPatchEdges = 1.6;   ///< but so many edges, so that it has whole triangles
 constexpr double kLowestPart = 0.06;  ///< of a bare mesh that is held, of its height
 
-bool is_scene_file(const fs::path& file) { return file.extension() == ".json"; }
-
 double diagonal(const MeshReport& report) { return (report.max_corner - report.min_corner).norm(); }
 
 /// Holds the lowest part of a body that nothing holds yet.

@@ -16,7 +16,7 @@ struct InfoOptions {
 };
 
 SceneMesh load(const std::filesystem::path& file) {
-    if (file.extension() == ".json") return load_scene_mesh(load_scene(file).mesh, file);
+    if (is_scene_file(file)) return load_scene_mesh(load_scene(file).mesh, file);
     return load_scene_mesh(MeshFile{file.string()}, {});
 }
 

@@ -11,6 +11,9 @@ namespace elastolab {
 /// The version of the scene file format that this program writes and reads.
 inline constexpr int kSceneVersion = 1;
 
+/// Whether a file is called like a scene (.json, .JSON) and not like a mesh.
+bool is_scene_file(const std::filesystem::path& file);
+
 /// Reads a scene file (README, "Scene files"). Strict: everything that is not understood is an error.
 /// Throws SceneError in one line: the file, the JSON path (or line and column), the finding and a way forward.
 Document load_scene(const std::filesystem::path& file);

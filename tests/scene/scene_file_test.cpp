@@ -104,5 +104,12 @@ TEST(SceneFile, SaysWhatIsWrongWithTheFileItself) {
     EXPECT_THAT(finding("/dev/null"), HasSubstr("is no file"));
 }
 
+TEST(SceneFile, IsKnownByItsExtensionInAnyCase) {
+    EXPECT_TRUE(is_scene_file("/a/beam.json"));
+    EXPECT_TRUE(is_scene_file("beam.JSON"));
+    EXPECT_FALSE(is_scene_file("beam.obj"));
+    EXPECT_FALSE(is_scene_file("json"));
+}
+
 }  // namespace
 }  // namespace elastolab
