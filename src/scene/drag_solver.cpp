@@ -25,6 +25,11 @@ Eigen::MatrixXd motion_shapes(const Positions& rest, bool affine) {
 DragSolver::DragSolver(std::shared_ptr<const Deformer> deformer, std::vector<int> handle_ends)
     : deformer_(std::move(deformer)), handle_ends_(std::move(handle_ends)) {}
 
+void DragSolver::prepare(const Eigen::VectorXd& values) {
+    start(values);
+    if (!handle_ends_.empty()) grab(static_cast<int>(handle_ends_.size()) - 1, false);
+}
+
 void DragSolver::displace(const Eigen::VectorXd& values, Eigen::VectorXd& u) {
     if (start_values_.size() != values.size() || response_.rest.size() == 0) start(values);
     const Eigen::VectorXd change = values - start_values_;

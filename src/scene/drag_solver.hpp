@@ -16,6 +16,10 @@ public:
     /// handle_ends[i]: where the vertices of handle i end in the list of all handles' vertices (deformer->set()).
     DragSolver(std::shared_ptr<const Deformer> deformer, std::vector<int> handle_ends);
 
+    /// Solves ahead for these values and for translations of the last handle, so that displace() has them at once when
+    /// this is what comes. Throws SolveError.
+    void prepare(const Eigen::VectorXd& values);
+
     /// u <- the displacements for `values` (as Deformer::displace takes them). Throws SolveError.
     void displace(const Eigen::VectorXd& values, Eigen::VectorXd& u);
 

@@ -1,7 +1,9 @@
 #include "scene/method_runner.hpp"
 
+#include <algorithm>
 #include <utility>
 
+#include "base/error.hpp"
 #include "base/text.hpp"
 
 namespace elastolab {
@@ -39,6 +41,18 @@ template <class Result>
 void drop(BackgroundJob<Result>& job) {
     job.cancel();
     job.poll();
+}
+
+/// Nothing when these values have no solution: whether they are wanted then, and who is told, is for the frame.
+std::optional<DragSolver> prepared_drag(const std::shared_ptr<const Deformer>& deformer, const std::vector<int>& ends,
+                                        const Eigen::VectorXd& values) {
+    try {
+        DragSolver drag(deformer, ends);
+        drag.prepare(values);
+        return drag;
+    } catch (const SolveError&) {
+        return std::nullopt;
+    }
 }
 
 std::vector<int> handle_ends(const Constraints& constraints) {
@@ -82,7 +96,7 @@ void MethodRunner::clear() {
 void MethodRunner::forget_answers() {
     model_.reset();
     deformer_.reset();
-    spare_.reset();
+    spare_ = {};
     drag_.reset();
     displacement_.resize(0);
     set_failure_.clear();
@@ -123,6 +137,7 @@ void MethodRunner::set_frame_rule(FrameRule rule) {
     if (rule == rule_) return;
     rule_ = rule;
     drag_.reset();
+    spare_.drag.reset();
     values_.resize(0);
 }
 
@@ -180,15 +195,15 @@ void MethodRunner::take_model(std::shared_ptr<const Model> model) {
     model_is_wanted_ = true;
     completed_ = model_->method().mode != method_.mode;
     set_failure_.clear();
-    spare_.reset();
+    spare_ = {};
     prepare_.cancel();
 }
 
 void MethodRunner::poll_preparation() {
     switch (prepare_.poll()) {
         case JobEvent::finished: {
-            std::shared_ptr<const Deformer> prepared = prepare_.take();
-            if (&prepared->model() != model_.get()) break;
+            Prepared prepared = prepare_.take();
+            if (&prepared.deformer->model() != model_.get()) break;
             spare_ = std::move(prepared);
             break;
         }
@@ -207,28 +222,47 @@ bool MethodRunner::set_is_current() const {
 }
 
 void MethodRunner::use_or_prepare() {
-    if (!set_is_current() && spare_ && same(spare_->set(), wanted_set_)) {
+    if (!set_is_current() && spare_.deformer && same(spare_.deformer->set(), wanted_set_)) {
         const bool keep = deformer_ && &deformer_->model() == model_.get();
-        std::swap(deformer_, spare_);
-        if (!keep) spare_.reset();
-        drag_.reset();
+        std::swap(deformer_, spare_.deformer);
+        drag_ = std::exchange(spare_.drag, std::nullopt);
+        if (!keep) spare_ = {};
         values_.resize(0);
         set_failure_.clear();
     }
     if (!set_is_current()) {
-        if (set_failure_.empty() && !(prepare_.running() && same(preparing_set_, wanted_set_))) prepare(wanted_set_);
+        if (set_failure_.empty() && !(prepare_.running() && same(preparing_set_, wanted_set_)))
+            prepare(wanted_set_, wanted_values_, handle_ends_);
     } else if (prefetch_ && !prepare_.running()) {
-        if (!same(*prefetch_, wanted_set_) && !(spare_ && same(spare_->set(), *prefetch_))) prepare(*prefetch_);
+        if (!same(*prefetch_, wanted_set_) && !(spare_.deformer && same(spare_.deformer->set(), *prefetch_)))
+            prepare_prefetched(*prefetch_);
         prefetch_.reset();
     }
 }
 
-void MethodRunner::prepare(const ConstrainedSet& set) {
+/// What is prefetched is mostly one more handle, that rests until it is pulled.
+void MethodRunner::prepare_prefetched(const ConstrainedSet& set) {
+    const auto n = static_cast<int>(set.handles.size());
+    std::vector<int> ends = handle_ends_;
+    while (!ends.empty() && ends.back() >= n) ends.pop_back();
+    if (n > 0) ends.push_back(n);
+    Eigen::VectorXd values = Eigen::VectorXd::Zero(3 * n);
+    const Eigen::Index n_known = std::min(values.size(), wanted_values_.size());
+    values.head(n_known) = wanted_values_.head(n_known);
+    prepare(set, std::move(values), std::move(ends));
+}
+
+/// Whoever watches does not solve: where no columns are kept, a grab would integrate and take seconds.
+void MethodRunner::prepare(const ConstrainedSet& set, Eigen::VectorXd values, std::vector<int> ends) {
     preparing_set_ = set;
-    prepare_.start([model = model_, set](Control& control) {
+    const bool drags = rule_ == FrameRule::drag_columns;
+    prepare_.start([model = model_, set, drags, values = std::move(values), ends = std::move(ends)](Control& control) {
         auto deformer = std::make_shared<Deformer>(model);
         deformer->constrain(set, control);
-        return std::shared_ptr<const Deformer>(std::move(deformer));
+        control.checkpoint();
+        Prepared prepared{std::move(deformer), std::nullopt};
+        if (drags) prepared.drag = prepared_drag(prepared.deformer, ends, values);
+        return prepared;
     });
 }
 

@@ -112,7 +112,12 @@ public:
     double prepare_seconds() const { return prepare_.elapsed_seconds(); }
 
 private:
-    using PrepareJob = BackgroundJob<std::shared_ptr<const Deformer>>;
+    /// A constrained set, and its drag solver when frames use one.
+    struct Prepared {
+        std::shared_ptr<const Deformer> deformer;
+        std::optional<DragSolver> drag;
+    };
+    using PrepareJob = BackgroundJob<Prepared>;
 
     template <class Question>
     std::invoke_result_t<Question, const PrecomputeJob&> ask_running_job(const Question& ask) const {
@@ -126,7 +131,8 @@ private:
     bool set_is_current() const;
     Method method_to_compute() const;
     void use_or_prepare();
-    void prepare(const ConstrainedSet& set);
+    void prepare(const ConstrainedSet& set, Eigen::VectorXd values, std::vector<int> ends);
+    void prepare_prefetched(const ConstrainedSet& set);
     void update_displacement();
     bool has_motion() const { return values_.size() > 0 && !values_.isZero(0.0); }
 
@@ -144,7 +150,7 @@ private:
 
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const Deformer> deformer_;
-    std::shared_ptr<const Deformer> spare_;  ///< of the same model: prefetched, or the one used before
+    Prepared spare_;  ///< of the same model: prefetched, or the one used before
     ConstrainedSet preparing_set_;
     // Each stands until its own stage succeeds or is asked for something else.
     std::string precompute_failure_;  ///< of body_ and method_
