@@ -1,0 +1,32 @@
+# Draws stability-plate.svg and stability-plate.png: gnuplot stability-plate.gp
+set encoding utf8
+do for [kind in 'svg png'] {
+if (kind eq 'svg') {
+set terminal svg size 900,520 font 'sans,14' background 'white'
+} else {
+set terminal pngcairo size 1350,780 font 'sans,18'
+}
+set output 'stability-plate.'.kind
+set datafile separator ','
+set datafile missing NaN
+set title 'Error under stress: plate'
+set xlabel 'thickness / length'
+set ylabel 'largest error / largest displacement'
+set grid lc rgb '#dddddd' lt 1
+set key outside right top Left reverse
+set tics nomirror
+set border 3
+set logscale x
+set format x '%g'
+set logscale y
+set format y '%g'
+set yrange [1e-16:*]
+plot \
+  'stability.csv' using ((strcol('group') eq 'plate' && strcol('variant') eq 'fem' ? column('level') : NaN)):(column('error_max')) with linespoints lc rgb '#0072b2' lw 2 pt 7 ps 0.8 dt 1 title 'fem', \
+  'stability.csv' using ((strcol('group') eq 'plate' && strcol('variant') eq 'constant-bem' ? column('level') : NaN)):(column('error_max')) with linespoints lc rgb '#d55e00' lw 2 pt 5 ps 0.8 dt 1 title 'constant-bem', \
+  'stability.csv' using ((strcol('group') eq 'plate' && strcol('variant') eq 'linear-bem' ? column('level') : NaN)):(column('error_max')) with linespoints lc rgb '#009e73' lw 2 pt 9 ps 0.8 dt 1 title 'linear-bem', \
+  'stability.csv' using ((strcol('group') eq 'plate' && strcol('variant') eq 'linear-bem restricted' ? column('level') : NaN)):(column('error_max')) with linespoints lc rgb '#cc79a7' lw 2 pt 13 ps 0.8 dt 2 title 'linear-bem restricted', \
+  'stability.csv' using ((strcol('group') eq 'plate' && strcol('variant') eq 'linear-bem continuous' ? column('level') : NaN)):(column('error_max')) with linespoints lc rgb '#e69f00' lw 2 pt 11 ps 0.8 dt 2 title 'linear-bem continuous'
+unset output
+reset
+}
