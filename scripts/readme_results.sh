@@ -23,8 +23,7 @@ write_results() {
   printf '![Fig. 4: precomputation](%s/paper/fig4-precomputation.svg)\n' "$results"
   heading error 'Run time against error'
   section error 'In short'
-  section error 'Who is fastest at a given error'
-  section error "Poisson's ratio"
+  section error 'Who is fastest at a given error' | grep -vE '^\| [a-z-]*irregular|^\| [a-z-]+ \| 0\.49 '
   printf '![Who is fastest at a given error](%s/error/error-frontier-bending.svg)\n' "$results"
   heading stability 'What breaks each method'
   opening stability
