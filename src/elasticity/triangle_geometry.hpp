@@ -11,4 +11,7 @@ namespace elastolab {
 TriangleGeometry make_triangle_geometry(const Eigen::Vector3d& v0, const Eigen::Vector3d& v1, const Eigen::Vector3d& v2,
                                         int index);
 
+/// The same triangle with everything computed in extended precision from its corners.
+BasicTriangleGeometry<long double> extended_geometry(const TriangleGeometry& triangle);
+
 }  // namespace elastolab

@@ -7,18 +7,24 @@
 namespace elastolab {
 
 /// One flat triangle, in the frame (e1, e2, n) with e1 along its first edge.
-struct TriangleGeometry {
-    double corner[3][3];  ///< corners, counter-clockwise seen from outside [L]
-    double centroid[3];   ///< [L]
-    double e1[3], e2[3];  ///< unit vectors in the plane
-    double n[3];          ///< outward unit normal
-    double tx[3], ty[3];  ///< unit tangents of the edges corner i -> i + 1, in the frame
-    double length[3];     ///< of the edges [L]
-    double gx[3], gy[3];  ///< gradients of the three linear shape functions, in the frame [1/L]
-    double double_area;   ///< [L^2]
-    double longest_edge;  ///< [L]
-    int index;            ///< number of the triangle
+template <class Real>
+struct BasicTriangleGeometry {
+    Real corner[3][3];  ///< corners, counter-clockwise seen from outside [L]
+    Real centroid[3];   ///< [L]
+    Real e1[3], e2[3];  ///< unit vectors in the plane
+    Real n[3];          ///< outward unit normal
+    Real tx[3], ty[3];  ///< unit tangents of the edges corner i -> i + 1, in the frame
+    Real length[3];     ///< of the edges [L]
+    Real gx[3], gy[3];  ///< gradients of the three linear shape functions, in the frame [1/L]
+    Real double_area;   ///< [L^2]
+    Real longest_edge;  ///< [L]
+    int index;          ///< number of the triangle
 };
+using TriangleGeometry = BasicTriangleGeometry<double>;
+
+/// Altitude over longest edge below which a triangle is a sliver: its closed forms lose (edge / altitude)^2 roundings
+/// by cancellation, so that the kernels evaluate them in extended precision (see sliver_kernels.hpp).
+constexpr double kSliverAltitude = 0.01;
 
 /// Most sources that one kernel call takes.
 constexpr int kMaxLanes = 8;

@@ -1,12 +1,14 @@
 #pragma once
 
-// Closed forms of FORMULATION section 3, for a vector type B of several doubles (or double itself). Included by one
-// source per instruction set and by nothing else; everything lives in an unnamed namespace, so that no function
-// compiled for one instruction set can be linked into code for another.
+// Closed forms of FORMULATION section 3, for a vector type B of several doubles (or one double, or one long double).
+// Included by one source per instruction set and by nothing else; everything lives in an unnamed namespace, so that no
+// function compiled for one instruction set can be linked into code for another.
 
 #include <cmath>
+#include <concepts>
 #include <xsimd/xsimd.hpp>
 
+#include "elasticity/sliver_kernels.hpp"
 #include "elasticity/triangle_kernels.hpp"
 
 namespace elastolab {
@@ -14,40 +16,48 @@ namespace {
 
 template <class B>
 struct Lanes {
+    using Number = double;
     static constexpr int kCount = static_cast<int>(B::size);
     static B load(const double* p) { return B::load_unaligned(p); }
     static void add(double* p, const B& value) { (B::load_unaligned(p) + value).store_unaligned(p); }
 };
 
-template <>
-struct Lanes<double> {
+template <std::floating_point Real>
+struct Lanes<Real> {
+    using Number = Real;
     static constexpr int kCount = 1;
-    static double load(const double* p) { return *p; }
-    static void add(double* p, double value) { *p += value; }
+    static Real load(const double* p) { return *p; }
+    static void add(double* p, Real value) { *p += static_cast<double>(value); }
 };
+
+/// A triangle, in the precision of B.
+template <class B>
+using Geometry = BasicTriangleGeometry<typename Lanes<B>::Number>;
 
 /// a where the mask holds, else b.
 template <class Mask, class B>
 B pick(const Mask& mask, const B& a, const B& b) {
     return xsimd::select(mask, a, b);
 }
-inline double pick(bool mask, double a, double b) { return mask ? a : b; }
-inline double square_root(double x) { return std::sqrt(x); }
-inline double logarithm(double x) { return std::log(x); }
-inline double arc_tangent(double y, double x) { return std::atan2(y, x); }
+template <std::floating_point B>
+B pick(const bool& mask, const B& a, const B& b) {
+    return mask ? a : b;
+}
 template <class B>
 B square_root(const B& x) {
-    return xsimd::sqrt(x);
+    using std::sqrt, xsimd::sqrt;
+    return sqrt(x);
 }
 template <class B>
 B logarithm(const B& x) {
-    return xsimd::log(x);
+    using std::log, xsimd::log;
+    return log(x);
 }
 template <class B>
 B arc_tangent(const B& y, const B& x) {
-    return xsimd::atan2(y, x);
+    using std::atan2, xsimd::atan2;
+    return atan2(y, x);
 }
-inline bool either(bool a, bool b) { return a || b; }
 template <class Mask>
 Mask either(const Mask& a, const Mask& b) {
     return a | b;
@@ -75,7 +85,7 @@ struct View {
 };
 
 template <class B>
-View<B> view_from(const TriangleGeometry& T, const SourceLanes& sources) {
+View<B> view_from(const Geometry<B>& T, const SourceLanes& sources) {
     const B x = Lanes<B>::load(sources.x), y = Lanes<B>::load(sources.y), z = Lanes<B>::load(sources.z);
     View<B> view;
     for (int i = 0; i < 3; ++i) {
@@ -95,7 +105,7 @@ View<B> view_from(const TriangleGeometry& T, const SourceLanes& sources) {
 
 /// Signed solid angle [Van Oosterom and Strackee]; the triple product of the corners is z times twice the area.
 template <class B>
-B solid_angle(const TriangleGeometry& T, const View<B>& v) {
+B solid_angle(const Geometry<B>& T, const View<B>& v) {
     const auto dot = [&](int i, int j) { return v.px[i] * v.px[j] + v.py[i] * v.py[j] + v.z * v.z; };
     const B denominator = v.r[0] * v.r[1] * v.r[2] + dot(0, 1) * v.r[2] + dot(1, 2) * v.r[0] + dot(2, 0) * v.r[1];
     const B angle = 2.0 * arc_tangent(T.double_area * v.z, denominator);
@@ -103,10 +113,10 @@ B solid_angle(const TriangleGeometry& T, const View<B>& v) {
 }
 
 template <class B>
-EdgeTerms<B> edge_terms(const TriangleGeometry& T, const View<B>& v, int edge) {
+EdgeTerms<B> edge_terms(const Geometry<B>& T, const View<B>& v, int edge) {
     const int a = edge, b = (edge + 1) % 3;
     const B zero(0.0), one(1.0);
-    const double tx = T.tx[edge], ty = T.ty[edge], l = T.length[edge];
+    const auto tx = T.tx[edge], ty = T.ty[edge], l = T.length[edge];
     const auto incident = either(v.r[a] == zero, v.r[b] == zero);
     const B ra = pick(incident, one, v.r[a]), rb = pick(incident, one, v.r[b]);
 
@@ -138,7 +148,7 @@ EdgeTerms<B> edge_terms(const TriangleGeometry& T, const View<B>& v, int edge) {
 
 /// Adds p u^T + q v^T + n w^T, the tensor `S` turned into the global frame, to six numbers of `lanes` each.
 template <class B>
-void add_tensor(const TriangleGeometry& T, const LocalTensor<B>& S, double* out) {
+void add_tensor(const Geometry<B>& T, const LocalTensor<B>& S, double* out) {
     B u[3], v[3], w[3];
     for (int i = 0; i < 3; ++i) {
         u[i] = S.xx * T.e1[i] + S.xy * T.e2[i] + S.xz * T.n[i];
@@ -157,7 +167,7 @@ template <class B>
 struct SingleBlock {
     B s;
     LocalTensor<B> S;
-    void add_to(const TriangleGeometry& T, double* out) const {
+    void add_to(const Geometry<B>& T, double* out) const {
         Lanes<B>::add(out, s);
         add_tensor(T, S, out + Lanes<B>::kCount);
     }
@@ -168,7 +178,7 @@ template <class B>
 struct DoubleBlock {
     B a, wx, wy;
     LocalTensor<B> S;
-    void add_to(const TriangleGeometry& T, double* out) const {
+    void add_to(const Geometry<B>& T, double* out) const {
         Lanes<B>::add(out, a);
         for (int i = 0; i < 3; ++i)  // c = w x n
             Lanes<B>::add(out + (1 + i) * Lanes<B>::kCount, wy * T.e1[i] - wx * T.e2[i]);
@@ -194,9 +204,9 @@ DoubleBlock<B> remainder(const DoubleBlock<B>& a, const DoubleBlock<B>& b, const
 /// Value f and gradient g of shape function k at the projection of x: phi_k = f + g . rho.
 template <class B>
 struct Shape {
-    Shape(const TriangleGeometry& T, const View<B>& v, int k)
+    Shape(const Geometry<B>& T, const View<B>& v, int k)
         : gx(T.gx[k]), gy(T.gy[k]), f((k == 0 ? 1.0 : 0.0) - (v.px[0] * gx + v.py[0] * gy)) {}
-    double gx, gy;
+    typename Lanes<B>::Number gx, gy;
     B f;
 };
 
@@ -207,7 +217,7 @@ struct SingleMoments {
     B T111, T112, T122, T222;                        ///< int rho rho rho / r^3
 
     template <bool kLinear>
-    static SingleMoments of(const TriangleGeometry& T, const View<B>& v, std::bool_constant<kLinear>) {
+    static SingleMoments of(const Geometry<B>& T, const View<B>& v, std::bool_constant<kLinear>) {
         SingleMoments M;
         const B zero(0.0);
         M.z = v.z;
@@ -217,7 +227,7 @@ struct SingleMoments {
         B sxx = zero, sxy = zero, syy = zero, s111 = zero, s112 = zero, s122 = zero, s222 = zero;
         for (int i = 0; i < 3; ++i) {
             const EdgeTerms<B> e = edge_terms(T, v, i);
-            const double tx = T.tx[i], ty = T.ty[i], mx = ty, my = -tx;
+            const auto tx = T.tx[i], ty = T.ty[i], mx = ty, my = -tx;
             const B hL = e.h * e.L, R2L = e.R2 * e.L;
             M.I += hL;
             M.Nx -= mx * e.L;
@@ -271,7 +281,7 @@ struct DoubleMoments {
     B R111, R112, R122, R222;  ///< 3 int rho rho rho/r^5
 
     template <bool kLinear>
-    static DoubleMoments of(const TriangleGeometry& T, const View<B>& v, std::bool_constant<kLinear>) {
+    static DoubleMoments of(const Geometry<B>& T, const View<B>& v, std::bool_constant<kLinear>) {
         DoubleMoments M;
         const B zero(0.0);
         M.z = v.z;
@@ -282,7 +292,7 @@ struct DoubleMoments {
         B s111 = zero, s112 = zero, s122 = zero, s222 = zero;
         for (int i = 0; i < 3; ++i) {
             const EdgeTerms<B> e = edge_terms(T, v, i);
-            const double tx = T.tx[i], ty = T.ty[i], mx = ty, my = -tx;
+            const auto tx = T.tx[i], ty = T.ty[i], mx = ty, my = -tx;
             const B hc = e.h * e.C;
             M.Nx -= mx * e.L;
             M.Ny -= my * e.L;
@@ -340,7 +350,7 @@ struct DoubleMoments {
 };
 
 template <class B, class Moments, bool kLinear>
-void closed_form(const TriangleGeometry& T, const SourceLanes& sources, double* const* out) {
+void closed_form(const Geometry<B>& T, const SourceLanes& sources, double* const* out) {
     const View<B> view = view_from<B>(T, sources);
     const Moments moments = Moments::of(T, view, std::bool_constant<kLinear>{});
     const auto whole = moments.constant();
@@ -399,15 +409,21 @@ void gauss(const TriangleGeometry& T, const SourceLanes& sources, const GaussRul
         for (int k = 0; k < kNumbers; ++k) Lanes<B>::add(out[shape] + k * Lanes<B>::kCount, sums[shape][k]);
 }
 
+inline bool is_sliver(const TriangleGeometry& T) {
+    return T.double_area < kSliverAltitude * T.longest_edge * T.longest_edge;
+}
+
 template <class B, bool kLinear>
 void single_layer(const TriangleGeometry& T, const SourceLanes& sources, const GaussRule* rule, double* const* out) {
     if (rule != nullptr) return gauss<B, kSingleLayerNumbers, kLinear>(T, sources, *rule, out);
+    if (is_sliver(T)) return add_single_layer_of_sliver(T, sources, Lanes<B>::kCount, kLinear, out);
     closed_form<B, SingleMoments<B>, kLinear>(T, sources, out);
 }
 
 template <class B, bool kLinear>
 void double_layer(const TriangleGeometry& T, const SourceLanes& sources, const GaussRule* rule, double* const* out) {
     if (rule != nullptr) return gauss<B, kDoubleLayerNumbers, kLinear>(T, sources, *rule, out);
+    if (is_sliver(T)) return add_double_layer_of_sliver(T, sources, Lanes<B>::kCount, kLinear, out);
     closed_form<B, DoubleMoments<B>, kLinear>(T, sources, out);
 }
 

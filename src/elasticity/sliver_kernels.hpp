@@ -1,0 +1,17 @@
+#pragma once
+
+#include "elasticity/triangle_kernels.hpp"
+
+// Plain arrays only: this header is also read by sources compiled for particular instruction sets.
+
+namespace elastolab {
+
+/// Closed forms over a sliver, in extended precision (long double): cancellation then costs (edge / altitude)^2 of its
+/// roundings, 1e-11 at 1e-4 with the 64 bits of x86. Slower than the vectorised kernels by far, and slivers are rare.
+/// Arguments as in TriangleKernels, for `lanes` sources; `linear`: three shape functions instead of the constant.
+void add_single_layer_of_sliver(const TriangleGeometry& triangle, const SourceLanes& sources, int lanes, bool linear,
+                                double* const* out);
+void add_double_layer_of_sliver(const TriangleGeometry& triangle, const SourceLanes& sources, int lanes, bool linear,
+                                double* const* out);
+
+}  // namespace elastolab
