@@ -45,9 +45,8 @@ void draw_frames(const PanelContext& context) {
     }
     const std::vector<float> series = history.series(&FrameTimes::frame_ms);
     const double median = history.percentile(&FrameTimes::frame_ms, 0.5);
-    std::array<char, 64> text{};
-    std::snprintf(text.data(), text.size(), "%.0f frames/s", median > 0.0 ? 1000.0 / median : 0.0);
-    ImGui::PlotLines("##frames", series.data(), static_cast<int>(series.size()), 0, text.data(), 0.0f,
+    const std::string text = formatted("%.0f frames/s", median > 0.0 ? 1000.0 / median : 0.0);
+    ImGui::PlotLines("##frames", series.data(), static_cast<int>(series.size()), 0, text.c_str(), 0.0f,
                      static_cast<float>(2.0 * history.percentile(&FrameTimes::frame_ms, 0.95)),
                      {ImGui::GetContentRegionAvail().x, 52.0f * context.gui.scale()});
 }

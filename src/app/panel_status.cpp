@@ -27,11 +27,9 @@ std::string left_text(const ViewerState& state) {
 
 std::string right_text(const ViewerState& state) {
     const FrameHistory& history = state.history;
-    std::array<char, 96> text{};
-    std::snprintf(text.data(), text.size(), "update %.3f ms   frame %.2f ms   ", state.last_frame.update_ms,
-                  history.percentile(&FrameTimes::frame_ms, 0.5));
-    return text.data() + std::string(state.timings ? "recording timings   " : "") +
-           (state.recorder ? "recording the interaction   " : "");
+    return formatted("update %.3f ms   frame %.2f ms   ", state.last_frame.update_ms,
+                     history.percentile(&FrameTimes::frame_ms, 0.5)) +
+           (state.timings ? "recording timings   " : "") + (state.recorder ? "recording the interaction   " : "");
 }
 
 /// Two columns: what is done with the mouse or keyboard, and what it does.

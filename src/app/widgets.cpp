@@ -2,21 +2,13 @@
 
 #include <imgui.h>
 
-#include <array>
 #include <cmath>
-#include <cstdio>
+
+#include "base/text.hpp"
 
 namespace elastolab {
 
-namespace {
-
-std::string formatted(const char* format, double value) {
-    std::array<char, 64> text{};
-    std::snprintf(text.data(), text.size(), format, value);
-    return text.data();
-}
-
-}  // namespace
+namespace {}  // namespace
 
 std::string count_text(long long count) {
     std::string digits = std::to_string(count);
@@ -25,7 +17,7 @@ std::string count_text(long long count) {
     return digits;
 }
 
-std::string number_text(double value) { return formatted(std::abs(value) < 1e-300 ? "0" : "%.3g", value); }
+std::string number_text(double value) { return std::abs(value) < 1e-300 ? "0" : readable_number(value, 3); }
 
 ImVec4 imgui_colour(const Colour& colour, float opacity) { return {colour.r, colour.g, colour.b, colour.a * opacity}; }
 

@@ -1,20 +1,23 @@
 #include "base/text.hpp"
 
+#include <algorithm>
 #include <array>
-#include <cmath>
+#include <cstdarg>
 #include <cstdio>
 
 namespace elastolab {
 
-namespace {
-
-std::string formatted(const char* format, double value) {
-    std::array<char, 64> buffer{};
-    std::snprintf(buffer.data(), buffer.size(), format, value);
-    return buffer.data();
+std::string formatted(const char* format, ...) {
+    va_list arguments, again;
+    va_start(arguments, format);
+    va_copy(again, arguments);
+    const int length = std::vsnprintf(nullptr, 0, format, arguments);
+    std::string text(static_cast<std::size_t>(std::max(length, 0)), '\0');
+    std::vsnprintf(text.data(), text.size() + 1, format, again);
+    va_end(again);
+    va_end(arguments);
+    return text;
 }
-
-}  // namespace
 
 std::string one_line(std::string_view text) {
     std::string line(text);
@@ -29,7 +32,7 @@ std::string readable_bytes(double bytes) {
     std::size_t unit = 0;
     double value = bytes / 1000.0;
     for (; value >= 999.95 && unit + 1 < kUnits.size(); ++unit) value /= 1000.0;
-    return formatted(value < 9.995 ? "%.2f " : "%.1f ", value) + kUnits.at(unit);
+    return formatted("%.*f ", value < 9.995 ? 2 : 1, value) + kUnits.at(unit);
 }
 
 std::string readable_seconds(double seconds) {
@@ -40,11 +43,9 @@ std::string readable_seconds(double seconds) {
     return formatted("%.1f h", seconds / 3600.0);
 }
 
-std::string readable_number(double value, int digits) {
-    std::array<char, 64> buffer{};
-    std::snprintf(buffer.data(), buffer.size(), "%.*g", digits, value);
-    return buffer.data();
-}
+std::string readable_number(double value, int digits) { return formatted("%.*g", digits, value); }
+
+std::string readable_point(const Eigen::Vector3d& x) { return formatted("(%.4g, %.4g, %.4g)", x[0], x[1], x[2]); }
 
 std::string exact(double value) { return formatted("%.17g", value); }
 

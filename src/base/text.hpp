@@ -1,9 +1,13 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 #include <string_view>
 
 namespace elastolab {
+
+/// printf into a string of any length; the compiler checks the arguments against the format.
+[[gnu::format(printf, 1, 2)]] std::string formatted(const char* format, ...);
 
 /// `text` on one line: line breaks and other control characters become spaces. For messages that quote a user's data.
 std::string one_line(std::string_view text);
@@ -16,6 +20,9 @@ std::string readable_seconds(double seconds);
 
 /// A number for people, few digits: "0.13", "1.2e+07".
 std::string readable_number(double value, int digits = 2);
+
+/// A place for people: "(0.5, 1, -2.25)".
+std::string readable_point(const Eigen::Vector3d& x);
 
 /// All 17 significant digits, so that the number is read back exactly.
 std::string exact(double value);

@@ -1,8 +1,6 @@
 #include "cli/info.hpp"
 
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "base/text.hpp"
@@ -54,13 +52,6 @@ const char* consequence(const Defect& defect) {
 
 bool usable(const MeshReport& report, MethodKind kind) {
     return kind == MethodKind::fem ? report.usable_for_fem() : report.usable();
-}
-
-template <class... Arguments>
-std::string formatted(const char* format, Arguments... arguments) {
-    std::array<char, 160> buffer{};
-    std::snprintf(buffer.data(), buffer.size(), format, arguments...);
-    return buffer.data();
 }
 
 std::string corner(const Eigen::Vector3d& x) { return formatted("(%.6g, %.6g, %.6g)", x.x(), x.y(), x.z()); }

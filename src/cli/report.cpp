@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "base/blas.hpp"
@@ -51,18 +50,6 @@ Json tractions(const Method& method) {
     return std::string(name(method.tractions));
 }
 
-std::string short_number(double value) {
-    char buffer[32];
-    std::snprintf(buffer, sizeof buffer, "%.4g", value);
-    return buffer;
-}
-
-std::string short_vector(const Eigen::Vector3d& v) {
-    char buffer[96];
-    std::snprintf(buffer, sizeof buffer, "(%.4g, %.4g, %.4g)", v.x(), v.y(), v.z());
-    return buffer;
-}
-
 void print_heading(std::ostream& out, const SolveRequest& request, const Method& method) {
     out << request.scene_file.string() << ": " << name(method.kind) << ", " << name(method.mode) << ", ";
     if (method.kind == MethodKind::linear_bem) out << name(method.tractions) << " tractions, ";
@@ -93,22 +80,22 @@ void print_memory(std::ostream& out, const Solution& solution) {
 
 void print_accuracy(std::ostream& out, const Solution& solution) {
     out << "  accuracy      ";
-    if (solution.residual) out << "relative residual " << short_number(*solution.residual) << ", ";
-    out << "condition about " << short_number(solution.condition_estimate) << "\n";
+    if (solution.residual) out << "relative residual " << readable_number(*solution.residual, 4) << ", ";
+    out << "condition about " << readable_number(solution.condition_estimate, 4) << "\n";
 }
 
 void print_displacement(std::ostream& out, const Eigen::Matrix3Xd& displacement) {
     if (displacement.cols() == 0) return;
     Eigen::Index vertex = 0;
     const double largest = displacement.colwise().norm().maxCoeff(&vertex);
-    out << "  displacement  at most " << short_number(largest) << ", at vertex " << vertex << "\n";
+    out << "  displacement  at most " << readable_number(largest, 4) << ", at vertex " << vertex << "\n";
 }
 
 void print_reaction(std::ostream& out, const GroupReaction& reaction) {
     std::string label = one_line(reaction.name);
     label.resize(std::max<std::size_t>(label.size(), 12), ' ');
-    out << "  " << label << "  force " << short_vector(reaction.force) << ", moment " << short_vector(reaction.moment)
-        << "\n";
+    out << "  " << label << "  force " << readable_point(reaction.force) << ", moment "
+        << readable_point(reaction.moment) << "\n";
 }
 
 }  // namespace

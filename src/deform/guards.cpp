@@ -1,9 +1,7 @@
 #include "deform/guards.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <Eigen/Dense>
 #include <limits>
 
@@ -70,12 +68,6 @@ void warn_of_slenderness(const SurfaceMesh& surface, std::vector<std::string>& w
 }
 
 }  // namespace
-
-std::string readable_point(const Eigen::Vector3d& x) {
-    std::array<char, 96> buffer{};
-    std::snprintf(buffer.data(), buffer.size(), "(%.3g, %.3g, %.3g)", x[0], x[1], x[2]);
-    return buffer.data();
-}
 
 std::vector<std::string> warn_of_locking(double poisson_ratio) {
     if (poisson_ratio <= kLocking) return {};

@@ -12,9 +12,6 @@ namespace elastolab {
 // What a method does badly, found before anybody believes its result, in words and with a way forward. The limits come
 // from measurements that the functions name; tests/deform/guards_test.cpp repeats them.
 
-/// "(0.1, 2, -3.5)"
-std::string readable_point(const Eigen::Vector3d& x);
-
 /// Linear tetrahedra lock as Poisson's ratio nears 1/2: from 0.48 on their error in the bending of a bar is more than
 /// twice that at 0.3; 3 times at 0.49, 9 times at 0.499, 29 times (a tenth of the displacement) at 0.4999.
 std::vector<std::string> warn_of_locking(double poisson_ratio);

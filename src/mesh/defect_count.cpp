@@ -1,6 +1,5 @@
-#include <array>
-#include <cstdio>
 
+#include "base/text.hpp"
 #include "mesh/defects.hpp"
 
 namespace elastolab {
@@ -9,18 +8,12 @@ namespace {
 
 constexpr std::size_t kMostPlaces = 8;
 
-std::string text_of(const Eigen::Vector3d& p) {
-    std::array<char, 96> text{};
-    std::snprintf(text.data(), text.size(), "(%.4g, %.4g, %.4g)", p.x(), p.y(), p.z());
-    return text.data();
-}
-
 }  // namespace
 
 std::string counted(int count, const std::string& one, const std::string& many,
                     const std::vector<Eigen::Vector3d>& places) {
     std::string text = std::to_string(count) + " " + (count == 1 ? one : many);
-    if (!places.empty() && places.front().allFinite()) text += " near " + text_of(places.front());
+    if (!places.empty() && places.front().allFinite()) text += " near " + readable_point(places.front());
     return text;
 }
 

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <Eigen/Geometry>
 #include <numbers>
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/text.hpp"
 #include "mesh/cavity_point.hpp"
 #include "mesh/defects.hpp"
 #include "mesh/measures.hpp"
@@ -59,12 +59,8 @@ Positions cavity_points(const SurfaceMesh& mesh) {
 /// without); T: tolerance for coplanar; a: volume bound.
 std::string switches(const TetOptions& options, double edge, double tolerance) {
     const double regular_volume = edge * edge * edge / (6.0 * std::numbers::sqrt2);
-    std::array<char, 64> text{};
-    int n = std::snprintf(text.data(), text.size(), "pYzq%.6g/12O9/7o/145T%.3g", options.radius_edge_ratio, tolerance);
-    if (options.relative_volume > 0.0)
-        std::snprintf(text.data() + n, text.size() - static_cast<std::size_t>(n), "a%.12f",
-                      options.relative_volume * regular_volume);
-    return text.data();
+    const std::string text = formatted("pYzq%.6g/12O9/7o/145T%.3g", options.radius_edge_ratio, tolerance);
+    return options.relative_volume > 0.0 ? text + formatted("a%.12f", options.relative_volume * regular_volume) : text;
 }
 
 /// det > 0 for every tetrahedron; TetGen's convention is the other one.

@@ -2,19 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "base/text.hpp"
 
 namespace elastolab {
 
 namespace {
 
 constexpr double kLargestPlain = 1e5, kSmallestPlain = 1e-3;  // beyond these, numbers get an exponent
-
-std::string formatted(const char* format, int digits, double value) {
-    char text[64];
-    std::snprintf(text, sizeof text, format, digits, value);
-    return text;
-}
 
 int exponent_of(double value) { return static_cast<int>(std::floor(std::log10(std::abs(value)) + 1e-9)); }
 

@@ -1,11 +1,10 @@
 #include "study/paper_picture.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <Eigen/Geometry>
 
+#include "base/text.hpp"
 #include "elasticity/exact_fields.hpp"
 #include "mesh/primitives.hpp"
 #include "study/setups.hpp"
@@ -56,21 +55,12 @@ std::vector<Polygon> visible(const SurfaceMesh& mesh) {
 }
 
 std::string object(const Polygon& p) {
-    std::array<char, 320> line{};
     const auto shade = [&](double full) { return static_cast<int>(std::lround(full * (0.45 + 0.55 * p.light))); };
     const auto& c = p.corners;
-    std::snprintf(line.data(), line.size(),
-                  "set object polygon from %.4f,%.4f to %.4f,%.4f to %.4f,%.4f to %.4f,%.4f fc rgb '#%02x%02x%02x' "
-                  "fs solid border lc rgb '#5a5a5a' lw 0.5\n",
-                  c(0, 0), c(1, 0), c(0, 1), c(1, 1), c(0, 2), c(1, 2), c(0, 0), c(1, 0), shade(235), shade(225),
-                  shade(200));
-    return line.data();
-}
-
-std::string formatted(const char* format, auto... values) {
-    std::array<char, 200> line{};
-    std::snprintf(line.data(), line.size(), format, values...);
-    return line.data();
+    return formatted(
+        "set object polygon from %.4f,%.4f to %.4f,%.4f to %.4f,%.4f to %.4f,%.4f fc rgb '#%02x%02x%02x' "
+        "fs solid border lc rgb '#5a5a5a' lw 0.5\n",
+        c(0, 0), c(1, 0), c(0, 1), c(1, 1), c(0, 2), c(1, 2), c(0, 0), c(1, 0), shade(235), shade(225), shade(200));
 }
 
 Eigen::AlignedBox2d bounds(const std::vector<Polygon>& polygons) {

@@ -1,8 +1,6 @@
 #include "study/report.hpp"
 
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "base/text.hpp"
 
@@ -10,12 +8,8 @@ namespace elastolab {
 
 namespace {
 
-std::string formatted(const char* format, double value) {
-    if (!std::isfinite(value)) return "-";
-    std::array<char, 64> buffer{};
-    std::snprintf(buffer.data(), buffer.size(), format, value);
-    return buffer.data();
-}
+/// Numbers that there are none of are dashes.
+std::string dash_or(const char* format, double value) { return std::isfinite(value) ? formatted(format, value) : "-"; }
 
 std::string markdown_line(const std::vector<std::string>& fields) {
     std::string line = "|";
@@ -46,13 +40,13 @@ std::string command(const std::string& study, const Table& table, const std::str
 
 }  // namespace
 
-std::string short_number(double value) { return formatted("%.3g", value); }
-std::string count(double value) { return formatted("%.0f", value); }
-std::string times(double value) { return formatted(value < 10.0 ? "%.2g times" : "%.0f times", value); }
-std::string percent(double share) { return formatted(share < 0.1 ? "%.2g %%" : "%.0f %%", 100.0 * share); }
+std::string short_number(double value) { return dash_or("%.3g", value); }
+std::string count(double value) { return dash_or("%.0f", value); }
+std::string times(double value) { return dash_or(value < 10.0 ? "%.2g times" : "%.0f times", value); }
+std::string percent(double share) { return dash_or(share < 0.1 ? "%.2g %%" : "%.0f %%", 100.0 * share); }
 std::string duration(double seconds) {
     if (!std::isfinite(seconds)) return "-";
-    return seconds < 1e-5 ? formatted("%.2g us", 1e6 * seconds) : readable_seconds(seconds);
+    return seconds < 1e-5 ? dash_or("%.2g us", 1e6 * seconds) : readable_seconds(seconds);
 }
 
 std::string markdown_table(const std::vector<std::string>& titles, const std::vector<std::vector<std::string>>& rows) {

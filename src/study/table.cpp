@@ -1,9 +1,7 @@
 #include "study/table.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <limits>
 
@@ -23,9 +21,7 @@ Row& Row::set(std::string_view column, std::string text) {
 
 Row& Row::set(std::string_view column, double value) {
     if (std::isnan(value)) return set(column, std::string());
-    std::array<char, 32> buffer{};
-    std::snprintf(buffer.data(), buffer.size(), "%.6g", value);
-    return set(column, std::string(buffer.data()));
+    return set(column, formatted("%.6g", value));
 }
 
 Row& Row::add(const Row& other) {
