@@ -97,25 +97,27 @@ void draw_buttons(const PanelContext& context) {
     ImGui::PopStyleVar();
 }
 
-void draw_progress(const PanelContext& context, MethodRunner& runner, const Cost& cost) {
-    const double fraction = runner.progress(), elapsed = runner.elapsed_seconds();
-    const std::string text = std::string(runner.stage()) + "  " + readable_seconds(elapsed) + " of about " +
-                             readable_seconds(std::max(cost.seconds, elapsed));
+/// A bar with `text` on it, and a button that stops what runs.
+void draw_bar(const PanelContext& context, MethodRunner& runner, const std::string& text) {
     const float button = 60.0f * context.gui.scale();
-    ImGui::ProgressBar(static_cast<float>(fraction), {ImGui::GetContentRegionAvail().x - button - 8.0f, 0.0f}, "");
+    ImGui::ProgressBar(static_cast<float>(runner.status().progress),
+                       {ImGui::GetContentRegionAvail().x - button - 8.0f, 0.0f}, text.c_str());
     ImGui::SameLine();
     if (ImGui::Button("Cancel", {button, 0.0f})) runner.cancel();
-    paragraph(text, context.palette.text_dim);
+}
+
+void draw_progress(const PanelContext& context, MethodRunner& runner, const Cost& cost) {
+    const JobStatus status = runner.status();
+    draw_bar(context, runner, "");
+    paragraph(std::string(status.stage) + "  " + readable_seconds(status.seconds) + " of about " +
+                  readable_seconds(std::max(cost.seconds, status.seconds)),
+              context.palette.text_dim);
 }
 
 /// Of what has no prediction: the completion, or a set of held vertices.
 void draw_stage(const PanelContext& context, MethodRunner& runner) {
-    const float button = 60.0f * context.gui.scale();
-    const std::string text = std::string(runner.stage()) + "  " + readable_seconds(runner.elapsed_seconds());
-    ImGui::ProgressBar(static_cast<float>(runner.progress()), {ImGui::GetContentRegionAvail().x - button - 8.0f, 0.0f},
-                       text.c_str());
-    ImGui::SameLine();
-    if (ImGui::Button("Cancel", {button, 0.0f})) runner.cancel();
+    const JobStatus status = runner.status();
+    draw_bar(context, runner, std::string(status.stage) + "  " + readable_seconds(status.seconds));
 }
 
 /// What is there of the model: unknowns, and whether K and its inverse are.

@@ -7,6 +7,7 @@
 #include "app/panels.hpp"
 #include "app/scene_renderer.hpp"
 #include "app/widgets.hpp"
+#include "base/text.hpp"
 #include "render/legend.hpp"
 
 namespace elastolab {
@@ -38,8 +39,8 @@ void draw_title(const PanelContext& context, ImDrawList& list, const SceneViewpo
         const MethodRunner& runner = state.simulation.runner(kind);
         std::string text = title(kind);
         if (runner.precomputing())
-            text += "  \u2013  " + std::string(runner.stage()) + " " +
-                    std::to_string(static_cast<int>(100.0 * runner.progress())) + " %";
+            text +=
+                formatted("  \u2013  %s %.0f %%", runner.status().stage, std::floor(100.0 * runner.status().progress));
         else if (!state.simulation.problem(kind).empty())
             text += "  \u2013  not available: see Method";
         else if (!runner.has_answer())

@@ -75,7 +75,7 @@ Document document_for_mesh(const fs::path& mesh) {
 }
 
 ViewerState::ViewerState(const std::function<void()>& wake)
-    : simulation(wake), recent_(load_recent_files()), volume_job_(wake), load_job_(wake) {
+    : simulation(wake), recent_(load_recent_files()), volume_(wake), load_job_(wake) {
     take_scene({std::make_unique<LiveScene>(default_document(), fs::path("cube.json"))});
 }
 
@@ -166,7 +166,7 @@ void ViewerState::take_scene(LoadedScene loaded) {
     method = std::exchange(first_method_, std::nullopt).value_or(scene_->document().method);
     tools.patch_radius = std::max(kPatchPart * diagonal(scene_->report()), kPatchEdges * scene_->report().mean_edge);
     bodies.clear();
-    forget_volume();
+    volume_.forget();
     camera.set_scene(frame_of(scene_->mesh().vertices));
     camera.set_up_axis(loaded.up_axis);
     camera.set_view(ViewDirection::isometric);
@@ -223,7 +223,7 @@ void ViewerState::write_mesh(const fs::path& file) const {
 
 void ViewerState::cancel_workers() {
     load_job_.cancel();
-    volume_job_.cancel();
+    volume_.cancel();
     simulation.cancel();
 }
 
@@ -344,23 +344,10 @@ void ViewerState::poll_loading() {
     }
 }
 
-/// Whether there is something new to see.
-bool ViewerState::poll_volume() {
-    const JobEvent event = volume_job_.poll();
-    if (event == JobEvent::finished) volume_ = volume_job_.take();
-    if (event == JobEvent::failed) messages.error(volume_job_.failure());
-    return event == JobEvent::finished || event == JobEvent::failed;
-}
-
-void ViewerState::forget_volume() {
-    volume_job_.cancel();
-    volume_.reset();
-    volume_poisson_ratio_.reset();
-}
-
 bool ViewerState::update_displacements() {
     poll_loading();
-    const bool has_new_volume = poll_volume();
+    const bool has_new_volume = volume_.poll();
+    if (has_new_volume && !volume_.failure().empty()) messages.error(volume_.failure());
     if (loading() && !simulated_) return false;  // the default scene would be computed for nothing
     simulated_ = true;
     const bool changed = simulation.update(*scene_, needed_kinds(), choices) || has_new_volume;
@@ -371,22 +358,14 @@ bool ViewerState::update_displacements() {
     return changed;
 }
 
-/// The inside of a method's body, when it is to be cut open; made on a worker. It serves all models of the body that
-/// have the same Poisson's ratio: nothing else changes how the inside follows the surface.
+/// The inside of a method's body, when it is to be cut open.
 const Volume* ViewerState::volume(MethodKind kind) {
-    const std::shared_ptr<const Model>& model = simulation.runner(kind).model();
-    if (!display.section || !model || simulation.runner(kind).surface() != &scene_->mesh()) return nullptr;
-    if (!model->has_inside()) return nullptr;
-    const double poisson_ratio = model->body().material.poisson_ratio;
-    if (volume_poisson_ratio_ == poisson_ratio) return volume_.get();
-    forget_volume();
-    volume_poisson_ratio_ = poisson_ratio;
-    volume_job_.start([model](Control& control) { return Volume::of(model, control); });
-    return nullptr;
+    const MethodRunner& runner = simulation.runner(kind);
+    return display.section && runner.surface() == &scene_->mesh() ? volume_.of(runner) : nullptr;
 }
 
 bool ViewerState::update_bodies() {
-    if (!display.section) forget_volume();
+    if (!display.section) volume_.forget();
     const std::vector<MethodKind> kinds = shown_kinds();
     std::erase_if(bodies,
                   [&](const ShownBody& b) { return std::find(kinds.begin(), kinds.end(), b.kind()) == kinds.end(); });

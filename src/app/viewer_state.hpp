@@ -10,6 +10,7 @@
 #include "app/gestures.hpp"
 #include "app/interaction_log.hpp"
 #include "app/messages.hpp"
+#include "app/section_volume.hpp"
 #include "app/settings.hpp"
 #include "app/shown_body.hpp"
 #include "app/timings.hpp"
@@ -107,10 +108,10 @@ public:
     bool show_help = false;
 
     bool loading() const { return load_job_.running(); }
-    bool cutting() const { return volume_job_.running(); }  ///< the inside of the body is being made
+    bool cutting() const { return volume_.running(); }  ///< the inside of the body is being made
     /// Stops all workers at their next checkpoints; stopping(): some have not stopped yet.
     void cancel_workers();
-    bool stopping() const { return load_job_.working() || volume_job_.working() || simulation.stopping(); }
+    bool stopping() const { return load_job_.working() || volume_.working() || simulation.stopping(); }
     std::uint64_t scene_number() const { return scene_number_; }  ///< grows when the scene is replaced
     const std::vector<std::filesystem::path>& recent_files() const { return recent_; }
 
@@ -122,8 +123,6 @@ public:
 private:
     void take_scene(LoadedScene loaded);
     void poll_loading();
-    bool poll_volume();
-    void forget_volume();
     const Volume* volume(MethodKind kind);
     void add_recent(const std::filesystem::path& file);
     template <class Action>
@@ -137,9 +136,7 @@ private:
     std::vector<int> prefetched_;
     std::filesystem::path pending_file_;
     std::optional<MethodKind> first_method_;
-    std::shared_ptr<const Volume> volume_;        ///< of the present scene's body
-    std::optional<double> volume_poisson_ratio_;  ///< that volume_ is for, or will be
-    BackgroundJob<std::shared_ptr<const Volume>> volume_job_;
+    SectionVolume volume_;
     BackgroundJob<std::shared_ptr<LoadedScene>> load_job_;
 };
 

@@ -18,6 +18,13 @@ namespace elastolab {
 /// What a poll of a background job found.
 enum class JobEvent { none, finished, failed, cancelled };
 
+/// Of a running computation: what it is at, how far in [0, 1], and for how long.
+struct JobStatus {
+    const char* stage = "";
+    double progress = 0.0;
+    double seconds = 0.0;
+};
+
 /// Runs computations on a worker thread, one at a time, for a watcher that polls once per frame and never blocks.
 /// All members are for the watcher's thread. Destruction cancels and waits for the worker's next checkpoint.
 template <class Result>
@@ -82,11 +89,13 @@ public:
     bool working() const {
         return ticket_ && ticket_->result.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
     }
-    /// Of the running computation: what it is at, how far in [0, 1], and since when.
-    const char* stage() const { return ticket_ ? ticket_->control.stage() : ""; }
-    double progress() const { return ticket_ ? ticket_->control.progress() : 0.0; }
-    /// Seconds since the start of the running computation, or that the last one took.
-    double elapsed_seconds() const { return ticket_ ? ticket_->watch.seconds() : last_seconds_; }
+    /// Of the running computation; all zero when there is none.
+    JobStatus status() const {
+        if (!ticket_) return {};
+        return {ticket_->control.stage(), ticket_->control.progress(), ticket_->watch.seconds()};
+    }
+    /// Seconds that the last computation took.
+    double last_seconds() const { return last_seconds_; }
 
     /// Gives away the result of the last computation that was finished: what it holds lives no longer than its users
     /// want. As default-constructed before the first and after each call.

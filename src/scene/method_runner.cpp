@@ -327,4 +327,9 @@ MethodRunner::State MethodRunner::state() const {
     return set_is_current() ? State::ready : State::preparing;
 }
 
+JobStatus MethodRunner::status() const {
+    if (precompute_.running()) return precompute_.status();
+    return completion_.running() && state() != State::preparing ? completion_.status() : prepare_.status();
+}
+
 }  // namespace elastolab

@@ -5,7 +5,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 #include "deform/deformer.hpp"
@@ -98,18 +97,10 @@ public:
     bool preparing() const { return prepare_.running(); }
     bool completing() const { return completion_.running(); }
     bool has_inverse() const { return model_ && model_->method().mode != Mode::on_demand; }
-    /// Of what runs now, what is waited for first: stage, progress in [0, 1] and seconds so far.
-    const char* stage() const {
-        return ask_running_job([](const auto& job) { return job.stage(); });
-    }
-    double progress() const {
-        return ask_running_job([](const auto& job) { return job.progress(); });
-    }
-    double elapsed_seconds() const {
-        return ask_running_job([](const auto& job) { return job.elapsed_seconds(); });
-    }
+    /// Of what runs now, what is waited for first.
+    JobStatus status() const;
     /// Seconds that the last preparation of a constrained set took.
-    double prepare_seconds() const { return prepare_.elapsed_seconds(); }
+    double prepare_seconds() const { return prepare_.last_seconds(); }
 
 private:
     /// A constrained set, and its drag solver when frames use one.
@@ -119,11 +110,6 @@ private:
     };
     using PrepareJob = BackgroundJob<Prepared>;
 
-    template <class Question>
-    std::invoke_result_t<Question, const PrecomputeJob&> ask_running_job(const Question& ask) const {
-        if (precompute_.running()) return ask(precompute_);
-        return completion_.running() && state() != State::preparing ? ask(completion_) : ask(prepare_);
-    }
     void forget_answers();
     void begin_precompute();
     void take_model(std::shared_ptr<const Model> model);

@@ -53,7 +53,7 @@ TEST(PrecomputeJob, BringsTheModelOnce) {
     EXPECT_EQ(wait_for_event(job), JobEvent::finished);
     EXPECT_EQ(job.take()->body().name, "first");
     EXPECT_FALSE(job.running());
-    EXPECT_GE(job.elapsed_seconds(), 0.0);
+    EXPECT_GE(job.last_seconds(), 0.0);
     EXPECT_EQ(job.poll(), JobEvent::none);
 }
 
@@ -74,9 +74,9 @@ TEST(PrecomputeJob, ShowsStageAndProgressWhileItRuns) {
     job.start(endless(begun));
     wait_until([&] { return begun.load(); });
     EXPECT_TRUE(job.running());
-    EXPECT_STREQ(job.stage(), "forever");
-    EXPECT_EQ(job.progress(), 0.5);
-    EXPECT_GT(job.elapsed_seconds(), 0.0);
+    EXPECT_STREQ(job.status().stage, "forever");
+    EXPECT_EQ(job.status().progress, 0.5);
+    EXPECT_GT(job.status().seconds, 0.0);
     EXPECT_EQ(job.poll(), JobEvent::none);
 }
 
@@ -161,7 +161,7 @@ TEST(PrecomputeJob, CannotBeCancelledWhenItIsIdle) {
     job.cancel();
     EXPECT_EQ(job.poll(), JobEvent::none);
     EXPECT_FALSE(job.running());
-    EXPECT_STREQ(job.stage(), "");
+    EXPECT_STREQ(job.status().stage, "");
 }
 
 }  // namespace

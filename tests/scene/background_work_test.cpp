@@ -1,0 +1,178 @@
+// What the workers do beside the answers: complete, prefetch, stop, fail, come to rest.
+
+#include <gmock/gmock.h>
+
+#include <limits>
+
+#include "simulation_bench.hpp"
+
+namespace elastolab {
+namespace {
+
+using namespace testing_simulation;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using State = MethodRunner::State;
+
+TEST(BackgroundWork, ACompletedModelAnswersByTheUpdateThatWasChosen) {
+    LiveScene scene = pulled_cube();
+    Bench bench;
+    const Eigen::VectorXd expected = truth(scene, bench.choices.of(MethodKind::linear_bem));
+    for (const Update update : {Update::eqn9, Update::reduced, Update::direct}) {
+        bench.choices.update = update;
+        bench.settle(scene);
+        ASSERT_TRUE(bench.runner().has_inverse());
+        EXPECT_EQ(bench.runner().model()->method().update, update);
+        expect_near(bench.runner().displacement(), expected);
+    }
+}
+
+TEST(BackgroundWork, ACompletedInverseIsKeptWhenPoissonsRatioStays) {
+    for (const MethodKind kind : all_method_kinds()) {
+        LiveScene scene = pulled_cube();
+        Bench bench({kind});
+        bench.settle(scene);
+        ASSERT_TRUE(bench.runner(kind).has_inverse());
+        for (int change = 0; change < 3; ++change) {
+            if (change == 0) scene.set_material({.young_modulus = 5.0, .poisson_ratio = 0.3});
+            if (change == 1) bench.choices.tractions = Tractions::continuous;
+            if (change == 2) bench.choices.update = Update::direct;
+            do bench.update(scene);
+            while (bench.runner(kind).precomputing());
+            EXPECT_TRUE(bench.runner(kind).has_inverse());
+            EXPECT_THAT(bench.runner(kind).model()->facts().stages, IsEmpty());
+            bench.settle(scene);
+            EXPECT_EQ(bench.runner(kind).model()->body().material.young_modulus, 5.0);
+            expect_near(bench.runner(kind).displacement(), truth(scene, bench.choices.of(kind)));
+        }
+    }
+}
+
+TEST(BackgroundWork, AnInverseThatWasAskedForGoesWithItsMode) {
+    LiveScene scene = cube();
+    Bench bench;
+    bench.choices.mode = Mode::full;
+    bench.settle(scene);
+    ASSERT_TRUE(bench.runner().has_inverse());
+    bench.choices.mode = Mode::on_demand;
+    bench.choices.complete_up_to = 0;
+    bench.settle(scene);
+    EXPECT_FALSE(bench.runner().has_inverse());
+}
+
+TEST(BackgroundWork, AStopOfTheCompletionLeavesTheAnswerReady) {
+    LiveScene scene = cube(8);
+    Bench bench;
+    do bench.update(scene);
+    while (!bench.runner().completing());
+    bench.simulation.prefetch(scene.set_with_handle(where(scene, 0.9, 0.6)));
+    do bench.update(scene);
+    while (bench.runner().completing() && !bench.runner().preparing());
+    bench.simulation.runner(MethodKind::linear_bem).cancel();
+    EXPECT_EQ(bench.runner().state(), State::ready);
+    EXPECT_THAT(bench.runner().failure(), IsEmpty());
+}
+
+TEST(BackgroundWork, AStoppedSetIsForgottenByAnotherOne) {
+    LiveScene scene = cube(8);
+    Bench bench({MethodKind::fem});
+    bench.choices.complete_up_to = 0;
+    bench.settle(scene);
+    scene.commit();
+    scene.add_handle(where(scene, 0.9, 0.6));
+    scene.commit();
+    bench.update(scene);
+    ASSERT_EQ(bench.runner(MethodKind::fem).state(), State::preparing);
+    bench.simulation.runner(MethodKind::fem).cancel();
+    EXPECT_EQ(bench.runner(MethodKind::fem).state(), State::failed);
+    EXPECT_THAT(bench.simulation.problem(MethodKind::fem), HasSubstr("stopped"));
+    scene.undo();
+    bench.update(scene);
+    EXPECT_EQ(bench.runner(MethodKind::fem).state(), State::ready);
+}
+
+TEST(BackgroundWork, AMotionThatCannotBeFollowedIsForgottenByTheNext) {
+    LiveScene scene = cube();
+    scene.add_handle(where(scene, 0.9, 0.6));
+    Bench bench;
+    bench.choices.frame_rule = FrameRule::displace;
+    bench.settle(scene);
+    const double most = std::numeric_limits<double>::max();
+    scene.set_motion(0, AffineMotion{.translate = {most, most, most}});
+    bench.settle(scene);
+    EXPECT_EQ(bench.runner().state(), State::failed);
+    scene.set_motion(0, AffineMotion{.translate = {0.1, 0, 0}});
+    bench.update(scene);
+    EXPECT_EQ(bench.runner().state(), State::ready);
+    expect_near(bench.runner().displacement(), truth(scene, bench.choices.of(MethodKind::linear_bem)));
+}
+
+TEST(BackgroundWork, TellsTheProgressOfASetThatIsBeingPrepared) {
+    LiveScene scene = cube(8);
+    Bench bench({MethodKind::fem});
+    bench.choices.complete_up_to = 0;
+    do bench.update(scene);
+    while (bench.runner(MethodKind::fem).state() != State::preparing);
+    EXPECT_LT(bench.runner(MethodKind::fem).status().seconds, 60.0);
+    EXPECT_GT(bench.runner(MethodKind::fem).status().seconds, 0.0);
+}
+
+TEST(BackgroundWork, AHandleThatWasPrefetchedAnswersAtOnce) {
+    LiveScene scene = cube();
+    Bench bench;
+    bench.settle(scene);
+    const std::vector<int> patch = where(scene, 0.9, 0.6);
+    bench.simulation.prefetch(scene.set_with_handle(patch));
+    do bench.update(scene);
+    while (bench.runner().preparing());
+    EXPECT_EQ(bench.runner().displacement().norm(), 0.0);
+    scene.add_handle(patch);
+    scene.set_motion(0, AffineMotion{.translate = {0.1, 0, 0}});
+    EXPECT_TRUE(bench.update(scene));
+    EXPECT_EQ(bench.runner().state(), State::ready);
+    for (const AffineMotion& motion :
+         {AffineMotion{.translate = {0.1, 0, 0}}, AffineMotion{.translate = {0, 0.2, -0.1}},
+          AffineMotion{.matrix = 0.1 * Eigen::Matrix3d::Identity()}}) {
+        scene.set_motion(0, motion);
+        bench.update(scene);
+        expect_near(bench.runner().displacement(), truth(scene, bench.choices.of(MethodKind::linear_bem)));
+    }
+}
+
+TEST(BackgroundWork, ACancelledPrecomputationCanBeTriedAgain) {
+    LiveScene scene = cube(10);
+    Bench bench;
+    bench.update(scene);
+    ASSERT_EQ(bench.runner().state(), State::precomputing);
+    bench.simulation.runner(MethodKind::linear_bem).cancel();
+    bench.settle(scene);
+    EXPECT_EQ(bench.runner().state(), State::idle);
+    EXPECT_FALSE(bench.runner().has_answer());
+    bench.simulation.runner(MethodKind::linear_bem).retry();
+    bench.choices.complete_up_to = 0;
+    bench.settle(scene);
+    EXPECT_EQ(bench.runner().state(), State::ready);
+    EXPECT_FALSE(bench.runner().has_inverse());
+}
+
+TEST(BackgroundWork, ComesToRestWhenAMethodIsComputedThatTheMaterialForbidsMeanwhile) {
+    LiveScene scene = cube(8);
+    Bench bench({MethodKind::fem});
+    bench.update(scene);
+    ASSERT_TRUE(bench.simulation.waiting());
+    scene.set_material({.young_modulus = 1.0, .poisson_ratio = 0.5});
+    bench.settle(scene);
+    EXPECT_FALSE(bench.simulation.busy());
+    EXPECT_FALSE(bench.simulation.checking());
+    EXPECT_FALSE(bench.update(scene)) << "nothing changes any more";
+}
+
+TEST(BackgroundWork, EndsWhileItComputes) {
+    LiveScene scene = cube(10);
+    Bench bench(all_method_kinds());
+    bench.update(scene);
+    EXPECT_TRUE(bench.simulation.busy());
+}
+
+}  // namespace
+}  // namespace elastolab

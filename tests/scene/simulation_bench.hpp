@@ -1,0 +1,69 @@
+#pragma once
+
+#include <gmock/gmock.h>
+
+#include <chrono>
+#include <thread>
+
+#include "scene/simulation.hpp"
+
+namespace elastolab::testing_simulation {
+
+inline const std::vector<MethodKind> kLinear = {MethodKind::linear_bem};
+
+/// The unit cube, its left face fixed.
+inline LiveScene cube(int cells = 3) {
+    Document document;
+    document.mesh = Primitive{.name = "cube", .resolution = cells, .size = {}};
+    document.fixed = Selector{PlaneSelector{{0, 0, 0}, {1, 0, 0}, 1e-9}};
+    return {document, "cube.json"};
+}
+
+inline std::vector<int> where(const LiveScene& scene, double x_min, double y_min) {
+    std::vector<int> vertices;
+    for (int v = 0; v < scene.mesh().n_vertices(); ++v)
+        if (scene.mesh().vertices(0, v) > x_min && scene.mesh().vertices(1, v) > y_min) vertices.push_back(v);
+    return vertices;
+}
+
+/// The cube with handle 0 pulled.
+inline LiveScene pulled_cube(int cells = 3) {
+    LiveScene scene = cube(cells);
+    scene.add_handle(where(scene, 0.9, 0.6));
+    scene.set_motion(0, AffineMotion{.translate = {0.1, 0, 0}});
+    return scene;
+}
+
+/// What a fresh computation says.
+inline Eigen::VectorXd truth(const LiveScene& scene, const Method& method) {
+    Control control;
+    Deformer deformer(precompute(scene.body(method.kind), method, control));
+    deformer.constrain(scene.constraints().set, control);
+    return deformer.displace(scene.constraints().values);
+}
+
+inline void expect_near(const Eigen::VectorXd& u, const Eigen::VectorXd& expected) {
+    ASSERT_EQ(u.size(), expected.size());
+    EXPECT_LT((u - expected).norm(), 1e-9 * expected.norm());
+}
+
+/// A simulation with its choices, updated like a window would.
+struct Bench {
+    explicit Bench(std::vector<MethodKind> kinds = kLinear) : shown(std::move(kinds)) {}
+
+    Simulation simulation{[] {}};
+    MethodChoices choices;
+    std::vector<MethodKind> shown;
+
+    bool update(const LiveScene& scene) { return simulation.update(scene, shown, choices); }
+    void settle(const LiveScene& scene) {
+        do {
+            update(scene);
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        } while (simulation.busy());
+        update(scene);
+    }
+    const MethodRunner& runner(MethodKind kind = MethodKind::linear_bem) { return simulation.runner(kind); }
+};
+
+}  // namespace elastolab::testing_simulation
