@@ -13,6 +13,7 @@ constexpr double kNearestZoom = 1e-4, kFarthestZoom = 1e3;  // distance / scene 
 constexpr double kFrameMargin = 1.08;                       // room around a framed ball
 constexpr double kInFront = 1.6, kBehind = 8.0;             // scene radii before and after its centre that are in sight
 constexpr double kNearestPlane = 0.02;                      // of the distance
+constexpr double kRounding = 1e-9;                          // of an orientation, after many turns
 
 Eigen::Quaterniond turn(double angle, const Eigen::Vector3d& axis) {
     return Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis));
@@ -63,8 +64,12 @@ Eigen::Matrix4d Camera::projection(double aspect, double unit) const {
 void Camera::orbit(double dx, double dy, const Viewport& viewport) {
     const double per_pixel = std::numbers::pi / viewport.height;
     pose_.orientation = turn(-dx * per_pixel, up_axis_) * pose_.orientation;
-    const double polar = std::acos(std::clamp(backward().dot(up_axis_), -1.0, 1.0));  // 0 when looking down
-    const double side = up().dot(up_axis_) >= -1e-9 ? 1.0 : -1.0;                     // upside down after a tumble
+    const double upright = up().dot(up_axis_);
+    const double side = upright >= -kRounding ? 1.0 : -1.0;  // upside down after a tumble
+    // 0 when looking down. By both of its sides, as near the poles an arc cosine has half the digits; a camera that is
+    // upright but for rounding may be just beyond a pole.
+    double polar = std::atan2(side * upright, backward().dot(up_axis_));
+    if (polar < -0.5 * std::numbers::pi) polar += 2.0 * std::numbers::pi;
     const double wanted = std::clamp(polar - side * dy * per_pixel, 0.0, std::numbers::pi);
     pose_.orientation = (turn(side * (wanted - polar), right()) * pose_.orientation).normalized();
 }

@@ -156,6 +156,17 @@ TEST(Camera, OrbitKeepsTheUpAxisUprightAndStopsAtThePoles) {
     EXPECT_NEAR(camera.backward().z(), -1.0, kTight);
 }
 
+TEST(Camera, StaysUprightAtThePolesHoweverOftenItIsTurnedThere) {
+    Random random;
+    for (const double way : {1.0, -1.0}) {
+        Camera camera = camera_at({});
+        for (int i = 0; i < 2000; ++i) {
+            camera.orbit(random(-80, 80), way * random(-1, 80), kViewport);
+            ASSERT_GT(camera.up().dot(camera.up_axis()), -1e-12) << i;
+        }
+    }
+}
+
 TEST(Camera, TurnsTheSceneTheWayThatItIsDragged) {
     const Eigen::Vector3d front(0.0, -1.0, 0.0);
     for (const bool free : {false, true}) {
