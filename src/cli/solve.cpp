@@ -47,6 +47,9 @@ void precompute_model(const Method& method, const Body& body, Solution& solution
 /// Applies the constraints and evaluates what follows from them.
 void apply(const Constraints& constraints, bool with_checks, Solution& solution, Control& control) {
     Deformer deformer(solution.model);
+    solution.predicted.memory_bytes =
+        std::max(solution.predicted.memory_bytes,
+                 solution.model->facts().memory_bytes + deformer.predict_memory(constraints.set));
     {
         const Stage stage("constrain", control, solution.stages);
         deformer.constrain(constraints.set, control);

@@ -11,11 +11,9 @@ namespace elastolab {
 
 namespace {
 
-bool factorises(const Method& method) { return method.mode != Mode::on_demand || method.update != Update::direct; }
-
 bool same_system(const Method& a, const Method& b) {
     return a.kind == b.kind && a.mode == b.mode && a.integral_tolerance == b.integral_tolerance &&
-           a.column_memory == b.column_memory && factorises(a) == factorises(b);
+           a.column_memory == b.column_memory && factorises_ahead(a) == factorises_ahead(b);
 }
 
 bool same_integrals(const Method& a, const Method& b) {

@@ -52,7 +52,7 @@ BemSystem::BemSystem(std::shared_ptr<const Boundary> boundary, double poisson_ra
     const Eigen::Index n = 3 * n_nodes();
     cache_budget_ = method.column_memory.value_or(budget_for(n, method.mode));
     cache_ = std::make_unique<ColumnCache>(cache_budget_);
-    if (method.mode == Mode::on_demand && method.update == Update::direct) return;
+    if (!factorises_ahead(method)) return;
     Eigen::MatrixXd bordered(n + 6, n + 6);
     {
         const Stage stage(integrals_.H ? "combine" : "integrate", control, stages);

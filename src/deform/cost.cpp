@@ -51,7 +51,9 @@ std::uint64_t square_bytes(double n) { return static_cast<std::uint64_t>(8.0 * n
 Cost predict_bem(const SurfaceMesh& mesh, const Method& method) {
     const double nodes = method.kind == MethodKind::constant_bem ? mesh.n_triangles() : mesh.n_vertices();
     const double n = 3.0 * nodes, pairs = nodes * mesh.n_triangles();
-    Cost cost{static_cast<std::int64_t>(n), square_bytes(n + 6.0) + (64u << 20), 0.0};
+    Cost cost{static_cast<std::int64_t>(n), 64u << 20, 0.0};
+    if (!factorises_ahead(method)) return cost;
+    cost.memory_bytes += square_bytes(n + 6.0);
     double flops = 2.0 / 3.0 * n * n * n + kFlopsPerPair * pairs;
     if (method.keep_integrals) cost.memory_bytes += static_cast<std::uint64_t>(80.0 * nodes * nodes);
     if (method.mode != Mode::on_demand) {

@@ -8,7 +8,8 @@
 namespace elastolab {
 
 /// What a precomputation would take, before it is begun. Seconds are an estimate from the arithmetic it needs and from
-/// the speed of this machine's matrix product, measured once; memory is what the model's arrays add up to.
+/// the speed of this machine's matrix product, measured once; memory is what the model's arrays add up to. What a
+/// constrained set takes beyond this: Deformer::predict_memory.
 struct Cost {
     std::int64_t degrees_of_freedom = 0;
     std::uint64_t memory_bytes = 0;  ///< at its peak, beyond what the program holds already

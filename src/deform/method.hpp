@@ -43,6 +43,12 @@ struct Method {
     std::optional<std::uint64_t> column_memory = {};
 };
 
+/// Whether boundary elements factorise a system before there is a constrained set: not on demand by the update direct,
+/// by which each set has a system of its own.
+inline bool factorises_ahead(const Method& method) {
+    return method.mode != Mode::on_demand || method.update != Update::direct;
+}
+
 /// The names used in scene files, command lines and tables; parse_* return nothing for an unknown name.
 std::string_view name(MethodKind kind);
 std::string_view name(Mode mode);

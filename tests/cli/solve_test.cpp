@@ -152,6 +152,25 @@ TEST_F(SolveTest, WritesAReportWithEveryKey) {
     }
 }
 
+TEST_F(SolveTest, PredictsTheMemoryThatItTakes) {
+#ifdef ELASTOLAB_TEST_SANITIZED
+    GTEST_SKIP() << "a sanitizer has memory of its own";
+#endif
+    const auto report_of = [&](const std::string& method, const std::string& update, int cells) {
+        solve(test::cube_scene(method, cells), {"--update", update, "--report", "r.json", "--quiet"});
+        return json("r.json");
+    };
+    for (const std::string& method : kMethods)
+        for (const std::string update : {"direct", "reduced"}) {
+            SCOPED_TRACE(method + ", " + update);
+            const double program = report_of(method, update, 1)["peak_memory_bytes"].get<double>();
+            const nlohmann::json report = report_of(method, update, 12);
+            const double taken = report["peak_memory_bytes"].get<double>() - program;
+            EXPECT_GT(report["predicted_memory_bytes"].get<double>(), 0.75 * taken);
+            EXPECT_LT(report["predicted_memory_bytes"].get<double>(), 1.7 * taken + 20e6);
+        }
+}
+
 TEST_F(SolveTest, PrintsASummaryUnlessItShallBeQuiet) {
     const ProgramRun run = solve(test::cube_scene("linear-bem", 2), {});
     for (const char* text : {"linear-bem, on-demand", "26 vertices", "residual", "right", "kernels"})
