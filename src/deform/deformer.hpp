@@ -51,7 +51,8 @@ struct DiscretisationCheck {
 
 struct NodeSolution;
 
-/// Displacements of a Model for one constrained set at a time. Owned by one thread; several may share a Model.
+/// Displacements of a Model for one constrained set at a time. Owned by one thread, others may call its const members
+/// while it is not changed; several may share a Model.
 class Deformer {
 public:
     explicit Deformer(std::shared_ptr<const Model> model);

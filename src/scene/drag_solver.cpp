@@ -9,6 +9,9 @@ namespace {
 
 /// Prescribed values are rounded when they are made: differences below this part of them mean nothing.
 constexpr double kRounding = 64 * std::numeric_limits<double>::epsilon();
+/// Beyond this, columns times a motion might overflow: such motions are solved for, which fails when there is no
+/// answer.
+constexpr double kLargestMotion = 1e150;
 
 /// Rows: 1 and, if `affine`, the rest positions about their mean, scaled to about 1.
 Eigen::MatrixXd motion_shapes(const Positions& rest, bool affine) {
@@ -26,25 +29,47 @@ DragSolver::DragSolver(std::shared_ptr<const Deformer> deformer, std::vector<int
     : deformer_(std::move(deformer)), handle_ends_(std::move(handle_ends)) {}
 
 void DragSolver::prepare(const Eigen::VectorXd& values) {
+    int handle = kNone;
+    bool affine = false;
+    if (has_start(values)) {
+        const Eigen::VectorXd change = values - start_values_;
+        handle = changed_handle(change);
+        if (handle >= 0) {
+            const Eigen::Matrix3Xd moved = part_of(handle, change);
+            affine = (moved.colwise() - moved.col(0)).cwiseAbs().maxCoeff() > tolerance_of(handle, moved);
+        }
+    }
+    if (handle < 0) handle = static_cast<int>(handle_ends_.size()) - 1;
     start(values);
-    if (!handle_ends_.empty()) grab(static_cast<int>(handle_ends_.size()) - 1, false);
+    if (handle >= 0) grab(handle, affine);
+}
+
+bool DragSolver::has(const Eigen::VectorXd& values) const {
+    if (!has_start(values)) return false;
+    const Eigen::VectorXd change = values - start_values_;
+    const int handle = changed_handle(change);
+    return handle == kNone || (handle >= 0 && parameters_of(handle, part_of(handle, change)));
 }
 
 void DragSolver::displace(const Eigen::VectorXd& values, Eigen::VectorXd& u) {
-    if (start_values_.size() != values.size() || response_.rest.size() == 0) start(values);
+    if (!has_start(values)) start(values);
     const Eigen::VectorXd change = values - start_values_;
     const int handle = changed_handle(change);
     if (handle >= 0) {
-        const Eigen::Matrix3Xd moved = Eigen::Map<const Eigen::Matrix3Xd>(change.data(), 3, change.size() / 3)
-                                           .middleCols(begin_of(handle), size_of(handle));
-        if (handle == handle_ && follow(handle, moved, u)) return;
-        for (const bool affine : {false, true}) {
-            grab(handle, affine);
-            if (follow(handle, moved, u)) return;
+        const Eigen::Matrix3Xd moved = part_of(handle, change);
+        std::optional<Eigen::VectorXd> parameters = parameters_of(handle, moved);
+        for (int affine = 0; affine <= 1 && !parameters; ++affine) {
+            grab(handle, affine == 1);
+            parameters = parameters_of(handle, moved);
         }
+        if (parameters) return response_.displace(*parameters, u);
     }
     if (handle != kNone) start(values);
     u = response_.rest;
+}
+
+bool DragSolver::has_start(const Eigen::VectorXd& values) const {
+    return start_values_.size() == values.size() && response_.rest.size() > 0;
 }
 
 /// The one handle whose values differ from those at the start.
@@ -56,6 +81,11 @@ int DragSolver::changed_handle(const Eigen::VectorXd& change) const {
         changed = h;
     }
     return changed;
+}
+
+Eigen::Matrix3Xd DragSolver::part_of(int handle, const Eigen::VectorXd& change) const {
+    return Eigen::Map<const Eigen::Matrix3Xd>(change.data(), 3, change.size() / 3)
+        .middleCols(begin_of(handle), size_of(handle));
 }
 
 void DragSolver::start(const Eigen::VectorXd& values) {
@@ -80,14 +110,18 @@ void DragSolver::grab(int handle, bool affine) {
     handle_ = handle;
 }
 
-/// Whether the columns at hand span this change of the handle; then u is done.
-bool DragSolver::follow(int handle, const Eigen::Matrix3Xd& change, Eigen::VectorXd& u) {
-    const Eigen::Matrix3Xd parameters = change * fit_;  // 3 x shapes
+double DragSolver::tolerance_of(int handle, const Eigen::Matrix3Xd& change) const {
     const auto start = start_values_.segment(3 * begin_of(handle), 3 * size_of(handle));
-    const double tolerance = kRounding * (change.cwiseAbs().maxCoeff() + start.cwiseAbs().maxCoeff());
-    if ((change - parameters * shapes_).cwiseAbs().maxCoeff() > tolerance) return false;
-    response_.displace(Eigen::Map<const Eigen::VectorXd>(parameters.data(), parameters.size()), u);
-    return true;
+    return kRounding * (change.cwiseAbs().maxCoeff() + start.cwiseAbs().maxCoeff());
+}
+
+/// What the columns at hand are to be multiplied with for this change of the handle; nothing when they do not span it.
+std::optional<Eigen::VectorXd> DragSolver::parameters_of(int handle, const Eigen::Matrix3Xd& change) const {
+    if (handle != handle_) return std::nullopt;
+    const Eigen::MatrixXd parameters = change * fit_;  // 3 x shapes
+    if (!(parameters.cwiseAbs().maxCoeff() < kLargestMotion)) return std::nullopt;
+    if ((change - parameters * shapes_).cwiseAbs().maxCoeff() > tolerance_of(handle, change)) return std::nullopt;
+    return Eigen::Map<const Eigen::VectorXd>(parameters.data(), parameters.size());
 }
 
 }  // namespace elastolab

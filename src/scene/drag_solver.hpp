@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "deform/deformer.hpp"
@@ -16,9 +17,11 @@ public:
     /// handle_ends[i]: where the vertices of handle i end in the list of all handles' vertices (deformer->set()).
     DragSolver(std::shared_ptr<const Deformer> deformer, std::vector<int> handle_ends);
 
-    /// Solves ahead for these values and for translations of the last handle, so that displace() has them at once when
-    /// this is what comes. Throws SolveError.
+    /// Solves ahead for these values, and for more of the motion that led to them from those before; without any, for
+    /// translations of the last handle. displace() has them at once when this is what comes. Throws SolveError.
     void prepare(const Eigen::VectorXd& values);
+    /// Whether displace(values) needs no solve but one pass over the columns at hand.
+    bool has(const Eigen::VectorXd& values) const;
 
     /// u <- the displacements for `values` (as Deformer::displace takes them). Throws SolveError.
     void displace(const Eigen::VectorXd& values, Eigen::VectorXd& u);
@@ -26,12 +29,15 @@ public:
 private:
     static constexpr int kNone = -1, kSeveral = -2;
 
+    bool has_start(const Eigen::VectorXd& values) const;
     int changed_handle(const Eigen::VectorXd& change) const;
+    Eigen::Matrix3Xd part_of(int handle, const Eigen::VectorXd& change) const;
     int begin_of(int handle) const { return handle == 0 ? 0 : handle_ends_[static_cast<std::size_t>(handle) - 1]; }
     int size_of(int handle) const { return handle_ends_[static_cast<std::size_t>(handle)] - begin_of(handle); }
     void start(const Eigen::VectorXd& values);
     void grab(int handle, bool affine);
-    bool follow(int handle, const Eigen::Matrix3Xd& change, Eigen::VectorXd& u);
+    double tolerance_of(int handle, const Eigen::Matrix3Xd& change) const;
+    std::optional<Eigen::VectorXd> parameters_of(int handle, const Eigen::Matrix3Xd& change) const;
 
     std::shared_ptr<const Deformer> deformer_;
     std::vector<int> handle_ends_;

@@ -43,18 +43,6 @@ void drop(BackgroundJob<Result>& job) {
     job.poll();
 }
 
-/// Nothing when these values have no solution: whether they are wanted then, and who is told, is for the frame.
-std::optional<DragSolver> prepared_drag(const std::shared_ptr<const Deformer>& deformer, const std::vector<int>& ends,
-                                        const Eigen::VectorXd& values) {
-    try {
-        DragSolver drag(deformer, ends);
-        drag.prepare(values);
-        return drag;
-    } catch (const SolveError&) {
-        return std::nullopt;
-    }
-}
-
 std::vector<int> handle_ends(const Constraints& constraints) {
     std::vector<int> ends;
     const auto n_base = static_cast<int>(constraints.set.base.size());
@@ -203,19 +191,31 @@ void MethodRunner::poll_preparation() {
     switch (prepare_.poll()) {
         case JobEvent::finished: {
             Prepared prepared = prepare_.take();
-            if (&prepared.deformer->model() != model_.get()) break;
-            spare_ = std::move(prepared);
+            if (prepared.deformer == deformer_) {
+                drag_ = std::move(prepared.drag);
+                solve_seconds_ = prepared.solve_seconds;
+            } else if (&prepared.deformer->model() == model_.get()) {
+                spare_ = std::move(prepared);
+            }
             break;
         }
         case JobEvent::failed:
-            if (!same(preparing_set_, wanted_set_)) break;  // a prefetch: nobody asked for it yet
-            set_failure_ = prepare_.failure();
+            if (!same_as_wanted(preparing_set_)) break;  // a prefetch: nobody asked for it yet
+            if (set_is_current()) {
+                displace_failure_ = prepare_.failure();
+                drag_.reset();
+                take_values();
+            } else {
+                set_failure_ = prepare_.failure();
+            }
             break;
         case JobEvent::cancelled:
         case JobEvent::none:
             break;
     }
 }
+
+bool MethodRunner::same_as_wanted(const ConstrainedSet& set) const { return same(set, wanted_set_); }
 
 bool MethodRunner::set_is_current() const {
     return deformer_ && &deformer_->model() == model_.get() && same(deformer_->set(), wanted_set_);
@@ -226,6 +226,7 @@ void MethodRunner::use_or_prepare() {
         const bool keep = deformer_ && &deformer_->model() == model_.get();
         std::swap(deformer_, spare_.deformer);
         drag_ = std::exchange(spare_.drag, std::nullopt);
+        std::swap(solve_seconds_, spare_.solve_seconds);
         if (!keep) spare_ = {};
         values_.resize(0);
         set_failure_.clear();
@@ -261,25 +262,63 @@ void MethodRunner::prepare(const ConstrainedSet& set, Eigen::VectorXd values, st
         deformer->constrain(set, control);
         control.checkpoint();
         Prepared prepared{std::move(deformer), std::nullopt};
-        if (drags) prepared.drag = prepared_drag(prepared.deformer, ends, values);
+        if (!drags) return prepared;
+        control.begin_stage("solve");
+        const Stopwatch watch;
+        try {
+            DragSolver drag(prepared.deformer, ends);
+            drag.prepare(values);
+            prepared.drag = std::move(drag);
+        } catch (const SolveError&) {
+            // Whether values without a solution are wanted then, and who is told, is for the frame.
+        }
+        prepared.solve_seconds = watch.seconds();
         return prepared;
+    });
+}
+
+bool MethodRunner::takes_long() const {
+    return rule_ == FrameRule::drag_columns && solve_seconds_ > solve_budget_ && !(drag_ && drag_->has(wanted_values_));
+}
+
+/// The motion goes on meanwhile: the columns that the worker brings serve what comes of it then.
+void MethodRunner::solve_on_worker() {
+    if (!set_is_current() || solving()) return;
+    preparing_set_ = wanted_set_;
+    DragSolver drag = drag_ ? *drag_ : DragSolver(deformer_, handle_ends_);
+    prepare_.start([deformer = deformer_, drag = std::move(drag), values = wanted_values_](Control& control) mutable {
+        control.begin_stage("solve");
+        const Stopwatch watch;
+        drag.prepare(values);
+        return Prepared{deformer, std::move(drag), watch.seconds()};
     });
 }
 
 void MethodRunner::update_displacement() {
     if (values_.size() == wanted_values_.size() && values_ == wanted_values_ && displacement_.size() > 0) return;
+    if (takes_long()) return solve_on_worker();
     try {
-        if (rule_ == FrameRule::drag_columns) {
-            if (!drag_) drag_.emplace(deformer_, handle_ends_);
-            drag_->displace(wanted_values_, displacement_);
-        } else {
+        if (rule_ == FrameRule::drag_columns)
+            drag();
+        else
             displacement_ = deformer_->displace(wanted_values_);
-        }
         displace_failure_.clear();
     } catch (const std::exception& error) {
         displace_failure_ = user_text(error);
         drag_.reset();
     }
+    take_values();
+}
+
+void MethodRunner::drag() {
+    if (!drag_) drag_.emplace(deformer_, handle_ends_);
+    const bool solves = !drag_->has(wanted_values_);
+    const Stopwatch watch;
+    drag_->displace(wanted_values_, displacement_);
+    if (solves) solve_seconds_ = watch.seconds();
+}
+
+void MethodRunner::take_values() {
     values_ = wanted_values_;
     ++version_;
     check_.cancel();
@@ -301,8 +340,13 @@ void MethodRunner::cancel() {
     completion_.cancel();
     if (!prepare_.running()) return;
     prepare_.cancel();
-    if (same(preparing_set_, wanted_set_) && !set_is_current())  // else a prefetch
+    if (!same_as_wanted(preparing_set_)) return;  // a prefetch
+    if (set_is_current()) {
+        displace_failure_ = "The answer to this motion was stopped. Retry, or pull on.";
+        take_values();
+    } else {
         set_failure_ = "The preparation of this constrained set was stopped. Retry, or change the set.";
+    }
 }
 
 void MethodRunner::retry() {
@@ -324,7 +368,7 @@ MethodRunner::State MethodRunner::state() const {
     if (precompute_.running()) return State::precomputing;
     if (!failure().empty()) return State::failed;
     if (!model_ || !model_is_wanted_) return State::idle;
-    return set_is_current() ? State::ready : State::preparing;
+    return set_is_current() && !solving() ? State::ready : State::preparing;
 }
 
 JobStatus MethodRunner::status() const {

@@ -28,7 +28,7 @@ public:
     enum class State {
         idle,          ///< no body yet, or the precomputation was cancelled before there was any model
         precomputing,  ///< no model of this body, material and method yet
-        preparing,     ///< the model is there; the constrained set is being prepared
+        preparing,     ///< the model is there; the constrained set, or a motion that takes long, is being prepared
         ready,         ///< displacements are those of the scene
         failed         ///< see failure(); the last complete answer stays
     };
@@ -48,6 +48,9 @@ public:
     /// Asks for the displacements under these constraints, which belong to the body last set.
     void set_constraints(const Constraints& constraints);
     void set_frame_rule(FrameRule rule);
+    /// Seconds that poll() may solve for a new motion itself, judged by the last time; longer solves go to the worker,
+    /// and the answer before stays meanwhile.
+    void set_solve_budget(double seconds) { solve_budget_ = seconds; }
     /// Prepares a constrained set that may be asked for soon, when there is nothing else to do.
     void prefetch(const ConstrainedSet& set);
     /// Computes K and its inverse for the present model (Mode::full) in the background, when there is nothing else to
@@ -107,6 +110,7 @@ private:
     struct Prepared {
         std::shared_ptr<const Deformer> deformer;
         std::optional<DragSolver> drag;
+        double solve_seconds = 0.0;  ///< that the drag solver took
     };
     using PrepareJob = BackgroundJob<Prepared>;
 
@@ -119,7 +123,14 @@ private:
     void use_or_prepare();
     void prepare(const ConstrainedSet& set, Eigen::VectorXd values, std::vector<int> ends);
     void prepare_prefetched(const ConstrainedSet& set);
+    bool takes_long() const;
+    void solve_on_worker();
+    /// Whether the worker solves for a motion within the present set.
+    bool solving() const { return prepare_.running() && set_is_current() && same_as_wanted(preparing_set_); }
+    bool same_as_wanted(const ConstrainedSet& set) const;
     void update_displacement();
+    void drag();
+    void take_values();
     bool has_motion() const { return values_.size() > 0 && !values_.isZero(0.0); }
 
     Body body_;
@@ -144,6 +155,7 @@ private:
     std::string displace_failure_;    ///< of values_
 
     std::optional<DragSolver> drag_;
+    double solve_budget_ = 0.03, solve_seconds_ = 0.0;
     Eigen::VectorXd values_, displacement_;
     std::uint64_t version_ = 0;
 

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <Eigen/Geometry>
 #include <limits>
 
 #include "simulation_bench.hpp"
@@ -137,6 +138,71 @@ TEST(BackgroundWork, AHandleThatWasPrefetchedAnswersAtOnce) {
         bench.update(scene);
         expect_near(bench.runner().displacement(), truth(scene, bench.choices.of(MethodKind::linear_bem)));
     }
+}
+
+TEST(BackgroundWork, AMotionThatTakesLongIsSolvedByTheWorker) {
+    LiveScene scene = cube();
+    const int first = scene.add_handle(where(scene, 0.9, 0.6)), second = scene.add_handle(where(scene, 0.9, -1.0));
+    Bench bench;
+    bench.settle(scene);
+    bench.set_solve_budget(0.0);
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitX()).toRotationMatrix();
+    const std::vector<std::pair<int, AffineMotion>> pulls = {{first, {.translate = {0.1, 0, 0}}},
+                                                             {second, {.translate = {0, 0.1, 0}}},
+                                                             {first, {.matrix = 0.1 * turn, .translate = {0.1, 0, 0}}}};
+    for (const auto& [handle, motion] : pulls) {
+        const Eigen::VectorXd before = bench.runner().displacement();
+        scene.set_motion(handle, motion);
+        bench.update(scene);
+        EXPECT_EQ(bench.runner().state(), State::preparing);
+        EXPECT_EQ(bench.runner().displacement(), before);
+        AffineMotion on = motion;  // the pull goes on meanwhile
+        on.translate += Eigen::Vector3d(0.05, 0.01, 0);
+        scene.set_motion(handle, on);
+        bench.settle(scene);
+        EXPECT_EQ(bench.runner().state(), State::ready);
+        expect_near(bench.runner().displacement(), truth(scene, bench.choices.of(MethodKind::linear_bem)));
+        on.translate += Eigen::Vector3d(0, 0.02, 0.03);
+        scene.set_motion(handle, on);
+        bench.update(scene);  // by the columns at hand, in the same frame
+        EXPECT_EQ(bench.runner().state(), State::ready);
+        expect_near(bench.runner().displacement(), truth(scene, bench.choices.of(MethodKind::linear_bem)));
+    }
+}
+
+TEST(BackgroundWork, AMotionWhoseSolutionWasStoppedCanBeTriedAgain) {
+    LiveScene scene = pulled_cube(8);
+    Bench bench;
+    bench.choices.complete_up_to = 0;
+    bench.settle(scene);
+    bench.set_solve_budget(0.0);
+    scene.set_motion(0, AffineMotion{.matrix = 0.3 * Eigen::Matrix3d::Identity(), .translate = {0, 0.1, 0}});
+    bench.update(scene);
+    ASSERT_EQ(bench.runner().state(), State::preparing);
+    MethodRunner& runner = bench.simulation.runner(MethodKind::linear_bem);
+    runner.cancel();
+    bench.settle(scene);
+    EXPECT_EQ(runner.state(), State::failed);
+    EXPECT_THAT(runner.failure(), HasSubstr("stopped"));
+    runner.retry();
+    bench.settle(scene);
+    EXPECT_EQ(runner.state(), State::ready);
+    expect_near(runner.displacement(), truth(scene, bench.choices.of(MethodKind::linear_bem)));
+}
+
+TEST(BackgroundWork, AMotionWithoutASolutionFailsOnTheWorkerToo) {
+    LiveScene scene = pulled_cube();
+    Bench bench;
+    bench.settle(scene);
+    bench.set_solve_budget(0.0);
+    const double most = std::numeric_limits<double>::max();
+    scene.set_motion(0, AffineMotion{.matrix = 0.3 * Eigen::Matrix3d::Identity(), .translate = {most, most, most}});
+    bench.settle(scene);
+    EXPECT_EQ(bench.runner().state(), State::failed);
+    scene.set_motion(0, AffineMotion{.matrix = 0.3 * Eigen::Matrix3d::Identity(), .translate = {0, 0.1, 0}});
+    bench.settle(scene);
+    EXPECT_EQ(bench.runner().state(), State::ready);
+    expect_near(bench.runner().displacement(), truth(scene, bench.choices.of(MethodKind::linear_bem)));
 }
 
 TEST(BackgroundWork, ACancelledPrecomputationCanBeTriedAgain) {
