@@ -47,7 +47,7 @@ const char* state_word(const MethodRunner& runner) {
         case State::precomputing:
             return "precomputing";
         case State::preparing:
-            return "preparing the new set of held vertices";
+            return "preparing what is held and pulled";
         case State::ready:
             return "ready";
         case State::failed:

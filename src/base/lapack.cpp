@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "base/blocked_lu.hpp"
 #include "base/error.hpp"
 
 namespace elastolab {
@@ -20,17 +21,15 @@ std::vector<double> work_array(double answer) {
 
 }  // namespace
 
-LuFactorization::LuFactorization(Eigen::MatrixXd&& A, const std::string& name) : factors_(std::move(A)) {
+LuFactorization::LuFactorization(Eigen::MatrixXd&& A, const std::string& name, Control* control)
+    : factors_(std::move(A)) {
     assert(factors_.rows() == factors_.cols());
     const int n = as_int(factors_.rows());
     if (n == 0) return;
     const double norm = factors_.cwiseAbs().colwise().sum().maxCoeff();
     if (!std::isfinite(norm))
         throw SolveError(name + ": has entries that are not finite. Check the mesh for degenerate triangles.");
-    pivots_.resize(static_cast<std::size_t>(n));
-    const int info = LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, n, n, factors_.data(), n, pivots_.data());
-    assert(info >= 0);
-    if (info > 0)
+    if (const int info = factorise_lu(factors_, pivots_, control); info > 0)
         throw SingularMatrixError(name + ": is singular (pivot " + std::to_string(info) + " of " + std::to_string(n) +
                                   " vanishes). Check the mesh for degenerate or duplicate parts.");
     std::vector<double> work(4 * static_cast<std::size_t>(n));

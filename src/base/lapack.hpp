@@ -4,15 +4,19 @@
 #include <string>
 #include <vector>
 
+#include "base/control.hpp"
+
 namespace elastolab {
 
-/// LU factors of a square matrix (LAPACK dgetrf). Immutable after construction.
+/// LU factors of a square matrix. Immutable after construction.
 class LuFactorization {
 public:
     LuFactorization() = default;
     /// Factors A in place of its own storage: no second matrix. `name` is what the error message calls the matrix.
-    /// Throws SingularMatrixError when A is exactly singular, SolveError when it has entries that are not finite.
-    LuFactorization(Eigen::MatrixXd&& A, const std::string& name);
+    /// `control`, when given, learns the progress of the present stage and may cancel (see factorise_lu).
+    /// Throws SingularMatrixError when A is exactly singular, SolveError when it has entries that are not finite,
+    /// Cancelled.
+    LuFactorization(Eigen::MatrixXd&& A, const std::string& name, Control* control = nullptr);
 
     Eigen::Index size() const { return factors_.rows(); }
     /// B <- A^-1 B;  B has size() rows.

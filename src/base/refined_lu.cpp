@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/blocked_lu.hpp"
 #include "base/error.hpp"
 
 namespace elastolab {
@@ -19,13 +20,14 @@ constexpr Eigen::Index kWorthwhile = 256;
 
 }  // namespace
 
-RefinedLu::RefinedLu(Eigen::MatrixXd&& A, std::string name) : name_(std::move(name)), matrix_(std::move(A)) {
+RefinedLu::RefinedLu(Eigen::MatrixXd&& A, std::string name, Control* control)
+    : name_(std::move(name)), matrix_(std::move(A)) {
     const double largest = matrix_.size() > 0 ? matrix_.cwiseAbs().maxCoeff() : 0.0;
     const bool fits = largest < 1e30 && largest > 1e-30;
-    if (fits && matrix_.rows() >= kWorthwhile) factorise_single(matrix_.cwiseAbs().colwise().sum().maxCoeff());
+    if (fits && matrix_.rows() >= kWorthwhile) factorise_single(matrix_.cwiseAbs().colwise().sum().maxCoeff(), control);
     if (reciprocal_condition_ < kSafeReciprocalCondition) {
         factors_.resize(0, 0);
-        exact_ = LuFactorization(std::move(matrix_), name_);
+        exact_ = LuFactorization(std::move(matrix_), name_, control);
         matrix_.resize(0, 0);
         reciprocal_condition_ = exact_.reciprocal_condition();
         return;
@@ -33,11 +35,10 @@ RefinedLu::RefinedLu(Eigen::MatrixXd&& A, std::string name) : name_(std::move(na
     norm_ = matrix_.cwiseAbs().rowwise().sum().maxCoeff();
 }
 
-void RefinedLu::factorise_single(double norm) {
+void RefinedLu::factorise_single(double norm, Control* control) {
     const auto n = static_cast<int>(matrix_.rows());
     factors_ = matrix_.cast<float>();
-    pivots_.resize(static_cast<std::size_t>(n));
-    if (LAPACKE_sgetrf_work(LAPACK_COL_MAJOR, n, n, factors_.data(), n, pivots_.data()) != 0) return;
+    if (factorise_lu(factors_, pivots_, control) != 0) return;
     std::vector<float> work(4 * static_cast<std::size_t>(n));
     std::vector<int> iwork(static_cast<std::size_t>(n));
     float reciprocal_condition = 0.0F;

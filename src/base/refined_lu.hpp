@@ -11,7 +11,7 @@
 
 namespace elastolab {
 
-/// LU factors in single precision (sgetrf), and the matrix itself in double precision, by which solutions are refined
+/// LU factors in single precision, and the matrix itself in double precision, by which solutions are refined
 /// until they are as good as those of factors in double precision. Half the time of LuFactorization to factorise, twice
 /// to three times to solve, one and a half times the memory: for a matrix that is solved with once or a few times.
 ///
@@ -24,7 +24,7 @@ class RefinedLu {
 public:
     RefinedLu() = default;
     /// Throws as LuFactorization does.
-    RefinedLu(Eigen::MatrixXd&& A, std::string name);
+    RefinedLu(Eigen::MatrixXd&& A, std::string name, Control* control = nullptr);
     static std::uint64_t memory_bytes(Eigen::Index n) { return 12 * static_cast<std::uint64_t>(n * n); }
 
     Eigen::Index size() const { return matrix_.rows() > 0 ? matrix_.rows() : exact_.size(); }
@@ -35,7 +35,7 @@ public:
     bool is_single() const { return matrix_.rows() > 0; }
 
 private:
-    void factorise_single(double norm);
+    void factorise_single(double norm, Control* control);
     /// X of A X = B refined; false when it stalls.
     bool refine(const Eigen::MatrixXd& B, Eigen::MatrixXd& X) const;
     Eigen::MatrixXd solve_single(const Eigen::MatrixXd& B) const;

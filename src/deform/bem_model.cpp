@@ -70,12 +70,12 @@ std::unique_ptr<NodeSolver> BemModel::make_solver(const LoadPlan& plan, const st
                                                   Control& control) const {
     switch (method_.update) {
         case Update::direct:
-            if (has_K()) return std::make_unique<DirectSolver>(system_->operators(), nodes);
+            if (has_K()) return std::make_unique<DirectSolver>(system_->operators(), nodes, &control);
             return std::make_unique<MixedSolver>(*system_, plan, nodes, n_base, control);
         case Update::eqn9:
             if (!system_->operators())
                 throw SolveError("update eqn9: needs K and its inverse in memory. Choose the mode full.");
-            if (has_K()) return make_paper_solver(system_->operators(), nodes);
+            if (has_K()) return make_paper_solver(system_->operators(), nodes, control);
             if (2 * std::ssize(nodes) >= system_->n_nodes())
                 return std::make_unique<MixedSolver>(*system_, plan, nodes, n_base, control);
             return std::make_unique<BoundaryEqn9Solver>(*system_, plan, nodes, n_base, control);

@@ -109,7 +109,8 @@ MixedSolver::MixedSolver(const BemSystem& system, const LoadPlan& plan, const st
     auto tractions = problem_.unknown.rightCols(3 * plan.n_slots());
     if (tractions.size() > 0) traction_scale_ = 1.0 / tractions.cwiseAbs().maxCoeff();
     tractions *= traction_scale_;
-    lu_ = factorise_held<RefinedLu>(std::move(problem_.unknown), "mixed boundary system");
+    control.begin_stage("factorise");
+    lu_ = factorise_held<RefinedLu>(std::move(problem_.unknown), "mixed boundary system", &control);
     condition_ = lu_.size() > 0 ? 1.0 / lu_.reciprocal_condition() : 1.0;
 }
 
@@ -141,7 +142,7 @@ BoundaryEqn9Solver::BoundaryEqn9Solver(const BemSystem& system, const LoadPlan& 
     Eigen::MatrixXd small = -problem_.unknown.bottomRightCorner(q, q);
     small.noalias() +=
         problem_.unknown.bottomLeftCorner(q, n_free) * (H00_inverse_ * problem_.unknown.topRightCorner(n_free, q));
-    tractions_ = factorise_held<LuFactorization>(std::move(small), "traction system of Eqn. 9");
+    tractions_ = factorise_held<LuFactorization>(std::move(small), "traction system of Eqn. 9", &control);
     condition_ = tractions_.size() > 0 ? 1.0 / tractions_.reciprocal_condition() : 1.0;
 }
 

@@ -69,17 +69,17 @@ BemSystem::BemSystem(std::shared_ptr<const Boundary> boundary, double poisson_ra
     if (method.mode != Mode::on_demand) H = bordered.topLeftCorner(n, n);
     {
         const Stage stage("factorise", control, stages);
-        factorise(std::move(bordered));
+        factorise(std::move(bordered), control);
     }
     if (method.mode != Mode::on_demand) complete(std::move(H), method, stages, control);
 }
 
-void BemSystem::factorise(Eigen::MatrixXd&& bordered) {
+void BemSystem::factorise(Eigen::MatrixXd&& bordered, Control& control) {
     const Eigen::Index n = 3 * n_nodes();
     bordered.topRightCorner(n, 6) = modes_;
     bordered.bottomLeftCorner(6, n) = modes_.transpose();
     bordered.bottomRightCorner(6, 6).setZero();
-    lu_ = LuFactorization(std::move(bordered), "boundary-element matrix");
+    lu_ = LuFactorization(std::move(bordered), "boundary-element matrix", &control);
     rigid_ = Eigen::MatrixXd::Zero(n + 6, 6);
     rigid_.bottomRows(6).setIdentity();
     lu_.solve_in_place(rigid_);
@@ -102,7 +102,7 @@ void BemSystem::complete(Eigen::MatrixXd H, const Method& method, StageTimes& st
     }
     {
         const Stage stage("K = G^-1 H", control, stages);
-        const LuFactorization G(Eigen::MatrixXd(full_->G), "single-layer matrix");
+        const LuFactorization G(Eigen::MatrixXd(full_->G), "single-layer matrix", &control);
         if (1.0 / G.reciprocal_condition() > kPoorCondition)
             warnings_.push_back(
                 "K = G^-1 H: G is singular to rounding, or nearly so (constant elements at Poisson's ratio 1/2), so K "

@@ -85,7 +85,7 @@ private:
         Eigen::MatrixXd H, G;
         std::shared_ptr<const DenseOperators> operators;
     };
-    void factorise(Eigen::MatrixXd&& bordered);
+    void factorise(Eigen::MatrixXd&& bordered, Control& control);
     void complete(Eigen::MatrixXd H, const Method& method, StageTimes& stages, Control& control);
     /// The columns of a whole shape function, out of K^-1; null when K^-1 is not in memory or does not have them.
     Columns::Block from_inverse(const LoadPlan::Block& block) const;

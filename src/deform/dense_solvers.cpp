@@ -46,10 +46,11 @@ Eigen::MatrixXd inverse_by_eqn9(const Eigen::MatrixXd& bordered_inverse, const P
     return K00_inverse;
 }
 
-DirectSolver::DirectSolver(std::shared_ptr<const DenseOperators> operators, const std::vector<int>& nodes)
+DirectSolver::DirectSolver(std::shared_ptr<const DenseOperators> operators, const std::vector<int>& nodes,
+                           Control* control)
     : operators_(std::move(operators)),
       partition_(operators_->K.rows(), nodes),
-      K00_(factorise_held<LuFactorization>(operators_->K(partition_.free, partition_.free), "K00")) {
+      K00_(factorise_held<LuFactorization>(operators_->K(partition_.free, partition_.free), "K00", control)) {
     condition_ = condition_of(K00_);
 }
 
@@ -69,9 +70,9 @@ NodeSolution Eqn9Solver::solve(const Eigen::MatrixXd& prescribed, bool want_load
 }
 
 std::unique_ptr<NodeSolver> make_paper_solver(std::shared_ptr<const DenseOperators> operators,
-                                              const std::vector<int>& nodes) {
+                                              const std::vector<int>& nodes, Control& control) {
     if (6 * std::ssize(nodes) < operators->K.rows()) return std::make_unique<Eqn9Solver>(std::move(operators), nodes);
-    return std::make_unique<DirectSolver>(std::move(operators), nodes);
+    return std::make_unique<DirectSolver>(std::move(operators), nodes, &control);
 }
 
 }  // namespace elastolab

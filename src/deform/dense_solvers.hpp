@@ -27,10 +27,10 @@ struct Partition {
 /// Factors (LuFactorization or RefinedLu) of a matrix that is singular when the constraints do not hold the body: then
 /// throws NotHeldError.
 template <class Factors>
-Factors factorise_held(Eigen::MatrixXd&& A, const char* name) {
+Factors factorise_held(Eigen::MatrixXd&& A, const char* name, Control* control = nullptr) {
     constexpr double kSingular = 1e-14;
     try {
-        Factors factors(std::move(A), name);
+        Factors factors(std::move(A), name, control);
         if (factors.size() > 0 && factors.reciprocal_condition() < kSingular) throw NotHeldError();
         return factors;
     } catch (const SingularMatrixError&) {
@@ -46,7 +46,8 @@ Eigen::MatrixXd inverse_by_eqn9(const Eigen::MatrixXd& bordered_inverse, const P
 /// singular: the constraints do not hold the body.
 class DirectSolver : public NodeSolver {
 public:
-    DirectSolver(std::shared_ptr<const DenseOperators> operators, const std::vector<int>& nodes);
+    DirectSolver(std::shared_ptr<const DenseOperators> operators, const std::vector<int>& nodes,
+                 Control* control = nullptr);
     NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const override;
 
 private:
@@ -70,6 +71,6 @@ private:
 
 /// Eqn. 9 where fewer displacements are known than unknown, else Eqn. 7.
 std::unique_ptr<NodeSolver> make_paper_solver(std::shared_ptr<const DenseOperators> operators,
-                                              const std::vector<int>& nodes);
+                                              const std::vector<int>& nodes, Control& control);
 
 }  // namespace elastolab

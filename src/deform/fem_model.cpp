@@ -164,10 +164,10 @@ std::unique_ptr<ConstrainedSolid> FemModel::constrain_dense(const std::vector<in
     std::unique_ptr<NodeSolver> solver;
     switch (method_.update) {
         case Update::direct:
-            solver = std::make_unique<DirectSolver>(operators_, vertices);
+            solver = std::make_unique<DirectSolver>(operators_, vertices, &control);
             break;
         case Update::eqn9:
-            solver = make_paper_solver(operators_, vertices);
+            solver = make_paper_solver(operators_, vertices, control);
             break;
         case Update::reduced:
             solver = std::make_unique<ReducedSolver>(reduced_from(*operators_, vertices), control);

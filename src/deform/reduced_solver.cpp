@@ -50,7 +50,7 @@ ReducedSolver::ReducedSolver(ReducedSystem system, Control& control) : system_(s
     scale_ = (scale_.array() > 0.0).select(scale_, 1.0);
     S.array().rowwise() /= scale_.transpose().array();
     try {
-        lu_ = LuFactorization(std::move(S), "constrained system");
+        lu_ = LuFactorization(std::move(S), "constrained system", &control);
         condition_ = 1.0 / std::max(lu_.reciprocal_condition(), 1e-300);
     } catch (const SolveError&) {
         condition_ = 1e300;

@@ -285,6 +285,7 @@ bool MethodRunner::takes_long() const {
 void MethodRunner::solve_on_worker() {
     if (!set_is_current() || solving()) return;
     preparing_set_ = wanted_set_;
+    displace_failure_.clear();
     DragSolver drag = drag_ ? *drag_ : DragSolver(deformer_, handle_ends_);
     prepare_.start([deformer = deformer_, drag = std::move(drag), values = wanted_values_](Control& control) mutable {
         control.begin_stage("solve");

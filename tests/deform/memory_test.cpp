@@ -11,15 +11,7 @@
 #include "base/memory.hpp"
 #include "deform/problem.hpp"
 #include "mesh/primitives.hpp"
-
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define ELASTOLAB_TEST_SANITIZED
-#endif
-#endif
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define ELASTOLAB_TEST_SANITIZED
-#endif
+#include "support/sanitized.hpp"
 
 namespace elastolab::test {
 namespace {
