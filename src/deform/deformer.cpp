@@ -41,6 +41,29 @@ double largest_motion(const Eigen::VectorXd& u, Eigen::Index& vertex) {
                : Eigen::Map<const Eigen::Matrix3Xd>(u.data(), 3, u.size() / 3).colwise().norm().maxCoeff(&vertex);
 }
 
+constexpr const char* kSingularThoughHeld =
+    "constraints: hold the body, but their system is singular to rounding: constant elements at Poisson's ratio 1/2 "
+    "have "
+    "such ones. Choose linear-bem or a smaller Poisson's ratio, or constrain other vertices.";
+
+std::unique_ptr<ConstrainedSolid> constrained(const SolidModel& solid, std::span<const int> base,
+                                              std::span<const int> handles, bool held, Control& control) {
+    try {
+        return solid.constrain(base, handles, control);
+    } catch (const NotHeldError&) {
+        if (held) throw NotHeldError(kSingularThoughHeld);
+        throw;
+    }
+}
+
+/// Of a system without a unique solution.
+std::vector<std::string> warn_of_freedom(bool free_to_move) {
+    if (!free_to_move) return {std::string(kSingularThoughHeld) + " The smallest solution is taken."};
+    return {
+        "constraints: leave the body free to move as a whole; the smallest motion is taken. Constrain three vertices "
+        "that are not on one line."};
+}
+
 std::string coarse_warning(MethodKind kind, const Eigen::Vector3d& x, double error) {
     const std::string percent = readable_number(100.0 * error) + " % of the largest";
     const std::string place = readable_point(x);
@@ -145,26 +168,24 @@ void Deformer::constrain(ConstrainedSet set, Control& control) {
     require_memory(set);
     std::vector<SolidState> solids;
     SolutionQuality quality;
+    bool free_to_move = false;
     for (const Model::Part& part : model_->parts()) {
         SolidState state = split(set, part);
         if (state.is_constrained()) {
-            state.solid = part.solid->constrain(state.base, state.handles, control);
-            quality.condition_estimate = std::max(quality.condition_estimate, state.solid->condition());
             const SurfaceMesh& surface = *model_->body().surface;
             // Constant elements hold the triangles around a lone vertex, and may not see that a body is held too
             // little.
-            quality.held = quality.held && state.solid->held() &&
-                           holds(surface.vertices(Eigen::all, part.vertices), state.constrained());
+            const bool holds_it = holds(surface.vertices(Eigen::all, part.vertices), state.constrained());
+            state.solid = constrained(*part.solid, state.base, state.handles, holds_it, control);
+            quality.condition_estimate = std::max(quality.condition_estimate, state.solid->condition());
+            quality.held = quality.held && state.solid->held() && holds_it;
+            free_to_move = free_to_move || !holds_it;
             append(quality.warnings, warn_of_weak_hold(surface, part.vertices, state.in_mesh(part)));
         }
         solids.push_back(std::move(state));
     }
-    if (!quality.held)
-        quality.warnings.push_back(
-            "constraints: leave the body free to move as a whole; the smallest motion is taken. "
-            "Constrain three vertices that are not on one line.");
-    else
-        append(quality.warnings, warn_of_condition("constraints", quality.condition_estimate));
+    append(quality.warnings,
+           quality.held ? warn_of_condition("constraints", quality.condition_estimate) : warn_of_freedom(free_to_move));
     append(quality.warnings, warn_of_point_constraints(*model_->body().surface, all_of(set)));
     solids_ = std::move(solids);
     set_ = std::move(set);

@@ -38,7 +38,7 @@ struct Reactions {
 /// What should be known about a solution before it is believed.
 struct SolutionQuality {
     double condition_estimate = 1.0;    ///< of the small system (reduced) or of K00 (direct), 1-norm; largest solid
-    bool held = true;                   ///< false: the constraints leave some rigid motion free, the smallest is taken
+    bool held = true;                   ///< false: some motion is left free (rigid, mostly), the smallest is taken
     std::vector<std::string> warnings;  ///< in words, for the user
 };
 

@@ -7,9 +7,11 @@
 
 namespace elastolab {
 
-/// The constraints leave a rigid motion free, and the update has no answer for that (the reduced one has).
+/// The system of a constrained set is singular, mostly because the constraints leave a rigid motion free, and the
+/// update has no answer for that (the reduced one has).
 class NotHeldError : public SolveError {
 public:
+    using SolveError::SolveError;
     NotHeldError()
         : SolveError(
               "constraints: leave the body free to move as a whole. Constrain three vertices that are not on one "

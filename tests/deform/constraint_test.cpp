@@ -1,8 +1,10 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
 #include "deform/constraint_map.hpp"
 #include "deform/cost.hpp"
+#include "deform/node_solver.hpp"
 #include "deform/problem.hpp"
 #include "elasticity/rigid_motion.hpp"
 #include "mesh/meshes.hpp"
@@ -49,6 +51,24 @@ TEST(Constraints, OfABaseAloneNeedNoForces) {
             EXPECT_EQ(deformer.displace(Eigen::VectorXd(0)).norm(), 0.0) << describe(method);
             EXPECT_EQ(deformer.reactions(Eigen::VectorXd(0)).forces.norm(), 0.0) << describe(method);
         }
+}
+
+TEST(Constraints, ThatHoldABodyAreNotBlamedForASingularSystem) {
+    Control control;
+    const SurfaceMesh mesh = make_hollow_sphere(4);
+    const auto all = vertices_where(mesh, [](const auto&) { return true; });
+    const Body body = make_body(mesh, {1.0, 0.5});
+    Deformer reduced(precomputed(body, make_method(MethodKind::constant_bem)));
+    reduced.constrain({{}, all}, control);
+    EXPECT_FALSE(reduced.quality().held);
+    EXPECT_THAT(reduced.quality().warnings, ::testing::Contains(::testing::HasSubstr("hold the body, but")));
+    Deformer direct(precomputed(
+        body, make_method(MethodKind::constant_bem, Tractions::discontinuous, Mode::on_demand, Update::direct)));
+    EXPECT_THAT(
+        [&] {
+            direct.constrain({{}, all}, control);
+        },
+        ::testing::ThrowsMessage<NotHeldError>(::testing::HasSubstr("hold the body, but")));
 }
 
 TEST(Constraints, OnALineLeaveARotationFree) {
