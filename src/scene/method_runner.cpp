@@ -259,6 +259,7 @@ void MethodRunner::prepare(const ConstrainedSet& set, Eigen::VectorXd values, st
     const bool drags = rule_ == FrameRule::drag_columns;
     prepare_.start([model = model_, set, drags, values = std::move(values), ends = std::move(ends)](Control& control) {
         auto deformer = std::make_shared<Deformer>(model);
+        control.begin_stage("constrain");
         deformer->constrain(set, control);
         control.checkpoint();
         Prepared prepared{std::move(deformer), std::nullopt};
