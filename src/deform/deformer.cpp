@@ -120,8 +120,8 @@ struct Deformer::SolidState {
 
 void DragResponse::displace(const Eigen::VectorXd& parameters, Eigen::VectorXd& u) const {
     assert(parameters.size() == X.cols());
-    u = rest;
-    u.noalias() += X * parameters;
+    // Evaluated by packets in one pass; a call of the BLAS would cost more than the work on a small body.
+    u = rest + X.lazyProduct(parameters);
 }
 
 Deformer::Deformer(std::shared_ptr<const Model> model) : model_(std::move(model)), solids_(model_->parts().size()) {}
