@@ -2,9 +2,11 @@
 
 #include <lapacke.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "base/blas.hpp"
 #include "base/blocked_lu.hpp"
 #include "base/error.hpp"
 
@@ -18,13 +20,45 @@ constexpr int kMostSteps = 30;
 /// Smallest matrix for which single precision pays.
 constexpr Eigen::Index kWorthwhile = 256;
 
+// Passes over the whole matrix, on all threads: beside a factorisation in single precision one thread's would count.
+
+/// Largest entry and largest column sum, of absolute values.
+struct ColumnNorms {
+    double entry = 0.0, sum = 0.0;
+};
+ColumnNorms column_norms(const Eigen::MatrixXd& A) {
+    double entry = 0.0, sum = 0.0;
+#pragma omp parallel for num_threads(thread_count()) reduction(max : entry, sum)
+    for (Eigen::Index column = 0; column < A.cols(); ++column) {
+        entry = std::max(entry, A.col(column).cwiseAbs().maxCoeff());
+        sum = std::max(sum, A.col(column).cwiseAbs().sum());
+    }
+    return {entry, sum};
+}
+
+double largest_row_sum(const Eigen::MatrixXd& A) {
+    constexpr Eigen::Index kRows = 256;
+    double sum = 0.0;
+#pragma omp parallel for num_threads(thread_count()) reduction(max : sum)
+    for (Eigen::Index row = 0; row < A.rows(); row += kRows)
+        sum = std::max(sum, A.middleRows(row, std::min(kRows, A.rows() - row)).cwiseAbs().rowwise().sum().maxCoeff());
+    return sum;
+}
+
+Eigen::MatrixXf in_single_precision(const Eigen::MatrixXd& A) {
+    Eigen::MatrixXf B(A.rows(), A.cols());
+#pragma omp parallel for num_threads(thread_count())
+    for (Eigen::Index column = 0; column < A.cols(); ++column) B.col(column) = A.col(column).cast<float>();
+    return B;
+}
+
 }  // namespace
 
 RefinedLu::RefinedLu(Eigen::MatrixXd&& A, std::string name, Control* control)
     : name_(std::move(name)), matrix_(std::move(A)) {
-    const double largest = matrix_.size() > 0 ? matrix_.cwiseAbs().maxCoeff() : 0.0;
-    const bool fits = largest < 1e30 && largest > 1e-30;
-    if (fits && matrix_.rows() >= kWorthwhile) factorise_single(matrix_.cwiseAbs().colwise().sum().maxCoeff(), control);
+    const ColumnNorms norms = column_norms(matrix_);
+    const bool fits = norms.entry < 1e30 && norms.entry > 1e-30;
+    if (fits && matrix_.rows() >= kWorthwhile) factorise_single(norms.sum, control);
     if (reciprocal_condition_ < kSafeReciprocalCondition) {
         factors_.resize(0, 0);
         exact_ = LuFactorization(std::move(matrix_), name_, control);
@@ -32,12 +66,12 @@ RefinedLu::RefinedLu(Eigen::MatrixXd&& A, std::string name, Control* control)
         reciprocal_condition_ = exact_.reciprocal_condition();
         return;
     }
-    norm_ = matrix_.cwiseAbs().rowwise().sum().maxCoeff();
+    norm_ = largest_row_sum(matrix_);
 }
 
 void RefinedLu::factorise_single(double norm, Control* control) {
     const auto n = static_cast<int>(matrix_.rows());
-    factors_ = matrix_.cast<float>();
+    factors_ = in_single_precision(matrix_);
     if (factorise_lu(factors_, pivots_, control) != 0) return;
     std::vector<float> work(4 * static_cast<std::size_t>(n));
     std::vector<int> iwork(static_cast<std::size_t>(n));

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "base/error.hpp"
+#include "base/parallel.hpp"
 #include "deform/source_strips.hpp"
 
 namespace elastolab {
@@ -24,6 +25,8 @@ std::vector<int> collocated(const LoadPlan& plan, const std::vector<int>& nodes)
     return kept;
 }
 
+/// Columns of the mixed matrix that a thread copies at a time.
+constexpr int kColumnsAtOnce = 64;
 /// Sources at which the residual is evaluated, of each kind.
 constexpr int kSampledSources = 128;
 
@@ -83,8 +86,16 @@ MixedProblem::MixedProblem(const BemSystem& system, const LoadPlan& plan, const 
     known.resize(n, std::ssize(moving));
     Eigen::Index row = 0;
     const auto add = [&](const Eigen::MatrixXd& H, const Sources& sources) {
-        unknown.block(row, 0, H.rows(), n_free) = H(Eigen::all, partition.free);
-        unknown.block(row, n_free, H.rows(), n - n_free) = -system.single_layer(sources, plan.elements, control);
+        const Eigen::MatrixXd G = system.single_layer(sources, plan.elements, control);
+        parallel_blocks(static_cast<int>(n), kColumnsAtOnce, control, [&](int begin, int end) {
+            for (Eigen::Index column = begin; column < end; ++column) {
+                auto target = unknown.col(column).segment(row, H.rows());
+                if (column < n_free)
+                    target = H.col(partition.free[static_cast<std::size_t>(column)]);
+                else
+                    target = -G.col(column - n_free);
+            }
+        });
         known.middleRows(row, H.rows()) = H(Eigen::all, moving);
         row += H.rows();
     };
