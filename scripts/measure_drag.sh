@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # measure_drag.sh [PROGRAM [FOLDER]]: replays one drag on cubes of 98 to 5048 vertices for each method, in the viewer with
 # real OpenGL (on a virtual display if there is none), and prints the medians of what a frame of it costs. The timings of
-# every frame are left in FOLDER (default: build/drag). Linear BEM takes a minute or two to factorise the largest cube;
-# constant BEM, with two triangles a vertex, ends at 2402 vertices, where its matrix is as large.
+# every frame are left in FOLDER (default: build/drag). Linear BEM takes a minute or two to precompute the largest cube,
+# constant BEM, with two triangles a vertex, ten minutes and 8 GB.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 program=$(realpath "${1:-build/release/bin/elastolab}")
@@ -41,6 +41,6 @@ END
     "$(median 8 "$csv")" "$(median 9 "$csv")" "$(median 10 "$csv")" "$(median 12 "$csv")" \
     "$(awk -F, '$7 == "ready" && $6 > 0' "$csv" | wc -l)"
 }
-for cells in 4 13 29; do measure fem "$cells"; done
-for cells in 4 13 20; do measure constant-bem "$cells"; done
-for cells in 4 13 29; do measure linear-bem "$cells"; done
+for method in fem linear-bem constant-bem; do
+  for cells in 4 13 29; do measure "$method" "$cells"; done
+done
