@@ -57,7 +57,7 @@ void draw_stages(const PanelContext& context) {
     const ModelFacts& facts = runner.model()->facts();
     for (const StageTime& stage : facts.stages)
         fact(stage.name.c_str(), readable_seconds(stage.seconds), context.palette.text_dim);
-    fact("last set of held vertices", readable_seconds(runner.prepare_seconds()), context.palette.text_dim);
+    fact("last preparation", readable_seconds(runner.prepare_seconds()), context.palette.text_dim);
     fact("unknowns", count_text(facts.n_degrees_of_freedom), context.palette.text_dim);
     fact("memory of the model", readable_bytes(static_cast<double>(facts.memory_bytes)), context.palette.text_dim);
     fact("memory of the program, at most", readable_bytes(static_cast<double>(peak_memory_bytes())),

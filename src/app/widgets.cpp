@@ -8,8 +8,6 @@
 
 namespace elastolab {
 
-namespace {}  // namespace
-
 std::string count_text(long long count) {
     std::string digits = std::to_string(count);
     for (auto i = static_cast<std::ptrdiff_t>(digits.size()) - 3; i > 0; i -= 3)

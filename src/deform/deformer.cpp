@@ -42,9 +42,8 @@ double largest_motion(const Eigen::VectorXd& u, Eigen::Index& vertex) {
 }
 
 constexpr const char* kSingularThoughHeld =
-    "constraints: hold the body, but their system is singular to rounding: constant elements at Poisson's ratio 1/2 "
-    "have "
-    "such ones. Choose linear-bem or a smaller Poisson's ratio, or constrain other vertices.";
+    "constraints: hold the body, but their system is singular to rounding, as that of constant elements can be at "
+    "Poisson's ratio 1/2. Choose another method, or constrain other vertices.";
 
 std::unique_ptr<ConstrainedSolid> constrained(const SolidModel& solid, std::span<const int> base,
                                               std::span<const int> handles, bool held, Control& control) {

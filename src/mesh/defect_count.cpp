@@ -1,4 +1,3 @@
-
 #include "base/text.hpp"
 #include "mesh/defects.hpp"
 

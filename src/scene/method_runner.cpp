@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "base/error.hpp"
-#include "base/text.hpp"
 
 namespace elastolab {
 
@@ -20,22 +19,6 @@ bool same(const Method& a, const Method& b) {
 }
 
 bool same(const ConstrainedSet& a, const ConstrainedSet& b) { return a.base == b.base && a.handles == b.handles; }
-
-/// An answer that rests so long is worth checking.
-constexpr double kRestSeconds = 0.7;
-/// Relative residual from which on an answer is not what the equations say; rounding leaves 1e-10 at most.
-constexpr double kWrongResidual = 1e-6;
-
-/// What the person should know before believing these displacements.
-std::vector<std::string> findings(const Deformer& deformer, const Eigen::VectorXd& values, Control& control) {
-    std::vector<std::string> warnings;
-    const auto check = deformer.discretisation_check(values, control);
-    if (check && !check->warning.empty()) warnings.push_back(check->warning);
-    if (const double residual = deformer.residual(values, control); !(residual < kWrongResidual))
-        warnings.push_back(deformer.model().body().name + ": the solution leaves a relative residual of " +
-                           readable_number(residual) + ", so it is wrong. Fix more vertices, or use another method.");
-    return warnings;
-}
 
 template <class Result>
 void drop(BackgroundJob<Result>& job) {
@@ -72,7 +55,8 @@ void MethodRunner::clear() {
     drop(precompute_);
     drop(completion_);
     drop(prepare_);
-    drop(check_);
+    check_.cancel();
+    check_.poll();
     if (!body_wanted_) return;
     forget_answers();
     body_ = {};
@@ -323,17 +307,12 @@ void MethodRunner::drag() {
 void MethodRunner::take_values() {
     values_ = wanted_values_;
     ++version_;
-    check_.cancel();
-    check_warnings_.clear();
-    rest_ = {};
+    check_.restart();
 }
 
 void MethodRunner::check_at_rest() {
-    if (check_.poll() == JobEvent::finished && checked_ == version_) check_warnings_ = check_.take();
-    if (!unchecked() || check_.running() || rest_.seconds() < kRestSeconds) return;
-    checked_ = version_;
-    check_.start(
-        [deformer = deformer_, values = values_](Control& control) { return findings(*deformer, values, control); });
+    check_.poll();
+    if (unchecked()) check_.begin_at_rest(deformer_, values_);
 }
 
 void MethodRunner::cancel() {

@@ -10,6 +10,7 @@
 #include "deform/deformer.hpp"
 #include "scene/background_job.hpp"
 #include "scene/drag_solver.hpp"
+#include "scene/rest_check.hpp"
 #include "scene/setup.hpp"
 
 namespace elastolab {
@@ -63,10 +64,8 @@ public:
     /// Once the answer has rested for a while: estimates in the background how far it can be trusted (residual, and
     /// what the coarseness of the mesh does). What is found is in check_warnings() until the answer changes.
     void check_at_rest();
-    bool unchecked() const {
-        return state() == State::ready && has_motion() && (check_.running() || checked_ != version_);
-    }
-    const std::vector<std::string>& check_warnings() const { return check_warnings_; }
+    bool unchecked() const { return state() == State::ready && has_motion() && !check_.done(); }
+    const std::vector<std::string>& check_warnings() const { return check_.warnings(); }
 
     /// Takes over the models that the workers finished, and does nothing with them yet.
     void take_models();
@@ -159,14 +158,10 @@ private:
     Eigen::VectorXd values_, displacement_;
     std::uint64_t version_ = 0;
 
-    Stopwatch rest_;             ///< since the answer changed
-    std::uint64_t checked_ = 0;  ///< version that was checked last, or is being
-    std::vector<std::string> check_warnings_;
-
     // Last: their threads end before what they wake goes.
     PrecomputeJob precompute_, completion_;
     PrepareJob prepare_;
-    BackgroundJob<std::vector<std::string>> check_;
+    RestCheck check_;
 };
 
 }  // namespace elastolab

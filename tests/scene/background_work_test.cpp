@@ -11,9 +11,6 @@ namespace elastolab {
 namespace {
 
 using namespace testing_simulation;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using State = MethodRunner::State;
 
 TEST(BackgroundWork, ACompletedModelAnswersByTheUpdateThatWasChosen) {
     LiveScene scene = pulled_cube();

@@ -10,6 +10,10 @@
 
 namespace elastolab::testing_simulation {
 
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using State = MethodRunner::State;
+
 inline const std::vector<MethodKind> kLinear = {MethodKind::linear_bem};
 
 /// The unit cube, its left face fixed.

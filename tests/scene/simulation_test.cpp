@@ -8,9 +8,6 @@ namespace elastolab {
 namespace {
 
 using namespace testing_simulation;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using State = MethodRunner::State;
 
 class EveryMethod : public testing::TestWithParam<MethodKind> {};
 INSTANTIATE_TEST_SUITE_P(Simulation, EveryMethod, testing::ValuesIn(all_method_kinds()));
