@@ -96,10 +96,11 @@ private:
     bool replaying() const { return replay_ && (options_.hidden || !replay_->done()); }
     bool computing() const { return state_.loading() || state_.simulation.waiting(); }
 
-    /// Frames by number and replays go on only when the scene is ready.
+    /// Frames by number and replays go on only when the scene is ready, and the model will not be replaced any more: the
+    /// set of a completed one is prepared anew.
     bool held_back() const {
         const bool late_frames = options_.n_frames > 0 && 2 * (state_.frame + 1) > options_.n_frames && !replay_;
-        return late_frames && computing();
+        return late_frames && (computing() || state_.simulation.busy());
     }
 
     double timeout() const {
