@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "deform/method.hpp"
-#include "render/picking.hpp"
-#include "scene/simulation.hpp"
+#include "render/geometry/picking.hpp"
+#include "scene/live/simulation.hpp"
 
 namespace elastolab {
 

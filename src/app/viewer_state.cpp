@@ -4,10 +4,10 @@
 #include <cmath>
 #include <utility>
 
-#include "app/recent_files.hpp"
-#include "app/usual_base.hpp"
-#include "mesh/export.hpp"
-#include "scene/scene_file.hpp"
+#include "app/window/recent_files.hpp"
+#include "app/input/usual_base.hpp"
+#include "mesh/input/export.hpp"
+#include "scene/file/scene_file.hpp"
 #include "scene/user_text.hpp"
 
 namespace elastolab {

@@ -7,17 +7,17 @@
 #include <string>
 #include <vector>
 
-#include "app/gestures.hpp"
-#include "app/interaction_log.hpp"
-#include "app/messages.hpp"
-#include "app/section_volume.hpp"
+#include "app/input/gestures.hpp"
+#include "app/input/interaction_log.hpp"
+#include "app/panels/messages.hpp"
+#include "app/picture/section_volume.hpp"
 #include "app/settings.hpp"
-#include "app/shown_body.hpp"
-#include "app/timings.hpp"
+#include "app/picture/shown_body.hpp"
+#include "app/window/timings.hpp"
 #include "render/camera.hpp"
-#include "scene/background_job.hpp"
-#include "scene/live_scene.hpp"
-#include "scene/simulation.hpp"
+#include "scene/live/background_job.hpp"
+#include "scene/live/live_scene.hpp"
+#include "scene/live/simulation.hpp"
 
 namespace elastolab {
 

@@ -4,7 +4,7 @@
 #include <mutex>
 #include <thread>
 
-#include "study/progress.hpp"
+#include "study/report/progress.hpp"
 
 namespace elastolab {
 

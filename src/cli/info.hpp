@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "deform/cost.hpp"
+#include "findings/cost.hpp"
 #include "scene/setup.hpp"
 
 namespace elastolab {

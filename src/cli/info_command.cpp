@@ -4,7 +4,7 @@
 
 #include "cli/command.hpp"
 #include "cli/info.hpp"
-#include "scene/scene_file.hpp"
+#include "scene/file/scene_file.hpp"
 
 namespace elastolab {
 

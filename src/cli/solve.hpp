@@ -8,7 +8,7 @@
 
 #include "base/control.hpp"
 #include "base/timer.hpp"
-#include "deform/cost.hpp"
+#include "findings/cost.hpp"
 #include "deform/deformer.hpp"
 #include "scene/document.hpp"
 #include "scene/setup.hpp"

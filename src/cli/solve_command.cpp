@@ -12,7 +12,7 @@
 #include "cli/report.hpp"
 #include "cli/solve.hpp"
 #include "cli/solve_outputs.hpp"
-#include "scene/scene_file.hpp"
+#include "scene/file/scene_file.hpp"
 
 namespace elastolab {
 

@@ -11,7 +11,7 @@
 #include "cli/matrix_market.hpp"
 #include "cli/npy.hpp"
 #include "cli/report.hpp"
-#include "mesh/export.hpp"
+#include "mesh/input/export.hpp"
 
 namespace elastolab {
 

@@ -6,7 +6,7 @@
 #include "base/error.hpp"
 #include "base/memory.hpp"
 #include "base/text.hpp"
-#include "deform/guards.hpp"
+#include "findings/guards.hpp"
 #include "deform/solid_model.hpp"
 #include "fem/constraints.hpp"
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 
 #include "base/error.hpp"
-#include "deform/bem_model.hpp"
-#include "deform/cost.hpp"
-#include "deform/fem_model.hpp"
-#include "deform/guards.hpp"
+#include "bem/model.hpp"
+#include "findings/cost.hpp"
+#include "fem/model.hpp"
+#include "findings/guards.hpp"
 #include "mesh/solids.hpp"
 
 namespace elastolab {

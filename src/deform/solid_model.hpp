@@ -11,7 +11,7 @@
 #include "base/control.hpp"
 #include "deform/constraint_map.hpp"
 #include "deform/deformer.hpp"
-#include "deform/load_plan.hpp"
+#include "deform/load_share.hpp"
 #include "deform/model.hpp"
 #include "deform/node_solver.hpp"
 

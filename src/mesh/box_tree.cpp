@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "mesh/nesting.hpp"
+#include "mesh/checks/nesting.hpp"
 
 namespace elastolab {
 

@@ -5,7 +5,7 @@
 
 #include "base/error.hpp"
 #include "mesh/measures.hpp"
-#include "mesh/nesting.hpp"
+#include "mesh/checks/nesting.hpp"
 #include "mesh/topology.hpp"
 
 namespace elastolab {

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "render/arrays.hpp"
+#include "render/gl/arrays.hpp"
 #include "render/scene_frame.hpp"
 #include "render/viewport.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "render/arrays.hpp"
+#include "render/gl/arrays.hpp"
 
 namespace elastolab {
 

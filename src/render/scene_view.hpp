@@ -4,7 +4,7 @@
 
 #include "render/camera.hpp"
 #include "render/scene_frame.hpp"
-#include "render/shader.hpp"
+#include "render/gl/shader.hpp"
 #include "render/viewport.hpp"
 
 namespace elastolab {

@@ -4,7 +4,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
-#include "mesh/import.hpp"
+#include "mesh/input/import.hpp"
 #include "mesh/primitives.hpp"
 #include "scene/selectors.hpp"
 

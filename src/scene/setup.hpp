@@ -7,7 +7,7 @@
 
 #include "deform/deformer.hpp"
 #include "deform/model.hpp"
-#include "mesh/check.hpp"
+#include "mesh/checks/check.hpp"
 #include "scene/document.hpp"
 
 namespace elastolab {

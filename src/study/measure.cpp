@@ -5,7 +5,7 @@
 #include "fem/assembly.hpp"
 #include "fem/prescribed.hpp"
 #include "study/setups.hpp"
-#include "study/statistics.hpp"
+#include "study/report/statistics.hpp"
 
 namespace elastolab {
 

@@ -2,9 +2,9 @@
 
 #include "base/control.hpp"
 #include "deform/method.hpp"
-#include "mesh/tetrahedralize.hpp"
-#include "study/problems.hpp"
-#include "study/table.hpp"
+#include "mesh/tets/tetrahedralize.hpp"
+#include "study/error/problems.hpp"
+#include "study/report/table.hpp"
 
 namespace elastolab {
 

@@ -9,8 +9,8 @@
 #include "base/error.hpp"
 #include "base/machine.hpp"
 #include "base/timer.hpp"
-#include "study/journal.hpp"
-#include "study/report.hpp"
+#include "study/report/journal.hpp"
+#include "study/report/report.hpp"
 
 namespace elastolab {
 

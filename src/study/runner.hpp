@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/control.hpp"
-#include "study/progress.hpp"
+#include "study/report/progress.hpp"
 #include "study/study.hpp"
 
 namespace elastolab {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "base/control.hpp"
-#include "study/plot.hpp"
-#include "study/table.hpp"
+#include "study/report/plot.hpp"
+#include "study/report/table.hpp"
 
 namespace elastolab {
 

@@ -1,7 +1,7 @@
 // Which events go into one frame.
 #include <gtest/gtest.h>
 
-#include "app/gui.hpp"
+#include "app/panels/gui.hpp"
 
 namespace elastolab {
 namespace {

@@ -1,4 +1,4 @@
-#include "app/file_dialog.hpp"
+#include "app/window/file_dialog.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "app/interaction_log.hpp"
+#include "app/input/interaction_log.hpp"
 
 #include <gmock/gmock.h>
 

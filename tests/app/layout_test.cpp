@@ -1,4 +1,4 @@
-#include "app/layout.hpp"
+#include "app/panels/layout.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "app/messages.hpp"
+#include "app/panels/messages.hpp"
 
 #include <gmock/gmock.h>
 

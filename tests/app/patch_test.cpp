@@ -1,4 +1,4 @@
-#include "app/patch.hpp"
+#include "app/input/patch.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "app/recent_files.hpp"
+#include "app/window/recent_files.hpp"
 
 #include <gmock/gmock.h>
 

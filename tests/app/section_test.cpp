@@ -1,5 +1,5 @@
 // A body of FEM that is cut open: what is left of it, and that only this can be pointed at.
-#include "app/section.hpp"
+#include "app/picture/section.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include "app/stage.hpp"
 #include "mesh/measures.hpp"
 #include "mesh/primitives.hpp"
-#include "mesh/tetrahedralize.hpp"
+#include "mesh/tets/tetrahedralize.hpp"
 
 namespace elastolab::test {
 namespace {

@@ -1,4 +1,4 @@
-#include "app/shortcuts.hpp"
+#include "app/input/shortcuts.hpp"
 
 #include <GLFW/glfw3.h>
 #include <gmock/gmock.h>
@@ -6,7 +6,7 @@
 #include <set>
 
 #include "app/names.hpp"
-#include "app/panels.hpp"
+#include "app/panels/panels.hpp"
 #include "app/stage.hpp"
 
 namespace elastolab {

@@ -1,4 +1,4 @@
-#include "app/shown_body.hpp"
+#include "app/picture/shown_body.hpp"
 
 #include <gmock/gmock.h>
 

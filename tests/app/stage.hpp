@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "app/layout.hpp"
+#include "app/panels/layout.hpp"
 #include "app/viewer_state.hpp"
 
 namespace elastolab::test {

@@ -1,4 +1,4 @@
-#include "app/timings.hpp"
+#include "app/window/timings.hpp"
 
 #include <gmock/gmock.h>
 

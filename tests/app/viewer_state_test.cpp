@@ -6,9 +6,9 @@
 
 #include "app/stage.hpp"
 #include "base/error.hpp"
-#include "mesh/export.hpp"
+#include "mesh/input/export.hpp"
 #include "mesh/primitives.hpp"
-#include "scene/scene_file.hpp"
+#include "scene/file/scene_file.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace elastolab {

@@ -7,11 +7,11 @@
 #include <memory>
 #include <set>
 
-#include "app/interaction_log.hpp"
+#include "app/input/interaction_log.hpp"
 #include "app/stage.hpp"
 #include "base/error.hpp"
 #include "cli/program.hpp"
-#include "scene/scene_file.hpp"
+#include "scene/file/scene_file.hpp"
 
 namespace elastolab::test {
 namespace {

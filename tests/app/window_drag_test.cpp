@@ -1,10 +1,10 @@
 // A person's drag in a real window: the vertex stays under the cursor, and the body is what `solve` computes.
 #include <gtest/gtest.h>
 
-#include "app/layout.hpp"
+#include "app/panels/layout.hpp"
 #include "app/real_window.hpp"
 #include "app/stage.hpp"
-#include "scene/scene_file.hpp"
+#include "scene/file/scene_file.hpp"
 
 namespace elastolab::test {
 namespace {

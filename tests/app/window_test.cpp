@@ -8,7 +8,7 @@
 
 #include "app/real_window.hpp"
 #include "app/stage.hpp"
-#include "scene/scene_file.hpp"
+#include "scene/file/scene_file.hpp"
 
 namespace elastolab::test {
 namespace {

@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <numbers>
 
-#include "mesh/check.hpp"
-#include "mesh/import.hpp"
+#include "mesh/checks/check.hpp"
+#include "mesh/input/import.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace elastolab {

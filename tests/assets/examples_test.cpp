@@ -10,7 +10,7 @@
 #include <ostream>
 
 #include "deform/deformer.hpp"
-#include "scene/scene_file.hpp"
+#include "scene/file/scene_file.hpp"
 #include "scene/selectors.hpp"
 #include "scene/setup.hpp"
 

@@ -11,7 +11,7 @@
 #include "elasticity/exact_fields.hpp"
 #include "elasticity/rigid_motion.hpp"
 #include "mesh/primitives.hpp"
-#include "study/organic_body.hpp"
+#include "study/error/organic_body.hpp"
 
 namespace elastolab {
 namespace {

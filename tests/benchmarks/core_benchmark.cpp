@@ -14,14 +14,14 @@
 #include "base/lapack.hpp"
 #include "bem/assembly.hpp"
 #include "deform/deformer.hpp"
-#include "deform/load_plan.hpp"
+#include "bem/traction_space.hpp"
 #include "deform/problem.hpp"
 #include "elasticity/rigid_motion.hpp"
 #include "fem/assembly.hpp"
 #include "fem/compliance.hpp"
 #include "fem/constraints.hpp"
 #include "mesh/primitives.hpp"
-#include "mesh/tetrahedralize.hpp"
+#include "mesh/tets/tetrahedralize.hpp"
 
 namespace elastolab::test {
 namespace {

@@ -4,7 +4,7 @@
 #include <ostream>
 
 #include "cli/program.hpp"
-#include "mesh/export.hpp"
+#include "mesh/input/export.hpp"
 #include "mesh/primitives.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/program.hpp"
-#include "mesh/export.hpp"
+#include "mesh/input/export.hpp"
 #include "mesh/primitives.hpp"
 #include "support/temporary_folder.hpp"
 

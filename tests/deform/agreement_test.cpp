@@ -5,7 +5,7 @@
 
 #include "deform/problem.hpp"
 #include "mesh/primitives.hpp"
-#include "study/organic_body.hpp"
+#include "study/error/organic_body.hpp"
 
 namespace elastolab::test {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "base/error.hpp"
 #include "deform/constraint_map.hpp"
-#include "deform/cost.hpp"
+#include "findings/cost.hpp"
 #include "deform/node_solver.hpp"
 #include "deform/problem.hpp"
 #include "elasticity/rigid_motion.hpp"

@@ -1,13 +1,13 @@
-#include "deform/guards.hpp"
+#include "findings/guards.hpp"
 
 #include <gmock/gmock.h>
 
 #include "deform/problem.hpp"
-#include "deform/surface_distance.hpp"
+#include "mesh/surface_distance.hpp"
 #include "elasticity/exact_fields.hpp"
 #include "mesh/meshes.hpp"
 #include "mesh/primitives.hpp"
-#include "study/organic_body.hpp"
+#include "study/error/organic_body.hpp"
 
 namespace elastolab::test {
 namespace {

@@ -4,8 +4,8 @@
 #include <set>
 
 #include "deform/problem.hpp"
-#include "study/organic_body.hpp"
-#include "study/organic_truth.hpp"
+#include "study/error/organic_body.hpp"
+#include "study/error/organic_truth.hpp"
 
 namespace elastolab::test {
 namespace {

@@ -2,14 +2,14 @@
 
 #include <cmath>
 
-#include "deform/bem_solvers.hpp"
+#include "bem/mixed_solver.hpp"
 #include "deform/constraint_map.hpp"
-#include "deform/fem_solvers.hpp"
+#include "fem/solvers.hpp"
 #include "deform/problem.hpp"
 #include "elasticity/exact_fields.hpp"
 #include "fem/assembly.hpp"
 #include "mesh/primitives.hpp"
-#include "mesh/tetrahedralize.hpp"
+#include "mesh/tets/tetrahedralize.hpp"
 
 namespace elastolab::test {
 namespace {

@@ -4,7 +4,7 @@ set -euo pipefail
 check=$(cd "$(dirname "$0")" && pwd)/check_includes.sh
 tree=$(mktemp -d)
 trap 'rm -rf "$tree"' EXIT
-mkdir "$tree"/{base,mesh,fem,scene,render}
+mkdir -p "$tree"/{base,mesh,fem,scene/file,render}
 
 expect() {  # CODE TEXT: the exit code, and a line of the output
   local output code=0
@@ -20,7 +20,7 @@ try() {  # FILE LINE TEXT: the line in the file is a finding with the text
 expect 1 "0 files"
 echo '#include "base/error.hpp"' > "$tree/mesh/check.hpp"
 echo '#include <assimp/scene.h>' > "$tree/mesh/import.cpp"
-echo '#include <nlohmann/json.hpp>' > "$tree/scene/json_text.hpp"
+echo '#include <nlohmann/json.hpp>' > "$tree/scene/file/json_text.hpp"
 expect 0 "3 files, 0 findings"
 try base/error.hpp '#include "mesh/check.hpp"' 'includes mesh'
 try fem/a.cpp '  #  include "bem/b.hpp"' 'includes bem'

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "mesh/check.hpp"
-#include "mesh/export.hpp"
-#include "mesh/import.hpp"
+#include "mesh/checks/check.hpp"
+#include "mesh/input/export.hpp"
+#include "mesh/input/import.hpp"
 #include "mesh/meshes.hpp"
 #include "mesh/primitives.hpp"
 #include "support/temporary_folder.hpp"

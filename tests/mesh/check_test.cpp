@@ -1,4 +1,4 @@
-#include "mesh/check.hpp"
+#include "mesh/checks/check.hpp"
 
 #include <gmock/gmock.h>
 

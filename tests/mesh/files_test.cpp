@@ -8,11 +8,11 @@
 #include <sstream>
 
 #include "base/error.hpp"
-#include "mesh/check.hpp"
-#include "mesh/export.hpp"
-#include "mesh/import.hpp"
+#include "mesh/checks/check.hpp"
+#include "mesh/input/export.hpp"
+#include "mesh/input/import.hpp"
 #include "mesh/measures.hpp"
-#include "mesh/merge.hpp"
+#include "mesh/input/merge.hpp"
 #include "mesh/primitives.hpp"
 #include "support/temporary_folder.hpp"
 

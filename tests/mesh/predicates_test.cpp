@@ -1,4 +1,4 @@
-#include "mesh/predicates.hpp"
+#include "mesh/checks/predicates.hpp"
 
 #include <gtest/gtest.h>
 

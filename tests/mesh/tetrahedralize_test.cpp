@@ -1,4 +1,4 @@
-#include "mesh/tetrahedralize.hpp"
+#include "mesh/tets/tetrahedralize.hpp"
 
 #include <gmock/gmock.h>
 
@@ -13,7 +13,7 @@
 #include "mesh/measures.hpp"
 #include "mesh/meshes.hpp"
 #include "mesh/primitives.hpp"
-#include "mesh/tet_quality.hpp"
+#include "mesh/tets/tet_quality.hpp"
 
 namespace elastolab {
 namespace {

@@ -8,17 +8,17 @@
 #include <vector>
 
 #include "mesh/primitives.hpp"
-#include "render/arrows_drawing.hpp"
-#include "render/axes_gizmo.hpp"
-#include "render/background_drawing.hpp"
-#include "render/framebuffer.hpp"
+#include "render/drawing/arrows_drawing.hpp"
+#include "render/drawing/axes_gizmo.hpp"
+#include "render/drawing/background_drawing.hpp"
+#include "render/gl/framebuffer.hpp"
 #include "render/gl_window.hpp"
-#include "render/ground_drawing.hpp"
-#include "render/legend.hpp"
-#include "render/lines_drawing.hpp"
-#include "render/picking.hpp"
-#include "render/points_drawing.hpp"
-#include "render/surface_drawing.hpp"
+#include "render/drawing/ground_drawing.hpp"
+#include "render/drawing/legend.hpp"
+#include "render/drawing/lines_drawing.hpp"
+#include "render/geometry/picking.hpp"
+#include "render/drawing/points_drawing.hpp"
+#include "render/drawing/surface_drawing.hpp"
 
 namespace elastolab {
 namespace {

@@ -1,4 +1,4 @@
-#include "render/image.hpp"
+#include "render/gl/image.hpp"
 
 #include <gtest/gtest.h>
 #include <stb_image.h>

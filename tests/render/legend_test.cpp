@@ -1,4 +1,4 @@
-#include "render/legend.hpp"
+#include "render/drawing/legend.hpp"
 
 #include <gmock/gmock.h>
 

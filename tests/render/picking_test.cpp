@@ -1,4 +1,4 @@
-#include "render/picking.hpp"
+#include "render/geometry/picking.hpp"
 
 #include <gmock/gmock.h>
 
@@ -7,9 +7,9 @@
 #include <random>
 #include <vector>
 
-#include "mesh/merge.hpp"
+#include "mesh/input/merge.hpp"
 #include "mesh/primitives.hpp"
-#include "render/visibility.hpp"
+#include "render/geometry/visibility.hpp"
 
 namespace elastolab {
 namespace {

@@ -1,10 +1,10 @@
-#include "render/shader.hpp"
+#include "render/gl/shader.hpp"
 
 #include <gmock/gmock.h>
 
 #include "base/error.hpp"
-#include "render/embedded_shaders.hpp"
-#include "render/framebuffer.hpp"
+#include "render/gl/embedded_shaders.hpp"
+#include "render/gl/framebuffer.hpp"
 #include "render/gl_window.hpp"
 
 namespace elastolab {

@@ -1,4 +1,4 @@
-#include "render/surface_geometry.hpp"
+#include "render/geometry/surface_geometry.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "scene/background_job.hpp"
+#include "scene/live/background_job.hpp"
 
 #include <gmock/gmock.h>
 

@@ -3,7 +3,7 @@
 #include <ostream>
 
 #include "base/error.hpp"
-#include "scene/scene_file.hpp"
+#include "scene/file/scene_file.hpp"
 
 namespace elastolab {
 namespace {

@@ -1,4 +1,4 @@
-#include "scene/live_scene.hpp"
+#include "scene/live/live_scene.hpp"
 
 #include <gmock/gmock.h>
 

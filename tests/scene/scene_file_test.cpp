@@ -1,4 +1,4 @@
-#include "scene/scene_file.hpp"
+#include "scene/file/scene_file.hpp"
 
 #include <gmock/gmock.h>
 

@@ -3,9 +3,9 @@
 #include <gmock/gmock.h>
 
 #include "base/error.hpp"
-#include "mesh/export.hpp"
+#include "mesh/input/export.hpp"
 #include "mesh/primitives.hpp"
-#include "scene/scene_file.hpp"
+#include "scene/file/scene_file.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace elastolab {

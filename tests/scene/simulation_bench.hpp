@@ -6,7 +6,7 @@
 #include <limits>
 #include <thread>
 
-#include "scene/simulation.hpp"
+#include "scene/live/simulation.hpp"
 
 namespace elastolab::testing_simulation {
 

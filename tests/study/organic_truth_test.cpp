@@ -1,4 +1,4 @@
-#include "study/organic_truth.hpp"
+#include "study/error/organic_truth.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,9 @@
 
 #include "elasticity/exact_fields.hpp"
 #include "fem/fem_body.hpp"
-#include "study/organic_body.hpp"
-#include "study/quadratic_fem.hpp"
-#include "study/refine.hpp"
+#include "study/error/organic_body.hpp"
+#include "study/error/quadratic_fem.hpp"
+#include "study/error/refine.hpp"
 
 namespace elastolab {
 namespace {

@@ -1,4 +1,4 @@
-#include "study/plot.hpp"
+#include "study/report/plot.hpp"
 
 #include <gmock/gmock.h>
 

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "base/error.hpp"
-#include "study/journal.hpp"
+#include "study/report/journal.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace elastolab::test {

@@ -1,4 +1,4 @@
-#include "study/statistics.hpp"
+#include "study/report/statistics.hpp"
 
 #include <gtest/gtest.h>
 

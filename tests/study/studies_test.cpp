@@ -1,12 +1,12 @@
 #include <gmock/gmock.h>
 
 #include "mesh/primitives.hpp"
-#include "study/error_frontier.hpp"
-#include "study/paper_way.hpp"
+#include "study/error/error_frontier.hpp"
+#include "study/paper/paper_way.hpp"
 #include "study/runner.hpp"
 #include "study/setups.hpp"
-#include "study/stress.hpp"
-#include "study/stress_edits.hpp"
+#include "study/stability/stress.hpp"
+#include "study/stability/stress_edits.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace elastolab::test {

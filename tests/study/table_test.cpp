@@ -1,4 +1,4 @@
-#include "study/table.hpp"
+#include "study/report/table.hpp"
 
 #include <gtest/gtest.h>
 

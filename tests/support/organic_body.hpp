@@ -1,3 +1,3 @@
 #pragma once
 
-#include "study/organic_body.hpp"
+#include "study/error/organic_body.hpp"

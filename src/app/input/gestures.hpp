@@ -1,0 +1,135 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/input/input_event.hpp"
+#include "app/input/patch.hpp"
+#include "app/settings.hpp"
+#include "render/camera.hpp"
+#include "render/geometry/picking.hpp"
+#include "scene/live/live_scene.hpp"
+
+namespace elastolab {
+
+/// A view of the body that can be pointed at.
+struct PointingTarget {
+    Viewport viewport;
+    /// As shown. The vertices of the surface come first; where the body is cut open, those inside follow.
+    const Positions* positions = nullptr;
+    const Triangles* triangles = nullptr;
+};
+
+/// What gestures work on. All views share one camera.
+struct GestureContext {
+    LiveScene& scene;
+    Camera& camera;
+    const VertexGraph& graph;
+    const ToolSettings& tools;
+    double deformation_scale = 1.0;
+    std::vector<PointingTarget> targets;
+};
+
+/// What the cursor points at when no button is down.
+struct Hover {
+    int vertex = -1;
+    std::vector<int> patch;  ///< that a press would grab: of the handle it belongs to, or a new one
+
+    bool operator==(const Hover&) const = default;
+};
+
+/// Turns mouse events into camera moves and edits of the scene. Owned by one thread; knows no window.
+///   body     left: grab a handle or make one, and pull it. While pulling: Shift along the normal, X/Y/Z along an axis,
+///            Ctrl (or R) turns the patch, Alt (or S) scales it
+///   empty    left: orbit; right, middle or Shift + left: pan; double click: frame the body
+///   wheel    zoom to the cursor
+///   brush    left fixes vertices under the brush, with Shift frees them; a click fixes or frees one vertex
+///   box      left draws a box, likewise
+class Gestures {
+public:
+    enum class Action { none, orbit, pan, pull, paint, box };
+
+    void handle(const InputEvent& event, GestureContext& context);
+    /// Moves what springs back; true while something does.
+    bool animate(double now, GestureContext& context);
+    /// Ends at once what is going on (an edit from elsewhere comes).
+    void finish(GestureContext& context);
+    /// Forgets everything: the scene was replaced.
+    void reset();
+
+    Action action() const { return action_; }
+    bool pulling() const { return action_ == Action::pull; }
+    const Hover& hover() const { return hover_; }
+    void clear_hover() { hover_ = {}; }
+    /// The handle that was grabbed last (or chosen), for the panel and for removal; -1: none.
+    int selected_handle() const { return selected_; }
+    void select_handle(int handle) { selected_ = handle; }
+    /// The box that is being drawn: two corners [pixels].
+    std::optional<std::pair<Eigen::Vector2d, Eigen::Vector2d>> box() const;
+    const Eigen::Vector2d& cursor() const { return cursor_; }
+    /// What the person should know about the last press ("This vertex is fixed. ..."); empty mostly.
+    const std::string& hint() const { return hint_; }
+    /// True once after a double click.
+    bool take_frame_request() { return std::exchange(frame_requested_, false); }
+
+private:
+    enum class PullMode { plane, normal, axis_x, axis_y, axis_z, turn, scale };
+    struct Pull {
+        int handle = -1;
+        bool created = false, moved = false;
+        int vertex = -1;                                    ///< under the cursor
+        Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< of the surface there when it was grabbed
+        PullMode mode = PullMode::plane;
+        // At the beginning, or when the mode last changed:
+        Eigen::Vector2d cursor = Eigen::Vector2d::Zero();
+        Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< of the vertex, as shown
+        Motion motion;
+    };
+    struct Spring {
+        int handle = -1;
+        Motion from;
+        double begin = -1.0;  ///< set when it first moves
+    };
+
+    void press(const InputEvent& event, GestureContext& context);
+    void press_body(GestureContext& context, int vertex, int triangle);
+    void release(GestureContext& context);
+    void move(GestureContext& context);
+    void scroll(const InputEvent& event, GestureContext& context);
+    void point(GestureContext& context);
+    void begin_pull(GestureContext& context, int handle, bool created, int vertex, int triangle);
+    void set_baseline(GestureContext& context);
+    void pull(GestureContext& context);
+    PullMode pull_mode() const;
+    Eigen::Vector3d pull_shift(const GestureContext& context) const;
+    void end_pull(GestureContext& context);
+    void paint(GestureContext& context);
+    void end_box(GestureContext& context);
+    void toggle_fixed(GestureContext& context, int vertex);
+    bool is_double_click(const InputEvent& event);
+    const PointingTarget* target_at(const GestureContext& context) const;
+    std::optional<PickHit> hit_in(const GestureContext& context, const PointingTarget& target) const;
+    void end_spring(GestureContext& context);
+
+    Action action_ = Action::none;
+    int button_ = -1;
+    std::size_t target_ = 0;  ///< that the action goes on in
+    Eigen::Vector2d cursor_ = Eigen::Vector2d::Zero(), last_cursor_ = cursor_, press_cursor_ = cursor_;
+    bool dragged_ = false;
+    bool freeing_ = false;  ///< brush and box: free vertices instead of fixing them
+    int modifiers_ = 0;
+    std::vector<int> held_keys_;
+    Hover hover_;
+    Pull pull_;
+    std::optional<Spring> spring_;
+    int selected_ = -1;
+    double last_press_seconds_ = -1.0;
+    Eigen::Vector2d last_press_ = Eigen::Vector2d::Zero();
+    bool frame_requested_ = false;
+    std::string hint_;
+};
+
+}  // namespace elastolab

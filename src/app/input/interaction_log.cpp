@@ -1,0 +1,111 @@
+#include "app/input/interaction_log.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+
+namespace elastolab {
+
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr int kVersion = 1;
+constexpr int kMaxWindow = 16384;
+constexpr int kLargestCode = 0x10FFFF;  ///< of characters; GLFW_KEY_UNKNOWN is -1
+/// In the order of InputEvent::Kind.
+constexpr std::array<std::string_view, 6> kKinds = {"cursor", "button", "scroll", "key", "text", "focus"};
+
+Json to_json(const InputEvent& event) {
+    return {std::string(kKinds[static_cast<std::size_t>(event.kind)]),
+            event.cursor.x(),
+            event.cursor.y(),
+            event.code,
+            event.pressed,
+            event.repeated,
+            event.modifiers};
+}
+
+int integer(const Json& json, int low, int high) {
+    const auto value = json.is_number_integer() ? json.get<std::int64_t>() : high + std::int64_t{1};
+    if (value < low || value > high) throw std::runtime_error("a number is out of its range");
+    return static_cast<int>(value);
+}
+
+InputEvent event_of(const Json& json, double seconds) {
+    const auto kind = std::find(kKinds.begin(), kKinds.end(), json.at(0).get<std::string>());
+    if (kind == kKinds.end() || json.size() != 7) throw std::runtime_error("is no event");
+    InputEvent event;
+    event.kind = static_cast<InputEvent::Kind>(kind - kKinds.begin());
+    event.cursor = {json.at(1).get<double>(), json.at(2).get<double>()};
+    event.code = integer(json.at(3), -1, kLargestCode);
+    event.pressed = json.at(4).get<bool>();
+    event.repeated = json.at(5).get<bool>();
+    event.modifiers = integer(json.at(6), 0, 0xFF);
+    event.seconds = seconds;
+    return event;
+}
+
+LoggedFrame frame_of(const Json& json) {
+    LoggedFrame frame{.seconds = json.at("seconds").get<double>(), .events = {}};
+    for (const Json& event : json.at("events")) frame.events.push_back(event_of(event, frame.seconds));
+    return frame;
+}
+
+Eigen::Vector2i window_size_of(const Json& header) {
+    if (header.at("elastolab_interaction") != kVersion) throw std::runtime_error("has another version");
+    const Json& size = header.at("window");
+    return {integer(size.at(0), 1, kMaxWindow), integer(size.at(1), 1, kMaxWindow)};
+}
+
+}  // namespace
+
+InteractionRecorder::InteractionRecorder(const std::filesystem::path& file, const Eigen::Vector2i& window_size)
+    : path_(file), file_(std::make_unique<AtomicFile>(file)) {
+    file_->stream() << Json{{"elastolab_interaction", kVersion}, {"window", {window_size.x(), window_size.y()}}}
+                    << '\n';
+}
+
+InteractionRecorder::~InteractionRecorder() {
+    try {
+        finish();
+    } catch (const std::exception&) {  // finish() tells those who ask
+    }
+}
+
+void InteractionRecorder::add(const LoggedFrame& frame) {
+    Json events = Json::array();
+    for (const InputEvent& event : frame.events) events.push_back(to_json(event));
+    file_->stream() << Json{{"seconds", frame.seconds}, {"events", std::move(events)}} << '\n';
+}
+
+void InteractionRecorder::finish() {
+    if (!file_) return;
+    const std::unique_ptr<AtomicFile> file = std::move(file_);
+    file->commit();
+}
+
+InteractionLog load_interaction(const std::filesystem::path& file) {
+    std::ifstream in(file);
+    if (!in) throw SceneError(one_line(file.string() + ": cannot be read. Check the name of the interaction log."));
+    InteractionLog log;
+    int number = 1;
+    try {
+        std::string line;
+        if (!std::getline(in, line)) throw std::runtime_error("is empty");
+        log.window_size = window_size_of(Json::parse(line));
+        for (number = 2; std::getline(in, line); ++number) log.frames.push_back(frame_of(Json::parse(line)));
+    } catch (const std::exception& error) {
+        throw SceneError(one_line(file.string() + ": line " + std::to_string(number) + ": not an interaction log (" +
+                                  error.what() + "). Record one with elastolab view --record."));
+    }
+    return log;
+}
+
+}  // namespace elastolab

@@ -1,0 +1,76 @@
+#include <imgui.h>
+
+#include <array>
+
+#include "app/panels/panels.hpp"
+#include "app/panels/widgets.hpp"
+#include "base/text.hpp"
+#include "mesh/primitives.hpp"
+
+namespace elastolab {
+
+namespace {
+
+/// Cells along an edge of the paper's cubes: 98, 218, 386, 602, 866 and 1016 vertices.
+constexpr std::array kPaperCubes = {4, 6, 8, 10, 12, 13};
+
+void draw_poisson_ratio(ViewerState& state, float scale) {
+    Material material = state.scene().document().material;
+    if (slider("Poisson's ratio", material.poisson_ratio, -0.5, 0.5, "%.3f", scale))
+        state.scene().set_material(material);
+    if (ImGui::IsItemDeactivatedAfterEdit()) state.scene().commit();
+    tooltip(
+        "How much the body narrows when it is stretched: 0 not at all, 0.5 as rubber does, keeping its volume. "
+        "FEM with linear tetrahedra grows too stiff near 0.5 and cannot take 0.5 itself.");
+}
+
+}  // namespace
+
+/// "0.5" passes through "0": the number counts when its field is left.
+void Panels::draw_young_modulus(ViewerState& state, float scale) {
+    double value = typed_modulus_.value_or(state.scene().document().material.young_modulus);
+    set_item_width(scale);
+    if (ImGui::InputDouble("Young's modulus", &value, 0.0, 0.0, "%.4g")) typed_modulus_ = value;
+    const bool left = ImGui::IsItemDeactivatedAfterEdit(), active = ImGui::IsItemActive();
+    tooltip("Stiffness: force per area for a stretch by its own length. Displacements do not depend on it, forces do.");
+    if (left && typed_modulus_) state.set_young_modulus(*typed_modulus_);
+    if (!active) typed_modulus_.reset();
+}
+
+void Panels::open_primitive(ViewerState& state) {
+    state.open_primitive({.name = primitive_, .resolution = resolution_, .size = {}});
+}
+
+void Panels::draw_body(const PanelContext& context) {
+    ViewerState& state = context.state;
+    const LiveScene& scene = state.scene();
+    const float scale = context.gui.scale();
+    paragraph(std::filesystem::path(scene.name()).filename().string(), context.palette.text);
+    ImGui::SameLine();
+    ImGui::TextColored(imgui_colour(context.palette.text_dim), "%s vertices, %s triangles",
+                       count_text(scene.mesh().n_vertices()).c_str(), count_text(scene.mesh().n_triangles()).c_str());
+    draw_poisson_ratio(state, scale);
+    draw_young_modulus(state, scale);
+    if (!ImGui::TreeNode("New body")) return;
+    set_item_width(scale);
+    if (begin_choice("shape", primitive_.c_str())) {
+        for (const std::string& name : primitive_names())
+            if (choice_entry(name.c_str(), "", name == primitive_)) primitive_ = name;
+        end_choice();
+    }
+    slider("resolution", resolution_, 1, 30, "%d cells", scale);
+    tooltip("Cells along the shortest edge, or around a quarter turn.");
+    if (primitive_ == "cube") {
+        ImGui::TextColored(imgui_colour(context.palette.text_dim), "the paper's:");
+        for (const int cells : kPaperCubes) {
+            ImGui::SameLine();
+            if (ImGui::SmallButton(std::to_string(6 * cells * cells + 2).c_str())) resolution_ = cells;
+        }
+    }
+    if (ImGui::Button("Make it")) open_primitive(state);
+    ImGui::SameLine();
+    if (ImGui::Button("Open a file...")) ask_open(state);
+    ImGui::TreePop();
+}
+
+}  // namespace elastolab

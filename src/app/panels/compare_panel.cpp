@@ -1,0 +1,88 @@
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+
+#include "app/panels/panels.hpp"
+#include "app/panels/widgets.hpp"
+
+namespace elastolab {
+
+namespace {
+
+constexpr std::array<Choice<CompareMode>, 3> kModes = {
+    {{CompareMode::off, "one method", "Only the chosen method."},
+     {CompareMode::side_by_side, "side by side",
+      "C: every method in a view of its own, with the same handles and "
+      "camera. Pull in any of them."},
+     {CompareMode::ghosts, "as ghosts", "G: the chosen method solid, the others as wireframes over it."}}};
+
+void draw_kinds(ViewerState& state, const Palette& palette) {
+    for (const MethodKind kind : all_method_kinds()) {
+        auto& kinds = state.compare.kinds;
+        bool shown = kind == state.method || std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
+        ImGui::PushStyleColor(ImGuiCol_CheckMark, imgui_colour(palette.body(kind)));
+        ImGui::BeginDisabled(kind == state.method);
+        if (ImGui::Checkbox(title(kind).c_str(), &shown)) {
+            std::erase(kinds, kind);
+            if (shown) kinds.push_back(kind);
+        }
+        ImGui::EndDisabled();
+        ImGui::PopStyleColor();
+    }
+}
+
+void draw_reference(ViewerState& state, float scale) {
+    set_item_width(scale);
+    if (!begin_choice("reference", title(state.compare.reference).c_str())) return;
+    for (const MethodKind kind : all_method_kinds())
+        if (choice_entry(title(kind).c_str(), "Differences are to this method.", kind == state.compare.reference))
+            state.compare.reference = kind;
+    end_choice();
+}
+
+void draw_differences(const PanelContext& context) {
+    const ViewerState& state = context.state;
+    if (!ImGui::BeginTable("differences", 3, ImGuiTableFlags_SizingStretchProp)) return;
+    for (const char* heading : {"difference", "rms", "largest"}) {
+        ImGui::TableNextColumn();
+        ImGui::TextColored(imgui_colour(context.palette.text_dim), "%s", heading);
+    }
+    for (const MethodKind kind : all_method_kinds()) {
+        const ShownBody* shown = state.body(kind);
+        if (shown == nullptr) continue;
+        ImGui::TableNextColumn();
+        ImGui::TextColored(imgui_colour(context.palette.body(kind)), "%s", title(kind).c_str());
+        ImGui::TableNextColumn();
+        if (!shown->difference()) {
+            ImGui::TextUnformatted(kind == state.compare.reference ? "reference" : "...");
+            ImGui::TableNextColumn();
+            continue;
+        }
+        ImGui::Text("%.2f %%", 100.0 * shown->difference()->relative_rms);
+        ImGui::TableNextColumn();
+        ImGui::Text("%.2f %%", 100.0 * shown->difference()->relative_max);
+    }
+    ImGui::EndTable();
+    tooltip(
+        "Relative to the reference: root-mean-square and largest difference of the vertices' displacements, over "
+        "the root-mean-square and largest displacement of the reference.");
+}
+
+}  // namespace
+
+void Panels::draw_compare(const PanelContext& context) {
+    ViewerState& state = context.state;
+    const float scale = context.gui.scale();
+    set_item_width(scale);
+    if (choose<CompareMode>("views", state.compare.mode, kModes)) state.finish_gesture();
+    if (!state.comparing()) return;
+    draw_kinds(state, context.palette);
+    draw_reference(state, scale);
+    bool coloured = state.display.field == Field::difference;
+    if (ImGui::Checkbox("colour by difference", &coloured))
+        state.display.field = coloured ? Field::difference : Field::none;
+    draw_differences(context);
+}
+
+}  // namespace elastolab

@@ -1,0 +1,94 @@
+#include <imgui.h>
+
+#include <array>
+
+#include "app/panels/panels.hpp"
+#include "app/panels/widgets.hpp"
+#include "render/colour_map.hpp"
+
+namespace elastolab {
+
+namespace {
+
+constexpr std::array<Choice<Field>, 5> kFields = {
+    {{Field::none, "plain", "One colour for each method."},
+     {Field::displacement, "displacement", "How far every vertex has moved."},
+     {Field::difference, "difference", "How far from where the reference method puts it (see Compare)."},
+     {Field::traction, "traction", "Force per area that holds or pulls the constrained vertices; zero elsewhere."},
+     {Field::von_mises, "von Mises stress",
+      "How near the material at the surface is to yielding: from the stretch of "
+      "each triangle and, where it is held, the traction."}}};
+
+void draw_range(ViewerState& state, float scale) {
+    DisplaySettings& display = state.display;
+    set_item_width(scale);
+    if (begin_choice("colours", display.colour_map.c_str())) {
+        for (const ColourMap& map : colour_maps())
+            if (choice_entry(map.name().c_str(), "", map.name() == display.colour_map)) display.colour_map = map.name();
+        end_choice();
+    }
+    if (ImGui::Checkbox("range from the data", &display.auto_range) && !display.auto_range)
+        display.range_high = std::max(display.range_low, [&] {
+            double high = 0.0;
+            for (const ShownBody& body : state.bodies) high = std::max(high, body.max_value());
+            return high;
+        }());
+    if (!display.auto_range) {
+        ImGui::SetNextItemWidth(80.0f * scale);
+        ImGui::InputDouble("##low", &display.range_low, 0.0, 0.0, "%.3g");
+        ImGui::SameLine();
+        ImGui::SetNextItemWidth(80.0f * scale);
+        ImGui::InputDouble("from, to", &display.range_high, 0.0, 0.0, "%.3g");
+    }
+    ImGui::Checkbox("bands", &display.bands);
+    tooltip("Ten steps of colour with lines between them, as on a map.");
+}
+
+void draw_section(DisplaySettings& display, float scale) {
+    ImGui::Checkbox("cut open", &display.section);
+    tooltip("A plane through the tetrahedra of FEM, moved as the body is.");
+    if (!display.section) return;
+    for (int axis = 0; axis < 3; ++axis) {
+        ImGui::SameLine();
+        constexpr std::array<const char*, 3> kAxes = {"x", "y", "z"};
+        if (ImGui::RadioButton(kAxes[static_cast<std::size_t>(axis)], display.section_axis == axis))
+            display.section_axis = axis;
+    }
+    slider("place", display.section_place, 0.0, 1.0, "%.2f", scale);
+    ImGui::Checkbox("keep the other side", &display.section_flip);
+}
+
+}  // namespace
+
+void Panels::draw_display(const PanelContext& context) {
+    DisplaySettings& display = context.state.display;
+    const float scale = context.gui.scale();
+    set_item_width(scale);
+    choose<Field>("colour by", display.field, kFields);
+    if (display.field != Field::none) draw_range(context.state, scale);
+    factor_slider("deformation", display.deformation_scale, 0.1, 10.0, "x %.2f", scale);
+    tooltip("Shows displacements larger or smaller than they are.");
+    struct Switch {
+        const char* label;
+        bool DisplaySettings::*value;
+        const char* explanation;
+    };
+    constexpr std::array<Switch, 7> kSwitches = {
+        {{"wireframe", &DisplaySettings::wireframe, "W"},
+         {"flat", &DisplaySettings::flat, "One shade for each triangle."},
+         {"creases", &DisplaySettings::feature_edges, "Sharp edges of the rest shape."},
+         {"rest shape", &DisplaySettings::rest_shape, "The body as it was, as a wireframe."},
+         {"held vertices", &DisplaySettings::constraints, "Fixed vertices and handles as points."},
+         {"forces", &DisplaySettings::arrows, "What the fixed part and every handle exert on the body."},
+         {"grid", &DisplaySettings::grid, ""}}};
+    for (std::size_t i = 0; i < kSwitches.size(); ++i) {
+        if (i % 2 == 1) ImGui::SameLine(150.0f * scale);
+        ImGui::Checkbox(kSwitches[i].label, &(display.*kSwitches[i].value));
+        tooltip(kSwitches[i].explanation);
+    }
+    draw_section(display, scale);
+    bool light = !display.dark;
+    if (ImGui::Checkbox("light theme", &light)) display.dark = !light;
+}
+
+}  // namespace elastolab

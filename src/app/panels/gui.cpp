@@ -1,0 +1,199 @@
+#include "app/panels/gui.hpp"
+
+#include <backends/imgui_impl_opengl3.h>
+#include <GLFW/glfw3.h>
+#include <imgui.h>
+#include <imgui_internal.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <utility>
+
+namespace elastolab {
+
+namespace {
+
+constexpr float kFontSize = 15.0f, kLargeFontSize = 20.0f;
+
+/// The first that is installed is taken; ImGui's own bitmap font when none is.
+constexpr std::array kRegularFonts = {"/usr/share/fonts/truetype/roboto/unhinted/RobotoTTF/Roboto-Regular.ttf",
+                                      "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf",
+                                      "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"};
+constexpr std::array kBoldFonts = {"/usr/share/fonts/truetype/roboto/unhinted/RobotoTTF/Roboto-Medium.ttf",
+                                   "/usr/share/fonts/truetype/noto/NotoSans-Bold.ttf",
+                                   "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf"};
+
+/// Latin, Greek, and the punctuation, arrows and mathematical signs that the panels use.
+const ImWchar* glyph_ranges() {
+    static constexpr std::array<ImWchar, 11> ranges = {0x0020, 0x00FF, 0x0370, 0x03FF, 0x2010, 0x2044,
+                                                       0x2070, 0x209C, 0x2190, 0x22FF, 0};
+    return ranges.data();
+}
+
+ImFont* load_font(std::span<const char* const> candidates, float size) {
+    ImGuiIO& io = ImGui::GetIO();
+    for (const char* file : candidates)
+        if (std::filesystem::exists(file))
+            return io.Fonts->AddFontFromFileTTF(file, std::round(size), nullptr, glyph_ranges());
+    return io.Fonts->AddFontDefault();
+}
+
+/// Keys by which ImGui edits text and moves about.
+void map_keys(ImGuiIO& io) {
+    constexpr std::array<std::pair<int, int>, 22> keys = {{{ImGuiKey_Tab, GLFW_KEY_TAB},
+                                                           {ImGuiKey_LeftArrow, GLFW_KEY_LEFT},
+                                                           {ImGuiKey_RightArrow, GLFW_KEY_RIGHT},
+                                                           {ImGuiKey_UpArrow, GLFW_KEY_UP},
+                                                           {ImGuiKey_DownArrow, GLFW_KEY_DOWN},
+                                                           {ImGuiKey_PageUp, GLFW_KEY_PAGE_UP},
+                                                           {ImGuiKey_PageDown, GLFW_KEY_PAGE_DOWN},
+                                                           {ImGuiKey_Home, GLFW_KEY_HOME},
+                                                           {ImGuiKey_End, GLFW_KEY_END},
+                                                           {ImGuiKey_Insert, GLFW_KEY_INSERT},
+                                                           {ImGuiKey_Delete, GLFW_KEY_DELETE},
+                                                           {ImGuiKey_Backspace, GLFW_KEY_BACKSPACE},
+                                                           {ImGuiKey_Space, GLFW_KEY_SPACE},
+                                                           {ImGuiKey_Enter, GLFW_KEY_ENTER},
+                                                           {ImGuiKey_Escape, GLFW_KEY_ESCAPE},
+                                                           {ImGuiKey_KeyPadEnter, GLFW_KEY_KP_ENTER},
+                                                           {ImGuiKey_A, GLFW_KEY_A},
+                                                           {ImGuiKey_C, GLFW_KEY_C},
+                                                           {ImGuiKey_V, GLFW_KEY_V},
+                                                           {ImGuiKey_X, GLFW_KEY_X},
+                                                           {ImGuiKey_Y, GLFW_KEY_Y},
+                                                           {ImGuiKey_Z, GLFW_KEY_Z}}};
+    for (const auto& [imgui, glfw] : keys) io.KeyMap[imgui] = glfw;
+}
+
+void set_clipboard(ImGuiIO& io, Window& window) {
+    io.ClipboardUserData = &window;
+    io.SetClipboardTextFn = [](void* user, const char* text) { static_cast<Window*>(user)->set_clipboard(text); };
+    io.GetClipboardTextFn = [](void* user) {
+        static std::string text;  // ImGui wants it to stay until the next call
+        text = static_cast<Window*>(user)->clipboard();
+        return text.c_str();
+    };
+}
+
+}  // namespace
+
+Gui::Gui(Window& window) : window_(window) {
+    IMGUI_CHECKVERSION();
+    ImGui::CreateContext();
+    ImGuiIO& io = ImGui::GetIO();
+    io.IniFilename = nullptr;
+    io.BackendFlags |= ImGuiBackendFlags_HasMouseCursors;
+    io.MousePos = {-1e6f, -1e6f};
+    map_keys(io);
+    set_clipboard(io, window_);
+    ImGui_ImplOpenGL3_Init("#version 330 core");
+}
+
+Gui::~Gui() {
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui::DestroyContext();
+}
+
+void Gui::set_scale(float scale) {
+    if (scale == scale_) return;
+    scale_ = scale;
+    ImGuiIO& io = ImGui::GetIO();
+    io.Fonts->Clear();
+    // On screens whose logical pixels are larger than the physical ones the glyphs are made at physical size.
+    const float density = std::max(
+        1.0f, static_cast<float>(window_.framebuffer_size().x()) / static_cast<float>(std::max(1, window_.size().x())));
+    fonts_.regular = load_font(kRegularFonts, kFontSize * scale * density);
+    fonts_.bold = load_font(kBoldFonts, kFontSize * scale * density);
+    fonts_.large = load_font(kBoldFonts, kLargeFontSize * scale * density);
+    io.FontGlobalScale = 1.0f / density;
+    ImGui_ImplOpenGL3_DestroyFontsTexture();
+    ImGui_ImplOpenGL3_CreateFontsTexture();
+}
+
+std::size_t Gui::n_for_one_frame(std::span<const InputEvent> events) {
+    std::vector<std::pair<InputEvent::Kind, int>> changed;
+    for (std::size_t i = 0; i < events.size(); ++i) {
+        const InputEvent& event = events[i];
+        if (event.kind != InputEvent::Kind::button && event.kind != InputEvent::Kind::key) continue;
+        const std::pair key(event.kind, event.code);
+        if (std::find(changed.begin(), changed.end(), key) != changed.end()) return i;
+        changed.push_back(key);
+    }
+    return events.size();
+}
+
+void Gui::feed(const InputEvent& event) {
+    ImGuiIO& io = ImGui::GetIO();
+    const auto code = static_cast<std::size_t>(event.code);
+    switch (event.kind) {
+        case InputEvent::Kind::cursor:
+            io.MousePos = {static_cast<float>(event.cursor.x()), static_cast<float>(event.cursor.y())};
+            break;
+        case InputEvent::Kind::button:
+            if (code < std::size(io.MouseDown)) io.MouseDown[code] = event.pressed;
+            break;
+        case InputEvent::Kind::scroll:
+            io.MouseWheelH += static_cast<float>(event.cursor.x());
+            io.MouseWheel += static_cast<float>(event.cursor.y());
+            break;
+        case InputEvent::Kind::key:
+            if (code < std::size(io.KeysDown)) io.KeysDown[code] = event.pressed;
+            break;
+        case InputEvent::Kind::text:
+            io.AddInputCharacter(static_cast<unsigned>(event.code));
+            break;
+        case InputEvent::Kind::focus:
+            io.AddFocusEvent(event.code != 0);
+            break;
+    }
+    io.KeyShift = (event.modifiers & GLFW_MOD_SHIFT) != 0;
+    io.KeyCtrl = (event.modifiers & GLFW_MOD_CONTROL) != 0;
+    io.KeyAlt = (event.modifiers & GLFW_MOD_ALT) != 0;
+    io.KeySuper = (event.modifiers & GLFW_MOD_SUPER) != 0;
+}
+
+void Gui::begin(std::span<const InputEvent> events, double dt) {
+    ImGuiIO& io = ImGui::GetIO();
+    const Eigen::Vector2f size = window_.size().cast<float>(), pixels = window_.framebuffer_size().cast<float>();
+    io.DisplaySize = {size.x(), size.y()};
+    if (size.minCoeff() > 0.0f) io.DisplayFramebufferScale = {pixels.x() / size.x(), pixels.y() / size.y()};
+    io.DeltaTime = static_cast<float>(std::max(dt, 1e-4));
+    for (const InputEvent& event : events) feed(event);
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui::NewFrame();
+}
+
+void Gui::end() {
+    ImGui::Render();
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    update_cursor_shape();
+}
+
+void Gui::recover() { ImGui::ErrorCheckEndFrameRecover(nullptr); }
+
+void Gui::update_cursor_shape() {
+    switch (ImGui::GetMouseCursor()) {
+        case ImGuiMouseCursor_TextInput:
+            window_.set_cursor(Window::CursorShape::text);
+            break;
+        case ImGuiMouseCursor_Hand:
+            window_.set_cursor(Window::CursorShape::hand);
+            break;
+        case ImGuiMouseCursor_ResizeEW:
+            window_.set_cursor(Window::CursorShape::resize_horizontal);
+            break;
+        case ImGuiMouseCursor_ResizeNS:
+            window_.set_cursor(Window::CursorShape::resize_vertical);
+            break;
+        default:
+            window_.set_cursor(Window::CursorShape::arrow);
+            break;
+    }
+}
+
+bool Gui::wants_mouse() const { return ImGui::GetIO().WantCaptureMouse; }
+bool Gui::wants_text() const { return ImGui::GetIO().WantTextInput; }
+
+}  // namespace elastolab

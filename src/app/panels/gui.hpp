@@ -1,0 +1,56 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "app/input/input_event.hpp"
+#include "app/window/window.hpp"
+
+struct ImFont;
+
+namespace elastolab {
+
+/// Fonts of the panels.
+struct Fonts {
+    ImFont* regular = nullptr;
+    ImFont* bold = nullptr;
+    ImFont* large = nullptr;
+};
+
+/// Dear ImGui in a window. Its input comes from our own events, so that a replay drives the panels as a person does.
+class Gui {
+public:
+    explicit Gui(Window& window);
+    ~Gui();
+    Gui(const Gui&) = delete;
+    Gui& operator=(const Gui&) = delete;
+
+    /// Fonts and measures for this scale of the user's (1: as the screen suggests). Between frames.
+    void set_scale(float scale);
+    /// Begins a frame with these events. `dt` > 0: seconds since the frame before.
+    void begin(std::span<const InputEvent> events, double dt);
+    /// Draws the panels.
+    void end();
+    /// Closes the windows that a panel left open when it threw.
+    void recover();
+
+    bool wants_mouse() const;
+    bool wants_text() const;  ///< a field is being typed in
+    const Fonts& fonts() const { return fonts_; }
+    /// Logical pixels for a length that is 1 on an ordinary screen.
+    float scale() const { return scale_; }
+
+    /// How many of these events one frame can take: a press and its release must not fall into the same frame.
+    static std::size_t n_for_one_frame(std::span<const InputEvent> events);
+
+private:
+    void feed(const InputEvent& event);
+    void update_cursor_shape();
+
+    Window& window_;
+    Fonts fonts_;
+    float scale_ = 0.0f;
+};
+
+}  // namespace elastolab

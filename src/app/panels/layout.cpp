@@ -1,0 +1,42 @@
+#include "app/panels/layout.hpp"
+
+#include <algorithm>
+
+namespace elastolab {
+
+namespace {
+
+constexpr double kMenu = 23.0, kStatus = 27.0, kPanel = 320.0, kGap = 2.0;
+constexpr double kLeastScene = 160.0;
+
+}  // namespace
+
+Layout layout_of(const Eigen::Vector2i& window, float scale) {
+    const double w = std::max(1, window.x()), h = std::max(1, window.y());
+    const double menu = std::min(h, kMenu * scale), status = std::min(h - menu, kStatus * scale);
+    double panel = kPanel * scale;
+    if (w - panel < kLeastScene * scale) panel = 0.0;
+    const double middle = std::max(1.0, h - menu - status);
+    return {.menu = {0, 0, w, menu},
+            .panel = {0, menu, panel, middle},
+            .scene = {panel, menu, w - panel, middle},
+            .status = {0, h - status, w, status}};
+}
+
+std::vector<SceneViewport> viewports_of(const ViewerState& state, const Viewport& scene) {
+    const std::vector<MethodKind> kinds = state.shown_kinds();
+    if (state.compare.mode != CompareMode::side_by_side) return {{scene, kinds}};
+    // In the order of all methods, so that a switch does not make them jump.
+    std::vector<SceneViewport> viewports;
+    for (const MethodKind kind : all_method_kinds())
+        if (std::find(kinds.begin(), kinds.end(), kind) != kinds.end()) viewports.push_back({scene, {kind}});
+    const auto n = static_cast<double>(viewports.size());
+    const double width = std::max(1.0, (scene.width - kGap * (n - 1.0)) / n);
+    for (std::size_t i = 0; i < viewports.size(); ++i) {
+        viewports[i].place.x = scene.x + static_cast<double>(i) * (width + kGap);
+        viewports[i].place.width = width;
+    }
+    return viewports;
+}
+
+}  // namespace elastolab

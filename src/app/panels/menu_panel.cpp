@@ -1,0 +1,99 @@
+#include <imgui.h>
+
+#include <array>
+
+#include "app/panels/panels.hpp"
+#include "app/panels/widgets.hpp"
+#include "mesh/primitives.hpp"
+
+namespace elastolab {
+
+namespace {
+
+void draw_recent(ViewerState& state) {
+    if (!ImGui::BeginMenu("Open recent", !state.recent_files().empty())) return;
+    for (const std::filesystem::path& file : std::vector(state.recent_files()))
+        if (ImGui::MenuItem(file.string().c_str())) state.open(file);
+    ImGui::EndMenu();
+}
+
+void draw_edit(ViewerState& state) {
+    if (!ImGui::BeginMenu("Edit")) return;
+    const int selected = state.gestures.selected_handle();
+    if (ImGui::MenuItem("Undo", "Ctrl+Z", false, state.scene().can_undo())) state.undo();
+    if (ImGui::MenuItem("Redo", "Ctrl+Y", false, state.scene().can_redo())) state.redo();
+    ImGui::Separator();
+    if (ImGui::MenuItem("Remove the selected handle", "Del", false, selected >= 0)) state.remove_handle(selected);
+    if (ImGui::MenuItem("Remove all handles", "Shift+Del", false, state.scene().n_handles() > 0)) state.clear_handles();
+    ImGui::EndMenu();
+}
+
+void draw_directions(ViewerState& state) {
+    struct Direction {
+        const char* label;
+        ViewDirection direction;
+    };
+    constexpr std::array<Direction, 7> kDirections = {{{"Oblique", ViewDirection::isometric},
+                                                       {"Front", ViewDirection::front},
+                                                       {"Back", ViewDirection::back},
+                                                       {"Left", ViewDirection::left},
+                                                       {"Right", ViewDirection::right},
+                                                       {"Top", ViewDirection::top},
+                                                       {"Bottom", ViewDirection::bottom}}};
+    for (const auto& [label, direction] : kDirections)
+        if (ImGui::MenuItem(label)) state.camera.set_view(direction);
+}
+
+void draw_view(ViewerState& state) {
+    if (!ImGui::BeginMenu("View")) return;
+    if (ImGui::MenuItem("Frame the body", "F")) state.frame_body();
+    draw_directions(state);
+    ImGui::Separator();
+    for (const auto& [label, axis] : {std::pair{"Y is up", 1}, std::pair{"Z is up", 2}})
+        if (ImGui::MenuItem(label, nullptr, state.camera.up_axis()[axis] == 1.0)) {
+            state.camera.set_up_axis(Eigen::Vector3d::Unit(axis));
+            state.camera.set_view(ViewDirection::isometric);
+        }
+    ImGui::Separator();
+    if (ImGui::MenuItem("Light theme", "T", !state.display.dark)) state.display.dark = !state.display.dark;
+    for (const int percent : {80, 100, 125, 150, 200})
+        if (const float scale = 0.01f * static_cast<float>(percent); ImGui::MenuItem(
+                ("Size " + std::to_string(percent) + " %").c_str(), nullptr, state.display.ui_scale == scale))
+            state.display.ui_scale = scale;
+    ImGui::EndMenu();
+}
+
+}  // namespace
+
+void Panels::draw_menu(const PanelContext& context) {
+    ViewerState& state = context.state;
+    if (!ImGui::BeginMainMenuBar()) return;
+    if (ImGui::BeginMenu("File")) {
+        if (ImGui::MenuItem("Open...", "Ctrl+O")) ask_open(state);
+        draw_recent(state);
+        if (ImGui::BeginMenu("New body")) {
+            for (const std::string& name : primitive_names())
+                if (ImGui::MenuItem(name.c_str())) {
+                    primitive_ = name;
+                    open_primitive(state);
+                }
+            ImGui::EndMenu();
+        }
+        ImGui::Separator();
+        if (ImGui::MenuItem("Save scene...", "Ctrl+S")) ask_save(state);
+        if (ImGui::MenuItem("Export deformed mesh...")) ask_export(state);
+        if (ImGui::MenuItem("Screenshot...")) ask_screenshot(state);
+        ImGui::Separator();
+        if (ImGui::MenuItem("Quit", "Ctrl+Q")) state.quit_requested = true;
+        ImGui::EndMenu();
+    }
+    draw_edit(state);
+    draw_view(state);
+    if (ImGui::BeginMenu("Help")) {
+        if (ImGui::MenuItem("Mouse and keys", "?")) state.show_help = true;
+        ImGui::EndMenu();
+    }
+    ImGui::EndMainMenuBar();
+}
+
+}  // namespace elastolab

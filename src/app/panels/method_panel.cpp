@@ -1,0 +1,213 @@
+#include <imgui.h>
+
+#include <array>
+
+#include "app/panels/panels.hpp"
+#include "app/panels/widgets.hpp"
+#include "base/memory.hpp"
+#include "base/text.hpp"
+
+namespace elastolab {
+
+namespace {
+
+using State = MethodRunner::State;
+
+constexpr float kStateLines = 5.2f;
+
+constexpr std::array<Choice<Mode>, 2> kModes = {
+    {{Mode::on_demand, "on demand",
+      "One factorisation; columns of the inverse when a handle needs them. Soonest ready."},
+     {Mode::full, "K and inverse", "The stiffness K and its (bordered) inverse in memory, as the paper has it."}}};
+
+constexpr std::array<Choice<Update>, 3> kUpdates = {
+    {{Update::reduced, "collapsed (9')",
+      "A system as small as the set of held vertices. Same displacements, least work."},
+     {Update::eqn9, "Eqn. 9",
+      "As the paper writes it: the free block's inverse from K's inverse. Needs K and inverse."},
+     {Update::direct, "Eqn. 7", "Factorises the free block of K anew whenever the set of held vertices changes."}}};
+
+constexpr std::array<Choice<FrameRule>, 2> kFrameRules = {
+    {{FrameRule::drag_columns, "moving columns",
+      "Three columns of the moving handle, found when it is grabbed: a frame "
+      "reads them once, the limit of memory bandwidth."},
+     {FrameRule::displace, "whole update", "Every frame goes through the update rule above, to see what it costs."}}};
+
+constexpr std::array<Choice<Tractions>, 3> kTractions = {
+    {{Tractions::discontinuous, "discontinuous",
+      "Forces per area may jump at the rim of a held patch, where they are "
+      "singular. Most accurate."},
+     {Tractions::restricted, "restricted", "Linear over a held patch, ending at its rim."},
+     {Tractions::continuous, "continuous", "As in the paper: they leak one ring onto the free surface."}}};
+
+const char* state_word(const MethodRunner& runner) {
+    switch (runner.state()) {
+        case State::idle:
+            return runner.has_answer() ? "stopped; the last answer stays" : "not computed";
+        case State::precomputing:
+            return "precomputing";
+        case State::preparing:
+            return "preparing what is held and pulled";
+        case State::ready:
+            return "ready";
+        case State::failed:
+            return "failed";
+    }
+    return "";
+}
+
+const Colour& state_colour(const MethodRunner& runner, const Palette& palette) {
+    switch (runner.state()) {
+        case State::ready:
+            return palette.good;
+        case State::failed:
+            return palette.bad;
+        case State::idle:
+            return palette.text_dim;
+        default:
+            return palette.busy;
+    }
+}
+
+/// A button for each method, underlined with how it is doing.
+void draw_buttons(const PanelContext& context) {
+    ViewerState& state = context.state;
+    const auto n = static_cast<float>(all_method_kinds().size());
+    const float width = (ImGui::GetContentRegionAvail().x - (n - 1.0f) * ImGui::GetStyle().ItemSpacing.x) / n;
+    const float scale = context.gui.scale();
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {2.0f * scale, ImGui::GetStyle().FramePadding.y});  // long names
+    int number = 0;
+    for (const MethodKind kind : all_method_kinds()) {
+        if (number++ > 0) ImGui::SameLine();
+        const bool active = kind == state.method;
+        const Colour& colour = context.palette.body(kind);
+        if (active) {
+            ImGui::PushStyleColor(ImGuiCol_Button, imgui_colour(colour));
+            ImGui::PushStyleColor(ImGuiCol_ButtonHovered, imgui_colour(colour));
+            ImGui::PushStyleColor(ImGuiCol_Text, imgui_colour(dark_palette().wire));
+        }
+        if (ImGui::Button(title(kind).c_str(), {width, 1.45f * ImGui::GetFrameHeight()})) state.select_method(kind);
+        if (active) ImGui::PopStyleColor(3);
+        tooltip(("Key " + std::to_string(number)).c_str());
+        const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+        ImGui::GetWindowDrawList()->AddRectFilled(
+            {low.x + 8.0f * scale, high.y - 5.0f * scale}, {high.x - 8.0f * scale, high.y - 2.5f * scale},
+            imgui_packed(state_colour(state.simulation.runner(kind), context.palette), active ? 0.0f : 1.0f), scale);
+    }
+    ImGui::PopStyleVar();
+}
+
+/// A bar with `text` on it, and a button that stops what runs.
+void draw_bar(const PanelContext& context, MethodRunner& runner, const std::string& text) {
+    const float button = 60.0f * context.gui.scale();
+    ImGui::ProgressBar(static_cast<float>(runner.status().progress),
+                       {ImGui::GetContentRegionAvail().x - button - 8.0f, 0.0f}, text.c_str());
+    ImGui::SameLine();
+    if (ImGui::Button("Cancel", {button, 0.0f})) runner.cancel();
+}
+
+void draw_progress(const PanelContext& context, MethodRunner& runner, const Cost& cost) {
+    const JobStatus status = runner.status();
+    draw_bar(context, runner, "");
+    paragraph(std::string(status.stage) + "  " + readable_seconds(status.seconds) + " of about " +
+                  readable_seconds(std::max(cost.seconds, status.seconds)),
+              context.palette.text_dim);
+}
+
+/// Of what has no prediction: the completion, or a set of held vertices.
+void draw_stage(const PanelContext& context, MethodRunner& runner) {
+    const JobStatus status = runner.status();
+    draw_bar(context, runner, std::string(status.stage) + "  " + readable_seconds(status.seconds));
+}
+
+/// What is there of the model: unknowns, and whether K and its inverse are.
+std::string readiness(const MethodRunner& runner) {
+    if (!runner.model()) return "";
+    const ModelFacts& facts = runner.model()->facts();
+    std::string text = count_text(facts.n_degrees_of_freedom) + " unknowns, " +
+                       readable_bytes(static_cast<double>(facts.memory_bytes));
+    if (facts.n_tetrahedra > 0) text += ", " + count_text(facts.n_tetrahedra) + " tetrahedra";
+    if (runner.completing()) return text + "; completing K and its inverse";
+    return text + (runner.has_inverse() ? "; K and its inverse are ready" : "; columns on demand");
+}
+
+void draw_warnings(const PanelContext& context, const MethodRunner& runner) {
+    if (runner.model())
+        for (const std::string& warning : runner.model()->facts().warnings) paragraph(warning, context.palette.busy);
+    if (runner.deformer())
+        for (const std::string& warning : runner.deformer()->quality().warnings)
+            paragraph(warning, context.palette.busy);
+    for (const std::string& warning : runner.check_warnings()) paragraph(warning, context.palette.busy);
+}
+
+}  // namespace
+
+void Panels::draw_method(const PanelContext& context) {
+    ViewerState& state = context.state;
+    const Palette& palette = context.palette;
+    draw_buttons(context);
+    MethodRunner& runner = state.simulation.runner(state.method);
+    const Method method = state.choices.of(state.method);
+    // Of one height whatever there is to say, so that nothing below jumps away from the mouse.
+    ImGui::BeginChild("state", {0.0f, kStateLines * ImGui::GetTextLineHeightWithSpacing()}, false,
+                      ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+    ImGui::TextColored(imgui_colour(state_colour(runner, palette)), "%s", state_word(runner));
+    if (runner.precomputing()) {
+        draw_progress(context, runner, cost(state, method));
+    } else {
+        if (const std::string text = readiness(runner); !text.empty()) paragraph(text, palette.text_dim);
+        if (runner.completing() || runner.state() == State::preparing) draw_stage(context, runner);
+    }
+    ImGui::EndChild();
+    if (runner.state() == State::idle || runner.state() == State::failed) {
+        const std::string problem = state.simulation.problem(state.method);
+        if (!problem.empty()) paragraph(problem, palette.bad);
+        if (ImGui::Button("Compute")) runner.retry();
+    }
+    draw_warnings(context, runner);
+
+    if (!ImGui::TreeNode("How it computes")) return;
+    draw_mode(context);
+    const float scale = context.gui.scale();
+    set_item_width(scale);
+    choose<Update>("update", state.choices.update, kUpdates);
+    if (state.choices.update == Update::eqn9 && runner.model() && runner.model()->method().update != Update::eqn9)
+        paragraph(
+            "Eqn. 9 needs K and its inverse: until they are completed, or with that mode, the collapsed form answers, "
+            "which gives the same displacements.",
+            palette.text_dim);
+    set_item_width(scale);
+    choose<FrameRule>("each frame", state.choices.frame_rule, kFrameRules);
+    set_item_width(scale);
+    choose<Tractions>("tractions", state.choices.tractions, kTractions);
+    ImGui::TreePop();
+}
+
+/// The modes with what each would cost; those that would not fit cannot be chosen.
+void Panels::draw_mode(const PanelContext& context) {
+    ViewerState& state = context.state;
+    set_item_width(context.gui.scale());
+    if (begin_choice("ahead", state.choices.mode == Mode::full ? kModes[1].label : kModes[0].label)) {
+        for (const Choice<Mode>& choice : kModes) {
+            Method method = state.choices.of(state.method);
+            method.mode = choice.value;
+            const Cost& price = cost(state, method);
+            const bool fits = price.memory_bytes < available_memory_bytes();
+            const std::string label = std::string(choice.label) + "   " + readable_seconds(price.seconds) + ", " +
+                                      readable_bytes(static_cast<double>(price.memory_bytes)) +
+                                      (fits ? "" : " (does not fit)");
+            ImGui::BeginDisabled(!fits);
+            if (choice_entry(label.c_str(), choice.explanation, choice.value == state.choices.mode))
+                state.choices.mode = choice.value;
+            ImGui::EndDisabled();
+        }
+        end_choice();
+    }
+    if (state.choices.mode != Mode::on_demand) return;
+    slider("complete up to", state.choices.complete_up_to, 0, 5000, "%d vertices", context.gui.scale());
+    tooltip(
+        "Bodies of at most so many vertices get K and its inverse in the background, once they can be pulled. "
+        "After that a new handle is ready sooner.");
+}
+
+}  // namespace elastolab

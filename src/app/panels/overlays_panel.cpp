@@ -1,0 +1,197 @@
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "app/panels/panels.hpp"
+#include "app/picture/scene_renderer.hpp"
+#include "app/panels/widgets.hpp"
+#include "base/text.hpp"
+#include "render/drawing/legend.hpp"
+
+namespace elastolab {
+
+namespace {
+
+constexpr float kMargin = 14.0f;
+
+ImVec2 point(double x, double y) { return {static_cast<float>(x), static_cast<float>(y)}; }
+
+/// Text with a soft shade around it, readable on any scene.
+void shaded_text(ImDrawList& list, ImFont* font, float size, ImVec2 place, const Colour& colour, const Colour& shade,
+                 const std::string& text) {
+    for (const ImVec2 d : {ImVec2{1, 1}, ImVec2{-1, 1}, ImVec2{1, -1}, ImVec2{-1, -1}})
+        list.AddText(font, size, {place.x + d.x, place.y + d.y}, imgui_packed(shade, 0.55f), text.c_str());
+    list.AddText(font, size, place, imgui_packed(colour), text.c_str());
+}
+
+/// Whose answer a viewport shows, how it is doing, and how far it is from the reference.
+void draw_title(const PanelContext& context, ImDrawList& list, const SceneViewport& viewport) {
+    const ViewerState& state = context.state;
+    const Palette& palette = context.palette;
+    const float size = ImGui::GetFontSize(), scale = context.gui.scale();
+    ImVec2 place = point(viewport.place.x + kMargin * scale, viewport.place.y + kMargin * scale);
+    bool first = true;
+    for (const MethodKind kind : viewport.kinds) {
+        ImFont* font = first ? context.gui.fonts().large : context.gui.fonts().regular;
+        const float height = first ? 1.35f * size : size;
+        const MethodRunner& runner = state.simulation.runner(kind);
+        std::string text = title(kind);
+        if (runner.precomputing())
+            text +=
+                formatted("  \u2013  %s %.0f %%", runner.status().stage, std::floor(100.0 * runner.status().progress));
+        else if (!state.simulation.problem(kind).empty())
+            text += "  \u2013  not available: see Method";
+        else if (!runner.has_answer())
+            text += runner.preparing()           ? "  \u2013  preparing the held vertices"
+                    : state.simulation.waiting() ? "  \u2013  waiting"
+                                                 : "  \u2013  not computed";
+        const Colour& colour = palette.body(kind);
+        shaded_text(list, font, height, place, mix(colour, palette.text, 0.35), palette.background_bottom, text);
+        place.y += 1.25f * height;
+        const ShownBody* shown = state.body(kind);
+        if (state.comparing() && shown != nullptr) {
+            std::string note = kind == state.compare.reference ? "reference" : "";
+            if (shown->difference())
+                note = "rms " + number_text(100.0 * shown->difference()->relative_rms) + " %   largest " +
+                       number_text(100.0 * shown->difference()->relative_max) + " %";
+            shaded_text(list, context.gui.fonts().regular, size, place, palette.text, palette.background_bottom, note);
+            place.y += 1.3f * size;
+        }
+        first = false;
+    }
+}
+
+void draw_axes_letters(const PanelContext& context, ImDrawList& list, const SceneViewport& viewport) {
+    const AxesGizmo::Labels labels = AxesGizmo::labels(context.state.camera, gizmo_place(viewport.place));
+    constexpr std::array<const char*, 3> kLetters = {"x", "y", "z"};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const ImVec2 size = ImGui::CalcTextSize(kLetters[i]);
+        list.AddText(point(labels.pixel[i].x() - 0.5 * size.x, labels.pixel[i].y() - 0.5 * size.y),
+                     imgui_packed(context.palette.text), kLetters[i]);
+    }
+}
+
+/// The colour bar with round numbers, at the right of the scene.
+void draw_legend(const PanelContext& context, ImDrawList& list) {
+    const ViewerState& state = context.state;
+    const auto is_coloured = [](const ShownBody& body) { return body.is_coloured(); };
+    if (state.display.field == Field::none || std::none_of(state.bodies.begin(), state.bodies.end(), is_coloured))
+        return;
+    const Viewport& scene = context.layout.scene;
+    const float scale = context.gui.scale(), width = 16.0f * scale;
+    const float height = std::min(220.0f * scale, 0.5f * static_cast<float>(scene.height));
+    const float x = static_cast<float>(scene.x + scene.width) - 84.0f * scale;
+    const float y = static_cast<float>(scene.y + scene.height) - height - 28.0f * scale;
+    const ColourMap& map = colour_map(state.display.colour_map);
+    constexpr int kSteps = 64;
+    for (int i = 0; i < kSteps; ++i) {
+        const float top = y + height * (1.0f - static_cast<float>(i + 1) / kSteps);
+        const float bottom = y + height * (1.0f - static_cast<float>(i) / kSteps);
+        list.AddRectFilled({x, top}, {x + width, bottom + 0.5f}, imgui_packed(map.sample((i + 0.5) / kSteps)));
+    }
+    list.AddRect({x, y}, {x + width, y + height}, imgui_packed(context.palette.border));
+    const auto [low, high] = state.field_range();
+    ImFont* font = context.gui.fonts().regular;
+    const float size = ImGui::GetFontSize();
+    for (const LegendTick& tick : legend_ticks(low, high, 5)) {
+        const double t = high > low ? (tick.value - low) / (high - low) : 0.5;
+        const float ty = y + height * (1.0f - static_cast<float>(t));
+        list.AddLine({x + width, ty}, {x + width + 4.0f * scale, ty}, imgui_packed(context.palette.text));
+        shaded_text(list, font, size, {x + width + 7.0f * scale, ty - 0.5f * size}, context.palette.text,
+                    context.palette.background_bottom, tick.text);
+    }
+    const std::string heading = field_title(state.display.field, state.compare.reference);
+    const float text_width = ImGui::CalcTextSize(heading.c_str()).x;
+    const float right = static_cast<float>(scene.x + scene.width) - kMargin * scale;
+    shaded_text(list, font, size, {std::min(x, right - text_width), y - 1.7f * size}, context.palette.text,
+                context.palette.background_bottom, heading);
+}
+
+void draw_tools(const PanelContext& context, ImDrawList& list) {
+    const ViewerState& state = context.state;
+    const Palette& palette = context.palette;
+    if (const auto box = state.gestures.box()) {
+        const ImVec2 a = point(box->first.x(), box->first.y()), b = point(box->second.x(), box->second.y());
+        const ImVec2 low{std::min(a.x, b.x), std::min(a.y, b.y)}, high{std::max(a.x, b.x), std::max(a.y, b.y)};
+        list.AddRectFilled(low, high, imgui_packed(palette.fixed, 0.15f));
+        list.AddRect(low, high, imgui_packed(palette.fixed), 0.0f, 0, 1.5f);
+    }
+    const Eigen::Vector2d& cursor = state.gestures.cursor();
+    if (state.tools.tool == Tool::brush && context.layout.scene.contains(cursor) && !context.gui.wants_mouse())
+        list.AddCircle(point(cursor.x(), cursor.y()), static_cast<float>(state.tools.brush_pixels),
+                       imgui_packed(palette.fixed), 48, 1.5f);
+}
+
+/// What to do next, for those who see this for the first time.
+std::string hint_text(const ViewerState& state) {
+    if (!state.gestures.hint().empty()) return state.gestures.hint();
+    if (state.scene().n_handles() > 0 || state.gestures.pulling()) return "";
+    if (state.tools.tool == Tool::brush)
+        return "Paint over the vertices that are to stay where they are; with Shift, free them.";
+    if (state.tools.tool == Tool::box) return "Draw a box around the vertices that are to stay where they are.";
+    if (state.scene().vertices(LiveScene::kFixed).empty())
+        return "Nothing holds the body: fix some vertices with the brush (B), then pull.";
+    return "Press on the body and pull.   Drag beside it to turn the view.   ? shows all keys.";
+}
+
+void draw_hint(const PanelContext& context, ImDrawList& list) {
+    const std::string text = hint_text(context.state);
+    if (text.empty()) return;
+    const Viewport& scene = context.layout.scene;
+    const float scale = context.gui.scale();
+    const float width = static_cast<float>(scene.width) - 40.0f * scale;
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, width);
+    const ImVec2 place = point(scene.x + 0.5 * (scene.width - size.x), scene.y + scene.height - size.y - 26.0 * scale);
+    const float pad = 8.0f * scale;
+    list.AddRectFilled({place.x - 1.5f * pad, place.y - pad}, {place.x + size.x + 1.5f * pad, place.y + size.y + pad},
+                       imgui_packed(context.palette.panel, 0.85f), 6.0f * scale);
+    list.AddText(nullptr, 0.0f, place, imgui_packed(context.palette.text), text.c_str(), nullptr, width);
+}
+
+void draw_messages(const PanelContext& context) {
+    Messages& messages = context.state.messages;
+    const Viewport& scene = context.layout.scene;
+    const float scale = context.gui.scale();
+    const float width = std::min(440.0f * scale, static_cast<float>(scene.width) - 20.0f * scale);
+    float y = static_cast<float>(scene.y) + kMargin * scale;
+    for (std::size_t i = 0; i < messages.all().size(); ++i) {
+        const Messages::Message& message = messages.all()[i];
+        ImGui::SetNextWindowPos({static_cast<float>(scene.x + scene.width) - width - kMargin * scale, y});
+        ImGui::SetNextWindowSize({width, 0.0f});
+        ImGui::PushStyleColor(ImGuiCol_Border,
+                              imgui_colour(message.is_error ? context.palette.bad : context.palette.accent));
+        ImGui::Begin(("##message" + std::to_string(i)).c_str(), nullptr,
+                     ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoFocusOnAppearing |
+                         ImGuiWindowFlags_AlwaysAutoResize);
+        ImGui::PopStyleColor();
+        paragraph(message.text, context.palette.text);
+        const bool dismissed = message.is_error && ImGui::SmallButton("Dismiss");
+        y += ImGui::GetWindowHeight() + 6.0f * scale;
+        ImGui::End();
+        if (dismissed) {
+            messages.dismiss(i);
+            break;
+        }
+    }
+}
+
+}  // namespace
+
+void Panels::draw_overlays(const PanelContext& context) {
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    for (const SceneViewport& viewport : context.state.viewports) {
+        const Viewport& v = viewport.place;
+        list.PushClipRect(point(v.x, v.y), point(v.x + v.width, v.y + v.height));
+        draw_title(context, list, viewport);
+        draw_axes_letters(context, list, viewport);
+        list.PopClipRect();
+    }
+    draw_legend(context, list);
+    draw_tools(context, list);
+    draw_hint(context, list);
+    draw_messages(context);
+}
+
+}  // namespace elastolab

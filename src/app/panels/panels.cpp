@@ -1,0 +1,110 @@
+#include "app/panels/panels.hpp"
+
+#include <imgui.h>
+
+#include "app/panels/widgets.hpp"
+#include "base/text.hpp"
+
+namespace elastolab {
+
+namespace {
+
+const std::vector<std::string> kExportFiles = {".obj", ".ply", ".stl"};
+const std::vector<std::string> kMeshFiles = {".obj", ".ply", ".stl", ".off", ".gltf", ".glb"};
+
+std::vector<std::string> with_scenes(std::vector<std::string> extensions) {
+    extensions.insert(extensions.begin(), ".json");
+    return extensions;
+}
+
+/// A name for an output of this scene, by the name of its mesh.
+std::string suggested_name(const ViewerState& state, const std::string& ending) {
+    return std::filesystem::path(state.scene().name()).stem().string() + ending;
+}
+
+}  // namespace
+
+void Panels::ask_open(ViewerState& state) {
+    files_.open({"Open a mesh or scene", with_scenes(kMeshFiles), "", [&](const auto& file) { state.open(file); }});
+}
+
+void Panels::ask_save(ViewerState& state) {
+    files_.open({"Save the scene", {".json"}, suggested_name(state, ".json"), [&](const auto& file) {
+                     state.save_scene(file);
+                 }});
+}
+
+void Panels::ask_export(ViewerState& state) {
+    files_.open({"Export the deformed mesh (.obj, .ply, .stl)", kExportFiles, suggested_name(state, "-deformed.obj"),
+                 [&](const auto& file) { state.export_mesh(file); }});
+}
+
+void Panels::ask_screenshot(ViewerState& state) {
+    files_.open({"Save a screenshot", {".png"}, suggested_name(state, ".png"), [&](const auto& file) {
+                     state.screenshot_request = file;
+                 }});
+}
+
+void Panels::ask_timings(ViewerState& state) {
+    files_.open({"Record frame timings", {".csv"}, suggested_name(state, "-timings.csv"), [&](const auto& file) {
+                     state.record_timings(file);
+                 }});
+}
+
+const Cost& Panels::cost(const ViewerState& state, const Method& method) {
+    if (costs_of_scene_ != state.scene_number()) costs_.clear();
+    costs_of_scene_ = state.scene_number();
+    const auto [place, is_new] = costs_.try_emplace({method.kind, method.mode});
+    if (is_new) place->second = predict_cost(state.scene().mesh(), method);
+    return place->second;
+}
+
+void Panels::draw(const PanelContext& context) {
+    draw_menu(context);
+    draw_side(context);
+    draw_status(context);
+    draw_overlays(context);
+    if (context.state.show_help) draw_help(context);
+    files_.draw(context.gui.scale());
+}
+
+void Panels::draw_side(const PanelContext& context) {
+    const Viewport& place = context.layout.panel;
+    if (place.width <= 0.0) return;
+    ImGui::SetNextWindowPos({static_cast<float>(place.x), static_cast<float>(place.y)});
+    ImGui::SetNextWindowSize({static_cast<float>(place.width), static_cast<float>(place.height)});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0f);
+    // Its place is kept, so that nothing moves when it is needed; until then nothing of it is seen.
+    ImGui::PushStyleColor(ImGuiCol_ScrollbarGrab,
+                          side_fits_ ? ImVec4() : ImGui::GetStyleColorVec4(ImGuiCol_ScrollbarGrab));
+    ImGui::Begin("##side", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoBringToFrontOnFocus |
+                     ImGuiWindowFlags_AlwaysVerticalScrollbar);
+    ImGui::PopStyleColor();
+    ImGui::PopStyleVar();
+    side_fits_ = ImGui::GetScrollMaxY() <= 0.0f;
+    struct Section {
+        const char* title;
+        void (Panels::*draw)(const PanelContext&);
+        bool open;
+    };
+    constexpr Section kSections[] = {
+        {"Method", &Panels::draw_method, true}, {"Body", &Panels::draw_body, true},
+        {"Pull", &Panels::draw_pull, true},     {"Compare", &Panels::draw_compare, true},
+        {"Show", &Panels::draw_display, false}, {"Performance", &Panels::draw_performance, false},
+    };
+    for (const Section& section : kSections) {
+        ImGui::PushFont(context.gui.fonts().bold);
+        ImGui::SetNextItemOpen(section.open, ImGuiCond_Once);
+        const bool open = ImGui::CollapsingHeader(section.title);
+        ImGui::PopFont();
+        if (!open) continue;
+        ImGui::PushID(section.title);
+        (this->*section.draw)(context);
+        ImGui::PopID();
+        ImGui::Dummy({0.0f, 4.0f * context.gui.scale()});
+    }
+    ImGui::End();
+}
+
+}  // namespace elastolab

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "app/window/file_dialog.hpp"
+#include "app/panels/gui.hpp"
+#include "app/panels/layout.hpp"
+#include "app/picture/palette.hpp"
+#include "app/viewer_state.hpp"
+#include "findings/cost.hpp"
+
+namespace elastolab {
+
+/// What the panels need to be drawn.
+struct PanelContext {
+    ViewerState& state;
+    const Gui& gui;
+    const Layout& layout;
+    const Palette& palette;
+};
+
+/// The menu, the side panel, the status line and what is written over the scene. No numerics: it reads the state, and
+/// every change goes through it.
+class Panels {
+public:
+    void draw(const PanelContext& context);
+
+    void ask_open(ViewerState& state);
+    void ask_save(ViewerState& state);
+    void ask_export(ViewerState& state);
+    void ask_screenshot(ViewerState& state);
+    void ask_timings(ViewerState& state);
+
+private:
+    // One file each: panel_menu.cpp, panel_method.cpp, ...
+    void draw_menu(const PanelContext& context);
+    void draw_side(const PanelContext& context);
+    void draw_method(const PanelContext& context);
+    void draw_mode(const PanelContext& context);
+    void draw_body(const PanelContext& context);
+    void draw_pull(const PanelContext& context);
+    void draw_compare(const PanelContext& context);
+    void draw_display(const PanelContext& context);
+    void draw_performance(const PanelContext& context);
+    void draw_status(const PanelContext& context);
+    void draw_overlays(const PanelContext& context);
+    void draw_help(const PanelContext& context);
+    void draw_young_modulus(ViewerState& state, float scale);
+    void open_primitive(ViewerState& state);
+    const Cost& cost(const ViewerState& state, const Method& method);
+
+    FileDialog files_;
+    std::string primitive_ = "cube";
+    int resolution_ = 13;
+    std::optional<double> typed_modulus_;  ///< Young's modulus while it is typed
+    bool side_fits_ = true;                ///< the side panel's content did, in the last frame
+    std::uint64_t costs_of_scene_ = 0;
+    std::map<std::pair<MethodKind, Mode>, Cost> costs_;
+};
+
+}  // namespace elastolab

@@ -1,0 +1,86 @@
+#include <imgui.h>
+
+#include "app/panels/panels.hpp"
+#include "app/input/shortcuts.hpp"
+#include "app/panels/widgets.hpp"
+#include "base/text.hpp"
+
+namespace elastolab {
+
+namespace {
+
+std::string left_text(const ViewerState& state) {
+    if (state.loading()) return "Loading...";
+    const Gestures& gestures = state.gestures;
+    if (gestures.hover().vertex >= 0) {
+        const int v = gestures.hover().vertex, owner = state.scene().owner(v);
+        std::string text = "vertex " + std::to_string(v);
+        if (owner == LiveScene::kFixed) text += ", fixed";
+        if (owner >= 0) text += ", of " + state.scene().handle_name(owner);
+        const auto n = std::ssize(gestures.hover().patch);
+        if (n > 0) text += ", patch of " + count_text(n) + (n == 1 ? " vertex" : " vertices");
+        return text;
+    }
+    return std::filesystem::path(state.scene().name()).filename().string() +
+           (state.scene().modified() ? " (changed)" : "");
+}
+
+std::string right_text(const ViewerState& state) {
+    const FrameHistory& history = state.history;
+    return formatted("update %.3f ms   frame %.2f ms   ", state.last_frame.update_ms,
+                     history.percentile(&FrameTimes::frame_ms, 0.5)) +
+           (state.timings ? "recording timings   " : "") + (state.recorder ? "recording the interaction   " : "");
+}
+
+/// Two columns: what is done with the mouse or keyboard, and what it does.
+void draw_help_list(const char* id, const PanelContext& context, const auto& entries, const auto& keys_of) {
+    if (!ImGui::BeginTable(id, 2)) return;
+    ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthFixed, 132.0f * context.gui.scale());
+    ImGui::TableSetupColumn("action", ImGuiTableColumnFlags_WidthStretch);
+    for (const auto& entry : entries) {
+        const std::string keys = keys_of(entry), action = entry.action;
+        ImGui::TableNextColumn();
+        ImGui::TextColored(imgui_colour(context.palette.accent), "%s", keys.c_str());
+        ImGui::TableNextColumn();
+        ImGui::TextWrapped("%s", action.c_str());
+    }
+    ImGui::EndTable();
+}
+
+}  // namespace
+
+void Panels::draw_status(const PanelContext& context) {
+    const Viewport& place = context.layout.status;
+    ImGui::SetNextWindowPos({static_cast<float>(place.x), static_cast<float>(place.y)});
+    ImGui::SetNextWindowSize({static_cast<float>(place.width), static_cast<float>(place.height)});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0f);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {12.0f * context.gui.scale(), 4.0f * context.gui.scale()});
+    ImGui::Begin("##status", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoBringToFrontOnFocus);
+    ImGui::PopStyleVar(2);
+    ImGui::TextUnformatted(left_text(context.state).c_str());
+    const std::string right = right_text(context.state);
+    ImGui::SameLine(static_cast<float>(place.width) - ImGui::CalcTextSize(right.c_str()).x);
+    ImGui::TextColored(imgui_colour(context.palette.text_dim), "%s", right.c_str());
+    ImGui::End();
+}
+
+void Panels::draw_help(const PanelContext& context) {
+    const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    const float scale = context.gui.scale();
+    ImGui::SetNextWindowPos({0.5f * screen.x, 0.5f * screen.y}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::SetNextWindowSize({std::min(820.0f * scale, screen.x), std::min(520.0f * scale, screen.y)});
+    if (ImGui::Begin("Mouse and keys", &context.state.show_help,
+                     ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove)) {
+        if (ImGui::BeginTable("help", 2, ImGuiTableFlags_SizingStretchSame)) {
+            ImGui::TableNextColumn();
+            draw_help_list("mouse", context, gesture_help(), [](const GestureHelp& help) { return help.gesture; });
+            ImGui::TableNextColumn();
+            draw_help_list("keys", context, shortcuts(), [](const Shortcut& shortcut) { return shortcut.keys; });
+            ImGui::EndTable();
+        }
+    }
+    ImGui::End();
+}
+
+}  // namespace elastolab

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "app/picture/palette.hpp"
+#include "app/viewer_state.hpp"
+#include "render/drawing/arrows_drawing.hpp"
+#include "render/drawing/axes_gizmo.hpp"
+#include "render/drawing/background_drawing.hpp"
+#include "render/gl/framebuffer.hpp"
+#include "render/drawing/ground_drawing.hpp"
+#include "render/drawing/lines_drawing.hpp"
+#include "render/drawing/points_drawing.hpp"
+#include "render/drawing/surface_drawing.hpp"
+
+namespace elastolab {
+
+/// The scene on the graphics card: hands over what changed and draws the viewports. Needs a current OpenGL context.
+class SceneRenderer {
+public:
+    SceneRenderer();
+
+    /// Hands vertex data to OpenGL; nothing that is there already.
+    void upload(const ViewerState& state, const Palette& palette);
+    /// Draws the viewports that look different from what they last did, `pixel_ratio` framebuffer pixels to a logical
+    /// one. Returns how many did.
+    int draw(const ViewerState& state, const Palette& palette, double pixel_ratio);
+    /// Copies the drawn viewports to the window of this size [framebuffer pixels].
+    void show(const ViewerState& state, double pixel_ratio, const Eigen::Vector2i& framebuffer);
+
+private:
+    /// What belongs to one method's body. Revisions tell what of it is on the card.
+    struct BodyDrawing {
+        BodyDrawing(const SurfaceMesh& mesh, const Edges& edges)
+            : surface(mesh.vertices, mesh.triangles), ghost(edges) {}
+        SurfaceDrawing surface;
+        std::optional<SurfaceDrawing> section;
+        SectionPlane section_plane;
+        LinesDrawing ghost;
+        PointsDrawing points;
+        ArrowsDrawing arrows;
+        std::uint64_t revision = 0, ghost_revision = 0;
+        const Palette* palette = nullptr;  ///< of the arrows
+    };
+    /// All that the picture of a viewport depends on.
+    struct Look {
+        std::vector<MethodKind> kinds;
+        std::vector<std::uint64_t> body_revisions;
+        Eigen::Vector3d camera_target, camera_up, camera_scene;
+        Eigen::Vector4d camera_turn;
+        double camera_distance = 0.0, pixel_ratio = 0.0, width = 0.0, height = 0.0;
+        DisplaySettings display;
+        std::pair<double, double> range;
+        Hover hover;
+        int selected_handle = -1;
+        bool pulling = false;
+        std::uint64_t scene_number = 0, scene_revision = 0;
+        const Palette* palette = nullptr;
+        bool operator==(const Look&) const = default;
+    };
+    struct Picture {
+        Look look;
+        std::unique_ptr<Framebuffer> framebuffer;
+    };
+    Look look_of(const ViewerState& state, const SceneViewport& viewport, const Palette& palette,
+                 double pixel_ratio) const;
+    BodyDrawing& drawing(MethodKind kind);
+    void upload_body(const ViewerState& state, const ShownBody& body, const Palette& palette);
+    void upload_section(const ShownBody& body, BodyDrawing& target);
+    void upload_points(const ViewerState& state, const ShownBody& body, BodyDrawing& target, const Palette& palette);
+    void upload_arrows(const ViewerState& state, const ShownBody& body, BodyDrawing& target, const Palette& palette);
+    void draw_viewport(const ViewerState& state, const SceneViewport& viewport, const Palette& palette,
+                       double pixel_ratio);
+    void draw_ground(const ViewerState& state, const SceneView& view, const Palette& palette);
+    SurfaceStyle surface_style(const ViewerState& state, MethodKind kind, const Palette& palette) const;
+
+    std::uint64_t scene_number_ = 0;
+    SceneFrame frame_;
+    Edges edges_;
+    std::map<MethodKind, BodyDrawing> drawings_;
+    std::vector<Picture> pictures_;  ///< of the viewports, in their order
+    std::optional<LinesDrawing> rest_;
+    BackgroundDrawing background_;
+    GroundDrawing ground_;
+    std::optional<AxesGizmo> gizmo_;
+    const Palette* gizmo_palette_ = nullptr;
+    const SurfaceMesh* mesh_ = nullptr;
+};
+
+/// Where the axes are drawn in a viewport [logical pixels].
+Viewport gizmo_place(const Viewport& viewport);
+
+}  // namespace elastolab

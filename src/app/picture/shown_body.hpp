@@ -1,0 +1,96 @@
+#pragma once
+
+#include <cstdint>
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/picture/section.hpp"
+#include "app/settings.hpp"
+#include "deform/volume.hpp"
+#include "scene/live/live_scene.hpp"
+#include "scene/live/simulation.hpp"
+
+namespace elastolab {
+
+/// Force and moment that the world exerts on the body through one handle or the fixed part, and where it is.
+struct ShownReaction {
+    std::string name;
+    Eigen::Vector3d force, moment, place;  ///< [force], [force * L] about the origin, mean position as shown [L]
+};
+
+/// How far one answer is from the reference, over all vertices.
+struct Difference {
+    double max = 0.0, rms = 0.0;                    ///< [L]
+    double relative_max = 0.0, relative_rms = 0.0;  ///< to the same norm of the reference's displacements
+    int worst_vertex = -1;
+};
+
+/// The body cut open: whole tetrahedra on one side of a plane, deformed.
+struct ShownSection {
+    SectionPlane plane;
+    Triangles triangles;        ///< of the volume's vertices
+    Positions rest, positions;  ///< of all vertices of the volume
+    std::vector<float> values;  ///< displacements, when these are shown; else empty
+};
+
+/// What is seen of one method's answer: made from it whenever it changes, and nothing otherwise.
+class ShownBody {
+public:
+    explicit ShownBody(MethodKind kind) : kind_(kind) {}
+
+    /// Brings everything up to date. `reference`: what differences are to; null when there is none.
+    /// `volume`: its inside, when it has one and is to be cut open; else null.
+    /// Returns whether positions or values changed.
+    bool update(const LiveScene& scene, const MethodRunner& runner, const MethodRunner* reference, const Volume* volume,
+                const DisplaySettings& display);
+
+    MethodKind kind() const { return kind_; }
+    std::uint64_t revision() const { return revision_; }       ///< grows with every change; different for every body
+    const Positions& positions() const { return positions_; }  ///< rest + scale * displacement
+    /// One value a vertex for the chosen field; empty when there is none.
+    const std::vector<float>& values() const { return values_; }
+    double max_value() const { return max_value_; }
+    /// Whether what is seen has these values: inside the body only displacements are known.
+    bool is_coloured() const { return !section_ || !section_->values.empty(); }
+    double max_displacement() const { return max_displacement_; }
+    const std::optional<Difference>& difference() const { return difference_; }
+    const std::vector<ShownReaction>& reactions() const { return reactions_; }
+    const std::optional<ShownSection>& section() const { return section_; }
+
+private:
+    /// All that the shown depends on besides the values of settings.
+    struct Key {
+        const SurfaceMesh* mesh = nullptr;
+        std::uint64_t version = 0, reference_version = 0;
+        const MethodRunner* reference = nullptr;
+        Field field = Field::none;
+        double scale = 1.0;
+        bool arrows = false;
+        const Volume* volume = nullptr;
+        SectionPlane plane;
+        bool operator==(const Key&) const = default;
+    };
+    void update_positions(const LiveScene& scene, const MethodRunner& runner, double scale);
+    void update_reactions(const LiveScene& scene, const MethodRunner& runner, bool wanted);
+    void update_difference(const LiveScene& scene, const MethodRunner& runner, const MethodRunner* reference);
+    void update_section(const MethodRunner& runner, const Volume* volume, const DisplaySettings& display);
+    void update_values(const LiveScene& scene, const MethodRunner& runner, const MethodRunner* reference, Field field);
+
+    MethodKind kind_;
+    Key key_;
+    std::uint64_t revision_ = 0;
+    Positions positions_;
+    std::vector<float> values_;
+    double max_value_ = 0.0, max_displacement_ = 0.0;
+    std::optional<Difference> difference_;
+    std::vector<ShownReaction> reactions_;
+    std::optional<ShownSection> section_;
+    Eigen::Matrix3Xd tractions_;
+};
+
+/// "displacement", "difference to linear-bem", ... and its unit in words.
+std::string field_title(Field field, MethodKind reference);
+
+}  // namespace elastolab

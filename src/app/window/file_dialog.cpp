@@ -1,0 +1,154 @@
+#include "app/window/file_dialog.hpp"
+
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <system_error>
+#include <utility>
+
+namespace elastolab {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string lower(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+    return text;
+}
+
+bool has_extension_of(const fs::path& file, const FileDialog::Purpose& purpose) {
+    const auto& wanted = purpose.extensions;
+    const std::string extension = lower(file.extension().string());
+    return wanted.empty() || std::find(wanted.begin(), wanted.end(), extension) != wanted.end();
+}
+
+}  // namespace
+
+fs::path with_extension(const fs::path& file, const FileDialog::Purpose& purpose) {
+    if (has_extension_of(file, purpose)) return file;
+    fs::path whole = file;
+    return whole += fs::path(purpose.suggestion).extension();
+}
+
+void FileDialog::open(Purpose purpose) {
+    purpose_ = std::move(purpose);
+    name_ = purpose_.suggestion;
+    problem_.clear();
+    to_replace_.clear();
+    std::error_code error;
+    if (folder_.empty()) folder_ = fs::current_path(error);
+    list_folder();
+    open_ = opening_ = true;
+}
+
+void FileDialog::list_folder() {
+    entries_.clear();
+    std::error_code error;
+    for (fs::directory_iterator i(folder_, fs::directory_options::skip_permission_denied, error), end;
+         !error && i != end; i.increment(error)) {
+        const fs::path path = i->path();
+        const std::string name = path.filename().string();
+        if (name.starts_with('.')) continue;
+        std::error_code ignored;
+        const bool is_folder = i->is_directory(ignored);
+        if (!is_folder && !has_extension_of(path, purpose_)) continue;
+        entries_.push_back({path, is_folder ? name + "/" : name, is_folder});
+    }
+    problem_ = error ? folder_.string() + ": " + error.message() : "";
+    std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
+        return a.is_folder != b.is_folder ? a.is_folder : lower(a.shown) < lower(b.shown);
+    });
+}
+
+void FileDialog::accept(const fs::path& typed) {
+    std::error_code error;
+    if (fs::is_directory(typed, error)) {
+        folder_ = fs::weakly_canonical(typed, error);
+        list_folder();
+        return;
+    }
+    const fs::path file = is_saving() ? with_extension(typed, purpose_) : typed;
+    const bool exists = fs::exists(file, error);
+    if (!is_saving() && !exists) {
+        problem_ = file.string() + " is not there.";
+        return;
+    }
+    if (is_saving() && exists && to_replace_ != file) {
+        to_replace_ = file;
+        return;
+    }
+    open_ = false;
+    ImGui::CloseCurrentPopup();
+    purpose_.done(file);
+}
+
+void FileDialog::draw_places() {
+    if (ImGui::Button("Up")) {
+        folder_ = folder_.parent_path();
+        list_folder();
+    }
+    ImGui::SameLine();
+    if (const char* home = std::getenv("HOME"); home != nullptr && ImGui::Button("Home")) {
+        folder_ = home;
+        list_folder();
+    }
+    ImGui::SameLine();
+    std::string text = folder_.string();
+    ImGui::SetNextItemWidth(-1.0f);
+    if (ImGui::InputText("##folder", &text, ImGuiInputTextFlags_EnterReturnsTrue)) accept(text);
+}
+
+void FileDialog::draw_entries(float scale) {
+    const float below = 2.6f * ImGui::GetFrameHeightWithSpacing();
+    ImGui::BeginChild("entries", {560.0f * scale, std::max(80.0f, ImGui::GetContentRegionAvail().y - below)}, true);
+    for (const Entry& entry : std::vector<Entry>(entries_)) {  // a copy: a click may list another folder
+        const bool chosen = !entry.is_folder && entry.shown == name_;
+        if (!ImGui::Selectable(entry.shown.c_str(), chosen, ImGuiSelectableFlags_AllowDoubleClick)) continue;
+        if (!entry.is_folder) name_ = entry.shown;
+        to_replace_.clear();
+        if (entry.is_folder || ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) accept(entry.path);
+    }
+    if (entries_.empty()) ImGui::TextDisabled("No such file here.");
+    ImGui::EndChild();
+}
+
+void FileDialog::draw_name(float scale) {
+    if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+    ImGui::SetNextItemWidth(360.0f * scale);
+    bool go = ImGui::InputText("##name", &name_, ImGuiInputTextFlags_EnterReturnsTrue);
+    if (ImGui::IsItemEdited()) to_replace_.clear();
+    ImGui::SameLine();
+    const bool replaces = !to_replace_.empty();
+    go = ImGui::Button(replaces ? "Replace" : is_saving() ? "Save" : "Open") || go;
+    ImGui::SameLine();
+    if (ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) {
+        open_ = false;
+        ImGui::CloseCurrentPopup();
+    } else if (go && !name_.empty()) {
+        accept(fs::path(name_).is_absolute() ? fs::path(name_) : folder_ / name_);
+    }
+    if (replaces)
+        ImGui::TextUnformatted("There is a file of that name. Press Replace to write over it.");
+    else
+        ImGui::TextUnformatted(problem_.c_str());
+}
+
+void FileDialog::draw(float scale) {
+    if (!open_) return;
+    const std::string id = purpose_.title + "###file-dialog";
+    if (std::exchange(opening_, false)) ImGui::OpenPopup(id.c_str());
+    const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({0.5f * screen.x, 0.5f * screen.y}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::SetNextWindowSize({590.0f * scale, std::min(440.0f * scale, 0.95f * screen.y)});
+    if (!ImGui::BeginPopupModal(id.c_str(), nullptr, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove)) return;
+    draw_places();
+    draw_entries(scale);
+    draw_name(scale);
+    ImGui::EndPopup();
+}
+
+}  // namespace elastolab

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/input/input_event.hpp"
+
+struct GLFWwindow;
+
+namespace elastolab {
+
+/// A window with an OpenGL 3.3 core context, current on the thread that makes it. One at a time.
+class Window {
+public:
+    struct Options {
+        std::string title = "Elastolab";
+        int width = 1280, height = 800;  ///< logical pixels
+        bool visible = true;
+    };
+
+    /// Throws Error when there is no display or no OpenGL 3.3.
+    explicit Window(const Options& options);
+    ~Window();
+    Window(const Window&) = delete;
+    Window& operator=(const Window&) = delete;
+
+    /// Sleeps until something happens, at most `timeout` seconds: forever when negative, not at all when zero.
+    void wait(double timeout);
+    /// Ends a wait(); for any thread, while the window exists.
+    static void wake();
+
+    /// What happened since the last call, in order.
+    std::vector<InputEvent> take_events();
+    std::vector<std::filesystem::path> take_dropped_files();
+    /// Whether the window was exposed or resized since the last call, so that it must be drawn.
+    bool take_damage();
+
+    bool close_requested() const;
+    void request_close(bool close);
+    Eigen::Vector2i size() const;              ///< logical pixels; zero when minimised
+    Eigen::Vector2i framebuffer_size() const;  ///< physical pixels
+    float content_scale() const;               ///< suggested size of text: 1 on an ordinary screen
+    void swap_buffers();
+    /// Waiting for the screen's refresh in swap_buffers(), or not.
+    void set_vsync(bool on);
+    void hide();
+
+    std::string clipboard() const;
+    void set_clipboard(const std::string& text);
+    enum class CursorShape { arrow, text, hand, resize_horizontal, resize_vertical, cross };
+    void set_cursor(CursorShape shape);
+
+    static double seconds();  ///< since GLFW was initialised
+
+private:
+    struct Callbacks;
+    struct State;
+    std::unique_ptr<State> state_;
+    GLFWwindow* handle_ = nullptr;
+};
+
+}  // namespace elastolab

@@ -1,0 +1,107 @@
+#include "bem/responses.hpp"
+
+#include <algorithm>
+
+#include "bem/source_strips.hpp"
+
+namespace elastolab {
+
+namespace {
+
+/// Columns per product with a strip of equations.
+constexpr Eigen::Index kColumnsAtOnce = 384;
+
+}  // namespace
+
+BemResponses::BemResponses(std::shared_ptr<const BemSystem> system, LoadPlan plan, Control& control)
+    : system_(std::move(system)), plan_(std::move(plan)), kept_(system_->keeps(plan_)) {
+    if (kept_) columns_ = system_->responses(plan_, control);
+}
+
+Eigen::MatrixXd BemResponses::small_matrix(const std::vector<int>& nodes, const Eigen::MatrixXd& rigid,
+                                           Control& control) const {
+    const Eigen::Index n = 3 * system_->n_nodes(), n_upper = 3 * std::ssize(nodes) + rigid.cols();
+    const Eigen::Index n_closing = 9 * std::ssize(plan_.interior_triangles);
+    Eigen::MatrixXd S(n_upper + n_closing, cols() + rigid.cols());
+    Eigen::Index first = 0;
+    const auto add = [&](const Columns& columns) {
+        S.block(0, first, n_upper, columns.cols()) = columns.rows_of(nodes, n);
+        if (n_closing > 0) add_closing(columns, first, S.bottomRows(n_closing), control);
+        first += columns.cols();
+    };
+    if (kept_)
+        add(columns_);
+    else
+        system_->visit_responses(plan_, add, control);
+    S.topRightCorner(n_upper, rigid.cols()) = border_columns(nodes, rigid);
+    if (n_closing > 0) add_closing_of_border_and_loads(rigid, S.bottomRows(n_closing), control);
+    return S;
+}
+
+void BemResponses::add_closing(const Columns& columns, Eigen::Index first, Eigen::Ref<Eigen::MatrixXd> rows,
+                               Control& control) const {
+    for_source_strips(interior_sources(system_->boundary(), plan_.interior_triangles),
+                      [&](int source, const Sources& strip) {
+                          const Eigen::MatrixXd A = system_->double_layer(strip, control);
+                          for (Eigen::Index c = 0; c < columns.cols(); c += kColumnsAtOnce) {
+                              const Eigen::Index count = std::min(kColumnsAtOnce, columns.cols() - c);
+                              rows.block(3 * source, first + c, A.rows(), count).noalias() =
+                                  A * columns.middle(c, count).topRows(A.cols());
+                          }
+                      });
+}
+
+void BemResponses::add_closing_of_border_and_loads(const Eigen::MatrixXd& rigid, Eigen::Ref<Eigen::MatrixXd> rows,
+                                                   Control& control) const {
+    for_source_strips(interior_sources(system_->boundary(), plan_.interior_triangles),
+                      [&](int source, const Sources& strip) {
+                          auto out = rows.middleRows(3 * source, 3 * strip.size());
+                          out.rightCols(rigid.cols()).noalias() =
+                              system_->double_layer(strip, control) * rigid.topRows(3 * system_->n_nodes());
+                          out.leftCols(3 * plan_.n_slots()) -= system_->single_layer(strip, plan_.elements, control);
+                      });
+}
+
+void BemResponses::add_product(const Eigen::MatrixXd& loads, Eigen::Ref<Eigen::MatrixXd> displacements) const {
+    if (kept_) {
+        columns_.add_product(loads, displacements);
+        return;
+    }
+    const Eigen::Index n = 3 * system_->n_nodes(), n_loads = 3 * plan_.n_slots();
+    Eigen::MatrixXd response = Eigen::MatrixXd::Zero(n + 6, loads.cols());
+    Control control;
+    for_source_strips(system_->nodes(), [&](int source, const Sources& strip) {
+        response.middleRows(3 * source, 3 * strip.size()).noalias() =
+            system_->single_layer(strip, plan_.elements, control) * loads.topRows(n_loads);
+    });
+    for (std::size_t i = 0; i < plan_.dropped_collocation.size(); ++i)
+        response.middleRows<3>(3 * plan_.dropped_collocation[i]) +=
+            loads.middleRows<3>(n_loads + 3 * static_cast<Eigen::Index>(i));
+    system_->solve_in_place(response);
+    displacements += response.topRows(displacements.rows());
+}
+
+Responses::Particular BemResponses::particular(const Eigen::VectorXd& residual, Control& control) const {
+    const Eigen::Index n = residual.size();
+    Particular result;
+    result.solution = Eigen::VectorXd::Zero(n + 6);
+    result.solution.head(n) = residual;
+    system_->solve_in_place(result.solution);
+    result.closing.resize(9 * std::ssize(plan_.interior_triangles));
+    for_source_strips(interior_sources(system_->boundary(), plan_.interior_triangles),
+                      [&](int source, const Sources& strip) {
+                          result.closing.segment(3 * source, 3 * strip.size()) =
+                              system_->double_layer(strip, control) * result.solution.head(n);
+                      });
+    return result;
+}
+
+std::uint64_t response_memory(const BemSystem& system, const LoadPlan& plan) {
+    const auto rows = 3 * static_cast<std::uint64_t>(system.n_nodes()) + 6;
+    const auto unknowns = static_cast<std::uint64_t>(plan.n_unknowns());
+    const std::uint64_t strips = 3 * kSourcesAtOnce * (rows + unknowns) + 2 * kColumnsAtOnce * rows;
+    return 8 * ((unknowns + 6) * (unknowns + 6) + strips) +
+           (system.keeps(plan) ? 8 * rows * unknowns : system.cache_budget() / 2);
+}
+
+}  // namespace elastolab

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "bem/system.hpp"
+#include "bem/traction_space.hpp"
+#include "deform/reduced_solver.hpp"
+
+namespace elastolab {
+
+/// Responses Hhat^-1 [G; 0] of a boundary-element solid to the loads of a plan. They are kept where the system keeps
+/// columns for so many (BemSystem::keeps); else nothing is kept: the small system is made from groups of columns, and
+/// a product integrates and solves afresh. That is as exact, and takes the time of a set change for each product
+/// (divided by the number of loads) instead of a second matrix.
+class BemResponses : public Responses {
+public:
+    BemResponses(std::shared_ptr<const BemSystem> system, LoadPlan plan, Control& control);
+
+    Eigen::Index cols() const override { return plan_.n_unknowns(); }
+    Eigen::MatrixXd small_matrix(const std::vector<int>& nodes, const Eigen::MatrixXd& rigid,
+                                 Control& control) const override;
+    void add_product(const Eigen::MatrixXd& loads, Eigen::Ref<Eigen::MatrixXd> displacements) const override;
+    Particular particular(const Eigen::VectorXd& residual, Control& control) const override;
+
+private:
+    /// Rows of the equations at interior points <- their integrals times these columns, from column `first` on.
+    void add_closing(const Columns& columns, Eigen::Index first, Eigen::Ref<Eigen::MatrixXd> rows,
+                     Control& control) const;
+    /// ... <- those of the border values, and the single layer.
+    void add_closing_of_border_and_loads(const Eigen::MatrixXd& rigid, Eigen::Ref<Eigen::MatrixXd> rows,
+                                         Control& control) const;
+
+    std::shared_ptr<const BemSystem> system_;
+    LoadPlan plan_;
+    bool kept_;
+    Columns columns_;  ///< empty when nothing is kept
+};
+
+/// Bytes that the responses of a plan, their small system and its making take at their peak.
+std::uint64_t response_memory(const BemSystem& system, const LoadPlan& plan);
+
+}  // namespace elastolab

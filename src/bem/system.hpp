@@ -1,0 +1,113 @@
+#pragma once
+
+#include <cstdint>
+#include <Eigen/Core>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "base/control.hpp"
+#include "base/lapack.hpp"
+#include "base/timer.hpp"
+#include "bem/assembly.hpp"
+#include "bem/boundary.hpp"
+#include "deform/columns.hpp"
+#include "deform/dense_solvers.hpp"
+#include "bem/traction_space.hpp"
+#include "deform/method.hpp"
+
+namespace elastolab {
+
+/// The material-free integrals of both layers over all nodes, as far as they are kept.
+struct BemIntegrals {
+    std::shared_ptr<const LayerIntegrals> H, G;
+};
+
+/// The boundary equation H u = G t of one solid with unit Young's modulus, bordered by the rigid modes B = C of its
+/// nodes and factorised:
+///   Hhat = | H   B |      Hhat^-1 = | D'  E |
+///          | B^T 0 |                | F'  J |
+/// Nodes are vertices (linear elements) or triangles (constant elements). Any thread may use it.
+class BemSystem {
+public:
+    /// `integrals`: those of this boundary and method; what is missing is integrated (and kept, if the method says so).
+    /// On demand with the update `direct` nothing is factorised here: each constrained set has a system of its own.
+    BemSystem(std::shared_ptr<const Boundary> boundary, double poisson_ratio, const Method& method,
+              BemIntegrals integrals, StageTimes& stages, Control& control);
+
+    const Boundary& boundary() const { return *boundary_; }
+    std::shared_ptr<const Boundary> shared_boundary() const { return boundary_; }
+    const VertexTriangles& around() const { return around_; }
+    bool is_constant() const { return elements_.order == Elements::Order::constant; }
+    int n_nodes() const { return nodes_.size(); }
+    const BemIntegrals& integrals() const { return integrals_; }
+
+    /// E over J: (3*n_nodes + 6) x 6.
+    const Eigen::MatrixXd& rigid() const { return rigid_; }
+    /// Condition number of Hhat, estimated; 0 when it is not factorised.
+    double condition() const { return lu_.size() > 0 ? 1.0 / lu_.reciprocal_condition() : 0.0; }
+    std::uint64_t memory_bytes() const;
+
+    /// Collocation at every node.
+    const Sources& nodes() const { return nodes_; }
+    /// Rows of H (3*sources x 3*n_nodes) and of G for a load ansatz (3*sources x 3*slots) at these sources, with the
+    /// tolerance of the method or a larger one.
+    Eigen::MatrixXd double_layer(const Sources& sources, Control& control, double tolerance = 0.0) const;
+    Eigen::MatrixXd single_layer(const Sources& sources, const Elements& loads, Control& control,
+                                 double tolerance = 0.0) const;
+    /// Rows of H at these nodes: out of memory in the mode `full`, else integrated.
+    Eigen::MatrixXd double_layer_at(std::span<const int> nodes, Control& control) const;
+
+    /// Bytes of columns that are kept at most.
+    std::uint64_t cache_budget() const { return cache_budget_; }
+    /// Whether the responses to a plan fit into what is kept.
+    bool keeps(const LoadPlan& plan) const;
+    /// Responses Hhat^-1 [G; 0] to the unit loads of a plan, then to its residuals; cached.
+    Columns responses(const LoadPlan& plan, Control& control) const;
+    /// The same, computed afresh, a group of columns at a time; none is kept.
+    void visit_responses(const LoadPlan& plan, const std::function<void(const Columns&)>& visit,
+                         Control& control) const;
+    /// X <- Hhat^-1 X.
+    void solve_in_place(Eigen::Ref<Eigen::MatrixXd> X) const { lu_.solve_in_place(X); }
+
+    /// H, G, K and Khat^-1: only in the mode `full`, else null.
+    const Eigen::MatrixXd* double_layer_matrix() const { return full_ ? &full_->H : nullptr; }
+    const Eigen::MatrixXd* single_layer_matrix() const { return full_ ? &full_->G : nullptr; }
+    std::shared_ptr<const DenseOperators> operators() const { return full_ ? full_->operators : nullptr; }
+    /// Hhat^-1 in full; computed on the first call.
+    const Eigen::MatrixXd& bordered_inverse() const;
+    const std::vector<std::string>& warnings() const { return warnings_; }
+
+private:
+    struct Full {
+        Eigen::MatrixXd H, G;
+        std::shared_ptr<const DenseOperators> operators;
+    };
+    void factorise(Eigen::MatrixXd&& bordered, Control& control);
+    void complete(Eigen::MatrixXd H, const Method& method, StageTimes& stages, Control& control);
+    /// The columns of a whole shape function, out of K^-1; null when K^-1 is not in memory or does not have them.
+    Columns::Block from_inverse(const LoadPlan::Block& block) const;
+    std::vector<Columns::Block> compute(const std::vector<const LoadPlan::Block*>& missing, Elements::Order order,
+                                        Control& control) const;
+
+    std::shared_ptr<const Boundary> boundary_;
+    Material material_;
+    double tolerance_;
+    VertexTriangles around_;
+    Sources nodes_;
+    Elements elements_;
+    BemIntegrals integrals_;
+    Eigen::MatrixXd modes_;
+    LuFactorization lu_;
+    Eigen::MatrixXd rigid_;
+    std::unique_ptr<Full> full_;
+    std::vector<std::string> warnings_;
+    std::uint64_t cache_budget_ = 0;
+    std::unique_ptr<ColumnCache> cache_;
+    mutable std::mutex inverse_mutex_;
+    mutable Eigen::MatrixXd inverse_;
+};
+
+}  // namespace elastolab

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace elastolab {
+
+/// Part of the force of a load slot that one constrained vertex carries:
+/// force += weight * load,  moment about the origin += first_moment x load.
+struct LoadShare {
+    int slot = 0;
+    int constrained = 0;                                     ///< position in the list of constrained vertices
+    double weight = 0.0;                                     ///< int psi dS (nodal forces: 1)
+    Eigen::Vector3d first_moment = Eigen::Vector3d::Zero();  ///< int psi y dS
+};
+
+}  // namespace elastolab

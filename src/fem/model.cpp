@@ -1,0 +1,212 @@
+#include "fem/model.hpp"
+
+#include "base/error.hpp"
+#include "base/lapack.hpp"
+#include "findings/guards.hpp"
+#include "elasticity/rigid_motion.hpp"
+#include "fem/condensation.hpp"
+#include "fem/constraints.hpp"
+#include "mesh/tets/tetrahedralize.hpp"
+
+namespace elastolab {
+
+namespace {
+
+std::vector<int> joined(std::span<const int> base, std::span<const int> handles) {
+    std::vector<int> vertices(base.begin(), base.end());
+    vertices.insert(vertices.end(), handles.begin(), handles.end());
+    return vertices;
+}
+
+/// [K R; R^T 0]^-1 = [K^+ R; R^T 0] for symmetric K with the null space R: K^+ = (K + a R R^T)^-1 - R R^T / a.
+Eigen::MatrixXd bordered_inverse(const Eigen::MatrixXd& K, const Positions& positions) {
+    const Eigen::MatrixXd R = rigid_modes(positions);
+    const double a = K.diagonal().mean();
+    const Eigen::Index n = K.rows();
+    Eigen::MatrixXd grounded = K;
+    grounded.noalias() += a * R * R.transpose();
+    Eigen::MatrixXd inverse = Eigen::MatrixXd::Zero(n + 6, n + 6);
+    inverse.topLeftCorner(n, n) = spd_inverse(std::move(grounded), "stiffness matrix");
+    inverse.topLeftCorner(n, n).noalias() -= R * R.transpose() / a;
+    inverse.topRightCorner(n, 6) = R;
+    inverse.bottomLeftCorner(6, n) = R.transpose();
+    return inverse;
+}
+
+/// Columns of the nodes' loads out of a bordered inverse in memory.
+ReducedSystem reduced_from(const DenseOperators& operators, const std::vector<int>& nodes) {
+    ReducedSystem reduced;
+    std::vector<Columns::Block> blocks;
+    for (const int node : nodes)
+        blocks.push_back(std::make_shared<const Eigen::MatrixXd>(operators.Khatinv.middleCols<3>(3 * node)));
+    reduced.responses = std::make_shared<const KeptResponses>(Columns(std::move(blocks)));
+    reduced.rigid = operators.Khatinv.rightCols<6>();
+    reduced.nodes = nodes;
+    reduced.n_loads = 3 * std::ssize(nodes);
+    return reduced;
+}
+
+}  // namespace
+
+FemModel::FemModel(const SurfaceMesh& surface, const std::string& name, double poisson_ratio, const Method& method,
+                   Control& control)
+    : method_(method) {
+    auto mesh = std::make_shared<FemMesh>();
+    {
+        const Stage stage("tetrahedralize", control, facts_.stages);
+        mesh->tets = tetrahedralize(surface, name, TetOptions{}, control);
+    }
+    {
+        const Stage stage("integrate", control, facts_.stages);
+        mesh->parts = assemble_stiffness_parts(mesh->tets, control);
+    }
+    {
+        const Stage stage("analyse", control, facts_.stages);
+        mesh->analysis = std::make_unique<CholeskyAnalysis>(mesh->parts.mu);
+    }
+    mesh_ = std::move(mesh);
+    facts_.n_triangles = surface.n_triangles();
+    precompute(poisson_ratio, control);
+}
+
+FemModel::FemModel(const FemModel& before, double poisson_ratio, const Method& method, Control& control)
+    : method_(method), mesh_(before.mesh_) {
+    facts_.n_triangles = before.facts_.n_triangles;
+    if (before.poisson_ratio_ == poisson_ratio && before.method_.mode == method.mode) {
+        poisson_ratio_ = poisson_ratio;
+        facts_ = before.facts_;
+        facts_.stages.clear();
+        system_ = before.system_;
+        operators_ = before.operators_;
+        const std::scoped_lock lock(before.grounded_mutex_);
+        free_body_ = before.free_body_;
+        grounded_body_ = before.grounded_body_;
+    } else {
+        precompute(poisson_ratio, control);
+    }
+}
+
+void FemModel::precompute(double poisson_ratio, Control& control) {
+    if (poisson_ratio >= 0.5)
+        throw SolveError(
+            "poisson_ratio: FEM with displacements alone needs a value below 1/2. Choose a boundary-element "
+            "method, which has no such limit.");
+    poisson_ratio_ = poisson_ratio;
+    system_ =
+        std::make_shared<const FemSystem>(FemSystem{mesh_, stiffness(mesh_->parts, Material{1.0, poisson_ratio})});
+    const TetMesh& tets = mesh_->tets;
+    facts_.n_vertices = tets.n_surface_vertices;
+    facts_.n_tetrahedra = tets.n_tetrahedra();
+    facts_.n_degrees_of_freedom = 3 * tets.n_vertices();
+    facts_.memory_bytes = mesh_->analysis->factor_bytes();
+    facts_.warnings = warn_of_locking(poisson_ratio);
+    // On demand the first constrained set decides what is factorised: K with its base eliminated, or the free body.
+    if (method_.mode == Mode::on_demand) return;
+    auto operators = std::make_shared<DenseOperators>();
+    {
+        const Stage stage("K", control, facts_.stages);
+        operators->K = method_.mode == Mode::full ? condense_to_surface(system_->K, tets.n_surface_vertices, control)
+                                                  : Eigen::MatrixXd(system_->K);
+    }
+    {
+        const Stage stage("K^-1", control, facts_.stages);
+        operators->Khatinv = bordered_inverse(operators->K, tets.vertices.leftCols(operators->K.rows() / 3));
+    }
+    facts_.memory_bytes = 16 * static_cast<std::uint64_t>(operators->Khatinv.size());
+    const Eigen::MatrixXd& inverse = operators->Khatinv;
+    facts_.condition_estimate =
+        operators->K.cwiseAbs().colwise().sum().maxCoeff() *
+        inverse.topLeftCorner(operators->K.rows(), operators->K.cols()).cwiseAbs().colwise().sum().maxCoeff();
+    const auto precision = warn_of_condition("stiffness matrix", facts_.condition_estimate);
+    facts_.warnings.insert(facts_.warnings.end(), precision.begin(), precision.end());
+    operators_ = std::move(operators);
+}
+
+std::shared_ptr<const GroundedBody> FemModel::grounded_on(std::span<const int> base, Control& control) const {
+    const std::vector<int> wanted(base.begin(), base.end());
+    const std::scoped_lock lock(grounded_mutex_);
+    std::shared_ptr<const GroundedBody>& body = wanted.empty() ? free_body_ : grounded_body_;
+    if (!body || body->base() != wanted) body = std::make_shared<const GroundedBody>(system_, wanted, control);
+    return body;
+}
+
+std::uint64_t FemModel::constrain_memory(std::span<const int> base, std::span<const int> handles) const {
+    const auto n_base = 3 * static_cast<std::uint64_t>(base.size());
+    const auto constrained = n_base + 3 * static_cast<std::uint64_t>(handles.size());
+    const auto surface = 3 * static_cast<std::uint64_t>(system_->n_surface());
+    if (operators_ && method_.update != Update::reduced) {
+        const auto all = static_cast<std::uint64_t>(operators_->K.rows()), free = all - constrained;
+        return 8 * free * (method_.update == Update::eqn9 ? 2 * free + constrained : all);
+    }
+    const std::uint64_t factor = operators_ ? 0 : mesh_->analysis->factor_bytes();
+    if (method_.update == Update::direct) return factor;
+    const auto unknowns = 6 + (!operators_ && holds(system_->positions(), base) ? constrained - n_base : constrained);
+    return factor + 8 * unknowns * (unknowns + surface);
+}
+
+std::unique_ptr<ConstrainedSolid> FemModel::constrain(std::span<const int> base, std::span<const int> handles,
+                                                      Control& control) const {
+    if (operators_) return constrain_dense(joined(base, handles), control);
+    if (method_.update == Update::eqn9)
+        throw SolveError("update eqn9: needs K and its inverse in memory. Choose the mode full.");
+    if (method_.update == Update::reduced) return constrain_reduced(base, handles, control);
+
+    std::vector<int> vertices = joined(base, handles);
+    const auto residual = [system = system_, vertices](const NodeSolution& solution, Control&) {
+        return stiffness_residual(system->K, solution.displacements, vertices, solution.loads);
+    };
+    return std::make_unique<ConstrainedSolid>(
+        system_->n_surface(), constrain_vertices(vertices), nodal_shares(system_->positions(), vertices), nullptr,
+        std::make_unique<SparseDirectSolver>(system_, vertices, control), SolutionChecks{residual, {}});
+}
+
+std::unique_ptr<ConstrainedSolid> FemModel::constrain_dense(const std::vector<int>& vertices, Control& control) const {
+    std::unique_ptr<NodeSolver> solver;
+    switch (method_.update) {
+        case Update::direct:
+            solver = std::make_unique<DirectSolver>(operators_, vertices, &control);
+            break;
+        case Update::eqn9:
+            solver = make_paper_solver(operators_, vertices, control);
+            break;
+        case Update::reduced:
+            solver = std::make_unique<ReducedSolver>(reduced_from(*operators_, vertices), control);
+            break;
+    }
+    const auto residual = [operators = operators_, vertices](const NodeSolution& solution, Control&) {
+        Eigen::MatrixXd f = Eigen::MatrixXd::Zero(operators->K.rows(), 1);
+        set_prescribed(vertices, solution.loads, f);
+        const Eigen::VectorXd u = solution.displacements;
+        const double size = (operators->K.cwiseAbs() * u.cwiseAbs() + f.cwiseAbs()).norm();
+        return size > 0.0 ? (operators->K * u - f).norm() / size : 0.0;
+    };
+    return std::make_unique<ConstrainedSolid>(system_->n_surface(), constrain_vertices(vertices),
+                                              nodal_shares(system_->positions(), vertices), nullptr, std::move(solver),
+                                              SolutionChecks{residual, {}});
+}
+
+std::unique_ptr<ConstrainedSolid> FemModel::constrain_reduced(std::span<const int> base, std::span<const int> handles,
+                                                              Control& control) const {
+    const bool eliminate = holds(system_->positions(), base);
+    const auto body = grounded_on(eliminate ? base : std::span<const int>{}, control);
+    const std::vector<int> vertices = joined(base, handles);
+    std::vector<int> others = eliminate ? std::vector<int>(handles.begin(), handles.end()) : vertices;
+    const auto residual = [body, vertices](const NodeSolution& solution, Control&) {
+        Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(solution.displacements.rows(), 1);
+        set_prescribed(vertices, solution.loads, loads);
+        const Eigen::MatrixXd u = body->volume_displacements(solution.displacements, loads);
+        return stiffness_residual(body->system().K, u, vertices, solution.loads);
+    };
+    return std::make_unique<ConstrainedSolid>(
+        system_->n_surface(), constrain_vertices(vertices), nodal_shares(system_->positions(), vertices), nullptr,
+        std::make_unique<GroundedSolver>(body, std::move(others), control), SolutionChecks{residual, {}});
+}
+
+void FemModel::visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const {
+    if (!operators_) return;
+    visit({"K", operators_->K});
+    visit({"Kinv", operators_->D()});
+    visit({"Khatinv", operators_->Khatinv});
+}
+
+}  // namespace elastolab

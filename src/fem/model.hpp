@@ -1,0 +1,47 @@
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "deform/dense_solvers.hpp"
+#include "fem/solvers.hpp"
+#include "deform/solid_model.hpp"
+
+namespace elastolab {
+
+/// A solid by linear tetrahedra. All modes show the surface vertices, which are the first nodes of the mesh.
+class FemModel : public SolidModel {
+public:
+    /// Throws MeshError when the surface cannot be filled with tetrahedra; `name` is that of the body.
+    FemModel(const SurfaceMesh& surface, const std::string& name, double poisson_ratio, const Method& method,
+             Control& control);
+    /// The same tetrahedra with another material or method: nothing is integrated.
+    FemModel(const FemModel& before, double poisson_ratio, const Method& method, Control& control);
+
+    std::unique_ptr<ConstrainedSolid> constrain(std::span<const int> base, std::span<const int> handles,
+                                                Control& control) const override;
+    std::uint64_t constrain_memory(std::span<const int> base, std::span<const int> handles) const override;
+    void visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const override;
+    const SparseStiffness* sparse_stiffness() const override { return &system_->K; }
+    const TetMesh* tetrahedra() const override { return &mesh_->tets; }
+
+private:
+    void precompute(double poisson_ratio, Control& control);
+    std::unique_ptr<ConstrainedSolid> constrain_dense(const std::vector<int>& vertices, Control& control) const;
+    std::unique_ptr<ConstrainedSolid> constrain_reduced(std::span<const int> base, std::span<const int> handles,
+                                                        Control& control) const;
+    std::shared_ptr<const GroundedBody> grounded_on(std::span<const int> base, Control& control) const;
+
+    Method method_;
+    double poisson_ratio_ = 0.0;
+    std::shared_ptr<const FemMesh> mesh_;
+    std::shared_ptr<const FemSystem> system_;
+    std::shared_ptr<const DenseOperators> operators_;  ///< modes full and full_volume
+    /// On demand: the body free, and grounded on the base asked for last.
+    mutable std::mutex grounded_mutex_;
+    mutable std::shared_ptr<const GroundedBody> free_body_, grounded_body_;
+};
+
+}  // namespace elastolab

@@ -1,0 +1,149 @@
+#include "fem/solvers.hpp"
+
+#include <algorithm>
+#include <Eigen/QR>
+#include "base/error.hpp"
+
+#include "elasticity/rigid_motion.hpp"
+#include "fem/constraints.hpp"
+
+namespace elastolab {
+
+namespace {
+
+constexpr std::uint64_t kCacheBudget = 512ull << 20;
+/// Columns are copied from strips of these into the blocks that are kept.
+constexpr std::size_t kVerticesAtOnce = 128;
+
+ReducedSystem reduced_system(const GroundedBody& body, const std::vector<int>& vertices, Control& control) {
+    const Eigen::MatrixXd& R = body.compliance().rigid();
+    ReducedSystem reduced;
+    reduced.responses = std::make_shared<const KeptResponses>(body.responses(vertices, control));
+    reduced.rigid = Eigen::MatrixXd::Zero(R.rows() + R.cols(), R.cols());
+    reduced.rigid.topRows(R.rows()) = R;
+    reduced.nodes = vertices;
+    reduced.n_loads = 3 * std::ssize(vertices);
+    return reduced;
+}
+
+SparseMatrix eliminated_held(const FemSystem& system, const std::vector<int>& vertices) {
+    if (!holds(system.positions(), vertices)) throw NotHeldError();
+    return eliminated(system.K, vertices);
+}
+
+}  // namespace
+
+GroundedBody::GroundedBody(std::shared_ptr<const FemSystem> system, std::vector<int> base, Control& control)
+    : system_(std::move(system)),
+      base_(std::move(base)),
+      compliance_(system_->K, *system_->mesh->analysis, system_->positions(), system_->n_surface(), base_, control),
+      reciprocal_condition_(compliance_.reciprocal_condition()),
+      cache_(kCacheBudget) {}
+
+Columns GroundedBody::responses(const std::vector<int>& vertices, Control& control) const {
+    std::vector<ColumnKey> keys;
+    for (const int v : vertices) keys.push_back({v});
+    const auto block_bytes = 24 * static_cast<std::uint64_t>(3 * system_->n_surface() + compliance_.rigid().cols());
+    return cache_.get(
+        keys, [&](const ColumnKey&) { return block_bytes; },
+        [&](const std::vector<ColumnKey>& missing) {
+            std::vector<int> wanted;
+            for (const ColumnKey& key : missing) wanted.push_back(key.front());
+            std::vector<Columns::Block> blocks;
+            for (std::size_t first = 0; first < wanted.size(); first += kVerticesAtOnce)
+                add_blocks(std::span(wanted).subspan(first, std::min(kVerticesAtOnce, wanted.size() - first)), blocks,
+                           control);
+            return blocks;
+        });
+}
+
+void GroundedBody::add_blocks(std::span<const int> vertices, std::vector<Columns::Block>& blocks,
+                              Control& control) const {
+    const Eigen::MatrixXd columns = compliance_.columns(vertices, control);
+    const Eigen::MatrixXd& R = compliance_.rigid();
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        Eigen::MatrixXd block(columns.rows() + R.cols(), 3);
+        block.topRows(columns.rows()) = columns.middleCols<3>(3 * static_cast<Eigen::Index>(i));
+        block.bottomRows(R.cols()) = R.middleRows<3>(3 * vertices[i]).transpose();
+        blocks.push_back(std::make_shared<const Eigen::MatrixXd>(std::move(block)));
+    }
+}
+
+Eigen::MatrixXd GroundedBody::volume_displacements(const Eigen::MatrixXd& surface, const Eigen::MatrixXd& loads) const {
+    Eigen::MatrixXd u = compliance_.volume_response(loads);
+    if (compliance_.rigid().cols() > 0) {
+        // The response is right up to a rigid motion, which the surface tells.
+        const Eigen::MatrixXd modes = rigid_modes(system_->positions());
+        const Eigen::MatrixXd on_surface = modes.topRows(surface.rows());
+        u += modes * on_surface.householderQr().solve(surface - u.topRows(surface.rows()));
+    }
+    u.topRows(surface.rows()) = surface;
+    return u;
+}
+
+GroundedSolver::GroundedSolver(std::shared_ptr<const GroundedBody> body, std::vector<int> vertices, Control& control)
+    : body_(std::move(body)),
+      vertices_(std::move(vertices)),
+      reduced_(reduced_system(*body_, vertices_, control), control) {
+    condition_ = std::max(reduced_.condition(), 1.0 / body_->reciprocal_condition());
+    held_ = reduced_.held();
+}
+
+NodeSolution GroundedSolver::solve(const Eigen::MatrixXd& prescribed, bool want_loads) const {
+    const Eigen::Index n_base = 3 * std::ssize(body_->base());
+    NodeSolution solution = reduced_.solve(prescribed.bottomRows(prescribed.rows() - n_base), want_loads);
+    if (!want_loads || n_base == 0) return solution;
+    Eigen::MatrixXd surface_loads = Eigen::MatrixXd::Zero(solution.displacements.rows(), prescribed.cols());
+    set_prescribed(vertices_, solution.loads, surface_loads);
+    const Eigen::MatrixXd u = body_->volume_displacements(solution.displacements, surface_loads);
+    Eigen::MatrixXd loads(prescribed.rows(), prescribed.cols());
+    loads << nodal_forces(body_->system().K, u, body_->base()), solution.loads;
+    solution.loads = std::move(loads);
+    return solution;
+}
+
+SparseDirectSolver::SparseDirectSolver(std::shared_ptr<const FemSystem> system, std::vector<int> vertices,
+                                       Control& control)
+    : system_(std::move(system)),
+      vertices_(std::move(vertices)),
+      factor_(*system_->mesh->analysis, eliminated_held(*system_, vertices_), "stiffness matrix") {
+    control.checkpoint();
+    condition_ = 1.0 / factor_.reciprocal_condition();
+}
+
+NodeSolution SparseDirectSolver::solve(const Eigen::MatrixXd& prescribed, bool want_loads) const {
+    NodeSolution solution;
+    solution.displacements = Eigen::MatrixXd::Zero(system_->K.rows(), prescribed.cols());
+    set_prescribed(vertices_, prescribed, solution.displacements);
+    Eigen::MatrixXd right = -(system_->K * solution.displacements);
+    for (const int v : vertices_) right.middleRows<3>(3 * v).setZero();
+    solution.displacements += factor_.solve(right);
+    if (want_loads) solution.loads = nodal_forces(system_->K, solution.displacements, vertices_);
+    return solution;
+}
+
+double stiffness_residual(const SparseMatrix& K, const Eigen::VectorXd& u, const std::vector<int>& vertices,
+                          const Eigen::VectorXd& forces) {
+    Eigen::MatrixXd f = Eigen::MatrixXd::Zero(u.size(), 1);
+    set_prescribed(vertices, forces, f);
+    const Eigen::VectorXd off = K * u - f;
+    const Eigen::VectorXd size = K.cwiseAbs() * u.cwiseAbs() + f.cwiseAbs();
+    return size.norm() > 0.0 ? off.norm() / size.norm() : 0.0;
+}
+
+Eigen::MatrixXd nodal_forces(const SparseMatrix& K, const Eigen::MatrixXd& u, const std::vector<int>& vertices) {
+    const Eigen::MatrixXd f = K * u;
+    Eigen::MatrixXd at(3 * std::ssize(vertices), u.cols());
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+        at.middleRows<3>(3 * static_cast<Eigen::Index>(i)) = f.middleRows<3>(3 * vertices[i]);
+    return at;
+}
+
+std::vector<LoadShare> nodal_shares(const Positions& positions, const std::vector<int>& vertices) {
+    std::vector<LoadShare> shares;
+    for (int i = 0; i < std::ssize(vertices); ++i)
+        shares.push_back({i, i, 1.0, positions.col(vertices[static_cast<std::size_t>(i)])});
+    return shares;
+}
+
+}  // namespace elastolab

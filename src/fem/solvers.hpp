@@ -1,0 +1,98 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "deform/columns.hpp"
+#include "deform/load_share.hpp"
+#include "deform/node_solver.hpp"
+#include "deform/reduced_solver.hpp"
+#include "fem/assembly.hpp"
+#include "fem/compliance.hpp"
+#include "fem/sparse_cholesky.hpp"
+
+namespace elastolab {
+
+/// What does not depend on the material: the tetrahedra, their integrals and the ordering of the factorisation.
+struct FemMesh {
+    TetMesh tets;
+    StiffnessParts parts;
+    std::unique_ptr<const CholeskyAnalysis> analysis;
+};
+
+/// K of all nodes for unit Young's modulus.
+struct FemSystem {
+    std::shared_ptr<const FemMesh> mesh;
+    SparseMatrix K;
+
+    const Positions& positions() const { return mesh->tets.vertices; }
+    int n_surface() const { return mesh->tets.n_surface_vertices; }
+};
+
+/// The body factorised with a base eliminated (or free), and the columns of its surface compliance so far.
+class GroundedBody {
+public:
+    GroundedBody(std::shared_ptr<const FemSystem> system, std::vector<int> base, Control& control);
+
+    const FemSystem& system() const { return *system_; }
+    const std::vector<int>& base() const { return base_; }
+    const SurfaceCompliance& compliance() const { return compliance_; }
+    /// Of the factorised matrix, estimated.
+    double reciprocal_condition() const { return reciprocal_condition_; }
+    /// D over R^T for these vertices (with a base: D alone); cached.
+    Columns responses(const std::vector<int>& vertices, Control& control) const;
+    /// Displacements of all nodes for displacements of the surface and the loads on it that cause them.
+    Eigen::MatrixXd volume_displacements(const Eigen::MatrixXd& surface, const Eigen::MatrixXd& loads) const;
+
+private:
+    void add_blocks(std::span<const int> vertices, std::vector<Columns::Block>& blocks, Control& control) const;
+
+    std::shared_ptr<const FemSystem> system_;
+    std::vector<int> base_;
+    SurfaceCompliance compliance_;
+    double reciprocal_condition_;
+    mutable ColumnCache cache_;
+};
+
+/// Eqn. (9') on a grounded body: the small system of the vertices that are not eliminated. Its loads are nodal forces
+/// at the base, then at these vertices.
+class GroundedSolver : public NodeSolver {
+public:
+    GroundedSolver(std::shared_ptr<const GroundedBody> body, std::vector<int> vertices, Control& control);
+    /// prescribed: the base (zero) first, then the vertices
+    NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const override;
+
+private:
+    std::shared_ptr<const GroundedBody> body_;
+    std::vector<int> vertices_;
+    ReducedSolver reduced_;
+};
+
+/// Eqn. 7 on the sparse matrix: K00 factorised for this constrained set.
+class SparseDirectSolver : public NodeSolver {
+public:
+    /// vertices hold the body, else SolveError.
+    SparseDirectSolver(std::shared_ptr<const FemSystem> system, std::vector<int> vertices, Control& control);
+    /// Displacements of all nodes.
+    NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const override;
+
+private:
+    std::shared_ptr<const FemSystem> system_;
+    std::vector<int> vertices_;
+    SparseCholesky factor_;
+};
+
+/// |K u - f| / | |K| |u| + |f| |, Euclidean, for displacements of all nodes and forces at `vertices`.
+double stiffness_residual(const SparseMatrix& K, const Eigen::VectorXd& u, const std::vector<int>& vertices,
+                          const Eigen::VectorXd& forces);
+
+/// Nodal forces K u at these vertices.
+Eigen::MatrixXd nodal_forces(const SparseMatrix& K, const Eigen::MatrixXd& u, const std::vector<int>& vertices);
+
+/// A load slot per vertex, carrying a nodal force.
+std::vector<LoadShare> nodal_shares(const Positions& positions, const std::vector<int>& vertices);
+
+}  // namespace elastolab

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "mesh/checks/check.hpp"
+#include "mesh/surface_mesh.hpp"
+#include "mesh/topology.hpp"
+
+namespace elastolab {
+
+/// Collects the places of one kind of defect and words the finding.
+class DefectCount {
+public:
+    void add(const Eigen::Vector3d& place);
+    int count() const { return defect_.count; }
+    /// "12 open edges near (0, 1, 0)" from "open edge" and "open edges", then `rest`.
+    Defect build(Defect::Kind kind, const std::string& one, const std::string& many, const std::string& rest) const;
+    /// build, and into the report, if there is any.
+    void report_fatal(MeshReport& report, Defect::Kind kind, const std::string& one, const std::string& many,
+                      const std::string& rest) const;
+
+private:
+    Defect defect_{};
+};
+
+/// "1 open edge near (0, 1, 0)".
+std::string counted(int count, const std::string& one, const std::string& many,
+                    const std::vector<Eigen::Vector3d>& places);
+
+// What each inspection finds goes into the report.
+
+void report_non_finite(const SurfaceMesh& mesh, MeshReport& report);
+void report_unreferenced(const SurfaceMesh& mesh, MeshReport& report);
+/// Triangles of two equal vertices; these are then left out of what looks at edges.
+void report_collapsed(const SurfaceMesh& mesh, MeshReport& report);
+void report_edges(const SurfaceMesh& mesh, const EdgeTable& edges, MeshReport& report);
+void report_hinges(const SurfaceMesh& mesh, MeshReport& report);
+void report_duplicates(const SurfaceMesh& mesh, MeshReport& report);
+/// Triangles without area, and slivers.
+void report_shapes(const SurfaceMesh& mesh, MeshReport& report);
+
+/// Turns triangles so that all of a component face the same side; reports what was turned, or a one-sided surface.
+void repair_orientation(SurfaceMesh& mesh, const EdgeTable& edges, const Components& components, MeshReport& report);
+
+/// Pairs of triangles that cross or touch, at most so many. Every triangle has some area.
+struct CrossingPairs {
+    std::vector<std::pair<int, int>> pairs;
+    bool complete = true;
+};
+CrossingPairs find_crossing_pairs(const SurfaceMesh& mesh);
+void report_crossings(const SurfaceMesh& mesh, const CrossingPairs& crossings, MeshReport& report);
+
+/// Turns closed components so that solids face outward and cavities inward; reports these, parts without volume, the
+/// number of solids and the volume. The mesh is closed and consistently oriented.
+void repair_inside_out(SurfaceMesh& mesh, const Components& components, const CrossingPairs& crossings,
+                       MeshReport& report);
+
+}  // namespace elastolab

@@ -1,0 +1,85 @@
+#include <algorithm>
+#include <cmath>
+
+#include "mesh/box_tree.hpp"
+#include "mesh/checks/defects.hpp"
+#include "mesh/measures.hpp"
+#include "mesh/checks/triangle_contact.hpp"
+
+namespace elastolab {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/// The integrals of boundary elements over a triangle of altitude / longest edge a are right to about 10 eps / a^2.
+constexpr double kSliver = 1e-3, kBadSliver = 1e-4, kNoArea = 1e-7;
+
+const char* sliver_advice(double thinnest) {
+    return thinnest < kBadSliver ? ", below a ten-thousandth, where boundary elements lose most of their digits. "
+                                   "Remesh the surface there."
+                                 : ", where boundary elements lose several digits. Remesh the surface there if the "
+                                   "result must be accurate.";
+}
+
+}  // namespace
+
+void report_shapes(const SurfaceMesh& mesh, MeshReport& report) {
+    DefectCount flat, slivers;
+    double thinnest = 1.0;
+    for (int t = 0; t < mesh.n_triangles(); ++t) {
+        const TrianglePoints p = triangle_points(mesh, t);
+        const double longest = std::max({(p.b - p.a).norm(), (p.c - p.b).norm(), (p.a - p.c).norm()});
+        const double ratio = longest > 0.0 ? area_vector(p).norm() / (longest * longest) : 0.0;
+        thinnest = std::min(thinnest, ratio);
+        const Vector3d center = (p.a + p.b + p.c) / 3.0;
+        if (!(ratio > kNoArea)) {
+            flat.add(center);
+        } else if (ratio < kSliver) {
+            slivers.add(center);
+        }
+    }
+    report.smallest_altitude_ratio = thinnest;
+    flat.report_fatal(report, Defect::Kind::degenerate_triangles, "triangle has no area", "triangles have no area",
+                      ". Remove degenerate triangles or remesh, and reload.");
+    if (slivers.count() == 0) return;
+    report.defects.push_back(
+        slivers.build(Defect::Kind::sliver_triangles, "triangle is thinner than a thousandth of its length",
+                      "triangles are thinner than a thousandth of their length", sliver_advice(thinnest)));
+}
+
+CrossingPairs find_crossing_pairs(const SurfaceMesh& mesh) {
+    constexpr std::size_t kMostPairs = 100000;  // a mesh with more is hopeless, and could have n^2 of them
+    // The exact predicates want numbers far from over- and underflow; a power of two changes no digit.
+    const double size = std::max(mesh.vertices.cwiseAbs().maxCoeff(), 1e-300);
+    const SurfaceMesh unit{mesh.vertices * std::ldexp(1.0, -std::ilogb(size)), mesh.triangles};
+    std::vector<int> sound;
+    for (int t = 0; t < unit.n_triangles(); ++t) {
+        const TrianglePoints p = triangle_points(unit, t);
+        if (!is_degenerate(p.a, p.b, p.c)) sound.push_back(t);
+    }
+    CrossingPairs found;
+    BoxTree(unit, std::move(sound)).for_each_close_pair([&](int s, int t) {
+        if (in_contact(unit, s, t)) found.pairs.emplace_back(s, t);
+        return found.pairs.size() < kMostPairs;
+    });
+    found.complete = found.pairs.size() < kMostPairs;
+    return found;
+}
+
+void report_crossings(const SurfaceMesh& mesh, const CrossingPairs& crossings, MeshReport& report) {
+    if (crossings.pairs.empty()) return;
+    DefectCount found;
+    for (const auto& [s, t] : crossings.pairs) {
+        const TrianglePoints p = triangle_points(mesh, s);
+        found.add((p.a + p.b + p.c) / 3.0);
+    }
+    Defect defect = found.build(Defect::Kind::self_intersections, "pair of triangles crosses or touches",
+                                "pairs of triangles cross or touch",
+                                ", so FEM cannot fill it. Remove the overlap, or use a boundary-element method.");
+    if (!crossings.complete) defect.text = "at least " + defect.text;
+    defect.fatal_for_fem = true;
+    report.defects.push_back(std::move(defect));
+}
+
+}  // namespace elastolab

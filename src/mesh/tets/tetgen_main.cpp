@@ -1,0 +1,73 @@
+// elastolab-tetgen: runs TetGen for tetrahedralize(), so that an abort or crash of TetGen ends this process only.
+// Standard input is a socket to the caller; what TetGen prints goes to standard output, which the caller keeps.
+#include <tetgen.h>
+
+#include <algorithm>
+#include <new>
+#include <vector>
+
+#include "mesh/input/helper_io.hpp"
+#include "mesh/tets/tetgen_protocol.hpp"
+
+namespace {
+
+using namespace elastolab;
+
+/// The surface as TetGen takes it. tetgenio frees what it points to with delete[].
+void fill(tetgenio& in, const std::vector<double>& vertices, const std::vector<int>& triangles,
+          const std::vector<double>& holes) {
+    in.firstnumber = 0;
+    in.numberofpoints = static_cast<int>(vertices.size() / 3);
+    in.pointlist = new double[vertices.size()];
+    std::copy(vertices.begin(), vertices.end(), in.pointlist);
+    in.numberoffacets = static_cast<int>(triangles.size() / 3);
+    in.facetlist = new tetgenio::facet[triangles.size() / 3];
+    for (int t = 0; t < in.numberoffacets; ++t) {
+        tetgenio::facet& facet = in.facetlist[t];
+        tetgenio::init(&facet);
+        facet.numberofpolygons = 1;
+        facet.polygonlist = new tetgenio::polygon[1];
+        facet.polygonlist[0].numberofvertices = 3;
+        facet.polygonlist[0].vertexlist = new int[3];
+        std::copy_n(&triangles[static_cast<std::size_t>(3 * t)], 3, facet.polygonlist[0].vertexlist);
+    }
+    in.numberofholes = static_cast<int>(holes.size() / 3);
+    in.holelist = holes.empty() ? nullptr : new double[holes.size()];
+    std::copy(holes.begin(), holes.end(), in.holelist);
+}
+
+int run(char* switches, tetgenio& in, tetgenio& out) {
+    try {
+        tetrahedralize(switches, &in, &out);
+        return 0;
+    } catch (int status) {
+        return status == 0 ? -1 : status;
+    } catch (const std::bad_alloc&) {
+        return 1;  // TetGen's own number for this
+    }
+}
+
+}  // namespace
+
+int main() {
+    begin_helper();
+    TetgenRequestHeader request;
+    read_bytes(&request, sizeof(request));
+    if (request.magic != kTetgenMagic || request.switches.back() != '\0') return kHelperMisused;
+    const auto vertices = read_array<double>(3 * request.n_vertices);
+    const auto triangles = read_array<int>(3 * request.n_triangles);
+    const auto holes = read_array<double>(3 * request.n_holes);
+
+    tetgenio in, out;
+    fill(in, vertices, triangles, holes);
+    TetgenReplyHeader reply;
+    reply.status = run(request.switches.data(), in, out);
+    if (reply.status == 0) {
+        reply.n_vertices = out.numberofpoints;
+        reply.n_tetrahedra = out.numberoftetrahedra;
+    }
+    write_bytes(&reply, sizeof(reply));
+    write_bytes(out.pointlist, 3 * sizeof(double) * static_cast<std::size_t>(reply.n_vertices));
+    write_bytes(out.tetrahedronlist, 4 * sizeof(int) * static_cast<std::size_t>(reply.n_tetrahedra));
+    std::_Exit(0);  // at once: what TetGen leaves behind after a throw cannot be trusted
+}

@@ -1,0 +1,115 @@
+#include "mesh/tets/tetgen_process.hpp"
+
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cassert>
+#include <csignal>
+#include <cstring>
+#include <string_view>
+#include <vector>
+
+#include "mesh/input/child_process.hpp"
+#include "mesh/tets/tetgen_protocol.hpp"
+
+namespace elastolab {
+
+namespace {
+
+template <class T>
+void append(std::string& bytes, const T* values, Eigen::Index count) {
+    const auto size = sizeof(T) * static_cast<std::size_t>(count);
+    const std::size_t end = bytes.size();
+    bytes.resize(end + size);
+    if (size > 0) std::memcpy(bytes.data() + end, values, size);
+}
+
+std::string request_bytes(const SurfaceMesh& surface, const Positions& holes, const std::string& switches) {
+    TetgenRequestHeader header;
+    assert(switches.size() < header.switches.size());
+    std::copy(switches.begin(), switches.end(), header.switches.begin());
+    header.n_vertices = surface.n_vertices();
+    header.n_triangles = surface.n_triangles();
+    header.n_holes = static_cast<std::int32_t>(holes.cols());
+    std::string bytes;
+    append(bytes, &header, 1);
+    append(bytes, surface.vertices.data(), surface.vertices.size());
+    append(bytes, surface.triangles.data(), surface.triangles.size());
+    append(bytes, holes.data(), holes.size());
+    return bytes;
+}
+
+/// Last line that TetGen printed with something like a reason in it.
+std::string reason_in(const std::string& output) {
+    std::string reason;
+    for (std::size_t begin = 0; begin < output.size();) {
+        const std::size_t end = std::min(output.find('\n', begin), output.size());
+        const std::string line = output.substr(begin, end - begin);
+        const auto says = [&](const char* word) { return line.find(word) != std::string::npos; };
+        if (says("Error") || says("intersect") || says("duplicate") || says("error")) reason = line;
+        begin = end + 1;
+    }
+    std::replace_if(
+        reason.begin(), reason.end(), [](char c) { return c < ' '; }, ' ');
+    const std::size_t text = reason.find_first_not_of(' ');
+    return text == std::string::npos ? "" : " (TetGen: " + reason.substr(text, 160) + ")";
+}
+
+std::string meaning_of_status(int status) {
+    switch (status) {
+        case 1:
+            return "TetGen ran out of memory";
+        case 3:
+            return "the surface intersects itself";
+        case 4:
+            return "parts of the surface are too close together for TetGen's tolerance";
+        case 5:
+            return "two facets of the surface almost coincide";
+        case 10:
+            return "TetGen rejects the surface";
+        default:
+            return "TetGen gave up with internal error " + std::to_string(status);
+    }
+}
+
+std::string meaning_of_end(int status) {
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL) return "TetGen was killed, most likely for lack of memory";
+    if (WIFSIGNALED(status)) return "TetGen crashed on it (signal " + std::to_string(WTERMSIG(status)) + ")";
+    return "TetGen ended early (exit code " + std::to_string(WEXITSTATUS(status)) + ")";
+}
+
+std::size_t expected_size(const TetgenReplyHeader& header) {
+    return sizeof(header) + 3 * sizeof(double) * static_cast<std::size_t>(header.n_vertices) +
+           4 * sizeof(int) * static_cast<std::size_t>(header.n_tetrahedra);
+}
+
+}  // namespace
+
+TetgenResult run_tetgen(const SurfaceMesh& surface, const Positions& holes, const std::string& switches,
+                        Control& control) {
+    ChildProcess helper(helper_program("elastolab-tetgen"));
+    const std::vector<char> reply = helper.exchange(request_bytes(surface, holes, switches), control);
+    const int status = helper.wait(control);
+
+    TetgenResult result;
+    TetgenReplyHeader header;
+    if (reply.size() >= sizeof(header)) std::memcpy(&header, reply.data(), sizeof(header));
+    if (reply.size() < sizeof(header) || header.magic != kTetgenMagic || reply.size() != expected_size(header)) {
+        result.failure = meaning_of_end(status) + reason_in(helper.output());
+        return result;
+    }
+    if (header.status != 0) {
+        result.failure = meaning_of_status(header.status) + reason_in(helper.output());
+        return result;
+    }
+    const char* data = reply.data() + sizeof(header);
+    result.vertices.resize(3, header.n_vertices);
+    result.tetrahedra.resize(4, header.n_tetrahedra);
+    const std::size_t vertex_bytes = sizeof(double) * static_cast<std::size_t>(result.vertices.size());
+    if (header.n_vertices > 0) std::memcpy(result.vertices.data(), data, vertex_bytes);
+    if (header.n_tetrahedra > 0)
+        std::memcpy(result.tetrahedra.data(), data + vertex_bytes, reply.size() - sizeof(header) - vertex_bytes);
+    return result;
+}
+
+}  // namespace elastolab

@@ -1,0 +1,60 @@
+#include "render/drawing/axes_gizmo.hpp"
+
+#include <epoxy/gl.h>
+
+#include <cmath>
+
+namespace elastolab {
+
+namespace {
+
+constexpr double kLabelPlace = 1.22;  // along an axis of length 1
+constexpr float kShaft = 0.045f;      // of the width of the gizmo
+
+Camera gizmo_camera(const Camera& camera) {
+    Camera own = camera;
+    const SceneFrame ball{Eigen::Vector3d::Zero(), 1.35};
+    own.set_scene(ball);
+    own.frame(ball, 1.0);
+    return own;
+}
+
+}  // namespace
+
+AxesGizmo::AxesGizmo(const std::array<Colour, 3>& colours) {
+    std::array<Arrow, 3> arrows;
+    for (int i = 0; i < 3; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        arrows[k] = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Unit(i), colours[k]};
+    }
+    arrows_.update(arrows, SceneFrame{});
+}
+
+void AxesGizmo::draw(const Camera& camera, const Viewport& viewport, const Viewport& place, double pixel_ratio) {
+    const auto pixels = [pixel_ratio](double x) { return static_cast<int>(std::lround(x * pixel_ratio)); };
+    const int x = pixels(place.x - viewport.x), width = pixels(place.width), height = pixels(place.height);
+    const int y = pixels(viewport.y + viewport.height - place.y - place.height);
+    GLint whole[4];
+    glGetIntegerv(GL_VIEWPORT, whole);
+    apply({});
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(x, y, width, height);
+    glClear(GL_DEPTH_BUFFER_BIT);
+    glViewport(x, y, width, height);
+    arrows_.draw(SceneView(gizmo_camera(camera), place, pixel_ratio),
+                 {.width = kShaft * static_cast<float>(place.width)});
+    glViewport(whole[0], whole[1], whole[2], whole[3]);
+}
+
+AxesGizmo::Labels AxesGizmo::labels(const Camera& camera, const Viewport& place) {
+    const Camera own = gizmo_camera(camera);
+    Labels labels;
+    for (int i = 0; i < 3; ++i) {
+        const ProjectedPoint seen = own.project(kLabelPlace * Eigen::Vector3d::Unit(i), place);
+        labels.pixel[static_cast<std::size_t>(i)] = seen.pixel;
+        labels.depth[static_cast<std::size_t>(i)] = seen.depth;
+    }
+    return labels;
+}
+
+}  // namespace elastolab

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <array>
+#include <Eigen/Core>
+
+#include "render/drawing/arrows_drawing.hpp"
+#include "render/camera.hpp"
+#include "render/colour.hpp"
+
+namespace elastolab {
+
+/// The three world axes in a corner of the picture, as the camera sees them.
+class AxesGizmo {
+public:
+    /// Where its letters belong [logical pixels].
+    struct Labels {
+        std::array<Eigen::Vector2d, 3> pixel;
+        std::array<double, 3> depth;  ///< larger is farther: write the far ones first
+    };
+
+    explicit AxesGizmo(const std::array<Colour, 3>& colours);
+    /// Into the square `place` of the picture that `viewport` shows, over what is there. Last in a frame.
+    void draw(const Camera& camera, const Viewport& viewport, const Viewport& place, double pixel_ratio);
+    static Labels labels(const Camera& camera, const Viewport& place);
+
+private:
+    ArrowsDrawing arrows_;
+};
+
+}  // namespace elastolab

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "render/gl/arrays.hpp"
+#include "render/camera.hpp"
+
+namespace elastolab {
+
+/// What is under the cursor. Here and below, vertices that are corners of no triangle are not there.
+struct PickHit {
+    int triangle = -1;                                      ///< -1 when the ray misses and a vertex nearby was taken
+    Eigen::Vector3d barycentric = Eigen::Vector3d::Zero();  ///< of the point in the triangle; zero without one
+    Eigen::Vector3d point = Eigen::Vector3d::Zero();        ///< on the surface [L]; the vertex without a triangle
+    int vertex = -1;                                        ///< nearest on the screen, of the triangle if there is one
+    double vertex_distance = 0.0;                           ///< of the vertex from the cursor [pixels]
+};
+
+/// The first triangle that the ray through the cursor meets, seen from either side. Where there is none: the nearest
+/// vertex within `snap` pixels that no triangle hides. Linear in the size of the mesh, 0.2 ms for 20 000
+/// triangles (0.4 ms when it misses).
+std::optional<PickHit> pick(const Camera& camera, const Viewport& viewport, const Eigen::Vector2d& cursor,
+                            const PositionsView& positions, const TrianglesView& triangles, double snap = 12.0);
+
+/// Which vertices a selection on the screen reaches: those that no triangle hides, or through the body.
+enum class Reach { visible, through };
+
+/// Vertices in the rectangle between two corners [pixels], ascending. A vertex is hidden when a triangle that it is no
+/// corner of lies between it and the eye, which is tested exactly, with the triangles sorted into cells of the screen.
+std::vector<int> vertices_in_rectangle(const Camera& camera, const Viewport& viewport, const Eigen::Vector2d& corner,
+                                       const Eigen::Vector2d& opposite, const PositionsView& positions,
+                                       const TrianglesView& triangles, Reach reach);
+
+/// The same for a disc: vertices within `radius` pixels of the cursor.
+std::vector<int> vertices_in_brush(const Camera& camera, const Viewport& viewport, const Eigen::Vector2d& cursor,
+                                   double radius, const PositionsView& positions, const TrianglesView& triangles,
+                                   Reach reach);
+
+}  // namespace elastolab

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "render/gl/gl_object.hpp"
+#include "render/gl/image.hpp"
+
+namespace elastolab {
+
+/// A picture that is drawn off the screen: multisampled colour and depth, resolved to a texture.
+class Framebuffer {
+public:
+    /// Sizes in framebuffer pixels, >= 1. Fewer samples when the driver has no more; 1 for none. Throws Error when the
+    /// driver refuses.
+    Framebuffer(int width, int height, int samples = 4);
+
+    int width() const { return width_; }
+    int height() const { return height_; }
+    /// New storage when the size differs; the picture is then undefined.
+    void resize(int width, int height);
+
+    /// Draws go here from now on, to all of it.
+    void bind() const;
+    /// What was drawn, to texture().
+    void resolve() const;
+    /// Colours after resolve(), the bottom row first (v upward).
+    unsigned texture() const { return texture_.id(); }
+    /// resolve(), then a copy. Waits for the graphics card.
+    Image read() const;
+    /// resolve(), then to the window at (x, y) from its bottom left corner, pixel by pixel.
+    void copy_to_window(int x, int y) const;
+
+private:
+    void allocate();
+
+    int width_, height_, samples_;
+    GlTexture texture_;
+    GlRenderbuffer colour_, depth_;
+    GlFramebuffer drawn_, resolved_;
+};
+
+/// Draws go to the window from now on; its size in framebuffer pixels.
+void bind_window(int width, int height);
+
+}  // namespace elastolab

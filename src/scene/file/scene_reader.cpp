@@ -1,0 +1,205 @@
+#include <algorithm>
+
+#include "base/text.hpp"
+#include "mesh/primitives.hpp"
+#include "scene/file/json_node.hpp"
+#include "scene/file/scene_file.hpp"
+
+namespace elastolab {
+
+namespace {
+
+constexpr int kLargestVertex = 2'000'000'000;
+/// A cube of this resolution has six million vertices, far beyond what any method can take.
+constexpr int kLargestResolution = 1000;
+
+std::string listed(const std::vector<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+    return text;
+}
+
+void read_version(const JsonNode& root) {
+    const JsonNode version = root.at("elastolab", R"(A scene file begins with "elastolab": 1.)");
+    const int number = version.integer(1, 1'000'000'000);
+    if (number != kSceneVersion)
+        version.fail("is version " + std::to_string(number) + " of the scene format, this program reads version " +
+                     std::to_string(kSceneVersion) + ". Use a newer program.");
+}
+
+Primitive read_primitive(const JsonNode& node) {
+    node.require_keys({"primitive", "resolution", "size"});
+    Primitive primitive;
+    const JsonNode name = node.at("primitive", "Name a primitive.");
+    primitive.name = name.text();
+    const std::vector<std::string> known = primitive_names();
+    if (std::find(known.begin(), known.end(), primitive.name) == known.end())
+        name.fail(name.quoted() + " is not a known primitive. Known ones: " + listed(known) + ".");
+    primitive.resolution = node.at("resolution", "Give the number of cells.").integer(1, kLargestResolution);
+    if (const auto size = node.find("size"))
+        for (int i = 0; i < size->array_size(); ++i) primitive.size.push_back((*size)[i].positive_number());
+    return primitive;
+}
+
+MeshFile read_mesh_file(const JsonNode& node) {
+    node.require_keys({"file"});
+    const JsonNode file = node.at("file", "Name a mesh file.");
+    if (file.text().empty()) file.fail("is empty. Name a mesh file.");
+    if (file.text().find('\0') != std::string::npos) file.fail("holds a null character. Name a mesh file.");
+    return {file.text()};
+}
+
+MeshSource read_mesh(const JsonNode& node) {
+    node.require_keys({"file", "primitive", "resolution", "size"});
+    if (node.has("file") && node.has("primitive")) node.fail("has both \"file\" and \"primitive\". Keep one of them.");
+    if (!node.has("file") && !node.has("primitive"))
+        node.fail("has neither \"file\" nor \"primitive\". Give one of them.");
+    if (node.has("file")) return read_mesh_file(node);
+    return read_primitive(node);
+}
+
+Material read_material(const JsonNode& node) {
+    node.require_keys({"young_modulus", "poisson_ratio"});
+    Material material;
+    material.young_modulus =
+        node.at("young_modulus", "Give a force per mesh unit squared, such as 1e5.").positive_number();
+    const JsonNode poisson = node.at("poisson_ratio", "Give a number such as 0.3.");
+    material.poisson_ratio = poisson.number();
+    if (!(material.poisson_ratio > -1.0 && material.poisson_ratio <= 0.5))
+        poisson.fail("must lie above -1 and not above 0.5, is " + exact(material.poisson_ratio) +
+                     ". Rubber has nearly 0.5, steel 0.3, cork 0.");
+    return material;
+}
+
+MethodKind read_method(const JsonNode& node) {
+    if (const auto kind = parse_method_kind(node.text())) return *kind;
+    node.fail(node.quoted() + " is not a known method. Known ones: fem, constant-bem, linear-bem.");
+}
+
+VertexSelector read_vertices(const JsonNode& node) {
+    VertexSelector selector;
+    const int n = node.array_size();
+    if (n == 0) node.fail("selects nothing. Give at least one vertex number.");
+    selector.vertices.reserve(static_cast<std::size_t>(n));
+    for (int i = 0; i < n; ++i) selector.vertices.push_back(node[i].integer(0, kLargestVertex));
+    return selector;
+}
+
+BoxSelector read_box(const JsonNode& node) {
+    node.require_keys({"min", "max"});
+    BoxSelector box{.min = node.at("min", "Give the lower corner.").vector3(),
+                    .max = node.at("max", "Give the upper corner.").vector3()};
+    for (int axis = 0; axis < 3; ++axis)
+        if (box.min(axis) > box.max(axis))
+            node.fail("min is above max along " + std::string(1, "xyz"[axis]) + " (" + exact(box.min(axis)) + " > " +
+                      exact(box.max(axis)) + "). Exchange them.");
+    return box;
+}
+
+SphereSelector read_sphere(const JsonNode& node) {
+    node.require_keys({"center", "radius"});
+    return {.center = node.at("center", "Give the center.").vector3(),
+            .radius = node.at("radius", "Give the radius.").positive_number()};
+}
+
+PlaneSelector read_plane(const JsonNode& node) {
+    node.require_keys({"point", "normal", "tolerance"});
+    PlaneSelector plane{.point = node.at("point", "Give a point of the plane.").vector3(),
+                        .normal = node.at("normal", "Give the normal of the plane.").vector3(),
+                        .tolerance = node.at("tolerance", "Give the largest distance from the plane.").number()};
+    if (plane.normal.isZero(0.0)) node.at("normal", "").fail("is zero, so it has no direction. Give a normal.");
+    if (plane.tolerance < 0.0)
+        node.at("tolerance", "").fail("must not be negative, is " + exact(plane.tolerance) + ". Give a distance.");
+    return plane;
+}
+
+Selector read_selector(const JsonNode& node) {
+    if (node.is_array()) {
+        std::vector<Selector> members;
+        const int n = node.array_size();
+        if (n == 0) node.fail("selects nothing. Give at least one selector.");
+        members.reserve(static_cast<std::size_t>(n));
+        for (int i = 0; i < n; ++i) members.push_back(read_selector(node[i]));
+        return {std::move(members)};
+    }
+    node.require_keys({"vertices", "box", "sphere", "plane"});
+    int n_shapes = 0;
+    for (const char* shape : {"vertices", "box", "sphere", "plane"}) n_shapes += node.has(shape) ? 1 : 0;
+    if (n_shapes != 1)
+        node.fail("must have one of vertices, box, sphere, plane, has " + std::to_string(n_shapes) +
+                  ". For a union write a list of selectors.");
+    if (const auto vertices = node.find("vertices")) return {read_vertices(*vertices)};
+    if (const auto box = node.find("box")) return {read_box(*box)};
+    if (const auto sphere = node.find("sphere")) return {read_sphere(*sphere)};
+    return {read_plane(node.at("plane", ""))};
+}
+
+VertexMotion read_displacements(const JsonNode& node) {
+    VertexMotion motion;
+    const int n = node.array_size();
+    motion.displacements.reserve(static_cast<std::size_t>(n));
+    for (int i = 0; i < n; ++i) motion.displacements.push_back(node[i].vector3());
+    return motion;
+}
+
+Handle read_handle(const JsonNode& node) {
+    node.require_keys({"name", "select", "matrix", "translate", "displacements"});
+    Handle handle;
+    if (const auto name = node.find("name")) {
+        handle.name = name->text();
+        if (handle.name.empty()) name->fail("is empty. Give a name, or leave the key out.");
+        if (handle.name == "fixed") name->fail("\"fixed\" is what the fixed part is called. Choose another name.");
+    }
+    handle.select = read_selector(node.at("select", "Say which vertices the handle moves."));
+    const auto displacements = node.find("displacements");
+    if (displacements && (node.has("matrix") || node.has("translate")))
+        node.fail("has displacements beside matrix or translate. Keep one kind of motion.");
+    if (displacements) {
+        handle.motion = read_displacements(*displacements);
+        return handle;
+    }
+    AffineMotion motion;
+    if (const auto matrix = node.find("matrix")) motion.matrix = matrix->matrix3();
+    if (const auto translate = node.find("translate")) motion.translate = translate->vector3();
+    handle.motion = motion;
+    return handle;
+}
+
+/// The last of `handles`, which `node` holds, has a name that none before it has.
+void require_new_name(const JsonNode& node, const std::vector<Handle>& handles) {
+    const auto last = std::prev(handles.end());
+    const auto same = [&](const Handle& handle) { return handle.name == last->name; };
+    const auto first = std::find_if(handles.begin(), last, same);
+    if (last->name.empty() || first == last) return;
+    const JsonNode name = node.at("name", "");
+    name.fail(name.quoted() + " is the name of handle " + std::to_string(first - handles.begin()) +
+              " already. Choose another name.");
+}
+
+std::vector<Handle> read_handles(const JsonNode& node) {
+    std::vector<Handle> handles;
+    const int n = node.array_size();
+    for (int i = 0; i < n; ++i) {
+        handles.push_back(read_handle(node[i]));
+        require_new_name(node[i], handles);
+    }
+    return handles;
+}
+
+}  // namespace
+
+Document parse_scene(std::string_view text, const std::string& name) {
+    const Json json = parse_json(text, name);
+    const JsonNode root(json, "", name);
+    root.require_keys({"elastolab", "mesh", "material", "method", "fixed", "handles"});
+    read_version(root);
+    Document document;
+    document.mesh = read_mesh(root.at("mesh", "Give a mesh file or a primitive."));
+    if (const auto material = root.find("material")) document.material = read_material(*material);
+    if (const auto method = root.find("method")) document.method = read_method(*method);
+    if (const auto fixed = root.find("fixed")) document.fixed = read_selector(*fixed);
+    if (const auto handles = root.find("handles")) document.handles = read_handles(*handles);
+    return document;
+}
+
+}  // namespace elastolab

@@ -1,0 +1,93 @@
+#include "base/error.hpp"
+#include "base/overloaded.hpp"
+#include "scene/file/json_text.hpp"
+#include "scene/file/scene_file.hpp"
+
+namespace elastolab {
+
+namespace {
+
+Json to_json(const Eigen::Vector3d& vector) { return Json::array({vector.x(), vector.y(), vector.z()}); }
+
+Json to_json(const Eigen::Matrix3d& matrix) {
+    Json rows = Json::array();
+    for (int row = 0; row < 3; ++row) rows.push_back(to_json(Eigen::Vector3d(matrix.row(row))));
+    return rows;
+}
+
+Json to_json(const MeshSource& source) {
+    const auto file = [](const MeshFile& mesh) { return Json{{"file", mesh.file}}; };
+    const auto primitive = [](const Primitive& mesh) {
+        Json json{{"primitive", mesh.name}, {"resolution", mesh.resolution}};
+        if (!mesh.size.empty()) json["size"] = mesh.size;
+        return json;
+    };
+    return std::visit(Overloaded{file, primitive}, source);
+}
+
+Json to_json(const Selector& selector) {
+    const auto union_of = [](const std::vector<Selector>& members) {
+        Json list = Json::array();
+        for (const Selector& member : members) list.push_back(to_json(member));
+        return list;
+    };
+    return std::visit(
+        Overloaded{
+            [](const VertexSelector& s) {
+                return Json{{"vertices", s.vertices}};
+            },
+            [](const BoxSelector& s) {
+                return Json{{"box", {{"min", to_json(s.min)}, {"max", to_json(s.max)}}}};
+            },
+            [](const SphereSelector& s) {
+                return Json{{"sphere", {{"center", to_json(s.center)}, {"radius", s.radius}}}};
+            },
+            [](const PlaneSelector& s) {
+                return Json{{"plane",
+                             {{"point", to_json(s.point)}, {"normal", to_json(s.normal)}, {"tolerance", s.tolerance}}}};
+            },
+            union_of,
+        },
+        selector.shape);
+}
+
+Json to_json(const Handle& handle) {
+    Json json = Json::object();
+    if (!handle.name.empty()) json["name"] = handle.name;
+    json["select"] = to_json(handle.select);
+    const auto affine = [&](const AffineMotion& motion) {
+        if (!motion.matrix.isZero(0.0)) json["matrix"] = to_json(motion.matrix);
+        json["translate"] = to_json(motion.translate);
+    };
+    const auto per_vertex = [&](const VertexMotion& motion) {
+        json["displacements"] = Json::array();
+        for (const Eigen::Vector3d& u : motion.displacements) json["displacements"].push_back(to_json(u));
+    };
+    std::visit(Overloaded{affine, per_vertex}, handle.motion);
+    return json;
+}
+
+Json to_json(const Document& document) {
+    Json json{
+        {"elastolab", kSceneVersion},
+        {"mesh", to_json(document.mesh)},
+        {"material",
+         {{"young_modulus", document.material.young_modulus}, {"poisson_ratio", document.material.poisson_ratio}}},
+        {"method", std::string(name(document.method))}};
+    if (document.fixed) json["fixed"] = to_json(*document.fixed);
+    json["handles"] = Json::array();
+    for (const Handle& handle : document.handles) json["handles"].push_back(to_json(handle));
+    return json;
+}
+
+}  // namespace
+
+std::string print_scene(const Document& document) {
+    try {
+        return print_json(to_json(document));
+    } catch (const Json::type_error&) {
+        throw SceneError("The scene has a name that is not valid UTF-8, which JSON cannot hold. Rename it.");
+    }
+}
+
+}  // namespace elastolab

@@ -1,0 +1,127 @@
+#include "scene/live/drag_solver.hpp"
+
+#include <Eigen/QR>
+#include <limits>
+
+namespace elastolab {
+
+namespace {
+
+/// Prescribed values are rounded when they are made: differences below this part of them mean nothing.
+constexpr double kRounding = 64 * std::numeric_limits<double>::epsilon();
+/// Beyond this, columns times a motion might overflow: such motions are solved for, which fails when there is no
+/// answer.
+constexpr double kLargestMotion = 1e150;
+
+/// Rows: 1 and, if `affine`, the rest positions about their mean, scaled to about 1.
+Eigen::MatrixXd motion_shapes(const Positions& rest, bool affine) {
+    Eigen::MatrixXd shapes = Eigen::MatrixXd::Ones(affine ? 4 : 1, rest.cols());
+    if (!affine) return shapes;
+    const Eigen::Matrix3Xd local = rest.colwise() - rest.rowwise().mean();
+    const double radius = local.colwise().norm().maxCoeff();
+    shapes.bottomRows(3) = local / (radius > 0.0 ? radius : 1.0);
+    return shapes;
+}
+
+}  // namespace
+
+DragSolver::DragSolver(std::shared_ptr<const Deformer> deformer, std::vector<int> handle_ends)
+    : deformer_(std::move(deformer)), handle_ends_(std::move(handle_ends)) {}
+
+void DragSolver::prepare(const Eigen::VectorXd& values) {
+    int handle = kNone;
+    bool affine = false;
+    if (has_start(values)) {
+        const Eigen::VectorXd change = values - start_values_;
+        handle = changed_handle(change);
+        if (handle >= 0) {
+            const Eigen::Matrix3Xd moved = part_of(handle, change);
+            affine = (moved.colwise() - moved.col(0)).cwiseAbs().maxCoeff() > tolerance_of(handle, moved);
+        }
+    }
+    if (handle < 0) handle = static_cast<int>(handle_ends_.size()) - 1;
+    start(values);
+    if (handle >= 0) grab(handle, affine);
+}
+
+bool DragSolver::has(const Eigen::VectorXd& values) const {
+    if (!has_start(values)) return false;
+    const Eigen::VectorXd change = values - start_values_;
+    const int handle = changed_handle(change);
+    return handle == kNone || (handle >= 0 && parameters_of(handle, part_of(handle, change)));
+}
+
+void DragSolver::displace(const Eigen::VectorXd& values, Eigen::VectorXd& u) {
+    if (!has_start(values)) start(values);
+    const Eigen::VectorXd change = values - start_values_;
+    const int handle = changed_handle(change);
+    if (handle >= 0) {
+        const Eigen::Matrix3Xd moved = part_of(handle, change);
+        std::optional<Eigen::VectorXd> parameters = parameters_of(handle, moved);
+        for (int affine = 0; affine <= 1 && !parameters; ++affine) {
+            grab(handle, affine == 1);
+            parameters = parameters_of(handle, moved);
+        }
+        if (parameters) return response_.displace(*parameters, u);
+    }
+    if (handle != kNone) start(values);
+    u = response_.rest;
+}
+
+bool DragSolver::has_start(const Eigen::VectorXd& values) const {
+    return start_values_.size() == values.size() && response_.rest.size() > 0;
+}
+
+/// The one handle whose values differ from those at the start.
+int DragSolver::changed_handle(const Eigen::VectorXd& change) const {
+    int changed = kNone;
+    for (int h = 0; h < static_cast<int>(handle_ends_.size()); ++h) {
+        if (change.segment(3 * begin_of(h), 3 * size_of(h)).isZero(0.0)) continue;
+        if (changed != kNone) return kSeveral;
+        changed = h;
+    }
+    return changed;
+}
+
+Eigen::Matrix3Xd DragSolver::part_of(int handle, const Eigen::VectorXd& change) const {
+    return Eigen::Map<const Eigen::Matrix3Xd>(change.data(), 3, change.size() / 3)
+        .middleCols(begin_of(handle), size_of(handle));
+}
+
+void DragSolver::start(const Eigen::VectorXd& values) {
+    start_values_ = values;
+    handle_ = kNone;
+    response_ = {deformer_->displace(values), {}};
+}
+
+void DragSolver::grab(int handle, bool affine) {
+    const Positions& all = deformer_->model().body().surface->vertices;
+    Positions rest(3, size_of(handle));
+    for (int i = 0; i < size_of(handle); ++i)
+        rest.col(i) = all.col(deformer_->set().handles[static_cast<std::size_t>(begin_of(handle) + i)]);
+    shapes_ = motion_shapes(rest, affine);
+    fit_ = shapes_.completeOrthogonalDecomposition().pseudoInverse();
+    Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(start_values_.size(), 3 * shapes_.rows());
+    for (Eigen::Index s = 0; s < shapes_.rows(); ++s)
+        for (Eigen::Index axis = 0; axis < 3; ++axis)
+            for (int i = 0; i < size_of(handle); ++i)
+                basis(3 * (begin_of(handle) + i) + axis, 3 * s + axis) = shapes_(s, i);
+    response_ = deformer_->drag_response(start_values_, basis);
+    handle_ = handle;
+}
+
+double DragSolver::tolerance_of(int handle, const Eigen::Matrix3Xd& change) const {
+    const auto start = start_values_.segment(3 * begin_of(handle), 3 * size_of(handle));
+    return kRounding * (change.cwiseAbs().maxCoeff() + start.cwiseAbs().maxCoeff());
+}
+
+/// What the columns at hand are to be multiplied with for this change of the handle; nothing when they do not span it.
+std::optional<Eigen::VectorXd> DragSolver::parameters_of(int handle, const Eigen::Matrix3Xd& change) const {
+    if (handle != handle_) return std::nullopt;
+    const Eigen::MatrixXd parameters = change * fit_;  // 3 x shapes
+    if (!(parameters.cwiseAbs().maxCoeff() < kLargestMotion)) return std::nullopt;
+    if ((change - parameters * shapes_).cwiseAbs().maxCoeff() > tolerance_of(handle, change)) return std::nullopt;
+    return Eigen::Map<const Eigen::VectorXd>(parameters.data(), parameters.size());
+}
+
+}  // namespace elastolab

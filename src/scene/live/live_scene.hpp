@@ -1,0 +1,87 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scene/live/history.hpp"
+#include "scene/motion.hpp"
+#include "scene/setup.hpp"
+
+namespace elastolab {
+
+/// A scene while a person edits it: the document, its mesh, the constraints that follow from it, and undo. Every edit
+/// takes effect at once; commit() ends a step that undo takes back as a whole (a stroke, a drag). Owned by one thread.
+class LiveScene {
+public:
+    static constexpr int kNobody = -1;  ///< owner of a free vertex
+    static constexpr int kFixed = -2;   ///< owner of a vertex of the fixed part
+
+    /// Loads the mesh. Throws MeshError or SceneError as the functions of scene/setup.hpp do; MeshError too when the
+    /// mesh is usable for no method.
+    LiveScene(Document document, std::filesystem::path scene_file);
+
+    const Document& document() const { return document_; }
+    const std::filesystem::path& file() const { return file_; }  ///< where relative names of the document start
+    const std::string& name() const { return mesh_.name; }       ///< of the mesh
+    const SurfaceMesh& mesh() const { return *surface_; }
+    const MeshReport& report() const { return mesh_.checked.report; }
+    /// The body for a method of this kind. Throws MeshError or SceneError when it is not fit for it.
+    Body body(MethodKind kind) const;
+
+    const Constraints& constraints() const { return constraints_; }
+    int n_handles() const { return static_cast<int>(document_.handles.size()); }
+    /// The vertices of a handle, or of the fixed part (kFixed).
+    std::span<const int> vertices(int owner) const;
+    int owner(int vertex) const { return owners_[static_cast<std::size_t>(vertex)]; }
+    /// Name of a handle as constraints().groups has it.
+    const std::string& handle_name(int handle) const;
+
+    /// Grows with every edit.
+    std::uint64_t revision() const { return revision_; }
+    /// Whether something changed since the document was loaded or marked as saved.
+    bool modified() const { return !(document_ == saved_); }
+    void mark_saved() { saved_ = document_; }
+
+    // Edits of the constrained set. Vertices that belong to others are left to them.
+    /// Returns the new handle's number, or kNobody when no vertex of the list is free.
+    int add_handle(std::span<const int> vertices);
+    void remove_handle(int handle);
+    void clear_handles();
+    void fix(std::span<const int> vertices);
+    void unfix(std::span<const int> vertices);
+
+    // Edits of values.
+    /// A motion that is not finite at every vertex of the handle is ignored.
+    void set_motion(int handle, const Motion& motion);
+    void set_material(const Material& material);
+
+    /// Ends a step; does nothing when it changed nothing.
+    void commit() { history_.commit(document_); }
+    bool can_undo() const { return history_.can_undo(); }
+    bool can_redo() const { return history_.can_redo(); }
+    void undo();
+    void redo();
+
+    /// What an edit would make of the constrained set: with these vertices (those that are free) as one more handle.
+    ConstrainedSet set_with_handle(std::span<const int> vertices) const;
+
+private:
+    std::vector<int> only_free(std::span<const int> vertices) const;
+    void replace_fixed(std::vector<int> vertices);
+    void become(Document document);
+
+    Document document_, saved_;
+    std::filesystem::path file_;
+    SceneMesh mesh_;  ///< its surface has moved to surface_
+    std::shared_ptr<const SurfaceMesh> surface_;
+    History history_;
+    Constraints constraints_;
+    std::vector<int> owners_;  ///< for every vertex
+    std::uint64_t revision_ = 0;
+};
+
+}  // namespace elastolab

@@ -1,0 +1,179 @@
+#include <map>
+#include <memory>
+#include <mutex>
+
+#include "study/error/error_report.hpp"
+#include "study/measure.hpp"
+#include "study/setups.hpp"
+#include "study/study.hpp"
+
+namespace elastolab {
+
+namespace {
+
+/// What is compared: a method with its choices, under a name.
+struct Variant {
+    std::string name;
+    Method method;
+    std::vector<int> sizes;  ///< cells, ascending
+};
+
+Method with_tractions(Tractions tractions) {
+    Method method;
+    method.tractions = tractions;
+    return method;
+}
+
+std::vector<int> up_to(int largest, bool quick) {
+    std::vector<int> sizes;
+    for (const int size : {2, 3, 4, 6, 8, 10, 12, 16, 20})
+        if (size <= (quick ? std::min(largest, 4) : largest)) sizes.push_back(size);
+    return sizes;
+}
+
+Repeats repeats(bool quick) { return quick ? Repeats{0.05, 3} : Repeats{}; }
+
+std::vector<Variant> main_variants(bool quick) {
+    return {{"fem", {.kind = MethodKind::fem}, up_to(20, quick)},
+            {"constant-bem", {.kind = MethodKind::constant_bem}, up_to(8, quick)},
+            {"linear-bem", with_tractions(Tractions::discontinuous), up_to(12, quick)},
+            {"linear-bem restricted", with_tractions(Tractions::restricted), up_to(12, quick)},
+            {"linear-bem continuous", with_tractions(Tractions::continuous), up_to(12, quick)}};
+}
+
+/// Problems are made once, however many methods ask for them one after the other; the truth of an organic body takes
+/// far longer than what is measured.
+class ProblemStore {
+public:
+    std::shared_ptr<const Problem> get(const std::string& family, int size, double nu) {
+        const std::string key = family + " " + std::to_string(size) + " " + std::to_string(nu);
+        if (key != key_) problem_ = std::make_shared<const Problem>(problem_family(family).make(size, nu));
+        key_ = key;
+        return problem_;
+    }
+
+private:
+    std::string key_;
+    std::shared_ptr<const Problem> problem_;
+};
+
+class CaseList {
+public:
+    using Work = std::function<Row(const Problem&, Control&)>;
+    explicit CaseList(bool quick) : repeats_(repeats(quick)) {}
+
+    void add(const std::string& part, const std::string& family, const std::string& variant, double nu, int size,
+             double weight, Work work) {
+        const Row id =
+            Row().set("part", part).set("problem", family).set("variant", variant).set("nu", nu).set("size", size);
+        cases_.push_back({id, weight, [=, store = store_](Control& control) {
+                              const std::shared_ptr<const Problem> problem = store->get(family, size, nu);
+                              Row row = work(*problem, control);
+                              row.set("truth", problem_family(family).truth).set("truth_error", problem->truth_error);
+                              return std::vector<Row>{row};
+                          }});
+    }
+    void add(const std::string& part, const std::string& family, const Variant& variant, double nu, int size) {
+        const double weight = 0.3 + (variant.name == "constant-bem" ? 8e-6 : 1e-6) * size * size * size * size * size;
+        add(part, family, variant.name, nu, size, variant.method.kind == MethodKind::fem ? 0.5 : weight,
+            [method = variant.method, many = repeats_](const Problem& problem, Control& control) {
+                return measure(problem, method, many, control).set("method", text(method.kind));
+            });
+    }
+    std::vector<Case> take() { return std::move(cases_); }
+
+private:
+    Repeats repeats_;
+    std::vector<Case> cases_;
+    std::shared_ptr<ProblemStore> store_ = std::make_shared<ProblemStore>();
+};
+
+/// Refinement at a compressible and a nearly incompressible ratio.
+void add_refinements(CaseList& cases, bool quick) {
+    for (const ProblemFamily& family : problem_families()) {
+        if (family.organic || family.reproduced || (quick && family.name.ends_with("irregular"))) continue;
+        for (const double nu : {0.3, 0.49}) {
+            if (quick && nu != 0.3) continue;
+            for (const Variant& variant : main_variants(quick))
+                for (const int size : variant.sizes) cases.add("refinement", family.name, variant, nu, size);
+        }
+    }
+}
+
+/// What linear elements hold exactly, at one size.
+void add_reproduced(CaseList& cases, bool quick) {
+    for (const ProblemFamily& family : problem_families())
+        for (const Variant& variant : main_variants(quick))
+            if (family.reproduced) cases.add("reproduced", family.name, variant, 0.3, quick ? 3 : 6);
+}
+
+/// All Poisson's ratios at one size, on flat and on curved surfaces.
+void add_ratios(CaseList& cases, bool quick) {
+    const std::vector<double> ratios =
+        quick ? std::vector{-0.5, 0.3, 0.49, 0.4999, 0.5} : std::vector{-0.5, 0.0, 0.3, 0.45, 0.49, 0.499, 0.4999, 0.5};
+    std::vector<std::pair<std::string, int>> problems = {{"bending", 6}, {"torsion", 4}, {"hollow-sphere", 4}};
+    if (quick) problems = {{"bending", 3}};
+    for (const auto& [problem, size] : problems)
+        for (const double nu : ratios)
+            for (const Variant& variant : main_variants(quick))
+                if (nu < 0.5 || variant.method.kind != MethodKind::fem)
+                    cases.add("poisson", problem, variant, nu, size);
+}
+
+/// Tetrahedra of other sizes and qualities; integrals of other tolerances.
+void add_choices(CaseList& cases, bool quick) {
+    const int size = quick ? 4 : 8;
+    const auto tets = [&](const std::string& name, const TetOptions& options) {
+        cases.add("choices", "bending", name, 0.3, size, 0.5, [=](const Problem& problem, Control& control) {
+            return measure_tetrahedra(problem, options, repeats(quick), control).set("method", text(MethodKind::fem));
+        });
+    };
+    for (const double volume : quick ? std::vector{0.5, 1.8} : std::vector{0.25, 0.5, 1.0, 1.8, 4.0, 16.0})
+        tets("tet volume " + Row().set("v", volume).text("v"), {.relative_volume = volume});
+    for (const double quality : quick ? std::vector{1.2, 1.4} : std::vector{1.1, 1.2, 1.4, 2.0, 3.0})
+        tets("tet quality " + Row().set("q", quality).text("q"), {.radius_edge_ratio = quality});
+    const std::vector<double> tolerances =
+        quick ? std::vector{1e-3, 1e-10} : std::vector{1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-13};
+    for (const double tolerance : tolerances)
+        for (const MethodKind kind : {MethodKind::linear_bem, MethodKind::constant_bem}) {
+            Method method;
+            method.kind = kind;
+            method.integral_tolerance = tolerance;
+            cases.add("choices", "bending",
+                      {text(kind) + " tolerance " + Row().set("t", tolerance).text("t"), method, {}}, 0.3,
+                      quick ? 3 : 6);
+        }
+}
+
+/// Organic bodies pulled at a small patch. In the quick run the smallest of them.
+void add_organic(CaseList& cases, bool quick) {
+    std::vector<std::pair<std::string, int>> bodies = {{"potato", 350}, {"rabbit", 600}, {"cactus", 850}};
+    if (quick) bodies = {{"potato", 150}};
+    for (const auto& [body, size] : bodies)
+        for (const double nu : {0.3, 0.45}) {
+            if (quick && nu != 0.3) continue;
+            for (const Variant& variant : main_variants(quick)) cases.add("organic", body, variant, nu, size);
+        }
+}
+
+}  // namespace
+
+Study make_error_study(const StudyOptions& options) {
+    Study study;
+    study.name = "error";
+    study.title = "Run time against error";
+    study.columns = {"part",     "problem",     "method",       "variant",      "nu",      "size",        "vertices",
+                     "unknowns", "constrained", "precompute_s", "set_change_s", "ready_s", "once_s",      "frame_s",
+                     "error",    "error_max",   "condition",    "residual",     "truth",   "truth_error", "warnings"};
+    CaseList cases(options.quick);
+    add_refinements(cases, options.quick);
+    add_reproduced(cases, options.quick);
+    add_ratios(cases, options.quick);
+    add_choices(cases, options.quick);
+    add_organic(cases, options.quick);
+    study.cases = cases.take();
+    study.conclude = [](const Table& table, Control&) { return conclude_error(table); };
+    return study;
+}
+
+}  // namespace elastolab

@@ -1,0 +1,129 @@
+#include "study/error/organic_truth.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <vector>
+
+#include "mesh/tets/tetrahedralize.hpp"
+#include "study/error/quadratic_fem.hpp"
+#include "study/error/refine.hpp"
+
+namespace elastolab {
+
+namespace {
+
+/// The problem on the coarse surface.
+struct Problem {
+    const SurfaceMesh& surface;
+    Positions values;             // of all vertices, zero where free
+    std::vector<char> is_free;    // by vertex
+    std::vector<char> in_region;  // by triangle
+    Material material;
+};
+
+Problem make_problem(const SurfaceMesh& surface, std::span<const int> constrained, const Positions& values,
+                     const Material& material) {
+    Problem problem{surface, Positions::Zero(3, surface.n_vertices()), {}, {}, material};
+    problem.is_free.assign(static_cast<std::size_t>(surface.n_vertices()), 1);
+    for (std::size_t k = 0; k < constrained.size(); ++k) {
+        problem.is_free[static_cast<std::size_t>(constrained[k])] = 0;
+        problem.values.col(constrained[k]) = values.col(static_cast<Eigen::Index>(k));
+    }
+    std::vector<char> in_triangle(problem.is_free.size(), 0);
+    for (const auto& triangle : surface.triangles.colwise()) {
+        const bool inside = std::none_of(triangle.begin(), triangle.end(),
+                                         [&](int v) { return problem.is_free[static_cast<std::size_t>(v)] != 0; });
+        problem.in_region.push_back(inside ? 1 : 0);
+        for (int v : triangle) in_triangle[static_cast<std::size_t>(v)] |= inside ? 1 : 0;
+    }
+    assert(std::all_of(constrained.begin(), constrained.end(),
+                       [&](int v) { return in_triangle[static_cast<std::size_t>(v)] != 0; }));
+    return problem;
+}
+
+double mean_edge(const SurfaceMesh& mesh) {
+    double sum = 0.0;
+    for (const auto& t : mesh.triangles.colwise())
+        for (int i = 0; i < 3; ++i) sum += (mesh.vertices.col(t[i]) - mesh.vertices.col(t[(i + 1) % 3])).norm();
+    return sum / static_cast<double>(mesh.triangles.size());
+}
+
+struct Solution {
+    Positions u;  // of the coarse vertices
+    int n_nodes = 0;
+};
+
+/// `inside`: bound on the volume of a tetrahedron, in units of the regular one over `edge`.
+TetMesh fill(const RefinedSurface& refined, double edge, double inside) {
+    Control control;
+    const double ratio = edge / mean_edge(refined.mesh);
+    return tetrahedralize(refined.mesh, "truth",
+                          {.radius_edge_ratio = 1.4, .relative_volume = inside * std::pow(ratio, 3)}, control);
+}
+
+Solution solve_on(const RefinedSurface& refined, const TetMesh& tetrahedra, const Problem& problem) {
+    const QuadraticMesh mesh(tetrahedra);
+    const Positions prescribed = refined.interpolate(problem.values);
+    Positions at_nodes = Positions::Zero(3, mesh.n_nodes());
+    std::vector<char> is_prescribed(static_cast<std::size_t>(mesh.n_nodes()), 0);
+    const auto prescribe = [&](int node, const Eigen::Vector3d& value) {
+        is_prescribed[static_cast<std::size_t>(node)] = 1;
+        at_nodes.col(node) = value;
+    };
+    for (Eigen::Index t = 0; t < refined.mesh.triangles.cols(); ++t) {
+        if (!problem.in_region[static_cast<std::size_t>(refined.coarse_triangle[static_cast<std::size_t>(t)])])
+            continue;
+        const Eigen::Vector3i v = refined.mesh.triangles.col(t);
+        for (int i = 0; i < 3; ++i) {
+            const int j = (i + 1) % 3;
+            prescribe(v[i], prescribed.col(v[i]));
+            prescribe(mesh.midpoint(v[i], v[j]), 0.5 * (prescribed.col(v[i]) + prescribed.col(v[j])));
+        }
+    }
+    std::vector<int> nodes;
+    for (int node = 0; node < mesh.n_nodes(); ++node)
+        if (is_prescribed[static_cast<std::size_t>(node)]) nodes.push_back(node);
+    const Positions u = solve_quadratic(mesh, problem.material, nodes, at_nodes(Eigen::all, nodes));
+    return {u.leftCols(problem.surface.n_vertices()), mesh.n_nodes()};
+}
+
+/// Root of the sum of squares over the free vertices.
+double size_of(const Positions& u, const Problem& problem) {
+    double sum = 0.0;
+    for (Eigen::Index v = 0; v < u.cols(); ++v)
+        if (problem.is_free[static_cast<std::size_t>(v)]) sum += u.col(v).squaredNorm();
+    return std::sqrt(sum);
+}
+
+/// On tetrahedra and on eight times as many, extrapolated. The second mesh has the shapes of the first, so that the
+/// error is exactly halved as the elements are, which two meshes by TetGen would not show.
+Solution extrapolate(const RefinedSurface& refined, double edge, const Problem& problem) {
+    // Inside, elements may be larger than on the surface, where the solution is rough.
+    constexpr double kInside = 4.0;
+    const TetMesh mesh = fill(refined, edge, kInside);
+    const RefinedSurface fine = refine_all(refined);
+    const Solution before = solve_on(refined, mesh, problem);
+    const Solution after = solve_on(fine, refine_tetrahedra(mesh, fine), problem);
+    return {2.0 * after.u - before.u, after.n_nodes};
+}
+
+}  // namespace
+
+OrganicTruth compute_truth(const SurfaceMesh& surface, std::span<const int> constrained, const Positions& values,
+                           const Material& material, const TruthOptions& options) {
+    assert(options.rim_refinements >= 1);
+    const Problem problem = make_problem(surface, constrained, values, material);
+    const double edge = mean_edge(surface);
+    RefinedSurface refined = unrefined(surface);
+    Solution before, last;
+    for (int round = 0; round <= options.rim_refinements; ++round) {
+        if (round > 0) refined = refine_marked(refined, around_rim(refined, problem.in_region));
+        if (round + 1 < options.rim_refinements) continue;
+        before = std::move(last);
+        last = extrapolate(refined, edge, problem);
+    }
+    return {last.u, size_of(last.u - before.u, problem) / size_of(last.u, problem), last.n_nodes};
+}
+
+}  // namespace elastolab

@@ -1,0 +1,149 @@
+#include "study/error/problems.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <Eigen/Geometry>
+#include <numbers>
+#include <random>
+#include <set>
+
+#include "elasticity/exact_fields.hpp"
+#include "mesh/primitives.hpp"
+#include "study/error/organic_body.hpp"
+#include "study/error/organic_truth.hpp"
+#include "study/setups.hpp"
+
+namespace elastolab {
+
+namespace {
+
+constexpr double kNear = 1e-9;
+
+template <class Field, class Predicate>
+Problem exact_problem(SurfaceMesh mesh, const Field& field, const Material& material, Predicate&& constrained) {
+    Problem problem;
+    problem.truth = displacements(field, mesh.vertices);
+    problem.constrained = vertices_where(mesh, constrained);
+    problem.body = study_body(std::move(mesh), material);
+    return problem;
+}
+
+/// Uniform in [-1, 1], the same on every machine.
+class Jitter {
+public:
+    double operator()() {
+        return 2.0 * static_cast<double>(random_()) / static_cast<double>(std::mt19937::max()) - 1.0;
+    }
+
+private:
+    std::mt19937 random_{31};
+};
+
+constexpr double kJitter = 0.25;  // of a cell
+
+SurfaceMesh bar(int cells, bool irregular) {
+    const Eigen::Vector3d size(2.0, 1.0, 1.0);
+    SurfaceMesh mesh = make_box(cells, size);
+    Jitter jitter;
+    for (auto x : mesh.vertices.colwise())
+        for (int axis = 0; irregular && axis < 3; ++axis)
+            if (x[axis] > kNear && x[axis] < size[axis] - kNear) x[axis] += kJitter / cells * jitter();
+    return mesh;
+}
+
+template <class Field>
+Problem ends_of_bar(SurfaceMesh mesh, const Field& field, const Material& material) {
+    return exact_problem(std::move(mesh), field, material,
+                         [](const auto& x) { return x[0] < kNear || x[0] > 2.0 - kNear; });
+}
+
+Problem twist(int cells, double nu, bool irregular) {
+    SurfaceMesh mesh = make_cylinder(cells);
+    const double radius = 0.5, end = 1.0 - kNear, step = kJitter * radius * std::numbers::pi / 2.0 / cells;
+    Jitter jitter;
+    for (auto x : mesh.vertices.colwise()) {
+        if (!irregular) break;
+        const bool on_side = x.template head<2>().norm() > radius - kNear, on_cap = std::fabs(x[2]) > end;
+        const double angle = on_side ? step / radius * jitter() : 0.0;
+        x.template head<2>() = Eigen::Rotation2Dd(angle) * Eigen::Vector2d(x.template head<2>());
+        if (on_side && !on_cap) x[2] += step * jitter();
+        if (on_cap && !on_side) x.template head<2>() += 0.5 * step * Eigen::Vector2d(jitter(), jitter());
+    }
+    return exact_problem(std::move(mesh), Torsion{{1.0, nu}, 1.0}, {1.0, nu},
+                         [=](const auto& x) { return std::fabs(x[2]) > end; });
+}
+
+Problem inflate(int cells, double nu) {
+    return exact_problem(make_hollow_sphere(cells), HollowSphereField{.material = {1.0, nu}}, {1.0, nu},
+                         [](const auto& x) { return x.norm() < 0.75; });
+}
+
+Problem pull(const OrganicBody& organic, double nu) {
+    const Material material{1.0, nu};
+    const Positions values = organic.values(0.2);
+    Problem problem;
+    problem.constrained = organic.constrained();
+    const OrganicTruth truth = compute_truth(organic.surface, problem.constrained, values, material, {1});
+    problem.truth = truth.displacements.reshaped();
+    problem.truth_error = truth.relative_error;
+    problem.body = study_body(organic.surface, material, organic.name);
+    return problem;
+}
+
+constexpr const char* kExact = "exact solution";
+constexpr const char* kConverged = "quadratic finite elements graded towards the rims, extrapolated";
+
+}  // namespace
+
+Eigen::VectorXd Problem::values() const { return values_at(truth, constrained); }
+
+double Problem::error(const Eigen::VectorXd& u) const {
+    const std::set<int> fixed(constrained.begin(), constrained.end());
+    const double unit = truth.cwiseAbs().maxCoeff();  // keeps the squares of huge and tiny numbers in range
+    double off = 0.0, size = 0.0;
+    for (int v = 0; v < body.surface->n_vertices(); ++v) {
+        if (fixed.contains(v)) continue;
+        off += ((u - truth).segment<3>(3 * v) / unit).squaredNorm();
+        size += (truth.segment<3>(3 * v) / unit).squaredNorm();
+    }
+    return std::sqrt(off / size);
+}
+
+double Problem::largest_error(const Eigen::VectorXd& u) const {
+    return elastolab::largest_error(u / truth.cwiseAbs().maxCoeff(), truth / truth.cwiseAbs().maxCoeff());
+}
+
+const std::vector<ProblemFamily>& problem_families() {
+    static const std::vector<ProblemFamily> families = {
+        {"rotation", kExact, false, true,
+         [](int size, double nu) {
+             return ends_of_bar(bar(size, true), RigidMotionField{{0.1, 0.2, 0.3}, {0.3, -0.2, 0.1}}, {1.0, nu});
+         }},
+        {"stretch", kExact, false, true,
+         [](int size, double nu) {
+             return ends_of_bar(bar(size, true), UniaxialStretch{{1.0, nu}, 1.0}, {1.0, nu});
+         }},
+        {"bending", kExact, false, false,
+         [](int size, double nu) {
+             return ends_of_bar(bar(size, false), PureBending{{1.0, nu}, 1.0}, {1.0, nu});
+         }},
+        {"bending-irregular", kExact, false, false,
+         [](int size, double nu) {
+             return ends_of_bar(bar(size, true), PureBending{{1.0, nu}, 1.0}, {1.0, nu});
+         }},
+        {"torsion", kExact, false, false, [](int size, double nu) { return twist(size, nu, false); }},
+        {"torsion-irregular", kExact, false, false, [](int size, double nu) { return twist(size, nu, true); }},
+        {"hollow-sphere", kExact, false, false, [](int size, double nu) { return inflate(size, nu); }},
+        {"rabbit", kConverged, true, false, [](int size, double nu) { return pull(make_rabbit(size), nu); }},
+        {"potato", kConverged, true, false, [](int size, double nu) { return pull(make_potato(size), nu); }},
+        {"cactus", kConverged, true, false, [](int size, double nu) { return pull(make_cactus(size), nu); }},
+    };
+    return families;
+}
+
+const ProblemFamily& problem_family(const std::string& name) {
+    const auto& all = problem_families();
+    return *std::find_if(all.begin(), all.end(), [&](const ProblemFamily& family) { return family.name == name; });
+}
+
+}  // namespace elastolab

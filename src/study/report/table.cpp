@@ -1,0 +1,131 @@
+#include "study/report/table.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+#include "base/text.hpp"
+
+namespace elastolab {
+
+Row& Row::set(std::string_view column, std::string text) {
+    const auto same =
+        std::find_if(cells_.begin(), cells_.end(), [&](const auto& cell) { return cell.first == column; });
+    if (same != cells_.end())
+        same->second = std::move(text);
+    else
+        cells_.emplace_back(std::string(column), std::move(text));
+    return *this;
+}
+
+Row& Row::set(std::string_view column, double value) {
+    if (std::isnan(value)) return set(column, std::string());
+    return set(column, formatted("%.6g", value));
+}
+
+Row& Row::add(const Row& other) {
+    for (const auto& [column, text] : other.cells_) set(column, text);
+    return *this;
+}
+
+const std::string& Row::text(std::string_view column) const {
+    static const std::string kNone;
+    for (const auto& [name, text] : cells_)
+        if (name == column) return text;
+    return kNone;
+}
+
+double Row::number(std::string_view column) const {
+    const std::string& cell = text(column);
+    char* end = nullptr;
+    const double value = std::strtod(cell.c_str(), &end);
+    return end == cell.c_str() ? std::numeric_limits<double>::quiet_NaN() : value;
+}
+
+Table Table::where(const Row& where) const {
+    Table selected{columns, {}};
+    for (const Row& row : rows)
+        if (std::all_of(where.cells().begin(), where.cells().end(),
+                        [&](const auto& cell) { return row.text(cell.first) == cell.second; }))
+            selected.rows.push_back(row);
+    return selected;
+}
+
+std::vector<std::string> Table::values(std::string_view column) const {
+    std::vector<std::string> values;
+    for (const Row& row : rows)
+        if (const std::string& text = row.text(column);
+            !text.empty() && std::find(values.begin(), values.end(), text) == values.end())
+            values.push_back(text);
+    return values;
+}
+
+std::vector<double> Table::numbers(std::string_view column) const {
+    std::vector<double> numbers;
+    for (const Row& row : rows) numbers.push_back(row.number(column));
+    return numbers;
+}
+
+std::string joined(const std::vector<std::string>& messages) {
+    std::string text;
+    for (const std::string& message : messages) text += (text.empty() ? "" : "; ") + message;
+    return text;
+}
+
+std::string csv_line(const std::vector<std::string>& fields) {
+    std::string line;
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+        if (i > 0) line += ',';
+        const std::string text = one_line(fields[i]);
+        if (text.find_first_of(",\"") == std::string::npos) {
+            line += text;
+            continue;
+        }
+        line += '"';
+        for (const char c : text) line += c == '"' ? std::string("\"\"") : std::string(1, c);
+        line += '"';
+    }
+    return line;
+}
+
+std::vector<std::string> csv_fields(std::string_view line) {
+    std::vector<std::string> fields(1);
+    bool quoted = false;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        const char c = line[i];
+        if (quoted && c == '"' && i + 1 < line.size() && line[i + 1] == '"')
+            fields.back() += line[++i];
+        else if (c == '"')
+            quoted = !quoted;
+        else if (c == ',' && !quoted)
+            fields.emplace_back();
+        else
+            fields.back() += c;
+    }
+    return fields;
+}
+
+void write_csv(std::ostream& out, const Table& table) {
+    out << csv_line(table.columns) << '\n';
+    for (const Row& row : table.rows) {
+        std::vector<std::string> fields;
+        for (const std::string& column : table.columns) fields.push_back(row.text(column));
+        out << csv_line(fields) << '\n';
+    }
+}
+
+Table read_csv(std::istream& in) {
+    Table table;
+    std::string line;
+    if (std::getline(in, line)) table.columns = csv_fields(line);
+    while (std::getline(in, line)) {
+        const std::vector<std::string> fields = csv_fields(line);
+        Row& row = table.rows.emplace_back();
+        for (std::size_t i = 0; i < std::min(fields.size(), table.columns.size()); ++i)
+            if (!fields[i].empty()) row.set(table.columns[i], fields[i]);
+    }
+    return table;
+}
+
+}  // namespace elastolab

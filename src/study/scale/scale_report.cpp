@@ -1,0 +1,123 @@
+#include "study/scale/scale_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/text.hpp"
+#include "study/report/report.hpp"
+#include "study/report/statistics.hpp"
+
+namespace elastolab {
+
+namespace {
+
+const std::vector<std::string> kModes = {"on-demand", "full", "full-volume"};
+
+/// Growth on the larger half of the meshes, where fixed costs no longer count.
+double exponent(const Table& rows, const std::string& quantity) {
+    const std::vector<double> x = rows.numbers("vertices"), y = rows.numbers(quantity);
+    const auto half = static_cast<std::ptrdiff_t>(x.size() / 2);
+    return fitted_exponent(std::vector(x.begin() + half, x.end()), std::vector(y.begin() + half, y.end()));
+}
+
+std::string bytes(double value) { return std::isfinite(value) ? readable_bytes(value) : "-"; }
+
+std::string growth_table(const Table& table) {
+    std::vector<std::vector<std::string>> lines;
+    for (const std::string& method : table.values("method"))
+        for (const std::string& mode : kModes) {
+            const Table rows = table.where({{"method", method}, {"mode", mode}});
+            if (rows.rows.empty()) continue;
+            const Row& last = rows.rows.back();
+            lines.push_back({method, mode, last.text("vertices"), duration(last.number("precompute_s")),
+                             short_number(exponent(rows, "precompute_s")), duration(last.number("set_change_s")),
+                             short_number(exponent(rows, "set_change_s")), duration(last.number("frame_s")),
+                             bytes(last.number("measured_bytes")), short_number(exponent(rows, "measured_bytes"))});
+        }
+    return markdown_table({"method", "mode", "vertices of the largest", "precomputation", "exponent", "set change",
+                           "exponent", "frame", "memory", "exponent"},
+                          lines);
+}
+
+/// What a prediction is of. FEM on demand factorises when a set is known, and its prediction includes that.
+double measured(const Row& row, const std::string& of) {
+    const bool with_set = row.text("method") == "fem" && row.text("mode") == "on-demand";
+    if (of == "bytes") return row.number(with_set ? "with_set_bytes" : "measured_bytes");
+    return row.number("precompute_s") + (with_set ? row.number("set_change_s") : 0.0);
+}
+
+std::string prediction_table(const Table& table) {
+    std::vector<std::vector<std::string>> lines;
+    for (const std::string& method : table.values("method"))
+        for (const std::string& mode : kModes) {
+            const Table rows = table.where({{"method", method}, {"mode", mode}});
+            double least = 1e300, most = 0.0;
+            for (std::size_t i = rows.rows.size() / 2; i < rows.rows.size(); ++i) {
+                const double ratio = rows.rows[i].number("predicted_bytes") / measured(rows.rows[i], "bytes");
+                least = std::min(least, ratio);
+                most = std::max(most, ratio);
+            }
+            if (rows.rows.empty()) continue;
+            const Row& last = rows.rows.back();
+            lines.push_back({method, mode, last.text("vertices"), bytes(last.number("predicted_bytes")),
+                             bytes(measured(last, "bytes")), bytes(last.number("with_set_bytes")),
+                             short_number(least) + " to " + short_number(most), duration(last.number("predicted_s")),
+                             duration(measured(last, "seconds"))});
+        }
+    return "Predicted and measured until the factorisation is there: with the first set by FEM on demand.\n\n" +
+           markdown_table({"method", "mode", "vertices", "memory predicted", "measured", "with a constrained set",
+                           "predicted / measured, larger half", "time predicted", "measured"},
+                          lines);
+}
+
+Plot growth_plot(const Table& table, const std::string& column, const std::string& title, const std::string& label) {
+    Plot plot{.name = "scale-" + column.substr(0, column.rfind('_')), .title = title};
+    plot.caption = "Solid: on demand; dashed: full; points: FEM over all nodes.";
+    plot.x_label = "vertices";
+    plot.y_label = label;
+    plot.log_x = plot.log_y = true;
+    for (const std::string& method : table.values("method"))
+        for (const std::string& mode : kModes) {
+            const Row where{{"method", method}, {"mode", mode}};
+            if (table.where(where).rows.empty()) continue;
+            plot.series.push_back({method + ", " + mode, where, "vertices", column, method_color(method),
+                                   mode == "full", mode == "full-volume" ? "points" : "linespoints"});
+        }
+    return plot;
+}
+
+Plot memory_plot(const Table& table) {
+    Plot plot = growth_plot(table, "measured_bytes", "Peak memory of the precomputation", "bytes");
+    plot.name = "scale-memory";
+    plot.caption = "Measured (with points) and predicted before it begins (dashed lines without), on demand.";
+    std::erase_if(plot.series, [](const Series& series) { return series.where.text("mode") != "on-demand"; });
+    const std::vector<Series> measured = plot.series;
+    for (Series series : measured) {
+        series.title += ", predicted";
+        series.y = "predicted_bytes";
+        series.dashed = true;
+        series.style = "lines";
+        plot.series.push_back(series);
+    }
+    return plot;
+}
+
+}  // namespace
+
+Conclusions conclude_scale(const Table& table) {
+    Conclusions conclusions;
+    conclusions.findings =
+        "Cubes with one face fixed and a patch of the opposite one as a handle. Exponents are those of the growth with "
+        "the number of surface vertices, fitted over the larger half of the meshes; a frame is a drag of the "
+        "handle.\n\n" +
+        growth_table(table) +
+        "\nMemory is the peak beyond what the program held before; TetGen runs in a process of its own and is not in "
+        "it.\n\n" +
+        prediction_table(table);
+    conclusions.plots = {growth_plot(table, "precompute_s", "Precomputation", "precomputation [s]"),
+                         growth_plot(table, "set_change_s", "First constrained set", "set change [s]"),
+                         memory_plot(table)};
+    return conclusions;
+}
+
+}  // namespace elastolab

@@ -1,0 +1,189 @@
+#include "study/skip/skip_work.hpp"
+
+#include "mesh/primitives.hpp"
+#include "study/setups.hpp"
+#include "study/report/statistics.hpp"
+
+namespace elastolab {
+
+namespace {
+
+using Seconds = std::function<double(const SkipScene&)>;
+
+double timed(const std::function<void()>& work) { return median_seconds(work, 0.5, 5); }
+
+Method changed(Method method, Mode mode, Update update = Update::reduced) {
+    method.mode = mode;
+    method.update = update;
+    return method;
+}
+
+/// Mesh to a constrained set in a mode.
+Seconds ready_in(Mode mode, Update update = Update::reduced) {
+    return [=](const SkipScene& scene) {
+        return timed([&] { scene.ready(scene.model(changed(scene.method, mode, update))); });
+    };
+}
+
+Seconds precomputed_in(Mode mode) {
+    return [=](const SkipScene& scene) { return timed([&] { scene.model(changed(scene.method, mode)); }); };
+}
+
+Eigen::VectorXd pull(const SkipScene& scene) {
+    return Eigen::Vector3d(0.1, 0.2, 0.3).replicate(std::ssize(scene.set.handles), 1);
+}
+
+double drag_frame(const SkipScene& scene) {
+    const Deformer deformer = scene.ready(scene.model(scene.method));
+    const DragResponse drag = deformer.drag_response(Eigen::VectorXd::Zero(3 * std::ssize(scene.set.handles)),
+                                                     translation_basis(scene.set.handles.size()));
+    Eigen::VectorXd u;
+    const Eigen::VectorXd shift = Eigen::Vector3d(0.1, 0.2, 0.3);
+    return median_seconds_of_short([&] { drag.displace(shift, u); });
+}
+
+double displace_frame(const SkipScene& scene) {
+    const Deformer deformer = scene.ready(scene.model(scene.method));
+    const Eigen::VectorXd values = pull(scene);
+    return median_seconds_of_short([&] { deformer.displace(values); });
+}
+
+/// Eqn. 7 as it stands, for every frame.
+double afresh_frame(const SkipScene& scene) {
+    const auto model = scene.model(changed(scene.method, Mode::on_demand, Update::direct));
+    const Eigen::VectorXd values = pull(scene);
+    return timed([&] { scene.ready(model).displace(values); });
+}
+
+double known_columns(const SkipScene& scene) {
+    Deformer deformer = scene.ready(scene.model(scene.method));
+    ConstrainedSet fewer = scene.set;
+    fewer.handles.pop_back();
+    bool odd = false;
+    return timed([&] { deformer.constrain((odd = !odd) ? fewer : scene.set, scene.control); });
+}
+
+double unknown_columns(const SkipScene& scene) {
+    std::vector<double> seconds;
+    timed([&] {
+        const auto model = scene.model(scene.method);
+        seconds.push_back(median_seconds([&] { scene.ready(model); }, 0.0, 1));
+    });
+    return median(seconds);
+}
+
+/// Another material on a model that is there.
+Seconds again_with(double E, double nu, bool keep_integrals) {
+    return [=](const SkipScene& scene) {
+        Method method = scene.method;
+        method.keep_integrals = keep_integrals;
+        const auto model = scene.model(method);
+        return timed([&] { precompute_again(*model, {E, nu}, method, scene.control); });
+    };
+}
+
+/// Another base on a model that is there; on a fresh one every time, which knows no column of it yet.
+double base_on_known_model(const SkipScene& scene) {
+    ConstrainedSet other = scene.set;
+    other.handles.push_back(other.base.back());
+    other.base.pop_back();
+    std::vector<double> seconds;
+    timed([&] {
+        Deformer deformer = scene.ready(scene.model(scene.method));
+        const Stopwatch watch;
+        deformer.constrain(other, scene.control);
+        seconds.push_back(watch.seconds());
+    });
+    return median(seconds);
+}
+
+/// Handles change while the base stays, and is known to be the base or not.
+Seconds handles_change(bool base_is_known) {
+    return [=](const SkipScene& scene) {
+        const auto model = scene.model(scene.method);
+        ConstrainedSet set = scene.set;
+        if (!base_is_known) {
+            set.handles.insert(set.handles.end(), set.base.begin(), set.base.end());
+            set.base.clear();
+        }
+        Deformer deformer(model);
+        deformer.constrain(set, scene.control);
+        return timed([&] { deformer.constrain(set, scene.control); });
+    };
+}
+
+double all_methods(const SkipScene& scene) {
+    return timed([&] {
+        for (const MethodKind kind : all_kinds()) {
+            Method method;
+            method.kind = kind;
+            scene.model(method);
+        }
+    });
+}
+
+Seconds tolerance(double relative_error) {
+    return [=](const SkipScene& scene) {
+        Method method = changed(scene.method, Mode::on_demand, Update::reduced);
+        method.integral_tolerance = relative_error;
+        return timed([&] { scene.model(method); });
+    };
+}
+
+}  // namespace
+
+SkipScene::SkipScene(MethodKind kind, int cells, Control& its_control)
+    : body(study_body(make_box(cells), Material{1.0, 0.3}, "cube")), control(its_control) {
+    method.kind = kind;
+    const Eigen::Vector3d middle(1.0, 0.5, 0.5);
+    set.base = vertices_where(*body.surface, [](const auto& x) { return x[0] < 1e-9; });
+    set.handles =
+        vertices_where(*body.surface, [&](const auto& x) { return x[0] > 1.0 - 1e-9 && (x - middle).norm() < 0.26; });
+}
+
+Deformer SkipScene::ready(std::shared_ptr<const Model> its_model) const {
+    Deformer deformer(std::move(its_model));
+    deformer.constrain(set, control);
+    return deformer;
+}
+
+std::vector<Skip> all_skips() {
+    const MethodKind fem = MethodKind::fem, linear = MethodKind::linear_bem, constant = MethodKind::constant_bem;
+    std::vector<Skip> skips = {
+        {"interior", "interior nodes: a dense inverse of the surface's nodes instead of all", fem,
+         precomputed_in(Mode::full), precomputed_in(Mode::full_volume)},
+        {"dense-inverse", "columns nobody asks for: a sparse factor instead of the paper's dense inverse", fem,
+         ready_in(Mode::on_demand), ready_in(Mode::full_volume)},
+        {"hidden", "methods that are not shown", linear, precomputed_in(Mode::on_demand), all_methods},
+        {"base-known", "columns of the base: eliminated once instead of treated as handles", fem, handles_change(true),
+         handles_change(false)},
+    };
+    for (const MethodKind kind : {fem, constant, linear}) {
+        const bool is_fem = kind == fem;
+        if (!is_fem) {
+            skips.push_back({"columns", "columns of K^-1 and of G nobody asks for: on demand instead of full", kind,
+                             ready_in(Mode::on_demand), ready_in(Mode::full)});
+            skips.push_back({"far-integrals", "closed forms far away, where Gauss rules keep 1e-10", kind,
+                             tolerance(1e-10), tolerance(1e-16)});
+        }
+        skips.push_back({"frame-solve", "solving for a frame: the drag response instead of the small system", kind,
+                         drag_frame, displace_frame});
+        skips.push_back({"frame-afresh", "solving for a frame: the drag response instead of Eqn. 7 afresh", kind,
+                         drag_frame, afresh_frame});
+        skips.push_back(
+            {"known-columns", "columns that are known when a handle changes", kind, known_columns, unknown_columns});
+        skips.push_back({"young", "everything when Young's modulus changes", kind, again_with(2.0, 0.3, false),
+                         precomputed_in(Mode::on_demand)});
+        skips.push_back({"poisson",
+                         is_fem ? "tetrahedra and integrals when Poisson's ratio changes"
+                                : "integrals when Poisson's ratio changes (keep_integrals)",
+                         kind, again_with(1.0, 0.4, true), precomputed_in(Mode::on_demand)});
+        skips.push_back({"base-change", "the precomputation when the base changes", kind, base_on_known_model,
+                         ready_in(Mode::on_demand)});
+        skips.push_back({"single-solve", "what only a drag needs: one factorisation for a single solve", kind,
+                         ready_in(Mode::on_demand, Update::direct), ready_in(Mode::on_demand)});
+    }
+    return skips;
+}
+
+}  // namespace elastolab
