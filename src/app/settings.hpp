@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "deform/method.hpp"
+#include "methods/registry.hpp"
 #include "render/geometry/picking.hpp"
 #include "scene/live/simulation.hpp"
 
@@ -25,8 +26,8 @@ enum class CompareMode { off, side_by_side, ghosts };
 
 struct CompareSettings {
     CompareMode mode = CompareMode::off;
-    std::vector<MethodKind> kinds = all_method_kinds();  ///< shown when comparing
-    MethodKind reference = MethodKind::linear_bem;       ///< differences are to this one
+    std::vector<MethodKind> kinds{all_methods().begin(), all_methods().end()};  ///< shown when comparing
+    MethodKind reference = default_method();                                    ///< differences are to this one
 };
 
 enum class Field { none, displacement, difference, traction, von_mises };

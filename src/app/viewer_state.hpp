@@ -11,9 +11,10 @@
 #include "app/input/interaction_log.hpp"
 #include "app/panels/messages.hpp"
 #include "app/picture/section_volume.hpp"
-#include "app/settings.hpp"
 #include "app/picture/shown_body.hpp"
+#include "app/settings.hpp"
 #include "app/window/timings.hpp"
+#include "methods/registry.hpp"
 #include "render/camera.hpp"
 #include "scene/live/background_job.hpp"
 #include "scene/live/live_scene.hpp"
@@ -45,7 +46,7 @@ public:
     const VertexGraph& graph() const { return *graph_; }
     Simulation simulation;
     MethodChoices choices;
-    MethodKind method = MethodKind::linear_bem;
+    MethodKind method = default_method();
     ToolSettings tools;
     CompareSettings compare;
     DisplaySettings display;

@@ -39,7 +39,7 @@ Eigen::VectorXd spread_around_vertices(const BemSystem& system, const SparseRows
     const Eigen::VectorXd u = solution.displacements.col(0), shown = display * u;
     Eigen::VectorXd spread = Eigen::VectorXd::Zero(shown.size());
     for (int v = 0; v < system.boundary().mesh().n_vertices(); ++v)
-        for (const int t : system.around()[v]) {
+        for (const int t : system.triangles_of_vertex()[v]) {
             const Eigen::Vector3d off = u.segment<3>(3 * t) - shown.segment<3>(3 * v);
             if (off.norm() > spread.segment<3>(3 * v).norm()) spread.segment<3>(3 * v) = off;
         }

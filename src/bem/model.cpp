@@ -1,10 +1,8 @@
 #include "bem/model.hpp"
 
 #include "base/error.hpp"
-#include "bem/responses.hpp"
 #include "bem/mixed_solver.hpp"
-#include "bem/error_estimate.hpp"
-#include "findings/guards.hpp"
+#include "bem/responses.hpp"
 #include "deform/reduced_solver.hpp"
 
 namespace elastolab {
@@ -20,32 +18,19 @@ bool same_integrals(const Method& a, const Method& b) {
     return a.kind == b.kind && a.integral_tolerance == b.integral_tolerance;
 }
 
-ReducedSystem reduced_system(const std::shared_ptr<const BemSystem>& system, const LoadPlan& plan,
-                             const std::vector<int>& nodes, Control& control) {
-    ReducedSystem reduced;
-    reduced.responses = std::make_shared<const BemResponses>(system, plan, control);
-    reduced.rigid = system->rigid();
-    reduced.nodes = nodes;
-    reduced.n_loads = 3 * plan.n_slots();
-    return reduced;
-}
-
 }  // namespace
 
-BemModel::BemModel(const SurfaceMesh& surface, double poisson_ratio, const Method& method, Control& control)
-    : method_(method), poisson_ratio_(poisson_ratio) {
-    system_ = std::make_shared<const BemSystem>(std::make_shared<const Boundary>(surface), poisson_ratio, method,
-                                                BemIntegrals{}, facts_.stages, control);
-    note_facts();
-}
-
-BemModel::BemModel(const BemModel& before, double poisson_ratio, const Method& method, Control& control)
-    : method_(method), poisson_ratio_(poisson_ratio) {
-    if (same_system(before.method_, method) && before.poisson_ratio_ == poisson_ratio) {
-        system_ = before.system_;
+BemModel::BemModel(const BoundaryElement& element, const SurfaceMesh& surface, double poisson_ratio,
+                   const Method& method, const BemModel* before, Control& control)
+    : element_(element), method_(method), poisson_ratio_(poisson_ratio) {
+    if (before != nullptr && before->poisson_ratio_ == poisson_ratio && same_system(before->method_, method)) {
+        system_ = before->system_;
     } else {
-        const auto integrals = same_integrals(before.method_, method) ? before.system_->integrals() : BemIntegrals{};
-        system_ = std::make_shared<const BemSystem>(before.system_->shared_boundary(), poisson_ratio, method, integrals,
+        auto boundary =
+            before != nullptr ? before->system_->shared_boundary() : std::make_shared<const Boundary>(surface);
+        const bool reuse = before != nullptr && same_integrals(before->method_, method);
+        system_ = std::make_shared<const BemSystem>(element, std::move(boundary), poisson_ratio, method,
+                                                    reuse ? before->system_->integrals() : BemIntegrals{},
                                                     facts_.stages, control);
     }
     note_facts();
@@ -58,12 +43,8 @@ void BemModel::note_facts() {
     facts_.n_degrees_of_freedom = 3 * system_->n_nodes();
     facts_.memory_bytes = system_->memory_bytes();
     facts_.condition_estimate = system_->condition();
-    facts_.warnings = system_->warnings();
-    for (const auto& more : {warn_of_surface(mesh, system_->is_constant()),
-                             warn_of_condition("boundary-element matrix", system_->condition())})
-        facts_.warnings.insert(facts_.warnings.end(), more.begin(), more.end());
-    if (system_->is_constant())
-        display_ = std::make_shared<const SparseRows>(average_of_triangles(mesh, system_->around()));
+    facts_.findings = system_->findings();
+    display_ = element_.display(mesh, system_->triangles_of_vertex());
 }
 
 std::unique_ptr<NodeSolver> BemModel::make_solver(const LoadPlan& plan, const std::vector<int>& nodes, int n_base,
@@ -73,8 +54,6 @@ std::unique_ptr<NodeSolver> BemModel::make_solver(const LoadPlan& plan, const st
             if (has_K()) return std::make_unique<DirectSolver>(system_->operators(), nodes, &control);
             return std::make_unique<MixedSolver>(*system_, plan, nodes, n_base, control);
         case Update::eqn9:
-            if (!system_->operators())
-                throw SolveError("update eqn9: needs K and its inverse in memory. Choose the mode full.");
             if (has_K()) return make_paper_solver(system_->operators(), nodes, control);
             if (2 * std::ssize(nodes) >= system_->n_nodes())
                 return std::make_unique<MixedSolver>(*system_, plan, nodes, n_base, control);
@@ -85,26 +64,14 @@ std::unique_ptr<NodeSolver> BemModel::make_solver(const LoadPlan& plan, const st
     return std::make_unique<ReducedSolver>(reduced_system(system_, plan, nodes, control), control);
 }
 
-bool BemModel::has_K() const {
-    return system_->operators() && (system_->is_constant() || method_.tractions == Tractions::continuous);
-}
+bool BemModel::has_K() const { return system_->operators() && element_.has_stiffness(method_.tractions); }
 
-BemModel::Setting BemModel::setting_of(std::span<const int> base, std::span<const int> handles) const {
-    std::vector<int> vertices(base.begin(), base.end());
-    vertices.insert(vertices.end(), handles.begin(), handles.end());
-    const Boundary& boundary = system_->boundary();
-    if (!system_->is_constant())
-        return {constrain_vertices(vertices),
-                plan_linear_loads(boundary, system_->around(), method_.tractions, vertices),
-                static_cast<int>(base.size())};
-    ConstrainedNodes nodes = constrain_triangles(boundary.mesh(), system_->around(), vertices);
-    LoadPlan plan = plan_constant_loads(boundary, nodes.nodes, nodes.prescribe);
-    // Constant elements mix base and handles in their triangles; none of those counts as resting then.
-    return {std::move(nodes), std::move(plan), 0};
+BemConstraints BemModel::constraints_of(std::span<const int> base, std::span<const int> handles) const {
+    return element_.constrain(system_->boundary(), system_->triangles_of_vertex(), method_.tractions, base, handles);
 }
 
 std::uint64_t BemModel::constrain_memory(std::span<const int> base, std::span<const int> handles) const {
-    const Setting setting = setting_of(base, handles);
+    const BemConstraints setting = constraints_of(base, handles);
     if (method_.update == Update::reduced) return response_memory(*system_, setting.plan);
     const auto all = 3 * static_cast<std::uint64_t>(system_->n_nodes());
     const auto constrained = 3 * static_cast<std::uint64_t>(setting.nodes.nodes.size()), free = all - constrained;
@@ -116,7 +83,7 @@ std::uint64_t BemModel::constrain_memory(std::span<const int> base, std::span<co
 
 std::unique_ptr<ConstrainedSolid> BemModel::constrain(std::span<const int> base, std::span<const int> handles,
                                                       Control& control) const {
-    Setting setting = setting_of(base, handles);
+    BemConstraints setting = constraints_of(base, handles);
     const LoadPlan& plan = setting.plan;
     std::unique_ptr<NodeSolver> solver = make_solver(plan, setting.nodes.nodes, setting.n_base, control);
     SolutionChecks its_checks = checks(plan, setting.nodes.nodes);
@@ -129,20 +96,9 @@ SolutionChecks BemModel::checks(const LoadPlan& plan, const std::vector<int>& no
     checks.residual = [system = system_, plan](const NodeSolution& solution, Control& control) {
         return boundary_residual(*system, plan, solution, control);
     };
-    if (system_->is_constant()) {
-        checks.error = [system = system_, display = display_](const NodeSolver&, const NodeSolution& solution,
-                                                              Control&) {
-            return spread_around_vertices(*system, *display, solution);
-        };
-        return checks;
-    }
-    checks.error = [system = system_, plan, nodes](const NodeSolver& solver, const NodeSolution& solution,
-                                                   Control& control) -> Eigen::VectorXd {
-        const Eigen::VectorXd residual = -residual_between_nodes(*system, plan, solution, control);
-        Eigen::VectorXd error = solver.response_to_residual(residual, control);
-        if (error.size() > 0) return error;
-        return ReducedSolver(reduced_system(system, plan, nodes, control), control)  // Eqns. 7 and 9 on K
-            .response_to_residual(residual, control);
+    checks.error = [&element = element_, system = system_, display = display_, plan, nodes](
+                       const NodeSolver& solver, const NodeSolution& solution, Control& control) {
+        return element.error(system, display.get(), plan, nodes, solver, solution, control);
     };
     return checks;
 }
@@ -151,10 +107,10 @@ void BemModel::visit_matrices(const std::function<void(const NamedMatrix&)>& vis
     const auto operators = system_->operators();
     if (!operators) return;
     visit({"H", *system_->double_layer_matrix()});
-    visit({"G", *system_->single_layer_matrix()});
-    visit({"K", operators->K});
-    visit({"Kinv", operators->D()});
-    visit({"Khatinv", operators->Khatinv});
+    visit({"G", *system_->single_layer_matrix(), YoungScaling::compliance});
+    visit({"K", operators->K, YoungScaling::stiffness});
+    visit({"Kinv", operators->D(), YoungScaling::compliance});
+    visit({"Khatinv", operators->Khatinv, YoungScaling::bordered_inverse});
 }
 
 }  // namespace elastolab

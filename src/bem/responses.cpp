@@ -104,4 +104,14 @@ std::uint64_t response_memory(const BemSystem& system, const LoadPlan& plan) {
            (system.keeps(plan) ? 8 * rows * unknowns : system.cache_budget() / 2);
 }
 
+ReducedSystem reduced_system(const std::shared_ptr<const BemSystem>& system, const LoadPlan& plan,
+                             const std::vector<int>& nodes, Control& control) {
+    ReducedSystem reduced;
+    reduced.responses = std::make_shared<const BemResponses>(system, plan, control);
+    reduced.rigid = system->rigid();
+    reduced.nodes = nodes;
+    reduced.n_loads = 3 * plan.n_slots();
+    return reduced;
+}
+
 }  // namespace elastolab

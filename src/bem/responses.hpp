@@ -39,6 +39,10 @@ private:
     Columns columns_;  ///< empty when nothing is kept
 };
 
+/// The small system of a constrained set: its responses, kept or not, and the border.
+ReducedSystem reduced_system(const std::shared_ptr<const BemSystem>& system, const LoadPlan& plan,
+                             const std::vector<int>& nodes, Control& control);
+
 /// Bytes that the responses of a plan, their small system and its making take at their peak.
 std::uint64_t response_memory(const BemSystem& system, const LoadPlan& plan);
 

@@ -11,7 +11,7 @@ namespace {
 
 /// Columns solved or multiplied at once: large enough for BLAS-3, small beside the matrix, often enough to cancel.
 constexpr Eigen::Index kColumnsAtOnce = 384;
-/// Of G, from which on K = G^-1 H has fewer than six digits.
+/// Condition of G above which K = G^-1 H has fewer than six digits.
 constexpr double kPoorCondition = 4.5e9;
 
 /// X <- A^-1 X, with a checkpoint after every strip of columns.
@@ -23,12 +23,6 @@ void solve_in_strips(const LuFactorization& A, Eigen::MatrixXd& X, Control& cont
     }
 }
 
-std::vector<int> all_triangles(const Boundary& boundary) {
-    std::vector<int> triangles(static_cast<std::size_t>(boundary.n_triangles()));
-    std::iota(triangles.begin(), triangles.end(), 0);
-    return triangles;
-}
-
 /// Kept columns may take an eighth of the matrix, and something where the matrix is small; more where there are five
 /// such matrices anyway.
 std::uint64_t budget_for(Eigen::Index n_rows, Mode mode) {
@@ -38,15 +32,15 @@ std::uint64_t budget_for(Eigen::Index n_rows, Mode mode) {
 
 }  // namespace
 
-BemSystem::BemSystem(std::shared_ptr<const Boundary> boundary, double poisson_ratio, const Method& method,
-                     BemIntegrals integrals, StageTimes& stages, Control& control)
-    : boundary_(std::move(boundary)),
+BemSystem::BemSystem(const BoundaryElement& element, std::shared_ptr<const Boundary> boundary, double poisson_ratio,
+                     const Method& method, BemIntegrals integrals, StageTimes& stages, Control& control)
+    : element_(element),
+      boundary_(std::move(boundary)),
       material_{1.0, poisson_ratio},
       tolerance_(method.integral_tolerance),
-      around_(boundary_->mesh()),
-      nodes_(method.kind == MethodKind::constant_bem ? centroid_sources(*boundary_) : vertex_sources(*boundary_)),
-      elements_(method.kind == MethodKind::constant_bem ? constant_elements(all_triangles(*boundary_))
-                                                        : vertex_elements(*boundary_)),
+      triangles_of_vertex_(boundary_->mesh()),
+      nodes_(element.nodes(*boundary_)),
+      elements_(element.shape_functions(*boundary_)),
       integrals_(std::move(integrals)),
       modes_(rigid_modes(nodes_.points)) {
     const Eigen::Index n = 3 * n_nodes();
@@ -104,9 +98,7 @@ void BemSystem::complete(Eigen::MatrixXd H, const Method& method, StageTimes& st
         const Stage stage("K = G^-1 H", control, stages);
         const LuFactorization G(Eigen::MatrixXd(full_->G), "single-layer matrix", &control);
         if (1.0 / G.reciprocal_condition() > kPoorCondition)
-            warnings_.push_back(
-                "K = G^-1 H: G is singular to rounding, or nearly so (constant elements at Poisson's ratio 1/2), so K "
-                "and Eqns. 7 and 9 carry few digits or none. Use the update reduced, or the mode on-demand.");
+            findings_.push_back({.kind = FindingKind::singular_stiffness});
         operators->K = H;
         solve_in_strips(G, operators->K, control);
     }

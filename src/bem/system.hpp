@@ -13,9 +13,11 @@
 #include "base/timer.hpp"
 #include "bem/assembly.hpp"
 #include "bem/boundary.hpp"
+#include "bem/element.hpp"
+#include "bem/traction_space.hpp"
 #include "deform/columns.hpp"
 #include "deform/dense_solvers.hpp"
-#include "bem/traction_space.hpp"
+#include "deform/finding.hpp"
 #include "deform/method.hpp"
 
 namespace elastolab {
@@ -34,13 +36,13 @@ class BemSystem {
 public:
     /// `integrals`: those of this boundary and method; what is missing is integrated (and kept, if the method says so).
     /// On demand with the update `direct` nothing is factorised here: each constrained set has a system of its own.
-    BemSystem(std::shared_ptr<const Boundary> boundary, double poisson_ratio, const Method& method,
-              BemIntegrals integrals, StageTimes& stages, Control& control);
+    BemSystem(const BoundaryElement& element, std::shared_ptr<const Boundary> boundary, double poisson_ratio,
+              const Method& method, BemIntegrals integrals, StageTimes& stages, Control& control);
 
     const Boundary& boundary() const { return *boundary_; }
     std::shared_ptr<const Boundary> shared_boundary() const { return boundary_; }
-    const VertexTriangles& around() const { return around_; }
-    bool is_constant() const { return elements_.order == Elements::Order::constant; }
+    const VertexTriangles& triangles_of_vertex() const { return triangles_of_vertex_; }
+    const BoundaryElement& element() const { return element_; }
     int n_nodes() const { return nodes_.size(); }
     const BemIntegrals& integrals() const { return integrals_; }
 
@@ -78,7 +80,7 @@ public:
     std::shared_ptr<const DenseOperators> operators() const { return full_ ? full_->operators : nullptr; }
     /// Hhat^-1 in full; computed on the first call.
     const Eigen::MatrixXd& bordered_inverse() const;
-    const std::vector<std::string>& warnings() const { return warnings_; }
+    const Findings& findings() const { return findings_; }
 
 private:
     struct Full {
@@ -92,10 +94,11 @@ private:
     std::vector<Columns::Block> compute(const std::vector<const LoadPlan::Block*>& missing, Elements::Order order,
                                         Control& control) const;
 
+    const BoundaryElement& element_;
     std::shared_ptr<const Boundary> boundary_;
     Material material_;
     double tolerance_;
-    VertexTriangles around_;
+    VertexTriangles triangles_of_vertex_;
     Sources nodes_;
     Elements elements_;
     BemIntegrals integrals_;
@@ -103,7 +106,7 @@ private:
     LuFactorization lu_;
     Eigen::MatrixXd rigid_;
     std::unique_ptr<Full> full_;
-    std::vector<std::string> warnings_;
+    Findings findings_;
     std::uint64_t cache_budget_ = 0;
     std::unique_ptr<ColumnCache> cache_;
     mutable std::mutex inverse_mutex_;

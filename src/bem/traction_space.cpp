@@ -53,10 +53,13 @@ struct Patch {
     std::vector<int> number;      ///< position of a vertex among the constrained ones, or -1
     std::vector<char> whole;      ///< by triangle: all its vertices are constrained
     std::vector<char> by_itself;  ///< by triangle: whole, with linear tractions of its own
-    const VertexTriangles& around;
+    const VertexTriangles& triangles_of_vertex;
 
-    Patch(const SurfaceMesh& mesh, const VertexTriangles& around_, std::span<const int> vertices)
-        : number(index(mesh.n_vertices()), -1), whole(index(mesh.n_triangles()), 0), by_itself(whole), around(around_) {
+    Patch(const SurfaceMesh& mesh, const VertexTriangles& triangles, std::span<const int> vertices)
+        : number(index(mesh.n_vertices()), -1),
+          whole(index(mesh.n_triangles()), 0),
+          by_itself(whole),
+          triangles_of_vertex(triangles) {
         for (std::size_t i = 0; i < vertices.size(); ++i) number[index(vertices[i])] = static_cast<int>(i);
         for (int t = 0; t < mesh.n_triangles(); ++t) {
             const Eigen::Vector3i v = mesh.triangles.col(t);
@@ -68,13 +71,13 @@ struct Patch {
     void separate_rim(const SurfaceMesh& mesh, std::span<const int> vertices) {
         std::vector<char> on_rim(index(mesh.n_vertices()), 0);
         for (const int v : vertices)
-            for (const int t : around[v]) on_rim[index(v)] |= !whole[index(t)];
+            for (const int t : triangles_of_vertex[v]) on_rim[index(v)] |= !whole[index(t)];
         for (int t = 0; t < mesh.n_triangles(); ++t)
             for (const int v : mesh.triangles.col(t)) by_itself[index(t)] |= whole[index(t)] && on_rim[index(v)];
     }
 
     bool has_whole(int v) const {
-        for (const int t : around[v])
+        for (const int t : triangles_of_vertex[v])
             if (whole[index(t)]) return true;
         return false;
     }
@@ -90,7 +93,7 @@ int corner_of(const SurfaceMesh& mesh, int t, int vertex) {
 std::vector<int> support_of_hat(const Patch& patch, Tractions tractions, int v) {
     std::vector<int> support;
     const bool whole_hat = tractions == Tractions::continuous || !patch.has_whole(v);
-    for (const int t : patch.around[v])
+    for (const int t : patch.triangles_of_vertex[v])
         if (whole_hat || (patch.whole[index(t)] && !patch.by_itself[index(t)])) support.push_back(t);
     return support;
 }
@@ -135,9 +138,9 @@ LoadPlan plan_constant_loads(const Boundary& boundary, const std::vector<int>& t
     return std::move(builder.plan());
 }
 
-LoadPlan plan_linear_loads(const Boundary& boundary, const VertexTriangles& around, Tractions tractions,
+LoadPlan plan_linear_loads(const Boundary& boundary, const VertexTriangles& triangles_of_vertex, Tractions tractions,
                            std::span<const int> vertices) {
-    Patch patch(boundary.mesh(), around, vertices);
+    Patch patch(boundary.mesh(), triangles_of_vertex, vertices);
     if (tractions == Tractions::discontinuous) patch.separate_rim(boundary.mesh(), vertices);
 
     PlanBuilder builder(boundary, Elements::Order::linear);
@@ -147,7 +150,7 @@ LoadPlan plan_linear_loads(const Boundary& boundary, const VertexTriangles& arou
             builder.plan().dropped_collocation.push_back(vertices[i]);
         else
             add_hat(builder, boundary, vertices[i], static_cast<int>(i), support,
-                    support.size() == around[vertices[i]].size());
+                    support.size() == triangles_of_vertex[vertices[i]].size());
     }
     for (int t = 0; t < boundary.n_triangles(); ++t)
         if (patch.by_itself[index(t)]) add_triangle(builder, boundary, patch, t);

@@ -46,7 +46,7 @@ LoadPlan plan_constant_loads(const Boundary& boundary, const std::vector<int>& t
 ///   discontinuous  as restricted inside a patch; on the triangles that touch its rim, where the tractions are
 ///                  singular, linear functions of each triangle by itself
 /// A vertex with no triangle of its own keeps its whole hat in all three.
-LoadPlan plan_linear_loads(const Boundary& boundary, const VertexTriangles& around, Tractions tractions,
+LoadPlan plan_linear_loads(const Boundary& boundary, const VertexTriangles& triangles_of_vertex, Tractions tractions,
                            std::span<const int> vertices);
 
 }  // namespace elastolab

@@ -3,8 +3,8 @@
 #include <ostream>
 #include <vector>
 
-#include "cli/solve.hpp"
 #include "mesh/surface_mesh.hpp"
+#include "scene/solve.hpp"
 
 namespace elastolab {
 

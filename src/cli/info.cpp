@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/text.hpp"
+#include "findings/cost.hpp"
+#include "methods/registry.hpp"
 
 namespace elastolab {
 
@@ -51,7 +53,7 @@ const char* consequence(const Defect& defect) {
 }
 
 bool usable(const MeshReport& report, MethodKind kind) {
-    return kind == MethodKind::fem ? report.usable_for_fem() : report.usable();
+    return kind->has_inside ? report.usable_for_fem() : report.usable();
 }
 
 std::string corner(const Eigen::Vector3d& x) { return formatted("(%.6g, %.6g, %.6g)", x.x(), x.y(), x.z()); }
@@ -110,9 +112,8 @@ Json list(const Items& items) {
 
 MeshInfo inspect(SceneMesh mesh) {
     MeshInfo info{.mesh = std::move(mesh), .costs = {}};
-    for (const MethodKind kind : {MethodKind::fem, MethodKind::constant_bem, MethodKind::linear_bem})
-        for (const Mode mode : {Mode::on_demand, Mode::full, Mode::full_volume}) {
-            if (mode == Mode::full_volume && kind != MethodKind::fem) continue;
+    for (const MethodKind kind : all_methods())
+        for (const Mode mode : kind->modes) {
             MethodCost row{.method = {.kind = kind, .mode = mode}, .cost = {}};
             if (usable(info.mesh.checked.report, kind)) row.cost = predict_cost(info.mesh.checked.mesh, row.method);
             info.costs.push_back(row);

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "findings/cost.hpp"
 #include "scene/setup.hpp"
 
 namespace elastolab {

@@ -46,13 +46,13 @@ Json machine() {
 }
 
 Json tractions(const Method& method) {
-    if (method.kind != MethodKind::linear_bem) return nullptr;  // the other methods have no choice of them
+    if (!method.kind->chooses_tractions) return nullptr;
     return std::string(name(method.tractions));
 }
 
 void print_heading(std::ostream& out, const SolveRequest& request, const Method& method) {
     out << request.scene_file.string() << ": " << name(method.kind) << ", " << name(method.mode) << ", ";
-    if (method.kind == MethodKind::linear_bem) out << name(method.tractions) << " tractions, ";
+    if (method.kind->chooses_tractions) out << name(method.tractions) << " tractions, ";
     out << name(method.update) << " update\n";
 }
 
@@ -122,7 +122,7 @@ void write_report(std::ostream& out, const Solution& solution) {
         {"predicted_memory_bytes", solution.predicted.memory_bytes},
         {"residual", solution.residual ? finite_or_null(*solution.residual) : Json(nullptr)},
         {"condition_estimate", finite_or_null(solution.condition_estimate)},
-        {"warnings", solution.warnings},
+        {"warnings", solution.warnings()},
     };
     out << json.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";
 }
@@ -135,7 +135,7 @@ void print_summary(std::ostream& out, const SolveRequest& request, const Solutio
     print_accuracy(out, solution);
     print_displacement(out, solution.displacement);
     for (const GroupReaction& reaction : solution.reactions) print_reaction(out, reaction);
-    for (const std::string& warning : solution.warnings) out << "  warning       " << warning << "\n";
+    for (const std::string& warning : solution.warnings()) out << "  warning       " << warning << "\n";
     out << "  kernels       BLAS " << blas_kernels() << ", " << thread_count() << " threads\n";
 }
 

@@ -2,7 +2,7 @@
 
 #include <ostream>
 
-#include "cli/solve.hpp"
+#include "scene/solve.hpp"
 
 namespace elastolab {
 

@@ -10,9 +10,10 @@
 #include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
-#include "cli/solve.hpp"
 #include "cli/solve_outputs.hpp"
+#include "methods/registry.hpp"
 #include "scene/file/scene_file.hpp"
+#include "scene/solve.hpp"
 
 namespace elastolab {
 
@@ -64,26 +65,22 @@ void choose(Value& value, const std::string& word, const Parse& parse) {
 }
 
 /// Refuses choices that exclude each other.
-void require_sensible(const Method& method, bool with_matrices) {
-    if (method.mode == Mode::full_volume && method.kind != MethodKind::fem)
-        throw UsageError("--mode full-volume: only FEM has nodes inside, this is " + std::string(name(method.kind)) +
-                         ". Use --mode full, or --method fem.");
-    if (method.mode == Mode::on_demand && method.update == Update::eqn9)
-        throw UsageError(
-            "--update eqn9: needs K and its inverse, which the mode on-demand does not keep. Add --mode full.");
-    if (with_matrices && method.mode == Mode::on_demand && method.kind != MethodKind::fem)
+void require_sensible(const Method& method, double poisson_ratio, bool with_matrices) {
+    if (const std::string why = refusal(method, poisson_ratio); !why.empty())
+        throw UsageError("--method " + std::string(name(method.kind)) + ", " + why);
+    if (with_matrices && method.mode == Mode::on_demand && !method.kind->sparse)
         throw UsageError("--matrices: the mode on-demand keeps none for " + std::string(name(method.kind)) +
                          ". Add --mode full.");
 }
 
-Method choose_method(const SolveOptions& options, MethodKind of_scene) {
+Method choose_method(const SolveOptions& options, const Document& document) {
     Method method;
-    method.kind = of_scene;
+    method.kind = document.method;
     choose(method.kind, options.method, parse_method_kind);
     choose(method.mode, options.mode, parse_mode);
     choose(method.tractions, options.tractions, parse_tractions);
     choose(method.update, options.update, parse_update);
-    require_sensible(method, !options.matrices.empty());
+    require_sensible(method, document.material.poisson_ratio, !options.matrices.empty());
     return method;
 }
 
@@ -111,14 +108,14 @@ void run_solve(const SolveOptions& options) {
     SolveRequest request;
     request.scene_file = options.scene;
     request.document = load_scene(request.scene_file);
-    request.method = choose_method(options, request.document.method);
+    request.method = choose_method(options, request.document);
     request.solve_once = options.update.empty() && request.method.mode == Mode::on_demand;
     request.with_checks = !options.quiet || !options.report.empty();
     require_writable(options.outputs(), input_files(request));
 
     Solution solution = solve_with_progress(request, control, !options.quiet);
-    if (!options.tractions.empty() && request.method.kind != MethodKind::linear_bem)
-        solution.warnings.push_back("--tractions: only linear-bem has a choice of them; it was left aside.");
+    if (!options.tractions.empty() && !request.method.kind->chooses_tractions)
+        solution.findings.push_back({.kind = FindingKind::choice_left_aside, .object = "--tractions"});
     write_outputs(options.outputs(), solution);
     if (options.quiet) return;
     lseek(STDOUT_FILENO, 0, SEEK_END);  // behind an output that went to /dev/stdout, if that is a file

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/solve.hpp"
+#include "scene/solve.hpp"
 
 namespace elastolab {
 

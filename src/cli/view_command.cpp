@@ -7,6 +7,7 @@
 #include "base/blas.hpp"
 #include "cli/command.hpp"
 #include "cli/solve_outputs.hpp"
+#include "methods/registry.hpp"
 
 namespace elastolab {
 

@@ -4,9 +4,6 @@
 #include <span>
 #include <vector>
 
-#include "mesh/surface_mesh.hpp"
-#include "mesh/topology.hpp"
-
 namespace elastolab {
 
 using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
@@ -17,15 +14,20 @@ struct ConstrainedNodes {
     SparseRows prescribe;  ///< 3*nodes.size() x 3*n_constrained_vertices: prescribed displacement of each node
 };
 
-/// Every constrained vertex is a node (FEM, linear BEM).
+/// Collects weights of 3 x 3 unit blocks.
+class BlockWeights {
+public:
+    void add(int row, int column, double weight) {
+        for (int axis = 0; axis < 3; ++axis) entries_.emplace_back(3 * row + axis, 3 * column + axis, weight);
+    }
+    /// 3*n_rows x 3*n_columns; weights of one block add up.
+    SparseRows build(Eigen::Index n_rows, Eigen::Index n_columns) const;
+
+private:
+    std::vector<Eigen::Triplet<double>> entries_;
+};
+
+/// Every constrained vertex is a node.
 ConstrainedNodes constrain_vertices(std::span<const int> vertices);
-
-/// Constant BEM: a triangle is constrained when all its vertices are, at the mean of their displacements; a vertex
-/// with no such triangle constrains the triangles around it, at the mean over such vertices of the triangle.
-ConstrainedNodes constrain_triangles(const SurfaceMesh& mesh, const VertexTriangles& around,
-                                     std::span<const int> vertices);
-
-/// Constant BEM shows a vertex at the mean of the triangles around it: 3*n_vertices x 3*n_triangles.
-SparseRows average_of_triangles(const SurfaceMesh& mesh, const VertexTriangles& around);
 
 }  // namespace elastolab

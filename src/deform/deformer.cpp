@@ -6,9 +6,8 @@
 #include "base/error.hpp"
 #include "base/memory.hpp"
 #include "base/text.hpp"
-#include "findings/guards.hpp"
+#include "deform/holds.hpp"
 #include "deform/solid_model.hpp"
-#include "fem/constraints.hpp"
 
 namespace elastolab {
 
@@ -20,10 +19,6 @@ std::vector<int> all_of(const ConstrainedSet& set) {
     return vertices;
 }
 
-void append(std::vector<std::string>& all, const std::vector<std::string>& more) {
-    all.insert(all.end(), more.begin(), more.end());
-}
-
 [[maybe_unused]] bool all_differ(const ConstrainedSet& set, int n_vertices) {
     std::vector<int> vertices = all_of(set);
     std::sort(vertices.begin(), vertices.end());
@@ -31,19 +26,12 @@ void append(std::vector<std::string>& all, const std::vector<std::string>& more)
            (vertices.empty() || (vertices.front() >= 0 && vertices.back() < n_vertices));
 }
 
-/// Estimated error of the worst vertex from which on the user should know. Constant elements are of the first order.
-constexpr double kLargeError = 0.08, kLargeSpread = 0.2;
-
 /// The vertex that moves most, and how far.
 double largest_motion(const Eigen::VectorXd& u, Eigen::Index& vertex) {
     return u.size() == 0
                ? 0.0
                : Eigen::Map<const Eigen::Matrix3Xd>(u.data(), 3, u.size() / 3).colwise().norm().maxCoeff(&vertex);
 }
-
-constexpr const char* kSingularThoughHeld =
-    "constraints: hold the body, but their system is singular to rounding, as that of constant elements can be at "
-    "Poisson's ratio 1/2. Choose another method, or constrain other vertices.";
 
 std::unique_ptr<ConstrainedSolid> constrained(const SolidModel& solid, std::span<const int> base,
                                               std::span<const int> handles, bool held, Control& control) {
@@ -55,32 +43,10 @@ std::unique_ptr<ConstrainedSolid> constrained(const SolidModel& solid, std::span
     }
 }
 
-/// Of a system without a unique solution.
-std::vector<std::string> warn_of_freedom(bool free_to_move) {
-    if (!free_to_move) return {std::string(kSingularThoughHeld) + " The smallest solution is taken."};
-    return {
-        "constraints: leave the body free to move as a whole; the smallest motion is taken. Constrain three vertices "
-        "that are not on one line."};
-}
-
-std::string coarse_warning(MethodKind kind, const Eigen::Vector3d& x, double error) {
-    const std::string percent = readable_number(100.0 * error) + " % of the largest";
-    const std::string place = readable_point(x);
-    if (kind == MethodKind::constant_bem)
-        return "constant-bem: near " + place + " displacements of neighbouring triangles differ by " + percent +
-               ". Refine, or choose linear-bem.";
-    return "linear-bem: the mesh is too coarse near " + place + ": displacements there are off by about " + percent +
-           ". Refine thin parts, or compare with fem.";
-}
-
-DiscretisationCheck check_of(MethodKind kind, const Eigen::VectorXd& u, const Eigen::VectorXd& error,
-                             const SurfaceMesh& surface) {
+DiscretisationCheck check_of(const Eigen::VectorXd& u, const Eigen::VectorXd& error) {
     Eigen::Index moving_most = 0, worst = 0;
     const double size = largest_motion(u, moving_most), off = largest_motion(error, worst);
-    DiscretisationCheck check{size > 0.0 ? off / size : 0.0, static_cast<int>(worst), {}};
-    if (check.relative_error > (kind == MethodKind::constant_bem ? kLargeSpread : kLargeError))
-        check.warning = coarse_warning(kind, surface.vertices.col(worst), check.relative_error);
-    return check;
+    return {size > 0.0 ? off / size : 0.0, static_cast<int>(worst)};
 }
 
 }  // namespace
@@ -91,13 +57,6 @@ struct Deformer::SolidState {
     std::vector<int> base, handles;           ///< vertices of the solid
     std::vector<int> base_rows, handle_rows;  ///< their positions in the lists of the whole set
 
-    /// The constrained vertices of the solid, as vertices of the mesh.
-    std::vector<int> in_mesh(const Model::Part& part) const {
-        std::vector<int> vertices;
-        for (const std::vector<int>* own : {&base, &handles})
-            for (const int v : *own) vertices.push_back(part.vertices[static_cast<std::size_t>(v)]);
-        return vertices;
-    }
     /// As vertices of the solid.
     std::vector<int> constrained() const {
         std::vector<int> vertices = base;
@@ -159,7 +118,7 @@ void Deformer::require_memory(const ConstrainedSet& set) const {
     throw SolveError(model_->body().name + ": " + std::to_string(set.base.size() + set.handles.size()) +
                      " constrained vertices need " + readable_bytes(static_cast<double>(needed)) + " of memory, " +
                      readable_bytes(static_cast<double>(available)) + " are free. Constrain fewer vertices" +
-                     (model_->method().kind == MethodKind::fem ? ", or use a coarser mesh." : ", or choose fem."));
+                     (model_->method().kind->sparse ? ", or use a coarser mesh." : ", or choose fem."));
 }
 
 void Deformer::constrain(ConstrainedSet set, Control& control) {
@@ -167,25 +126,20 @@ void Deformer::constrain(ConstrainedSet set, Control& control) {
     require_memory(set);
     std::vector<SolidState> solids;
     SolutionQuality quality;
-    bool free_to_move = false;
     for (const Model::Part& part : model_->parts()) {
         SolidState state = split(set, part);
         if (state.is_constrained()) {
-            const SurfaceMesh& surface = *model_->body().surface;
             // Constant elements hold the triangles around a lone vertex, and may not see that a body is held too
             // little.
-            const bool holds_it = holds(surface.vertices(Eigen::all, part.vertices), state.constrained());
+            const Positions& all = model_->body().surface->vertices;
+            const bool holds_it = holds(all(Eigen::all, part.vertices), state.constrained());
             state.solid = constrained(*part.solid, state.base, state.handles, holds_it, control);
             quality.condition_estimate = std::max(quality.condition_estimate, state.solid->condition());
             quality.held = quality.held && state.solid->held() && holds_it;
-            free_to_move = free_to_move || !holds_it;
-            append(quality.warnings, warn_of_weak_hold(surface, part.vertices, state.in_mesh(part)));
+            quality.free_to_move = quality.free_to_move || !holds_it;
         }
         solids.push_back(std::move(state));
     }
-    append(quality.warnings,
-           quality.held ? warn_of_condition("constraints", quality.condition_estimate) : warn_of_freedom(free_to_move));
-    append(quality.warnings, warn_of_point_constraints(*model_->body().surface, all_of(set)));
     solids_ = std::move(solids);
     set_ = std::move(set);
     quality_ = std::move(quality);
@@ -238,38 +192,37 @@ void Deformer::add_reactions(const SolidState& state, const NodeSolution& soluti
 
 Reactions Deformer::reactions(const Eigen::VectorXd& values) const {
     Control control;
-    return answer(values, false, false, control).reactions;
+    return answer(values, {}, control).reactions;
 }
 
 double Deformer::residual(const Eigen::VectorXd& values, Control& control) const {
-    return answer(values, true, false, control).residual.value();
+    return answer(values, {.residual = true}, control).residual.value();
 }
 
 std::optional<DiscretisationCheck> Deformer::discretisation_check(const Eigen::VectorXd& values,
                                                                   Control& control) const {
-    return answer(values, false, true, control).check;
+    return answer(values, {.check = true}, control).check;
 }
 
-Deformer::Answer Deformer::answer(const Eigen::VectorXd& values, bool with_residual, bool with_check,
-                                  Control& control) const {
+Deformer::Answer Deformer::answer(const Eigen::VectorXd& values, Wanted wanted, Control& control) const {
     const Eigen::Index n = 3 * model_->facts().n_vertices;
     const Eigen::Index n_constrained = std::ssize(set_.base) + std::ssize(set_.handles);
     Eigen::MatrixXd u = Eigen::MatrixXd::Zero(n, 1), error = u;
     Answer answer;
     answer.reactions = {Eigen::Matrix3Xd::Zero(3, n_constrained), Eigen::Matrix3Xd::Zero(3, n_constrained)};
-    if (with_residual) answer.residual = 0.0;
-    with_check = with_check && model_->method().kind != MethodKind::fem;
+    if (wanted.residual) answer.residual = 0.0;
+    wanted.check = wanted.check && model_->method().kind->error_to_tell.has_value();
     for (std::size_t s = 0; s < solids_.size(); ++s) {
         const ConstrainedSolid* solid = solids_[s].solid.get();
         if (solid == nullptr) continue;
         NodeSolution solution = solid->solve(solids_[s].values(values), true);
         add_reactions(solids_[s], solution, answer.reactions);
-        if (with_residual) answer.residual = std::max(*answer.residual, solid->residual(solution, control));
-        if (with_check) place(s, solid->error(solution, control), error);
+        if (wanted.residual) answer.residual = std::max(*answer.residual, solid->residual(solution, control));
+        if (wanted.check) place(s, solid->error(solution, control), error);
         place(s, solid->displacements(std::move(solution)), u);
     }
     require_finite(u);
-    if (with_check) answer.check = check_of(model_->method().kind, u, error, *model_->body().surface);
+    if (wanted.check) answer.check = check_of(u, error);
     answer.displacements = std::move(u);
     return answer;
 }

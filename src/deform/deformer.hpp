@@ -37,16 +37,15 @@ struct Reactions {
 
 /// What should be known about a solution before it is believed.
 struct SolutionQuality {
-    double condition_estimate = 1.0;    ///< of the small system (reduced) or of K00 (direct), 1-norm; largest solid
-    bool held = true;                   ///< false: some motion is left free (rigid, mostly), the smallest is taken
-    std::vector<std::string> warnings;  ///< in words, for the user
+    double condition_estimate = 1.0;  ///< of the small system (reduced) or of K00 (direct), 1-norm; largest solid
+    bool held = true;                 ///< false: the system has no unique solution, the smallest is taken
+    bool free_to_move = false;        ///< the reason for that: some solid can move as a whole
 };
 
 /// How far displacements may be off because the mesh is coarse.
 struct DiscretisationCheck {
     double relative_error = 0.0;  ///< estimated error of the worst vertex, over the largest displacement
     int vertex = -1;              ///< the worst
-    std::string warning;          ///< in words, from an error on of which one should know; else empty
 };
 
 struct NodeSolution;
@@ -89,18 +88,23 @@ public:
 
     /// Displacements and reactions of one solution; what displace and reactions do, at the price of one of them.
     struct Answer {
-        Eigen::VectorXd displacements;
-        Reactions reactions;
-        std::optional<double> residual;            ///< when asked for
-        std::optional<DiscretisationCheck> check;  ///< when asked for, and where there is one
+        Eigen::VectorXd displacements = {};
+        Reactions reactions = {};
+        std::optional<double> residual = {};            ///< when asked for
+        std::optional<DiscretisationCheck> check = {};  ///< when asked for, and where there is one
     };
-    Answer answer(const Eigen::VectorXd& values, bool with_residual, bool with_check, Control& control) const;
+    /// What an answer is to tell besides displacements and reactions.
+    struct Wanted {
+        bool residual = false;
+        bool check = false;
+    };
+    Answer answer(const Eigen::VectorXd& values, Wanted wanted, Control& control) const;
 
     /// How far the displacements for these values may be off because the mesh is coarse. Linear BEM lets thin free
     /// parts (ears, plates, needles) follow too far: an estimate from one pass over the integral equation between the
     /// nodes, within a factor of two of the largest error on the bodies of tests/deform/discretisation_test.cpp (it
-    /// sees a third of the error of bars 40 times as long as thick, of which ModelFacts::warnings tell). Takes a few
-    /// assemblies: not for every frame. Constant BEM: by how much the triangles around a vertex differ, at no
+    /// sees a third of the error of bars 40 times as long as thick, of which ModelFacts::surface_findings tell). Takes
+    /// a few assemblies: not for every frame. Constant BEM: by how much the triangles around a vertex differ, at no
     /// cost. Nothing for FEM.
     std::optional<DiscretisationCheck> discretisation_check(const Eigen::VectorXd& values, Control& control) const;
 

@@ -1,48 +1,63 @@
 #include "deform/method.hpp"
 
-#include <array>
+#include <algorithm>
 #include <utility>
 
 namespace elastolab {
 
 namespace {
 
-template <class Choice, std::size_t n>
-using Names = std::array<std::pair<Choice, std::string_view>, n>;
-
-constexpr Names<MethodKind, 3> kKinds = {
-    {{MethodKind::fem, "fem"}, {MethodKind::constant_bem, "constant-bem"}, {MethodKind::linear_bem, "linear-bem"}}};
-constexpr Names<Mode, 3> kModes = {
-    {{Mode::on_demand, "on-demand"}, {Mode::full, "full"}, {Mode::full_volume, "full-volume"}}};
-constexpr Names<Tractions, 3> kTractions = {{{Tractions::discontinuous, "discontinuous"},
-                                             {Tractions::restricted, "restricted"},
-                                             {Tractions::continuous, "continuous"}}};
-constexpr Names<Update, 3> kUpdates = {
-    {{Update::direct, "direct"}, {Update::eqn9, "eqn9"}, {Update::reduced, "reduced"}}};
+constexpr std::array<std::string_view, 3> kModeNames = {"on-demand", "full", "full-volume"};
+constexpr std::array<std::string_view, 3> kTractionNames = {"discontinuous", "restricted", "continuous"};
+constexpr std::array<std::string_view, 3> kUpdateNames = {"direct", "eqn9", "reduced"};
 
 template <class Choice, std::size_t n>
-std::string_view name_in(const Names<Choice, n>& names, Choice choice) {
-    for (const auto& [value, text] : names)
-        if (value == choice) return text;
-    return {};
-}
-
-template <class Choice, std::size_t n>
-std::optional<Choice> choice_in(const Names<Choice, n>& names, std::string_view text) {
-    for (const auto& [value, its_name] : names)
-        if (its_name == text) return value;
+std::optional<Choice> choice_in(const std::array<Choice, n>& choices, std::string_view text) {
+    for (const Choice choice : choices)
+        if (name(choice) == text) return choice;
     return std::nullopt;
 }
 
 }  // namespace
 
-std::string_view name(MethodKind kind) { return name_in(kKinds, kind); }
-std::string_view name(Mode mode) { return name_in(kModes, mode); }
-std::string_view name(Tractions tractions) { return name_in(kTractions, tractions); }
-std::string_view name(Update update) { return name_in(kUpdates, update); }
-std::optional<MethodKind> parse_method_kind(std::string_view text) { return choice_in(kKinds, text); }
-std::optional<Mode> parse_mode(std::string_view text) { return choice_in(kModes, text); }
-std::optional<Tractions> parse_tractions(std::string_view text) { return choice_in(kTractions, text); }
-std::optional<Update> parse_update(std::string_view text) { return choice_in(kUpdates, text); }
+std::string_view name(Mode mode) { return kModeNames[static_cast<std::size_t>(mode)]; }
+std::string_view name(Tractions tractions) { return kTractionNames[static_cast<std::size_t>(tractions)]; }
+std::string_view name(Update update) { return kUpdateNames[static_cast<std::size_t>(update)]; }
+std::optional<Mode> parse_mode(std::string_view text) { return choice_in(kAllModes, text); }
+std::optional<Tractions> parse_tractions(std::string_view text) { return choice_in(kAllTractions, text); }
+std::optional<Update> parse_update(std::string_view text) { return choice_in(kAllUpdates, text); }
+
+bool has(MethodKind kind, Mode mode) {
+    return std::find(kind->modes.begin(), kind->modes.end(), mode) != kind->modes.end();
+}
+bool has(MethodKind kind, Update update) {
+    return std::find(kind->updates.begin(), kind->updates.end(), update) != kind->updates.end();
+}
+
+std::string refusal(const Method& method, double poisson_ratio) {
+    const MethodTraits& traits = *method.kind;
+    const auto say = [&](std::string_view object, std::string_view finding) {
+        return std::string(object).append(": ").append(finding);
+    };
+    const std::string mode = "mode " + std::string(name(method.mode)),
+                      update = "update " + std::string(name(method.update));
+    if (!has(method.kind, method.mode))
+        return say(mode, method.mode == Mode::full_volume && !traits.has_inside
+                             ? "boundary elements have no volume. Choose the mode full, or FEM."
+                             : std::string(traits.label) + " does not have it. Choose the mode on-demand.");
+    if (!has(method.kind, method.update))
+        return say(update, std::string(traits.label) + " does not have it. Choose the update reduced.");
+    if (method.update == Update::eqn9 && method.mode == Mode::on_demand)
+        return say(update, "needs K and its inverse in memory. Choose the mode full.");
+    if (poisson_ratio < 0.5) return {};
+    if (!traits.takes_incompressible)
+        return say("poisson_ratio", std::string(traits.label) +
+                                        " needs a value below 0.5. Lower it, or choose linear-bem, which takes 0.5.");
+    if (!traits.K_takes_incompressible && method.mode != Mode::on_demand && method.update != Update::reduced)
+        return say(update, std::string(traits.label) +
+                               " has no stiffness matrix at Poisson's ratio 0.5, where G is singular. Choose the "
+                               "update reduced, or the mode on-demand.");
+    return {};
+}
 
 }  // namespace elastolab

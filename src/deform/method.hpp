@@ -1,21 +1,27 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <span>
+#include <string>
 #include <string_view>
 
 namespace elastolab {
 
-/// How a body is turned into a linear map between displacements and loads.
-enum class MethodKind { fem, constant_bem, linear_bem };
+class Control;
+class SolidModel;
+struct Method;
+struct SurfaceMesh;
 
 /// What is computed ahead.
 ///   on_demand    one factorisation; columns of the compliance when they are needed, kept
 ///   full         K and its bordered inverse in memory, of the surface vertices (FEM: condensed) or triangles
-///   full_volume  FEM only: the dense matrix over all nodes and its inverse, as in the paper
+///   full_volume  the dense matrix over all nodes, inside ones too, and its inverse, as in the paper
 enum class Mode { on_demand, full, full_volume };
 
-/// Tractions of linear BEM on constrained parts (FORMULATION section 4).
+/// Tractions of collocation on constrained parts (docs/formulation.md section 4).
 ///   discontinuous  linear on each constrained triangle by itself
 ///   restricted     a hat function per constrained vertex, cut to the constrained triangles
 ///   continuous     a whole hat function per constrained vertex, as in the paper
@@ -27,9 +33,62 @@ enum class Tractions { discontinuous, restricted, continuous };
 ///   reduced  its collapsed form (9'): a system as small as the constrained set
 enum class Update { direct, eqn9, reduced };
 
+inline constexpr std::array kAllModes = {Mode::on_demand, Mode::full, Mode::full_volume};
+inline constexpr std::array kAllTractions = {Tractions::discontinuous, Tractions::restricted, Tractions::continuous};
+inline constexpr std::array kAllUpdates = {Update::direct, Update::eqn9, Update::reduced};
+
+/// What a precomputation would take, before it is begun. Seconds are an estimate from the arithmetic it needs and from
+/// the speed of this machine's matrix product, measured once; memory is what the model's arrays add up to. What a
+/// constrained set takes beyond this: Deformer::predict_memory.
+struct Cost {
+    std::int64_t degrees_of_freedom = 0;
+    std::uint64_t memory_bytes = 0;  ///< at its peak, beyond what the program holds already
+    double seconds = 0.0;
+};
+
+/// Everything that code above the methods may know about one: a row of the table that src/methods collects. Every rule
+/// about methods is read from here, so that a new one is a folder with such a row.
+struct MethodTraits {
+    std::string_view name;   ///< in scene files, command lines and tables
+    std::string_view label;  ///< for people
+    /// Index into the colours of bodies and of curves in plots; differs from method to method.
+    int colour = 0;
+    /// What the factorised matrix is called in messages.
+    std::string_view matrix;
+    /// What to choose when memory does not suffice on demand, for a sentence that begins "Choose".
+    std::string_view cheaper;
+    /// What to do where the error estimate finds the mesh too coarse, one or two sentences.
+    std::string_view against_coarseness = {};
+
+    std::span<const Mode> modes;
+    std::span<const Update> updates;
+    bool chooses_tractions = false;      ///< Method::tractions means something
+    bool has_inside = false;             ///< nodes inside: the surface must be one that tetrahedra can fill
+    bool sparse = false;                 ///< the matrix factorised on demand is sparse
+    bool shows_averages = false;         ///< nodes are triangles; a vertex is shown at the mean of those around it
+    bool takes_incompressible = true;    ///< Poisson's ratio 1/2 itself
+    bool K_takes_incompressible = true;  ///< so do K and the updates that need it (direct and eqn9 in the mode full)
+    bool locks = false;                  ///< errors grow without bound as Poisson's ratio nears 1/2
+    bool integrates_boundary = false;    ///< slivers, thin walls and slender bodies cost accuracy (src/findings)
+    /// Estimated relative error of the worst vertex above which the user should know; none where there is no estimate.
+    std::optional<double> error_to_tell = {};
+
+    /// Precomputes one solid of unit Young's modulus; `before`: a model of the same solid, by whatever method, of which
+    /// is taken over what serves, or null. `name` is that of the body, for messages.
+    /// Throws MeshError, SolveError, Cancelled.
+    std::shared_ptr<const SolidModel> (*precompute)(const SurfaceMesh& surface, const std::string& name,
+                                                    double poisson_ratio, const Method& method,
+                                                    const SolidModel* before, Control& control) = nullptr;
+    Cost (*predict)(const SurfaceMesh& surface, const Method& method) = nullptr;
+};
+
+/// Which method: how a body is turned into a linear map between displacements and loads. A row of the table; compared
+/// by address.
+using MethodKind = const MethodTraits*;
+
 /// A method with all its choices; the defaults are those of the program.
 struct Method {
-    MethodKind kind = MethodKind::linear_bem;
+    MethodKind kind = nullptr;  ///< never null where a Method is used
     Mode mode = Mode::on_demand;
     Tractions tractions = Tractions::discontinuous;
     Update update = Update::reduced;
@@ -43,18 +102,23 @@ struct Method {
     std::optional<std::uint64_t> column_memory = {};
 };
 
-/// Whether boundary elements factorise a system before there is a constrained set: not on demand by the update direct,
-/// by which each set has a system of its own.
+bool has(MethodKind kind, Mode mode);
+bool has(MethodKind kind, Update update);
+
+/// Why a method cannot be had with these choices at this Poisson's ratio, with a way forward; empty when it can.
+std::string refusal(const Method& method, double poisson_ratio);
+
+/// Whether a system is factorised before there is a constrained set: not on demand by the update direct, by which each
+/// set has a system of its own.
 inline bool factorises_ahead(const Method& method) {
     return method.mode != Mode::on_demand || method.update != Update::direct;
 }
 
 /// The names used in scene files, command lines and tables; parse_* return nothing for an unknown name.
-std::string_view name(MethodKind kind);
+inline std::string_view name(MethodKind kind) { return kind->name; }
 std::string_view name(Mode mode);
 std::string_view name(Tractions tractions);
 std::string_view name(Update update);
-std::optional<MethodKind> parse_method_kind(std::string_view text);
 std::optional<Mode> parse_mode(std::string_view text);
 std::optional<Tractions> parse_tractions(std::string_view text);
 std::optional<Update> parse_update(std::string_view text);

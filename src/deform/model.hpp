@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "base/control.hpp"
 #include "base/timer.hpp"
+#include "deform/finding.hpp"
 #include "deform/method.hpp"
 #include "elasticity/material.hpp"
 #include "mesh/surface_mesh.hpp"
@@ -27,12 +27,21 @@ struct Body {
 struct ModelFacts {
     int n_vertices = 0;
     int n_triangles = 0;
-    int n_tetrahedra = 0;  ///< FEM only
+    int n_tetrahedra = 0;  ///< of methods with an inside
     int n_degrees_of_freedom = 0;
     StageTimes stages;                ///< seconds by stage of the precomputation
     std::uint64_t memory_bytes = 0;   ///< held by the model itself
     double condition_estimate = 0.0;  ///< 1-norm, of the factorised system
-    std::vector<std::string> warnings;
+    Findings findings;                ///< made while precomputing
+    Findings surface_findings;        ///< of the surface alone, whatever the material (src/findings)
+};
+
+/// How a matrix of unit Young's modulus becomes that of another, E.
+enum class YoungScaling {
+    none,             ///< H
+    stiffness,        ///< K: times E
+    compliance,       ///< G, K^-1: over E
+    bordered_inverse  ///< of K: the block of the nodes over E, that of the six border values times E
 };
 
 /// A named dense matrix for export; filled only when asked for. K^ is K bordered by six columns and rows: by the rigid
@@ -41,6 +50,7 @@ struct ModelFacts {
 struct NamedMatrix {
     std::string name;  ///< "H", "G", "K", "Kinv" (D of the bordered inverse), "Khatinv" (the whole bordered inverse)
     Eigen::MatrixXd values;
+    YoungScaling scaling = YoungScaling::none;
 };
 
 using SparseStiffness = Eigen::SparseMatrix<double>;
@@ -66,9 +76,7 @@ public:
 
     /// The dense matrices that the mode keeps (none on demand), solid by solid when there are several.
     void visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const;
-    /// Whether the method has nodes inside, so that deform/volume.hpp can show them.
-    bool has_inside() const;
-    /// FEM: the sparse stiffness over all nodes, surface vertices first, solid by solid; BEM has none.
+    /// The sparse stiffness over all nodes, surface vertices first, solid by solid, of methods that have one.
     void visit_sparse_stiffness(
         const std::function<void(const std::string& name, const SparseStiffness&)>& visit) const;
 
@@ -78,16 +86,5 @@ private:
     std::vector<Part> parts_;
     ModelFacts facts_;
 };
-
-/// Precomputes; milliseconds to minutes, meant for a worker thread.
-/// Throws MeshError (no tetrahedralisation), SolveError (singular, or would not fit in memory: says how much it
-/// needs before anything is allocated), Cancelled.
-std::shared_ptr<const Model> precompute(const Body& body, const Method& method, Control& control);
-
-/// The same body with another material or method; takes over whatever does not change. A change of Young's modulus
-/// costs nothing. A change of Poisson's ratio integrates nothing by FEM, nor by BEM where Method::keep_integrals was
-/// set (but for the single layer of the constrained triangles on demand, a few columns). Throws as precompute does.
-std::shared_ptr<const Model> precompute_again(const Model& before, const Material& material, const Method& method,
-                                              Control& control);
 
 }  // namespace elastolab

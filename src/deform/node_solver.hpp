@@ -18,6 +18,11 @@ public:
               "line, or use the reduced update, which takes the smallest motion.") {}
 };
 
+/// Said of a constrained set that holds the body and has a singular system all the same.
+inline constexpr const char* kSingularThoughHeld =
+    "constraints: hold the body, but their system is singular to rounding, as that of constant elements can be at "
+    "Poisson's ratio 1/2. Choose another method, or constrain other vertices.";
+
 /// Answer of a node solver, one column per column of prescribed values.
 struct NodeSolution {
     Eigen::MatrixXd displacements;  ///< 3*n_nodes x m [L]

@@ -11,6 +11,7 @@
 #include "base/control.hpp"
 #include "deform/constraint_map.hpp"
 #include "deform/deformer.hpp"
+#include "deform/interior.hpp"
 #include "deform/load_share.hpp"
 #include "deform/model.hpp"
 #include "deform/node_solver.hpp"
@@ -73,10 +74,10 @@ public:
     virtual std::uint64_t constrain_memory(std::span<const int> base, std::span<const int> handles) const = 0;
     /// The matrices that the mode keeps, for unit Young's modulus.
     virtual void visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const = 0;
-    /// The sparse stiffness of all nodes, or null (BEM).
+    /// The sparse stiffness of all nodes, or null.
     virtual const SparseStiffness* sparse_stiffness() const { return nullptr; }
-    /// The tetrahedra that it belongs to, or null.
-    virtual const TetMesh* tetrahedra() const { return nullptr; }
+    /// The inside, or null where the method has none. Throws SolveError, Cancelled.
+    virtual std::shared_ptr<const Interior> interior(Control&) const { return nullptr; }
 
     const ModelFacts& facts() const { return facts_; }
 

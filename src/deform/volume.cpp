@@ -11,8 +11,9 @@ std::shared_ptr<const Volume> Volume::of(const std::shared_ptr<const Model>& mod
     all.n_surface_vertices = static_cast<int>(all.vertices.cols());
     for (const Model::Part& part : model->parts()) {
         control.checkpoint();
-        const TetMesh* tets = part.solid->tetrahedra();
-        if (tets == nullptr) return nullptr;
+        std::shared_ptr<const Interior> interior = part.solid->interior(control);
+        if (!interior) return nullptr;
+        const TetMesh* tets = &interior->tetrahedra();
         const int n_inside = tets->n_vertices() - tets->n_surface_vertices;
         std::vector<int> vertices = part.vertices;
         for (int i = 0; i < n_inside; ++i) vertices.push_back(static_cast<int>(all.vertices.cols()) + i);
@@ -23,8 +24,7 @@ std::shared_ptr<const Volume> Volume::of(const std::shared_ptr<const Model>& mod
         for (Eigen::Index t = 0; t < tets->tetrahedra.cols(); ++t)
             for (int corner = 0; corner < 4; ++corner)
                 all.tetrahedra(corner, before + t) = vertices[static_cast<std::size_t>(tets->tetrahedra(corner, t))];
-        volume->parts_.push_back({std::move(vertices), tets->n_surface_vertices,
-                                  InteriorExtension(*part.solid->sparse_stiffness(), tets->n_surface_vertices)});
+        volume->parts_.push_back({std::move(vertices), tets->n_surface_vertices, std::move(interior)});
     }
     return volume;
 }
@@ -35,7 +35,7 @@ Eigen::VectorXd Volume::displace(const Eigen::VectorXd& surface) const {
         Eigen::VectorXd own(3 * part.n_surface);
         for (int i = 0; i < part.n_surface; ++i)
             own.segment<3>(3 * i) = surface.segment<3>(3 * part.vertices[static_cast<std::size_t>(i)]);
-        const Eigen::VectorXd extended = part.extension.extend(own);
+        const Eigen::VectorXd extended = part.interior->extend(own);
         for (std::size_t i = 0; i < part.vertices.size(); ++i)
             all.segment<3>(3 * part.vertices[i]) = extended.segment<3>(3 * static_cast<Eigen::Index>(i));
     }

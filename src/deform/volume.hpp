@@ -5,13 +5,13 @@
 #include <vector>
 
 #include "base/control.hpp"
+#include "deform/interior.hpp"
 #include "deform/model.hpp"
-#include "fem/interior.hpp"
 #include "mesh/surface_mesh.hpp"
 
 namespace elastolab {
 
-/// The inside of a body, for methods that have one (FEM). Immutable; any thread may use it.
+/// The inside of a body, for methods that have one. Immutable; any thread may use it.
 class Volume {
 public:
     /// Null when the method of the model has nodes on the surface only. Throws SolveError, Cancelled.
@@ -26,7 +26,7 @@ private:
     struct Part {
         std::vector<int> vertices;  ///< in mesh(), for each node of the solid
         int n_surface = 0;
-        InteriorExtension extension;
+        std::shared_ptr<const Interior> interior;
     };
     Volume() = default;
 

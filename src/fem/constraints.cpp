@@ -35,18 +35,6 @@ std::array<Eigen::Matrix3Xd, 3> support_directions(const Positions& positions, c
 
 }  // namespace
 
-bool holds(const Positions& positions, std::span<const int> nodes) {
-    constexpr double kLeastSpread = 1e-6;
-    if (nodes.size() < 3) return false;
-    const double body = (positions.colwise() - positions.rowwise().mean()).colwise().norm().maxCoeff();
-    Eigen::Matrix3Xd points(3, std::ssize(nodes));
-    for (std::size_t i = 0; i < nodes.size(); ++i) points.col(static_cast<Eigen::Index>(i)) = positions.col(nodes[i]);
-    points.colwise() -= points.rowwise().mean().eval();
-    // Off a line means a second direction of spread: the second singular value.
-    const Eigen::Vector3d spread = Eigen::JacobiSVD<Eigen::Matrix3Xd>(points).singularValues();
-    return spread[1] > kLeastSpread * body;
-}
-
 StaticSupport choose_support(const Positions& positions, int n_candidates) {
     assert(n_candidates >= 3);
     const Eigen::Vector3d centre = positions.leftCols(n_candidates).rowwise().mean();

@@ -8,10 +8,6 @@
 
 namespace elastolab {
 
-/// True when fixing the nodes leaves the body no rigid motion: three of them that do not lie on one line. Their spread
-/// must exceed 1e-6 of the body's size.
-bool holds(const Positions& positions, std::span<const int> nodes);
-
 /// Three nodes that hold a body with six reactions: the first in all directions, the second across the line to the
 /// first, the third across the plane of the three. Statically determinate, so that loads in equilibrium cause no
 /// reaction, and with K_g = K + (springs at the support) K_g^-1 f solves K u = f exactly.

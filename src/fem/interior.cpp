@@ -24,12 +24,15 @@ SparseCholesky factorised(const SparseMatrix& K_ii) {
 
 }  // namespace
 
-InteriorExtension::InteriorExtension(const SparseMatrix& K, int n_surface)
-    : n_all_(K.rows()), n_surface_(3 * n_surface), to_surface_(block(K, 0, n_surface_, n_surface_)) {
+FemInterior::FemInterior(std::shared_ptr<const TetMesh> tets, const SparseMatrix& K)
+    : tets_(std::move(tets)),
+      n_all_(K.rows()),
+      n_surface_(3 * tets_->n_surface_vertices),
+      to_surface_(block(K, 0, n_surface_, n_surface_)) {
     if (n_all_ > n_surface_) factor_ = factorised(block(K, n_surface_, n_all_ - n_surface_, n_surface_));
 }
 
-Eigen::VectorXd InteriorExtension::extend(const Eigen::VectorXd& surface) const {
+Eigen::VectorXd FemInterior::extend(const Eigen::VectorXd& surface) const {
     assert(surface.size() == n_surface_);
     Eigen::VectorXd all(n_all_);
     all.head(n_surface_) = surface;

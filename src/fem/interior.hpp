@@ -1,23 +1,25 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <optional>
 
+#include "deform/interior.hpp"
 #include "fem/sparse_cholesky.hpp"
 #include "fem/sparse_matrix.hpp"
 
 namespace elastolab {
 
-/// Displacements inside a solid from those of its surface: K_ii u_i = -K_is u_s, interior nodes free of load. One
-/// factorisation, then a solve for each shape of the surface. Immutable; any thread may use it.
-class InteriorExtension {
+/// K_ii u_i = -K_is u_s, interior nodes free of load. One factorisation, then a solve for each shape of the surface.
+class FemInterior : public Interior {
 public:
-    /// K: 3n x 3n, both triangles, surface nodes first. Throws SolveError.
-    InteriorExtension(const SparseMatrix& K, int n_surface);
-    /// 3*n_surface to 3n.
-    Eigen::VectorXd extend(const Eigen::VectorXd& surface) const;
+    /// K: 3n x 3n over the nodes of `tets`, both triangles. Throws SolveError.
+    FemInterior(std::shared_ptr<const TetMesh> tets, const SparseMatrix& K);
+    const TetMesh& tetrahedra() const override { return *tets_; }
+    Eigen::VectorXd extend(const Eigen::VectorXd& surface) const override;
 
 private:
+    std::shared_ptr<const TetMesh> tets_;
     Eigen::Index n_all_, n_surface_;        ///< degrees of freedom
     SparseMatrix to_surface_;               ///< K_is
     std::optional<SparseCholesky> factor_;  ///< of K_ii; none without interior nodes

@@ -2,10 +2,11 @@
 
 #include "base/error.hpp"
 #include "base/lapack.hpp"
-#include "findings/guards.hpp"
+#include "deform/holds.hpp"
 #include "elasticity/rigid_motion.hpp"
 #include "fem/condensation.hpp"
 #include "fem/constraints.hpp"
+#include "fem/interior.hpp"
 #include "mesh/tets/tetrahedralize.hpp"
 
 namespace elastolab {
@@ -87,10 +88,6 @@ FemModel::FemModel(const FemModel& before, double poisson_ratio, const Method& m
 }
 
 void FemModel::precompute(double poisson_ratio, Control& control) {
-    if (poisson_ratio >= 0.5)
-        throw SolveError(
-            "poisson_ratio: FEM with displacements alone needs a value below 1/2. Choose a boundary-element "
-            "method, which has no such limit.");
     poisson_ratio_ = poisson_ratio;
     system_ =
         std::make_shared<const FemSystem>(FemSystem{mesh_, stiffness(mesh_->parts, Material{1.0, poisson_ratio})});
@@ -99,7 +96,6 @@ void FemModel::precompute(double poisson_ratio, Control& control) {
     facts_.n_tetrahedra = tets.n_tetrahedra();
     facts_.n_degrees_of_freedom = 3 * tets.n_vertices();
     facts_.memory_bytes = mesh_->analysis->factor_bytes();
-    facts_.warnings = warn_of_locking(poisson_ratio);
     // On demand the first constrained set decides what is factorised: K with its base eliminated, or the free body.
     if (method_.mode == Mode::on_demand) return;
     auto operators = std::make_shared<DenseOperators>();
@@ -117,8 +113,6 @@ void FemModel::precompute(double poisson_ratio, Control& control) {
     facts_.condition_estimate =
         operators->K.cwiseAbs().colwise().sum().maxCoeff() *
         inverse.topLeftCorner(operators->K.rows(), operators->K.cols()).cwiseAbs().colwise().sum().maxCoeff();
-    const auto precision = warn_of_condition("stiffness matrix", facts_.condition_estimate);
-    facts_.warnings.insert(facts_.warnings.end(), precision.begin(), precision.end());
     operators_ = std::move(operators);
 }
 
@@ -147,8 +141,6 @@ std::uint64_t FemModel::constrain_memory(std::span<const int> base, std::span<co
 std::unique_ptr<ConstrainedSolid> FemModel::constrain(std::span<const int> base, std::span<const int> handles,
                                                       Control& control) const {
     if (operators_) return constrain_dense(joined(base, handles), control);
-    if (method_.update == Update::eqn9)
-        throw SolveError("update eqn9: needs K and its inverse in memory. Choose the mode full.");
     if (method_.update == Update::reduced) return constrain_reduced(base, handles, control);
 
     std::vector<int> vertices = joined(base, handles);
@@ -202,11 +194,16 @@ std::unique_ptr<ConstrainedSolid> FemModel::constrain_reduced(std::span<const in
         std::make_unique<GroundedSolver>(body, std::move(others), control), SolutionChecks{residual, {}});
 }
 
+std::shared_ptr<const Interior> FemModel::interior(Control& control) const {
+    control.checkpoint();
+    return std::make_shared<const FemInterior>(std::shared_ptr<const TetMesh>(mesh_, &mesh_->tets), system_->K);
+}
+
 void FemModel::visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const {
     if (!operators_) return;
-    visit({"K", operators_->K});
-    visit({"Kinv", operators_->D()});
-    visit({"Khatinv", operators_->Khatinv});
+    visit({"K", operators_->K, YoungScaling::stiffness});
+    visit({"Kinv", operators_->D(), YoungScaling::compliance});
+    visit({"Khatinv", operators_->Khatinv, YoungScaling::bordered_inverse});
 }
 
 }  // namespace elastolab

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "deform/dense_solvers.hpp"
-#include "fem/solvers.hpp"
 #include "deform/solid_model.hpp"
+#include "fem/solvers.hpp"
 
 namespace elastolab {
 
@@ -25,7 +25,7 @@ public:
     std::uint64_t constrain_memory(std::span<const int> base, std::span<const int> handles) const override;
     void visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const override;
     const SparseStiffness* sparse_stiffness() const override { return &system_->K; }
-    const TetMesh* tetrahedra() const override { return &mesh_->tets; }
+    std::shared_ptr<const Interior> interior(Control& control) const override;
 
 private:
     void precompute(double poisson_ratio, Control& control);

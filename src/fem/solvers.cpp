@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <Eigen/QR>
-#include "base/error.hpp"
 
+#include "base/error.hpp"
+#include "deform/holds.hpp"
 #include "elasticity/rigid_motion.hpp"
 #include "fem/constraints.hpp"
 

@@ -8,6 +8,7 @@
 
 #include "deform/method.hpp"
 #include "elasticity/material.hpp"
+#include "methods/registry.hpp"
 
 namespace elastolab {
 
@@ -84,7 +85,7 @@ struct Handle {
 struct Document {
     MeshSource mesh;
     Material material;
-    MethodKind method = MethodKind::linear_bem;
+    MethodKind method = default_method();
     std::optional<Selector> fixed;
     std::vector<Handle> handles;
 };

@@ -131,11 +131,9 @@ SceneMesh load_scene_mesh(const MeshSource& source, const fs::path& scene_file) 
 }
 
 void require_fit(const SceneMesh& mesh, const Material& material, MethodKind kind, const fs::path& scene_file) {
-    const bool for_fem = kind == MethodKind::fem;
-    require_usable(mesh.checked.report, mesh.name, for_fem);
-    if (for_fem && material.poisson_ratio >= 0.5)
-        fail(scene_file, "/material/poisson_ratio",
-             "FEM needs a value below 0.5. Lower it, or use linear-bem, which takes 0.5.");
+    require_usable(mesh.checked.report, mesh.name, kind->has_inside);
+    if (const std::string why = refusal({.kind = kind}, material.poisson_ratio); !why.empty())
+        throw SceneError(one_line(place(scene_file, "/material/" + why)));
 }
 
 Body make_body(const Document& document, SceneMesh mesh, MethodKind kind, const fs::path& scene_file) {

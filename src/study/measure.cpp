@@ -4,8 +4,11 @@
 
 #include "fem/assembly.hpp"
 #include "fem/prescribed.hpp"
-#include "study/setups.hpp"
+#include "findings/solution.hpp"
+#include "findings/words.hpp"
+#include "methods/precompute.hpp"
 #include "study/report/statistics.hpp"
+#include "study/setups.hpp"
 
 namespace elastolab {
 
@@ -51,8 +54,8 @@ Row measure(const Problem& problem, const Method& method, const Repeats& repeats
         repeats.budget_seconds, repeats.most);
     const Eigen::VectorXd u = deformer->displace(problem.values());
     const ModelFacts& facts = deformer->model().facts();
-    std::vector<std::string> warnings = facts.warnings;
-    warnings.insert(warnings.end(), deformer->quality().warnings.begin(), deformer->quality().warnings.end());
+    std::vector<std::string> warnings = words(findings_of_model(deformer->model()));
+    for (const Finding& finding : findings_of_set(*deformer)) warnings.push_back(words(finding));
     Row row;
     row.set("vertices", facts.n_vertices)
         .set("unknowns", facts.n_degrees_of_freedom)

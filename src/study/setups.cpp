@@ -1,4 +1,5 @@
 #include "study/setups.hpp"
+#include "methods/registry.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -55,7 +56,7 @@ double precompute_seconds(const Model& model) {
     return sum;
 }
 
-std::vector<MethodKind> all_kinds() { return {MethodKind::fem, MethodKind::constant_bem, MethodKind::linear_bem}; }
+std::vector<MethodKind> paper_methods() { return {kFem, kConstantBem, kLinearBem}; }
 
 std::string text(MethodKind kind) { return std::string(name(kind)); }
 

@@ -8,6 +8,7 @@
 
 #include "deform/deformer.hpp"
 #include "deform/model.hpp"
+#include "methods/registry.hpp"
 
 namespace elastolab {
 
@@ -42,7 +43,7 @@ double largest_error(const Eigen::VectorXd& u, const Eigen::VectorXd& truth);
 double precompute_seconds(const Model& model);
 
 /// The three methods in the order of the paper.
-std::vector<MethodKind> all_kinds();
+std::vector<MethodKind> paper_methods();
 /// "fem", "constant-bem", "linear-bem".
 std::string text(MethodKind kind);
 

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "app/stage.hpp"
+#include "methods/registry.hpp"
 
 namespace elastolab {
 namespace {
@@ -45,7 +46,7 @@ TEST(Viewports, OneForTheActiveMethod) {
     test::Stage stage(2);
     const auto viewports = viewports_of(stage.state, {320, 27, 960, 746});
     ASSERT_THAT(viewports, SizeIs(1));
-    EXPECT_THAT(viewports[0].kinds, ElementsAre(MethodKind::linear_bem));
+    EXPECT_THAT(viewports[0].kinds, ElementsAre(kLinearBem));
 }
 
 TEST(Viewports, OfAComparisonSideBySideShareTheWidthInTheOrderOfAllMethods) {
@@ -54,7 +55,7 @@ TEST(Viewports, OfAComparisonSideBySideShareTheWidthInTheOrderOfAllMethods) {
     const auto viewports = viewports_of(stage.state, {320, 27, 960, 746});
     ASSERT_THAT(viewports, SizeIs(3));
     for (std::size_t i = 0; i < 3; ++i) {
-        EXPECT_THAT(viewports[i].kinds, ElementsAre(all_method_kinds()[i]));
+        EXPECT_THAT(viewports[i].kinds, ElementsAre(all_methods()[i]));
         EXPECT_EQ(viewports[i].place.width, viewports[0].place.width);
     }
     for (std::size_t i = 1; i < 3; ++i)
@@ -65,10 +66,10 @@ TEST(Viewports, OfAComparisonSideBySideShareTheWidthInTheOrderOfAllMethods) {
 TEST(Viewports, OfGhostsLieOverEachOtherTheActiveMethodFirst) {
     test::Stage stage(2);
     stage.state.compare.mode = CompareMode::ghosts;
-    stage.state.method = MethodKind::constant_bem;
+    stage.state.method = kConstantBem;
     const auto viewports = viewports_of(stage.state, {320, 27, 960, 746});
     ASSERT_THAT(viewports, SizeIs(1));
-    EXPECT_THAT(viewports[0].kinds, ElementsAre(MethodKind::constant_bem, MethodKind::fem, MethodKind::linear_bem));
+    EXPECT_THAT(viewports[0].kinds, ElementsAre(kConstantBem, kFem, kLinearBem));
 }
 
 TEST(Viewports, OfASliverAreStillThere) {

@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 
 #include "app/stage.hpp"
+#include "methods/registry.hpp"
 
 namespace elastolab::test {
 namespace {
@@ -21,7 +22,7 @@ const Eigen::Vector2d kAside(2.0, -1.0), kDrag(70.0, -40.0);
 int top_vertex(const Stage& stage) { return stage.vertex_near({2.0 / 3, 1.0 / 3, 1.0}); }
 
 class EveryMethod : public testing::TestWithParam<MethodKind> {};
-INSTANTIATE_TEST_SUITE_P(Pull, EveryMethod, testing::ValuesIn(all_method_kinds()),
+INSTANTIATE_TEST_SUITE_P(Pull, EveryMethod, testing::ValuesIn(all_methods()),
                          [](const auto& tested) { return test_name(tested.param); });
 
 TEST_P(EveryMethod, KeepsTheVertexUnderTheCursor) {

@@ -10,6 +10,7 @@
 #include "mesh/measures.hpp"
 #include "mesh/primitives.hpp"
 #include "mesh/tets/tetrahedralize.hpp"
+#include "methods/registry.hpp"
 
 namespace elastolab::test {
 namespace {
@@ -32,7 +33,7 @@ TEST(Section, LeavesAClosedSurfaceAroundTheTetrahedraOfOneSide) {
 class CutOpen : public testing::Test {
 protected:
     CutOpen() {
-        stage.state.method = MethodKind::fem;
+        stage.state.method = kFem;
         stage.state.display.section = true;  // keeps x < 0.5
         stage.settle();
     }
@@ -41,7 +42,7 @@ protected:
 };
 
 TEST_F(CutOpen, WhatIsCutAwayIsNotPointedAt) {
-    ASSERT_TRUE(stage.state.body(MethodKind::fem)->section());
+    ASSERT_TRUE(stage.state.body(kFem)->section());
     stage.move(stage.pixel(kept));
     EXPECT_EQ(stage.hovered(), kept);
     stage.move(stage.pixel(gone));
@@ -56,9 +57,9 @@ TEST_F(CutOpen, StaysOpenWhenTheModelIsCompleted) {
     stage.state.choices.complete_up_to = 2000;
     do {
         stage.frame();
-        EXPECT_TRUE(stage.state.body(MethodKind::fem)->section());
+        EXPECT_TRUE(stage.state.body(kFem)->section());
     } while (stage.state.simulation.busy());
-    EXPECT_TRUE(stage.state.simulation.runner(MethodKind::fem).has_inverse());
+    EXPECT_TRUE(stage.state.simulation.runner(kFem).has_inverse());
     EXPECT_FALSE(stage.state.cutting());
 }
 
@@ -70,14 +71,14 @@ TEST_F(CutOpen, TheCutAppearsByItself) {
     ASSERT_TRUE(stage.state.cutting());
     while (!stage.state.update_displacements()) EXPECT_TRUE(stage.state.cutting());
     stage.state.update_bodies();
-    EXPECT_TRUE(stage.state.body(MethodKind::fem)->section());
+    EXPECT_TRUE(stage.state.body(kFem)->section());
 }
 
 TEST_F(CutOpen, OnlyDisplacementsColourTheCut) {
     for (const Field field : {Field::displacement, Field::von_mises}) {
         stage.state.display.field = field;
         stage.settle();
-        EXPECT_EQ(stage.state.body(MethodKind::fem)->is_coloured(), field == Field::displacement);
+        EXPECT_EQ(stage.state.body(kFem)->is_coloured(), field == Field::displacement);
     }
 }
 
@@ -91,7 +92,7 @@ TEST_F(CutOpen, ABoxFixesWhatIsLeft) {
 }
 
 TEST_F(CutOpen, APressOnTheCutPullsNothingInside) {
-    const auto& section = *stage.state.body(MethodKind::fem)->section();
+    const auto& section = *stage.state.body(kFem)->section();
     for (int v = stage.scene().mesh().n_vertices(); v < section.positions.cols(); ++v) {
         const Eigen::Vector2d at = stage.pixel(Eigen::Vector3d(section.positions.col(v)));
         stage.drag(at, at + Eigen::Vector2d(20, 0));

@@ -8,6 +8,7 @@
 #include "app/names.hpp"
 #include "app/panels/panels.hpp"
 #include "app/stage.hpp"
+#include "methods/registry.hpp"
 
 namespace elastolab {
 namespace {
@@ -32,9 +33,9 @@ TEST_F(Shortcuts, NoKeyMeansTwoThingsAndEachSaysWhatItDoes) {
 }
 
 TEST_F(Shortcuts, NumbersChooseTheMethods) {
-    for (std::size_t i = 0; i < all_method_kinds().size(); ++i) {
+    for (std::size_t i = 0; i < all_methods().size(); ++i) {
         EXPECT_TRUE(press(GLFW_KEY_1 + static_cast<int>(i)));
-        EXPECT_EQ(stage.state.method, all_method_kinds()[i]);
+        EXPECT_EQ(stage.state.method, all_methods()[i]);
     }
 }
 
@@ -87,9 +88,9 @@ TEST_F(Shortcuts, ComparisonsGoOnAndOff) {
 }
 
 TEST(Names, OfMethodsAreMadeFromThoseInFiles) {
-    EXPECT_EQ(title(MethodKind::fem), "FEM");
-    EXPECT_EQ(title(MethodKind::constant_bem), "Constant BEM");
-    EXPECT_EQ(title(MethodKind::linear_bem), "Linear BEM");
+    EXPECT_EQ(title(kFem), "FEM");
+    EXPECT_EQ(title(kConstantBem), "Constant BEM");
+    EXPECT_EQ(title(kLinearBem), "Linear BEM");
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "app/stage.hpp"
+#include "methods/registry.hpp"
 
 namespace elastolab {
 namespace {
@@ -26,8 +27,8 @@ protected:
     }
     ViewerState& state = stage_.state;
     test::Stage& stage = stage_;
-    const ShownBody& shown(MethodKind kind = MethodKind::linear_bem) { return *state.body(kind); }
-    Eigen::Map<const Eigen::Matrix3Xd> u(MethodKind kind = MethodKind::linear_bem) {
+    const ShownBody& shown(MethodKind kind = kLinearBem) { return *state.body(kind); }
+    Eigen::Map<const Eigen::Matrix3Xd> u(MethodKind kind = kLinearBem) {
         const Eigen::VectorXd& all = state.simulation.runner(kind).displacement();
         return {all.data(), 3, all.size() / 3};
     }
@@ -77,10 +78,10 @@ TEST_F(ShownBodyTest, TractionAndStressAreLargestWhereTheBodyIsHeld) {
 }
 
 TEST_F(ShownBodyTest, ReactionsBalance) {
-    state.method = MethodKind::fem;  // exactly; those of BEM as far as the mesh is fine
+    state.method = kFem;  // exactly; those of BEM as far as the mesh is fine
     state.display.arrows = true;
     stage.settle();
-    const ShownBody& body = shown(MethodKind::fem);
+    const ShownBody& body = shown(kFem);
     ASSERT_THAT(body.reactions(), SizeIs(2));
     Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = force;
     for (const ShownReaction& reaction : body.reactions()) {
@@ -96,32 +97,32 @@ TEST_F(ShownBodyTest, ReactionsBalance) {
 
 TEST_F(ShownBodyTest, DifferencesAreToTheReference) {
     state.compare.mode = CompareMode::side_by_side;
-    state.compare.reference = MethodKind::fem;
+    state.compare.reference = kFem;
     show(Field::difference);
-    const Eigen::RowVectorXd d = (u(MethodKind::linear_bem) - u(MethodKind::fem)).colwise().norm();
+    const Eigen::RowVectorXd d = (u(kLinearBem) - u(kFem)).colwise().norm();
     ASSERT_TRUE(shown().difference());
     const Difference& difference = *shown().difference();
     EXPECT_NEAR(difference.max, d.maxCoeff(), 1e-12);
     EXPECT_NEAR(difference.rms, std::sqrt(d.squaredNorm() / static_cast<double>(d.size())), 1e-12);
     EXPECT_NEAR(d[difference.worst_vertex], difference.max, 1e-12);
-    EXPECT_NEAR(difference.relative_max, difference.max / u(MethodKind::fem).colwise().norm().maxCoeff(), 1e-12);
+    EXPECT_NEAR(difference.relative_max, difference.max / u(kFem).colwise().norm().maxCoeff(), 1e-12);
     EXPECT_NEAR(shown().max_value(), difference.max, 1e-6);
-    EXPECT_FALSE(shown(MethodKind::fem).difference());
-    EXPECT_EQ(shown(MethodKind::fem).max_value(), 0.0);
+    EXPECT_FALSE(shown(kFem).difference());
+    EXPECT_EQ(shown(kFem).max_value(), 0.0);
 }
 
 TEST_F(ShownBodyTest, DifferencesFollowTheReference) {
     state.compare.mode = CompareMode::ghosts;
     show(Field::difference);
-    const double before = shown(MethodKind::fem).difference()->max;
+    const double before = shown(kFem).difference()->max;
     stage.scene().set_motion(0, AffineMotion{.translate = {0.2, 0, 0.1}});
     stage.settle();
-    EXPECT_NEAR(shown(MethodKind::fem).difference()->max, 2.0 * before, 1e-9);
+    EXPECT_NEAR(shown(kFem).difference()->max, 2.0 * before, 1e-9);
 }
 
 TEST_F(ShownBodyTest, OnlyAnswersToTheSameSceneAreCompared) {
     state.compare.mode = CompareMode::side_by_side;
-    state.compare.reference = MethodKind::fem;
+    state.compare.reference = kFem;
     show(Field::difference);
     ASSERT_TRUE(shown().difference());
     stage.scene().set_material({.young_modulus = 1.0, .poisson_ratio = 0.45});
@@ -132,17 +133,17 @@ TEST_F(ShownBodyTest, OnlyAnswersToTheSameSceneAreCompared) {
             return state.simulation.runner(kind).model()->body().material.poisson_ratio;
         };
         EXPECT_FALSE(std::exchange(first, false) && shown().difference());
-        EXPECT_TRUE(!shown().difference() || ratio(MethodKind::linear_bem) == ratio(MethodKind::fem));
+        EXPECT_TRUE(!shown().difference() || ratio(kLinearBem) == ratio(kFem));
     } while (state.simulation.busy());
     stage.frame();
     EXPECT_TRUE(shown().difference());
 }
 
 TEST_F(ShownBodyTest, ADifferenceAloneHasTheReferenceComputed) {
-    state.method = MethodKind::fem;
+    state.method = kFem;
     show(Field::difference);
-    ASSERT_TRUE(shown(MethodKind::fem).difference());
-    EXPECT_GT(shown(MethodKind::fem).difference()->max, 0.0);
+    ASSERT_TRUE(shown(kFem).difference());
+    EXPECT_GT(shown(kFem).difference()->max, 0.0);
     EXPECT_THAT(state.bodies, SizeIs(1));
 }
 
@@ -157,10 +158,10 @@ TEST_F(ShownBodyTest, IsAtRestBeforeTheFirstAnswer) {
 }
 
 TEST(FieldTitles, NameTheUnitAndTheReference) {
-    EXPECT_THAT(field_title(Field::difference, MethodKind::constant_bem), HasSubstr("Constant BEM"));
+    EXPECT_THAT(field_title(Field::difference, kConstantBem), HasSubstr("Constant BEM"));
     for (const Field field : {Field::displacement, Field::difference, Field::traction, Field::von_mises})
-        EXPECT_THAT(field_title(field, MethodKind::fem), HasSubstr("unit"));
-    EXPECT_EQ(field_title(Field::none, MethodKind::fem), "");
+        EXPECT_THAT(field_title(field, kFem), HasSubstr("unit"));
+    EXPECT_EQ(field_title(Field::none, kFem), "");
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "mesh/input/export.hpp"
 #include "mesh/primitives.hpp"
+#include "methods/registry.hpp"
 #include "scene/file/scene_file.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -31,7 +32,7 @@ TEST(ViewerState, BeginsWithTheCubeOfThePaperHeldAtItsLeft) {
     ViewerState state([] {});
     EXPECT_EQ(state.scene().mesh().n_vertices(), 1016);
     for (const int v : state.scene().vertices(LiveScene::kFixed)) EXPECT_EQ(state.scene().mesh().vertices(0, v), 0.0);
-    EXPECT_EQ(state.method, MethodKind::linear_bem);
+    EXPECT_EQ(state.method, kLinearBem);
 }
 
 TEST(ViewerState, ABadFileIsTellingAndKeepsTheOldScene) {
@@ -101,12 +102,12 @@ TEST(ViewerState, TheMethodOfTheCommandLineOutlivesTheLoadingOfTheScene) {
     save_scene(folder.path() / "cube.json", test::cube_document(2));
     Stage stage(2);
     stage.state.open(folder.path() / "cube.json");
-    stage.state.start_with(MethodKind::fem);
+    stage.state.start_with(kFem);
     stage.settle();
-    EXPECT_EQ(stage.state.method, MethodKind::fem);
+    EXPECT_EQ(stage.state.method, kFem);
     stage.state.open(folder.path() / "cube.json");
     stage.settle();
-    EXPECT_EQ(stage.state.method, MethodKind::linear_bem);  // the scene's own, from then on
+    EXPECT_EQ(stage.state.method, kLinearBem);  // the scene's own, from then on
 }
 
 TEST(ViewerState, TheMethodOfTheCommandLineEndsWithAFileThatCannotBeLoaded) {
@@ -114,11 +115,11 @@ TEST(ViewerState, TheMethodOfTheCommandLineEndsWithAFileThatCannotBeLoaded) {
     save_scene(folder.path() / "cube.json", test::cube_document(2));
     Stage stage(2);
     stage.state.open(folder.write("bad.obj", "f 1 2 3\n"));
-    stage.state.start_with(MethodKind::fem);
+    stage.state.start_with(kFem);
     stage.settle();
     stage.state.open(folder.path() / "cube.json");
     stage.settle();
-    EXPECT_EQ(stage.state.method, MethodKind::linear_bem);
+    EXPECT_EQ(stage.state.method, kLinearBem);
 }
 
 TEST(ViewerState, ASavedSceneComesBackWithTheMethodAndTheHandles) {
@@ -126,13 +127,13 @@ TEST(ViewerState, ASavedSceneComesBackWithTheMethodAndTheHandles) {
     Stage stage(3);
     stage.scene().add_handle(std::vector<int>{5, 7});
     stage.scene().set_motion(0, AffineMotion{.translate = {0.1, 0.2, 1.0 / 3.0}});
-    stage.state.method = MethodKind::constant_bem;
+    stage.state.method = kConstantBem;
     EXPECT_TRUE(stage.scene().modified());
     stage.state.save_scene(folder.path() / "saved.json");
     EXPECT_EQ(n_errors(stage.state), 0);
     EXPECT_FALSE(stage.scene().modified());
     const Document saved = load_scene(folder.path() / "saved.json");
-    EXPECT_EQ(saved.method, MethodKind::constant_bem);
+    EXPECT_EQ(saved.method, kConstantBem);
     EXPECT_EQ(saved.handles, stage.scene().document().handles);
 }
 
@@ -185,7 +186,7 @@ TEST(ViewerState, AFrameRecordTellsMethodSizesAndState) {
     EXPECT_EQ(record.handle_vertices, 1);
     EXPECT_EQ(record.state, "ready");
     EXPECT_EQ(record.times.update_ms, 1.0);
-    stage.state.method = MethodKind::fem;
+    stage.state.method = kFem;
     stage.frame();
     EXPECT_EQ(stage.state.frame_record({}, 0.0).state, "precomputing");
 }
@@ -195,8 +196,7 @@ TEST(ViewerState, SwitchingDuringAPrecomputationEndsAtTheLastChoice) {
     const int v = stage.vertex_near({1, 1, 1});
     stage.scene().add_handle(std::vector<int>{v});
     stage.scene().set_motion(0, AffineMotion{.translate = {0.1, 0, 0}});
-    for (const MethodKind kind : {MethodKind::fem, MethodKind::constant_bem, MethodKind::fem, MethodKind::linear_bem,
-                                  MethodKind::constant_bem}) {
+    for (const MethodKind kind : {kFem, kConstantBem, kFem, kLinearBem, kConstantBem}) {
         stage.state.select_method(kind);
         stage.frame();
     }

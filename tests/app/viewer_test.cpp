@@ -11,6 +11,7 @@
 #include "app/stage.hpp"
 #include "base/error.hpp"
 #include "cli/program.hpp"
+#include "methods/registry.hpp"
 #include "scene/file/scene_file.hpp"
 
 namespace elastolab::test {
@@ -130,7 +131,7 @@ TEST_F(ViewerTest, AReplayedDragEndsAtTheSameHandleForEveryMethod) {
     options.scene_out = folder.path() / "out.json";
     options.mesh_out = folder.path() / "out.obj";
     std::vector<Handle> handles;
-    for (const MethodKind kind : all_method_kinds()) {
+    for (const MethodKind kind : all_methods()) {
         options.method = kind;
         run_viewer(options);
         const auto rows = timings();

@@ -4,6 +4,7 @@
 #include "app/panels/layout.hpp"
 #include "app/real_window.hpp"
 #include "app/stage.hpp"
+#include "methods/registry.hpp"
 #include "scene/file/scene_file.hpp"
 
 namespace elastolab::test {
@@ -52,7 +53,7 @@ Positions read_vertices(const std::filesystem::path& file) {
 }
 
 class RealDrag : public testing::TestWithParam<MethodKind> {};
-INSTANTIATE_TEST_SUITE_P(Window, RealDrag, testing::ValuesIn(all_method_kinds()),
+INSTANTIATE_TEST_SUITE_P(Window, RealDrag, testing::ValuesIn(all_methods()),
                          [](const auto& tested) { return test_name(tested.param); });
 
 TEST_P(RealDrag, KeepsTheVertexUnderTheCursorAndTheBodyIsThatOfSolve) {

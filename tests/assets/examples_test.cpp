@@ -10,6 +10,8 @@
 #include <ostream>
 
 #include "deform/deformer.hpp"
+#include "methods/precompute.hpp"
+#include "methods/registry.hpp"
 #include "scene/file/scene_file.hpp"
 #include "scene/selectors.hpp"
 #include "scene/setup.hpp"
@@ -41,7 +43,7 @@ class Examples : public testing::TestWithParam<Example> {
 protected:
     Examples()
         : document_(load_scene(file_)),
-          body_(make_body(document_, load_scene_mesh(document_.mesh, file_), MethodKind::fem, file_)),
+          body_(make_body(document_, load_scene_mesh(document_.mesh, file_), kFem, file_)),
           constraints_(make_constraints(document_, *body_.surface, file_)) {}
 
     /// Displacements, one column each vertex.
@@ -84,10 +86,10 @@ TEST_P(Examples, DeformVisiblyWithoutFoldingOver) {
     EXPECT_LE(body_.surface->n_vertices(), 5000);
     for (const Handle& handle : document_.handles)  // single vertices would mean nothing
         EXPECT_GE(select_vertices(*body_.surface, handle.select, handle.name).size(), 5U) << handle.name;
-    const Positions fem = solve(MethodKind::fem);
+    const Positions fem = solve(kFem);
     expect_sound(fem);
     if (GetParam().agreement == 0.0) return;
-    const Positions bem = solve(MethodKind::linear_bem);
+    const Positions bem = solve(kLinearBem);
     expect_sound(bem);
     const double found = difference(fem, bem);
     RecordProperty("difference", std::to_string(found));

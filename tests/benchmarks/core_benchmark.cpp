@@ -13,15 +13,16 @@
 #include "base/blas.hpp"
 #include "base/lapack.hpp"
 #include "bem/assembly.hpp"
-#include "deform/deformer.hpp"
 #include "bem/traction_space.hpp"
-#include "deform/problem.hpp"
+#include "deform/deformer.hpp"
 #include "elasticity/rigid_motion.hpp"
 #include "fem/assembly.hpp"
 #include "fem/compliance.hpp"
 #include "fem/constraints.hpp"
 #include "mesh/primitives.hpp"
 #include "mesh/tets/tetrahedralize.hpp"
+#include "methods/problem.hpp"
+#include "methods/registry.hpp"
 
 namespace elastolab::test {
 namespace {
@@ -99,14 +100,14 @@ void on_demand_precomputation_beside_its_lu(benchmark::State& state) {
     const Body body = make_body(cube());
     Eigen::MatrixXd copy;
     compare(
-        state, 2.2, [&] { benchmark::DoNotOptimize(precomputed(body, Method{})); },
+        state, 2.2, [&] { benchmark::DoNotOptimize(precomputed(body, Method{.kind = kLinearBem})); },
         [&] { LuFactorization(std::move(copy), "H"); }, [&] { copy = bordered_matrix(); });
 }
 
 /// K = G^-1 H and K^-1 = H^-1 G: two factorisations, two solves of full rank.
 void full_precomputation_beside_its_lapack_calls(benchmark::State& state) {
     const Body body = make_body(cube());
-    Method method;
+    Method method{.kind = kLinearBem};
     method.mode = Mode::full;
     Eigen::MatrixXd H, G, right;
     compare(
@@ -138,7 +139,7 @@ std::vector<int> patches() {
 /// its unknowns, their product with the rows of the equations at interior points, and the factorisation of the small
 /// system.
 void change_set(benchmark::State& state, const std::vector<int>& vertices) {
-    Method method;
+    Method method{.kind = kLinearBem};
     method.tractions = static_cast<Tractions>(state.range(0));
     const Body body = make_body(cube());
     const LuFactorization lu(Eigen::MatrixXd(bordered_matrix()), "H");
@@ -173,7 +174,7 @@ void set_change_of_patches_beside_its_lapack_calls(benchmark::State& state) { ch
 
 /// The same with all columns known: only the small system is left.
 void set_change_with_known_columns(benchmark::State& state) {
-    Method method;
+    Method method{.kind = kLinearBem};
     method.tractions = Tractions::restricted;
     const ConstrainedSet set{{}, random_vertices(0.1, 1)};
     Deformer deformer(precomputed(make_body(cube()), method));
@@ -194,7 +195,7 @@ void constant_bem_precomputation_beside_its_lu(benchmark::State& state) {
     const Eigen::Index n = 3 * cube().n_triangles() + 6;
     Eigen::MatrixXd matrix;
     compare(
-        state, 2.2, [&] { benchmark::DoNotOptimize(precomputed(body, make_method(MethodKind::constant_bem))); },
+        state, 2.2, [&] { benchmark::DoNotOptimize(precomputed(body, make_method(kConstantBem))); },
         [&] { LuFactorization(std::move(matrix), "H"); }, [&] { matrix = Eigen::MatrixXd::Random(n, n); });
 }
 

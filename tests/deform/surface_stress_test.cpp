@@ -5,6 +5,7 @@
 #include "deform/deformer.hpp"
 #include "elasticity/exact_fields.hpp"
 #include "mesh/primitives.hpp"
+#include "methods/precompute.hpp"
 
 namespace elastolab {
 namespace {

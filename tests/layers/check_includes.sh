@@ -9,15 +9,16 @@ declare -A below=(
   [base]=""
   [mesh]="base"
   [elasticity]="base"
-  [fem]="base mesh elasticity deform findings"
-  [bem]="base mesh elasticity deform findings"
-  [deform]="base mesh elasticity fem bem findings"
+  [deform]="base mesh elasticity"
+  [fem]="base mesh elasticity deform"
+  [bem]="base mesh elasticity deform"
   [findings]="base mesh elasticity deform"
-  [scene]="base mesh elasticity deform findings"
-  [study]="base mesh elasticity fem bem deform findings scene"
+  [methods]="base mesh elasticity deform fem bem findings"
+  [scene]="base mesh elasticity deform findings methods"
+  [study]="base mesh elasticity deform fem bem findings methods scene"
   [render]="base"
-  [app]="base mesh elasticity deform findings scene render"
-  [cli]="base mesh elasticity deform findings scene study app"
+  [app]="base mesh elasticity deform findings methods scene render"
+  [cli]="base mesh elasticity deform findings methods scene study app"
 )
 
 # Wrapped libraries: the headers that tell them, and the files that may include them.

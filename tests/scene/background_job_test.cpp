@@ -1,4 +1,4 @@
-#include "scene/live/background_job.hpp"
+#include "scene/live/model_keeper.hpp"
 
 #include <gmock/gmock.h>
 
@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "base/error.hpp"
+#include "methods/registry.hpp"
 
 namespace elastolab {
 namespace {
@@ -16,15 +17,15 @@ using testing::HasSubstr;
 /// A model of nothing, told apart by the name of its body.
 std::shared_ptr<const Model> model_called(const std::string& name) {
     const Body body{.name = name, .surface = std::make_shared<const SurfaceMesh>(), .material = {}};
-    return std::make_shared<const Model>(body, Method{}, std::vector<Model::Part>{}, ModelFacts{});
+    return std::make_shared<const Model>(body, Method{.kind = kLinearBem}, std::vector<Model::Part>{}, ModelFacts{});
 }
 
-PrecomputeJob::Work giving(const std::string& name) {
+ModelJob::Work giving(const std::string& name) {
     return [name](Control&) { return model_called(name); };
 }
 
 /// Works until it is cancelled, and says that it has begun.
-PrecomputeJob::Work endless(std::atomic<bool>& begun) {
+ModelJob::Work endless(std::atomic<bool>& begun) {
     return [&begun](Control& control) -> std::shared_ptr<const Model> {
         control.begin_stage("forever");
         control.set_progress(0.5);
@@ -41,14 +42,14 @@ void wait_until(const Condition& condition) {
     while (!condition()) std::this_thread::sleep_for(1ms);
 }
 
-JobEvent wait_for_event(PrecomputeJob& job) {
+JobEvent wait_for_event(ModelJob& job) {
     JobEvent event = JobEvent::none;
     wait_until([&] { return (event = job.poll()) != JobEvent::none; });
     return event;
 }
 
-TEST(PrecomputeJob, BringsTheModelOnce) {
-    PrecomputeJob job;
+TEST(ModelJob, BringsTheModelOnce) {
+    ModelJob job;
     job.start(giving("first"));
     EXPECT_EQ(wait_for_event(job), JobEvent::finished);
     EXPECT_EQ(job.take()->body().name, "first");
@@ -57,8 +58,8 @@ TEST(PrecomputeJob, BringsTheModelOnce) {
     EXPECT_EQ(job.poll(), JobEvent::none);
 }
 
-TEST(PrecomputeJob, KeepsNothingOfAModelThatWasTaken) {
-    PrecomputeJob job;
+TEST(ModelJob, KeepsNothingOfAModelThatWasTaken) {
+    ModelJob job;
     job.start(giving("taken"));
     wait_for_event(job);
     std::shared_ptr<const Model> model = job.take();
@@ -68,9 +69,9 @@ TEST(PrecomputeJob, KeepsNothingOfAModelThatWasTaken) {
     EXPECT_EQ(job.take(), nullptr);
 }
 
-TEST(PrecomputeJob, ShowsStageAndProgressWhileItRuns) {
+TEST(ModelJob, ShowsStageAndProgressWhileItRuns) {
     std::atomic<bool> begun{false};
-    PrecomputeJob job;
+    ModelJob job;
     job.start(endless(begun));
     wait_until([&] { return begun.load(); });
     EXPECT_TRUE(job.running());
@@ -80,9 +81,9 @@ TEST(PrecomputeJob, ShowsStageAndProgressWhileItRuns) {
     EXPECT_EQ(job.poll(), JobEvent::none);
 }
 
-TEST(PrecomputeJob, ACancelLeavesTheModelBeforeIt) {
+TEST(ModelJob, ACancelLeavesTheModelBeforeIt) {
     std::atomic<bool> begun{false};
-    PrecomputeJob job;
+    ModelJob job;
     job.start(giving("old"));
     wait_for_event(job);
     job.start(endless(begun));
@@ -93,9 +94,9 @@ TEST(PrecomputeJob, ACancelLeavesTheModelBeforeIt) {
     EXPECT_EQ(job.failure(), "");
 }
 
-TEST(PrecomputeJob, DropsAResultThatComesAfterACancel) {
+TEST(ModelJob, DropsAResultThatComesAfterACancel) {
     std::atomic<bool> go{false};
-    PrecomputeJob job;
+    ModelJob job;
     job.start([&](Control&) {
         wait_until([&] { return go.load(); });
         return model_called("too late");
@@ -106,8 +107,8 @@ TEST(PrecomputeJob, DropsAResultThatComesAfterACancel) {
     EXPECT_EQ(job.take(), nullptr);
 }
 
-TEST(PrecomputeJob, AFailureLeavesTheModelBeforeItAndSaysWhy) {
-    PrecomputeJob job;
+TEST(ModelJob, AFailureLeavesTheModelBeforeItAndSaysWhy) {
+    ModelJob job;
     job.start(giving("old"));
     wait_for_event(job);
     job.start([](Control&) -> std::shared_ptr<const Model> { throw MeshError("bunny.obj: is broken. Mend it."); });
@@ -122,9 +123,9 @@ TEST(PrecomputeJob, AFailureLeavesTheModelBeforeItAndSaysWhy) {
     EXPECT_EQ(job.failure(), "");
 }
 
-TEST(PrecomputeJob, ANewRequestReplacesTheOldOnesAndNeverRunsBesideThem) {
+TEST(ModelJob, ANewRequestReplacesTheOldOnesAndNeverRunsBesideThem) {
     std::atomic<int> running{0}, most{0};
-    PrecomputeJob job;
+    ModelJob job;
     for (int i = 0; i < 20; ++i)
         job.start([&, i](Control& control) {
             most = std::max(most.load(), ++running);
@@ -138,10 +139,10 @@ TEST(PrecomputeJob, ANewRequestReplacesTheOldOnesAndNeverRunsBesideThem) {
     EXPECT_EQ(most, 1);
 }
 
-TEST(PrecomputeJob, ShutsDownWhileItRuns) {
+TEST(ModelJob, ShutsDownWhileItRuns) {
     std::atomic<bool> begun{false}, ended{false};
     {
-        PrecomputeJob job;
+        ModelJob job;
         job.start([&](Control& control) {
             try {
                 return endless(begun)(control);
@@ -156,8 +157,8 @@ TEST(PrecomputeJob, ShutsDownWhileItRuns) {
     EXPECT_TRUE(ended);
 }
 
-TEST(PrecomputeJob, CannotBeCancelledWhenItIsIdle) {
-    PrecomputeJob job;
+TEST(ModelJob, CannotBeCancelledWhenItIsIdle) {
+    ModelJob job;
     job.cancel();
     EXPECT_EQ(job.poll(), JobEvent::none);
     EXPECT_FALSE(job.running());

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <limits>
 
+#include "methods/registry.hpp"
 #include "simulation_bench.hpp"
 
 namespace elastolab {
@@ -15,7 +16,7 @@ using namespace testing_simulation;
 TEST(BackgroundWork, ACompletedModelAnswersByTheUpdateThatWasChosen) {
     LiveScene scene = pulled_cube();
     Bench bench;
-    const Eigen::VectorXd expected = truth(scene, bench.choices.of(MethodKind::linear_bem));
+    const Eigen::VectorXd expected = truth(scene, bench.choices.of(kLinearBem));
     for (const Update update : {Update::eqn9, Update::reduced, Update::direct}) {
         bench.choices.update = update;
         bench.settle(scene);
@@ -26,7 +27,7 @@ TEST(BackgroundWork, ACompletedModelAnswersByTheUpdateThatWasChosen) {
 }
 
 TEST(BackgroundWork, ACompletedInverseIsKeptWhenPoissonsRatioStays) {
-    for (const MethodKind kind : all_method_kinds()) {
+    for (const MethodKind kind : all_methods()) {
         LiveScene scene = pulled_cube();
         Bench bench({kind});
         bench.settle(scene);
@@ -66,27 +67,27 @@ TEST(BackgroundWork, AStopOfTheCompletionLeavesTheAnswerReady) {
     bench.simulation.prefetch(scene.set_with_handle(where(scene, 0.9, 0.6)));
     do bench.update(scene);
     while (bench.runner().completing() && !bench.runner().preparing());
-    bench.simulation.runner(MethodKind::linear_bem).cancel();
+    bench.simulation.runner(kLinearBem).cancel();
     EXPECT_EQ(bench.runner().state(), State::ready);
     EXPECT_THAT(bench.runner().failure(), IsEmpty());
 }
 
 TEST(BackgroundWork, AStoppedSetIsForgottenByAnotherOne) {
     LiveScene scene = cube(8);
-    Bench bench({MethodKind::fem});
+    Bench bench({kFem});
     bench.choices.complete_up_to = 0;
     bench.settle(scene);
     scene.commit();
     scene.add_handle(where(scene, 0.9, 0.6));
     scene.commit();
     bench.update(scene);
-    ASSERT_EQ(bench.runner(MethodKind::fem).state(), State::preparing);
-    bench.simulation.runner(MethodKind::fem).cancel();
-    EXPECT_EQ(bench.runner(MethodKind::fem).state(), State::failed);
-    EXPECT_THAT(bench.simulation.problem(MethodKind::fem), HasSubstr("stopped"));
+    ASSERT_EQ(bench.runner(kFem).state(), State::preparing);
+    bench.simulation.runner(kFem).cancel();
+    EXPECT_EQ(bench.runner(kFem).state(), State::failed);
+    EXPECT_THAT(bench.simulation.problem(kFem), HasSubstr("stopped"));
     scene.undo();
     bench.update(scene);
-    EXPECT_EQ(bench.runner(MethodKind::fem).state(), State::ready);
+    EXPECT_EQ(bench.runner(kFem).state(), State::ready);
 }
 
 TEST(BackgroundWork, AMotionThatCannotBeFollowedIsForgottenByTheNext) {
@@ -102,17 +103,17 @@ TEST(BackgroundWork, AMotionThatCannotBeFollowedIsForgottenByTheNext) {
     scene.set_motion(0, AffineMotion{.translate = {0.1, 0, 0}});
     bench.update(scene);
     EXPECT_EQ(bench.runner().state(), State::ready);
-    expect_near(bench.runner().displacement(), truth(scene, bench.choices.of(MethodKind::linear_bem)));
+    expect_near(bench.runner().displacement(), truth(scene, bench.choices.of(kLinearBem)));
 }
 
 TEST(BackgroundWork, TellsTheProgressOfASetThatIsBeingPrepared) {
     LiveScene scene = cube(8);
-    Bench bench({MethodKind::fem});
+    Bench bench({kFem});
     bench.choices.complete_up_to = 0;
     do bench.update(scene);
-    while (bench.runner(MethodKind::fem).state() != State::preparing);
-    EXPECT_LT(bench.runner(MethodKind::fem).status().seconds, 60.0);
-    EXPECT_GT(bench.runner(MethodKind::fem).status().seconds, 0.0);
+    while (bench.runner(kFem).state() != State::preparing);
+    EXPECT_LT(bench.runner(kFem).status().seconds, 60.0);
+    EXPECT_GT(bench.runner(kFem).status().seconds, 0.0);
 }
 
 TEST(BackgroundWork, AHandleThatWasPrefetchedAnswersAtOnce) {
@@ -133,7 +134,7 @@ TEST(BackgroundWork, AHandleThatWasPrefetchedAnswersAtOnce) {
           AffineMotion{.matrix = 0.1 * Eigen::Matrix3d::Identity()}}) {
         scene.set_motion(0, motion);
         bench.update(scene);
-        expect_near(bench.runner().displacement(), truth(scene, bench.choices.of(MethodKind::linear_bem)));
+        expect_near(bench.runner().displacement(), truth(scene, bench.choices.of(kLinearBem)));
     }
 }
 
@@ -158,12 +159,12 @@ TEST(BackgroundWork, AMotionThatTakesLongIsSolvedByTheWorker) {
         scene.set_motion(handle, on);
         bench.settle(scene);
         EXPECT_EQ(bench.runner().state(), State::ready);
-        expect_near(bench.runner().displacement(), truth(scene, bench.choices.of(MethodKind::linear_bem)));
+        expect_near(bench.runner().displacement(), truth(scene, bench.choices.of(kLinearBem)));
         on.translate += Eigen::Vector3d(0, 0.02, 0.03);
         scene.set_motion(handle, on);
         bench.update(scene);  // by the columns at hand, in the same frame
         EXPECT_EQ(bench.runner().state(), State::ready);
-        expect_near(bench.runner().displacement(), truth(scene, bench.choices.of(MethodKind::linear_bem)));
+        expect_near(bench.runner().displacement(), truth(scene, bench.choices.of(kLinearBem)));
     }
 }
 
@@ -176,7 +177,7 @@ TEST(BackgroundWork, AMotionWhoseSolutionWasStoppedCanBeTriedAgain) {
     scene.set_motion(0, AffineMotion{.matrix = 0.3 * Eigen::Matrix3d::Identity(), .translate = {0, 0.1, 0}});
     bench.update(scene);
     ASSERT_EQ(bench.runner().state(), State::preparing);
-    MethodRunner& runner = bench.simulation.runner(MethodKind::linear_bem);
+    MethodRunner& runner = bench.simulation.runner(kLinearBem);
     runner.cancel();
     bench.settle(scene);
     EXPECT_EQ(runner.state(), State::failed);
@@ -184,7 +185,7 @@ TEST(BackgroundWork, AMotionWhoseSolutionWasStoppedCanBeTriedAgain) {
     runner.retry();
     bench.settle(scene);
     EXPECT_EQ(runner.state(), State::ready);
-    expect_near(runner.displacement(), truth(scene, bench.choices.of(MethodKind::linear_bem)));
+    expect_near(runner.displacement(), truth(scene, bench.choices.of(kLinearBem)));
 }
 
 TEST(BackgroundWork, AMotionWithoutASolutionFailsOnTheWorkerToo) {
@@ -199,7 +200,7 @@ TEST(BackgroundWork, AMotionWithoutASolutionFailsOnTheWorkerToo) {
     scene.set_motion(0, AffineMotion{.matrix = 0.3 * Eigen::Matrix3d::Identity(), .translate = {0, 0.1, 0}});
     bench.settle(scene);
     EXPECT_EQ(bench.runner().state(), State::ready);
-    expect_near(bench.runner().displacement(), truth(scene, bench.choices.of(MethodKind::linear_bem)));
+    expect_near(bench.runner().displacement(), truth(scene, bench.choices.of(kLinearBem)));
 }
 
 TEST(BackgroundWork, ACancelledPrecomputationCanBeTriedAgain) {
@@ -207,11 +208,11 @@ TEST(BackgroundWork, ACancelledPrecomputationCanBeTriedAgain) {
     Bench bench;
     bench.update(scene);
     ASSERT_EQ(bench.runner().state(), State::precomputing);
-    bench.simulation.runner(MethodKind::linear_bem).cancel();
+    bench.simulation.runner(kLinearBem).cancel();
     bench.settle(scene);
     EXPECT_EQ(bench.runner().state(), State::idle);
     EXPECT_FALSE(bench.runner().has_answer());
-    bench.simulation.runner(MethodKind::linear_bem).retry();
+    bench.simulation.runner(kLinearBem).retry();
     bench.choices.complete_up_to = 0;
     bench.settle(scene);
     EXPECT_EQ(bench.runner().state(), State::ready);
@@ -220,7 +221,7 @@ TEST(BackgroundWork, ACancelledPrecomputationCanBeTriedAgain) {
 
 TEST(BackgroundWork, ComesToRestWhenAMethodIsComputedThatTheMaterialForbidsMeanwhile) {
     LiveScene scene = cube(8);
-    Bench bench({MethodKind::fem});
+    Bench bench({kFem});
     bench.update(scene);
     ASSERT_TRUE(bench.simulation.waiting());
     scene.set_material({.young_modulus = 1.0, .poisson_ratio = 0.5});
@@ -232,7 +233,7 @@ TEST(BackgroundWork, ComesToRestWhenAMethodIsComputedThatTheMaterialForbidsMeanw
 
 TEST(BackgroundWork, EndsWhileItComputes) {
     LiveScene scene = cube(10);
-    Bench bench(all_method_kinds());
+    Bench bench({all_methods().begin(), all_methods().end()});
     bench.update(scene);
     EXPECT_TRUE(bench.simulation.busy());
 }

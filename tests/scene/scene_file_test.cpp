@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "methods/registry.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace elastolab {
@@ -18,7 +19,7 @@ Document everything() {
     Document document;
     document.mesh = Primitive{.name = "box", .resolution = 3, .size = {1.0, 0.1, 1.0 / 3.0}};
     document.material = {.young_modulus = 1.0e5 / 3.0, .poisson_ratio = 0.49999999999999994};
-    document.method = MethodKind::constant_bem;
+    document.method = kConstantBem;
     const Selector box{BoxSelector{.min = {-1e-300, 0.1, -3}, .max = {0.2, 0.7, 1e300}}};
     const Selector plane{PlaneSelector{.point = {0, 0, 0.3}, .normal = {0, 0, -2}, .tolerance = 1e-9}};
     document.fixed = Selector{std::vector<Selector>{box, Selector{std::vector<Selector>{plane}}}};
@@ -53,7 +54,7 @@ TEST(SceneFile, IsSavedInOneStepAndLoaded) {
 TEST(SceneFile, HasDefaultsForAllButVersionAndMesh) {
     const Document document = parse_scene(R"({"elastolab": 1, "mesh": {"file": "bunny.obj"}})", "test");
     EXPECT_EQ(std::get<MeshFile>(document.mesh).file, "bunny.obj");
-    EXPECT_EQ(document.method, MethodKind::linear_bem);
+    EXPECT_EQ(document.method, kLinearBem);
     EXPECT_EQ(document.material.poisson_ratio, 0.3);
     EXPECT_FALSE(document.fixed.has_value());
     EXPECT_TRUE(document.handles.empty());

@@ -5,6 +5,7 @@
 #include "base/error.hpp"
 #include "mesh/input/export.hpp"
 #include "mesh/primitives.hpp"
+#include "methods/registry.hpp"
 #include "scene/file/scene_file.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -120,7 +121,7 @@ TEST(Setup, AMeshFileLiesBesideTheScene) {
     Document document = cube();
     document.mesh = MeshFile{"cube.obj"};
     const auto scene_file = folder.path() / "scene.json";
-    const Body body = make_body(document, load_scene_mesh(document.mesh, scene_file), MethodKind::fem, scene_file);
+    const Body body = make_body(document, load_scene_mesh(document.mesh, scene_file), kFem, scene_file);
     EXPECT_EQ(body.surface->n_vertices(), 26);
     EXPECT_THAT(body.name, HasSubstr("cube.obj"));
 }
@@ -139,9 +140,9 @@ TEST(Setup, OnlyFemRefusesAnIncompressibleMaterial) {
     const auto body = [&](MethodKind kind) {
         return finding([&] { make_body(document, load_scene_mesh(document.mesh, "s.json"), kind, "s.json"); });
     };
-    EXPECT_THAT(body(MethodKind::fem), HasSubstr("s.json: /material/poisson_ratio: FEM needs"));
-    EXPECT_EQ(body(MethodKind::linear_bem), "");
-    EXPECT_EQ(body(MethodKind::constant_bem), "");
+    EXPECT_THAT(body(kFem), HasSubstr("s.json: /material/poisson_ratio: FEM needs"));
+    EXPECT_EQ(body(kLinearBem), "");
+    EXPECT_EQ(body(kConstantBem), "");
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <limits>
 #include <thread>
 
+#include "methods/precompute.hpp"
+#include "methods/registry.hpp"
 #include "scene/live/simulation.hpp"
 
 namespace elastolab::testing_simulation {
@@ -14,7 +16,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using State = MethodRunner::State;
 
-inline const std::vector<MethodKind> kLinear = {MethodKind::linear_bem};
+inline const std::vector<MethodKind> kLinear = {kLinearBem};
 
 /// The unit cube, its left face fixed.
 inline LiveScene cube(int cells = 3) {
@@ -64,7 +66,7 @@ struct Bench {
     std::vector<MethodKind> shown;
 
     void set_solve_budget(double seconds) {
-        for (const MethodKind kind : all_method_kinds()) simulation.runner(kind).set_solve_budget(seconds);
+        for (const MethodKind kind : all_methods()) simulation.runner(kind).set_solve_budget(seconds);
     }
     bool update(const LiveScene& scene) { return simulation.update(scene, shown, choices); }
     void settle(const LiveScene& scene) {
@@ -74,7 +76,7 @@ struct Bench {
         } while (simulation.busy());
         update(scene);
     }
-    const MethodRunner& runner(MethodKind kind = MethodKind::linear_bem) { return simulation.runner(kind); }
+    const MethodRunner& runner(MethodKind kind = kLinearBem) { return simulation.runner(kind); }
 };
 
 }  // namespace elastolab::testing_simulation

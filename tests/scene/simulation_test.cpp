@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 
+#include "methods/registry.hpp"
 #include "simulation_bench.hpp"
 
 namespace elastolab {
@@ -10,7 +11,7 @@ namespace {
 using namespace testing_simulation;
 
 class EveryMethod : public testing::TestWithParam<MethodKind> {};
-INSTANTIATE_TEST_SUITE_P(Simulation, EveryMethod, testing::ValuesIn(all_method_kinds()));
+INSTANTIATE_TEST_SUITE_P(Simulation, EveryMethod, testing::ValuesIn(all_methods()));
 
 TEST_P(EveryMethod, ShowsWhatAFreshComputationSays) {
     LiveScene scene = cube();
@@ -41,14 +42,14 @@ TEST(Simulation, FollowsTranslationsRotationsAndSeveralHandles) {
     for (const auto& [handle, motion] : steps) {
         scene.set_motion(handle, motion);
         bench.update(scene);  // in the same frame
-        expect_near(bench.runner().displacement(), truth(scene, bench.choices.of(MethodKind::linear_bem)));
+        expect_near(bench.runner().displacement(), truth(scene, bench.choices.of(kLinearBem)));
     }
 }
 
 TEST(Simulation, EveryFrameRuleAndUpdateShowsTheSame) {
     LiveScene scene = pulled_cube();
     Bench bench;
-    const Eigen::VectorXd expected = truth(scene, bench.choices.of(MethodKind::linear_bem));
+    const Eigen::VectorXd expected = truth(scene, bench.choices.of(kLinearBem));
     for (const Update update : {Update::direct, Update::eqn9, Update::reduced})
         for (const FrameRule rule : {FrameRule::drag_columns, FrameRule::displace}) {
             bench.choices.mode = Mode::full;
@@ -69,14 +70,14 @@ TEST(Simulation, TheOldAnswerStaysWhileAnotherMaterialIsPrecomputed) {
     EXPECT_EQ(bench.runner().state(), State::precomputing);
     EXPECT_EQ(bench.runner().displacement(), before);
     bench.settle(scene);
-    expect_near(bench.runner().displacement(), truth(scene, bench.choices.of(MethodKind::linear_bem)));
+    expect_near(bench.runner().displacement(), truth(scene, bench.choices.of(kLinearBem)));
 }
 
 TEST(Simulation, SwitchingBackIsInstant) {
     LiveScene scene = cube();
     Bench bench;
     bench.settle(scene);
-    bench.shown = {MethodKind::fem};
+    bench.shown = {kFem};
     bench.settle(scene);
     bench.shown = kLinear;
     bench.update(scene);
@@ -88,7 +89,7 @@ TEST(Simulation, AHiddenMethodComesToAnEnd) {
     Bench bench;
     bench.update(scene);
     ASSERT_TRUE(bench.runner().precomputing());
-    bench.shown = {MethodKind::fem};
+    bench.shown = {kFem};
     const Stopwatch watch;
     while (bench.runner().precomputing() && watch.seconds() < 60.0) bench.settle(scene);
     EXPECT_FALSE(bench.runner().precomputing());
@@ -99,7 +100,7 @@ TEST(Simulation, AHiddenMethodForgetsABodyThatIsGone) {
     LiveScene first = cube(2), second = cube(3);
     Bench bench;
     bench.settle(first);
-    bench.shown = {MethodKind::fem};
+    bench.shown = {kFem};
     bench.settle(second);
     EXPECT_FALSE(bench.runner().model());
     EXPECT_FALSE(bench.runner().surface());
@@ -108,10 +109,10 @@ TEST(Simulation, AHiddenMethodForgetsABodyThatIsGone) {
 TEST(Simulation, AMethodThatCannotTakeTheMaterialSaysSoAndTheOthersGoOn) {
     LiveScene scene = cube();
     scene.set_material({.young_modulus = 1.0, .poisson_ratio = 0.5});
-    Bench bench({MethodKind::fem, MethodKind::linear_bem});
+    Bench bench({kFem, kLinearBem});
     bench.settle(scene);
-    EXPECT_THAT(bench.simulation.problem(MethodKind::fem), HasSubstr("below 0.5"));
-    EXPECT_THAT(bench.simulation.problem(MethodKind::linear_bem), IsEmpty());
+    EXPECT_THAT(bench.simulation.problem(kFem), HasSubstr("below 0.5"));
+    EXPECT_THAT(bench.simulation.problem(kLinearBem), IsEmpty());
     EXPECT_EQ(bench.runner().state(), State::ready);
 }
 
@@ -127,7 +128,7 @@ TEST(Simulation, AnotherMeshReplacesEverything) {
 
 TEST(Simulation, AMethodThatWaitsForItsTurnForgetsABodyThatIsGone) {
     LiveScene first = cube(2), second = cube(8);
-    Bench bench(all_method_kinds());
+    Bench bench({all_methods().begin(), all_methods().end()});
     bench.settle(first);
     bench.update(second);
     ASSERT_TRUE(bench.runner(bench.shown.front()).precomputing());

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "mesh/primitives.hpp"
+#include "methods/registry.hpp"
 #include "study/error/error_frontier.hpp"
 #include "study/paper/paper_way.hpp"
 #include "study/runner.hpp"
@@ -86,7 +87,7 @@ TEST(Studies, EndInFilesWhateverTheCases) {
 
 TEST(PaperWay, AgreesWithItselfInAllFourForms) {
     Control control;
-    for (const MethodKind kind : all_kinds()) {
+    for (const MethodKind kind : paper_methods()) {
         const PaperSystem system = paper_precomputation(study_body(make_box(2), Material{1.0, 0.3}), kind, control);
         const auto updates = paper_updates(system, choose_share(system.n_nodes(), 0.3, 1));
         ASSERT_EQ(updates.size(), 4U);
@@ -121,7 +122,7 @@ TEST(Stress, SaysRightToldAndRefused) {
             if (one.name == name) return one;
         throw std::logic_error(name);
     };
-    const Method fem{.kind = MethodKind::fem};
+    const Method fem{.kind = kFem};
     EXPECT_EQ(attempt(group("nu-to-half").make(0.3), fem, control).text("outcome"), "right");
     const Row locked = attempt(group("nu-to-half").make(0.4999), fem, control);
     EXPECT_THAT(locked.text("message"), HasSubstr("lock"));

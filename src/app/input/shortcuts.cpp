@@ -8,6 +8,7 @@
 #include "app/names.hpp"
 #include "app/panels/panels.hpp"
 #include "app/viewer_state.hpp"
+#include "methods/registry.hpp"
 
 namespace elastolab {
 
@@ -33,7 +34,7 @@ void change_radius(ViewerState& state, double factor) {
 std::vector<Shortcut> make_shortcuts() {
     std::vector<Shortcut> all;
     int number = 0;
-    for (const MethodKind kind : all_method_kinds()) {
+    for (const MethodKind kind : all_methods()) {
         ++number;
         all.push_back({GLFW_KEY_0 + number, 0, std::to_string(number), title(kind),
                        [kind](ViewerState& s, Panels&) { s.select_method(kind); }});

@@ -5,6 +5,7 @@
 
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
+#include "methods/registry.hpp"
 
 namespace elastolab {
 
@@ -18,7 +19,7 @@ constexpr std::array<Choice<CompareMode>, 3> kModes = {
      {CompareMode::ghosts, "as ghosts", "G: the chosen method solid, the others as wireframes over it."}}};
 
 void draw_kinds(ViewerState& state, const Palette& palette) {
-    for (const MethodKind kind : all_method_kinds()) {
+    for (const MethodKind kind : all_methods()) {
         auto& kinds = state.compare.kinds;
         bool shown = kind == state.method || std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
         ImGui::PushStyleColor(ImGuiCol_CheckMark, imgui_colour(palette.body(kind)));
@@ -35,7 +36,7 @@ void draw_kinds(ViewerState& state, const Palette& palette) {
 void draw_reference(ViewerState& state, float scale) {
     set_item_width(scale);
     if (!begin_choice("reference", title(state.compare.reference).c_str())) return;
-    for (const MethodKind kind : all_method_kinds())
+    for (const MethodKind kind : all_methods())
         if (choice_entry(title(kind).c_str(), "Differences are to this method.", kind == state.compare.reference))
             state.compare.reference = kind;
     end_choice();
@@ -48,7 +49,7 @@ void draw_differences(const PanelContext& context) {
         ImGui::TableNextColumn();
         ImGui::TextColored(imgui_colour(context.palette.text_dim), "%s", heading);
     }
-    for (const MethodKind kind : all_method_kinds()) {
+    for (const MethodKind kind : all_methods()) {
         const ShownBody* shown = state.body(kind);
         if (shown == nullptr) continue;
         ImGui::TableNextColumn();

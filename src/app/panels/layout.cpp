@@ -1,4 +1,5 @@
 #include "app/panels/layout.hpp"
+#include "methods/registry.hpp"
 
 #include <algorithm>
 
@@ -28,7 +29,7 @@ std::vector<SceneViewport> viewports_of(const ViewerState& state, const Viewport
     if (state.compare.mode != CompareMode::side_by_side) return {{scene, kinds}};
     // In the order of all methods, so that a switch does not make them jump.
     std::vector<SceneViewport> viewports;
-    for (const MethodKind kind : all_method_kinds())
+    for (const MethodKind kind : all_methods())
         if (std::find(kinds.begin(), kinds.end(), kind) != kinds.end()) viewports.push_back({scene, {kind}});
     const auto n = static_cast<double>(viewports.size());
     const double width = std::max(1.0, (scene.width - kGap * (n - 1.0)) / n);

@@ -6,6 +6,8 @@
 #include "app/panels/widgets.hpp"
 #include "base/memory.hpp"
 #include "base/text.hpp"
+#include "findings/words.hpp"
+#include "methods/registry.hpp"
 
 namespace elastolab {
 
@@ -72,12 +74,12 @@ const Colour& state_colour(const MethodRunner& runner, const Palette& palette) {
 /// A button for each method, underlined with how it is doing.
 void draw_buttons(const PanelContext& context) {
     ViewerState& state = context.state;
-    const auto n = static_cast<float>(all_method_kinds().size());
+    const auto n = static_cast<float>(all_methods().size());
     const float width = (ImGui::GetContentRegionAvail().x - (n - 1.0f) * ImGui::GetStyle().ItemSpacing.x) / n;
     const float scale = context.gui.scale();
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {2.0f * scale, ImGui::GetStyle().FramePadding.y});  // long names
     int number = 0;
-    for (const MethodKind kind : all_method_kinds()) {
+    for (const MethodKind kind : all_methods()) {
         if (number++ > 0) ImGui::SameLine();
         const bool active = kind == state.method;
         const Colour& colour = context.palette.body(kind);
@@ -132,12 +134,7 @@ std::string readiness(const MethodRunner& runner) {
 }
 
 void draw_warnings(const PanelContext& context, const MethodRunner& runner) {
-    if (runner.model())
-        for (const std::string& warning : runner.model()->facts().warnings) paragraph(warning, context.palette.busy);
-    if (runner.deformer())
-        for (const std::string& warning : runner.deformer()->quality().warnings)
-            paragraph(warning, context.palette.busy);
-    for (const std::string& warning : runner.check_warnings()) paragraph(warning, context.palette.busy);
+    for (const std::string& text : words(runner.findings())) paragraph(text, context.palette.busy);
 }
 
 }  // namespace

@@ -80,9 +80,7 @@ void set_measures(ImGuiStyle& style, float scale) {
 }  // namespace
 
 const Colour& Palette::body(MethodKind kind) const {
-    const auto& kinds = all_method_kinds();
-    const auto place = std::find(kinds.begin(), kinds.end(), kind) - kinds.begin();
-    return bodies[static_cast<std::size_t>(place) % bodies.size()];
+    return bodies[static_cast<std::size_t>(kind->colour) % bodies.size()];
 }
 
 const Palette& dark_palette() {

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "deform/method.hpp"
+#include "methods/registry.hpp"
 #include "render/colour.hpp"
 
 namespace elastolab {
@@ -15,7 +16,7 @@ struct Palette {
     Colour wire, grid, outline;
     Colour fixed, handle, active, hover;
     std::array<Colour, 3> axes;
-    std::array<Colour, 6> bodies;  ///< one for each method, in the order of all_method_kinds()
+    std::array<Colour, 6> bodies;  ///< one for each method, in the order of all_methods()
 
     const Colour& body(MethodKind kind) const;
 };

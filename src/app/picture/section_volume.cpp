@@ -4,7 +4,7 @@ namespace elastolab {
 
 const Volume* SectionVolume::of(const MethodRunner& runner) {
     const std::shared_ptr<const Model>& model = runner.model();
-    if (!model || !model->has_inside()) return nullptr;
+    if (!model || !model->method().kind->has_inside) return nullptr;
     const double poisson_ratio = model->body().material.poisson_ratio;
     if (poisson_ratio_ == poisson_ratio) return volume_.get();
     forget();

@@ -2,6 +2,7 @@
 
 #include "base/text.hpp"
 #include "mesh/primitives.hpp"
+#include "methods/registry.hpp"
 #include "scene/file/json_node.hpp"
 #include "scene/file/scene_file.hpp"
 
@@ -73,7 +74,9 @@ Material read_material(const JsonNode& node) {
 
 MethodKind read_method(const JsonNode& node) {
     if (const auto kind = parse_method_kind(node.text())) return *kind;
-    node.fail(node.quoted() + " is not a known method. Known ones: fem, constant-bem, linear-bem.");
+    std::string known;
+    for (const MethodKind kind : all_methods()) known.append(known.empty() ? "" : ", ").append(kind->name);
+    node.fail(node.quoted() + " is not a known method. Known ones: " + known + ".");
 }
 
 VertexSelector read_vertices(const JsonNode& node) {

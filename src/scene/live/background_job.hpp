@@ -10,7 +10,6 @@
 
 #include "base/control.hpp"
 #include "base/timer.hpp"
-#include "deform/model.hpp"
 #include "scene/user_text.hpp"
 
 namespace elastolab {
@@ -38,53 +37,35 @@ public:
     BackgroundJob(const BackgroundJob&) = delete;
     BackgroundJob& operator=(const BackgroundJob&) = delete;
 
-    /// Starts a computation. One that is running is cancelled; the new one begins when it has stopped, so that two
-    /// never compete for memory.
+    /// Starts a computation. One that is running is cancelled; the new one begins when that has stopped, so that two
+    /// never compete for memory. However often it is called meanwhile, one waits: the last.
     void start(Work work) {
         cancel();
-        auto ticket = std::make_unique<Ticket>();
-        // The worker takes the job before it along and joins that first: the watcher does not wait, only one computes.
-        std::packaged_task<Result()> task(
-            [before = std::move(ticket_), work = std::move(work), control = &ticket->control]() mutable {
-                before.reset();
-                control->checkpoint();
-                return work(*control);
-            });
-        ticket->result = task.get_future();
-        ticket->thread = std::jthread([task = std::move(task), wake = wake_]() mutable {
-            task();
-            if (wake) wake();
-        });
-        ticket_ = std::move(ticket);
+        waiting_ = std::move(work);
+        begin_waiting();
     }
 
     /// Asks the running computation to stop; it does so at its next checkpoint.
     void cancel() {
+        if (waiting_) {
+            waiting_ = nullptr;
+            cancelled_ = true;
+        }
         if (ticket_) ticket_->control.cancel();
     }
 
     /// What has become of the computation, told once. After `finished` take() gives the result; after `failed`
     /// failure() says why.
     JobEvent poll() {
-        using namespace std::chrono_literals;
-        if (!ticket_ || ticket_->result.wait_for(0s) != std::future_status::ready) return JobEvent::none;
-        const std::unique_ptr<Ticket> ticket = std::move(ticket_);
-        last_seconds_ = ticket->watch.seconds();
-        failure_.clear();
-        try {
-            Result result = ticket->result.get();
-            ticket->control.checkpoint();  // a cancel that came too late for the worker still counts
-            result_ = std::move(result);
-            return JobEvent::finished;
-        } catch (const Cancelled&) {
-            return JobEvent::cancelled;
-        } catch (const std::exception& error) {
-            failure_ = user_text(error);
-            return JobEvent::failed;
+        if (ticket_ && !working()) {
+            const std::unique_ptr<Ticket> ticket = std::move(ticket_);
+            if (!waiting_) return finish(*ticket);  // else it was cancelled, and nobody waits for it
         }
+        begin_waiting();
+        return std::exchange(cancelled_, false) && !running() ? JobEvent::cancelled : JobEvent::none;
     }
 
-    bool running() const { return ticket_ != nullptr; }
+    bool running() const { return ticket_ || waiting_; }
     /// Whether the worker itself has not ended yet; without a poll().
     bool working() const {
         return ticket_ && ticket_->result.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
@@ -113,13 +94,45 @@ private:
         std::jthread thread;
     };
 
+    void begin_waiting() {
+        if (!waiting_ || ticket_) return;
+        cancelled_ = false;
+        ticket_ = std::make_unique<Ticket>();
+        std::packaged_task<Result()> task([work = std::exchange(waiting_, nullptr), control = &ticket_->control] {
+            control->checkpoint();
+            return work(*control);
+        });
+        ticket_->result = task.get_future();
+        ticket_->thread = std::jthread([task = std::move(task), wake = wake_]() mutable {
+            task();
+            if (wake) wake();
+        });
+    }
+
+    JobEvent finish(Ticket& ticket) {
+        last_seconds_ = ticket.watch.seconds();
+        failure_.clear();
+        cancelled_ = false;
+        try {
+            Result result = ticket.result.get();
+            ticket.control.checkpoint();  // a cancel that came too late for the worker still counts
+            result_ = std::move(result);
+            return JobEvent::finished;
+        } catch (const Cancelled&) {
+            return JobEvent::cancelled;
+        } catch (const std::exception& error) {
+            failure_ = user_text(error);
+            return JobEvent::failed;
+        }
+    }
+
     std::function<void()> wake_;
+    Work waiting_;            ///< begins when the computation that was cancelled for it has ended
+    bool cancelled_ = false;  ///< what waited was cancelled, which poll() has not told yet
     std::unique_ptr<Ticket> ticket_;
     Result result_{};
     std::string failure_;
     double last_seconds_ = 0.0;
 };
-
-using PrecomputeJob = BackgroundJob<std::shared_ptr<const Model>>;
 
 }  // namespace elastolab

@@ -3,11 +3,10 @@
 #include <Eigen/Core>
 #include <functional>
 #include <memory>
-#include <string>
-#include <vector>
 
 #include "base/timer.hpp"
 #include "deform/deformer.hpp"
+#include "deform/finding.hpp"
 #include "scene/live/background_job.hpp"
 
 namespace elastolab {
@@ -29,7 +28,7 @@ public:
     /// Whether nothing more will be found of this answer.
     bool done() const { return begun_ && !job_.running(); }
     /// What the person should know before believing the answer.
-    const std::vector<std::string>& warnings() const { return warnings_; }
+    const Findings& findings() const { return findings_; }
 
     void cancel() { job_.cancel(); }
     bool working() const { return job_.working(); }
@@ -37,8 +36,8 @@ public:
 private:
     Stopwatch rest_;  ///< since the answer changed
     bool begun_ = false;
-    std::vector<std::string> warnings_;
-    BackgroundJob<std::vector<std::string>> job_;
+    Findings findings_;
+    BackgroundJob<Findings> job_;
 };
 
 }  // namespace elastolab

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "findings/cost.hpp"
+#include "methods/registry.hpp"
 #include "scene/user_text.hpp"
 
 namespace elastolab {
@@ -22,22 +24,17 @@ bool worth_completing(const SurfaceMesh& mesh, const Method& method, int complet
 
 }  // namespace
 
-const std::vector<MethodKind>& all_method_kinds() {
-    static const std::vector<MethodKind> kinds = {MethodKind::fem, MethodKind::constant_bem, MethodKind::linear_bem};
-    return kinds;
-}
-
 Method MethodChoices::of(MethodKind kind) const {
     Method method{.kind = kind, .mode = mode, .tractions = tractions, .update = update};
-    if (mode == Mode::full_volume && kind != MethodKind::fem) method.mode = Mode::full;  // only FEM has nodes inside
-    if (kind != MethodKind::linear_bem) method.tractions = Tractions::discontinuous;     // it has no choice of them
+    if (!has(kind, mode)) method.mode = has(kind, Mode::full) ? Mode::full : Mode::on_demand;
+    if (!has(kind, update)) method.update = Update::reduced;
+    if (!kind->chooses_tractions) method.tractions = Tractions::discontinuous;
     if (method.mode == Mode::on_demand && method.update == Update::eqn9) method.update = Update::reduced;
     return method;
 }
 
 Simulation::Simulation(const std::function<void()>& wake) {
-    for (const MethodKind kind : all_method_kinds())
-        entries_.push_back({kind, std::make_unique<MethodRunner>(wake), ""});
+    for (const MethodKind kind : all_methods()) entries_.push_back({kind, std::make_unique<MethodRunner>(wake), ""});
 }
 
 /// Index in entries_.

@@ -6,14 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "findings/cost.hpp"
+#include "methods/registry.hpp"
 #include "scene/live/live_scene.hpp"
 #include "scene/live/method_runner.hpp"
 
 namespace elastolab {
-
-/// All methods that the program has, in the order in which they are shown.
-const std::vector<MethodKind>& all_method_kinds();
 
 /// What a person may choose about the methods.
 struct MethodChoices {

@@ -2,6 +2,7 @@
 #include <memory>
 #include <mutex>
 
+#include "methods/registry.hpp"
 #include "study/error/error_report.hpp"
 #include "study/measure.hpp"
 #include "study/setups.hpp"
@@ -18,11 +19,7 @@ struct Variant {
     std::vector<int> sizes;  ///< cells, ascending
 };
 
-Method with_tractions(Tractions tractions) {
-    Method method;
-    method.tractions = tractions;
-    return method;
-}
+Method with_tractions(Tractions tractions) { return {.kind = kLinearBem, .tractions = tractions}; }
 
 std::vector<int> up_to(int largest, bool quick) {
     std::vector<int> sizes;
@@ -34,8 +31,8 @@ std::vector<int> up_to(int largest, bool quick) {
 Repeats repeats(bool quick) { return quick ? Repeats{0.05, 3} : Repeats{}; }
 
 std::vector<Variant> main_variants(bool quick) {
-    return {{"fem", {.kind = MethodKind::fem}, up_to(20, quick)},
-            {"constant-bem", {.kind = MethodKind::constant_bem}, up_to(8, quick)},
+    return {{"fem", {.kind = kFem}, up_to(20, quick)},
+            {"constant-bem", {.kind = kConstantBem}, up_to(8, quick)},
             {"linear-bem", with_tractions(Tractions::discontinuous), up_to(12, quick)},
             {"linear-bem restricted", with_tractions(Tractions::restricted), up_to(12, quick)},
             {"linear-bem continuous", with_tractions(Tractions::continuous), up_to(12, quick)}};
@@ -75,7 +72,7 @@ public:
     }
     void add(const std::string& part, const std::string& family, const Variant& variant, double nu, int size) {
         const double weight = 0.3 + (variant.name == "constant-bem" ? 8e-6 : 1e-6) * size * size * size * size * size;
-        add(part, family, variant.name, nu, size, variant.method.kind == MethodKind::fem ? 0.5 : weight,
+        add(part, family, variant.name, nu, size, variant.method.kind == kFem ? 0.5 : weight,
             [method = variant.method, many = repeats_](const Problem& problem, Control& control) {
                 return measure(problem, method, many, control).set("method", text(method.kind));
             });
@@ -116,8 +113,7 @@ void add_ratios(CaseList& cases, bool quick) {
     for (const auto& [problem, size] : problems)
         for (const double nu : ratios)
             for (const Variant& variant : main_variants(quick))
-                if (nu < 0.5 || variant.method.kind != MethodKind::fem)
-                    cases.add("poisson", problem, variant, nu, size);
+                if (nu < 0.5 || variant.method.kind != kFem) cases.add("poisson", problem, variant, nu, size);
 }
 
 /// Tetrahedra of other sizes and qualities; integrals of other tolerances.
@@ -125,7 +121,7 @@ void add_choices(CaseList& cases, bool quick) {
     const int size = quick ? 4 : 8;
     const auto tets = [&](const std::string& name, const TetOptions& options) {
         cases.add("choices", "bending", name, 0.3, size, 0.5, [=](const Problem& problem, Control& control) {
-            return measure_tetrahedra(problem, options, repeats(quick), control).set("method", text(MethodKind::fem));
+            return measure_tetrahedra(problem, options, repeats(quick), control).set("method", text(kFem));
         });
     };
     for (const double volume : quick ? std::vector{0.5, 1.8} : std::vector{0.25, 0.5, 1.0, 1.8, 4.0, 16.0})
@@ -135,7 +131,7 @@ void add_choices(CaseList& cases, bool quick) {
     const std::vector<double> tolerances =
         quick ? std::vector{1e-3, 1e-10} : std::vector{1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-13};
     for (const double tolerance : tolerances)
-        for (const MethodKind kind : {MethodKind::linear_bem, MethodKind::constant_bem}) {
+        for (const MethodKind kind : {kLinearBem, kConstantBem}) {
             Method method;
             method.kind = kind;
             method.integral_tolerance = tolerance;

@@ -1,13 +1,16 @@
 #include <algorithm>
 
+#include "bem/constant_constraints.hpp"
 #include "deform/constraint_map.hpp"
 #include "elasticity/material.hpp"
 #include "mesh/primitives.hpp"
+#include "methods/precompute.hpp"
+#include "methods/registry.hpp"
 #include "study/paper/paper_picture.hpp"
 #include "study/paper/paper_report.hpp"
 #include "study/paper/paper_way.hpp"
-#include "study/setups.hpp"
 #include "study/report/statistics.hpp"
+#include "study/setups.hpp"
 #include "study/study.hpp"
 
 namespace elastolab {
@@ -60,7 +63,7 @@ std::vector<Row> measure_paper_way(MethodKind kind, int cells, unsigned seed, Co
 }
 
 int n_constrained_nodes(const SurfaceMesh& mesh, MethodKind kind, const std::vector<int>& vertices) {
-    if (kind != MethodKind::constant_bem) return static_cast<int>(vertices.size());
+    if (kind != kConstantBem) return static_cast<int>(vertices.size());
     return static_cast<int>(constrain_triangles(mesh, VertexTriangles(mesh), vertices).nodes.size());
 }
 
@@ -68,7 +71,7 @@ int n_constrained_nodes(const SurfaceMesh& mesh, MethodKind kind, const std::vec
 /// by itself constrains all around it.
 std::vector<int> choose_vertices(const SurfaceMesh& mesh, MethodKind kind, double share, unsigned seed) {
     const int n = mesh.n_vertices();
-    if (kind != MethodKind::constant_bem) return choose_share(n, share, seed);
+    if (kind != kConstantBem) return choose_share(n, share, seed);
     int low = 3, high = n;
     while (low < high) {
         const int middle = (low + high) / 2;
@@ -141,19 +144,17 @@ std::vector<Row> measure_artefact(MethodKind kind, int cells, Control& control) 
 std::vector<int> sizes(MethodKind kind, bool paper_way, bool quick) {
     if (quick) return {2, 3, 4, 5, 6};
     std::vector<int> cells = {2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13};
-    if (kind == MethodKind::linear_bem || !paper_way) cells.insert(cells.end(), {14, 16});
-    if (kind != MethodKind::linear_bem && paper_way) cells.insert(cells.end(), {14, 15});  // around the crossing
-    if (kind == MethodKind::fem && !paper_way) cells.insert(cells.end(), {20, 26});
+    if (kind == kLinearBem || !paper_way) cells.insert(cells.end(), {14, 16});
+    if (kind != kLinearBem && paper_way) cells.insert(cells.end(), {14, 15});  // around the crossing
+    if (kind == kFem && !paper_way) cells.insert(cells.end(), {20, 26});
     return cells;
 }
 
 /// Nodes cubed, but for what every case costs.
 double weight_of(MethodKind kind, int cells, bool paper_way) {
     const double vertices = 6.0 * cells * cells, inside = (cells - 1.0) * (cells - 1.0) * (cells - 1.0);
-    const double nodes = kind == MethodKind::fem            ? vertices + inside
-                         : kind == MethodKind::constant_bem ? 2.0 * vertices
-                                                            : vertices;
-    if (kind == MethodKind::fem && !paper_way) return 1.0 + 1e-3 * nodes;
+    const double nodes = kind == kFem ? vertices + inside : kind == kConstantBem ? 2.0 * vertices : vertices;
+    if (kind == kFem && !paper_way) return 1.0 + 1e-3 * nodes;
     return 1.0 + (paper_way ? 4e-9 : 4e-10) * nodes * nodes * nodes;
 }
 
@@ -171,7 +172,7 @@ Study make_paper_study(const StudyOptions& options) {
     study.columns = {"way",     "method",       "cells",      "part",         "vertices",     "nodes",
                      "share",   "known_nodes",  "update",     "precompute_s", "set_change_s", "ready_s",
                      "frame_s", "disagreement", "edge_error", "face_error"};
-    for (const MethodKind kind : all_kinds()) {
+    for (const MethodKind kind : paper_methods()) {
         for (const int cells : sizes(kind, true, options.quick))
             add_case(study.cases, "paper", kind, cells, weight_of(kind, cells, true),
                      [=](Control& control) { return measure_paper_way(kind, cells, options.seed, control); });
@@ -187,8 +188,8 @@ Study make_paper_study(const StudyOptions& options) {
         const Table pictured = table.where({{"part", "fig1"}});
         if (pictured.rows.empty()) return conclusions;
         const auto cells = static_cast<int>(pictured.rows.front().number("cells"));
-        conclusions.plots.push_back(edge_picture({edge_artefact(MethodKind::constant_bem, cells, control),
-                                                  edge_artefact(MethodKind::linear_bem, cells, control)}));
+        conclusions.plots.push_back(
+            edge_picture({edge_artefact(kConstantBem, cells, control), edge_artefact(kLinearBem, cells, control)}));
         return conclusions;
     };
     return study;

@@ -7,6 +7,7 @@
 #include "base/text.hpp"
 #include "elasticity/exact_fields.hpp"
 #include "mesh/primitives.hpp"
+#include "methods/precompute.hpp"
 #include "study/setups.hpp"
 
 namespace elastolab {

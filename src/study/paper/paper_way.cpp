@@ -3,6 +3,8 @@
 #include <optional>
 
 #include "base/lapack.hpp"
+#include "methods/precompute.hpp"
+#include "methods/registry.hpp"
 #include "study/report/statistics.hpp"
 
 namespace elastolab {
@@ -15,7 +17,7 @@ constexpr int kMostRepeats = 5;
 Method paper_method(MethodKind kind) {
     Method method;
     method.kind = kind;
-    method.mode = kind == MethodKind::fem ? Mode::full_volume : Mode::full;
+    method.mode = kind == kFem ? Mode::full_volume : Mode::full;
     method.tractions = Tractions::continuous;
     method.update = Update::eqn9;
     return method;

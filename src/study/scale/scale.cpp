@@ -3,10 +3,12 @@
 
 #include "findings/cost.hpp"
 #include "mesh/primitives.hpp"
+#include "methods/precompute.hpp"
+#include "methods/registry.hpp"
 #include "study/peak_memory.hpp"
+#include "study/report/statistics.hpp"
 #include "study/scale/scale_report.hpp"
 #include "study/setups.hpp"
-#include "study/report/statistics.hpp"
 #include "study/study.hpp"
 
 namespace elastolab {
@@ -33,13 +35,10 @@ std::vector<Growth> growths(bool quick) {
             if (n <= (quick ? std::min(largest, 6) : largest)) all.push_back(n);
         return all;
     };
-    return {{method(MethodKind::fem, Mode::on_demand), cells(36)},
-            {method(MethodKind::fem, Mode::full), cells(16)},
-            {method(MethodKind::fem, Mode::full_volume), cells(10)},
-            {method(MethodKind::constant_bem, Mode::on_demand), cells(20)},
-            {method(MethodKind::constant_bem, Mode::full), cells(10)},
-            {method(MethodKind::linear_bem, Mode::on_demand), cells(30)},
-            {method(MethodKind::linear_bem, Mode::full), cells(16)}};
+    return {{method(kFem, Mode::on_demand), cells(36)},    {method(kFem, Mode::full), cells(16)},
+            {method(kFem, Mode::full_volume), cells(10)},  {method(kConstantBem, Mode::on_demand), cells(20)},
+            {method(kConstantBem, Mode::full), cells(10)}, {method(kLinearBem, Mode::on_demand), cells(30)},
+            {method(kLinearBem, Mode::full), cells(16)}};
 }
 
 ConstrainedSet held_and_pulled(const SurfaceMesh& mesh) {
@@ -101,7 +100,7 @@ Study make_scale_study(const StudyOptions& options) {
                                .set("method", text(growth.method.kind))
                                .set("mode", std::string(name(growth.method.mode)))
                                .set("cells", cells);
-            const double weight = 1.0 + 2e-6 * std::pow(cells, growth.method.kind == MethodKind::fem ? 4 : 5.5);
+            const double weight = 1.0 + 2e-6 * std::pow(cells, growth.method.kind == kFem ? 4 : 5.5);
             study.cases.push_back({id, weight, [method = growth.method, cells](Control& control) {
                                        return measure_growth(method, cells, control);
                                    }});

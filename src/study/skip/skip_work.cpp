@@ -1,8 +1,10 @@
 #include "study/skip/skip_work.hpp"
 
 #include "mesh/primitives.hpp"
-#include "study/setups.hpp"
+#include "methods/precompute.hpp"
+#include "methods/registry.hpp"
 #include "study/report/statistics.hpp"
+#include "study/setups.hpp"
 
 namespace elastolab {
 
@@ -112,9 +114,9 @@ Seconds handles_change(bool base_is_known) {
     };
 }
 
-double all_methods(const SkipScene& scene) {
+double every_method(const SkipScene& scene) {
     return timed([&] {
-        for (const MethodKind kind : all_kinds()) {
+        for (const MethodKind kind : paper_methods()) {
             Method method;
             method.kind = kind;
             scene.model(method);
@@ -148,13 +150,13 @@ Deformer SkipScene::ready(std::shared_ptr<const Model> its_model) const {
 }
 
 std::vector<Skip> all_skips() {
-    const MethodKind fem = MethodKind::fem, linear = MethodKind::linear_bem, constant = MethodKind::constant_bem;
+    const MethodKind fem = kFem, linear = kLinearBem, constant = kConstantBem;
     std::vector<Skip> skips = {
         {"interior", "interior nodes: a dense inverse of the surface's nodes instead of all", fem,
          precomputed_in(Mode::full), precomputed_in(Mode::full_volume)},
         {"dense-inverse", "columns nobody asks for: a sparse factor instead of the paper's dense inverse", fem,
          ready_in(Mode::on_demand), ready_in(Mode::full_volume)},
-        {"hidden", "methods that are not shown", linear, precomputed_in(Mode::on_demand), all_methods},
+        {"hidden", "methods that are not shown", linear, precomputed_in(Mode::on_demand), every_method},
         {"base-known", "columns of the base: eliminated once instead of treated as handles", fem, handles_change(true),
          handles_change(false)},
     };

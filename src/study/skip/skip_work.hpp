@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "deform/deformer.hpp"
+#include "methods/precompute.hpp"
 
 namespace elastolab {
 

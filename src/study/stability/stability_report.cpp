@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "methods/registry.hpp"
 #include "study/report/report.hpp"
 #include "study/stability/stress.hpp"
 
@@ -113,9 +114,9 @@ Conclusions conclude_stability(const Table& table) {
         "Every attempt goes the way of the program: the mesh is checked, the model precomputed, the set constrained; "
         "whatever it says is quoted. An answer counts as right when the largest error of a vertex, against the exact "
         "solution, is at most " +
-        percent(allowed_error(MethodKind::linear_bem)) + " of the largest displacement" +
-        " (constant BEM, of first order: " + percent(allowed_error(MethodKind::constant_bem)) + ").\n\n" +
-        count_findings(table) + "\n" + edit_findings(table) + "\n";
+        percent(allowed_error(kLinearBem)) + " of the largest displacement" +
+        " (constant BEM, of first order: " + percent(allowed_error(kConstantBem)) + ").\n\n" + count_findings(table) +
+        "\n" + edit_findings(table) + "\n";
     for (const std::string& group : table.values("group"))
         conclusions.findings += heading(table, group) + group_table(table, group) + "\n";
     for (const std::string group : {"nu-to-half", "plate", "slivers", "far-away"})

@@ -4,21 +4,25 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "findings/solution.hpp"
+#include "findings/words.hpp"
 #include "mesh/checks/check.hpp"
+#include "methods/precompute.hpp"
+#include "methods/registry.hpp"
 #include "study/setups.hpp"
 
 namespace elastolab {
 
 namespace {
 
-void append(std::vector<std::string>& all, const std::vector<std::string>& more) {
-    all.insert(all.end(), more.begin(), more.end());
+void append(std::vector<std::string>& all, const Findings& findings) {
+    for (const Finding& finding : findings) all.push_back(words(finding));
 }
 
 /// The mesh as the program takes it. Throws MeshError.
 Body checked_body(const Problem& problem, MethodKind kind, std::vector<std::string>& warnings) {
     const CheckedMesh checked = check_and_repair(*problem.body.surface);
-    require_usable(checked.report, problem.body.name, kind == MethodKind::fem);
+    require_usable(checked.report, problem.body.name, kind->has_inside);
     for (const Defect& defect : checked.report.defects) warnings.push_back(defect.text);
     return study_body(checked.mesh, problem.body.material, problem.body.name);
 }
@@ -31,19 +35,15 @@ std::string outcome(double error, double allowed, const std::vector<std::string>
 }  // namespace
 
 std::vector<StressVariant> stress_variants() {
-    const auto linear = [](Tractions tractions) {
-        Method method;
-        method.tractions = tractions;
-        return method;
-    };
-    return {{"fem", {.kind = MethodKind::fem}},
-            {"constant-bem", {.kind = MethodKind::constant_bem}},
+    const auto linear = [](Tractions tractions) { return Method{.kind = kLinearBem, .tractions = tractions}; };
+    return {{"fem", {.kind = kFem}},
+            {"constant-bem", {.kind = kConstantBem}},
             {"linear-bem", linear(Tractions::discontinuous)},
             {"linear-bem restricted", linear(Tractions::restricted)},
             {"linear-bem continuous", linear(Tractions::continuous)}};
 }
 
-double allowed_error(MethodKind kind) { return kind == MethodKind::constant_bem ? 0.25 : 0.1; }
+double allowed_error(MethodKind kind) { return kind == kConstantBem ? 0.25 : 0.1; }
 
 Row attempt(const Problem& problem, const Method& method, Control& control) {
     Row row;
@@ -53,11 +53,11 @@ Row attempt(const Problem& problem, const Method& method, Control& control) {
     std::vector<std::string> warnings;
     try {
         Deformer deformer(precompute(checked_body(problem, method.kind, warnings), method, control));
-        append(warnings, deformer.model().facts().warnings);
+        append(warnings, findings_of_model(deformer.model()));
         deformer.constrain({{}, problem.constrained}, control);
-        append(warnings, deformer.quality().warnings);
-        const Deformer::Answer answer = deformer.answer(problem.values(), true, true, control);
-        if (answer.check && !answer.check->warning.empty()) warnings.push_back(answer.check->warning);
+        append(warnings, findings_of_set(deformer));
+        const Deformer::Answer answer = deformer.answer(problem.values(), {.residual = true, .check = true}, control);
+        append(warnings, findings_of_answer(deformer, answer));
         const double error = problem.largest_error(answer.displacements);
         return row.set("error", problem.error(answer.displacements))
             .set("error_max", error)

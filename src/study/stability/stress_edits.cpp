@@ -5,6 +5,7 @@
 
 #include "base/blas.hpp"
 #include "mesh/primitives.hpp"
+#include "methods/precompute.hpp"
 #include "study/error/problems.hpp"
 #include "study/setups.hpp"
 

@@ -3,10 +3,11 @@
 #include <cmath>
 #include <sstream>
 
-#include "deform/problem.hpp"
 #include "elasticity/exact_fields.hpp"
 #include "elasticity/rigid_motion.hpp"
 #include "mesh/primitives.hpp"
+#include "methods/problem.hpp"
+#include "methods/registry.hpp"
 #include "study/error/organic_body.hpp"
 
 namespace elastolab::test {
@@ -35,8 +36,8 @@ SurfaceMesh irregular_box(int cells) {
 }
 
 std::vector<Method> linear_methods() {
-    std::vector<Method> methods = all_methods();
-    std::erase_if(methods, [](const Method& method) { return method.kind == MethodKind::constant_bem; });
+    std::vector<Method> methods = method_variants();
+    std::erase_if(methods, [](const Method& method) { return method.kind == kConstantBem; });
     return methods;
 }
 
@@ -60,7 +61,7 @@ TEST(ExactSolutions, PassThePatchTestOnRegularAndIrregularBoxes) {
             const Eigen::VectorXd exact = exact_displacements(mesh, UniaxialStretch{material});
             const auto ends = vertices_where(mesh, [](const auto& x) { return x[0] < kEdge || x[0] > 1.0 - kEdge; });
             for (const Method& method : linear_methods()) {
-                if (method.kind == MethodKind::linear_bem && method.tractions == Tractions::continuous) continue;
+                if (method.kind == kLinearBem && method.tractions == Tractions::continuous) continue;
                 EXPECT_LT(relative_error(solve(mesh, material, method, ends, exact), exact), 1e-12)
                     << describe(method) << ", nu " << nu;
             }
@@ -71,7 +72,7 @@ TEST(ExactSolutions, ShowTheLeakOfContinuousTractionsInThePatchTest) {
     const SurfaceMesh mesh = make_box(4);
     const Eigen::VectorXd exact = exact_displacements(mesh, UniaxialStretch{{1.0, 0.3}});
     const auto ends = vertices_where(mesh, [](const auto& x) { return x[0] < kEdge || x[0] > 1.0 - kEdge; });
-    const Method method = make_method(MethodKind::linear_bem, Tractions::continuous);
+    const Method method = make_method(kLinearBem, Tractions::continuous);
     const Eigen::VectorXd u = solve(mesh, {1.0, 0.3}, method, ends, exact);
     EXPECT_GT((u - exact).cwiseAbs().maxCoeff(), 0.010);  // 1 to 2 % at 4 cells, depending on the diagonals
     EXPECT_LT((u - exact).cwiseAbs().maxCoeff(), 0.025);
@@ -130,13 +131,13 @@ Study inflate(const Method& method, double nu, const std::vector<int>& sizes) {
     return study;
 }
 
-const Method kRestricted = make_method(MethodKind::linear_bem, Tractions::restricted);
-const Method kDiscontinuous = make_method(MethodKind::linear_bem, Tractions::discontinuous);
-const Method kConstant = make_method(MethodKind::constant_bem);
-const Method kFem = make_method(MethodKind::fem);
+const Method kRestricted = make_method(kLinearBem, Tractions::restricted);
+const Method kDiscontinuous = make_method(kLinearBem, Tractions::discontinuous);
+const Method kConstant = make_method(kConstantBem);
+const Method kLinearTets = make_method(kFem);
 
 TEST(PureBending, ConvergesWithTheOrderOfEachMethod) {
-    for (const auto& [method, order] : {std::pair{kFem, 1.8}, {kConstant, 0.9}}) {
+    for (const auto& [method, order] : {std::pair{kLinearTets, 1.8}, {kConstant, 0.9}}) {
         const Study study = bend(method, 0.3, {3, 6});
         study.print("bending", method, 2.0);
         EXPECT_GT(study.order(2.0), order) << describe(method) << ": " << study;
@@ -152,12 +153,13 @@ TEST(PureBending, ConvergesWithTheOrderOfEachMethod) {
 TEST(PureBending, DoesNotLockByLinearElementsTowardsIncompressibility) {
     const double at_03 = bend(kRestricted, 0.3, {5}).errors[0];
     for (const double nu : {0.49, 0.5}) EXPECT_LT(bend(kRestricted, nu, {5}).errors[0], 2.0 * at_03) << "nu " << nu;
-    EXPECT_GT(bend(kFem, 0.4999, {5}).errors[0], 3.0 * bend(kFem, 0.3, {5}).errors[0]);  // linear tetrahedra do lock
+    EXPECT_GT(bend(kLinearTets, 0.4999, {5}).errors[0],
+              3.0 * bend(kLinearTets, 0.3, {5}).errors[0]);  // linear tetrahedra do lock
 }
 
 TEST(Torsion, ConvergesWithTheOrderOfEachMethod) {
     for (const auto& [method, order] :
-         {std::pair{kRestricted, 1.8}, {kDiscontinuous, 1.8}, {kFem, 1.8}, {kConstant, 0.9}}) {
+         {std::pair{kRestricted, 1.8}, {kDiscontinuous, 1.8}, {kLinearTets, 1.8}, {kConstant, 0.9}}) {
         const Study study = twist(method, 0.3, {3, 6});
         study.print("torsion", method, 2.0);
         EXPECT_GT(study.order(2.0), order) << describe(method) << ": " << study;
@@ -166,7 +168,7 @@ TEST(Torsion, ConvergesWithTheOrderOfEachMethod) {
 
 TEST(HollowSphere, ConvergesWithTheOrderOfEachMethod) {
     for (const auto& [method, order] :
-         {std::pair{kRestricted, 1.8}, {kDiscontinuous, 1.8}, {kFem, 1.8}, {kConstant, 0.9}}) {
+         {std::pair{kRestricted, 1.8}, {kDiscontinuous, 1.8}, {kLinearTets, 1.8}, {kConstant, 0.9}}) {
         const Study study = inflate(method, 0.3, {5, 10});
         study.print("hollow sphere", method, 2.0);
         EXPECT_GT(study.order(2.0), order) << describe(method) << ": " << study;
@@ -182,12 +184,11 @@ TEST(PointForceOutside, LeavesTheBodyInEquilibrium) {
     const Eigen::VectorXd exact = exact_displacements(mesh, field);
     std::vector<int> all(static_cast<std::size_t>(mesh.n_vertices()));
     for (int v = 0; v < mesh.n_vertices(); ++v) all[static_cast<std::size_t>(v)] = v;
-    for (const Method& method : all_methods()) {
+    for (const Method& method : method_variants()) {
         Control control;
         Deformer deformer(precomputed(make_body(mesh, material), method));
         deformer.constrain({{}, all}, control);
-        EXPECT_LT(relative_error(deformer.displace(exact), exact),
-                  method.kind == MethodKind::constant_bem ? 0.2 : 1e-12);
+        EXPECT_LT(relative_error(deformer.displace(exact), exact), method.kind == kConstantBem ? 0.2 : 1e-12);
         const Reactions reactions = deformer.reactions(exact);
         const double size = reactions.forces.colwise().norm().sum();
         EXPECT_LT(reactions.forces.rowwise().sum().norm(), 2e-2 * size) << describe(method);
@@ -203,7 +204,7 @@ TEST(Reactions, OfAStretchedBoxAreStressTimesArea) {
     const std::size_t n_right = ends.size();
     ends.insert(ends.end(), left.begin(), left.end());
     for (const Method& method : linear_methods()) {
-        if (method.kind == MethodKind::linear_bem && method.tractions == Tractions::continuous) continue;
+        if (method.kind == kLinearBem && method.tractions == Tractions::continuous) continue;
         Control control;
         Deformer deformer(precomputed(make_body(mesh, material), method));
         deformer.constrain({{}, ends}, control);
@@ -220,7 +221,7 @@ TEST(Residual, IsRoundingForASolution) {
     const auto base = vertices_where(mesh, [](const auto& x) { return x[0] < kEdge; });
     const auto pull = vertices_where(mesh, [](const auto& x) { return x[0] > 1.0 - kEdge; });
     const Eigen::VectorXd values = Eigen::Vector3d(0.1, 0.05, 0.0).replicate(std::ssize(pull), 1);
-    for (const Method& method : all_methods()) {
+    for (const Method& method : method_variants()) {
         Control control;
         Deformer deformer(precomputed(make_body(mesh), method));
         deformer.constrain({base, pull}, control);

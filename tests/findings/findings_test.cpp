@@ -1,12 +1,14 @@
-#include "findings/guards.hpp"
+#include "findings/surface.hpp"
 
 #include <gmock/gmock.h>
 
-#include "deform/problem.hpp"
-#include "mesh/surface_distance.hpp"
 #include "elasticity/exact_fields.hpp"
+#include "findings/solution.hpp"
+#include "findings/words.hpp"
 #include "mesh/meshes.hpp"
 #include "mesh/primitives.hpp"
+#include "mesh/surface_distance.hpp"
+#include "methods/problem.hpp"
 #include "study/error/organic_body.hpp"
 
 namespace elastolab::test {
@@ -36,22 +38,22 @@ SurfaceMesh plate(double thickness) {
 }
 
 std::vector<std::string> warnings_of(const SurfaceMesh& mesh, const Method& method, double nu = 0.3) {
-    return precomputed(make_body(mesh, {1.0, nu}), method)->facts().warnings;
+    return words(findings_of_model(*precomputed(make_body(mesh, {1.0, nu}), method)));
 }
 
 std::vector<std::string> warnings_of(const SurfaceMesh& mesh, const std::vector<int>& constrained,
-                                     const Method& method = {}) {
+                                     const Method& method = {.kind = kLinearBem}) {
     Control control;
     Deformer deformer(precomputed(make_body(mesh), method));
     deformer.constrain({{}, constrained}, control);
-    return deformer.quality().warnings;
+    return words(findings_of_set(deformer));
 }
 
-TEST(Guards, SayNothingOfSoundBodies) {
-    for (const Method& method : all_methods())
+TEST(Findings, SayNothingOfSoundBodies) {
+    for (const Method& method : method_variants())
         for (const SurfaceMesh& mesh : {make_box(4), make_sphere(4), make_torus(3), make_rabbit(300).surface}) {
             // The tube and the ears have a cell and a half across: sound for all but constant elements.
-            if (method.kind != MethodKind::constant_bem || closest_facing_approach(mesh).ratio > 0.8) {
+            if (method.kind != kConstantBem || closest_facing_approach(mesh).ratio > 0.8) {
                 EXPECT_THAT(warnings_of(mesh, method), IsEmpty()) << describe(method);
             }
             const auto low =
@@ -61,8 +63,8 @@ TEST(Guards, SayNothingOfSoundBodies) {
         }
 }
 
-TEST(Guards, TellOfLockingFromWhereTheErrorHasDoubled) {
-    const Method fem = make_method(MethodKind::fem);
+TEST(Findings, TellOfLockingFromWhereTheErrorHasDoubled) {
+    const Method fem = make_method(kFem);
     const SurfaceMesh bar = make_box(6, {2.0, 1.0, 1.0});
     const double usual = bending_error(bar, 0.3, fem);
     for (const auto& [nu, factor] : {std::pair{0.48, 2.0}, {0.49, 3.0}, {0.499, 9.0}, {0.4999, 29.0}}) {
@@ -72,58 +74,60 @@ TEST(Guards, TellOfLockingFromWhereTheErrorHasDoubled) {
     }
     EXPECT_THAT(warnings_of(make_box(3), fem, 0.47), IsEmpty());
     EXPECT_THAT(warnings_of(make_box(3), fem, 0.49), Contains(HasSubstr("lock")));
-    EXPECT_THAT(warnings_of(make_box(3), Method{}, 0.5), IsEmpty());
+    EXPECT_THAT(warnings_of(make_box(3), Method{.kind = kLinearBem}, 0.5), IsEmpty());
 }
 
-TEST(Guards, TellOfThinWalls) {
-    for (const auto& [kind, least] : {std::pair{MethodKind::linear_bem, 0.03}, {MethodKind::constant_bem, 0.3}}) {
+TEST(Findings, TellOfThinWalls) {
+    for (const auto& [kind, least] : {std::pair{kLinearBem, 0.03}, {kConstantBem, 0.3}}) {
         EXPECT_GT(bending_error(plate(0.02), 0.3, make_method(kind)), least);
         EXPECT_THAT(warnings_of(plate(0.02), make_method(kind)), Contains(HasSubstr("thin bend")));
         EXPECT_THAT(warnings_of(make_box(2, {4, 4, 1}), make_method(kind)), Not(Contains(HasSubstr("thin bend"))));
     }
-    EXPECT_THAT(warnings_of(plate(0.02), make_method(MethodKind::fem)), IsEmpty());
+    EXPECT_THAT(warnings_of(plate(0.02), make_method(kFem)), IsEmpty());
     // One cell through the thickness: linear elements bend it, constant ones do not.
-    const Method linear = make_method(MethodKind::linear_bem), constant = make_method(MethodKind::constant_bem);
+    const Method linear = make_method(kLinearBem), constant = make_method(kConstantBem);
     EXPECT_LT(bending_error(plate(0.125), 0.3, linear), 0.05);
     EXPECT_GT(bending_error(plate(0.125), 0.3, constant), 0.3);
     EXPECT_THAT(warnings_of(plate(0.125), linear), Not(Contains(HasSubstr("thin bend"))));
     EXPECT_THAT(warnings_of(plate(0.125), constant), Contains(HasSubstr("thin bend")));
 }
 
-TEST(Guards, TellOfSlenderBodies) {
+TEST(Findings, TellOfSlenderBodies) {
     const SurfaceMesh bar = make_box(2, {20.0, 1.0, 1.0});
-    EXPECT_GT(bending_error(bar, 0.3, Method{}), 0.08);
-    EXPECT_THAT(warnings_of(bar, Method{}), Contains(HasSubstr("times as long as thick")));
-    EXPECT_THAT(warnings_of(make_box(1, {10.0, 1.0, 1.0}), Method{}), IsEmpty());
+    EXPECT_GT(bending_error(bar, 0.3, Method{.kind = kLinearBem}), 0.08);
+    EXPECT_THAT(warnings_of(bar, Method{.kind = kLinearBem}), Contains(HasSubstr("times as long as thick")));
+    EXPECT_THAT(warnings_of(make_box(1, {10.0, 1.0, 1.0}), Method{.kind = kLinearBem}), IsEmpty());
 }
 
-TEST(Guards, MeasureTheWallAndTheGap) {
+TEST(Findings, MeasureTheWallAndTheGap) {
     EXPECT_NEAR(closest_facing_approach(plate(0.02)).ratio, 0.02 / (std::sqrt(2.0) / 8.0), 1e-12);
     // Two plates side by side, one above the other: what is between them is a gap, as wide as they are apart.
     const SurfaceMesh thick = plate(0.2), two = joined(thick, moved(thick, {0.0, 0.0, 0.21}));
     EXPECT_NEAR(closest_facing_approach(two).ratio, 0.01 / (std::sqrt(2.0) / 8.0), 1e-10);
 }
 
-TEST(Guards, TellOfTrianglesWhoseIntegralsLoseDigits) {
+TEST(Findings, TellOfTrianglesWhoseIntegralsLoseDigits) {
     SurfaceMesh mesh = make_box(2);
     const int v = mesh.triangles(0, 0), w = mesh.triangles(1, 0);
     mesh.vertices.col(v) = mesh.vertices.col(w) + 1e-5 * (mesh.vertices.col(v) - mesh.vertices.col(w));
-    EXPECT_THAT(warn_of_surface(mesh, false), Contains(HasSubstr("Remesh")));
-    EXPECT_THAT(warn_of_surface(make_box(2), false), IsEmpty());
+    Control control;
+    EXPECT_THAT(words(findings_of_surface(mesh, kLinearBem, control)), Contains(HasSubstr("Remesh")));
+    EXPECT_THAT(findings_of_surface(mesh, kFem, control), IsEmpty());
+    EXPECT_THAT(findings_of_surface(make_box(2), kLinearBem, control), IsEmpty());
 }
 
-TEST(Guards, TellOfSolidsThatTouch) {
+TEST(Findings, TellOfSolidsThatTouch) {
     const SurfaceMesh cube = make_box(3);
-    const Method method = make_method(MethodKind::linear_bem);
+    const Method method = make_method(kLinearBem);
     EXPECT_THAT(warnings_of(joined(cube, moved(cube, {1.001, 0.0, 0.0})), method),
                 Contains(HasSubstr("solids 1 and 2")));
     EXPECT_THAT(warnings_of(joined(cube, moved(cube, {1.2, 0.0, 0.0})), method), IsEmpty());
 }
 
-TEST(Guards, TellOfPointConstraintsAndWhereTheyAre) {
+TEST(Findings, TellOfPointConstraintsAndWhereTheyAre) {
     const SurfaceMesh mesh = make_box(4);
     auto held = vertices_where(mesh, [](const auto& x) { return x[0] < 1e-9; });
-    for (const Method& method : all_methods()) {
+    for (const Method& method : method_variants()) {
         EXPECT_THAT(warnings_of(mesh, held, method), IsEmpty()) << describe(method);
         auto with_a_point = held;
         with_a_point.push_back(vertices_where(mesh, [](const auto& x) { return x.minCoeff() > 1.0 - 1e-9; }).front());
@@ -132,39 +136,38 @@ TEST(Guards, TellOfPointConstraintsAndWhereTheyAre) {
     }
 }
 
-TEST(Guards, TellOfABodyThatIsBarelyHeld) {
+TEST(Findings, TellOfABodyThatIsBarelyHeld) {
     SurfaceMesh mesh = make_box(4);
     auto edge = vertices_where(mesh, [](const auto& x) { return x[1] < 1e-9 && x[2] < 1e-9; });
     mesh.vertices(1, edge[2]) -= 0.002;  // just off the line
-    for (const Method& method : {make_method(MethodKind::fem), make_method(MethodKind::linear_bem)})
+    for (const Method& method : {make_method(kFem), make_method(kLinearBem)})
         EXPECT_THAT(warnings_of(mesh, edge, method), Contains(HasSubstr("almost on one line"))) << describe(method);
     edge.push_back(mesh.n_vertices() - 1);
     EXPECT_THAT(warnings_of(mesh, edge), Not(Contains(HasSubstr("almost on one line"))));
 }
 
-TEST(Guards, TellOfABodyThatIsNotHeldWhateverTheMethod) {
+TEST(Findings, TellOfABodyThatIsNotHeldWhateverTheMethod) {
     const SurfaceMesh mesh = make_box(4);
-    for (const Method& method : all_methods())
+    for (const Method& method : method_variants())
         for (const auto& held : {vertices_where(mesh, [](const auto& x) { return x.norm() < 1e-9; }),
                                  vertices_where(mesh, [](const auto& x) { return x[1] < 1e-9 && x[2] < 1e-9; })}) {
             Control control;
             Deformer deformer(precomputed(make_body(mesh), method));
             deformer.constrain({{}, held}, control);
             EXPECT_FALSE(deformer.quality().held) << describe(method);
-            EXPECT_THAT(deformer.quality().warnings, Contains(HasSubstr("free to move as a whole")))
+            EXPECT_THAT(words(findings_of_set(deformer)), Contains(HasSubstr("free to move as a whole")))
                 << describe(method);
         }
 }
 
-TEST(Guards, TellOfTheDigitsThatAConditionLeaves) {
-    EXPECT_THAT(warn_of_condition("matrix", 1e9), IsEmpty());
-    EXPECT_THAT(warn_of_condition("matrix", 1e11), Contains(HasSubstr("2.2e-05")));
-    EXPECT_THAT(warn_of_condition("matrix", std::numeric_limits<double>::infinity()),
+TEST(Findings, TellOfTheDigitsThatAConditionLeaves) {
+    EXPECT_THAT(words(findings_of_condition("matrix", 1e9)), IsEmpty());
+    EXPECT_THAT(words(findings_of_condition("matrix", 1e11)), Contains(HasSubstr("2.2e-05")));
+    EXPECT_THAT(words(findings_of_condition("matrix", std::numeric_limits<double>::infinity())),
                 Contains(HasSubstr("1 of their")));
     // Poisson's ratio so near 1/2 that the stiffness keeps few digits.
-    EXPECT_THAT(
-        warnings_of(make_box(3), make_method(MethodKind::fem, Tractions::discontinuous, Mode::full), 0.5 - 1e-12),
-        Contains(HasSubstr("nearly dependent")));
+    EXPECT_THAT(warnings_of(make_box(3), make_method(kFem, Tractions::discontinuous, Mode::full), 0.5 - 1e-12),
+                Contains(HasSubstr("nearly dependent")));
 }
 
 }  // namespace

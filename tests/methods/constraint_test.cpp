@@ -2,13 +2,17 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
-#include "deform/constraint_map.hpp"
-#include "findings/cost.hpp"
+#include "bem/constant_constraints.hpp"
 #include "deform/node_solver.hpp"
-#include "deform/problem.hpp"
 #include "elasticity/rigid_motion.hpp"
+#include "findings/cost.hpp"
+#include "findings/solution.hpp"
+#include "findings/words.hpp"
 #include "mesh/meshes.hpp"
 #include "mesh/primitives.hpp"
+#include "methods/precompute.hpp"
+#include "methods/problem.hpp"
+#include "methods/registry.hpp"
 
 namespace elastolab::test {
 namespace {
@@ -19,21 +23,21 @@ TEST(Constraints, ThatHoldTooLittleGiveTheSmallestMotionAndSaySo) {
     const auto held_at = vertices_where(
         mesh, [](const auto& x) { return x.norm() < 1e-9 || (x - Eigen::Vector3d(0.5, 0.5, 0.0)).norm() < 0.26; });
     ASSERT_GE(held_at.size(), 4u);
-    for (const Method& method : all_methods()) {
+    for (const Method& method : method_variants()) {
         Control control;
         const auto model = precomputed(make_body(mesh), method);
         for (const int vertex : held_at) {
             Deformer deformer(model);
             deformer.constrain({{}, {vertex}}, control);
             const Eigen::VectorXd u = deformer.displace(Eigen::Vector3d(0.1, 0.2, 0.3));
-            if (method.kind != MethodKind::constant_bem) {  // whose lone vertex holds the triangles around it
+            if (method.kind != kConstantBem) {  // whose lone vertex holds the triangles around it
                 EXPECT_FALSE(deformer.quality().held) << describe(method);
-                EXPECT_FALSE(deformer.quality().warnings.empty()) << describe(method);
+                EXPECT_FALSE(findings_of_set(deformer).empty()) << describe(method);
             }
             // One vertex moved, nothing strained: a rigid motion, and no larger than the translation.
             const Eigen::MatrixXd modes = rigid_modes(mesh.vertices);
             const double strained = (u - modes * (modes.transpose() * u)).norm();
-            EXPECT_LT(strained, (method.kind == MethodKind::constant_bem ? 0.3 : 1e-8) * u.norm()) << describe(method);
+            EXPECT_LT(strained, (method.kind == kConstantBem ? 0.3 : 1e-8) * u.norm()) << describe(method);
             const double translation = Eigen::Vector3d(0.1, 0.2, 0.3).norm() * std::sqrt(mesh.n_vertices());
             EXPECT_LT(u.norm(), 1.0001 * translation) << describe(method) << ", vertex " << vertex;
         }
@@ -44,7 +48,7 @@ TEST(Constraints, OfABaseAloneNeedNoForces) {
     const SurfaceMesh mesh = make_box(3);
     const auto base = vertices_where(mesh, [](const auto& x) { return x[0] < 1e-9; });
     for (const Update update : {Update::reduced, Update::direct})
-        for (const Method& method : all_methods(Mode::on_demand, update)) {
+        for (const Method& method : method_variants(Mode::on_demand, update)) {
             Control control;
             Deformer deformer(precomputed(make_body(mesh), method));
             deformer.constrain({base, {}}, control);
@@ -58,12 +62,12 @@ TEST(Constraints, ThatHoldABodyAreNotBlamedForASingularSystem) {
     const SurfaceMesh mesh = make_hollow_sphere(4);
     const auto all = vertices_where(mesh, [](const auto&) { return true; });
     const Body body = make_body(mesh, {1.0, 0.5});
-    Deformer reduced(precomputed(body, make_method(MethodKind::constant_bem)));
+    Deformer reduced(precomputed(body, make_method(kConstantBem)));
     reduced.constrain({{}, all}, control);
     EXPECT_FALSE(reduced.quality().held);
-    EXPECT_THAT(reduced.quality().warnings, ::testing::Contains(::testing::HasSubstr("hold the body, but")));
-    Deformer direct(precomputed(
-        body, make_method(MethodKind::constant_bem, Tractions::discontinuous, Mode::on_demand, Update::direct)));
+    EXPECT_THAT(words(findings_of_set(reduced)), ::testing::Contains(::testing::HasSubstr("hold the body, but")));
+    Deformer direct(
+        precomputed(body, make_method(kConstantBem, Tractions::discontinuous, Mode::on_demand, Update::direct)));
     EXPECT_THAT(
         [&] {
             direct.constrain({{}, all}, control);
@@ -74,8 +78,8 @@ TEST(Constraints, ThatHoldABodyAreNotBlamedForASingularSystem) {
 TEST(Constraints, OnALineLeaveARotationFree) {
     const SurfaceMesh mesh = make_box(3);
     const auto edge = vertices_where(mesh, [](const auto& x) { return x[1] < 1e-9 && x[2] < 1e-9; });
-    for (const Method& method : all_methods()) {
-        if (method.kind == MethodKind::constant_bem) continue;
+    for (const Method& method : method_variants()) {
+        if (method.kind == kConstantBem) continue;
         Control control;
         Deformer deformer(precomputed(make_body(mesh), method));
         deformer.constrain({{}, edge}, control);
@@ -95,7 +99,7 @@ TEST(Constraints, OfOneSolidDoNotMoveAnother) {
     const auto base = vertices_where(one, [](const auto& x) { return x[0] < 1e-9; });
     const auto pull = vertices_where(one, [](const auto& x) { return x[0] > 1.0 - 1e-9; });
     const Eigen::VectorXd values = Eigen::Vector3d(0.1, 0.05, 0.0).replicate(std::ssize(pull), 1);
-    for (const Method& method : all_methods()) {
+    for (const Method& method : method_variants()) {
         const Eigen::VectorXd alone = displaced(precomputed(make_body(one), method), {base, pull}, values);
         const Eigen::VectorXd both = displaced(precomputed(make_body(two), method), {base, pull}, values);
         EXPECT_LT((both.head(alone.size()) - alone).norm(), 1e-12 * alone.norm()) << describe(method);
@@ -105,7 +109,7 @@ TEST(Constraints, OfOneSolidDoNotMoveAnother) {
 
 TEST(Constraints, KeepThePreviousSetWhenANewOneFails) {
     const SurfaceMesh mesh = make_box(3);
-    const Method method = make_method(MethodKind::fem, Tractions::discontinuous, Mode::on_demand, Update::direct);
+    const Method method = make_method(kFem, Tractions::discontinuous, Mode::on_demand, Update::direct);
     Control control;
     Deformer deformer(precomputed(make_body(mesh), method));
     const auto base = vertices_where(mesh, [](const auto& x) { return x[0] < 1e-9; });
@@ -117,15 +121,15 @@ TEST(Constraints, KeepThePreviousSetWhenANewOneFails) {
 
 TEST(ConstantBem, ConstrainsATriangleWhenAllItsVerticesAre) {
     const SurfaceMesh mesh = make_box(2);
-    const VertexTriangles around(mesh);
+    const VertexTriangles triangles_of_vertex(mesh);
     const std::vector<int> corners(mesh.triangles.col(4).begin(), mesh.triangles.col(4).end());
-    const ConstrainedNodes whole = constrain_triangles(mesh, around, corners);
+    const ConstrainedNodes whole = constrain_triangles(mesh, triangles_of_vertex, corners);
     EXPECT_EQ(whole.nodes, std::vector<int>{4});
     const Eigen::VectorXd values = Eigen::VectorXd::LinSpaced(9, 1.0, 9.0);
     EXPECT_LT((whole.prescribe * values - Eigen::Vector3d(4.0, 5.0, 6.0)).norm(), 1e-14);
 
-    const ConstrainedNodes lone = constrain_triangles(mesh, around, std::vector<int>{corners[0]});
-    EXPECT_EQ(lone.nodes.size(), around[corners[0]].size());
+    const ConstrainedNodes lone = constrain_triangles(mesh, triangles_of_vertex, std::vector<int>{corners[0]});
+    EXPECT_EQ(lone.nodes.size(), triangles_of_vertex[corners[0]].size());
 }
 
 TEST(ConstantBem, MovesALoneHandleVertexExactlyWithItsHandle) {
@@ -135,15 +139,14 @@ TEST(ConstantBem, MovesALoneHandleVertexExactlyWithItsHandle) {
         vertices_where(mesh, [](const auto& x) { return (x - Eigen::Vector3d(1.0, 0.5, 0.5)).norm() < 1e-9; });
     ASSERT_EQ(lone.size(), 1u);
     const Eigen::Vector3d shift(0.1, 0.2, -0.1);
-    const Eigen::VectorXd u =
-        displaced(precomputed(make_body(mesh), make_method(MethodKind::constant_bem)), {base, lone}, shift);
+    const Eigen::VectorXd u = displaced(precomputed(make_body(mesh), make_method(kConstantBem)), {base, lone}, shift);
     EXPECT_LT((u.segment<3>(3 * lone[0]) - shift).norm(), 1e-14);
 }
 
 TEST(Memory, ThatIsNotThereIsNotBegunWith) {
     const SurfaceMesh huge = make_box(200);  // 240 002 vertices: a dense matrix of 4 TB
     Control control;
-    const Method method = make_method(MethodKind::linear_bem, Tractions::restricted, Mode::full);
+    const Method method = make_method(kLinearBem, Tractions::restricted, Mode::full);
     try {
         precompute(make_body(huge), method, control);
         FAIL() << "was begun";
@@ -154,7 +157,7 @@ TEST(Memory, ThatIsNotThereIsNotBegunWith) {
 }
 
 TEST(Methods, HaveNamesThatAreReadBack) {
-    for (const Method& method : all_methods()) {
+    for (const Method& method : method_variants()) {
         EXPECT_EQ(parse_method_kind(name(method.kind)), method.kind);
         EXPECT_EQ(parse_tractions(name(method.tractions)), method.tractions);
     }

@@ -3,7 +3,8 @@
 #include <cmath>
 #include <set>
 
-#include "deform/problem.hpp"
+#include "methods/problem.hpp"
+#include "methods/registry.hpp"
 #include "study/error/organic_body.hpp"
 #include "study/error/organic_truth.hpp"
 
@@ -37,13 +38,13 @@ TEST(OrganicBody, IsDisplacedNoWorseByTheDefaultTractionsThanByFem) {
             const Eigen::VectorXd u = displaced(precomputed(body, method), {{}, constrained}, values.reshaped());
             return free_error(organic.surface, constrained, u, truth.displacements);
         };
-        const double by_default = error(Method{});
+        const double by_default = error(Method{.kind = kLinearBem});
         print_measured("organic body, default tractions, relative rms error", by_default);
-        print_measured("organic body, fem, relative rms error", error(make_method(MethodKind::fem)));
-        print_measured("organic body, constant-bem, relative rms error", error(make_method(MethodKind::constant_bem)));
+        print_measured("organic body, fem, relative rms error", error(make_method(kFem)));
+        print_measured("organic body, constant-bem, relative rms error", error(make_method(kConstantBem)));
         print_measured("organic body, truth, estimated relative error", truth.relative_error);
-        EXPECT_LT(by_default + truth.relative_error, error(make_method(MethodKind::fem))) << "nu " << nu;
-        EXPECT_LT(by_default, error(make_method(MethodKind::linear_bem, Tractions::restricted))) << "nu " << nu;
+        EXPECT_LT(by_default + truth.relative_error, error(make_method(kFem))) << "nu " << nu;
+        EXPECT_LT(by_default, error(make_method(kLinearBem, Tractions::restricted))) << "nu " << nu;
         EXPECT_LT(by_default, 0.05) << "nu " << nu;
     }
 }

@@ -8,8 +8,8 @@
 
 #include "base/control.hpp"
 #include "base/timer.hpp"
-#include "findings/cost.hpp"
 #include "deform/deformer.hpp"
+#include "deform/finding.hpp"
 #include "scene/document.hpp"
 #include "scene/setup.hpp"
 
@@ -38,13 +38,18 @@ struct GroupReaction {
 struct Solution {
     std::shared_ptr<const Model> model;
     Cost predicted;
+    std::string mesh_name;
     int n_constrained = 0;
     Eigen::Matrix3Xd displacement;  ///< 3 x n_vertices [L]
     std::vector<GroupReaction> reactions;
     std::optional<double> residual;
     double condition_estimate = 0.0;  ///< the larger of that of the factorised system and that of the update
     StageTimes stages;
-    std::vector<std::string> warnings;
+    std::vector<Defect> defects;  ///< of the mesh, repaired or harmless for the method
+    Findings findings;
+
+    /// Everything that the user should know, in words.
+    std::vector<std::string> warnings() const;
 };
 
 /// Loads the mesh, precomputes, constrains and displaces. Throws Error or Cancelled.

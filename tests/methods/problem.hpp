@@ -8,28 +8,21 @@
 #include <vector>
 
 #include "deform/deformer.hpp"
+#include "methods/precompute.hpp"
+#include "methods/registry.hpp"
 
 namespace elastolab::test {
 
-inline const std::vector<Tractions> kAllTractions = {Tractions::discontinuous, Tractions::restricted,
-                                                     Tractions::continuous};
-
 inline Method make_method(MethodKind kind, Tractions tractions = Tractions::discontinuous, Mode mode = Mode::on_demand,
                           Update update = Update::reduced) {
-    Method method;
-    method.kind = kind;
-    method.tractions = tractions;
-    method.mode = mode;
-    method.update = update;
-    return method;
+    return {.kind = kind, .mode = mode, .tractions = tractions, .update = update};
 }
 
 /// The three methods, linear BEM under each of its traction models.
-inline std::vector<Method> all_methods(Mode mode = Mode::on_demand, Update update = Update::reduced) {
-    std::vector<Method> methods = {make_method(MethodKind::fem, Tractions::discontinuous, mode, update),
-                                   make_method(MethodKind::constant_bem, Tractions::discontinuous, mode, update)};
-    for (const Tractions tractions : kAllTractions)
-        methods.push_back(make_method(MethodKind::linear_bem, tractions, mode, update));
+inline std::vector<Method> method_variants(Mode mode = Mode::on_demand, Update update = Update::reduced) {
+    std::vector<Method> methods = {make_method(kFem, Tractions::discontinuous, mode, update),
+                                   make_method(kConstantBem, Tractions::discontinuous, mode, update)};
+    for (const Tractions tractions : kAllTractions) methods.push_back(make_method(kLinearBem, tractions, mode, update));
     return methods;
 }
 

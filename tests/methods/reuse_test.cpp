@@ -6,8 +6,10 @@
 
 #include "base/blas.hpp"
 #include "base/error.hpp"
-#include "deform/problem.hpp"
 #include "mesh/primitives.hpp"
+#include "methods/precompute.hpp"
+#include "methods/problem.hpp"
+#include "methods/registry.hpp"
 
 namespace elastolab::test {
 namespace {
@@ -27,8 +29,8 @@ bool has_stage(const Model& model, const std::string& name) {
 
 TEST(PrecomputeAgain, WithAnotherPoissonsRatioIntegratesNothingAndEqualsAFreshModel) {
     const Pull pull;
-    std::vector<Method> methods = all_methods();
-    for (const Method& method : all_methods(Mode::full)) methods.push_back(method);
+    std::vector<Method> methods = method_variants();
+    for (const Method& method : method_variants(Mode::full)) methods.push_back(method);
     for (Method method : methods) {
         method.keep_integrals = true;
         Control control;
@@ -46,7 +48,7 @@ TEST(PrecomputeAgain, WithAnotherPoissonsRatioIntegratesNothingAndEqualsAFreshMo
 
 TEST(PrecomputeAgain, WithAnotherYoungsModulusComputesNothingAndScalesTheForces) {
     const Pull pull;
-    for (const Method& method : all_methods()) {
+    for (const Method& method : method_variants()) {
         Control control;
         const auto first = precompute(make_body(pull.mesh, {1.0, 0.3}), method, control);
         const auto again = precompute_again(*first, {1.0e7, 0.3}, method, control);
@@ -63,8 +65,8 @@ TEST(PrecomputeAgain, WithAnotherYoungsModulusComputesNothingAndScalesTheForces)
 TEST(PrecomputeAgain, WithOtherTractionsOrUpdatesKeepsTheSystem) {
     const Pull pull;
     Control control;
-    const auto first = precompute(make_body(pull.mesh), Method{}, control);
-    const Method restricted = make_method(MethodKind::linear_bem, Tractions::restricted);
+    const auto first = precompute(make_body(pull.mesh), Method{.kind = kLinearBem}, control);
+    const Method restricted = make_method(kLinearBem, Tractions::restricted);
     const auto again = precompute_again(*first, {1.0, 0.3}, restricted, control);
     EXPECT_TRUE(again->facts().stages.empty());
     const Eigen::VectorXd expected = displaced(precomputed(make_body(pull.mesh), restricted), pull.set, pull.values);
@@ -74,7 +76,7 @@ TEST(PrecomputeAgain, WithOtherTractionsOrUpdatesKeepsTheSystem) {
 TEST(Precompute, GivesTheSameResultForEveryNumberOfThreads) {
     const Pull pull;
     const int threads = thread_count();
-    for (const Method& method : all_methods()) {
+    for (const Method& method : method_variants()) {
         set_thread_count(1);
         const Eigen::VectorXd one = displaced(precomputed(make_body(pull.mesh), method), pull.set, pull.values);
         set_thread_count(3);
@@ -86,7 +88,7 @@ TEST(Precompute, GivesTheSameResultForEveryNumberOfThreads) {
 }
 
 TEST(Precompute, StopsWhenCancelled) {
-    for (const Method& method : all_methods()) {
+    for (const Method& method : method_variants()) {
         Control control;
         control.cancel();
         EXPECT_THROW(precompute(make_body(make_box(3)), method, control), Cancelled) << describe(method);
@@ -96,8 +98,8 @@ TEST(Precompute, StopsWhenCancelled) {
 /// Powers of two, so that TetGen sees the same numbers and makes the same tetrahedra.
 TEST(Precompute, IsIndifferentToUnitsOfLengthAndForce) {
     const Pull pull;
-    std::vector<Method> methods = all_methods();
-    for (const Method& method : all_methods(Mode::on_demand, Update::direct)) methods.push_back(method);
+    std::vector<Method> methods = method_variants();
+    for (const Method& method : method_variants(Mode::on_demand, Update::direct)) methods.push_back(method);
     for (const Method& method : methods)
         for (const double scale : {std::ldexp(1.0, -30), std::ldexp(1.0, 30)}) {
             SurfaceMesh scaled = pull.mesh;
@@ -112,7 +114,7 @@ TEST(Precompute, IsIndifferentToUnitsOfLengthAndForce) {
 
 TEST(FullMode, ExportsAStiffnessWhoseBorderedInverseItIs) {
     const Body body = make_body(make_box(3), {2.0e5, 0.3});
-    for (const Method& method : all_methods(Mode::full)) {
+    for (const Method& method : method_variants(Mode::full)) {
         const auto model = precomputed(body, method);
         Eigen::MatrixXd K, inverse;
         model->visit_matrices([&](const NamedMatrix& matrix) {
@@ -131,16 +133,16 @@ TEST(FullMode, ExportsAStiffnessWhoseBorderedInverseItIs) {
 
 /// A uniform pressure on a closed surface displaces nothing when the volume cannot change.
 TEST(FullMode, SaysThatKCarriesNoDigitsByConstantElementsAtOneHalf) {
-    Method method = make_method(MethodKind::constant_bem, Tractions::continuous, Mode::full);
-    EXPECT_FALSE(precomputed(make_body(make_box(3), {1.0, 0.5}), method)->facts().warnings.empty());
-    EXPECT_TRUE(precomputed(make_body(make_box(3), {1.0, 0.3}), method)->facts().warnings.empty());
+    Method method = make_method(kConstantBem, Tractions::continuous, Mode::full);
+    EXPECT_FALSE(precomputed(make_body(make_box(3), {1.0, 0.5}), method)->facts().findings.empty());
+    EXPECT_TRUE(precomputed(make_body(make_box(3), {1.0, 0.3}), method)->facts().findings.empty());
 }
 
 /// The columns of the mixed system keep their meaning there.
 TEST(OnDemandMode, SolvesAnIncompressibleBodyByConstantElements) {
     const Pull pull;
     const auto displacements = [&](double nu) {
-        return displaced(precomputed(make_body(pull.mesh, {1.0, nu}), make_method(MethodKind::constant_bem)), pull.set,
+        return displaced(precomputed(make_body(pull.mesh, {1.0, nu}), make_method(kConstantBem)), pull.set,
                          pull.values);
     };
     const Eigen::VectorXd near = displacements(0.4999), at = displacements(0.5);

@@ -1,17 +1,16 @@
-#include "cli/solve.hpp"
+#include "scene/solve.hpp"
 
 #include <algorithm>
 
 #include "deform/node_solver.hpp"
+#include "findings/cost.hpp"
+#include "findings/solution.hpp"
+#include "findings/words.hpp"
+#include "methods/precompute.hpp"
 
 namespace elastolab {
 
 namespace {
-
-/// Findings that do not stop the method, for the user to know.
-void add_mesh_warnings(const MeshReport& report, const std::string& name, std::vector<std::string>& warnings) {
-    for (const Defect& defect : report.defects) warnings.push_back(name + ": " + defect.text);
-}
 
 std::vector<GroupReaction> totals(const std::vector<ConstraintGroup>& groups, const Reactions& reactions) {
     std::vector<GroupReaction> result;
@@ -24,14 +23,13 @@ std::vector<GroupReaction> totals(const std::vector<ConstraintGroup>& groups, co
     return result;
 }
 
-void append(std::vector<std::string>& all, const std::vector<std::string>& more) {
-    all.insert(all.end(), more.begin(), more.end());
-}
+void append(Findings& all, const Findings& more) { all.insert(all.end(), more.begin(), more.end()); }
 
 Body load_body(const SolveRequest& request, Solution& solution, Control& control) {
     const Stage stage("load", control, solution.stages);
     SceneMesh mesh = load_scene_mesh(request.document.mesh, request.scene_file);
-    add_mesh_warnings(mesh.checked.report, mesh.name, solution.warnings);
+    solution.mesh_name = mesh.name;
+    solution.defects = mesh.checked.report.defects;
     return make_body(request.document, std::move(mesh), request.method.kind, request.scene_file);
 }
 
@@ -41,7 +39,7 @@ void precompute_model(const Method& method, const Body& body, Solution& solution
                                     : precompute(body, method, control);
     const ModelFacts& facts = solution.model->facts();
     solution.stages.insert(solution.stages.end(), facts.stages.begin(), facts.stages.end());
-    append(solution.warnings, facts.warnings);
+    append(solution.findings, findings_of_model(*solution.model));
 }
 
 /// Applies the constraints and evaluates what follows from them.
@@ -56,7 +54,7 @@ void apply(const Constraints& constraints, bool with_checks, Solution& solution,
     }
     {
         const Stage stage("displace", control, solution.stages);
-        const Deformer::Answer answer = deformer.answer(constraints.values, with_checks, false, control);
+        const Deformer::Answer answer = deformer.answer(constraints.values, {.residual = with_checks}, control);
         solution.displacement =
             Eigen::Map<const Eigen::Matrix3Xd>(answer.displacements.data(), 3, answer.displacements.size() / 3);
         solution.reactions = totals(constraints.groups, answer.reactions);
@@ -64,15 +62,23 @@ void apply(const Constraints& constraints, bool with_checks, Solution& solution,
     }
     if (with_checks) {
         const Stage stage("check", control, solution.stages);
-        const auto check = deformer.discretisation_check(constraints.values, control);
-        if (check && !check->warning.empty()) solution.warnings.push_back(check->warning);
+        Deformer::Answer answer;
+        answer.check = deformer.discretisation_check(constraints.values, control);
+        append(solution.findings, findings_of_answer(deformer, answer));
     }
     solution.condition_estimate =
         std::max(solution.model->facts().condition_estimate, deformer.quality().condition_estimate);
-    append(solution.warnings, deformer.quality().warnings);
+    append(solution.findings, findings_of_set(deformer));
 }
 
 }  // namespace
+
+std::vector<std::string> Solution::warnings() const {
+    std::vector<std::string> texts;
+    for (const Defect& defect : defects) texts.push_back(mesh_name + ": " + defect.text);
+    for (const Finding& finding : findings) texts.push_back(words(finding));
+    return texts;
+}
 
 Solution solve(const SolveRequest& request, Control& control) {
     Solution solution;
@@ -80,8 +86,7 @@ Solution solve(const SolveRequest& request, Control& control) {
     const Constraints constraints = make_constraints(request.document, *body.surface, request.scene_file);
     solution.n_constrained = static_cast<int>(constraints.set.base.size() + constraints.set.handles.size());
     if (solution.n_constrained == 0)
-        solution.warnings.push_back(request.scene_file.string() +
-                                    ": no vertex is fixed or moved, so the body rests. Add a handle.");
+        solution.findings.push_back({.kind = FindingKind::nothing_constrained, .object = request.scene_file.string()});
     Method method = request.method;
     if (request.solve_once) {
         try {

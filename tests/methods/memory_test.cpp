@@ -9,8 +9,9 @@
 
 #include "base/error.hpp"
 #include "base/memory.hpp"
-#include "deform/problem.hpp"
 #include "mesh/primitives.hpp"
+#include "methods/problem.hpp"
+#include "methods/registry.hpp"
 #include "support/sanitized.hpp"
 
 namespace elastolab::test {
@@ -73,7 +74,7 @@ TEST_P(MemoryOfTractions, StaysWithinAThirdMoreThanTheMatrix) {
     const double n = 3.0 * mesh.n_vertices() + 6.0, bound = 1.3 * n * n * 8.0 + 200e6;
     for (const bool contiguous : {true, false}) {
         ASSERT_TRUE(reset_peak());
-        Deformer deformer(precomputed(make_body(mesh), make_method(MethodKind::linear_bem, GetParam())));
+        Deformer deformer(precomputed(make_body(mesh), make_method(kLinearBem, GetParam())));
         unsigned seed = 0;
         for (const double share : {0.1, 0.2, 0.4, 0.4}) {
             const Eigen::Vector3d corner = Eigen::Vector3d::Constant(seed++ < 3 ? 0.0 : 1.0);
@@ -96,7 +97,7 @@ TEST_P(MemoryOfTractions, IsPredicted) {
     for (const Update update : {Update::reduced, Update::direct})
         for (const bool contiguous : {true, false}) {
             Deformer deformer(
-                precomputed(make_body(mesh), make_method(MethodKind::linear_bem, GetParam(), Mode::on_demand, update)));
+                precomputed(make_body(mesh), make_method(kLinearBem, GetParam(), Mode::on_demand, update)));
             const std::vector<int> vertices =
                 contiguous ? patch(mesh, 0.3, Eigen::Vector3d::Zero()) : random_vertices(mesh, 0.3, 1);
             const auto predicted = static_cast<double>(deformer.predict_memory({{}, vertices}));
@@ -134,7 +135,7 @@ TEST(Memory, ThatASetWouldLackIsSaidBeforeItIsComputedAndThePreviousSetStays) {
     const SurfaceMesh mesh = make_box(8);
     const auto base = vertices_where(mesh, [](const auto& x) { return x[0] < 1e-9; });
     const ConstrainedSet large{base, vertices_where(mesh, [](const auto& x) { return x[0] > 0.2; })};
-    for (const Method& method : all_methods()) {
+    for (const Method& method : method_variants()) {
         Control control;
         Deformer deformer(precomputed(make_body(mesh), method));
         deformer.constrain({base, {mesh.n_vertices() - 1}}, control);

@@ -3,13 +3,13 @@
 #include <cmath>
 
 #include "bem/mixed_solver.hpp"
-#include "deform/constraint_map.hpp"
-#include "fem/solvers.hpp"
-#include "deform/problem.hpp"
 #include "elasticity/exact_fields.hpp"
 #include "fem/assembly.hpp"
+#include "fem/solvers.hpp"
 #include "mesh/primitives.hpp"
 #include "mesh/tets/tetrahedralize.hpp"
+#include "methods/problem.hpp"
+#include "methods/registry.hpp"
 
 namespace elastolab::test {
 namespace {
@@ -19,12 +19,12 @@ struct StretchedCube {
     explicit StretchedCube(const Method& method)
         : mesh(make_box(5)),
           left_and_right(vertices_where(mesh, [](const auto& x) { return x[0] < 1e-9 || x[0] > 1.0 - 1e-9; })),
-          system(std::make_shared<const Boundary>(mesh), 0.3, method, {}, stages, control),
-          nodes(system.is_constant() ? constrain_triangles(mesh, system.around(), left_and_right)
-                                     : constrain_vertices(left_and_right)),
-          plan(system.is_constant()
-                   ? plan_constant_loads(system.boundary(), nodes.nodes, nodes.prescribe)
-                   : plan_linear_loads(system.boundary(), system.around(), method.tractions, left_and_right)) {
+          element(method.kind == kConstantBem ? constant_element() : linear_element()),
+          system(element, std::make_shared<const Boundary>(mesh), 0.3, method, {}, stages, control),
+          constraints(
+              element.constrain(system.boundary(), system.triangles_of_vertex(), method.tractions, {}, left_and_right)),
+          nodes(constraints.nodes),
+          plan(constraints.plan) {
         Eigen::VectorXd values = Eigen::VectorXd::Zero(3 * std::ssize(left_and_right));
         for (std::size_t i = 0; i < left_and_right.size(); ++i)
             values[3 * static_cast<Eigen::Index>(i)] = mesh.vertices(0, left_and_right[i]);
@@ -36,15 +36,17 @@ struct StretchedCube {
     StageTimes stages;
     SurfaceMesh mesh;
     std::vector<int> left_and_right;
+    const BoundaryElement& element;
     BemSystem system;
-    ConstrainedNodes nodes;
-    LoadPlan plan;
+    BemConstraints constraints;
+    ConstrainedNodes& nodes;
+    LoadPlan& plan;
     NodeSolution solution;
 };
 
 std::vector<Method> boundary_methods() {
-    std::vector<Method> methods = all_methods(Mode::on_demand, Update::direct);
-    std::erase_if(methods, [](const Method& method) { return method.kind == MethodKind::fem; });
+    std::vector<Method> methods = method_variants(Mode::on_demand, Update::direct);
+    std::erase_if(methods, [](const Method& method) { return method.kind == kFem; });
     return methods;
 }
 
@@ -104,8 +106,7 @@ Eigen::Matrix3Xd exact_forces(const SurfaceMesh& mesh, const Field& field) {
 TEST(Tractions, OfAPointForceOutsideConvergeToTheExactOnes) {
     const Material material{1.0, 0.3};
     const PointForceField field{material, {1.8, 0.4, 0.6}, {1.0, 0.5, -0.2}};
-    for (const auto& [kind, order] :
-         {std::pair{MethodKind::linear_bem, 1.0}, {MethodKind::constant_bem, 1.0}, {MethodKind::fem, 1.0}}) {
+    for (const auto& [kind, order] : {std::pair{kLinearBem, 1.0}, {kConstantBem, 1.0}, {kFem, 1.0}}) {
         std::vector<double> errors;
         for (const int cells : {4, 8}) {
             const SurfaceMesh mesh = make_sphere(cells);

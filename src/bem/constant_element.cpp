@@ -1,0 +1,52 @@
+#include <numeric>
+
+#include "bem/constant_constraints.hpp"
+#include "bem/element.hpp"
+#include "bem/error_estimate.hpp"
+
+namespace elastolab {
+
+namespace {
+
+class ConstantElement final : public BoundaryElement {
+public:
+    Sources nodes(const Boundary& boundary) const override { return centroid_sources(boundary); }
+
+    Elements shape_functions(const Boundary& boundary) const override {
+        std::vector<int> triangles(static_cast<std::size_t>(boundary.n_triangles()));
+        std::iota(triangles.begin(), triangles.end(), 0);
+        return constant_elements(triangles);
+    }
+
+    bool has_stiffness(Tractions) const override { return true; }
+
+    BemConstraints constrain(const Boundary& boundary, const VertexTriangles& triangles_of_vertex, Tractions,
+                             std::span<const int> base, std::span<const int> handles) const override {
+        std::vector<int> vertices(base.begin(), base.end());
+        vertices.insert(vertices.end(), handles.begin(), handles.end());
+        ConstrainedNodes nodes = constrain_triangles(boundary.mesh(), triangles_of_vertex, vertices);
+        LoadPlan plan = plan_constant_loads(boundary, nodes.nodes, nodes.prescribe);
+        // Triangles may have corners of the base and of a handle; none of them counts as resting then.
+        return {std::move(nodes), std::move(plan), 0};
+    }
+
+    std::shared_ptr<const SparseRows> display(const SurfaceMesh& mesh,
+                                              const VertexTriangles& triangles_of_vertex) const override {
+        return std::make_shared<const SparseRows>(average_of_triangles(mesh, triangles_of_vertex));
+    }
+
+    Eigen::VectorXd error(const std::shared_ptr<const BemSystem>& system, const SparseRows* display, const LoadPlan&,
+                          const std::vector<int>&, const NodeSolver&, const NodeSolution& solution,
+                          Control&) const override {
+        return spread_around_vertices(*system, *display, solution);
+    }
+};
+
+}  // namespace
+
+const BoundaryElement& constant_element() {
+    static const ConstantElement element;
+    return element;
+}
+
+}  // namespace elastolab

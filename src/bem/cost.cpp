@@ -1,0 +1,38 @@
+#include "bem/cost.hpp"
+
+#include "deform/machine_speed.hpp"
+#include "mesh/surface_mesh.hpp"
+
+namespace elastolab {
+
+namespace {
+
+/// Arithmetic per pair of source and triangle, in flops at the speed of the matrix product: about 0.1 us on a core.
+constexpr double kFlopsPerPair = 3000.0;
+
+Cost predict(const SurfaceMesh& mesh, const Method& method, double nodes) {
+    const double n = 3.0 * nodes, pairs = nodes * mesh.n_triangles();
+    Cost cost{static_cast<std::int64_t>(n), 64u << 20, 0.0};
+    if (!factorises_ahead(method)) return cost;
+    cost.memory_bytes += square_bytes(n + 6.0);
+    double flops = 2.0 / 3.0 * n * n * n + kFlopsPerPair * pairs;
+    if (method.keep_integrals) cost.memory_bytes += static_cast<std::uint64_t>(80.0 * nodes * nodes);
+    if (method.mode != Mode::on_demand) {
+        cost.memory_bytes += 5 * square_bytes(n + 6.0);
+        flops += (2.0 / 3.0 + 2.0 + 2.0) * n * n * n + kFlopsPerPair * pairs;
+    }
+    cost.seconds = flops / product_speed();
+    return cost;
+}
+
+}  // namespace
+
+Cost predict_constant_bem(const SurfaceMesh& mesh, const Method& method) {
+    return predict(mesh, method, mesh.n_triangles());
+}
+
+Cost predict_linear_bem(const SurfaceMesh& mesh, const Method& method) {
+    return predict(mesh, method, mesh.n_vertices());
+}
+
+}  // namespace elastolab

@@ -1,0 +1,54 @@
+#include "bem/method.hpp"
+
+#include "bem/cost.hpp"
+#include "bem/model.hpp"
+
+namespace elastolab {
+
+namespace {
+
+template <const BoundaryElement& (*element)()>
+std::shared_ptr<const SolidModel> precompute(const SurfaceMesh& surface, const std::string&, double poisson_ratio,
+                                             const Method& method, const SolidModel* before, Control& control) {
+    return std::make_shared<BemModel>(element(), surface, poisson_ratio, method, dynamic_cast<const BemModel*>(before),
+                                      control);
+}
+
+constexpr std::array kSurfaceModes = {Mode::on_demand, Mode::full};
+
+}  // namespace
+
+constinit const MethodTraits kConstantBemTraits = {
+    .name = "constant-bem",
+    .label = "Constant BEM",
+    .colour = 1,
+    .matrix = "boundary-element matrix",
+    .cheaper = "linear-bem, which needs a quarter",
+    .against_coarseness = "Refine, or choose linear-bem.",
+    .modes = kSurfaceModes,
+    .updates = kAllUpdates,
+    .shows_averages = true,
+    .K_takes_incompressible = false,
+    .integrates_boundary = true,
+    .error_to_tell = 0.2,  // first order: neighbouring triangles always differ
+    .precompute = precompute<constant_element>,
+    .predict = predict_constant_bem,
+};
+
+constinit const MethodTraits kLinearBemTraits = {
+    .name = "linear-bem",
+    .label = "Linear BEM",
+    .colour = 2,
+    .matrix = "boundary-element matrix",
+    .cheaper = "fem, whose matrix is sparse",
+    .against_coarseness = "Refine thin parts, or compare with fem.",
+    .modes = kSurfaceModes,
+    .updates = kAllUpdates,
+    .chooses_tractions = true,
+    .integrates_boundary = true,
+    .error_to_tell = 0.08,
+    .precompute = precompute<linear_element>,
+    .predict = predict_linear_bem,
+};
+
+}  // namespace elastolab

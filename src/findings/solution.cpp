@@ -1,0 +1,125 @@
+#include "findings/solution.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <limits>
+#include <span>
+
+namespace elastolab {
+
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kEps = std::numeric_limits<double>::epsilon();
+constexpr double kLocking = 0.48;
+constexpr double kLostDigits = 1e-6;     ///< relative error of displacements above which rounding is told
+constexpr double kWeakLever = 100.0;     ///< by how much an error of a handle may be amplified
+constexpr double kLargeResidual = 1e-6;  ///< rounding leaves 1e-10 at most
+
+void append(Findings& all, Findings more) {
+    all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
+
+std::vector<char> marked(const SurfaceMesh& surface, const ConstrainedSet& set) {
+    std::vector<char> is_constrained(static_cast<std::size_t>(surface.n_vertices()), 0);
+    for (const std::vector<int>* vertices : {&set.base, &set.handles})
+        for (const int v : *vertices) is_constrained[static_cast<std::size_t>(v)] = 1;
+    return is_constrained;
+}
+
+Findings findings_of_points(const SurfaceMesh& surface, const ConstrainedSet& set, std::span<const char> constrained) {
+    const auto at = [](int v) { return static_cast<std::size_t>(v); };
+    std::vector<char> in_patch(constrained.size(), 0);
+    for (const auto& t : surface.triangles.colwise())
+        if (constrained[at(t[0])] && constrained[at(t[1])] && constrained[at(t[2])])
+            for (const int v : t) in_patch[at(v)] = 1;
+    int count = 0, first = -1;
+    for (const std::vector<int>* vertices : {&set.base, &set.handles})
+        for (const int v : *vertices)
+            if (!in_patch[at(v)] && count++ == 0) first = v;
+    if (count == 0) return {};
+    return {{.kind = FindingKind::point_constraint,
+             .value = static_cast<double>(count),
+             .place = surface.vertices.col(first),
+             .first = first}};
+}
+
+/// Of one solid: `solid` are its vertices in the mesh.
+Findings findings_of_hold(const SurfaceMesh& surface, std::span<const int> solid, std::span<const char> constrained) {
+    std::vector<int> held;
+    for (const int v : solid)
+        if (constrained[static_cast<std::size_t>(v)]) held.push_back(v);
+    if (held.size() < 3) return {};
+    const auto n = static_cast<double>(held.size());
+    Vector3d centre = Vector3d::Zero();
+    for (const int v : held) centre += surface.vertices.col(v) / n;
+    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+    for (const int v : held) {
+        const Vector3d d = surface.vertices.col(v) - centre;
+        spread += d * d.transpose() / n;
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
+    const Vector3d line = axes.eigenvectors().col(2);
+    double reach = 0.0;
+    for (const int v : solid) reach = std::max(reach, (surface.vertices.col(v) - centre).cross(line).norm());
+    const double off_line = std::sqrt(std::max(axes.eigenvalues()[0] + axes.eigenvalues()[1], 0.0));
+    if (off_line * kWeakLever > reach || off_line < 1e-12 * reach) return {};  // the latter is not held at all
+    return {{.kind = FindingKind::weak_hold, .value = reach / off_line, .place = centre}};
+}
+
+}  // namespace
+
+Findings findings_of_material(MethodKind method, double poisson_ratio) {
+    if (!method->locks || poisson_ratio <= kLocking) return {};
+    return {{.kind = FindingKind::locking, .value = poisson_ratio, .method = method}};
+}
+
+Findings findings_of_condition(std::string object, double condition) {
+    if (!(condition * kEps > kLostDigits)) return {};
+    return {{.kind = FindingKind::lost_digits, .value = condition, .object = std::move(object)}};
+}
+
+Findings findings_of_model(const Model& model) {
+    const MethodKind method = model.method().kind;
+    Findings findings = findings_of_material(method, model.body().material.poisson_ratio);
+    append(findings, model.facts().findings);
+    append(findings, findings_of_condition(std::string(method->matrix), model.facts().condition_estimate));
+    append(findings, model.facts().surface_findings);
+    return findings;
+}
+
+Findings findings_of_set(const Deformer& deformer) {
+    const SurfaceMesh& surface = *deformer.model().body().surface;
+    const SolutionQuality& quality = deformer.quality();
+    const std::vector<char> constrained = marked(surface, deformer.set());
+    Findings findings;
+    for (const Model::Part& part : deformer.model().parts())
+        append(findings, findings_of_hold(surface, part.vertices, constrained));
+    if (quality.held)
+        append(findings, findings_of_condition("constraints", quality.condition_estimate));
+    else
+        findings.push_back(
+            {.kind = quality.free_to_move ? FindingKind::free_motion : FindingKind::singular_though_held});
+    append(findings, findings_of_points(surface, deformer.set(), constrained));
+    return findings;
+}
+
+Findings findings_of_answer(const Deformer& deformer, const Deformer::Answer& answer) {
+    const MethodKind method = deformer.model().method().kind;
+    Findings findings;
+    if (answer.check && method->error_to_tell && answer.check->relative_error > *method->error_to_tell)
+        findings.push_back({.kind = FindingKind::coarse_mesh,
+                            .value = answer.check->relative_error,
+                            .method = method,
+                            .place = deformer.model().body().surface->vertices.col(answer.check->vertex),
+                            .first = answer.check->vertex});
+    if (answer.residual && !(*answer.residual < kLargeResidual))
+        findings.push_back(
+            {.kind = FindingKind::large_residual, .value = *answer.residual, .object = deformer.model().body().name});
+    return findings;
+}
+
+}  // namespace elastolab

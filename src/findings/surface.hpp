@@ -1,0 +1,28 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "base/control.hpp"
+#include "deform/finding.hpp"
+#include "mesh/surface_mesh.hpp"
+
+namespace elastolab {
+
+// What a method does badly on a surface, found before anybody believes its result. The limits come from measurements
+// that are named here; tests/findings/surface_test.cpp repeats them.
+
+/// Of methods that integrate over the surface (MethodTraits::integrates_boundary), else nothing:
+///   thin_triangle  altitude / longest edge so small (below 5e-5) that the integrals keep fewer than six digits
+///   slender_body   more than 15 times as long as thick (4 volume / area): bars of two cells across in bending are 9 %
+///                  off at 20 times, 15 % at 40 times
+///   thin_wall      walls or gaps thinner than half the edges beside them: a plate of 8 x 8 cells in bending is 5 to
+///                  10 % off by linear elements and 40 % by constant ones (told from 0.8 edges) from there on down
+/// Throws Cancelled.
+Findings findings_of_surface(const SurfaceMesh& surface, MethodKind method, Control& control);
+
+/// Solids that come closer than a hundredth of an edge, and yet are separate bodies. parts: the vertices of each solid
+/// in the mesh.
+Findings findings_of_contact(const SurfaceMesh& surface, std::span<const std::vector<int>> parts);
+
+}  // namespace elastolab

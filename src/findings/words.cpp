@@ -1,0 +1,142 @@
+#include "findings/words.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "base/text.hpp"
+#include "deform/node_solver.hpp"
+
+namespace elastolab {
+
+namespace {
+
+constexpr double kEps = std::numeric_limits<double>::epsilon();
+
+std::string place_of(const Finding& finding) { return readable_point(finding.place.value_or(Eigen::Vector3d::Zero())); }
+
+std::string percent(double part) { return readable_number(100.0 * part) + " %"; }
+
+std::string locking(const Finding& finding) {
+    return std::string(finding.method->name) + ": linear tetrahedra lock at Poisson's ratio " +
+           readable_number(finding.value, 6) +
+           ": in bending their error at 0.49 is 3 times that at 0.3, at 0.499 9 times, at 0.4999 29 times (a tenth of "
+           "the displacement on a coarse bar). Choose linear-bem, which does not lock, or refine.";
+}
+
+std::string lost_digits(const Finding& finding) {
+    return finding.object + ": nearly dependent equations (condition " + readable_number(finding.value) +
+           "), so displacements may be off by " + readable_number(std::min(finding.value * kEps, 1.0)) +
+           " of their size, and forces by more. Remove handles that nearly coincide, slivers, or a Poisson's ratio "
+           "next to 1/2.";
+}
+
+std::string thin_triangle(const Finding& finding) {
+    return "boundary elements: the triangle at " + place_of(finding) + " is so thin (" +
+           readable_number(finding.value) + " of its length) that its integrals are right to " +
+           readable_number(10.0 * kEps / (finding.value * finding.value)) +
+           " only. Remesh the surface there, or choose fem.";
+}
+
+std::string slender_body(const Finding& finding) {
+    return "boundary elements: the body is " + readable_number(finding.value) +
+           " times as long as thick. With one or two elements across, linear-bem is off by 9 % in the bending of a bar "
+           "that is 20 times as long as thick, by 15 % at 40 times (constant-bem by more). Refine, or compare with "
+           "fem.";
+}
+
+std::string thin_wall(const Finding& finding) {
+    return "boundary elements: the surface near " + place_of(finding) + " is only " + readable_number(finding.value) +
+           " of a triangle's edge away from its other side. Walls and gaps that thin bend with errors " +
+           (finding.method->shows_averages ? "of 30 to 40 %. Refine there, or choose linear-bem."
+                                           : "of 5 to 20 %. Refine there, or compare with fem.");
+}
+
+std::string contact(const Finding& finding) {
+    return "solids " + std::to_string(finding.first + 1) + " and " + std::to_string(finding.second + 1) +
+           ": touch near " + place_of(finding) +
+           ", but are separate bodies, which neither stick together nor push each other. Join their surfaces if they "
+           "are one body.";
+}
+
+std::string point_constraint(const Finding& finding) {
+    const auto count = static_cast<int>(finding.value);
+    const std::string others = count > 1 ? " and " + std::to_string(count - 1) + " more are" : " is";
+    return "constraints: vertex " + std::to_string(finding.first) + " at " + place_of(finding) + others +
+           " held or moved alone, with no whole triangle. How far the body follows a point depends on the mesh; take "
+           "all vertices within a radius.";
+}
+
+std::string weak_hold(const Finding& finding) {
+    return "constraints: lie almost on one line near " + place_of(finding) +
+           ", so the body can hardly resist turning about it: an error of a handle is amplified " +
+           readable_number(finding.value) + " times. Constrain a vertex farther from the line.";
+}
+
+std::string coarse_mesh(const Finding& finding) {
+    const std::string begin = std::string(finding.method->name) + ": ";
+    const std::string off = percent(finding.value) + " of the largest", place = place_of(finding);
+    const std::string advice(finding.method->against_coarseness);
+    if (finding.method->shows_averages)
+        return begin + "near " + place + " displacements of neighbouring triangles differ by " + off + ". " + advice;
+    return begin + "the mesh is too coarse near " + place + ": displacements there are off by about " + off + ". " +
+           advice;
+}
+
+std::string imbalance(const Finding& finding, const char* what) {
+    return std::string(finding.method->name) + ": the reaction " + what + " do not balance; their sum is " +
+           percent(finding.value) +
+           " of the largest. Collocation does not balance them; choose galerkin-bem or fem where forces matter.";
+}
+
+}  // namespace
+
+std::string words(const Finding& finding) {
+    switch (finding.kind) {
+        case FindingKind::locking:
+            return locking(finding);
+        case FindingKind::lost_digits:
+            return lost_digits(finding);
+        case FindingKind::singular_stiffness:
+            return "K = G^-1 H: G is singular to rounding, or nearly so (constant elements at Poisson's ratio 1/2), so "
+                   "K and Eqns. 7 and 9 carry few digits or none. Use the update reduced, or the mode on-demand.";
+        case FindingKind::thin_triangle:
+            return thin_triangle(finding);
+        case FindingKind::slender_body:
+            return slender_body(finding);
+        case FindingKind::thin_wall:
+            return thin_wall(finding);
+        case FindingKind::contact:
+            return contact(finding);
+        case FindingKind::point_constraint:
+            return point_constraint(finding);
+        case FindingKind::weak_hold:
+            return weak_hold(finding);
+        case FindingKind::free_motion:
+            return "constraints: leave the body free to move as a whole; the smallest motion is taken. Constrain three "
+                   "vertices that are not on one line.";
+        case FindingKind::singular_though_held:
+            return std::string(kSingularThoughHeld) + " The smallest solution is taken.";
+        case FindingKind::coarse_mesh:
+            return coarse_mesh(finding);
+        case FindingKind::force_imbalance:
+            return imbalance(finding, "forces");
+        case FindingKind::moment_imbalance:
+            return imbalance(finding, "moments");
+        case FindingKind::nothing_constrained:
+            return finding.object + ": no vertex is fixed or moved, so the body rests. Add a handle.";
+        case FindingKind::choice_left_aside:
+            return finding.object + ": only linear-bem has a choice of them; it was left aside.";
+        case FindingKind::large_residual:
+            return finding.object + ": the solution leaves a relative residual of " + readable_number(finding.value) +
+                   ", so it is wrong. Fix more vertices, or use another method.";
+    }
+    return {};
+}
+
+std::vector<std::string> words(const Findings& findings) {
+    std::vector<std::string> texts;
+    for (const Finding& finding : findings) texts.push_back(words(finding));
+    return texts;
+}
+
+}  // namespace elastolab

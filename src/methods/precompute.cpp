@@ -1,0 +1,101 @@
+#include "methods/precompute.hpp"
+
+#include <algorithm>
+
+#include "base/error.hpp"
+#include "deform/solid_model.hpp"
+#include "findings/cost.hpp"
+#include "findings/surface.hpp"
+#include "mesh/solids.hpp"
+
+namespace elastolab {
+
+namespace {
+
+void require_possible(const Method& method, const Material& material) {
+    if (const std::string why = refusal(method, material.poisson_ratio); !why.empty()) throw SolveError(why);
+}
+
+void add_stage(const StageTime& stage, StageTimes& stages) {
+    const auto same =
+        std::find_if(stages.begin(), stages.end(), [&](const StageTime& other) { return other.name == stage.name; });
+    if (same == stages.end())
+        stages.push_back(stage);
+    else
+        same->seconds += stage.seconds;
+}
+
+void add_finding(const Finding& finding, Findings& findings) {
+    const bool known = std::any_of(findings.begin(), findings.end(), [&](const Finding& other) {
+        return other.kind == finding.kind && other.place == finding.place && other.value == finding.value;
+    });
+    if (!known) findings.push_back(finding);
+}
+
+/// Sums the facts of the solids; the condition is that of the worst.
+ModelFacts summed(const std::vector<Model::Part>& parts) {
+    ModelFacts sum;
+    for (const Model::Part& part : parts) {
+        const ModelFacts& facts = part.solid->facts();
+        sum.n_vertices += facts.n_vertices;
+        sum.n_triangles += facts.n_triangles;
+        sum.n_tetrahedra += facts.n_tetrahedra;
+        sum.n_degrees_of_freedom += facts.n_degrees_of_freedom;
+        sum.memory_bytes += facts.memory_bytes;
+        sum.condition_estimate = std::max(sum.condition_estimate, facts.condition_estimate);
+        for (const Finding& finding : facts.findings) add_finding(finding, sum.findings);
+        for (const StageTime& stage : facts.stages) add_stage(stage, sum.stages);
+    }
+    return sum;
+}
+
+Findings findings_of(const SurfaceMesh& surface, const std::vector<Solid>& solids, MethodKind method,
+                     Control& control) {
+    std::vector<std::vector<int>> vertices;
+    for (const Solid& solid : solids) vertices.push_back(solid.vertices);
+    Findings findings = findings_of_contact(surface, vertices);
+    for (const Solid& solid : solids)
+        for (const Finding& finding : findings_of_surface(solid.surface, method, control))
+            add_finding(finding, findings);
+    return findings;
+}
+
+/// Whether both methods look for the same in a surface.
+bool same_findings(MethodKind a, MethodKind b) {
+    return a->integrates_boundary == b->integrates_boundary && a->shows_averages == b->shows_averages;
+}
+
+/// before: of the same surface, or null.
+std::shared_ptr<const Model> precompute(const Body& body, const Method& method, const Model* before, Control& control) {
+    require_possible(method, body.material);
+    if (before == nullptr || method.kind != before->method().kind || method.mode != before->method().mode)
+        require_memory(predict_cost(*body.surface, method), method);
+    const std::vector<Solid> solids = split_solids(*body.surface);
+    std::vector<Model::Part> parts;
+    for (std::size_t i = 0; i < solids.size(); ++i) {
+        const SolidModel* old = before != nullptr ? before->parts()[i].solid.get() : nullptr;
+        parts.push_back(
+            {method.kind->precompute(solids[i].surface, body.name, body.material.poisson_ratio, method, old, control),
+             solids[i].vertices});
+    }
+    ModelFacts facts = summed(parts);
+    facts.surface_findings = before != nullptr && same_findings(method.kind, before->method().kind)
+                                 ? before->facts().surface_findings
+                                 : findings_of(*body.surface, solids, method.kind, control);
+    return std::make_shared<const Model>(body, method, std::move(parts), std::move(facts));
+}
+
+}  // namespace
+
+std::shared_ptr<const Model> precompute(const Body& body, const Method& method, Control& control) {
+    return precompute(body, method, nullptr, control);
+}
+
+std::shared_ptr<const Model> precompute_again(const Model& before, const Material& material, const Method& method,
+                                              Control& control) {
+    Body body = before.body();
+    body.material = material;
+    return precompute(body, method, &before, control);
+}
+
+}  // namespace elastolab

@@ -1,0 +1,27 @@
+#include "methods/registry.hpp"
+
+#include <array>
+
+namespace elastolab {
+
+namespace {
+
+constexpr std::array kMethods = {
+    kFem,
+    kConstantBem,
+    kLinearBem,
+};
+
+}  // namespace
+
+std::span<const MethodKind> all_methods() { return kMethods; }
+
+MethodKind default_method() { return kLinearBem; }
+
+std::optional<MethodKind> parse_method_kind(std::string_view text) {
+    for (const MethodKind kind : kMethods)
+        if (kind->name == text) return kind;
+    return std::nullopt;
+}
+
+}  // namespace elastolab

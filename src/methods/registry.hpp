@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "bem/method.hpp"
+#include "deform/method.hpp"
+#include "fem/method.hpp"
+
+namespace elastolab {
+
+/// All methods that the program has, in the order in which they are shown.
+std::span<const MethodKind> all_methods();
+
+/// The one that is taken when nobody chooses.
+MethodKind default_method();
+
+/// By MethodTraits::name; nothing for an unknown name.
+std::optional<MethodKind> parse_method_kind(std::string_view text);
+
+}  // namespace elastolab

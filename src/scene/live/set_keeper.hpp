@@ -1,0 +1,105 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "deform/deformer.hpp"
+#include "deform/finding.hpp"
+#include "scene/live/background_job.hpp"
+#include "scene/live/drag_solver.hpp"
+#include "scene/setup.hpp"
+
+namespace elastolab {
+
+/// How a frame gets its displacements.
+enum class FrameRule {
+    drag_columns,  ///< three columns of the moving handle, computed when it is grabbed
+    displace       ///< the method's update rule, every frame
+};
+
+/// A constrained set that is ready to answer, and its drag solver when frames use one.
+struct PreparedSet {
+    std::shared_ptr<const Deformer> deformer = nullptr;
+    std::optional<DragSolver> drag = std::nullopt;
+    double solve_seconds = 0.0;  ///< that the drag solver took for its last solve
+    Findings findings = {};      ///< of the set
+};
+
+/// Keeps the constrained set that is wanted prepared on a worker thread, and motions within it that take long solved
+/// there. The set used before stays at hand. All members are for one thread.
+class SetKeeper {
+public:
+    /// `wake` is called by the worker when poll() will find something.
+    explicit SetKeeper(std::function<void()> wake) : job_(std::move(wake)) {}
+
+    void want(const Constraints& constraints);
+    const ConstrainedSet& wanted_set() const { return wanted_set_; }
+    const Eigen::VectorXd& wanted_values() const { return wanted_values_; }
+    const std::vector<int>& handle_ends() const { return handle_ends_; }
+    /// True when it is another rule.
+    bool set_frame_rule(FrameRule rule);
+    FrameRule frame_rule() const { return rule_; }
+    /// Prepares a set that may be asked for soon, when there is nothing else to do.
+    void prefetch(const ConstrainedSet& set) { prefetch_ = set; }
+
+    /// The sets of another model are prepared anew; the one at hand answers until then.
+    void set_model(std::shared_ptr<const Model> model);
+    void clear();
+
+    enum class Event {
+        none,
+        another_set,    ///< current() is another one: what was answered before is not of it
+        motion_solved,  ///< current().drag has the motion that was given to the worker, and what comes of it
+        motion_failed   ///< see motion_failure()
+    };
+    /// Takes over what the worker finished and starts what is due.
+    Event poll();
+
+    /// Deformer null before the first.
+    PreparedSet& current() { return current_; }
+    const PreparedSet& current() const { return current_; }
+    /// Whether current() is of the wanted set, by the present model or an earlier one.
+    bool answers() const;
+    /// Whether current() is of the wanted set by the present model.
+    bool is_current() const;
+
+    /// Solves for the wanted values within the present set.
+    void solve_on_worker();
+    bool solving() const { return job_.running() && is_current() && same_as_wanted(preparing_set_); }
+
+    /// Stops what runs. Event: motion_failed when a motion that was waited for is given up.
+    Event cancel();
+    void retry() { failure_.clear(); }
+    bool preparing() const { return job_.running(); }
+    bool working() const { return job_.working(); }
+    JobStatus status() const { return job_.status(); }
+    double last_seconds() const { return job_.last_seconds(); }
+    /// Why the wanted set cannot be had, or that it was stopped; else empty.
+    const std::string& failure() const { return failure_; }
+    const std::string& motion_failure() const { return motion_failure_; }
+
+private:
+    Event take_finished();
+    Event use_or_prepare();
+    void prepare(const ConstrainedSet& set, Eigen::VectorXd values, std::vector<int> ends);
+    void prepare_prefetched(const ConstrainedSet& set);
+    bool same_as_wanted(const ConstrainedSet& set) const;
+
+    ConstrainedSet wanted_set_;
+    Eigen::VectorXd wanted_values_;
+    std::vector<int> handle_ends_;
+    FrameRule rule_ = FrameRule::drag_columns;
+    std::optional<ConstrainedSet> prefetch_;
+
+    std::shared_ptr<const Model> model_;
+    PreparedSet current_;
+    PreparedSet spare_;  ///< of the same model: prefetched, or the one used before
+    ConstrainedSet preparing_set_;
+    std::string failure_, motion_failure_;
+    BackgroundJob<PreparedSet> job_;  // last: its thread ends before what it wakes goes
+};
+
+}  // namespace elastolab
