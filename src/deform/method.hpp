@@ -15,7 +15,7 @@ enum class MethodKind { fem, constant_bem, linear_bem };
 ///   full_volume  FEM only: the dense matrix over all nodes and its inverse, as in the paper
 enum class Mode { on_demand, full, full_volume };
 
-/// Tractions of linear BEM on constrained parts (FORMULATION section 4).
+/// Tractions of linear BEM on constrained parts (docs/formulation.md section 4).
 ///   discontinuous  linear on each constrained triangle by itself
 ///   restricted     a hat function per constrained vertex, cut to the constrained triangles
 ///   continuous     a whole hat function per constrained vertex, as in the paper
