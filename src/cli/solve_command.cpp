@@ -57,7 +57,7 @@ void add_options(CLI::App& parser, SolveOptions& options) {
     parser.add_flag("--quiet", options.quiet, "no summary and no progress bar");
 }
 
-/// The parser has checked the words already.
+/// The parser has checked the names already.
 template <class Value, class Parse>
 void choose(Value& value, const std::string& word, const Parse& parse) {
     if (!word.empty()) value = parse(word).value();
@@ -99,7 +99,7 @@ Solution solve_with_progress(const SolveRequest& request, Control& control, bool
     try {
         return solve(request, control);
     } catch (const Error&) {
-        control.checkpoint();  // Ctrl-C reaches helper processes, too; their end is no error then
+        control.checkpoint();  // Ctrl-C ends helper processes too, which is no error then
         throw;
     }
 }
@@ -121,7 +121,7 @@ void run_solve(const SolveOptions& options) {
         solution.warnings.push_back("--tractions: only linear-bem has a choice of them; it was left aside.");
     write_outputs(options.outputs(), solution);
     if (options.quiet) return;
-    lseek(STDOUT_FILENO, 0, SEEK_END);  // behind an output that went to /dev/stdout, if that is a file
+    lseek(STDOUT_FILENO, 0, SEEK_END);  // after an output that went to /dev/stdout, if that is a file
     print_summary(std::cout, request, solution);
 }
 
