@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# readme_results.sh: copies what the studies found from their reports in assets/results into README.md, between the lines
-# "<!-- results -->" and "<!-- end of results -->".
+# readme_results.sh: copies what the studies found from their reports in assets/results: all of it into docs/results.md,
+# and the three most telling tables into README.md, between the lines "<!-- results -->" and "<!-- end of results -->".
+# shellcheck disable=SC2016  # the backticks are Markdown
 set -euo pipefail
 cd "$(dirname "$0")/.."
 results=assets/results
@@ -11,29 +12,57 @@ opening() { awk '/^```/ { ++fences; next } fences > 1 && /^##/ { exit } fences >
 section() { awk -v heading="## $2" '$0 == heading { on = 1; next } on && /^##/ { exit } on' "$results/$1/README.md"; }
 # machine STUDY: where it was measured.
 machine() { sed -n 3p "$results/$1/README.md"; }
+# first_table: of the text that comes in.
+first_table() { awk '/^\|/ { print; on = 1; next } on { exit }'; }
+# columns LIST: these columns of the table that comes in, as cut numbers them.
+columns() { sed 's/^| *//; s/ *|$//; s/ | /\t/g' | cut -f "$1" | sed 's/\t/ | /g; s/^/| /; s/$/ |/'; }
+# table_rows PATTERN: the head of the table that comes in, and its rows that match.
+table_rows() { awk -v pattern="$1" 'NR <= 2 || $0 ~ pattern'; }
 
-heading() {  # STUDY TITLE
-  printf '\n### %s\n\n`elastolab bench %s --out %s/%s` ([report](%s/%s/README.md)). %s\n\n' \
-    "$2" "$1" "$results" "$1" "$results" "$1" "$(machine "$1")"
+heading() {  # LEVEL STUDY TITLE FOLDER_OF_RESULTS
+  printf '\n%s %s\n\n`elastolab bench %s --out %s/%s` ([report](%s/%s/README.md)). %s\n\n' \
+    "$1" "$3" "$2" "$results" "$2" "$4" "$2" "$(machine "$2")"
 }
 
+plot() { printf '\n![%s](%s/%s)\n' "$1" "../$results" "$2"; }
+
 write_results() {
-  heading paper 'Do the claims of the paper hold?'
+  local from=../$results
+  printf '# What the studies found\n\nCopied by `scripts/readme_results.sh` from the reports, which have more tables, plots and every number.\n'
+  heading '##' paper 'Do the claims of the paper hold?' "$from"
   section paper "Does the paper's claim hold?"
-  printf '![Fig. 4: precomputation](%s/paper/fig4-precomputation.svg)\n' "$results"
-  heading error 'Run time against error'
+  plot 'Fig. 4: precomputation' paper/fig4-precomputation.svg
+  heading '##' error 'Run time against error' "$from"
   section error 'In short'
-  section error 'Who is fastest at a given error' | grep -vE '^\| [a-z-]*irregular|^\| [a-z-]+ \| 0\.49 '
-  printf '![Who is fastest at a given error](%s/error/error-frontier-bending.svg)\n' "$results"
-  heading stability 'What breaks each method'
+  section error 'Who is fastest at a given error'
+  plot 'Who is fastest at a given error' error/error-frontier-bending.svg
+  printf '\n### Organic bodies\n\n'
+  section error 'Organic bodies'
+  printf "\n### Poisson's ratio\n\n"
+  section error "Poisson's ratio"
+  printf '\n### Orders\n\n'
+  section error 'Orders'
+  heading '##' stability 'What breaks each method' "$from"
   opening stability
-  heading scale 'How cost grows'
+  heading '##' scale 'How cost grows' "$from"
   opening scale
-  heading skip 'What is saved by skipping'
+  heading '##' skip 'What is saved by skipping' "$from"
   opening skip
 }
 
-write_results | cat -s > README.results
+write_readme() {
+  heading '###' paper 'Do the claims of the paper hold?' "$results"
+  section paper "Does the paper's claim hold?" | first_table | columns 1-3
+  heading '###' error 'Who is fastest to an error of 1 %?' "$results"
+  section error 'Who is fastest at a given error' | first_table | table_rows '^[|] [a-z-]+ [|] 0[.]3 [|] 1 % ' |
+    columns 1,4-9
+  heading '###' scale 'How cost grows' "$results"
+  opening scale | first_table
+  printf '\nExponents are those of the growth with the number of surface vertices; memory is the peak beyond what the program held before.\n\n'
+}
+
+write_results | cat -s >docs/results.md
+write_readme | cat -s >README.results
 awk '
   /^<!-- results -->$/ { print; while ((getline line < "README.results") > 0) print line; inside = 1; next }
   /^<!-- end of results -->$/ { inside = 0 }

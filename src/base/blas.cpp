@@ -28,7 +28,7 @@ bool is_outdated(const std::string& kernels) {
     return std::any_of(kOld.begin(), kOld.end(), [&](const char* old) { return kernels.rfind(old, 0) == 0; });
 }
 
-/// The best kernels that the instructions of this CPU can run, or null when the library's choice must do.
+/// The best kernels that this CPU can run; null where the library's own choice is to stay.
 const char* fitting_kernels() {
 #if defined(__x86_64__)
     __builtin_cpu_init();

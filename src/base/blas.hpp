@@ -16,7 +16,7 @@ std::string blas_kernels();
 void set_thread_count(int n);
 int thread_count();
 
-/// While one lives, every BLAS call runs on its caller's thread. For parallel loops whose bodies call the BLAS:
+/// While an instance lives, every BLAS call runs on its caller's thread. For parallel loops whose bodies call the BLAS:
 /// OpenBLAS has one pool, in which calls from several threads wait for each other (sparse solves of many right-hand
 /// sides: three times slower). Affects all threads of the program; may nest.
 class SerialBlas {

@@ -13,7 +13,7 @@ class LuFactorization {
 public:
     LuFactorization() = default;
     /// Factors A in place of its own storage: no second matrix. `name` is what the error message calls the matrix.
-    /// `control`, when given, learns the progress of the present stage and may cancel (see factorise_lu).
+    /// `control`, when given, is told the progress of the present stage and may cancel (see factorise_lu).
     /// Throws SingularMatrixError when A is exactly singular, SolveError when it has entries that are not finite,
     /// Cancelled.
     LuFactorization(Eigen::MatrixXd&& A, const std::string& name, Control* control = nullptr);

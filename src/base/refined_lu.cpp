@@ -14,13 +14,14 @@ namespace elastolab {
 
 namespace {
 
-/// Refinement gains at least two digits a step below this condition.
+/// Below this condition number refinement gains at least two digits a step.
 constexpr double kSafeReciprocalCondition = 1e-5;
 constexpr int kMostSteps = 30;
 /// Smallest matrix for which single precision pays.
 constexpr Eigen::Index kWorthwhile = 256;
 
-// Passes over the whole matrix, on all threads: beside a factorisation in single precision one thread's would count.
+// Passes over the whole matrix, on all threads: beside a factorisation in single precision, a pass on one thread
+// would take noticeable time.
 
 /// Largest entry and largest column sum, of absolute values.
 struct ColumnNorms {
@@ -82,7 +83,7 @@ void RefinedLu::factorise_single(double norm, Control* control) {
 }
 
 Eigen::MatrixXd RefinedLu::solve_single(const Eigen::MatrixXd& B) const {
-    // Columns are scaled to 1: small residuals would leave the range of single precision.
+    // Columns are scaled to 1, since small residuals would leave the range of single precision.
     Eigen::RowVectorXd scale = B.cwiseAbs().colwise().maxCoeff();
     scale = (scale.array() > 0.0).select(scale, 1.0);
     Eigen::MatrixXf X = (B.array().rowwise() / scale.array()).matrix().cast<float>();
@@ -93,7 +94,7 @@ Eigen::MatrixXd RefinedLu::solve_single(const Eigen::MatrixXd& B) const {
 }
 
 bool RefinedLu::refine(const Eigen::MatrixXd& B, Eigen::MatrixXd& X) const {
-    // As small as rounding in the product allows: what factors in double precision would leave, too.
+    // As small as rounding in the product allows; factors in double precision would leave as much.
     const double rounding = std::numeric_limits<double>::epsilon() * std::sqrt(static_cast<double>(B.rows())) * norm_;
     double before = std::numeric_limits<double>::infinity();
     for (int step = 0; step < kMostSteps; ++step) {
@@ -104,7 +105,7 @@ bool RefinedLu::refine(const Eigen::MatrixXd& B, Eigen::MatrixXd& X) const {
         const bool good = (off.array() <= allowed.array()).all();
         if (!good && !(off.maxCoeff() < 0.25 * before)) return false;
         X += solve_single(residual);
-        if (good) return true;  // one step more than asked for: cheap, and it gains digits of small entries
+        if (good) return true;  // one step more than needed: it is cheap and improves small entries
         before = off.maxCoeff();
     }
     return false;

@@ -18,7 +18,7 @@ private:
     Clock::time_point start_ = Clock::now();
 };
 
-/// Seconds by stage, in the order of their begin.
+/// Seconds by stage, in the order in which the stages began.
 struct StageTime {
     std::string name;
     double seconds = 0.0;

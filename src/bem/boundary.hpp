@@ -13,7 +13,7 @@ namespace elastolab {
 /// The triangles of one solid's surface, ready for integration.
 class Boundary {
 public:
-    /// The mesh is closed, outward and free of degenerate triangles (mesh/check.hpp).
+    /// The mesh is closed, outward and free of degenerate triangles (mesh/checks/check.hpp).
     explicit Boundary(const SurfaceMesh& mesh);
 
     const SurfaceMesh& mesh() const { return mesh_; }

@@ -13,8 +13,8 @@
 
 namespace elastolab {
 
-/// The ansatz for the unknown tractions of one constrained set (FORMULATION section 4), and the equations that close
-/// it. Unknowns: a traction vector per slot of `elements`, then a free residual for every vertex in
+/// The ansatz for the unknown tractions of one constrained set (docs/formulation.md section 4), and the equations that
+/// close it. Unknowns: a traction vector per slot of `elements`, then a free residual for every vertex in
 /// `dropped_collocation`. Equations: prescribed displacements at the nodes, and collocation at three interior points of
 /// every triangle in `interior_triangles`.
 struct LoadPlan {

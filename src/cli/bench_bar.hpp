@@ -8,8 +8,8 @@
 
 namespace elastolab {
 
-/// While it lives, shows how far a study is, and the time left, on standard error when that is a terminal. Its line is
-/// wiped at the end.
+/// While it lives, shows how far a study has come, and the time left, on standard error if that is a terminal. Clears
+/// its line at the end.
 class BenchBar {
 public:
     BenchBar(const StudyProgress& progress, bool wanted);

@@ -9,13 +9,13 @@ class App;
 
 namespace elastolab {
 
-/// A command line that asks for something that cannot be asked for: exit code 2.
+/// A command line that is not valid: exit code 2.
 class UsageError : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
 };
 
-/// Ctrl-C in a command that says itself what was kept; others let Cancelled pass.
+/// Thrown after Ctrl-C by a command that has said itself what was kept; others let Cancelled through.
 class Interrupted : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;

@@ -15,7 +15,7 @@ struct MethodCost {
     std::optional<Cost> cost;
 };
 
-/// What is to be known about a mesh before anything is computed on it.
+/// What can be said about a mesh before anything is computed on it.
 struct MeshInfo {
     SceneMesh mesh;
     std::vector<MethodCost> costs;  ///< every method in every mode that it has

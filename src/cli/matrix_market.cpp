@@ -8,7 +8,7 @@ namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
 
-/// Rounding differs between (i, j) and (j, i) when elements are summed in another order, which is not symmetric here.
+/// To the last bit: sums in different orders at (i, j) and (j, i) may differ by rounding, which is not symmetric here.
 bool is_symmetric(const Sparse& matrix) {
     if (matrix.rows() != matrix.cols()) return false;
     const Sparse difference = matrix - Sparse(matrix.transpose());

@@ -9,7 +9,7 @@
 namespace elastolab {
 
 /// While it lives, shows stage and progress of `control` on standard error: only on a terminal, only once a second has
-/// passed. Its line is wiped at the end.
+/// passed. Clears its line at the end.
 class ProgressBar {
 public:
     ProgressBar(const Control& control, bool wanted);

@@ -58,7 +58,7 @@ void add_options(CLI::App& parser, SolveOptions& options) {
     parser.add_flag("--quiet", options.quiet, "no summary and no progress bar");
 }
 
-/// The parser has checked the words already.
+/// The parser has checked the names already.
 template <class Value, class Parse>
 void choose(Value& value, const std::string& word, const Parse& parse) {
     if (!word.empty()) value = parse(word).value();
@@ -96,7 +96,7 @@ Solution solve_with_progress(const SolveRequest& request, Control& control, bool
     try {
         return solve(request, control);
     } catch (const Error&) {
-        control.checkpoint();  // Ctrl-C reaches helper processes, too; their end is no error then
+        control.checkpoint();  // Ctrl-C ends helper processes too, which is no error then
         throw;
     }
 }
@@ -118,7 +118,7 @@ void run_solve(const SolveOptions& options) {
         solution.findings.push_back({.kind = FindingKind::choice_left_aside, .object = "--tractions"});
     write_outputs(options.outputs(), solution);
     if (options.quiet) return;
-    lseek(STDOUT_FILENO, 0, SEEK_END);  // behind an output that went to /dev/stdout, if that is a file
+    lseek(STDOUT_FILENO, 0, SEEK_END);  // after an output that went to /dev/stdout, if that is a file
     print_summary(std::cout, request, solution);
 }
 

@@ -44,7 +44,7 @@ void require_distinct(const std::vector<fs::path>& outputs, const std::vector<fs
     }
 }
 
-/// The folder for matrices, or the one it will be made in.
+/// The folder for matrices, or the one in which it will be made.
 void require_writable_folder(const fs::path& folder) {
     std::error_code error;
     if (fs::is_directory(folder, error)) return AtomicFile::require_writable(folder / "H.npy");
@@ -85,7 +85,7 @@ void write_matrices(OutputSet& outputs, const fs::path& folder, const Model& mod
     });
 }
 
-/// A folder that goes again unless it is kept.
+/// A folder that is made if it is missing, and removed again if it stays empty.
 class NewFolder {
 public:
     explicit NewFolder(fs::path folder) : folder_(std::move(folder)) {
@@ -125,7 +125,7 @@ void require_writable(const OutputPaths& paths, const std::vector<fs::path>& inp
 }
 
 void write_outputs(const OutputPaths& paths, const Solution& solution) {
-    const NewFolder folder(paths.matrices);  // goes after `outputs`, whose temporaries lie in it
+    const NewFolder folder(paths.matrices);  // destroyed after `outputs`, whose temporaries lie in it
     OutputSet outputs;
     if (!paths.displacements.empty())
         write_displacements(outputs.add(paths.displacements).stream(), *solution.model->body().surface,

@@ -16,7 +16,7 @@
 
 namespace elastolab {
 
-/// What is deformed: a checked surface (mesh/check.hpp) of one or more solids, and what it is made of.
+/// What is deformed: a checked surface (mesh/checks/check.hpp) of one or more solids, and what it is made of.
 struct Body {
     std::string name;  ///< for messages, usually the file name
     std::shared_ptr<const SurfaceMesh> surface;

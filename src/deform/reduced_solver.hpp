@@ -50,8 +50,8 @@ private:
     Columns columns_;
 };
 
-/// The small system of FORMULATION section 2: with W the responses to unit loads, [E; J] the response to unit border
-/// values c and F the border rows of W,
+/// The small system of docs/formulation.md section 2: with W the responses to unit loads, [E; J] the response to unit
+/// border values c and F the border rows of W,
 ///     u = W_u q + E c,    u at the constrained nodes prescribed,    F q + J c = 0,    closing rows [q; c] = 0.
 struct ReducedSystem {
     std::shared_ptr<const Responses> responses;

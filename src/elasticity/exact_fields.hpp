@@ -6,12 +6,12 @@
 
 namespace elastolab {
 
-/// Exact solutions of linear elasticity without body forces (FORMULATION section 6), to measure the methods against.
-/// Each is a value with
+/// Exact solutions of linear elasticity without body forces (docs/formulation.md section 6), to measure the methods
+/// against. Each is a value with
 ///   displacement(x)  3 [L]
 ///   stress(x)        3 x 3, symmetric [force / L^2]; the traction on a plane with outward normal n is stress(x) * n
-/// Those of a bar, a cylinder and a hollow sphere leave the sides named below free of traction. Except where said,
-/// they hold for every Poisson's ratio up to 1/2.
+/// Those of a bar, a cylinder and a hollow sphere leave the sides named below free of traction. They hold for every
+/// Poisson's ratio up to 1/2.
 
 /// u = translation + rotation x x. Free of stress.
 struct RigidMotionField {

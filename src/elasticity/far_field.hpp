@@ -12,8 +12,8 @@ class FarField {
 public:
     explicit FarField(double tolerance);
 
-    /// distance: of the source from the triangle's centroid in units of its longest edge. nullptr: closed form.
-    /// The cheapest way that keeps the tolerance; where none does, the most accurate one.
+    /// The cheapest rule that keeps the tolerance, nullptr for the closed form; where none does, the most accurate one.
+    /// distance: of the source from the triangle's centroid, in units of the triangle's longest edge.
     const GaussRule* rule(double distance) const {
         if (distance >= from_3_) return &gauss_rule_3();
         if (distance >= from_7_) return &gauss_rule_7();

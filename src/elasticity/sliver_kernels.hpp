@@ -6,8 +6,9 @@
 
 namespace elastolab {
 
-/// Closed forms over a sliver, in extended precision (long double): cancellation then costs (edge / altitude)^2 of its
-/// roundings, 1e-11 at 1e-4 with the 64 bits of x86. Slower than the vectorised kernels by far, and slivers are rare.
+/// Closed forms over a sliver, in extended precision (long double): cancellation multiplies its rounding errors by
+/// (edge / altitude)^2, which gives 1e-11 at 1e-4 with the 64 bits of x86. Far slower than the vectorised kernels, but
+/// slivers are rare.
 /// Arguments as in TriangleKernels, for `lanes` sources; `linear`: three shape functions instead of the constant.
 void add_single_layer_of_sliver(const TriangleGeometry& triangle, const SourceLanes& sources, int lanes, bool linear,
                                 double* const* out);

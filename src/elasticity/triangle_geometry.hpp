@@ -6,8 +6,8 @@
 
 namespace elastolab {
 
-/// Prepares one triangle for the kernels. Corners counter-clockwise seen from outside; `index` is what a source names
-/// as its own triangle. The triangle must not be degenerate.
+/// Prepares one triangle for the kernels. Corners counter-clockwise seen from outside; `index` is the number by which a
+/// source in its interior names it (SourceLanes::own_triangle). The triangle must not be degenerate.
 TriangleGeometry make_triangle_geometry(const Eigen::Vector3d& v0, const Eigen::Vector3d& v1, const Eigen::Vector3d& v2,
                                         int index);
 

@@ -22,20 +22,21 @@ struct BasicTriangleGeometry {
 };
 using TriangleGeometry = BasicTriangleGeometry<double>;
 
-/// Altitude over longest edge below which a triangle is a sliver: its closed forms lose (edge / altitude)^2 roundings
-/// by cancellation, so that the kernels evaluate them in extended precision (see sliver_kernels.hpp).
+/// Altitude over longest edge below which a triangle is a sliver: cancellation in its closed forms multiplies rounding
+/// errors by (edge / altitude)^2, so that the kernels evaluate them in extended precision (see sliver_kernels.hpp).
 constexpr double kSliverAltitude = 0.01;
 
-/// Most sources that one kernel call takes.
+/// Largest number of sources in one kernel call.
 constexpr int kMaxLanes = 8;
 
-/// Source (collocation) points, structure of arrays. A kernel reads its first `lanes` entries: pad by repetition.
+/// Source (collocation) points as a structure of arrays. A kernel reads the first `lanes` entries; fewer points are
+/// padded by repeating one.
 struct SourceLanes {
     double x[kMaxLanes], y[kMaxLanes], z[kMaxLanes];
     double own_triangle[kMaxLanes];  ///< index of the triangle in whose interior the point lies, -1 for none
 };
 
-/// Numbers by which a 3 x 3 block of either layer is stored, free of any material constant.
+/// How many numbers store a 3 x 3 block of either layer, free of any material constant:
 ///   single layer, 7:   s, Sxx Syy Szz Sxy Sxz Syz           int phi U = [(3-4nu) s I + S] / (16 pi mu (1-nu))
 ///   double layer, 10:  a, cx cy cz, Sxx Syy Szz Sxy Sxz Syz
 ///                      int phi T = -[(1-2nu) (a I - [c]) + S] / (8 pi (1-nu)),   [c]_ij = eps_ijk c_k
@@ -62,9 +63,9 @@ struct TriangleKernels {
                                   double* const out[1]);
 };
 
-/// The widest kernels that this CPU runs: AVX-512 (8 lanes), AVX2 (4), or plain (1).
+/// The widest kernels that this CPU can run: AVX-512 (8 lanes), AVX2 (4), or plain (1).
 const TriangleKernels& best_triangle_kernels();
-/// One lane, no particular instructions.
+/// One lane, without special instructions.
 const TriangleKernels& plain_triangle_kernels();
 
 }  // namespace elastolab

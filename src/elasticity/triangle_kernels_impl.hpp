@@ -1,8 +1,8 @@
 #pragma once
 
-// Closed forms of FORMULATION section 3, for a vector type B of several doubles (or one double, or one long double).
-// Included by one source per instruction set and by nothing else; everything lives in an unnamed namespace, so that no
-// function compiled for one instruction set can be linked into code for another.
+// Closed forms of docs/formulation.md section 3, for a vector type B of several doubles (or one double, or one long
+// double). Included by one source per instruction set and by nothing else; everything lives in an unnamed namespace, so
+// that no function compiled for one instruction set can be linked into code for another.
 
 #include <cmath>
 #include <concepts>
@@ -69,7 +69,7 @@ struct LocalTensor {
     B xx, yy, zz, xy, xz, yz;
 };
 
-/// What one edge contributes (FORMULATION section 3): h, R^2, L, C, D, [r], [s r].
+/// What one edge contributes (docs/formulation.md section 3): h, R^2, L, C, D, [r], [s r].
 template <class B>
 struct EdgeTerms {
     B h, R2, L, C, D, dr, dsr;
@@ -213,7 +213,7 @@ struct Shape {
 /// Moments of 1/r and rho.../r^3 over the triangle: everything that the single layer needs.
 template <class B>
 struct SingleMoments {
-    B z, z_omega, I, Jx, Jy, Nx, Ny, Qxx, Qxy, Qyy;  ///< FORMULATION section 3
+    B z, z_omega, I, Jx, Jy, Nx, Ny, Qxx, Qxy, Qyy;  ///< docs/formulation.md section 3
     B T111, T112, T122, T222;                        ///< int rho rho rho / r^3
 
     template <bool kLinear>

@@ -17,8 +17,8 @@ namespace elastolab {
 /// Compliance D of one connected solid on its surface nodes: displacements of the surface for loads on the surface,
 /// interior nodes free of load; symmetric. One factorisation; columns by sparse solves, on demand. Keeps no columns.
 ///
-/// Without a base, K is singular and D is the block of the bordered inverse (FORMULATION section 2) of the condensed
-/// stiffness S with B = C = R, the orthonormal rigid modes of the surface nodes:
+/// Without a base, K is singular and D is the block of the bordered inverse (docs/formulation.md section 2) of the
+/// condensed stiffness S with B = C = R, the orthonormal rigid modes of the surface nodes:
 ///   | S   R |^-1   | D    R |
 ///   | R^T 0 |    = | R^T  0 |,     D = S^+ (pseudo-inverse) = P K_g^-1 P,   P = I - R R^T
 /// K_g is K on six statically determinate springs; P e_j is in equilibrium, so that the springs carry nothing and D

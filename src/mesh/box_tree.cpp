@@ -40,7 +40,7 @@ void BoxTree::for_each_close_pair(const std::function<bool(int, int)>& visit) co
         if (!visit_pairs_of(place, visit)) return;
 }
 
-/// Pairs with triangles at later places only, so that each comes once.
+/// Pairs with later triangles only, so that each pair comes once.
 bool BoxTree::visit_pairs_of(int place, const std::function<bool(int, int)>& visit) const {
     const auto at = static_cast<std::size_t>(place);
     std::array<int, 96> stack{};  // the tree is balanced: its depth is below 32

@@ -11,7 +11,7 @@ namespace elastolab {
 /// A binary tree of boxes around the triangles of a mesh.
 class BoxTree {
 public:
-    /// Over these triangles only. Their vertices must be finite.
+    /// A tree of these triangles only. Their vertices must be finite.
     BoxTree(const SurfaceMesh& mesh, std::vector<int> triangles);
 
     /// Calls visit(s, t), once for every pair of triangles whose boxes touch, until it returns false.

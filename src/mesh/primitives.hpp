@@ -11,14 +11,14 @@ namespace elastolab {
 /// Closed, outward-oriented surface meshes made in code. `cells` >= 1 counts cells along the shortest edge (boxes) or
 /// around a quarter turn (the others).
 
-/// [0, size] from the origin, 6 cells^2 + 2 vertices when it is a cube. Longer edges have proportionally more cells,
-/// rounded. Its diagonals alternate, so that no direction is preferred.
+/// Spans [0, size]; a cube has 6 cells^2 + 2 vertices. Longer edges have proportionally more cells, rounded. Diagonals
+/// alternate, so that no direction is preferred.
 SurfaceMesh make_box(int cells, const Eigen::Vector3d& size = Eigen::Vector3d::Ones());
 /// Centred at the origin, subdivided octahedron (4 cells^2 + 2 vertices); all vertices on the sphere.
 SurfaceMesh make_sphere(int cells, double radius = 1.0);
 /// Centred at the origin, axis z, flat caps of concentric rings.
 SurfaceMesh make_cylinder(int cells, double radius = 0.5, double height = 2.0);
-/// Centred at the origin, axis z; 4 cells around the ring, and as many around the tube as makes them square.
+/// Centred at the origin, axis z; 4 * `cells` around the ring, and as many around the tube as make them square.
 SurfaceMesh make_torus(int cells, double ring_radius = 1.0, double tube_radius = 0.35);
 /// Two concentric spheres; the inner one faces inward (a cavity).
 SurfaceMesh make_hollow_sphere(int cells, double outer_radius = 1.0, double inner_radius = 0.5);

@@ -13,8 +13,8 @@ struct Solid {
     std::vector<int> triangles;  ///< triangle of the whole mesh, for each triangle of `surface`, ascending
 };
 
-/// Splits a closed, consistently oriented mesh (mesh/check.hpp) into its solids: every component that faces outward
-/// begins one, every component that faces inward is a cavity of the innermost outward one around it.
+/// Splits a closed, consistently oriented mesh (mesh/checks/check.hpp) into its solids: every component that faces
+/// outward begins one, every component that faces inward is a cavity of the innermost outward one around it.
 std::vector<Solid> split_solids(const SurfaceMesh& mesh);
 
 }  // namespace elastolab

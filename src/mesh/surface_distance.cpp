@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// -cos of the angle from which on two sides face each other.
+/// Two sides face each other when the cosine of the angle between their normals is below minus this.
 constexpr double kFacing = 0.5;
 
 double distance_to_segment(const Vector3d& x, const Vector3d& a, const Vector3d& b) {
@@ -20,7 +20,7 @@ double distance_to_segment(const Vector3d& x, const Vector3d& a, const Vector3d&
     return (x - a - s * edge).norm();
 }
 
-/// A triangle in its ball.
+/// A triangle and a ball around it.
 struct Ball {
     Vector3d centre, normal;
     double radius, longest_edge;

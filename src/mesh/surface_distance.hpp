@@ -17,8 +17,8 @@ struct Approach {
     double ratio = std::numeric_limits<double>::infinity();  ///< distance / longest edge of the triangle opposite
     int vertex = -1;
 };
-/// Over all vertices and triangles that do not share it and face the opposite way (normals more than 120 degrees
-/// apart), as far as they are closer than an edge. Compares all pairs: a fraction of an assembly.
+/// The closest approach of any vertex to a triangle that does not contain it and faces the opposite way (normals more
+/// than 120 degrees apart), if closer than an edge. Compares all pairs: a fraction of an assembly.
 Approach closest_facing_approach(const SurfaceMesh& mesh);
 
 /// Two parts of a mesh that come closer than `distance`, and a vertex there.

@@ -13,7 +13,7 @@ using Triangles = Eigen::Matrix3Xi;
 /// Vertex numbers, one tetrahedron a column: 4 x n_tetrahedra, positively oriented: det(v1-v0, v2-v0, v3-v0) > 0.
 using Tetrahedra = Eigen::Matrix4Xi;
 
-/// A triangulated surface. Whether it bounds a solid is what mesh/check.hpp says.
+/// A triangulated surface. Whether it bounds a solid is checked by mesh/checks/check.hpp.
 struct SurfaceMesh {
     Positions vertices;
     Triangles triangles;

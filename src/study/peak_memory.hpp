@@ -4,7 +4,7 @@
 
 namespace elastolab {
 
-/// Memory that this process has taken at most since construction, beyond what it held then. Free memory is given back
+/// The most memory that this process has taken since construction, beyond what it held then. Free memory is given back
 /// to the system first and the system's peak is reset, so that what was used before does not count. Helper processes
 /// (TetGen) are not included.
 class PeakMemory {

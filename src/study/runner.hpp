@@ -15,13 +15,13 @@ namespace elastolab {
 struct RunSettings {
     std::filesystem::path folder;
     StudyOptions options;
-    bool fresh = false;        ///< do not go on with a stopped run
-    bool report_only = false;  ///< run nothing: plots and report from the STUDY.csv that is there
+    bool fresh = false;        ///< do not resume a stopped run
+    bool report_only = false;  ///< run nothing: plots and report from the existing STUDY.csv
     /// Called after each case with its key and seconds (0: finished in an earlier run).
     std::function<void(const std::string& key, double seconds)> on_case = [](const std::string&, double) {};
 };
 
-/// What a run left behind.
+/// What a run has produced.
 struct RunResult {
     Table table;
     std::vector<std::filesystem::path> files;
@@ -29,7 +29,7 @@ struct RunResult {
 };
 
 /// Runs the cases that are not finished yet, then writes STUDY.csv, plots with their scripts, and README.md. Until all
-/// cases are done they are kept in STUDY.partial.csv, from which the next run goes on when program, machine, threads,
+/// cases are done they are kept in STUDY.partial.csv, from which the next run resumes when program, machine, threads,
 /// seed and options are the same.
 ///
 /// STUDY.csv: a header, the study's columns, `note`, then those of provenance().

@@ -12,9 +12,8 @@ namespace elastolab {
 
 /// What a study is asked for.
 struct StudyOptions {
-    bool quick = false;  ///< under a minute, to see that it works
-    unsigned seed = 1;   ///< of the known nodes of `paper` and the edits of `stability`; all other meshes and sets are
-                         ///< always the same
+    bool quick = false;  ///< small sizes, under a minute: to see that it works
+    unsigned seed = 1;   ///< of the known nodes of `paper` and the edits of `stability`; all else is always the same
 };
 
 /// One measurement of a study, independent of all others.

@@ -15,8 +15,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Where the ray origin + s direction, s > 0, meets the triangle; infinity if nowhere. Edges are taken generously: a
-/// ray that slips through between two triangles would overestimate the hole.
+/// The s > 0 at which the ray origin + s direction meets the triangle; infinity if nowhere. Edges are widened a little:
+/// a ray that slipped through between two triangles would overestimate the hole.
 double ray_hit(const Vector3d& origin, const Vector3d& direction, const TrianglePoints& p) {
     constexpr double kNever = std::numeric_limits<double>::infinity(), kEdgeTolerance = 1e-9;
     const Vector3d ab = p.b - p.a, ac = p.c - p.a, q = direction.cross(ac);

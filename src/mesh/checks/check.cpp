@@ -51,7 +51,7 @@ Defect no_triangles() {
     return defect;
 }
 
-/// Turns round what can be turned and looks at the surface as a whole; needs finite coordinates.
+/// Repairs orientation where that is possible and inspects the surface as a whole; needs finite coordinates.
 void inspect_as_a_whole(SurfaceMesh& mesh, const EdgeTable& edges, const Components& components, MeshReport& report) {
     repair_orientation(mesh, edges, components, report);
     const CrossingPairs crossings = find_crossing_pairs(mesh);

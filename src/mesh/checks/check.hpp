@@ -26,7 +26,7 @@ struct Defect {
     std::string text;  ///< "12 open edges near (0, 1, 0), so it bounds no solid. Fill the holes and reload."
 };
 
-/// What a mesh is.
+/// Facts about a mesh, and its defects.
 struct MeshReport {
     std::vector<Defect> defects;
     int n_components = 0;  ///< connected surfaces
@@ -42,7 +42,7 @@ struct MeshReport {
     bool usable_for_fem() const;  ///< nor one that is fatal for FEM
 };
 
-/// A mesh with its inconsistent or inside-out parts turned round, and the report on it (which keeps what was repaired).
+/// A mesh whose inconsistent or inside-out parts were turned round, and the report on it, repairs included.
 struct CheckedMesh {
     SurfaceMesh mesh;
     MeshReport report;

@@ -33,7 +33,7 @@ std::string counted(int count, const std::string& one, const std::string& many,
 
 void report_non_finite(const SurfaceMesh& mesh, MeshReport& report);
 void report_unreferenced(const SurfaceMesh& mesh, MeshReport& report);
-/// Triangles of two equal vertices; these are then left out of what looks at edges.
+/// Triangles with two equal vertices; inspections of edges then leave them out.
 void report_collapsed(const SurfaceMesh& mesh, MeshReport& report);
 void report_edges(const SurfaceMesh& mesh, const EdgeTable& edges, MeshReport& report);
 void report_hinges(const SurfaceMesh& mesh, MeshReport& report);

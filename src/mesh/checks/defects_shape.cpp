@@ -3,8 +3,8 @@
 
 #include "mesh/box_tree.hpp"
 #include "mesh/checks/defects.hpp"
-#include "mesh/measures.hpp"
 #include "mesh/checks/triangle_contact.hpp"
+#include "mesh/measures.hpp"
 
 namespace elastolab {
 
@@ -49,8 +49,8 @@ void report_shapes(const SurfaceMesh& mesh, MeshReport& report) {
 }
 
 CrossingPairs find_crossing_pairs(const SurfaceMesh& mesh) {
-    constexpr std::size_t kMostPairs = 100000;  // a mesh with more is hopeless, and could have n^2 of them
-    // The exact predicates want numbers far from over- and underflow; a power of two changes no digit.
+    constexpr std::size_t kMostPairs = 100000;  // a mesh with more is beyond repair, and could have n^2 of them
+    // The exact predicates need numbers far from over- and underflow; scaling by a power of two changes no digit.
     const double size = std::max(mesh.vertices.cwiseAbs().maxCoeff(), 1e-300);
     const SurfaceMesh unit{mesh.vertices * std::ldexp(1.0, -std::ilogb(size)), mesh.triangles};
     std::vector<int> sound;

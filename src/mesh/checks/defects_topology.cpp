@@ -14,7 +14,7 @@ Vector3d center(const SurfaceMesh& mesh, int t) {
     return (mesh.vertices.col(v[0]) + mesh.vertices.col(v[1]) + mesh.vertices.col(v[2])) / 3.0;
 }
 
-/// Whether the triangles around a vertex form more than one fan. Neighbours in a fan share a vertex beside this one.
+/// Whether the triangles around a vertex form more than one fan. Neighbours in a fan share a second vertex.
 bool is_hinge(const SurfaceMesh& mesh, int vertex, std::span<const int> around) {
     std::vector<int> reached{0};
     std::vector<bool> seen(around.size(), false);

@@ -1,6 +1,7 @@
 #pragma once
 
-// For the helper programs only: their side of the socket to the caller (mesh/child_process.hpp), and how they begin.
+// For the helper programs only: their side of the socket to the caller (mesh/input/child_process.hpp), and how they
+// begin.
 
 #include <sys/prctl.h>
 #include <sys/resource.h>

@@ -8,7 +8,7 @@ namespace elastolab {
 
 /// Reads a triangle mesh from any format that assimp reads (OBJ, PLY, STL, OFF, glTF, ...): all meshes of the scene in
 /// world coordinates, polygons triangulated, points and lines ignored, vertices at exactly equal places merged (-0
-/// equals 0), vertices that no triangle uses dropped. Does not judge the result; that is mesh/check.hpp, which also
+/// equals 0), vertices that no triangle uses dropped. Does not judge the result: check_and_repair() does, and also
 /// reports coordinates that are not finite. Vertices are numbered in the order of first appearance in the file: of the
 /// vertex list for OBJ, PLY and OFF, of the triangles' corners for STL, of the meshes in the order of the scene's nodes
 /// for formats that have such. assimp keeps coordinates as 32-bit floats, about 7 digits; equality means equality of

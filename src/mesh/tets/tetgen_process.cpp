@@ -39,7 +39,7 @@ std::string request_bytes(const SurfaceMesh& surface, const Positions& holes, co
     return bytes;
 }
 
-/// Last line that TetGen printed with something like a reason in it.
+/// The last line of TetGen's output that looks like a reason.
 std::string reason_in(const std::string& output) {
     std::string reason;
     for (std::size_t begin = 0; begin < output.size();) {

@@ -118,7 +118,7 @@ std::string flaw(const TetMesh& mesh, const SurfaceMesh& solid) {
     return "";
 }
 
-/// Why TetGen need not even be asked: on such input it crashes, or never ends.
+/// Why TetGen is not even called: on such input it crashes, or never ends.
 std::string obstacle(const SurfaceMesh& solid) {
     if (solid.n_triangles() == 0) return "it has no triangle";
     if (!solid.vertices.allFinite()) return "it has vertices that are not finite";
@@ -134,7 +134,7 @@ std::string message(const std::string& name, const std::string& finding) {
            ". Repair or remesh the surface, or choose a boundary-element method.";
 }
 
-/// Why TetGen has failed: a crossing that our own search finds tells more than TetGen, which then tends to crash.
+/// Why TetGen has failed: a crossing found by our own search says more than TetGen, which tends to crash then.
 std::string reason(const SurfaceMesh& solid, const std::string& finding) {
     const CrossingPairs crossings = find_crossing_pairs(solid);
     if (crossings.pairs.empty()) return finding;
@@ -159,7 +159,7 @@ TetMesh tetrahedralize(const SurfaceMesh& solid, const std::string& name, const 
     const UnitBox box(solid.vertices);
     const SurfaceMesh unit{box.to_unit(solid.vertices), solid.triangles};
     const Positions holes = cavity_points(unit);
-    // The second tolerance is for fine detail that the first, TetGen's own, takes for coincidence.
+    // The second tolerance is for fine detail that TetGen's default, the first, takes for coincident.
     for (const double tolerance : {1e-8, 1e-13}) {
         TetgenResult result = run_tetgen(unit, holes, switches(options, mean_edge(unit), tolerance), control);
         if (result.failure.empty()) {

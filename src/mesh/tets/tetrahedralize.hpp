@@ -19,8 +19,8 @@ struct TetOptions {
 };
 
 /// Fills one solid (an outer surface and its cavities) with tetrahedra. The surface's vertices and triangles are kept
-/// as they are; no vertex is added on the surface. TetGen runs in a process of its own, so that an abort or crash of it
-/// (self-intersecting input) is an error here and nothing worse.
+/// as they are; no vertex is added on the surface. TetGen runs in a process of its own, so that its
+/// abort or crash (self-intersecting input) is an error here and nothing worse.
 /// Throws MeshError, naming `name`, when TetGen finds the surface unusable, crashes or runs out of memory; Cancelled.
 TetMesh tetrahedralize(const SurfaceMesh& solid, const std::string& name, const TetOptions& options, Control& control);
 

@@ -38,8 +38,8 @@ std::vector<Variant> main_variants(bool quick) {
             {"linear-bem continuous", with_tractions(Tractions::continuous), up_to(12, quick)}};
 }
 
-/// Problems are made once, however many methods ask for them one after the other; the truth of an organic body takes
-/// far longer than what is measured.
+/// Makes each problem once for all methods that ask for it in turn: the truth of an organic body takes far longer than
+/// what is measured.
 class ProblemStore {
 public:
     std::shared_ptr<const Problem> get(const std::string& family, int size, double nu) {
@@ -97,7 +97,7 @@ void add_refinements(CaseList& cases, bool quick) {
     }
 }
 
-/// What linear elements hold exactly, at one size.
+/// Fields that linear elements represent exactly, at one size.
 void add_reproduced(CaseList& cases, bool quick) {
     for (const ProblemFamily& family : problem_families())
         for (const Variant& variant : main_variants(quick))

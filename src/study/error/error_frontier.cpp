@@ -10,7 +10,7 @@ namespace elastolab {
 
 namespace {
 
-/// The first mesh fine enough, or between it and the one before.
+/// Interpolated between the first mesh that is fine enough and the one before.
 double reach(const std::vector<double>& error, const std::vector<double>& quantity, double target) {
     for (std::size_t i = 0; i < error.size(); ++i) {
         if (!(error[i] <= target)) continue;

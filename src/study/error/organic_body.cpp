@@ -33,8 +33,8 @@ struct Shape {
     }
 };
 
-/// n of many random points, each as far as can be from those before it, distances measured on the shape: even but
-/// irregular spacing there.
+/// n of many random points, each as far as possible from those before it, by distances on the shape: spaced evenly but
+/// irregularly there.
 Positions spread_directions(const Shape& shape, int n) {
     std::mt19937 random(11);
     std::normal_distribution<double> normal;
@@ -76,7 +76,8 @@ std::vector<int> patch(const SurfaceMesh& mesh, const std::function<bool(const E
     return vertices;
 }
 
-/// `tip`: direction of the pulled bump; the cap reaches `cap` from its summit, the base `foot` of the height up.
+/// `tip`: direction of the pulled bump. The cap is within `cap` of its summit; the base is the lowest part, `foot` of
+/// the height.
 OrganicBody make_body(std::string name, const Shape& shape, int n, const Eigen::Vector3d& tip, double cap,
                       double foot) {
     OrganicBody body{std::move(name), make_surface(shape, n), {}, {}, tip.normalized()};

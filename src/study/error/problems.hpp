@@ -23,7 +23,7 @@ struct Problem {
     double largest_error(const Eigen::VectorXd& u) const;
 };
 
-/// Problems of one kind in all sizes. Their sides are free of traction but where they are constrained.
+/// Problems of one kind in all sizes. Their surface is free of traction except where it is constrained.
 ///   rotation            bar of 2 x 1 x 1, vertices moved at random, both ends turned by the same rotation
 ///   stretch             the same bar pulled along its axis
 ///   bending             bar of 2 x 1 x 1 in pure bending, both ends prescribed
@@ -37,7 +37,7 @@ struct ProblemFamily {
     std::string name;
     std::string truth;  ///< how the truth is known, in words
     bool organic = false;
-    bool reproduced = false;  ///< the field lies within linear elements: all that is left is rounding
+    bool reproduced = false;  ///< linear elements represent the field exactly: the error is rounding
     /// `size`: cells of the primitive, or vertices of an organic body.
     std::function<Problem(int size, double poisson_ratio)> make;
 };

@@ -67,8 +67,8 @@ int n_constrained_nodes(const SurfaceMesh& mesh, MethodKind kind, const std::vec
     return static_cast<int>(constrain_triangles(mesh, VertexTriangles(mesh), vertices).nodes.size());
 }
 
-/// A share of the vertices; by constant BEM so few that they constrain that share of its nodes, the triangles: a vertex
-/// by itself constrains all around it.
+/// A share of the vertices; for constant BEM as few as constrain that share of its nodes, the triangles: a lone vertex
+/// constrains all triangles around it.
 std::vector<int> choose_vertices(const SurfaceMesh& mesh, MethodKind kind, double share, unsigned seed) {
     const int n = mesh.n_vertices();
     if (kind != kConstantBem) return choose_share(n, share, seed);
@@ -150,7 +150,7 @@ std::vector<int> sizes(MethodKind kind, bool paper_way, bool quick) {
     return cells;
 }
 
-/// Nodes cubed, but for what every case costs.
+/// Nodes cubed, plus what every case costs.
 double weight_of(MethodKind kind, int cells, bool paper_way) {
     const double vertices = 6.0 * cells * cells, inside = (cells - 1.0) * (cells - 1.0) * (cells - 1.0);
     const double nodes = kind == kFem ? vertices + inside : kind == kConstantBem ? 2.0 * vertices : vertices;

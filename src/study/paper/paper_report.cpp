@@ -40,7 +40,7 @@ Row our_update(const std::string& method, const std::string& update, const std::
     return Row(paper_update(method, update, share)).set("way", std::string("ours"));
 }
 
-/// Vertices from which on `a` is above `b`, for good; nothing when that never happens or the last one is below again.
+/// The number of vertices above which `a` stays above `b`; nothing when there is none.
 double crossing(const Curve& a, const Curve& b) {
     double found = kNone, before = kNone, at_before = kNone;
     for (std::size_t i = 0; i < a.vertices.size(); ++i) {
@@ -57,7 +57,7 @@ double crossing(const Curve& a, const Curve& b) {
     return found;
 }
 
-/// The largest cube that all three methods did in the paper's way.
+/// The largest cube on which all three methods were run in the paper's way.
 double common_vertices(const Table& table) {
     double common = std::numeric_limits<double>::max();
     for (const std::string& method : kMethods)
@@ -67,7 +67,7 @@ double common_vertices(const Table& table) {
 
 using Claim = std::vector<std::string>;
 
-/// "holds", "does not hold" or for which of some things it holds.
+/// "holds", "does not hold", or for which of several it holds.
 std::string verdict(const std::vector<std::string>& for_these, std::size_t of) {
     if (for_these.size() == of) return "holds";
     if (for_these.empty()) return "does not hold here";
@@ -76,7 +76,7 @@ std::string verdict(const std::vector<std::string>& for_these, std::size_t of) {
     return text;
 }
 
-/// From how many vertices on FEM has more nodes, inside ones included, than constant BEM has triangles.
+/// The number of vertices above which FEM has more nodes, inside ones included, than constant BEM has triangles.
 std::string node_crossing(const Table& table) {
     const double at = crossing(curve(table, paper_precompute("fem"), "nodes"),
                                curve(table, paper_precompute("constant-bem"), "nodes"));
@@ -117,12 +117,12 @@ Claim share_claim(const Table& table) {
         }
         measured += method + " " + times(seconds[1] / seconds[0]) + (method == kMethods.back() ? "" : ", ");
     }
-    // The paper's precomputation takes no set of known nodes as an input: nothing was measured that could differ.
+    // The paper's precomputation does not take the set of known nodes as input, so that nothing measured could differ.
     return {"Precomputation is independent of the share of known nodes", "holds, by construction", measured,
             "K and K^-1 are computed over all nodes. What is computed on demand is not: it is paid per known vertex"};
 }
 
-/// Vertices from which on linear BEM takes at most this part of another method's time.
+/// The number of vertices above which linear BEM takes at most this part of another method's time.
 std::string reaches(const Table& table, const std::string& method, double part) {
     Curve linear = curve(table, paper_precompute("linear-bem"), "precompute_s");
     for (double& seconds : linear.seconds) seconds /= part;

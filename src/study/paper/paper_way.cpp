@@ -55,7 +55,7 @@ struct Collapsed {
     }
 };
 
-/// Known displacements without a meaning but that they are smooth in the node number.
+/// Known displacements, arbitrary but smooth in the node number.
 Eigen::VectorXd some_values(std::size_t n_nodes) {
     Eigen::VectorXd values(3 * static_cast<Eigen::Index>(n_nodes));
     for (Eigen::Index i = 0; i < values.size(); ++i) values[i] = std::sin(0.1 * static_cast<double>(i));

@@ -14,7 +14,7 @@ namespace elastolab {
 /// continuous tractions, FEM its interior nodes.
 struct PaperSystem {
     std::shared_ptr<const DenseOperators> operators;
-    double seconds = 0.0;  ///< of the whole precomputation, from the surface on
+    double seconds = 0.0;  ///< of the whole precomputation, beginning with the surface
 
     int n_nodes() const { return static_cast<int>(operators->K.rows() / 3); }
 };

@@ -11,18 +11,18 @@
 
 namespace elastolab {
 
-/// The finished cases of a study that has not come to its end, in a file: each case's rows are there completely or not
-/// at all, so that a stopped or crashed study goes on where it was.
+/// The finished cases of an unfinished study, in a file: a case's rows are there completely or not at all, so that a
+/// stopped or crashed study resumes where it was.
 class Journal {
 public:
-    /// `fingerprint`: whatever must be the same for rows to be worth keeping. Those of another are dropped.
+    /// `fingerprint`: what must be the same for rows to be kept. Rows with another one are dropped.
     /// Throws Error when the file cannot be written.
     Journal(std::filesystem::path file, const std::string& fingerprint);
 
     int n_finished() const { return static_cast<int>(finished_.size()); }
     /// The rows of a case, when it is finished.
     std::optional<std::vector<Row>> find(const std::string& key) const;
-    /// Throws Error, when the disk is full.
+    /// Throws Error, say when the disk is full.
     void add(const std::string& key, const std::vector<Row>& rows);
     /// Removes the file.
     void remove();

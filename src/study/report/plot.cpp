@@ -25,7 +25,7 @@ std::string quoted(const std::string& text) {
     return result + "'";
 }
 
-/// A gnuplot expression that is the column where the row is wanted, else missing.
+/// A gnuplot expression: the value of the column in rows that are wanted, a missing value in others.
 std::string selected(const Series& series, const std::string& column) {
     std::string condition;
     for (const auto& [name, text] : series.where.cells())
@@ -58,7 +58,7 @@ fs::path find_program(const std::string& name) {
     return {};
 }
 
-/// What is between choosing the kind of picture and closing it.
+/// What is drawn, between the choice of the terminal and the end of the output.
 std::string drawing(const Plot& plot, const std::string& csv) {
     if (!plot.body.empty()) return plot.body;
     std::ostringstream out;

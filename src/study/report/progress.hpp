@@ -7,7 +7,7 @@
 
 namespace elastolab {
 
-/// How far a study is.
+/// How far a study has come.
 struct StudyState {
     int n_cases = 0, n_done = 0;
     std::string current;  ///< key of the case that runs

@@ -8,7 +8,7 @@ namespace elastolab {
 
 namespace {
 
-/// Numbers that there are none of are dashes.
+/// Dashes stand for missing numbers.
 std::string dash_or(const char* format, double value) { return std::isfinite(value) ? formatted(format, value) : "-"; }
 
 std::string markdown_line(const std::vector<std::string>& fields) {

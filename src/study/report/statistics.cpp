@@ -71,7 +71,7 @@ double median_seconds(const std::function<void()>& work, double budget, int most
 }
 
 double median_seconds_of_short(const std::function<void()>& work, double budget) {
-    // A batch is long beside the clock; one run by itself may have been interrupted.
+    // A batch is long compared with the resolution of the clock; a single run may have been interrupted.
     int runs = 1;
     for (double seconds = 0.0; seconds < 1e-3 && runs < 16384; runs *= 2) {
         const Stopwatch watch;

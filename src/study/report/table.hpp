@@ -10,7 +10,7 @@
 
 namespace elastolab {
 
-/// Names with values, as text; the order is that of setting.
+/// Names with values, as text, in the order in which they were set.
 class Row {
 public:
     Row() = default;
@@ -20,7 +20,7 @@ public:
     /// Six significant digits; nothing when it is not a number.
     Row& set(std::string_view column, double value);
     Row& set(std::string_view column, std::integral auto value) { return set(column, std::to_string(value)); }
-    /// Sets all cells of `other`, those that are here already included.
+    /// Sets all cells of `other`, and overwrites those that are here already.
     Row& add(const Row& other);
 
     /// Empty when the column is not set.
@@ -47,7 +47,7 @@ struct Table {
     std::vector<double> numbers(std::string_view column) const;
 };
 
-/// Several messages as the text of one cell, apart by semicolons.
+/// Several messages as the text of one cell, separated by semicolons.
 std::string joined(const std::vector<std::string>& messages);
 
 /// One line of CSV (RFC 4180: fields with commas, quotes or line breaks are quoted; line breaks become spaces).
@@ -57,7 +57,7 @@ std::vector<std::string> csv_fields(std::string_view line);
 
 /// Header, then a line for each row.
 void write_csv(std::ostream& out, const Table& table);
-/// What write_csv wrote.
+/// Reads what write_csv wrote.
 Table read_csv(std::istream& in);
 
 }  // namespace elastolab

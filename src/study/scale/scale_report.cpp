@@ -39,7 +39,7 @@ std::string growth_table(const Table& table) {
                           lines);
 }
 
-/// What a prediction is of. FEM on demand factorises when a set is known, and its prediction includes that.
+/// What is predicted. FEM on demand factorises when a set is known, and its prediction includes that.
 double measured(const Row& row, const std::string& of) {
     const bool with_set = row.text("method") == "fem" && row.text("mode") == "on-demand";
     if (of == "bytes") return row.number(with_set ? "with_set_bytes" : "measured_bytes");

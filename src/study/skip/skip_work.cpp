@@ -20,7 +20,7 @@ Method changed(Method method, Mode mode, Update update = Update::reduced) {
     return method;
 }
 
-/// Mesh to a constrained set in a mode.
+/// From the mesh to a constrained set, in one mode.
 Seconds ready_in(Mode mode, Update update = Update::reduced) {
     return [=](const SkipScene& scene) {
         return timed([&] { scene.ready(scene.model(changed(scene.method, mode, update))); });
@@ -74,7 +74,7 @@ double unknown_columns(const SkipScene& scene) {
     return median(seconds);
 }
 
-/// Another material on a model that is there.
+/// Another material for an existing model.
 Seconds again_with(double E, double nu, bool keep_integrals) {
     return [=](const SkipScene& scene) {
         Method method = scene.method;
@@ -84,7 +84,7 @@ Seconds again_with(double E, double nu, bool keep_integrals) {
     };
 }
 
-/// Another base on a model that is there; on a fresh one every time, which knows no column of it yet.
+/// Another base for an existing model; each time for a fresh one, which has none of its columns yet.
 double base_on_known_model(const SkipScene& scene) {
     ConstrainedSet other = scene.set;
     other.handles.push_back(other.base.back());
@@ -99,7 +99,7 @@ double base_on_known_model(const SkipScene& scene) {
     return median(seconds);
 }
 
-/// Handles change while the base stays, and is known to be the base or not.
+/// Handles change while the base stays; with the base named as such, or among the handles.
 Seconds handles_change(bool base_is_known) {
     return [=](const SkipScene& scene) {
         const auto model = scene.model(scene.method);

@@ -31,7 +31,7 @@ void add_sweeps(std::vector<Case>& cases, bool quick) {
             }
 }
 
-/// What ends in an error is a row that failed: neither right nor refused with a reason.
+/// An attempt that ends in an error is a failed row: neither right nor refused with a reason.
 Row or_failed(const std::function<Row()>& work, Control& control) {
     try {
         return work();

@@ -31,7 +31,7 @@ struct StressVariant {
 std::vector<StressVariant> stress_variants();
 
 /// Largest error of a vertex, over the largest displacement, up to which an answer counts as right: 10 %, and 25 % for
-/// constant BEM, whose elements are of first order. Whoever looks at the body would not see less.
+/// constant BEM, whose elements are of first order. The eye would hardly notice less.
 double allowed_error(MethodKind kind);
 
 /// Checks the mesh, precomputes, constrains, solves and collects whatever the program says, as `solve` does:

@@ -54,7 +54,7 @@ private:
     Eigen::VectorXd values_;
 };
 
-/// Gives the thread count back at the end.
+/// Restores the thread count at the end.
 class RestoredThreads {
 public:
     RestoredThreads() = default;

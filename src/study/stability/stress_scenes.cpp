@@ -155,7 +155,7 @@ Problem barely_held(double distance) {
     return problem;
 }
 
-/// So many vertices of a corner of a cube held and turned: one, two and three on a line hold nothing.
+/// This many vertices at a corner of a cube, held and turned: one, two, or three on a line do not hold it.
 Problem few_held(double n) {
     const SurfaceMesh mesh = make_box(4);
     const std::vector<Eigen::Vector3d> places = {{0, 0, 0}, {1, 0, 0}, {0.5, 0, 0}, {0, 1, 0}, {0, 0, 1}};
