@@ -1,7 +1,8 @@
 #include "fem/constraints.hpp"
 
 #include <cassert>
-#include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <vector>
 
 namespace elastolab {
@@ -42,9 +43,12 @@ bool holds(const Positions& positions, std::span<const int> nodes) {
     Eigen::Matrix3Xd points(3, std::ssize(nodes));
     for (std::size_t i = 0; i < nodes.size(); ++i) points.col(static_cast<Eigen::Index>(i)) = positions.col(nodes[i]);
     points.colwise() -= points.rowwise().mean().eval();
-    // Off a line means a second direction of spread: the second singular value.
-    const Eigen::Vector3d spread = Eigen::JacobiSVD<Eigen::Matrix3Xd>(points).singularValues();
-    return spread[1] > kLeastSpread * body;
+    // Off a line means a second direction of spread. Its square is known to 1e-16 of the largest, the least that counts
+    // is 1e-12 of the body's.
+    const Eigen::Matrix3d squared = points * points.transpose();
+    const Eigen::Vector3d ascending =
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(squared, Eigen::EigenvaluesOnly).eigenvalues();
+    return ascending[1] > kLeastSpread * kLeastSpread * body * body;
 }
 
 StaticSupport choose_support(const Positions& positions, int n_candidates) {
