@@ -6,14 +6,14 @@ namespace elastolab {
 
 namespace {
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
+std::size_t as_size(int i) { return static_cast<std::size_t>(i); }
 
 constexpr Sources::Weight kUnused{-1, 0.0};
 
 }  // namespace
 
 Boundary::Boundary(const SurfaceMesh& mesh) : mesh_(mesh) {
-    triangles_.reserve(index(mesh.n_triangles()));
+    triangles_.reserve(as_size(mesh.n_triangles()));
     for (int t = 0; t < mesh.n_triangles(); ++t) {
         const Eigen::Vector3i v = mesh.triangles.col(t);
         triangles_.push_back(
@@ -26,15 +26,15 @@ Sources Sources::subset(std::span<const int> numbers) const {
     some.points.resize(3, static_cast<Eigen::Index>(numbers.size()));
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         some.points.col(static_cast<Eigen::Index>(i)) = points.col(numbers[i]);
-        some.own_triangle.push_back(own_triangle[index(numbers[i])]);
-        some.weights.push_back(weights[index(numbers[i])]);
+        some.own_triangle.push_back(own_triangle[as_size(numbers[i])]);
+        some.weights.push_back(weights[as_size(numbers[i])]);
     }
     return some;
 }
 
 Sources vertex_sources(const Boundary& boundary) {
     const int n = boundary.mesh().n_vertices();
-    Sources sources{boundary.mesh().vertices, std::vector<int>(index(n), -1), {}};
+    Sources sources{boundary.mesh().vertices, std::vector<int>(as_size(n), -1), {}};
     for (int v = 0; v < n; ++v) sources.weights.push_back({Sources::Weight{v, 1.0}, kUnused, kUnused});
     return sources;
 }
@@ -54,7 +54,7 @@ Sources linear_centroid_sources(const Boundary& boundary) {
     Sources sources = centroid_sources(boundary);
     for (int t = 0; t < boundary.n_triangles(); ++t)
         for (int corner = 0; corner < 3; ++corner)
-            sources.weights[index(t)][index(corner)] = {boundary.mesh().triangles(corner, t), 1.0 / 3.0};
+            sources.weights[as_size(t)][as_size(corner)] = {boundary.mesh().triangles(corner, t), 1.0 / 3.0};
     return sources;
 }
 
@@ -71,7 +71,7 @@ Sources interior_sources(const Boundary& boundary, std::span<const int> triangle
             Eigen::Vector3d point = Eigen::Vector3d::Zero();
             for (int i = 0; i < 3; ++i) {
                 point += barycentric[i] * boundary.mesh().vertices.col(v[i]);
-                weights[index(i)] = {v[i], barycentric[i]};
+                weights[as_size(i)] = {v[i], barycentric[i]};
             }
             sources.points.col(next++) = point;
             sources.own_triangle.push_back(t);

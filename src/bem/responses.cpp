@@ -9,7 +9,7 @@ namespace elastolab {
 namespace {
 
 /// Columns per product with a strip of equations.
-constexpr Eigen::Index kColumnsAtOnce = 384;
+constexpr Eigen::Index kStripColumns = 384;
 
 }  // namespace
 
@@ -43,8 +43,8 @@ void BemResponses::add_closing(const Columns& columns, Eigen::Index first, Eigen
     for_source_strips(interior_sources(system_->boundary(), plan_.interior_triangles),
                       [&](int source, const Sources& strip) {
                           const Eigen::MatrixXd A = system_->double_layer(strip, control);
-                          for (Eigen::Index c = 0; c < columns.cols(); c += kColumnsAtOnce) {
-                              const Eigen::Index count = std::min(kColumnsAtOnce, columns.cols() - c);
+                          for (Eigen::Index c = 0; c < columns.cols(); c += kStripColumns) {
+                              const Eigen::Index count = std::min(kStripColumns, columns.cols() - c);
                               rows.block(3 * source, first + c, A.rows(), count).noalias() =
                                   A * columns.middle(c, count).topRows(A.cols());
                           }
@@ -99,7 +99,7 @@ Responses::Particular BemResponses::particular(const Eigen::VectorXd& residual, 
 std::uint64_t response_memory(const BemSystem& system, const LoadPlan& plan) {
     const auto rows = 3 * static_cast<std::uint64_t>(system.n_nodes()) + 6;
     const auto unknowns = static_cast<std::uint64_t>(plan.n_unknowns());
-    const std::uint64_t strips = 3 * kSourcesAtOnce * (rows + unknowns) + 2 * kColumnsAtOnce * rows;
+    const std::uint64_t strips = 3 * kSourcesAtOnce * (rows + unknowns) + 2 * kStripColumns * rows;
     return 8 * ((unknowns + 6) * (unknowns + 6) + strips) +
            (system.keeps(plan) ? 8 * rows * unknowns : system.cache_budget() / 2);
 }

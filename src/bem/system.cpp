@@ -10,14 +10,14 @@ namespace elastolab {
 namespace {
 
 /// Columns solved or multiplied at once: large enough for BLAS-3, small beside the matrix, often enough to cancel.
-constexpr Eigen::Index kColumnsAtOnce = 384;
+constexpr Eigen::Index kRightSidesAtOnce = 384;
 /// Condition of G above which K = G^-1 H has fewer than six digits.
 constexpr double kPoorCondition = 4.5e9;
 
 /// X <- A^-1 X, with a checkpoint after every strip of columns.
 void solve_in_strips(const LuFactorization& A, Eigen::MatrixXd& X, Control& control) {
-    for (Eigen::Index first = 0; first < X.cols(); first += kColumnsAtOnce) {
-        A.solve_in_place(X.middleCols(first, std::min(kColumnsAtOnce, X.cols() - first)));
+    for (Eigen::Index first = 0; first < X.cols(); first += kRightSidesAtOnce) {
+        A.solve_in_place(X.middleCols(first, std::min(kRightSidesAtOnce, X.cols() - first)));
         control.set_progress(static_cast<double>(first) / static_cast<double>(X.cols()));
         control.checkpoint();
     }
@@ -210,7 +210,7 @@ std::vector<Columns::Block> BemSystem::compute(const std::vector<const LoadPlan:
         Elements loads{order, 0, {}};
         std::vector<int> residuals;
         std::size_t end = begin;
-        for (; end < missing.size() && 3 * (loads.n_slots + std::ssize(residuals)) < kColumnsAtOnce; ++end) {
+        for (; end < missing.size() && 3 * (loads.n_slots + std::ssize(residuals)) < kRightSidesAtOnce; ++end) {
             for (Elements::Element element : missing[end]->elements) {
                 for (int& slot : element.slots)
                     if (slot >= 0) slot += loads.n_slots;

@@ -12,11 +12,11 @@ namespace elastolab {
 
 namespace {
 
-constexpr int kWidth = 24;
+constexpr int kBarWidth = 24;
 
 void draw(const StudyState& state) {
-    const auto filled = static_cast<std::size_t>(std::lround(kWidth * state.fraction));
-    const std::string bar = std::string(filled, '#') + std::string(kWidth - filled, ' ');
+    const auto filled = static_cast<std::size_t>(std::lround(kBarWidth * state.fraction));
+    const std::string bar = std::string(filled, '#') + std::string(kBarWidth - filled, ' ');
     const std::string left = state.seconds_left < 0.0 ? "" : ", " + readable_seconds(state.seconds_left) + " left";
     std::fprintf(stderr, "\r[%s] %d of %d%s: %s\x1b[K", bar.c_str(), state.n_done, state.n_cases, left.c_str(),
                  state.current.c_str());

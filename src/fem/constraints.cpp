@@ -1,7 +1,8 @@
 #include "fem/constraints.hpp"
 
 #include <cassert>
-#include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <vector>
 
 namespace elastolab {

@@ -54,10 +54,15 @@ void free_factor(cholmod_factor* factor) {
     Common common;
     cholmod_free_factor(&factor, common);
 }
-struct FactorDeleter {
+
+}  // namespace
+
+struct CholmodFactorDeleter {
     void operator()(cholmod_factor* factor) const { free_factor(factor); }
 };
-using FactorPtr = std::unique_ptr<cholmod_factor, FactorDeleter>;
+using FactorPtr = std::unique_ptr<cholmod_factor, CholmodFactorDeleter>;
+
+namespace {
 
 /// CHOLMOD's way to look at the lower triangle of a matrix; nothing is copied or written.
 cholmod_sparse sparse_view(const SparseMatrix& A) {

@@ -15,6 +15,11 @@ TrianglePoints triangle_points(const SurfaceMesh& mesh, int triangle) {
     return {mesh.vertices.col(v[0]), mesh.vertices.col(v[1]), mesh.vertices.col(v[2])};
 }
 
+Eigen::Vector3d centroid(const SurfaceMesh& mesh, int triangle) {
+    const TrianglePoints p = triangle_points(mesh, triangle);
+    return (p.a + p.b + p.c) / 3.0;
+}
+
 Vector3d area_vector(const TrianglePoints& triangle) {
     return (triangle.b - triangle.a).cross(triangle.c - triangle.a);
 }

@@ -12,6 +12,7 @@ struct TrianglePoints {
     Eigen::Vector3d a, b, c;
 };
 TrianglePoints triangle_points(const SurfaceMesh& mesh, int triangle);
+Eigen::Vector3d centroid(const SurfaceMesh& mesh, int triangle);
 
 /// Twice the area times the unit normal: (b - a) x (c - a)  [L^2].
 Eigen::Vector3d area_vector(const TrianglePoints& triangle);

@@ -11,7 +11,7 @@ namespace elastolab {
 
 namespace {
 
-constexpr std::array<Choice<CompareMode>, 3> kModes = {
+constexpr std::array<Choice<CompareMode>, 3> kCompareModes = {
     {{CompareMode::off, "one method", "Only the chosen method."},
      {CompareMode::side_by_side, "side by side",
       "C: every method in a view of its own, with the same handles and "
@@ -76,7 +76,7 @@ void Panels::draw_compare(const PanelContext& context) {
     ViewerState& state = context.state;
     const float scale = context.gui.scale();
     set_item_width(scale);
-    if (choose<CompareMode>("views", state.compare.mode, kModes)) state.finish_gesture();
+    if (choose<CompareMode>("views", state.compare.mode, kCompareModes)) state.finish_gesture();
     if (!state.comparing()) return;
     draw_kinds(state, context.palette);
     draw_reference(state, scale);

@@ -2,6 +2,7 @@
 #include <array>
 
 #include "mesh/checks/defects.hpp"
+#include "mesh/measures.hpp"
 
 namespace elastolab {
 
@@ -9,12 +10,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-Vector3d center(const SurfaceMesh& mesh, int t) {
-    const Eigen::Vector3i v = mesh.triangles.col(t);
-    return (mesh.vertices.col(v[0]) + mesh.vertices.col(v[1]) + mesh.vertices.col(v[2])) / 3.0;
-}
-
-/// Whether the triangles around a vertex form more than one fan. Neighbours in a fan share a second vertex.
+/// Whether the triangles around a vertex form more than one fan. Neighbours in a fan share a vertex beside this one.
 bool is_hinge(const SurfaceMesh& mesh, int vertex, std::span<const int> around) {
     std::vector<int> reached{0};
     std::vector<bool> seen(around.size(), false);
@@ -57,7 +53,7 @@ void report_collapsed(const SurfaceMesh& mesh, MeshReport& report) {
     DefectCount found;
     for (int t = 0; t < mesh.n_triangles(); ++t) {
         const Eigen::Vector3i v = mesh.triangles.col(t);
-        if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) found.add(center(mesh, t));
+        if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) found.add(centroid(mesh, t));
     }
     found.report_fatal(report, Defect::Kind::degenerate_triangles, "triangle has two corners at the same place",
                        "triangles have two corners at the same place", ". Remove degenerate triangles and reload.");
@@ -98,7 +94,7 @@ void report_duplicates(const SurfaceMesh& mesh, MeshReport& report) {
     std::sort(sorted.begin(), sorted.end());
     DefectCount found;
     for (std::size_t i = 1; i < sorted.size(); ++i)
-        if (sorted[i].first == sorted[i - 1].first) found.add(center(mesh, sorted[i].second));
+        if (sorted[i].first == sorted[i - 1].first) found.add(centroid(mesh, sorted[i].second));
     found.report_fatal(report, Defect::Kind::duplicate_triangles, "triangle repeats another", "triangles repeat others",
                        ". Remove duplicate faces and reload.");
 }

@@ -4,8 +4,8 @@
 #include <set>
 
 #include "mesh/checks/defects.hpp"
-#include "mesh/measures.hpp"
 #include "mesh/checks/nesting.hpp"
+#include "mesh/measures.hpp"
 
 namespace elastolab {
 
@@ -14,11 +14,6 @@ using Eigen::Vector3d;
 namespace {
 
 void turn(SurfaceMesh& mesh, int t) { std::swap(mesh.triangles(1, t), mesh.triangles(2, t)); }
-
-Vector3d center(const SurfaceMesh& mesh, int t) {
-    const TrianglePoints p = triangle_points(mesh, t);
-    return (p.a + p.b + p.c) / 3.0;
-}
 
 /// For each half-edge the only other one along its edge, or -1.
 std::vector<int> opposite_half_edges(const SurfaceMesh& mesh, const EdgeTable& edges) {
@@ -92,7 +87,7 @@ void repair_orientation(SurfaceMesh& mesh, const EdgeTable& edges, const Compone
     for (int t = 0; t < mesh.n_triangles(); ++t)
         if (turning.turned[static_cast<std::size_t>(t)] == 1) {
             turn(mesh, t);
-            found.add(center(mesh, t));
+            found.add(centroid(mesh, t));
         }
     if (found.count() == 0) return;
     report.defects.push_back(found.build(Defect::Kind::inconsistent_orientation,
@@ -121,10 +116,10 @@ void repair_inside_out(SurfaceMesh& mesh, const Components& components, const Cr
         report.n_solids += solid;
         report.volume += solid ? std::abs(volume) : -std::abs(volume);
         if (std::abs(volume) <= kNoVolume * diagonal * diagonal * diagonal) {
-            flat.add(center(mesh, parts[c].front()));
+            flat.add(centroid(mesh, parts[c].front()));
         } else if ((volume > 0.0) != solid) {
             for (const int t : parts[c]) turn(mesh, t);
-            inside_out.add(center(mesh, parts[c].front()));
+            inside_out.add(centroid(mesh, parts[c].front()));
         }
     }
     flat.report_fatal(report, Defect::Kind::zero_volume, "part encloses no volume", "parts enclose no volume",

@@ -72,7 +72,7 @@ std::string meaning_of_status(int status) {
     }
 }
 
-std::string meaning_of_end(int status) {
+std::string end_of_tetgen(int status) {
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL) return "TetGen was killed, most likely for lack of memory";
     if (WIFSIGNALED(status)) return "TetGen crashed on it (signal " + std::to_string(WTERMSIG(status)) + ")";
     return "TetGen ended early (exit code " + std::to_string(WEXITSTATUS(status)) + ")";
@@ -95,7 +95,7 @@ TetgenResult run_tetgen(const SurfaceMesh& surface, const Positions& holes, cons
     TetgenReplyHeader header;
     if (reply.size() >= sizeof(header)) std::memcpy(&header, reply.data(), sizeof(header));
     if (reply.size() < sizeof(header) || header.magic != kTetgenMagic || reply.size() != expected_size(header)) {
-        result.failure = meaning_of_end(status) + reason_in(helper.output());
+        result.failure = end_of_tetgen(status) + reason_in(helper.output());
         return result;
     }
     if (header.status != 0) {

@@ -14,7 +14,7 @@ namespace elastolab {
 namespace {
 
 /// The problem on the coarse surface.
-struct Problem {
+struct TruthProblem {
     const SurfaceMesh& surface;
     Positions values;             // of all vertices, zero where free
     std::vector<char> is_free;    // by vertex
@@ -22,9 +22,9 @@ struct Problem {
     Material material;
 };
 
-Problem make_problem(const SurfaceMesh& surface, std::span<const int> constrained, const Positions& values,
-                     const Material& material) {
-    Problem problem{surface, Positions::Zero(3, surface.n_vertices()), {}, {}, material};
+TruthProblem make_problem(const SurfaceMesh& surface, std::span<const int> constrained, const Positions& values,
+                          const Material& material) {
+    TruthProblem problem{surface, Positions::Zero(3, surface.n_vertices()), {}, {}, material};
     problem.is_free.assign(static_cast<std::size_t>(surface.n_vertices()), 1);
     for (std::size_t k = 0; k < constrained.size(); ++k) {
         problem.is_free[static_cast<std::size_t>(constrained[k])] = 0;
@@ -62,7 +62,7 @@ TetMesh fill(const RefinedSurface& refined, double edge, double inside) {
                           {.radius_edge_ratio = 1.4, .relative_volume = inside * std::pow(ratio, 3)}, control);
 }
 
-Solution solve_on(const RefinedSurface& refined, const TetMesh& tetrahedra, const Problem& problem) {
+Solution solve_on(const RefinedSurface& refined, const TetMesh& tetrahedra, const TruthProblem& problem) {
     const QuadraticMesh mesh(tetrahedra);
     const Positions prescribed = refined.interpolate(problem.values);
     Positions at_nodes = Positions::Zero(3, mesh.n_nodes());
@@ -89,7 +89,7 @@ Solution solve_on(const RefinedSurface& refined, const TetMesh& tetrahedra, cons
 }
 
 /// Root of the sum of squares over the free vertices.
-double size_of(const Positions& u, const Problem& problem) {
+double size_of(const Positions& u, const TruthProblem& problem) {
     double sum = 0.0;
     for (Eigen::Index v = 0; v < u.cols(); ++v)
         if (problem.is_free[static_cast<std::size_t>(v)]) sum += u.col(v).squaredNorm();
@@ -98,7 +98,7 @@ double size_of(const Positions& u, const Problem& problem) {
 
 /// On tetrahedra and on eight times as many, extrapolated. The second mesh has the shapes of the first, so that the
 /// error is exactly halved as the elements are, which two meshes by TetGen would not show.
-Solution extrapolate(const RefinedSurface& refined, double edge, const Problem& problem) {
+Solution extrapolate(const RefinedSurface& refined, double edge, const TruthProblem& problem) {
     // Inside, elements may be larger than on the surface, where the solution is rough.
     constexpr double kInside = 4.0;
     const TetMesh mesh = fill(refined, edge, kInside);
@@ -113,7 +113,7 @@ Solution extrapolate(const RefinedSurface& refined, double edge, const Problem& 
 OrganicTruth compute_truth(const SurfaceMesh& surface, std::span<const int> constrained, const Positions& values,
                            const Material& material, const TruthOptions& options) {
     assert(options.rim_refinements >= 1);
-    const Problem problem = make_problem(surface, constrained, values, material);
+    const TruthProblem problem = make_problem(surface, constrained, values, material);
     const double edge = mean_edge(surface);
     RefinedSurface refined = unrefined(surface);
     Solution before, last;

@@ -28,7 +28,7 @@ Gradients shape_gradients(const Eigen::Matrix<double, 3, 4>& dL, const Eigen::Ve
 
 Eigen::Matrix<double, 30, 30> element_stiffness(const Eigen::Matrix<double, 3, 4>& corners, const Material& material) {
     // Gauss's rule of degree 2 on a tetrahedron: (5 + 3 sqrt 5) / 20 and thrice (5 - sqrt 5) / 20.
-    constexpr double kNear = 0.58541019662496852, kFar = 0.13819660112501050;
+    constexpr double kNearCorner = 0.58541019662496852, kOthers = 0.13819660112501050;
     Eigen::Matrix4d system;
     system << Eigen::RowVector4d::Ones(), corners;
     const Eigen::Matrix<double, 3, 4> dL = system.inverse().rightCols<3>().transpose();
@@ -36,8 +36,8 @@ Eigen::Matrix<double, 30, 30> element_stiffness(const Eigen::Matrix<double, 3, 4
     const double lambda = material.lame_lambda(), mu = material.shear_modulus();
     Eigen::Matrix<double, 30, 30> k = Eigen::Matrix<double, 30, 30>::Zero();
     for (int point = 0; point < 4; ++point) {
-        Eigen::Vector4d L = Eigen::Vector4d::Constant(kFar);
-        L[point] = kNear;
+        Eigen::Vector4d L = Eigen::Vector4d::Constant(kOthers);
+        L[point] = kNearCorner;
         const Gradients g = shape_gradients(dL, L);
         for (int a = 0; a < 10; ++a)
             for (int b = 0; b < 10; ++b) {

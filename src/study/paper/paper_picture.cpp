@@ -15,12 +15,12 @@ namespace elastolab {
 namespace {
 
 constexpr double kStretch = 0.4;
-constexpr double kNear = 1e-9;
+constexpr double kOnFace = 1e-9;
 
 /// On how many faces of the unit cube a point lies.
 int n_faces(const Eigen::Vector3d& x) {
     int n = 0;
-    for (const double coordinate : x) n += coordinate < kNear || coordinate > 1.0 - kNear ? 1 : 0;
+    for (const double coordinate : x) n += coordinate < kOnFace || coordinate > 1.0 - kOnFace ? 1 : 0;
     return n;
 }
 
@@ -78,7 +78,7 @@ EdgeArtefact edge_artefact(MethodKind kind, int cells, Control& control) {
     const UniaxialStretch field{{1.0, 0.3}, kStretch};
     const Eigen::VectorXd exact = displacements(field, mesh.vertices);
     const std::vector<int> ends =
-        vertices_where(mesh, [](const auto& x) { return x[0] < kNear || x[0] > 1.0 - kNear; });
+        vertices_where(mesh, [](const auto& x) { return x[0] < kOnFace || x[0] > 1.0 - kOnFace; });
     Deformer deformer(precompute(study_body(mesh, field.material), {.kind = kind}, control));
     deformer.constrain({{}, ends}, control);
     const Eigen::VectorXd u = deformer.displace(values_at(exact, ends));

@@ -4,14 +4,14 @@
 #include <limits>
 
 #include "study/report/report.hpp"
-#include "study/setups.hpp"
 #include "study/report/statistics.hpp"
+#include "study/setups.hpp"
 
 namespace elastolab {
 
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 const std::vector<std::string> kMethods = {"fem", "constant-bem", "linear-bem"};
 
 /// Seconds over vertices.
@@ -19,8 +19,8 @@ struct Curve {
     std::vector<double> vertices, seconds;
 
     double at(double n) const { return interpolate_log(vertices, seconds, n); }
-    double last_vertices() const { return vertices.empty() ? kNone : vertices.back(); }
-    double last_seconds() const { return seconds.empty() ? kNone : seconds.back(); }
+    double last_vertices() const { return vertices.empty() ? kUnknown : vertices.back(); }
+    double last_seconds() const { return seconds.empty() ? kUnknown : seconds.back(); }
 };
 
 Curve curve(const Table& table, const Row& where, const std::string& seconds) {
@@ -42,7 +42,7 @@ Row our_update(const std::string& method, const std::string& update, const std::
 
 /// The number of vertices above which `a` stays above `b`; nothing when there is none.
 double crossing(const Curve& a, const Curve& b) {
-    double found = kNone, before = kNone, at_before = kNone;
+    double found = kUnknown, before = kUnknown, at_before = kUnknown;
     for (std::size_t i = 0; i < a.vertices.size(); ++i) {
         const double at = a.vertices[i], now = std::log(a.seconds[i] / b.at(at));
         if (!std::isfinite(now)) continue;
@@ -50,7 +50,7 @@ double crossing(const Curve& a, const Curve& b) {
             const double part = -before / (now - before);
             found = std::exp(std::log(at_before) * (1.0 - part) + std::log(at) * part);
         }
-        if (now <= 0.0) found = kNone;
+        if (now <= 0.0) found = kUnknown;
         before = now;
         at_before = at;
     }

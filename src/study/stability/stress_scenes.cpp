@@ -14,7 +14,7 @@ namespace elastolab {
 
 namespace {
 
-constexpr double kNear = 1e-9;
+constexpr double kOnBoundary = 1e-9;
 const Material kMaterial{1.0, 0.3};
 
 /// Uniform in [-1, 1], the same on every machine.
@@ -22,7 +22,7 @@ double random_number(std::mt19937& random) {
     return 2.0 * static_cast<double>(random()) / static_cast<double>(std::mt19937::max()) - 1.0;
 }
 
-bool at_end(const Eigen::Vector3d& x, double length) { return x[0] < kNear || x[0] > length - kNear; }
+bool at_end(const Eigen::Vector3d& x, double length) { return x[0] < kOnBoundary || x[0] > length - kOnBoundary; }
 
 template <class Field>
 Problem ends_prescribed(SurfaceMesh mesh, const Field& field, double length) {
@@ -33,7 +33,7 @@ Problem ends_prescribed(SurfaceMesh mesh, const Field& field, double length) {
     return problem;
 }
 
-Problem bar(double nu) { return ends_prescribed(make_box(4, {2, 1, 1}), PureBending{{1.0, nu}, 1.0}, 2.0); }
+Problem bending_bar(double nu) { return ends_prescribed(make_box(4, {2, 1, 1}), PureBending{{1.0, nu}, 1.0}, 2.0); }
 
 /// One cell through the thickness: as thin bodies are usually meshed.
 Problem plate(double thickness) {
@@ -61,7 +61,7 @@ Problem slivers(double altitude) {
     for (auto x : mesh.vertices.colwise()) {
         int inside = 0, axis = -1;
         for (int i = 0; i < 3; ++i)
-            if (x[i] > kNear && x[i] < 1.0 - kNear) {
+            if (x[i] > kOnBoundary && x[i] < 1.0 - kOnBoundary) {
                 ++inside;
                 axis = i;
             }
@@ -78,7 +78,7 @@ Problem irregular(double jitter) {
     std::mt19937 random(5);
     for (auto x : mesh.vertices.colwise())
         for (int i = 0; i < 3; ++i)
-            if (x[i] > kNear && x[i] < size[i] - kNear) x[i] += jitter / kCells * random_number(random);
+            if (x[i] > kOnBoundary && x[i] < size[i] - kOnBoundary) x[i] += jitter / kCells * random_number(random);
     return ends_prescribed(std::move(mesh), PureBending{kMaterial, 1.0}, 2.0);
 }
 
@@ -97,7 +97,7 @@ Problem graded(double halvings) {
 }
 
 Problem scaled(double scale) {
-    Problem problem = bar(0.3);
+    Problem problem = bending_bar(0.3);
     SurfaceMesh mesh = *problem.body.surface;
     mesh.vertices *= scale;
     problem.truth *= scale;
@@ -172,7 +172,7 @@ Problem few_held(double n) {
 
 /// Both ends, and at random this share of all vertices.
 Problem share(double part) {
-    Problem problem = bar(0.3);
+    Problem problem = bending_bar(0.3);
     const int n = problem.body.surface->n_vertices();
     for (const int v : choose_numbers(n, static_cast<int>(part * n), 3))
         if (std::find(problem.constrained.begin(), problem.constrained.end(), v) == problem.constrained.end())
@@ -225,13 +225,13 @@ Problem nested(double radius) {
 }
 
 Problem large_values(double factor) {
-    Problem problem = bar(0.3);
+    Problem problem = bending_bar(0.3);
     problem.truth *= factor;
     return problem;
 }
 
 Problem stiff(double young_modulus) {
-    Problem problem = bar(0.3);
+    Problem problem = bending_bar(0.3);
     problem.body.material.young_modulus = young_modulus;
     return problem;
 }
@@ -242,12 +242,12 @@ std::vector<StressGroup> all_groups() {
          "bending bar, Poisson's ratio towards 1/2",
          "nu",
          {0.3, 0.45, 0.49, 0.499, 0.4999, 0.499999, 0.49999999, 0.5},
-         bar},
+         bending_bar},
         {"nu-to-minus-one",
          "bending bar, Poisson's ratio towards -1",
          "nu",
          {0.3, 0.0, -0.5, -0.9, -0.99, -0.999, -0.99999, -0.9999999},
-         bar},
+         bending_bar},
         {"plate",
          "plate of one cell through its thickness, bent",
          "thickness / length",
