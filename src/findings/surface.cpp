@@ -12,7 +12,7 @@ namespace elastolab {
 namespace {
 
 /// Relative error of an integral above which lost digits are told.
-constexpr double kLostDigits = 1e-6;
+constexpr double kLostIntegralDigits = 1e-6;
 /// Distance of the other side over the longest edge of the triangle there. Constant elements bend one cell badly.
 constexpr double kThinWall = 0.5, kThinWallOfConstant = 0.8;
 constexpr double kSlender = 15.0;   ///< length over thickness
@@ -39,7 +39,7 @@ void add_thin_triangle(const SurfaceMesh& surface, Findings& findings) {
         thinnest = ratio;
         place = (p.a + p.b + p.c) / 3.0;
     }
-    if (10.0 * std::numeric_limits<double>::epsilon() / (thinnest * thinnest) < kLostDigits) return;
+    if (10.0 * std::numeric_limits<double>::epsilon() / (thinnest * thinnest) < kLostIntegralDigits) return;
     findings.push_back({.kind = FindingKind::thin_triangle, .value = thinnest, .place = place});
 }
 

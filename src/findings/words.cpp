@@ -10,7 +10,7 @@ namespace elastolab {
 
 namespace {
 
-constexpr double kEps = std::numeric_limits<double>::epsilon();
+constexpr double kRounding = std::numeric_limits<double>::epsilon();
 
 std::string place_of(const Finding& finding) { return readable_point(finding.place.value_or(Eigen::Vector3d::Zero())); }
 
@@ -25,7 +25,7 @@ std::string locking(const Finding& finding) {
 
 std::string lost_digits(const Finding& finding) {
     return finding.object + ": nearly dependent equations (condition " + readable_number(finding.value) +
-           "), so displacements may be off by " + readable_number(std::min(finding.value * kEps, 1.0)) +
+           "), so displacements may be off by " + readable_number(std::min(finding.value * kRounding, 1.0)) +
            " of their size, and forces by more. Remove handles that nearly coincide, slivers, or a Poisson's ratio "
            "next to 1/2.";
 }
@@ -33,7 +33,7 @@ std::string lost_digits(const Finding& finding) {
 std::string thin_triangle(const Finding& finding) {
     return "boundary elements: the triangle at " + place_of(finding) + " is so thin (" +
            readable_number(finding.value) + " of its length) that its integrals are right to " +
-           readable_number(10.0 * kEps / (finding.value * finding.value)) +
+           readable_number(10.0 * kRounding / (finding.value * finding.value)) +
            " only. Remesh the surface there, or choose fem.";
 }
 
