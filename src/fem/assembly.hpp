@@ -2,24 +2,26 @@
 
 #include "base/control.hpp"
 #include "elasticity/material.hpp"
+#include "fem/quadratic/quadratic_mesh.hpp"
 #include "fem/sparse_matrix.hpp"
 #include "mesh/surface_mesh.hpp"
 
 namespace elastolab {
 
-/// Stiffness of linear tetrahedra with the material taken out: K = lame_lambda * lambda + shear_modulus * mu.
-/// For nodes a, b of a tetrahedron of volume V whose shape functions have the gradients g_a, g_b:
-///   lambda_ab = V g_a g_b^T,    mu_ab = V (g_b g_a^T + (g_a . g_b) I)
-/// Both are 3*n_vertices square [L], exactly symmetric, both triangles stored, with the same pattern: a 3 x 3 block
-/// for every pair of vertices that share a tetrahedron, blocks with zeros included.
+/// Stiffness of tetrahedra with the material taken out: K = lame_lambda * lambda + shear_modulus * mu.
+/// For nodes a, b of a tetrahedron whose shape functions have the gradients g_a, g_b:
+///   lambda_ab = int g_a g_b^T dV,    mu_ab = int g_b g_a^T + (g_a . g_b) I dV
+/// Both are 3*n_nodes square [L], exactly symmetric, both triangles stored, with the same pattern: a 3 x 3 block
+/// for every pair of nodes that share a tetrahedron, blocks with zeros included.
 struct StiffnessParts {
     SparseMatrix lambda;
     SparseMatrix mu;
 };
 
-/// Integrates once per mesh; in parallel over vertices, with the same result for every number of threads.
+/// Integrates once per mesh, exactly; in parallel over nodes, with the same result for every number of threads.
 /// Throws MeshError when a tetrahedron has no positive volume, SolveError when the pattern is too large, Cancelled.
 StiffnessParts assemble_stiffness_parts(const TetMesh& mesh, Control& control);
+StiffnessParts assemble_stiffness_parts(const QuadraticMesh& mesh, Control& control);
 
 /// K for a material, poisson_ratio < 1/2 (asserted): force = K * displacement [force / L]. Has the pattern of the
 /// parts.

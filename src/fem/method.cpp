@@ -5,17 +5,6 @@
 
 namespace elastolab {
 
-namespace {
-
-std::shared_ptr<const SolidModel> precompute(const SurfaceMesh& surface, const std::string& name, double poisson_ratio,
-                                             const Method& method, const SolidModel* before, Control& control) {
-    if (const auto* fem = dynamic_cast<const FemModel*>(before))
-        return std::make_shared<FemModel>(*fem, poisson_ratio, method, control);
-    return std::make_shared<FemModel>(surface, name, poisson_ratio, method, control);
-}
-
-}  // namespace
-
 constinit const MethodTraits kLinearFemTraits = {
     .name = "fem",
     .label = "FEM",
@@ -28,7 +17,7 @@ constinit const MethodTraits kLinearFemTraits = {
     .sparse = true,
     .takes_incompressible = false,
     .locks = true,
-    .precompute = precompute,
+    .precompute = precompute_fem<ElementDegree::linear>,
     .predict = predict_linear_fem,
 };
 

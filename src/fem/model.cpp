@@ -13,12 +13,6 @@ namespace elastolab {
 
 namespace {
 
-std::vector<int> joined(std::span<const int> base, std::span<const int> handles) {
-    std::vector<int> vertices(base.begin(), base.end());
-    vertices.insert(vertices.end(), handles.begin(), handles.end());
-    return vertices;
-}
-
 /// [K R; R^T 0]^-1 = [K^+ R; R^T 0] for symmetric K with the null space R: K^+ = (K + a R R^T)^-1 - R R^T / a.
 Eigen::MatrixXd bordered_inverse(const Eigen::MatrixXd& K, const Positions& positions) {
     const Eigen::MatrixXd R = rigid_modes(positions);
@@ -50,16 +44,17 @@ ReducedSystem reduced_from(const DenseOperators& operators, const std::vector<in
 }  // namespace
 
 FemModel::FemModel(const SurfaceMesh& surface, const std::string& name, double poisson_ratio, const Method& method,
-                   Control& control)
+                   Control& control, ElementDegree degree)
     : method_(method) {
-    auto mesh = std::make_shared<FemMesh>();
+    TetMesh tets;
     {
         const Stage stage("tetrahedralize", control, facts_.stages);
-        mesh->tets = tetrahedralize(surface, name, TetOptions{}, control);
+        tets = tetrahedralize(surface, name, TetOptions{}, control);
     }
+    auto mesh = std::make_shared<FemMesh>();
     {
         const Stage stage("integrate", control, facts_.stages);
-        mesh->parts = assemble_stiffness_parts(mesh->tets, control);
+        *mesh = make_fem_mesh(std::move(tets), degree, control);
     }
     {
         const Stage stage("analyse", control, facts_.stages);
@@ -91,22 +86,21 @@ void FemModel::precompute(double poisson_ratio, Control& control) {
     poisson_ratio_ = poisson_ratio;
     system_ =
         std::make_shared<const FemSystem>(FemSystem{mesh_, stiffness(mesh_->parts, Material{1.0, poisson_ratio})});
-    const TetMesh& tets = mesh_->tets;
-    facts_.n_vertices = tets.n_surface_vertices;
-    facts_.n_tetrahedra = tets.n_tetrahedra();
-    facts_.n_degrees_of_freedom = 3 * tets.n_vertices();
+    facts_.n_vertices = system_->n_vertices();
+    facts_.n_tetrahedra = mesh_->n_elements;
+    facts_.n_degrees_of_freedom = 3 * mesh_->tets.n_vertices();
     facts_.memory_bytes = mesh_->analysis->factor_bytes();
     // On demand the first constrained set decides what is factorised: K with its base eliminated, or the free body.
     if (method_.mode == Mode::on_demand) return;
     auto operators = std::make_shared<DenseOperators>();
     {
         const Stage stage("K", control, facts_.stages);
-        operators->K = method_.mode == Mode::full ? condense_to_surface(system_->K, tets.n_surface_vertices, control)
+        operators->K = method_.mode == Mode::full ? condense_to_surface(system_->K, system_->n_surface(), control)
                                                   : Eigen::MatrixXd(system_->K);
     }
     {
         const Stage stage("K^-1", control, facts_.stages);
-        operators->Khatinv = bordered_inverse(operators->K, tets.vertices.leftCols(operators->K.rows() / 3));
+        operators->Khatinv = bordered_inverse(operators->K, system_->positions().leftCols(operators->K.rows() / 3));
     }
     facts_.memory_bytes = 16 * static_cast<std::uint64_t>(operators->Khatinv.size());
     const Eigen::MatrixXd& inverse = operators->Khatinv;
@@ -125,8 +119,9 @@ std::shared_ptr<const GroundedBody> FemModel::grounded_on(std::span<const int> b
 }
 
 std::uint64_t FemModel::constrain_memory(std::span<const int> base, std::span<const int> handles) const {
-    const auto n_base = 3 * static_cast<std::uint64_t>(base.size());
-    const auto constrained = n_base + 3 * static_cast<std::uint64_t>(handles.size());
+    const ConstrainedFemNodes nodes = nodes_of(base, handles);
+    const auto n_base = 3 * static_cast<std::uint64_t>(nodes.n_base);
+    const auto constrained = 3 * static_cast<std::uint64_t>(nodes.prescribed.nodes.size());
     const auto surface = 3 * static_cast<std::uint64_t>(system_->n_surface());
     if (operators_ && method_.update != Update::reduced) {
         const auto all = static_cast<std::uint64_t>(operators_->K.rows()), free = all - constrained;
@@ -138,60 +133,69 @@ std::uint64_t FemModel::constrain_memory(std::span<const int> base, std::span<co
     return factor + 8 * unknowns * (unknowns + surface);
 }
 
-std::unique_ptr<ConstrainedSolid> FemModel::constrain(std::span<const int> base, std::span<const int> handles,
-                                                      Control& control) const {
-    if (operators_) return constrain_dense(joined(base, handles), control);
-    if (method_.update == Update::reduced) return constrain_reduced(base, handles, control);
-
-    std::vector<int> vertices = joined(base, handles);
-    const auto residual = [system = system_, vertices](const NodeSolution& solution, Control&) {
-        return stiffness_residual(system->K, solution.displacements, vertices, solution.loads);
-    };
-    return std::make_unique<ConstrainedSolid>(
-        system_->n_surface(), constrain_vertices(vertices), nodal_shares(system_->positions(), vertices), nullptr,
-        std::make_unique<SparseDirectSolver>(system_, vertices, control), SolutionChecks{residual, {}});
+ConstrainedFemNodes FemModel::nodes_of(std::span<const int> base, std::span<const int> handles) const {
+    return constrain_nodes(system_->positions(), mesh_->midpoints, base, handles);
 }
 
-std::unique_ptr<ConstrainedSolid> FemModel::constrain_dense(const std::vector<int>& vertices, Control& control) const {
+std::unique_ptr<ConstrainedSolid> FemModel::make_solid(ConstrainedFemNodes nodes, std::unique_ptr<NodeSolver> solver,
+                                                       SolutionChecks checks) const {
+    return std::make_unique<ConstrainedSolid>(system_->n_vertices(), std::move(nodes.prescribed),
+                                              std::move(nodes.shares), nullptr, std::move(solver), std::move(checks));
+}
+
+std::unique_ptr<ConstrainedSolid> FemModel::constrain(std::span<const int> base, std::span<const int> handles,
+                                                      Control& control) const {
+    if (operators_) return constrain_dense(nodes_of(base, handles), control);
+    return method_.update == Update::reduced ? constrain_reduced(nodes_of(base, handles), control)
+                                             : constrain_direct(nodes_of(base, handles), control);
+}
+
+std::unique_ptr<ConstrainedSolid> FemModel::constrain_direct(ConstrainedFemNodes constrained, Control& control) const {
+    const std::vector<int>& nodes = constrained.prescribed.nodes;
+    auto solver = std::make_unique<SparseDirectSolver>(system_, nodes, control);
+    const auto residual = [system = system_, nodes](const NodeSolution& solution, Control&) {
+        return stiffness_residual(system->K, solution.displacements, nodes, solution.loads);
+    };
+    return make_solid(std::move(constrained), std::move(solver), {residual, {}});
+}
+
+std::unique_ptr<ConstrainedSolid> FemModel::constrain_dense(ConstrainedFemNodes constrained, Control& control) const {
+    const std::vector<int>& nodes = constrained.prescribed.nodes;
     std::unique_ptr<NodeSolver> solver;
     switch (method_.update) {
         case Update::direct:
-            solver = std::make_unique<DirectSolver>(operators_, vertices, &control);
+            solver = std::make_unique<DirectSolver>(operators_, nodes, &control);
             break;
         case Update::eqn9:
-            solver = make_paper_solver(operators_, vertices, control);
+            solver = make_paper_solver(operators_, nodes, control);
             break;
         case Update::reduced:
-            solver = std::make_unique<ReducedSolver>(reduced_from(*operators_, vertices), control);
+            solver = std::make_unique<ReducedSolver>(reduced_from(*operators_, nodes), control);
             break;
     }
-    const auto residual = [operators = operators_, vertices](const NodeSolution& solution, Control&) {
+    const auto residual = [operators = operators_, nodes](const NodeSolution& solution, Control&) {
         Eigen::MatrixXd f = Eigen::MatrixXd::Zero(operators->K.rows(), 1);
-        set_prescribed(vertices, solution.loads, f);
+        set_prescribed(nodes, solution.loads, f);
         const Eigen::VectorXd u = solution.displacements;
         const double size = (operators->K.cwiseAbs() * u.cwiseAbs() + f.cwiseAbs()).norm();
         return size > 0.0 ? (operators->K * u - f).norm() / size : 0.0;
     };
-    return std::make_unique<ConstrainedSolid>(system_->n_surface(), constrain_vertices(vertices),
-                                              nodal_shares(system_->positions(), vertices), nullptr, std::move(solver),
-                                              SolutionChecks{residual, {}});
+    return make_solid(std::move(constrained), std::move(solver), {residual, {}});
 }
 
-std::unique_ptr<ConstrainedSolid> FemModel::constrain_reduced(std::span<const int> base, std::span<const int> handles,
-                                                              Control& control) const {
-    const bool eliminate = holds(system_->positions(), base);
-    const auto body = grounded_on(eliminate ? base : std::span<const int>{}, control);
-    const std::vector<int> vertices = joined(base, handles);
-    std::vector<int> others = eliminate ? std::vector<int>(handles.begin(), handles.end()) : vertices;
-    const auto residual = [body, vertices](const NodeSolution& solution, Control&) {
+std::unique_ptr<ConstrainedSolid> FemModel::constrain_reduced(ConstrainedFemNodes constrained, Control& control) const {
+    const std::vector<int>& nodes = constrained.prescribed.nodes;
+    const int n_eliminated = holds(system_->positions(), constrained.base()) ? constrained.n_base : 0;
+    const auto body = grounded_on(std::span(nodes).first(static_cast<std::size_t>(n_eliminated)), control);
+    auto solver =
+        std::make_unique<GroundedSolver>(body, std::vector<int>(nodes.begin() + n_eliminated, nodes.end()), control);
+    const auto residual = [body, nodes](const NodeSolution& solution, Control&) {
         Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(solution.displacements.rows(), 1);
-        set_prescribed(vertices, solution.loads, loads);
+        set_prescribed(nodes, solution.loads, loads);
         const Eigen::MatrixXd u = body->volume_displacements(solution.displacements, loads);
-        return stiffness_residual(body->system().K, u, vertices, solution.loads);
+        return stiffness_residual(body->system().K, u, nodes, solution.loads);
     };
-    return std::make_unique<ConstrainedSolid>(
-        system_->n_surface(), constrain_vertices(vertices), nodal_shares(system_->positions(), vertices), nullptr,
-        std::make_unique<GroundedSolver>(body, std::move(others), control), SolutionChecks{residual, {}});
+    return make_solid(std::move(constrained), std::move(solver), {residual, {}});
 }
 
 std::shared_ptr<const Interior> FemModel::interior(Control& control) const {

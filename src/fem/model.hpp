@@ -11,12 +11,14 @@
 
 namespace elastolab {
 
-/// A solid by linear tetrahedra. All modes show the surface vertices, which are the first nodes of the mesh.
+/// A solid by linear or quadratic tetrahedra. All modes show the surface vertices, which are the first nodes of the
+/// mesh. Quadratic elements are meant for the mode on_demand: the others would keep dense matrices of all nodes on the
+/// surface, four times as many as its vertices.
 class FemModel : public SolidModel {
 public:
     /// Throws MeshError when the surface cannot be filled with tetrahedra; `name` is that of the body.
     FemModel(const SurfaceMesh& surface, const std::string& name, double poisson_ratio, const Method& method,
-             Control& control);
+             Control& control, ElementDegree degree = ElementDegree::linear);
     /// The same tetrahedra with another material or method: nothing is integrated.
     FemModel(const FemModel& before, double poisson_ratio, const Method& method, Control& control);
 
@@ -27,11 +29,18 @@ public:
     const SparseStiffness* sparse_stiffness() const override { return &system_->K; }
     std::shared_ptr<const Interior> interior(Control& control) const override;
 
+    ElementDegree degree() const {
+        return mesh_->midpoints.midpoints.cols() > 0 ? ElementDegree::quadratic : ElementDegree::linear;
+    }
+
 private:
     void precompute(double poisson_ratio, Control& control);
-    std::unique_ptr<ConstrainedSolid> constrain_dense(const std::vector<int>& vertices, Control& control) const;
-    std::unique_ptr<ConstrainedSolid> constrain_reduced(std::span<const int> base, std::span<const int> handles,
-                                                        Control& control) const;
+    std::unique_ptr<ConstrainedSolid> constrain_dense(ConstrainedFemNodes nodes, Control& control) const;
+    std::unique_ptr<ConstrainedSolid> constrain_direct(ConstrainedFemNodes nodes, Control& control) const;
+    std::unique_ptr<ConstrainedSolid> constrain_reduced(ConstrainedFemNodes nodes, Control& control) const;
+    ConstrainedFemNodes nodes_of(std::span<const int> base, std::span<const int> handles) const;
+    std::unique_ptr<ConstrainedSolid> make_solid(ConstrainedFemNodes nodes, std::unique_ptr<NodeSolver> solver,
+                                                 SolutionChecks checks) const;
     std::shared_ptr<const GroundedBody> grounded_on(std::span<const int> base, Control& control) const;
 
     Method method_;
@@ -43,5 +52,15 @@ private:
     mutable std::mutex grounded_mutex_;
     mutable std::shared_ptr<const GroundedBody> free_body_, grounded_body_;
 };
+
+/// MethodTraits::precompute of elements of this degree: takes over the tetrahedra of a model of the same degree.
+template <ElementDegree degree>
+std::shared_ptr<const SolidModel> precompute_fem(const SurfaceMesh& surface, const std::string& name,
+                                                 double poisson_ratio, const Method& method, const SolidModel* before,
+                                                 Control& control) {
+    if (const auto* fem = dynamic_cast<const FemModel*>(before); fem != nullptr && fem->degree() == degree)
+        return std::make_shared<FemModel>(*fem, poisson_ratio, method, control);
+    return std::make_shared<FemModel>(surface, name, poisson_ratio, method, control, degree);
+}
 
 }  // namespace elastolab

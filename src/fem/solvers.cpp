@@ -34,6 +34,23 @@ SparseMatrix eliminated_held(const FemSystem& system, const std::vector<int>& ve
 
 }  // namespace
 
+FemMesh make_fem_mesh(TetMesh tets, ElementDegree degree, Control& control) {
+    FemMesh mesh;
+    mesh.n_elements = tets.n_tetrahedra();
+    if (degree == ElementDegree::quadratic) {
+        QuadraticMesh quadratic(tets);
+        mesh.parts = assemble_stiffness_parts(quadratic, control);
+        mesh.tets = quadratic.split();
+        mesh.n_surface_nodes = quadratic.n_surface_nodes;
+        mesh.midpoints = {std::move(quadratic.triangles), std::move(quadratic.midpoints)};
+    } else {
+        mesh.parts = assemble_stiffness_parts(tets, control);
+        mesh.n_surface_nodes = tets.n_surface_vertices;
+        mesh.tets = std::move(tets);
+    }
+    return mesh;
+}
+
 GroundedBody::GroundedBody(std::shared_ptr<const FemSystem> system, std::vector<int> base, Control& control)
     : system_(std::move(system)),
       base_(std::move(base)),
@@ -138,13 +155,6 @@ Eigen::MatrixXd nodal_forces(const SparseMatrix& K, const Eigen::MatrixXd& u, co
     for (std::size_t i = 0; i < vertices.size(); ++i)
         at.middleRows<3>(3 * static_cast<Eigen::Index>(i)) = f.middleRows<3>(3 * vertices[i]);
     return at;
-}
-
-std::vector<LoadShare> nodal_shares(const Positions& positions, const std::vector<int>& vertices) {
-    std::vector<LoadShare> shares;
-    for (int i = 0; i < std::ssize(vertices); ++i)
-        shares.push_back({i, i, 1.0, positions.col(vertices[static_cast<std::size_t>(i)])});
-    return shares;
 }
 
 }  // namespace elastolab

@@ -7,21 +7,32 @@
 #include <vector>
 
 #include "deform/columns.hpp"
-#include "deform/load_share.hpp"
 #include "deform/node_solver.hpp"
 #include "deform/reduced_solver.hpp"
 #include "fem/assembly.hpp"
 #include "fem/compliance.hpp"
+#include "fem/constrained_nodes.hpp"
 #include "fem/sparse_cholesky.hpp"
 
 namespace elastolab {
 
-/// What does not depend on the material: the tetrahedra, their integrals and the ordering of the factorisation.
+/// Degree of the displacements within a tetrahedron.
+enum class ElementDegree { linear = 1, quadratic = 2 };
+
+/// What does not depend on the material: the elements, their integrals and the ordering of the factorisation.
 struct FemMesh {
+    /// Its vertices are the nodes, those of the surface first. Quadratic elements are split in eight on their nodes.
     TetMesh tets;
+    int n_surface_nodes = 0;     ///< the first so many nodes are on the surface
+    SurfaceMidpoints midpoints;  ///< quadratic elements
+    int n_elements = 0;
     StiffnessParts parts;
     std::unique_ptr<const CholeskyAnalysis> analysis;
 };
+
+/// Takes the tetrahedra as elements of a degree and integrates them; `analysis` is left to be made.
+/// Throws as assemble_stiffness_parts does.
+FemMesh make_fem_mesh(TetMesh tets, ElementDegree degree, Control& control);
 
 /// K of all nodes for unit Young's modulus.
 struct FemSystem {
@@ -29,7 +40,10 @@ struct FemSystem {
     SparseMatrix K;
 
     const Positions& positions() const { return mesh->tets.vertices; }
-    int n_surface() const { return mesh->tets.n_surface_vertices; }
+    /// Nodes on the surface: they can be prescribed and loaded.
+    int n_surface() const { return mesh->n_surface_nodes; }
+    /// Vertices of the surface: they are shown.
+    int n_vertices() const { return mesh->tets.n_surface_vertices; }
 };
 
 /// The body factorised with a base eliminated (or free), and the columns of its surface compliance so far.
@@ -91,8 +105,5 @@ double stiffness_residual(const SparseMatrix& K, const Eigen::VectorXd& u, const
 
 /// Nodal forces K u at these vertices.
 Eigen::MatrixXd nodal_forces(const SparseMatrix& K, const Eigen::MatrixXd& u, const std::vector<int>& vertices);
-
-/// A load slot per vertex, carrying a nodal force.
-std::vector<LoadShare> nodal_shares(const Positions& positions, const std::vector<int>& vertices);
 
 }  // namespace elastolab

@@ -10,6 +10,7 @@ constexpr std::array kMethods = {
     kFem,
     kConstantBem,
     kLinearBem,
+    kQuadraticFem,
 };
 
 }  // namespace

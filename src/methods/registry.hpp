@@ -7,6 +7,7 @@
 #include "bem/method.hpp"
 #include "deform/method.hpp"
 #include "fem/method.hpp"
+#include "fem/quadratic/method.hpp"
 
 namespace elastolab {
 

@@ -1,7 +1,14 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <Eigen/Core>
+#include <Eigen/LU>
+#include <numeric>
+#include <random>
+#include <vector>
 
+#include "mesh/primitives.hpp"
 #include "mesh/surface_mesh.hpp"
 
 namespace elastolab {
@@ -45,6 +52,50 @@ inline SurfaceMesh with_vertex(const SurfaceMesh& mesh, const Eigen::Vector3d& p
 /// The mesh without its last n triangles.
 inline SurfaceMesh without_last(const SurfaceMesh& mesh, int n) {
     return {mesh.vertices, mesh.triangles.leftCols(mesh.n_triangles() - n)};
+}
+
+/// A ball with smooth lumps, like no mirror image or turn of itself.
+inline SurfaceMesh make_lumpy_ball(int cells) {
+    SurfaceMesh mesh = make_sphere(cells);
+    for (auto p : mesh.vertices.colwise())
+        p *= 1.0 + 0.2 * std::sin(2.0 * p[0] + 1.0) + 0.15 * std::sin(3.0 * p[1] - p[2]) + 0.1 * std::cos(2.0 * p[2]);
+    return mesh;
+}
+
+/// A body renumbered, and turned, mirrored and scaled by a matrix.
+struct Disguised {
+    SurfaceMesh mesh;
+    std::vector<int> place;  ///< of each vertex of the original
+
+    /// seed: of the numbering; 0 keeps it
+    Disguised(const SurfaceMesh& original, const Eigen::Matrix3d& turn, unsigned seed = 0)
+        : mesh(original), place(static_cast<std::size_t>(original.n_vertices())) {
+        std::iota(place.begin(), place.end(), 0);
+        std::vector<int> order(static_cast<std::size_t>(original.n_triangles()));
+        std::iota(order.begin(), order.end(), 0);
+        if (seed != 0) {
+            std::mt19937 random(seed);
+            std::shuffle(place.begin(), place.end(), random);
+            std::shuffle(order.begin(), order.end(), random);
+        }
+        for (int v = 0; v < original.n_vertices(); ++v)
+            mesh.vertices.col(place[static_cast<std::size_t>(v)]) = turn * original.vertices.col(v);
+        for (int t = 0; t < original.n_triangles(); ++t)
+            for (int i = 0; i < 3; ++i)  // triangles begin elsewhere, too
+                mesh.triangles((i + (seed != 0 ? t : 0)) % 3, t) =
+                    place[static_cast<std::size_t>(original.triangles(i, order[static_cast<std::size_t>(t)]))];
+        if (turn.determinant() < 0.0) mesh = inside_out(mesh);
+    }
+};
+
+/// Mirrors, turns by right angles, factors, alone and together.
+inline std::vector<Eigen::Matrix3d> disguises() {
+    Eigen::Matrix3d mirror = Eigen::Vector3d(-1.0, 1.0, 1.0).asDiagonal(), swap, turn, cycle;
+    swap << 0.0, 1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0;
+    turn << 0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0;
+    cycle << 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0;
+    const Eigen::Matrix3d one = Eigen::Matrix3d::Identity();
+    return {one, mirror, swap, turn, cycle, -one, 8.0 * one, 0.3 * one, 1e5 * (turn * cycle), -0.07 * (cycle * turn)};
 }
 
 }  // namespace elastolab

@@ -81,6 +81,48 @@ TEST(Tetrahedralize, WorksAtEveryScaleAndPlace) {
         }
 }
 
+/// How many tetrahedra of a disguised body are not those of the body; interior vertices have the same order.
+int n_different(const TetMesh& body, const TetMesh& other, const Disguised& disguise) {
+    if (body.n_tetrahedra() != other.n_tetrahedra()) return body.n_tetrahedra();
+    int n = 0;
+    for (int t = 0; t < body.n_tetrahedra(); ++t) {
+        Eigen::Vector4i a = body.tetrahedra.col(t), b = other.tetrahedra.col(t);
+        for (int& v : a)
+            if (v < body.n_surface_vertices) v = disguise.place[static_cast<std::size_t>(v)];
+        std::sort(a.begin(), a.end());
+        std::sort(b.begin(), b.end());
+        n += a != b;
+    }
+    return n;
+}
+
+TEST(Tetrahedralize, DoesNotDependOnNumberingOrientationAndSize) {
+    // A cube's points are on spheres together, eight by eight: only the cavity tells its directions apart.
+    const SurfaceMesh cube =
+        joined(make_box(4), moved(inside_out(make_box(1, Eigen::Vector3d(0.2, 0.15, 0.1))), {0.15, 0.3, 0.42}));
+    for (const SurfaceMesh& solid : {make_lumpy_ball(5), cube}) {
+        const TetMesh mesh = fill(solid);
+        unsigned seed = 0;
+        for (const Eigen::Matrix3d& turn : disguises()) {
+            SCOPED_TRACE(testing::Message() << "turned by\n" << turn);
+            const Disguised disguise(solid, turn, seed++);
+            const TetMesh other = fill(disguise.mesh);
+            EXPECT_EQ(n_different(mesh, other, disguise), 0);
+            const Eigen::Index n_inside = mesh.n_vertices() - mesh.n_surface_vertices;
+            ASSERT_EQ(other.n_vertices(), mesh.n_vertices());
+            EXPECT_LT((other.vertices.rightCols(n_inside) - turn * mesh.vertices.rightCols(n_inside)).norm(),
+                      1e-12 * other.vertices.norm());
+        }
+    }
+}
+
+TEST(Tetrahedralize, DoesNotDependOnTheNumberingOfASymmetricBody) {
+    for (const SurfaceMesh& solid : {make_box(4), make_sphere(3)}) {
+        const Disguised disguise(solid, Eigen::Matrix3d::Identity(), 5);
+        EXPECT_EQ(n_different(fill(solid), fill(disguise.mesh), disguise), 0);
+    }
+}
+
 TEST(Tetrahedralize, MakesAboutAsManyInteriorVerticesAsAUniformGridOfTheSurfacesSize) {
     for (const int cells : {8, 13}) {
         const TetMesh mesh = fill(make_box(cells));

@@ -10,7 +10,6 @@
 #include "elasticity/exact_fields.hpp"
 #include "fem/fem_body.hpp"
 #include "study/error/organic_body.hpp"
-#include "study/error/quadratic_fem.hpp"
 #include "study/error/refine.hpp"
 
 namespace elastolab {
@@ -78,18 +77,6 @@ TEST(Refinement, KeepsThePolyhedron) {
     EXPECT_LT((fine.interpolate(coarse.vertices) - fine.mesh.vertices).norm(), 1e-14);
 }
 
-/// Largest error of the quadratic solution of a problem on a box with both ends prescribed, relative.
-template <class Field>
-double error_on_box(const Field& field, const Eigen::Vector3i& cells, const Eigen::Vector3d& size, double jitter) {
-    const QuadraticMesh mesh(test::make_tet_box(cells, size, jitter));
-    const Positions exact = displacements(field, mesh.positions).reshaped(3, mesh.n_nodes());
-    std::vector<int> ends;
-    for (int node = 0; node < mesh.n_nodes(); ++node)
-        if (mesh.positions(0, node) == 0.0 || mesh.positions(0, node) == size[0]) ends.push_back(node);
-    const Positions u = solve_quadratic(mesh, kMaterial, ends, exact(Eigen::all, ends));
-    return test::relative_error(u, exact);
-}
-
 TEST(Refinement, SplitsTetrahedraInEight) {
     const TetMesh coarse = test::make_tet_box({3, 2, 2}, {1.0, 1.0, 1.0}, 0.15);
     const RefinedSurface surface = refine_all(unrefined(test::boundary(coarse)));
@@ -106,28 +93,6 @@ TEST(Refinement, SplitsTetrahedraInEight) {
     EXPECT_EQ(fine.vertices.leftCols(coarse.n_surface_vertices), coarse.vertices.leftCols(coarse.n_surface_vertices));
     EXPECT_EQ(test::boundary(fine).n_triangles(), surface.mesh.n_triangles());
     EXPECT_NEAR(volume(test::boundary(fine)), 1.0, 1e-13);
-}
-
-TEST(QuadraticFem, StretchesAndBendsABoxExactly) {
-    EXPECT_LT(error_on_box(UniaxialStretch{kMaterial}, {3, 2, 2}, {2.0, 1.0, 1.0}, 0.15), 1e-12);
-    EXPECT_LT(error_on_box(PureBending{kMaterial}, {3, 2, 2}, {2.0, 1.0, 1.0}, 0.15), 1e-12);
-}
-
-TEST(QuadraticFem, ConvergesWithThirdOrder) {
-    // All of the surface prescribed by a field that no polynomial is.
-    const PointForceField field{kMaterial, {-0.4, 0.5, 0.6}, {1.0, 2.0, -1.0}};
-    std::vector<double> errors;
-    for (int cells : {2, 4, 8}) {
-        const QuadraticMesh mesh(test::make_tet_box({cells, cells, cells}, {1.0, 1.0, 1.0}, 0.1));
-        const Positions exact = displacements(field, mesh.positions).reshaped(3, mesh.n_nodes());
-        std::vector<int> outside;
-        for (int node = 0; node < mesh.n_nodes(); ++node)
-            if ((mesh.positions.col(node).array() == 0.0).any() || (mesh.positions.col(node).array() == 1.0).any())
-                outside.push_back(node);
-        const Positions u = solve_quadratic(mesh, kMaterial, outside, exact(Eigen::all, outside));
-        errors.push_back((u - exact).norm() / exact.norm());
-    }
-    EXPECT_GT(std::log2(errors[1] / errors[2]), 0.9 * 3.0) << errors[0] << " " << errors[1] << " " << errors[2];
 }
 
 TEST(Truth, OfAStretchedBoxIsExact) {

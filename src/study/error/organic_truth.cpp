@@ -5,8 +5,10 @@
 #include <cmath>
 #include <vector>
 
+#include "fem/assembly.hpp"
+#include "fem/prescribed.hpp"
+#include "fem/quadratic/quadratic_mesh.hpp"
 #include "mesh/tets/tetrahedralize.hpp"
-#include "study/error/quadratic_fem.hpp"
 #include "study/error/refine.hpp"
 
 namespace elastolab {
@@ -84,8 +86,12 @@ Solution solve_on(const RefinedSurface& refined, const TetMesh& tetrahedra, cons
     std::vector<int> nodes;
     for (int node = 0; node < mesh.n_nodes(); ++node)
         if (is_prescribed[static_cast<std::size_t>(node)]) nodes.push_back(node);
-    const Positions u = solve_quadratic(mesh, problem.material, nodes, at_nodes(Eigen::all, nodes));
-    return {u.leftCols(problem.surface.n_vertices()), mesh.n_nodes()};
+    Control control;
+    const SparseMatrix K = stiffness(assemble_stiffness_parts(mesh, control), problem.material);
+    const Positions values = at_nodes(Eigen::all, nodes);
+    const Eigen::VectorXd u = solve_prescribed(K, CholeskyAnalysis(K), nodes, values.reshaped(), control).displacements;
+    const Eigen::Index n = problem.surface.n_vertices();
+    return {u.head(3 * n).reshaped(3, n), mesh.n_nodes()};
 }
 
 /// Root of the sum of squares over the free vertices.

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "deform/constraint_map.hpp"
+#include "deform/load_share.hpp"
+#include "mesh/surface_mesh.hpp"
+
+namespace elastolab {
+
+/// The midpoints of a surface's edges among the nodes; none for linear elements.
+struct SurfaceMidpoints {
+    Triangles triangles;  ///< vertices
+    Triangles midpoints;  ///< the nodes between its vertices 0 and 1, 1 and 2, 2 and 0
+};
+
+/// The nodes that a constrained set prescribes, and who carries their forces.
+struct ConstrainedFemNodes {
+    ConstrainedNodes prescribed;  ///< those of the base first
+    int n_base = 0;
+    std::vector<LoadShare> shares;
+
+    std::span<const int> base() const { return std::span(prescribed.nodes).first(static_cast<std::size_t>(n_base)); }
+};
+
+/// Displacements are linear on a triangle whose three vertices are constrained: the midpoints of its edges are
+/// prescribed at the mean of their ends. A constrained vertex without such a triangle prescribes itself only. Forces
+/// are the energy's derivatives with respect to the displacements of the vertices, so that each end of an edge carries
+/// half of its midpoint's.
+/// positions       of all nodes, vertices of the surface first
+/// base, handles   vertices of the surface, all different
+ConstrainedFemNodes constrain_nodes(const Positions& positions, const SurfaceMidpoints& surface,
+                                    std::span<const int> base, std::span<const int> handles);
+
+}  // namespace elastolab

@@ -1,0 +1,30 @@
+#include "fem/quadratic/method.hpp"
+
+#include "fem/cost.hpp"
+#include "fem/model.hpp"
+
+namespace elastolab {
+
+namespace {
+
+constexpr std::array kModes = {Mode::on_demand};
+constexpr std::array kUpdates = {Update::direct, Update::reduced};
+
+}  // namespace
+
+constinit const MethodTraits kQuadraticFemTraits = {
+    .name = "quadratic-fem",
+    .label = "Quadratic FEM",
+    .colour = 4,
+    .matrix = "stiffness matrix",
+    .cheaper = "fem, which has an eighth of the unknowns",
+    .modes = kModes,
+    .updates = kUpdates,
+    .has_inside = true,
+    .sparse = true,
+    .takes_incompressible = false,
+    .precompute = precompute_fem<ElementDegree::quadratic>,
+    .predict = predict_quadratic_fem,
+};
+
+}  // namespace elastolab
