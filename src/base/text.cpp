@@ -19,10 +19,42 @@ std::string formatted(const char* format, ...) {
     return text;
 }
 
+namespace {
+
+/// Bytes of the UTF-8 character that begins here; 0 when it is not valid.
+std::size_t character_size(std::string_view text) {
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+    if (byte(0) < 0x80) return 1;
+    if (byte(0) < 0xc2 || byte(0) > 0xf4) return 0;
+    const std::size_t size = byte(0) >= 0xf0 ? 4 : byte(0) >= 0xe0 ? 3 : 2;
+    if (text.size() < size) return 0;
+    for (std::size_t i = 1; i < size; ++i)
+        if ((byte(i) & 0xc0U) != 0x80U) return 0;
+    return size;
+}
+
+/// Of ASCII, or one of those from U+0080 to U+009F, which terminals obey, too.
+bool is_control(std::string_view character) {
+    const auto first = static_cast<unsigned char>(character[0]);
+    return first < 0x20 || first == 0x7f ||
+           (first == 0xc2 && character.size() == 2 && static_cast<unsigned char>(character[1]) < 0xa0);
+}
+
+}  // namespace
+
 std::string one_line(std::string_view text) {
-    std::string line(text);
-    for (char& c : line)
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+    std::string line;
+    line.reserve(text.size());
+    while (!text.empty()) {
+        const std::size_t size = character_size(text);
+        if (size == 0)
+            line += '?';
+        else if (is_control(text.substr(0, size)))
+            line += ' ';
+        else
+            line += text.substr(0, size);
+        text.remove_prefix(std::max<std::size_t>(size, 1));
+    }
     return line;
 }
 

@@ -9,7 +9,7 @@ namespace elastolab {
 /// printf into a string of any length; the compiler checks the arguments against the format.
 [[gnu::format(printf, 1, 2)]] std::string formatted(const char* format, ...);
 
-/// `text` on one line: line breaks and other control characters become spaces. For messages that quote a user's data.
+/// `text` on one line, for messages that quote a user's data: control characters become spaces, broken UTF-8 a '?'.
 std::string one_line(std::string_view text);
 
 /// A number of bytes for people: "812 bytes", "3.4 MB", "14.1 GB" (powers of 1000).

@@ -34,6 +34,7 @@ public:
     /// Processor time that it has used [s].
     double processor_seconds() const;
     bool ended() { return program_.ended(); }
+    pid_t process() const { return program_.id(); }
 
 private:
     void tell(const std::string& command) const;

@@ -10,6 +10,16 @@ namespace {
 
 TEST(Text, IsPutOnOneLine) { EXPECT_EQ(one_line("a\nb\tc\x1b[0m"), "a b c [0m"); }
 
+TEST(Text, KeepsLettersButNoBytesThatTerminalsObey) {
+    EXPECT_EQ(one_line("w\u00fcrfel \u20ac \U0001f600"), "w\u00fcrfel \u20ac \U0001f600");
+    EXPECT_EQ(one_line("a\u009b2Jb\u0085c\u00a0"), "a 2Jb c\u00a0");
+    EXPECT_EQ(one_line("a\x9b"
+                       "2J\xff"),
+              "a?2J?");
+    EXPECT_EQ(one_line("cut \xe2\x82"), "cut ??");
+    EXPECT_EQ(one_line("\xc3("), "?(");
+}
+
 TEST(Text, BytesAreReadable) {
     EXPECT_EQ(readable_bytes(812), "812 bytes");
     EXPECT_EQ(readable_bytes(3.4e6), "3.40 MB");

@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 
 #include "fem/fem_body.hpp"
+#include "fem/method.hpp"
 #include "fem/model.hpp"
 #include "mesh/meshes.hpp"
 
@@ -17,8 +18,7 @@ using test::vertices_where;
 /// Held below, one side pulled along `pull`; displacements by vertex, 3 x n.
 Positions displaced(const SurfaceMesh& surface, const std::vector<int>& base, const std::vector<int>& handles,
                     const Eigen::Vector3d& pull, ElementDegree degree) {
-    Method method;
-    method.kind = kFem;
+    Method method{.kind = kFem};
     Control control;
     const FemModel model(surface, "ball", 0.3, method, control, degree);
     const auto solid = model.constrain(base, handles, control);

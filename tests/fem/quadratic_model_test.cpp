@@ -7,6 +7,7 @@
 #include "elasticity/rigid_motion.hpp"
 #include "fem/fem_body.hpp"
 #include "fem/model.hpp"
+#include "fem/quadratic/method.hpp"
 #include "mesh/primitives.hpp"
 
 namespace elastolab {
@@ -28,8 +29,7 @@ struct Ball {
 
     int n_constrained() const { return static_cast<int>(base.size() + handles.size()); }
     std::shared_ptr<const FemModel> model(Update update) const {
-        Method method;
-        method.kind = kFem;
+        Method method{.kind = kQuadraticFem};
         method.update = update;
         Control control;
         return std::make_shared<FemModel>(surface, "ball", kNu, method, control, ElementDegree::quadratic);
