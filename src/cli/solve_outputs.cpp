@@ -66,10 +66,10 @@ private:
     std::deque<AtomicFile> files_;  ///< references to its members stay valid
 };
 
-void write_deformed_mesh(AtomicFile& file, const Solution& solution) {
+void write_deformed_mesh(std::ostream& out, const fs::path& name, const Solution& solution) {
     SurfaceMesh mesh = *solution.model->body().surface;
     mesh.vertices += solution.displacement;
-    save_surface(file.temporary(), mesh);
+    write_surface(out, mesh, name);
 }
 
 void write_matrices(OutputSet& outputs, const fs::path& folder, const Model& model) {
@@ -130,7 +130,7 @@ void write_outputs(const OutputPaths& paths, const Solution& solution) {
     if (!paths.displacements.empty())
         write_displacements(outputs.add(paths.displacements).stream(), *solution.model->body().surface,
                             solution.displacement);
-    if (!paths.mesh.empty()) write_deformed_mesh(outputs.add(paths.mesh), solution);
+    if (!paths.mesh.empty()) write_deformed_mesh(outputs.add(paths.mesh).stream(), paths.mesh, solution);
     if (!paths.forces.empty()) write_forces(outputs.add(paths.forces).stream(), solution.reactions);
     if (!paths.matrices.empty()) write_matrices(outputs, paths.matrices, *solution.model);
     if (!paths.report.empty()) write_report(outputs.add(paths.report).stream(), solution);
