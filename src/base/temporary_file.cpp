@@ -78,4 +78,13 @@ void TemporaryFile::remove_stale_in(const fs::path& folder) {
     }
 }
 
+void TemporaryFile::remove_own() {
+    std::error_code error;
+    for (fs::directory_iterator entry("/proc/self/fd", error), end; !error && entry != end; entry.increment(error)) {
+        std::error_code ignored;
+        const fs::path path = fs::read_symlink(entry->path(), ignored);
+        if (is_name_of_ours(path.filename().string())) ::unlink(path.c_str());
+    }
+}
+
 }  // namespace elastolab

@@ -17,6 +17,8 @@ struct TemporaryFile {
     static std::optional<TemporaryFile> make_in(const std::filesystem::path& folder, mode_t mode);
     /// Removes this user's temporaries in a folder that no process works on: left by one that was killed.
     static void remove_stale_in(const std::filesystem::path& folder);
+    /// Removes all temporaries that this process has open, whoever works on them: for the end of the program.
+    static void remove_own();
 };
 
 }  // namespace elastolab
