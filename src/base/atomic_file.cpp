@@ -107,7 +107,8 @@ void AtomicFile::discard() {
 void AtomicFile::close() {
     if (!stream_.is_open()) return;
     stream_.close();
-    if (!stream_) fail(shown_, "could not be written completely. Is the disk full?");
+    if (!stream_)
+        fail(shown_, "could not be written completely. Is the disk full, or the size of files limited (ulimit -f)?");
     // Some file systems cannot do it (EINVAL) and say so; others find here that the disk is full.
     if (temporary_ && ::fsync(temporary_->descriptor.get()) != 0 && errno != EINVAL)
         fail(shown_, "could not be written completely (" + std::generic_category().message(errno) + ").");
