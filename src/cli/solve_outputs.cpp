@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <deque>
+#include <set>
 
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
@@ -32,18 +33,6 @@ fs::path resolved(const fs::path& path) {
     return error ? path.lexically_normal() : full;
 }
 
-void require_distinct(const std::vector<fs::path>& outputs, const std::vector<fs::path>& inputs) {
-    std::vector<fs::path> taken(inputs.size());
-    std::transform(inputs.begin(), inputs.end(), taken.begin(), resolved);
-    for (const fs::path& output : outputs) {
-        const auto found = std::find(taken.begin(), taken.end(), resolved(output));
-        if (found != taken.end() && found - taken.begin() < std::ssize(inputs))
-            throw UsageError(output.string() + ": is an input. Name another file to write.");
-        if (found != taken.end()) throw UsageError(output.string() + ": is named as an output twice. Name two files.");
-        taken.push_back(resolved(output));
-    }
-}
-
 /// The folder for matrices, or the one it will be made in.
 void require_writable_folder(const fs::path& folder) {
     std::error_code error;
@@ -55,7 +44,12 @@ void require_writable_folder(const fs::path& folder) {
 /// Writers fill it; commit() puts everything in place. What was not committed leaves nothing behind.
 class OutputSet {
 public:
-    AtomicFile& add(const fs::path& destination) { return files_.emplace_back(destination); }
+    /// Throws Error for a file that is there already: a matrix of the name of another output.
+    AtomicFile& add(const fs::path& destination) {
+        if (!places_.insert(resolved(destination)).second)
+            throw Error(destination.string() + ": is the place of two outputs. Name another file.");
+        return files_.emplace_back(destination);
+    }
 
     void commit() {
         for (AtomicFile& file : files_) file.close();
@@ -63,6 +57,7 @@ public:
     }
 
 private:
+    std::set<fs::path> places_;
     std::deque<AtomicFile> files_;  ///< references to its members stay valid
 };
 
@@ -108,6 +103,19 @@ private:
 }  // namespace
 
 bool OutputPaths::any() const { return !files(*this).empty() || !matrices.empty(); }
+
+void require_distinct(const std::vector<fs::path>& outputs, const std::vector<fs::path>& inputs) {
+    std::vector<fs::path> taken(inputs.size());
+    std::transform(inputs.begin(), inputs.end(), taken.begin(), resolved);
+    for (const fs::path& output : outputs) {
+        if (output.empty()) continue;
+        const auto found = std::find(taken.begin(), taken.end(), resolved(output));
+        if (found != taken.end() && found - taken.begin() < std::ssize(inputs))
+            throw UsageError(output.string() + ": is an input. Name another file to write.");
+        if (found != taken.end()) throw UsageError(output.string() + ": is named as an output twice. Name two files.");
+        taken.push_back(resolved(output));
+    }
+}
 
 void require_mesh_extension(const fs::path& mesh) {
     std::string extension = mesh.extension().string();
