@@ -278,14 +278,26 @@ private:
         return replay_over() && options_.hidden;
     }
 
+    /// Writes all that can be written, then throws Error with what could not be.
     void finish_outputs() {
-        if (!options_.screenshot.empty() && !picture_ && window_.size().minCoeff() > 0)
-            draw_frame();  // closed by hand: one more, for the picture
-        if (picture_) write_png(options_.screenshot, *picture_);
-        if (state_.timings) state_.timings->finish();
-        if (state_.recorder) state_.recorder->finish();
-        if (!options_.scene_out.empty()) state_.write_scene(options_.scene_out);
-        if (!options_.mesh_out.empty()) state_.write_mesh(options_.mesh_out);
+        std::string failures;
+        const auto attempt = [&](const auto& write) {
+            try {
+                write();
+            } catch (const std::exception& error) {
+                failures += (failures.empty() ? "" : " ") + user_text(error);
+            }
+        };
+        attempt([&] {
+            if (!options_.screenshot.empty() && !picture_ && window_.size().minCoeff() > 0)
+                draw_frame();  // closed by hand: one more, for the picture
+            if (picture_) write_png(options_.screenshot, *picture_);
+        });
+        if (state_.timings) attempt([&] { state_.timings->finish(); });
+        if (state_.recorder) attempt([&] { state_.recorder->finish(); });
+        if (!options_.scene_out.empty()) attempt([&] { state_.write_scene(options_.scene_out); });
+        if (!options_.mesh_out.empty()) attempt([&] { state_.write_mesh(options_.mesh_out); });
+        if (!failures.empty()) throw Error(failures);
     }
 
     /// A worker inside a library call that cannot be interrupted must not keep a closed window's process alive:

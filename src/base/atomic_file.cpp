@@ -1,48 +1,21 @@
 #include "base/atomic_file.hpp"
 
+#include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
 #include <system_error>
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/output_path.hpp"
 
 namespace elastolab {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-/// Short, so that a long but legal destination does not become a name that is too long; the same extension.
-fs::path temporary_beside(const fs::path& destination) {
-    static std::atomic<int> count{0};
-    const std::string stem = ".elastolab-" + std::to_string(getpid()) + "-" + std::to_string(count++);
-    return destination.parent_path() / (stem + destination.extension().string());
-}
-
-/// Whether a path leads to a stream that this process holds open, as /dev/stdout and /dev/fd/3 do. Behind it may be a
-/// regular file, which must be written on, not replaced under the hands of others who write on it.
-bool is_open_stream(fs::path path) {
-    constexpr int kMostLinks = 40;
-    std::error_code error;
-    for (int i = 0; i < kMostLinks; ++i) {
-        const fs::path folder = fs::canonical(fs::absolute(path).parent_path(), error);
-        if (error) return false;
-        if (folder.string().rfind("/proc/", 0) == 0 && folder.filename() == "fd") return true;
-        if (!fs::is_symlink(path, error)) return false;
-        path = folder / fs::read_symlink(path, error);
-    }
-    return false;
-}
-
-/// The file that has to be replaced, which for a symbolic link is the one it leads to.
-fs::path replaced_file(const fs::path& destination) {
-    std::error_code error;
-    const fs::path target = fs::canonical(destination, error);
-    return error ? destination : target;
-}
 
 bool is_written_directly(const fs::path& destination) {
     std::error_code error;
@@ -53,11 +26,33 @@ bool is_written_directly(const fs::path& destination) {
     throw Error(shown.string() + ": " + finding);
 }
 
-void require_folder(const fs::path& shown) {
-    const fs::path folder = shown.has_parent_path() ? shown.parent_path() : fs::path(".");
+fs::path folder_of(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
+
+void require_folder(const fs::path& shown, const fs::path& file) {
+    const fs::path folder = folder_of(file);
     std::error_code error;
     if (!fs::exists(folder, error)) fail(shown, "its folder does not exist. Create it or choose another place.");
     if (!fs::is_directory(folder, error)) fail(shown, "what should be its folder is a file. Choose another place.");
+}
+
+/// Gives a file the owner, the group and the permissions of the one that it is to replace, as far as this user may.
+/// Who now gets at it as the file's group, when the group itself could not be kept, may no more than everybody.
+void take_over_permissions(const fs::path& replaced, int fd) {
+    struct stat old {};
+    struct stat own {};
+    if (::stat(replaced.c_str(), &old) != 0 || ::fstat(fd, &own) != 0) return;
+    const bool is_same = old.st_uid == own.st_uid && old.st_gid == own.st_gid;
+    const bool keeps_group =
+        is_same || ::fchown(fd, old.st_uid, old.st_gid) == 0 || ::fchown(fd, static_cast<uid_t>(-1), old.st_gid) == 0;
+    mode_t mode = old.st_mode & 0777U;
+    if (!keeps_group) mode &= ~070U | (mode & 07U) << 3U;
+    ::fchmod(fd, mode);  // not possible on some file systems, which know no permissions
+}
+
+/// So that the new name outlives a power failure, too.
+void sync_folder(const fs::path& folder) {
+    const FileDescriptor opened(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (opened) ::fsync(opened.get());
 }
 
 }  // namespace
@@ -66,43 +61,68 @@ AtomicFile::AtomicFile(const fs::path& destination) : shown_(destination) {
     if (destination.filename().empty()) fail(shown_, "is not the name of a file. Name the file to write.");
     std::error_code error;
     if (fs::is_directory(destination, error)) fail(shown_, "is a folder. Name a file to write.");
-    require_folder(shown_);
-    const bool direct = is_written_directly(destination);
-    destination_ = direct ? destination : replaced_file(destination);
-    temporary_ = direct ? destination_ : temporary_beside(destination_);
+    require_folder(shown_, destination);
     errno = 0;
-    stream_.open(temporary_, std::ios::binary | (direct ? std::ios::app : std::ios::trunc));
+    if (is_written_directly(destination))
+        stream_.open(destination, std::ios::binary | std::ios::app);
+    else
+        open_beside(followed_links(destination));
     if (stream_) return;
     const std::string reason = std::generic_category().message(errno);
-    temporary_.clear();
+    discard();
     fail(shown_, "cannot be written there (" + reason + "). Choose another place.");
+}
+
+/// What replaces another file is hidden from others until it gets that file's permissions.
+void AtomicFile::open_beside(const fs::path& destination) {
+    if (destination != shown_) require_folder(shown_, destination);
+    destination_ = destination;
+    const fs::path folder = folder_of(destination);
+    TemporaryFile::remove_stale_in(folder);
+    struct stat ignored {};
+    const bool replaces = ::stat(destination.c_str(), &ignored) == 0;
+    temporary_ = TemporaryFile::make_in(folder, replaces ? 0600 : 0666);
+    if (temporary_)
+        stream_.open("/proc/self/fd/" + std::to_string(temporary_->descriptor.get()), std::ios::binary);
+    else
+        stream_.setstate(std::ios::failbit);
 }
 
 AtomicFile::AtomicFile(AtomicFile&& other) noexcept
     : shown_(std::move(other.shown_)),
       destination_(std::move(other.destination_)),
-      temporary_(std::exchange(other.temporary_, fs::path{})),
+      temporary_(std::exchange(other.temporary_, std::nullopt)),
       stream_(std::move(other.stream_)) {}
 
-AtomicFile::~AtomicFile() {
-    if (temporary_.empty() || temporary_ == destination_) return;
+AtomicFile::~AtomicFile() { discard(); }
+
+void AtomicFile::discard() {
+    if (!temporary_) return;
     stream_.close();
     std::error_code ignored;
-    fs::remove(temporary_, ignored);
+    fs::remove(temporary_->path, ignored);
+    temporary_.reset();
 }
 
 void AtomicFile::close() {
     if (!stream_.is_open()) return;
     stream_.close();
-    if (!stream_) fail(shown_, "could not be written completely. Is the disk full?");
+    if (!stream_)
+        fail(shown_, "could not be written completely. Is the disk full, or the size of files limited (ulimit -f)?");
+    // Some file systems cannot do it (EINVAL) and say so; others find here that the disk is full.
+    if (temporary_ && ::fsync(temporary_->descriptor.get()) != 0 && errno != EINVAL)
+        fail(shown_, "could not be written completely (" + std::generic_category().message(errno) + ").");
 }
 
 void AtomicFile::commit() {
     close();
+    if (!temporary_) return;
+    take_over_permissions(destination_, temporary_->descriptor.get());
     std::error_code error;
-    if (temporary_ != destination_) fs::rename(temporary_, destination_, error);
+    fs::rename(temporary_->path, destination_, error);
     if (error) fail(shown_, "cannot be replaced (" + error.message() + "). Choose another place.");
-    temporary_.clear();
+    temporary_.reset();
+    sync_folder(folder_of(destination_));
 }
 
 }  // namespace elastolab

@@ -2,17 +2,21 @@
 
 #include <filesystem>
 #include <fstream>
+#include <optional>
+
+#include "base/temporary_file.hpp"
 
 namespace elastolab {
 
-/// A file that is written beside its destination and takes its place once it is complete, so that no reader ever sees
-/// half a file and a failure leaves what was there before. A destination that is no regular file (a pipe, a terminal)
-/// or an open stream of this process (/dev/stdout) is written directly; through any other symbolic link the file that
-/// it leads to is replaced.
+/// A file that is written beside its destination and takes its place once it is complete and on the disk (fsync), so
+/// that no reader ever sees half a file and a failure leaves what was there before. It keeps the permissions, and where
+/// this user may the owner and group, of the file that it replaces. A destination that is no regular file (a pipe, a
+/// terminal) or an open stream of this process (/dev/stdout) is written directly; through any other symbolic link the
+/// file that it leads to is replaced, or made. What killed programs have left beside the destination is removed.
 class AtomicFile {
 public:
-    /// Opens the temporary. Throws Error, naming `destination`, when it is empty or a directory, or when its folder is
-    /// missing or not writable.
+    /// Opens the temporary. Throws Error, naming `destination`, when it is empty or a directory, when its folder is
+    /// missing or not writable, or when it is a link that must not be followed (see followed_links).
     explicit AtomicFile(const std::filesystem::path& destination);
     /// Removes the temporary unless commit() was called.
     ~AtomicFile();
@@ -20,11 +24,8 @@ public:
     AtomicFile& operator=(AtomicFile&&) = delete;
 
     std::ostream& stream() { return stream_; }
-    /// The file that is being written; it has the extension of the destination, for writers that go by it. Such a
-    /// writer may replace it altogether instead of using stream().
-    const std::filesystem::path& temporary() const { return temporary_; }
 
-    /// Flushes everything to the temporary. Throws Error when that fails, say on a full disk.
+    /// Brings everything to the disk, beside the destination. Throws Error when that fails, say on a full disk.
     void close();
     /// close(), then the temporary becomes the destination.
     void commit();
@@ -33,9 +34,12 @@ public:
     static void require_writable(const std::filesystem::path& destination) { AtomicFile{destination}; }
 
 private:
-    std::filesystem::path shown_;  ///< the destination as the user wrote it, for messages
-    std::filesystem::path destination_;
-    std::filesystem::path temporary_;  ///< empty once there is nothing to remove
+    void open_beside(const std::filesystem::path& destination);
+    void discard();
+
+    std::filesystem::path shown_;             ///< the destination as the user wrote it, for messages
+    std::filesystem::path destination_;       ///< the file to replace
+    std::optional<TemporaryFile> temporary_;  ///< none once there is nothing to remove, or when written directly
     std::ofstream stream_;
 };
 

@@ -26,12 +26,13 @@ LuFactorization::LuFactorization(Eigen::MatrixXd&& A, const std::string& name, C
     assert(factors_.rows() == factors_.cols());
     const int n = as_int(factors_.rows());
     if (n == 0) return;
-    const double norm = factors_.cwiseAbs().colwise().sum().maxCoeff();
-    if (!std::isfinite(norm))
+    const Eigen::RowVectorXd sums = factors_.cwiseAbs().colwise().sum();
+    if (!sums.allFinite())  // the largest of them says nothing: a maximum may pass over NaN
         throw SolveError(name + ": has entries that are not finite. Check the mesh for degenerate triangles.");
     if (const int info = factorise_lu(factors_, pivots_, control); info > 0)
         throw SingularMatrixError(name + ": is singular (pivot " + std::to_string(info) + " of " + std::to_string(n) +
                                   " vanishes). Check the mesh for degenerate or duplicate parts.");
+    const double norm = sums.maxCoeff();
     std::vector<double> work(4 * static_cast<std::size_t>(n));
     std::vector<int> iwork(static_cast<std::size_t>(n));
     LAPACKE_dgecon_work(LAPACK_COL_MAJOR, '1', n, factors_.data(), n, norm, &reciprocal_condition_, work.data(),

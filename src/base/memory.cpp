@@ -8,6 +8,8 @@
 #include <limits>
 #include <string>
 
+#include "base/control_group.hpp"
+
 namespace elastolab {
 
 namespace {
@@ -30,11 +32,10 @@ std::uint64_t system_available() {
     return kUnlimited;
 }
 
-std::uint64_t control_group_available() {
-    const std::uint64_t limit = read_number("/sys/fs/cgroup/memory.max");
-    const std::uint64_t used = read_number("/sys/fs/cgroup/memory.current");
-    if (limit == kUnlimited || used == kUnlimited) return kUnlimited;
-    return limit > used ? limit - used : 0;
+std::uint64_t own_groups_available() {
+    std::ifstream unified("/proc/self/cgroup"), first_version("/proc/self/cgroup");
+    return std::min(control_group_available("/sys/fs/cgroup", control_group_of(unified)),
+                    control_group_available("/sys/fs/cgroup/memory", control_group_of(first_version, "memory")));
 }
 
 /// What the limit of the address space (ulimit -v) leaves.
@@ -56,7 +57,7 @@ std::uint64_t peak_memory_bytes() {
 }
 
 std::uint64_t available_memory_bytes() {
-    return std::min({system_available(), control_group_available(), address_space_available()});
+    return std::min({system_available(), own_groups_available(), address_space_available()});
 }
 
 }  // namespace elastolab

@@ -5,11 +5,11 @@
 #include <iostream>
 #include <memory>
 
-#include "base/blas.hpp"
 #include "base/text.hpp"
 #include "cli/bench_bar.hpp"
 #include "cli/command.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/threads.hpp"
 #include "study/runner.hpp"
 
 namespace elastolab {
@@ -40,8 +40,7 @@ void add_options(CLI::App& parser, BenchOptions& options) {
     parser.add_option("--out", options.folder, "folder for the results, made when it is missing (default bench-STUDY)");
     parser.add_flag("--quick", options.quick, "small sizes: under a minute");
     parser.add_option("--seed", options.seed, "of the known nodes of paper and the edits of stability (default 1)");
-    parser.add_option("--threads", options.threads, "at most this many (default: all cores)")
-        ->check(CLI::Range(1, 1024));
+    add_threads_option(parser, options.threads);
     parser.add_flag("--fresh", options.fresh, "do not go on with a stopped run, begin anew");
     parser.add_flag("--report", options.report, "run nothing: plots and report again from the table that is there");
     parser.add_flag("--quiet", options.quiet, "no list of cases and no progress bar");
@@ -58,6 +57,7 @@ RunSettings settings_of(const BenchOptions& options) {
     settings.options = {.quick = options.quick, .seed = options.seed};
     settings.fresh = options.fresh;
     settings.report_only = options.report;
+    settings.on_notice = [](const std::string& text) { std::cerr << "elastolab: " << one_line(text) << std::endl; };
     // On a terminal there is the bar; a log gets a line for each case.
     if (!options.quiet && isatty(STDERR_FILENO) == 0)
         settings.on_case = [](const std::string& key, double seconds) {
@@ -81,8 +81,9 @@ RunResult run_with_bar(const Study& study, const RunSettings& settings, bool wit
 void run_bench(BenchOptions options) {
     if (options.folder.empty()) options.folder = "bench-" + options.study;
     Control control;
-    const InterruptGuard interrupt(control);
-    if (options.threads > 0) set_thread_count(options.threads);
+    const InterruptGuard interrupt(control,
+                                   "Interrupted; finished cases are kept: the same command goes on from there.");
+    apply_threads_option(options.threads);
     const RunSettings settings = settings_of(options);
     const RunResult result =
         run_with_bar(entry_of(options.study).make(settings.options), settings, !options.quiet, control);

@@ -1,8 +1,16 @@
 #include "cli/interrupt.hpp"
 
-#include <atomic>
+#include <semaphore.h>
+#include <unistd.h>
+
 #include <cassert>
+#include <cerrno>
 #include <csignal>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+
+#include "base/temporary_file.hpp"
 
 namespace elastolab {
 
@@ -11,17 +19,58 @@ namespace {
 std::atomic<Control*> watched{nullptr};
 std::atomic<int> last_signal{SIGINT};
 static_assert(std::atomic<Control*>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
+sem_t bell;  ///< posted by a signal, and when a guard goes; lives longer than any handler runs
 
+/// Calls nothing but what a signal handler may call.
 void on_signal(int signal) {
+    const int error = errno;
     last_signal = signal;
     if (Control* control = watched) control->cancel();
     std::signal(signal, SIG_DFL);
+    sem_post(&bell);
+    errno = error;
+}
+
+void wait_for_bell() {
+    while (sem_wait(&bell) != 0) {  // EINTR
+    }
+}
+
+/// Whether it is posted within this time from now.
+bool is_bell_posted_within(double seconds) {
+    timespec until{};
+    clock_gettime(CLOCK_MONOTONIC, &until);
+    const long nanoseconds = until.tv_nsec + static_cast<long>(seconds * 1e9);
+    until.tv_sec += nanoseconds / 1'000'000'000;
+    until.tv_nsec = nanoseconds % 1'000'000'000;
+    while (sem_clockwait(&bell, CLOCK_MONOTONIC, &until) != 0)
+        if (errno != EINTR) return false;
+    return true;
+}
+
+/// They would go on after us.
+void kill_children() {
+    std::error_code error;
+    for (const auto& task : std::filesystem::directory_iterator("/proc/self/task", error)) {
+        std::ifstream children(task.path() / "children");
+        for (pid_t child = 0; children >> child;) ::kill(child, SIGKILL);
+    }
+}
+
+[[noreturn]] void end_program(const std::string& last_words) {
+    kill_children();
+    TemporaryFile::remove_own();
+    const std::string text = "elastolab: " + last_words + "\n";
+    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
+    ::_exit(interrupt_exit_code());
 }
 
 }  // namespace
 
-InterruptGuard::InterruptGuard(Control& control) {
+InterruptGuard::InterruptGuard(Control& control, std::string last_words) : last_words_(std::move(last_words)) {
     assert(watched == nullptr);
+    sem_init(&bell, 0, 0);
+    watcher_ = std::thread([this] { watch(); });
     watched = &control;
     std::signal(SIGINT, on_signal);
     std::signal(SIGTERM, on_signal);
@@ -31,6 +80,17 @@ InterruptGuard::~InterruptGuard() {
     std::signal(SIGINT, SIG_DFL);
     std::signal(SIGTERM, SIG_DFL);
     watched = nullptr;
+    over_ = true;
+    sem_post(&bell);
+    watcher_.join();
+}
+
+void InterruptGuard::watch() {
+    wait_for_bell();
+    if (over_) return;
+    while (is_bell_posted_within(kInterruptGraceSeconds))
+        if (over_) return;  // else another signal: the two have a handler each
+    end_program(last_words_);
 }
 
 int interrupt_exit_code() { return 128 + last_signal; }

@@ -1,10 +1,12 @@
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdio>
 #include <iostream>
 #include <vector>
 
 #include "app/viewer.hpp"
 #include "base/blas.hpp"
+#include "base/blas_memory.hpp"
 #include "base/control.hpp"
 #include "base/text.hpp"
 #include "cli/command.hpp"
@@ -50,8 +52,11 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    elastolab::start_blas_within_limits(argv);
     elastolab::select_blas_kernels(argv);
+    std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow any more is an error of writing, not the end
     try {
+        elastolab::reserve_blas_buffers();
         const int code = run(argc, argv);
         std::cout.flush();
         return std::cout ? code : complain("Standard output cannot be written. Is the disk full?", kFailure);

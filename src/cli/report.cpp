@@ -87,7 +87,7 @@ void print_accuracy(std::ostream& out, const Solution& solution) {
 void print_displacement(std::ostream& out, const Eigen::Matrix3Xd& displacement) {
     if (displacement.cols() == 0) return;
     Eigen::Index vertex = 0;
-    const double largest = displacement.colwise().norm().maxCoeff(&vertex);
+    const double largest = displacement.colwise().stableNorm().maxCoeff(&vertex);
     out << "  displacement  at most " << readable_number(largest, 4) << ", at vertex " << vertex << "\n";
 }
 

@@ -4,7 +4,6 @@
 #include <iostream>
 #include <memory>
 
-#include "base/blas.hpp"
 #include "base/error.hpp"
 #include "cli/command.hpp"
 #include "cli/interrupt.hpp"
@@ -12,6 +11,7 @@
 #include "cli/report.hpp"
 #include "cli/solve_outputs.hpp"
 #include "methods/registry.hpp"
+#include "cli/threads.hpp"
 #include "scene/file/scene_file.hpp"
 #include "scene/solve.hpp"
 
@@ -53,8 +53,7 @@ void add_options(CLI::App& parser, SolveOptions& options) {
     parser.add_option("--report", options.report, "JSON: sizes, times, memory, accuracy, warnings")->check(path);
     parser.add_option("--matrices", options.matrices, "folder for the matrices that the mode keeps (.npy, .mtx)")
         ->check(path);
-    parser.add_option("--threads", options.threads, "at most this many (default: all cores)")
-        ->check(CLI::Range(1, 1024));
+    add_threads_option(parser, options.threads);
     parser.add_flag("--quiet", options.quiet, "no summary and no progress bar");
 }
 
@@ -104,7 +103,7 @@ Solution solve_with_progress(const SolveRequest& request, Control& control, bool
 void run_solve(const SolveOptions& options) {
     Control control;
     const InterruptGuard interrupt(control);
-    if (options.threads > 0) set_thread_count(options.threads);
+    apply_threads_option(options.threads);
     SolveRequest request;
     request.scene_file = options.scene;
     request.document = load_scene(request.scene_file);

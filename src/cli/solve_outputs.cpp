@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <deque>
+#include <set>
 
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
@@ -32,19 +33,7 @@ fs::path resolved(const fs::path& path) {
     return error ? path.lexically_normal() : full;
 }
 
-void require_distinct(const std::vector<fs::path>& outputs, const std::vector<fs::path>& inputs) {
-    std::vector<fs::path> taken(inputs.size());
-    std::transform(inputs.begin(), inputs.end(), taken.begin(), resolved);
-    for (const fs::path& output : outputs) {
-        const auto found = std::find(taken.begin(), taken.end(), resolved(output));
-        if (found != taken.end() && found - taken.begin() < std::ssize(inputs))
-            throw UsageError(output.string() + ": is an input. Name another file to write.");
-        if (found != taken.end()) throw UsageError(output.string() + ": is named as an output twice. Name two files.");
-        taken.push_back(resolved(output));
-    }
-}
-
-/// The folder for matrices, or the one in which it will be made.
+/// The folder for matrices, or the one it will be made in.
 void require_writable_folder(const fs::path& folder) {
     std::error_code error;
     if (fs::is_directory(folder, error)) return AtomicFile::require_writable(folder / "H.npy");
@@ -55,7 +44,12 @@ void require_writable_folder(const fs::path& folder) {
 /// Writers fill it; commit() puts everything in place. What was not committed leaves nothing behind.
 class OutputSet {
 public:
-    AtomicFile& add(const fs::path& destination) { return files_.emplace_back(destination); }
+    /// Throws Error for a file that is there already: a matrix of the name of another output.
+    AtomicFile& add(const fs::path& destination) {
+        if (!places_.insert(resolved(destination)).second)
+            throw Error(destination.string() + ": is the place of two outputs. Name another file.");
+        return files_.emplace_back(destination);
+    }
 
     void commit() {
         for (AtomicFile& file : files_) file.close();
@@ -63,13 +57,14 @@ public:
     }
 
 private:
+    std::set<fs::path> places_;
     std::deque<AtomicFile> files_;  ///< references to its members stay valid
 };
 
-void write_deformed_mesh(AtomicFile& file, const Solution& solution) {
+void write_deformed_mesh(std::ostream& out, const fs::path& name, const Solution& solution) {
     SurfaceMesh mesh = *solution.model->body().surface;
     mesh.vertices += solution.displacement;
-    save_surface(file.temporary(), mesh);
+    write_surface(out, mesh, name);
 }
 
 void write_matrices(OutputSet& outputs, const fs::path& folder, const Model& model) {
@@ -109,6 +104,19 @@ private:
 
 bool OutputPaths::any() const { return !files(*this).empty() || !matrices.empty(); }
 
+void require_distinct(const std::vector<fs::path>& outputs, const std::vector<fs::path>& inputs) {
+    std::vector<fs::path> taken(inputs.size());
+    std::transform(inputs.begin(), inputs.end(), taken.begin(), resolved);
+    for (const fs::path& output : outputs) {
+        if (output.empty()) continue;
+        const auto found = std::find(taken.begin(), taken.end(), resolved(output));
+        if (found != taken.end() && found - taken.begin() < std::ssize(inputs))
+            throw UsageError(output.string() + ": is an input. Name another file to write.");
+        if (found != taken.end()) throw UsageError(output.string() + ": is named as an output twice. Name two files.");
+        taken.push_back(resolved(output));
+    }
+}
+
 void require_mesh_extension(const fs::path& mesh) {
     std::string extension = mesh.extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
@@ -130,7 +138,7 @@ void write_outputs(const OutputPaths& paths, const Solution& solution) {
     if (!paths.displacements.empty())
         write_displacements(outputs.add(paths.displacements).stream(), *solution.model->body().surface,
                             solution.displacement);
-    if (!paths.mesh.empty()) write_deformed_mesh(outputs.add(paths.mesh), solution);
+    if (!paths.mesh.empty()) write_deformed_mesh(outputs.add(paths.mesh).stream(), paths.mesh, solution);
     if (!paths.forces.empty()) write_forces(outputs.add(paths.forces).stream(), solution.reactions);
     if (!paths.matrices.empty()) write_matrices(outputs, paths.matrices, *solution.model);
     if (!paths.report.empty()) write_report(outputs.add(paths.report).stream(), solution);

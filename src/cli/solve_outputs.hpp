@@ -20,6 +20,10 @@ struct OutputPaths {
 /// Throws UsageError (the same file twice, an input, an unknown extension) or Error (a place that cannot be written).
 void require_writable(const OutputPaths& paths, const std::vector<std::filesystem::path>& inputs);
 
+/// Throws UsageError when two outputs are the same file, or one is an input. Empty paths are none.
+void require_distinct(const std::vector<std::filesystem::path>& outputs,
+                      const std::vector<std::filesystem::path>& inputs);
+
 /// Throws UsageError when meshes are not written under this extension.
 void require_mesh_extension(const std::filesystem::path& mesh);
 

@@ -4,10 +4,10 @@
 #include <string>
 
 #include "app/viewer.hpp"
-#include "base/blas.hpp"
 #include "cli/command.hpp"
 #include "cli/solve_outputs.hpp"
 #include "methods/registry.hpp"
+#include "cli/threads.hpp"
 
 namespace elastolab {
 
@@ -33,6 +33,12 @@ Eigen::Vector2i parse_size(const std::string& text) {
     throw UsageError("--size " + text + ": give width and height in pixels, as in 1280x800.");
 }
 
+/// A scene may be written back to where it was read.
+void require_distinct_files(const ViewWords& words) {
+    require_distinct({words.screenshot, words.timings, words.record, words.scene_out, words.mesh_out}, {words.replay});
+    require_distinct({words.screenshot, words.timings, words.record, words.mesh_out}, {words.input});
+}
+
 ViewerOptions options_of(const ViewWords& words) {
     ViewerOptions options;
     options.input = words.input;
@@ -45,6 +51,7 @@ ViewerOptions options_of(const ViewWords& words) {
     options.scene_out = words.scene_out;
     options.mesh_out = words.mesh_out;
     options.hidden = words.hidden;
+    require_distinct_files(words);
     if (!words.mesh_out.empty()) require_mesh_extension(words.mesh_out);
     if (!words.size.empty()) options.size = parse_size(words.size);
     if (options.hidden && options.n_frames == 0 && options.replay.empty())
@@ -70,11 +77,10 @@ Command add_view_command(CLI::App& program) {
     parser->add_option("--mesh-out", words->mesh_out, "OBJ, PLY or STL: the deformed mesh as it is at the end")
         ->check(path);
     parser->add_option("--size", words->size, "of the window in pixels, as in 1280x800");
-    parser->add_option("--threads", words->threads, "at most this many (default: all cores)")
-        ->check(CLI::Range(1, 1024));
+    add_threads_option(*parser, words->threads);
     parser->add_flag("--hidden", words->hidden, "no visible window; still real OpenGL");
     return {parser, [words] {
-                if (words->threads > 0) set_thread_count(words->threads);
+                apply_threads_option(words->threads);
                 run_viewer(options_of(*words));
             }};
 }

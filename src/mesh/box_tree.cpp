@@ -4,10 +4,24 @@
 #include <array>
 
 #include "mesh/checks/nesting.hpp"
+#include "mesh/measures.hpp"
 
 namespace elastolab {
 
 using Eigen::AlignedBox3d;
+
+namespace {
+
+double longest_edge_of(const SurfaceMesh& mesh, std::span<const int> triangles) {
+    double longest = 0.0;
+    for (const int t : triangles) {
+        const TrianglePoints p = triangle_points(mesh, t);
+        longest = std::max({longest, (p.b - p.a).norm(), (p.c - p.b).norm(), (p.a - p.c).norm()});
+    }
+    return longest;
+}
+
+}  // namespace
 
 BoxTree::BoxTree(const SurfaceMesh& mesh, std::vector<int> triangles) : triangles_(std::move(triangles)) {
     if (triangles_.empty()) return;
@@ -19,7 +33,7 @@ int BoxTree::build(const SurfaceMesh& mesh, int begin, int end) {
     constexpr int kLeaf = 4;
     const auto first = triangles_.begin() + begin, last = triangles_.begin() + end, middle = first + (end - begin) / 2;
     const int index = static_cast<int>(nodes_.size());
-    nodes_.push_back({bounding_box(mesh, {first, last}), begin, end});
+    nodes_.push_back({bounding_box(mesh, {first, last}), longest_edge_of(mesh, {first, last}), begin, end});
     if (end - begin <= kLeaf) return index;
     Eigen::Index axis = 0;
     nodes_.back().box.sizes().maxCoeff(&axis);

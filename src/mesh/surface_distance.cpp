@@ -1,8 +1,14 @@
 #include "mesh/surface_distance.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <Eigen/Geometry>
+#include <mutex>
+#include <numeric>
+#include <tuple>
 
+#include "base/parallel.hpp"
+#include "mesh/box_tree.hpp"
 #include "mesh/measures.hpp"
 
 namespace elastolab {
@@ -20,22 +26,33 @@ double distance_to_segment(const Vector3d& x, const Vector3d& a, const Vector3d&
     return (x - a - s * edge).norm();
 }
 
-/// A triangle and a ball around it.
-struct Ball {
-    Vector3d centre, normal;
-    double radius, longest_edge;
+/// Boxes are as wide as they are to rounding; a search reaches a little farther, so that it misses nothing.
+constexpr double kSlack = 1.0 + 1e-12;
+/// Vertices at a time for a thread.
+constexpr int kGrain = 256;
+
+struct Side {
+    Vector3d normal;
+    double longest_edge;
 };
 
-std::vector<Ball> balls_of(const SurfaceMesh& mesh) {
-    std::vector<Ball> balls;
+double longest_edge(const TrianglePoints& p) {
+    return std::max({(p.b - p.a).norm(), (p.c - p.b).norm(), (p.a - p.c).norm()});
+}
+
+std::vector<Side> sides_of(const SurfaceMesh& mesh) {
+    std::vector<Side> sides;
     for (int t = 0; t < mesh.n_triangles(); ++t) {
         const TrianglePoints p = triangle_points(mesh, t);
-        const Vector3d centre = (p.a + p.b + p.c) / 3.0;
-        balls.push_back({centre, area_vector(p).normalized(),
-                         std::max({(p.a - centre).norm(), (p.b - centre).norm(), (p.c - centre).norm()}),
-                         std::max({(p.b - p.a).norm(), (p.c - p.b).norm(), (p.a - p.c).norm()})});
+        sides.push_back({area_vector(p).normalized(), longest_edge(p)});
     }
-    return balls;
+    return sides;
+}
+
+BoxTree tree_of(const SurfaceMesh& mesh) {
+    std::vector<int> all(static_cast<std::size_t>(mesh.n_triangles()));
+    std::iota(all.begin(), all.end(), 0);
+    return {mesh, std::move(all)};
 }
 
 /// The mean normal of a vertex, weighted by area: not of unit length.
@@ -46,11 +63,63 @@ Eigen::Matrix3Xd vertex_normals(const SurfaceMesh& mesh) {
     return normals;
 }
 
-Eigen::AlignedBox3d box_of(const SurfaceMesh& mesh, const std::vector<int>& vertices, double margin) {
-    Eigen::AlignedBox3d box;
-    for (const int v : vertices) box.extend(mesh.vertices.col(v));
-    return {box.min() - Vector3d::Constant(margin), box.max() + Vector3d::Constant(margin)};
+bool is_closer(const Approach& a, const Approach& b) {
+    return a.ratio < b.ratio || (a.ratio == b.ratio && a.vertex < b.vertex);
 }
+
+/// The search for the closest approach; visit() may be called by several threads.
+class ApproachSearch {
+public:
+    explicit ApproachSearch(const SurfaceMesh& mesh)
+        : mesh_(mesh),
+          sides_(sides_of(mesh)),
+          normals_(vertex_normals(mesh).colwise().normalized()),
+          tree_(tree_of(mesh)) {}
+
+    void visit(int begin, int end) {
+        Approach closest{reach_, -1};
+        for (int v = begin; v < end; ++v) visit(v, closest);
+        if (closest.vertex < 0) return;
+        const std::lock_guard lock(mutex_);
+        if (!is_closer(closest, closest_)) return;
+        closest_ = closest;
+        reach_ = closest.ratio;
+    }
+    const Approach& closest() const { return closest_; }
+
+private:
+    /// A vertex as close as the closest so far counts when nothing was found yet or when it comes before.
+    void visit(int v, Approach& closest) const {
+        const Vector3d x = mesh_.vertices.col(v), normal = normals_.col(v);
+        tree_.for_each_near(
+            x, [&](double edge) { return kSlack * closest.ratio * edge; },
+            [&](int t) {
+                const Side& side = sides_[static_cast<std::size_t>(t)];
+                if (side.normal.dot(normal) > -kFacing || (mesh_.triangles.col(t).array() == v).any()) return;
+                const double ratio = distance_to_triangle(x, mesh_, t) / side.longest_edge;
+                if (ratio < closest.ratio || (ratio == closest.ratio && closest.vertex < 0 && ratio < 1.0))
+                    closest = {ratio, v};
+            });
+    }
+
+    const SurfaceMesh& mesh_;
+    std::vector<Side> sides_;
+    Eigen::Matrix3Xd normals_;
+    BoxTree tree_;
+    std::atomic<double> reach_{1.0};  ///< ratio that is still of interest
+    std::mutex mutex_;
+    Approach closest_;
+};
+
+/// Parts in contact, and what orders one such finding before another.
+struct OrderedContact {
+    int triangle = std::numeric_limits<int>::max();
+    std::size_t part = 0, place = 0;  ///< of the vertex, and in it
+
+    bool operator<(const OrderedContact& other) const {
+        return std::tie(triangle, part, place) < std::tie(other.triangle, other.part, other.place);
+    }
+};
 
 }  // namespace
 
@@ -64,44 +133,47 @@ double distance_to_triangle(const Vector3d& point, const SurfaceMesh& mesh, int 
                      distance_to_segment(point, p.c, p.a)});
 }
 
+Approach closest_facing_approach(const SurfaceMesh& mesh, Control& control) {
+    ApproachSearch search(mesh);
+    parallel_blocks(mesh.n_vertices(), kGrain, control, [&](int begin, int end) { search.visit(begin, end); });
+    return search.closest();
+}
+
 Approach closest_facing_approach(const SurfaceMesh& mesh) {
-    const std::vector<Ball> balls = balls_of(mesh);
-    const Eigen::Matrix3Xd normals = vertex_normals(mesh).colwise().normalized();
-    Approach closest;
-    for (int v = 0; v < mesh.n_vertices(); ++v) {
-        const Vector3d x = mesh.vertices.col(v), normal = normals.col(v);
-        for (int t = 0; t < mesh.n_triangles(); ++t) {
-            const Ball& ball = balls[static_cast<std::size_t>(t)];
-            const double limit = std::min(closest.ratio, 1.0) * ball.longest_edge + ball.radius;
-            if ((ball.centre - x).squaredNorm() > limit * limit || ball.normal.dot(normal) > -kFacing) continue;
-            if ((mesh.triangles.col(t).array() == v).any()) continue;
-            const double ratio = distance_to_triangle(x, mesh, t) / ball.longest_edge;
-            if (ratio < closest.ratio) closest = {ratio, v};
-        }
-    }
-    return closest;
+    Control control;
+    return closest_facing_approach(mesh, control);
+}
+
+std::optional<Contact> find_contact(const SurfaceMesh& mesh, std::span<const std::vector<int>> parts, double distance,
+                                    Control& control) {
+    std::vector<std::size_t> part_of(static_cast<std::size_t>(mesh.n_vertices()), parts.size());
+    for (std::size_t p = 0; p < parts.size(); ++p)
+        for (const int v : parts[p]) part_of[static_cast<std::size_t>(v)] = p;
+    const auto part_of_triangle = [&](int t) { return part_of[static_cast<std::size_t>(mesh.triangles(0, t))]; };
+    const BoxTree tree = tree_of(mesh);
+    std::mutex mutex;
+    OrderedContact first;
+    for (std::size_t p = 0; p < parts.size(); ++p)
+        parallel_blocks(static_cast<int>(parts[p].size()), kGrain, control, [&](int begin, int end) {
+            for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+                const Vector3d x = mesh.vertices.col(parts[p][i]);
+                tree.for_each_near(
+                    x, [&](double) { return kSlack * distance; },
+                    [&](int t) {
+                        if (part_of_triangle(t) == p || !(distance_to_triangle(x, mesh, t) < distance)) return;
+                        const std::lock_guard lock(mutex);
+                        first = std::min(first, OrderedContact{t, p, i});
+                    });
+            }
+        });
+    if (first.triangle == std::numeric_limits<int>::max()) return std::nullopt;
+    const std::size_t own = part_of_triangle(first.triangle);
+    return Contact{std::min(own, first.part), std::max(own, first.part), parts[first.part][first.place]};
 }
 
 std::optional<Contact> find_contact(const SurfaceMesh& mesh, std::span<const std::vector<int>> parts, double distance) {
-    std::vector<std::size_t> part_of(static_cast<std::size_t>(mesh.n_vertices()), parts.size());
-    std::vector<Eigen::AlignedBox3d> boxes;
-    for (std::size_t p = 0; p < parts.size(); ++p) {
-        for (const int v : parts[p]) part_of[static_cast<std::size_t>(v)] = p;
-        boxes.push_back(box_of(mesh, parts[p], distance));
-    }
-    const std::vector<Ball> balls = balls_of(mesh);
-    for (int t = 0; t < mesh.n_triangles(); ++t) {
-        const std::size_t own = part_of[static_cast<std::size_t>(mesh.triangles(0, t))];
-        const Ball& ball = balls[static_cast<std::size_t>(t)];
-        for (std::size_t p = 0; p < parts.size(); ++p) {
-            if (p == own || boxes[p].exteriorDistance(ball.centre) > ball.radius) continue;
-            for (const int v : parts[p])
-                if ((mesh.vertices.col(v) - ball.centre).norm() < ball.radius + distance &&
-                    distance_to_triangle(mesh.vertices.col(v), mesh, t) < distance)
-                    return Contact{std::min(own, p), std::max(own, p), v};
-        }
-    }
-    return std::nullopt;
+    Control control;
+    return find_contact(mesh, parts, distance, control);
 }
 
 }  // namespace elastolab

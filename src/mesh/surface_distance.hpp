@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "base/control.hpp"
 #include "mesh/surface_mesh.hpp"
 
 namespace elastolab {
@@ -17,8 +18,11 @@ struct Approach {
     double ratio = std::numeric_limits<double>::infinity();  ///< distance / longest edge of the triangle opposite
     int vertex = -1;
 };
-/// The closest approach of any vertex to a triangle that does not contain it and faces the opposite way (normals more
-/// than 120 degrees apart), if closer than an edge. Compares all pairs: a fraction of an assembly.
+/// Over all vertices and triangles that do not share it and face the opposite way (normals at least 120 degrees
+/// apart), as far as they are closer than the triangle's longest edge; none: infinity. Of several vertices, the first.
+/// A search in a tree of boxes on all threads: with triangles of similar size some n log n. `control` learns the
+/// progress of the present stage. Throws Cancelled.
+Approach closest_facing_approach(const SurfaceMesh& mesh, Control& control);
 Approach closest_facing_approach(const SurfaceMesh& mesh);
 
 /// Two parts of a mesh that come closer than `distance`, and a vertex there.
@@ -26,7 +30,11 @@ struct Contact {
     std::size_t first, second;
     int vertex;
 };
-/// The first such pair, vertices of one against triangles of the other. parts: the vertices of each.
+/// The first such pair, vertices of one against triangles of the other: the first triangle, then the first part, then
+/// its first vertex. parts: the vertices of each; a vertex is in one part at most, a triangle's are in the same.
+/// Searches as closest_facing_approach() does. Throws Cancelled.
+std::optional<Contact> find_contact(const SurfaceMesh& mesh, std::span<const std::vector<int>> parts, double distance,
+                                    Control& control);
 std::optional<Contact> find_contact(const SurfaceMesh& mesh, std::span<const std::vector<int>> parts, double distance);
 
 }  // namespace elastolab

@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "base/machine.hpp"
 #include "base/timer.hpp"
+#include "study/report/folder_lock.hpp"
 #include "study/report/journal.hpp"
 #include "study/report/report.hpp"
 
@@ -29,10 +30,16 @@ std::uint64_t program_hash() {
     return hash;
 }
 
-std::string fingerprint(const Study& study, const Row& origin) {
-    std::string text = study.name + " " + std::to_string(program_hash());
-    for (const auto& [column, value] : origin.cells()) text += " " + column + "=" + value;
-    return text;
+/// What must be the same for the rows of a stopped run to be taken over.
+Row origin_of(const Study& study, const StudyOptions& options) {
+    return Row().set("study", study.name).add(provenance(options)).set("build", std::to_string(program_hash()));
+}
+
+std::vector<std::string> columns_of(const Study& study, const Row& origin) {
+    std::vector<std::string> columns = study.columns;
+    columns.emplace_back("note");
+    for (const auto& cell : origin.cells()) columns.push_back(cell.first);
+    return columns;
 }
 
 std::vector<Row> run_case(const Case& one, Control& control) {
@@ -54,9 +61,7 @@ Table run_cases(const Study& study, const RunSettings& settings, Journal& journa
         if (!journal.find(one.key())) weight += one.weight;
     progress.begin(static_cast<int>(study.cases.size()), journal.n_finished(), weight);
     const Row origin = provenance(settings.options);
-    Table table{study.columns, {}};
-    table.columns.emplace_back("note");
-    for (const auto& cell : origin.cells()) table.columns.push_back(cell.first);
+    Table table{columns_of(study, origin), {}};
     for (const Case& one : study.cases) {
         control.checkpoint();
         std::optional<std::vector<Row>> rows = journal.find(one.key());
@@ -73,10 +78,21 @@ Table run_cases(const Study& study, const RunSettings& settings, Journal& journa
     return table;
 }
 
-Table read_table(const fs::path& path) {
+/// The table of an earlier run.
+Table read_table(const fs::path& path, const std::vector<std::string>& columns) {
     std::ifstream in(path);
     if (!in) throw Error(path.string() + ": cannot be read. Run the study without --report first.");
-    return read_csv(in);
+    const auto damaged = [&](const std::string& finding) {
+        return Error(path.string() + ": " + finding + ". It is damaged or of another version; run the study again.");
+    };
+    try {
+        Table table = read_csv(in);
+        if (table.columns != columns) throw Error("has not the columns of this study");
+        if (table.rows.empty()) throw Error("has no rows");
+        return table;
+    } catch (const Error& error) {
+        throw damaged(error.what());
+    }
 }
 
 void write_file(const fs::path& path, const std::string& text, RunResult& result) {
@@ -136,18 +152,20 @@ void write_conclusions(const Study& study, const RunSettings& settings, RunResul
 
 RunResult run_study(const Study& study, const RunSettings& settings, StudyProgress& progress, Control& control) {
     RunResult result;
+    std::error_code error;
+    if (!settings.report_only) fs::create_directories(settings.folder, error);
+    if (error) throw Error(settings.folder.string() + ": cannot be made (" + error.message() + "). Choose another.");
+    const FolderLock lock(settings.folder);
     const fs::path csv = settings.folder / (study.name + ".csv");
     if (settings.report_only) {
-        result.table = read_table(csv);
+        result.table = read_table(csv, columns_of(study, provenance(settings.options)));
         write_conclusions(study, settings, result, control);
         return result;
     }
-    std::error_code error;
-    fs::create_directories(settings.folder, error);
-    if (error) throw Error(settings.folder.string() + ": cannot be made (" + error.message() + "). Choose another.");
     const fs::path journal_file = settings.folder / (study.name + ".partial.csv");
     if (settings.fresh) fs::remove(journal_file, error);
-    Journal journal(journal_file, fingerprint(study, provenance(settings.options)));
+    Journal journal(journal_file, origin_of(study, settings.options));
+    if (!journal.notice().empty()) settings.on_notice(journal.notice());
     result.table = run_cases(study, settings, journal, progress, control);
     std::ostringstream text;
     write_csv(text, result.table);

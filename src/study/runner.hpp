@@ -19,6 +19,8 @@ struct RunSettings {
     bool report_only = false;  ///< run nothing: plots and report from the existing STUDY.csv
     /// Called after each case with its key and seconds (0: finished in an earlier run).
     std::function<void(const std::string& key, double seconds)> on_case = [](const std::string&, double) {};
+    /// Called with what the person should know before the first case runs.
+    std::function<void(const std::string& notice)> on_notice = [](const std::string&) {};
 };
 
 /// What a run has produced.
@@ -29,8 +31,9 @@ struct RunResult {
 };
 
 /// Runs the cases that are not finished yet, then writes STUDY.csv, plots with their scripts, and README.md. Until all
-/// cases are done they are kept in STUDY.partial.csv, from which the next run resumes when program, machine, threads,
-/// seed and options are the same.
+/// cases are done they are kept in STUDY.partial.csv, from which the next run goes on when program, machine, threads,
+/// seed and options are the same; with others, the file is kept under another name. Two runs at a time in one folder
+/// are refused.
 ///
 /// STUDY.csv: a header, the study's columns, `note`, then those of provenance().
 /// Throws Error when a file cannot be written (or, for the report only, read), Cancelled (the finished cases are kept).

@@ -3,6 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <limits>
+
+#include "base/error.hpp"
+#include "base/lapack.hpp"
 
 namespace elastolab {
 namespace {
@@ -53,6 +57,17 @@ TEST(BlockedLu, TellsItsProgressAndCanBeCancelled) {
     EXPECT_GT(control.progress(), 0.9);
     control.cancel();
     EXPECT_THROW(factorise_lu(A, pivots, &control, kAtOnce), Cancelled);
+}
+
+/// A maximum over the columns may pass over one that is NaN.
+TEST(LuFactorization, RefusesAnEntryThatIsNotFiniteWhereverItIs) {
+    constexpr int kSmall = 9;
+    for (int i = 0; i < kSmall * kSmall; ++i)
+        for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+            Eigen::MatrixXd A = Eigen::MatrixXd::Random(kSmall, kSmall);
+            A.reshaped()[i] = bad;
+            EXPECT_THROW(LuFactorization(std::move(A), "A"), SolveError) << i;
+        }
 }
 
 }  // namespace

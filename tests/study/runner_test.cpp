@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <fstream>
+
 #include "base/error.hpp"
 #include "study/report/journal.hpp"
 #include "support/temporary_folder.hpp"
@@ -105,12 +107,57 @@ TEST_F(RunnerTest, KeepsNothingOfAnotherSeedNorWhenAskedToBeginAnew) {
     EXPECT_EQ(counting.first, 3);
 }
 
+TEST_F(RunnerTest, RefusesASecondRunInTheSameFolder) {
+    Counting counting, other;
+    std::string refusal;
+    counting.before_second = [&] {
+        try {
+            run(other, 2);
+        } catch (const Error& error) {
+            refusal = error.what();
+        }
+    };
+    run(counting);
+    EXPECT_THAT(refusal, HasSubstr("another run"));
+    EXPECT_EQ(other.first, 0);
+    run(other, 2);
+    EXPECT_EQ(other.first, 1);
+}
+
 TEST_F(RunnerTest, NotesACaseThatFails) {
     Counting counting;
     counting.before_second = [] { throw SolveError("second: is singular. Choose another."); };
     const RunResult result = run(counting);
     ASSERT_EQ(result.table.rows.size(), 3U);
     EXPECT_EQ(result.table.rows.back().text("note"), "second: is singular. Choose another.");
+}
+
+TEST_F(RunnerTest, RefusesToReportOnADamagedTable) {
+    Counting counting;
+    run(counting);
+    const std::string whole = text("tiny.csv");
+    const auto refusal = [&](const std::string& table) {
+        std::ofstream(folder_.path() / "out" / "tiny.csv", std::ios::binary) << table;
+        RunSettings settings;
+        settings.folder = folder_.path() / "out";
+        settings.report_only = true;
+        Control control;
+        StudyProgress progress;
+        try {
+            run_study(counting.study(), settings, progress, control);
+        } catch (const Error& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    EXPECT_EQ(refusal(whole), "");
+    EXPECT_THAT(refusal(""), HasSubstr("columns"));
+    EXPECT_THAT(refusal(whole.substr(0, whole.find('\n') + 1)), HasSubstr("no rows"));
+    EXPECT_THAT(refusal(whole.substr(0, whole.size() - 1)), HasSubstr("line 4 has no end"));
+    EXPECT_THAT(refusal(whole.substr(0, whole.size() - 9) + "\n"), HasSubstr("line 4 has"));
+    EXPECT_THAT(refusal(whole + std::string(100, '\0') + "\n"), HasSubstr("line 5 is not text"));
+    EXPECT_THAT(refusal("a,b\n1,2\n"), HasSubstr("columns"));
+    EXPECT_THAT(refusal(whole), "");
 }
 
 TEST_F(RunnerTest, MakesTheReportAgainFromTheTable) {
@@ -126,14 +173,46 @@ TEST_F(RunnerTest, MakesTheReportAgainFromTheTable) {
     EXPECT_THAT(text("README.md"), HasSubstr("3 rows"));
 }
 
+Row origin(int seed) { return Row().set("study", std::string("tiny")).set("seed", seed); }
+
 TEST(Journal, DropsACaseWhoseRowsAreNotAllThere) {
     const TemporaryFolder folder;
-    folder.write("j.csv", "same\nrow,one,x,1\ndone,one\nrow,two,x,2\n");
-    EXPECT_EQ(Journal(folder.path() / "j.csv", "same").n_finished(), 1);
-    folder.write("j.csv", "same\nrow,one,x,1\ndone,o");
-    EXPECT_EQ(Journal(folder.path() / "j.csv", "same").n_finished(), 0);
-    folder.write("j.csv", "other\nrow,one,x,1\ndone,one\n");
-    EXPECT_EQ(Journal(folder.path() / "j.csv", "same").n_finished(), 0);
+    folder.write("j.csv", "study=tiny,seed=1\nrow,one,x,1\ndone,one\nrow,two,x,2\n");
+    EXPECT_EQ(Journal(folder.path() / "j.csv", origin(1)).n_finished(), 1);
+    folder.write("j.csv", "study=tiny,seed=1\nrow,one,x,1\ndone,o");
+    EXPECT_EQ(Journal(folder.path() / "j.csv", origin(1)).n_finished(), 0);
+}
+
+TEST(Journal, SetsAsideTheCasesOfAnotherRunAndSaysSo) {
+    const TemporaryFolder folder;
+    const std::string of_seed_1 = "study=tiny,seed=1\nrow,one,x,1\ndone,one\n";
+    folder.write("j.csv", of_seed_1);
+    folder.write("j-1.csv", "is taken");
+    const Journal journal(folder.path() / "j.csv", origin(2));
+    EXPECT_EQ(journal.n_finished(), 0);
+    EXPECT_THAT(journal.notice(), HasSubstr("seed=1, now seed=2"));
+    EXPECT_THAT(journal.notice(), HasSubstr("j-2.csv"));
+    EXPECT_EQ(read_text(folder.path() / "j-2.csv"), of_seed_1);
+    EXPECT_EQ(read_text(folder.path() / "j-1.csv"), "is taken");
+}
+
+TEST(Journal, SaysNothingWhenNothingIsLost) {
+    const TemporaryFolder folder;
+    folder.write("j.csv", "study=tiny,seed=1\nrow,one,x,1\n");
+    EXPECT_EQ(Journal(folder.path() / "j.csv", origin(2)).notice(), "");
+    EXPECT_THAT(folder.listing(), ElementsAre("j.csv"));
+}
+
+/// Killed while it is being rewritten, a file that is truncated first has lost everything. One that is written beside
+/// and renamed is another file afterwards, and the old one is whole as long as somebody holds it.
+TEST(Journal, IsRewrittenBesideTheOldOne) {
+    const TemporaryFolder folder;
+    const std::string text = "study=tiny,seed=1\nrow,one,x,1\ndone,one\nrow,tw";
+    const auto file = folder.write("j.csv", text);
+    std::filesystem::create_hard_link(file, folder.path() / "held");
+    { const Journal journal(file, origin(1)); }
+    EXPECT_EQ(read_text(folder.path() / "held"), text);
+    EXPECT_EQ(read_text(file), "study=tiny,seed=1\nrow,one,x,1\ndone,one\n");
 }
 
 TEST(StudyProgress, EstimatesTheTimeLeftFromTheWeightDone) {

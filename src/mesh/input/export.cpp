@@ -77,6 +77,8 @@ Writer writer_for(const fs::path& file) {
 
 }  // namespace
 
+void write_surface(std::ostream& out, const SurfaceMesh& mesh, const fs::path& name) { writer_for(name)(out, mesh); }
+
 void save_surface(const fs::path& file, const SurfaceMesh& mesh) {
     const Writer write = writer_for(file);
     AtomicFile output(file);

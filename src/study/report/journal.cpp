@@ -1,5 +1,6 @@
 #include "study/report/journal.hpp"
 
+#include "base/atomic_file.hpp"
 #include "base/error.hpp"
 
 namespace elastolab {
@@ -10,20 +11,62 @@ namespace {
 constexpr const char* kRow = "row";
 constexpr const char* kDone = "done";
 
-}  // namespace
-
-Journal::Journal(std::filesystem::path file, const std::string& fingerprint) : file_(std::move(file)) {
-    read(fingerprint);
-    stream_.open(file_, std::ios::trunc);
-    stream_ << csv_line({fingerprint}) << '\n';
-    for (const auto& [key, rows] : finished_) write(key, rows);
-    if (!stream_.flush()) throw Error(file_.string() + ": cannot be written. Choose another folder with --out.");
+std::vector<std::string> fingerprint_of(const Row& origin) {
+    std::vector<std::string> fields;
+    for (const auto& [column, value] : origin.cells()) fields.push_back(column + "=" + value);
+    return fields;
 }
 
-void Journal::read(const std::string& fingerprint) {
+/// In words, where two fingerprints differ.
+std::string difference(const std::vector<std::string>& theirs, const std::vector<std::string>& ours) {
+    if (theirs.size() != ours.size()) return "of another version";
+    std::vector<std::string> words;
+    for (std::size_t i = 0; i < ours.size(); ++i)
+        if (theirs[i] != ours[i]) words.push_back(theirs[i] + ", now " + ours[i]);
+    return joined(words);
+}
+
+/// NAME-1.csv for NAME.csv, or the first number that is not taken.
+std::filesystem::path free_name_beside(const std::filesystem::path& file) {
+    for (int i = 1;; ++i) {
+        std::filesystem::path name = file;
+        name.replace_filename(file.stem().string() + "-" + std::to_string(i) + file.extension().string());
+        if (!std::filesystem::exists(name)) return name;
+    }
+}
+
+}  // namespace
+
+Journal::Journal(std::filesystem::path file, const Row& origin) : file_(std::move(file)) {
+    const std::vector<std::string> fingerprint = fingerprint_of(origin);
+    read(fingerprint);
+    AtomicFile whole(file_);
+    whole.stream() << csv_line(fingerprint) << '\n';
+    for (const auto& [key, rows] : finished_) write(whole.stream(), key, rows);
+    whole.commit();
+    stream_.open(file_, std::ios::app);
+    if (!stream_) throw Error(file_.string() + ": cannot be written. Choose another folder with --out.");
+}
+
+void Journal::read(const std::vector<std::string>& fingerprint) {
     std::ifstream in(file_);
     std::string line;
-    if (!std::getline(in, line) || line != csv_line({fingerprint})) return;
+    if (!std::getline(in, line)) return;
+    const std::vector<std::string> theirs = csv_fields(line);
+    read_cases(in);
+    if (theirs == fingerprint || finished_.empty()) return;
+    const std::filesystem::path aside = free_name_beside(file_);
+    std::error_code error;
+    std::filesystem::rename(file_, aside, error);
+    if (error) throw Error(file_.string() + ": cannot be set aside (" + error.message() + "). Move it elsewhere.");
+    notice_ = file_.string() + ": its " + std::to_string(finished_.size()) + " finished cases are of another run (" +
+              difference(theirs, fingerprint) + "). They are kept as " + aside.filename().string() +
+              "; this run begins anew.";
+    finished_.clear();
+}
+
+void Journal::read_cases(std::istream& in) {
+    std::string line;
     std::map<std::string, std::vector<Row>> open;
     while (std::getline(in, line)) {
         const std::vector<std::string> fields = csv_fields(line);
@@ -42,21 +85,23 @@ std::optional<std::vector<Row>> Journal::find(const std::string& key) const {
 }
 
 void Journal::add(const std::string& key, const std::vector<Row>& rows) {
-    write(key, rows);
-    if (!stream_.flush()) throw Error(file_.string() + ": cannot be written any more. Is the disk full?");
+    write(stream_, key, rows);
+    if (!stream_.flush())
+        throw Error(file_.string() +
+                    ": cannot be written any more. Is the disk full, or the size of files limited (ulimit -f)?");
     finished_[key] = rows;
 }
 
-void Journal::write(const std::string& key, const std::vector<Row>& rows) {
+void Journal::write(std::ostream& out, const std::string& key, const std::vector<Row>& rows) {
     for (const Row& row : rows) {
         std::vector<std::string> fields = {kRow, key};
         for (const auto& [column, text] : row.cells()) {
             fields.push_back(column);
             fields.push_back(text);
         }
-        stream_ << csv_line(fields) << '\n';
+        out << csv_line(fields) << '\n';
     }
-    stream_ << csv_line({kDone, key}) << '\n';
+    out << csv_line({kDone, key}) << '\n';
 }
 
 void Journal::remove() {

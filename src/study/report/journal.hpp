@@ -15,10 +15,12 @@ namespace elastolab {
 /// stopped or crashed study resumes where it was.
 class Journal {
 public:
-    /// `fingerprint`: what must be the same for rows to be kept. Rows with another one are dropped.
-    /// Throws Error when the file cannot be written.
-    Journal(std::filesystem::path file, const std::string& fingerprint);
+    /// `origin`: whatever must be the same for rows to be worth keeping. A file with finished cases of another origin
+    /// is kept under another name, which notice() says. Throws Error when the file cannot be written.
+    Journal(std::filesystem::path file, const Row& origin);
 
+    /// For the person who runs the study; mostly empty.
+    const std::string& notice() const { return notice_; }
     int n_finished() const { return static_cast<int>(finished_.size()); }
     /// The rows of a case, when it is finished.
     std::optional<std::vector<Row>> find(const std::string& key) const;
@@ -28,11 +30,13 @@ public:
     void remove();
 
 private:
-    void read(const std::string& fingerprint);
-    void write(const std::string& key, const std::vector<Row>& rows);
+    void read(const std::vector<std::string>& fingerprint);
+    void read_cases(std::istream& in);
+    static void write(std::ostream& out, const std::string& key, const std::vector<Row>& rows);
 
     std::filesystem::path file_;
     std::ofstream stream_;
+    std::string notice_;
     std::map<std::string, std::vector<Row>> finished_;
 };
 

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <limits>
 
+#include "base/error.hpp"
 #include "base/text.hpp"
 
 namespace elastolab {
@@ -118,11 +119,22 @@ void write_csv(std::ostream& out, const Table& table) {
 Table read_csv(std::istream& in) {
     Table table;
     std::string line;
-    if (std::getline(in, line)) table.columns = csv_fields(line);
-    while (std::getline(in, line)) {
+    const auto fail = [](std::size_t number, const std::string& finding) {
+        throw Error("line " + std::to_string(number) + " " + finding);
+    };
+    for (std::size_t number = 1; std::getline(in, line); ++number) {
+        if (in.eof()) fail(number, "has no end");
+        if (line.find('\0') != std::string::npos) fail(number, "is not text");
         const std::vector<std::string> fields = csv_fields(line);
+        if (number == 1) {
+            table.columns = fields;
+            continue;
+        }
+        if (fields.size() != table.columns.size())
+            fail(number, "has " + std::to_string(fields.size()) + " cells where " +
+                             std::to_string(table.columns.size()) + " belong");
         Row& row = table.rows.emplace_back();
-        for (std::size_t i = 0; i < std::min(fields.size(), table.columns.size()); ++i)
+        for (std::size_t i = 0; i < fields.size(); ++i)
             if (!fields[i].empty()) row.set(table.columns[i], fields[i]);
     }
     return table;

@@ -57,7 +57,7 @@ std::vector<std::string> csv_fields(std::string_view line);
 
 /// Header, then a line for each row.
 void write_csv(std::ostream& out, const Table& table);
-/// Reads what write_csv wrote.
+/// What write_csv wrote. Throws Error, which names the line, when it is no such table or not all of it.
 Table read_csv(std::istream& in);
 
 }  // namespace elastolab

@@ -1,0 +1,98 @@
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "cli/program.hpp"
+
+namespace elastolab::test {
+namespace {
+
+using testing::AnyOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr int kTimedOut = 124;
+
+class LimitsTest : public testing::Test {
+protected:
+    /// Runs the program in the folder after a shell command, such as ulimit; kTimedOut when it does not end.
+    ProgramRun run(const std::string& before, const std::string& arguments) const {
+        const std::string command = "cd '" + folder_.path().string() + "' && " + before +
+                                    " && timeout -s KILL 100 '" ELASTOLAB_PROGRAM "' " + arguments + " > '" +
+                                    outputs_.path().string() + "/out' 2> '" + outputs_.path().string() + "/err'";
+        const int status = std::system(command.c_str());
+        const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+        return {code == 128 + SIGKILL ? kTimedOut : code, read_text(outputs_.path() / "out"),
+                read_text(outputs_.path() / "err")};
+    }
+
+    TemporaryFolder folder_, outputs_;
+};
+
+/// OpenBLAS tries for ever when it cannot have its buffer.
+TEST_F(LimitsTest, SaysOutOfMemoryWhereAddressesAreFew) {
+    folder_.write("scene.json", cube_scene("linear-bem", 4));
+    int n_refused = 0;
+    for (const int mib : {250, 350, 500, 800, 8000}) {
+        const ProgramRun result = run("ulimit -v " + std::to_string(mib * 1024), "solve --quiet scene.json");
+        ASSERT_NE(result.exit_code, kTimedOut) << mib;
+        if (result.exit_code == 0) continue;
+        ++n_refused;
+        EXPECT_LT(mib, 8000);
+        EXPECT_THAT(result.err, AnyOf(HasSubstr("emory"), HasSubstr("cannot allocate"), HasSubstr("failed to map")));
+    }
+    EXPECT_GT(n_refused, 0);
+}
+
+TEST_F(LimitsTest, SaysThatAFileCannotGrow) {
+    folder_.write("scene.json", cube_scene("linear-bem", 4));
+    folder_.write("u.csv", "before");
+    const ProgramRun result = run("ulimit -f 2", "solve --quiet scene.json --displacements u.csv --threads 1");
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_THAT(result.err, HasSubstr("u.csv: could not be written completely"));
+    EXPECT_EQ(read_text(folder_.path() / "u.csv"), "before");
+    EXPECT_THAT(folder_.listing(), ElementsAre("scene.json", "u.csv"));
+}
+
+TEST_F(LimitsTest, WorksWithAStackOf4MB) {
+    for (const char* method : {"fem", "constant-bem", "linear-bem"}) {
+        folder_.write("scene.json", cube_scene(method, 6));
+        for (const char* mode : {"on-demand", "full"}) {
+            const ProgramRun result = run(
+                "ulimit -s 4096", std::string("solve --quiet scene.json --mode ") + mode + " --displacements u.csv");
+            EXPECT_EQ(result.exit_code, 0) << method << " " << mode << " " << result.err;
+        }
+    }
+}
+
+TEST_F(LimitsTest, TakesNoMoreThreadsThanThereAreCores) {
+    folder_.write("scene.json", cube_scene("linear-bem", 2));
+    const ProgramRun result = run("true", "solve --quiet scene.json --threads 900 --report r.json");
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const auto report = nlohmann::json::parse(read_text(folder_.path() / "r.json"));
+    EXPECT_EQ(report.at("threads").get<unsigned>(), std::thread::hardware_concurrency());
+}
+
+TEST_F(LimitsTest, RefusesTwoOutputsInOneFile) {
+    folder_.write("scene.json", cube_scene("linear-bem", 2));
+    create_directory(folder_.path() / "m");
+    const std::string solve = "solve --quiet scene.json --mode full --matrices m --displacements ";
+    EXPECT_EQ(run("true", solve + "m/u.csv").exit_code, 0);
+    const std::vector<std::string> before = folder_.listing();
+    for (const std::string& name : before) {
+        if (!name.ends_with(".npy")) continue;
+        const ProgramRun result = run("true", solve + name);
+        EXPECT_EQ(result.exit_code, 1) << name;
+        EXPECT_THAT(result.err, HasSubstr("two outputs"));
+    }
+    EXPECT_EQ(folder_.listing(), before);
+    const ProgramRun view = run("true", "view --hidden --frames 1 --scene-out x.obj --mesh-out ./x.obj");
+    EXPECT_EQ(view.exit_code, 2);
+    EXPECT_THAT(view.err, HasSubstr("twice"));
+}
+
+}  // namespace
+}  // namespace elastolab::test
