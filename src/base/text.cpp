@@ -19,10 +19,29 @@ std::string formatted(const char* format, ...) {
     return text;
 }
 
+namespace {
+
+/// Bytes of the UTF-8 character that the text begins with; 0 when it is none, or a control code of two bytes, which
+/// terminals obey as they obey those of one.
+std::size_t size_of_character(std::string_view text) {
+    const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
+    if (byte(0) < 0x80) return byte(0) < 0x20 || byte(0) == 0x7f ? 0 : 1;
+    const std::size_t size = byte(0) >= 0xf0 ? 4 : byte(0) >= 0xe0 ? 3 : 2;
+    if (byte(0) < 0xc2 || byte(0) > 0xf4 || (byte(0) == 0xc2 && byte(1) < 0xa0)) return 0;
+    for (std::size_t i = 1; i < size; ++i)
+        if (byte(i) < 0x80 || byte(i) > 0xbf) return 0;
+    return size;
+}
+
+}  // namespace
+
 std::string one_line(std::string_view text) {
-    std::string line(text);
-    for (char& c : line)
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+    std::string line;
+    while (!text.empty()) {
+        const std::size_t size = size_of_character(text);
+        line += size == 0 ? std::string_view(" ") : text.substr(0, size);
+        text.remove_prefix(std::max<std::size_t>(size, 1));
+    }
     return line;
 }
 
