@@ -225,8 +225,11 @@ DragResponse Deformer::drag_response(const Eigen::VectorXd& values, const Eigen:
     return {u.col(0), u.rightCols(basis.cols())};
 }
 
-void Deformer::add_reactions(const SolidState& state, const NodeSolution& solution, Reactions& sum) const {
-    const Reactions own = state.solid->reactions(solution);
+void Deformer::add_reactions(std::size_t part, const NodeSolution& solution, Reactions& sum) const {
+    const SolidState& state = solids_[part];
+    Reactions own = state.solid->reactions(solution);
+    const Eigen::Vector3d& origin = model_->parts()[part].origin;
+    for (Eigen::Index i = 0; i < own.forces.cols(); ++i) own.moments.col(i) += origin.cross(own.forces.col(i).eval());
     Eigen::Index column = 0;
     const auto place_at = [&](Eigen::Index target) {
         sum.forces.col(target) = own.forces.col(column) * model_->body().material.young_modulus;
@@ -263,7 +266,7 @@ Deformer::Answer Deformer::answer(const Eigen::VectorXd& values, bool with_resid
         const ConstrainedSolid* solid = solids_[s].solid.get();
         if (solid == nullptr) continue;
         NodeSolution solution = solid->solve(solids_[s].values(values), true);
-        add_reactions(solids_[s], solution, answer.reactions);
+        add_reactions(s, solution, answer.reactions);
         if (with_residual) answer.residual = std::max(*answer.residual, solid->residual(solution, control));
         if (with_check) place(s, solid->error(solution, control), error);
         place(s, solid->displacements(std::move(solution)), u);

@@ -102,8 +102,11 @@ std::shared_ptr<const Model> precompute(const Body& body, const Method& method, 
     require_sensible(method);
     require_memory(predict_cost(*body.surface, method), method);
     std::vector<Model::Part> parts;
-    for (const Solid& solid : split_solids(*body.surface))
-        parts.push_back({precompute_solid(solid, body, method, control), solid.vertices});
+    for (Solid& solid : split_solids(*body.surface)) {
+        const Eigen::Vector3d origin = computing_origin(solid.surface);
+        solid.surface.vertices.colwise() -= origin;
+        parts.push_back({precompute_solid(solid, body, method, control), solid.vertices, origin});
+    }
     ModelFacts facts = sum_up(parts, *body.surface);
     return std::make_shared<const Model>(body, method, std::move(parts), std::move(facts));
 }
@@ -119,7 +122,7 @@ std::shared_ptr<const Model> precompute_again(const Model& before, const Materia
     for (const Model::Part& part : before.parts()) {
         SolidPointer solid = reuse_solid(*part.solid, material.poisson_ratio, method, control);
         if (!solid) return precompute(body, method, control);
-        parts.push_back({std::move(solid), part.vertices});
+        parts.push_back({std::move(solid), part.vertices, part.origin});
     }
     ModelFacts facts = sum_up(parts, *body.surface);
     return std::make_shared<const Model>(std::move(body), method, std::move(parts), std::move(facts));
