@@ -41,6 +41,8 @@ const char* name(Defect::Kind kind) {
             return "self-intersections";
         case Defect::Kind::zero_volume:
             return "zero-volume";
+        case Defect::Kind::coarse_coordinates:
+            return "coarse-coordinates";
     }
     return "unknown";
 }

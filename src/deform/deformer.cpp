@@ -179,8 +179,11 @@ DragResponse Deformer::drag_response(const Eigen::VectorXd& values, const Eigen:
     return {u.col(0), u.rightCols(basis.cols())};
 }
 
-void Deformer::add_reactions(const SolidState& state, const NodeSolution& solution, Reactions& sum) const {
-    const Reactions own = state.solid->reactions(solution);
+void Deformer::add_reactions(std::size_t part, const NodeSolution& solution, Reactions& sum) const {
+    const SolidState& state = solids_[part];
+    Reactions own = state.solid->reactions(solution);
+    const Eigen::Vector3d& origin = model_->parts()[part].origin;
+    for (Eigen::Index i = 0; i < own.forces.cols(); ++i) own.moments.col(i) += origin.cross(own.forces.col(i).eval());
     Eigen::Index column = 0;
     const auto place_at = [&](Eigen::Index target) {
         sum.forces.col(target) = own.forces.col(column) * model_->body().material.young_modulus;
@@ -216,7 +219,7 @@ Deformer::Answer Deformer::answer(const Eigen::VectorXd& values, Wanted wanted, 
         const ConstrainedSolid* solid = solids_[s].solid.get();
         if (solid == nullptr) continue;
         NodeSolution solution = solid->solve(solids_[s].values(values), true);
-        add_reactions(solids_[s], solution, answer.reactions);
+        add_reactions(s, solution, answer.reactions);
         if (wanted.residual) answer.residual = std::max(*answer.residual, solid->residual(solution, control));
         if (wanted.check) place(s, solid->error(solution, control), error);
         place(s, solid->displacements(std::move(solution)), u);

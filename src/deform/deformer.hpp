@@ -126,7 +126,7 @@ private:
     /// Rows of all vertices <- those of a part.
     void place(std::size_t part, Eigen::MatrixXd&& own, Eigen::MatrixXd& all) const;
     void require_finite(const Eigen::MatrixXd& u) const;
-    void add_reactions(const SolidState& state, const NodeSolution& solution, Reactions& sum) const;
+    void add_reactions(std::size_t part, const NodeSolution& solution, Reactions& sum) const;
 
     std::shared_ptr<const Model> model_;
     ConstrainedSet set_;

@@ -65,6 +65,8 @@ public:
     struct Part {
         std::shared_ptr<const SolidModel> solid;
         std::vector<int> vertices;  ///< vertex of the body, for each vertex of the solid
+        /// Of the solid's own coordinates: a solid far away is computed around its middle (mesh/solids.hpp).
+        Eigen::Vector3d origin = Eigen::Vector3d::Zero();
     };
 
     Model(Body body, Method method, std::vector<Part> parts, ModelFacts facts);

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "mesh/measures.hpp"
 #include "mesh/checks/nesting.hpp"
+#include "mesh/measures.hpp"
 #include "mesh/topology.hpp"
 
 namespace elastolab {
@@ -61,6 +61,13 @@ std::vector<Solid> split_solids(const SurfaceMesh& mesh) {
     for (auto& triangles : parts)
         if (!triangles.empty()) solids.push_back(extract(mesh, std::move(triangles)));
     return solids;
+}
+
+Eigen::Vector3d computing_origin(const SurfaceMesh& surface) {
+    constexpr double kFar = 4.0;
+    const Eigen::Vector3d low = surface.vertices.rowwise().minCoeff(), high = surface.vertices.rowwise().maxCoeff();
+    const Eigen::Vector3d centre = low + 0.5 * (high - low);
+    return centre.norm() > kFar * (high - low).norm() ? centre : Eigen::Vector3d::Zero();
 }
 
 }  // namespace elastolab

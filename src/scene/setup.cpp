@@ -127,7 +127,12 @@ SceneMesh load_scene_mesh(const MeshSource& source, const fs::path& scene_file) 
     if (const auto* primitive = std::get_if<Primitive>(&source))
         return {primitive->name, check_and_repair(make_mesh(*primitive, scene_file))};
     const fs::path file = scene_file.parent_path() / std::get<MeshFile>(source).file;
-    return {file.string(), check_and_repair(load_surface(file))};
+    ImportedSurface imported = import_surface(file);
+    CheckedMesh checked = check_and_repair(std::move(imported.mesh));
+    if (!imported.warning.empty())
+        checked.report.defects.push_back(
+            {.kind = Defect::Kind::coarse_coordinates, .count = 1, .places = {}, .text = imported.warning});
+    return {file.string(), std::move(checked)};
 }
 
 void require_fit(const SceneMesh& mesh, const Material& material, MethodKind kind, const fs::path& scene_file) {

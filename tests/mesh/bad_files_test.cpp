@@ -93,7 +93,7 @@ std::vector<BadFile> not_meshes() {
         {"wrong_magic.off", "FFO\n4 4 0\n0 0 0\n"},
         {"truncated.off", "OFF\n400 400 0\n0 0 0\n1 0"},
         {"huge_count.off", "OFF\n353535235358 6 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"},
-        {"missing_face.off", "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"},  // assimp aborts on it
+        {"missing_face.off", "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"},
         {"vertices_only.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"},
         {"points_only.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\np 1 2 3\n"},
         {"lines_only.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2\nl 2 3\n"},

@@ -30,8 +30,7 @@ TEST(Files, KeepVertexNumbersAndTrianglesThroughObjAndPly) {
             save_surface(folder.path() / file, mesh);
             const SurfaceMesh read = load_surface(folder.path() / file);
             ASSERT_EQ(read.n_vertices(), mesh.n_vertices()) << name << file;
-            // assimp reads single precision, and decimal text to a unit or two in its last place
-            EXPECT_LT((read.vertices - mesh.vertices).cwiseAbs().maxCoeff(), 4e-7) << name << file;
+            EXPECT_EQ(read.vertices, mesh.vertices) << name << file;
             EXPECT_EQ(read.triangles, mesh.triangles) << name << file;
         }
 }

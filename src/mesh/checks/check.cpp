@@ -78,7 +78,7 @@ CheckedMesh check_and_repair(SurfaceMesh mesh) {
     report_non_finite(result.mesh, report);
     report_unreferenced(result.mesh, report);
     report_collapsed(result.mesh, report);
-    const bool finite = result.mesh.vertices.allFinite();
+    const bool finite = (result.mesh.vertices.array().abs() <= kLargestCoordinate).all();
 
     SurfaceMesh sound = without_collapsed(result.mesh);
     const bool complete = sound.n_triangles() == result.mesh.n_triangles();

@@ -14,7 +14,7 @@ struct Defect {
     enum class Kind {
         no_triangles, non_finite, open_edges, non_manifold_edges, non_manifold_vertices, inconsistent_orientation,
         inside_out, degenerate_triangles, sliver_triangles, duplicate_triangles, unreferenced_vertices,
-        self_intersections, zero_volume
+        self_intersections, zero_volume, coarse_coordinates
     };
     // clang-format on
     Kind kind;
@@ -55,7 +55,8 @@ struct CheckedMesh {
 /// - fatal for FEM, a warning for the others: parts of the surface that cross or touch. Found exactly.
 /// - repaired: triangles that face the other way than their neighbours, and closed surfaces that face the wrong way:
 ///   outward at even depth of nesting (solids), inward at odd depth (cavities).
-/// - warning: triangles of altitude below 1e-3 of the longest edge.
+/// - warning: triangles of altitude below 1e-3 of the longest edge. Coordinates that were rounded when they were read
+///   (coarse_coordinates) are reported by who read them (mesh/input/import.hpp).
 CheckedMesh check_and_repair(SurfaceMesh mesh);
 
 /// Throws MeshError with `name`, every fatal finding and a way forward in one line, when the report is not usable

@@ -31,6 +31,9 @@ std::string counted(int count, const std::string& one, const std::string& many,
 
 // What each inspection finds goes into the report.
 
+/// Largest coordinate that is taken for a number: exact predicates (mesh/checks/predicates.hpp) go no further.
+constexpr double kLargestCoordinate = 1e90;
+
 void report_non_finite(const SurfaceMesh& mesh, MeshReport& report);
 void report_unreferenced(const SurfaceMesh& mesh, MeshReport& report);
 /// Triangles with two equal vertices; inspections of edges then leave them out.

@@ -34,9 +34,10 @@ bool is_hinge(const SurfaceMesh& mesh, int vertex, std::span<const int> around) 
 void report_non_finite(const SurfaceMesh& mesh, MeshReport& report) {
     DefectCount found;
     for (int v = 0; v < mesh.n_vertices(); ++v)
-        if (!mesh.vertices.col(v).allFinite()) found.add(mesh.vertices.col(v));
-    found.report_fatal(report, Defect::Kind::non_finite, "vertex has a coordinate that is not a finite number",
-                       "vertices have coordinates that are not finite numbers", ". Export the mesh again.");
+        if (!(mesh.vertices.col(v).array().abs() <= kLargestCoordinate).all()) found.add(mesh.vertices.col(v));
+    found.report_fatal(report, Defect::Kind::non_finite,
+                       "vertex has a coordinate that is not a finite number up to 1e90",
+                       "vertices have coordinates that are not finite numbers up to 1e90", ". Export the mesh again.");
 }
 
 void report_unreferenced(const SurfaceMesh& mesh, MeshReport& report) {

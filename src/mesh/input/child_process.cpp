@@ -111,7 +111,7 @@ bool ChildProcess::wait_for(short events, Control& control) const {
     return ::poll(&ready, 1, 20) > 0;
 }
 
-std::vector<char> ChildProcess::exchange(std::string_view request, Control& control) {
+std::vector<char> ChildProcess::exchange(std::string_view request, Control& control, std::size_t most) {
     while (!request.empty()) {
         if (!wait_for(POLLOUT, control)) continue;
         const ssize_t n = ::send(socket_.fd, request.data(), request.size(), MSG_NOSIGNAL);
@@ -124,6 +124,10 @@ std::vector<char> ChildProcess::exchange(std::string_view request, Control& cont
         const ssize_t n = ::recv(socket_.fd, block.data(), block.size(), 0);
         if (n > 0) reply.insert(reply.end(), block.begin(), block.begin() + n);
         if (n == 0 || (n < 0 && errno != EAGAIN && errno != EINTR)) return reply;
+        if (reply.size() > most) {
+            ::kill(process_, SIGKILL);
+            return reply;
+        }
     }
 }
 

@@ -2,7 +2,9 @@
 
 #include <sys/types.h>
 
+#include <cstddef>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,8 +29,9 @@ public:
     ChildProcess& operator=(const ChildProcess&) = delete;
 
     /// Sends these bytes, then receives until the process closes its end. Checks for cancellation every 20 ms. A
-    /// process that dies early just answers less.
-    std::vector<char> exchange(std::string_view request, Control& control);
+    /// process that dies early just answers less; one that answers more than `most` bytes is not listened to further.
+    std::vector<char> exchange(std::string_view request, Control& control,
+                               std::size_t most = std::numeric_limits<std::size_t>::max());
     /// Waits for its end; the status as of waitpid. Checks for cancellation every few milliseconds.
     int wait(Control& control);
     /// What it has printed, at most the last 64 kB.

@@ -3,6 +3,8 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <cctype>
+#include <cmath>
 #include <csignal>
 #include <cstring>
 #include <fstream>
@@ -13,6 +15,7 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "mesh/input/child_process.hpp"
+#include "mesh/input/formats.hpp"
 #include "mesh/input/import_protocol.hpp"
 #include "mesh/input/merge.hpp"
 
@@ -26,6 +29,13 @@ namespace {
     throw MeshError(one_line(file.string() + ": " + finding));
 }
 
+std::string lower_case_extension(const fs::path& file) {
+    std::string extension = file.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension;
+}
+
 void require_readable(const fs::path& file) {
     std::error_code error;
     const fs::file_status status = fs::status(file, error);
@@ -36,13 +46,11 @@ void require_readable(const fs::path& file) {
     if (!std::ifstream(file)) fail(file, "cannot be opened. Check its permissions.");
 }
 
-/// assimp would look for the end of a PLY header forever.
-void require_complete_header(const fs::path& file) {
-    constexpr std::size_t kLongestHeader = std::size_t{1} << 20;
-    std::string start(std::min(kLongestHeader, static_cast<std::size_t>(fs::file_size(file))), '\0');
-    std::ifstream(file, std::ios::binary).read(start.data(), static_cast<std::streamsize>(start.size()));
-    if ((start.starts_with("ply") || start.starts_with("PLY")) && start.find("end_header") == std::string::npos)
-        fail(file, "is a PLY file whose header does not end. Is it damaged? Export it again.");
+void require_known_format(const fs::path& file) {
+    const std::string extension = lower_case_extension(file);
+    if (!extension.empty() && is_mesh_format(extension.substr(1))) return;
+    fail(file, (extension.empty() ? "has no extension" : "is of no format that is read") +
+                   std::string(". Export it as OBJ, PLY, OFF, STL or glTF."));
 }
 
 /// Time and memory far beyond what any sound file of this size takes.
@@ -77,51 +85,85 @@ public:
     explicit ReplyReader(const std::vector<char>& bytes) : bytes_(bytes) {}
     /// False when the reply is not that long.
     bool take(void* to, std::size_t size) {
-        if (bytes_.size() - at_ < size) return false;
+        if (left() < size) return false;
         if (size > 0) std::memcpy(to, bytes_.data() + at_, size);
         at_ += size;
         return true;
     }
     template <class Matrix>
-    bool take(Matrix& matrix) {
-        return take(matrix.data(), sizeof(*matrix.data()) * static_cast<std::size_t>(matrix.size()));
+    void take(Matrix& matrix) {
+        take(matrix.data(), sizeof(*matrix.data()) * static_cast<std::size_t>(matrix.size()));
     }
+    std::size_t left() const { return bytes_.size() - at_; }
 
 private:
     const std::vector<char>& bytes_;
     std::size_t at_ = 0;
 };
 
-struct Imported {
-    SurfaceMesh mesh;
-    Positions order;  ///< places in the order of their first appearance in the file, where `mesh` has another order
-};
+/// Whether what follows the header is what it says: asked before any memory is.
+bool agrees(const ImportReplyHeader& header, std::size_t size_of_rest) {
+    if (header.magic != kImportMagic || header.n_vertices < 0 || header.n_triangles < 0 || header.text_size < 0)
+        return false;
+    return size_of_rest == 3 * sizeof(double) * static_cast<std::size_t>(header.n_vertices) +
+                               3 * sizeof(std::int32_t) * static_cast<std::size_t>(header.n_triangles) +
+                               static_cast<std::size_t>(header.text_size);
+}
 
-Imported import(const fs::path& file) {
+bool within(const Triangles& triangles, int n_vertices) {
+    return triangles.size() == 0 || (triangles.minCoeff() >= 0 && triangles.maxCoeff() < n_vertices);
+}
+
+/// The helper quotes the file: no more than a few lines, whatever it holds.
+std::string shortened(const std::string& text) {
+    constexpr std::size_t kLongest = 400;
+    return text.size() <= kLongest ? text : text.substr(0, kLongest) + "...";
+}
+
+/// Floats have 24 digits of base 2: a body far from the origin loses those that its distance takes.
+std::string precision_warning(const SurfaceMesh& mesh) {
+    const Eigen::Vector3d low = mesh.vertices.rowwise().minCoeff(), high = mesh.vertices.rowwise().maxCoeff();
+    const double size = (high - low).norm(), distance = std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff());
+    constexpr double kFloatRounding = 6e-8, kTolerable = 1e-6;
+    const double coarseness = kFloatRounding * distance / size;
+    if (!(coarseness > kTolerable) || !std::isfinite(coarseness)) return {};
+    return formatted(
+        "its coordinates are read in single precision and lie far from the origin: they are rounded by %.1g of its "
+        "size. "
+        "Move it to the origin before it is exported, or export it as OBJ or PLY.",
+        coarseness);
+}
+
+ImportedSurface import(const fs::path& file) {
     Control control;  // nobody cancels: the helper has a time limit
     ChildProcess helper(helper_program("elastolab-import"));
-    const std::vector<char> bytes = helper.exchange(request_bytes(file), control);
+    const std::vector<char> bytes =
+        helper.exchange(request_bytes(file), control, static_cast<std::size_t>(header_for(file).memory_bytes));
     const int status = helper.wait(control);
 
     ReplyReader reply(bytes);
     ImportReplyHeader header;
-    if (!reply.take(&header, sizeof(header)) || header.magic != kImportMagic) fail(file, meaning_of_end(status));
-    Imported result{{Positions(3, header.n_vertices), Triangles(3, header.n_triangles)}, Positions(3, header.n_order)};
+    if (!reply.take(&header, sizeof(header)) || !agrees(header, reply.left())) fail(file, meaning_of_end(status));
+    SurfaceMesh mesh{Positions(3, header.n_vertices), Triangles(3, header.n_triangles)};
     std::string problem(static_cast<std::size_t>(header.text_size), '\0');
-    const bool complete = reply.take(result.mesh.vertices) && reply.take(result.order) &&
-                          reply.take(result.mesh.triangles) && reply.take(problem);
-    if (!complete) fail(file, meaning_of_end(status));
-    if (!problem.empty()) fail(file, problem);
+    reply.take(mesh.vertices);
+    reply.take(mesh.triangles);
+    reply.take(problem);
+    if (!problem.empty()) fail(file, shortened(problem));
+    if (mesh.n_triangles() == 0 || !within(mesh.triangles, mesh.n_vertices())) fail(file, meaning_of_end(status));
+    ImportedSurface result{merged(mesh), {}};
+    if (header.is_single_precision != 0) result.warning = precision_warning(result.mesh);
     return result;
 }
 
 }  // namespace
 
-SurfaceMesh load_surface(const fs::path& file) {
+ImportedSurface import_surface(const fs::path& file) {
     require_readable(file);
-    require_complete_header(file);
-    const Imported imported = import(file);
-    return merged(imported.mesh, imported.order);
+    require_known_format(file);
+    return import(file);
 }
+
+SurfaceMesh load_surface(const fs::path& file) { return import_surface(file).mesh; }
 
 }  // namespace elastolab

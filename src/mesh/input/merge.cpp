@@ -60,9 +60,8 @@ SurfaceMesh without_unused(const std::vector<Eigen::Vector3d>& places, Triangles
 
 }  // namespace
 
-SurfaceMesh merged(const SurfaceMesh& mesh, const Positions& order) {
+SurfaceMesh merged(const SurfaceMesh& mesh) {
     PlaceNumbers numbers;
-    for (const auto& p : order.colwise()) numbers[p];
     std::vector<int> number;
     for (const auto& p : mesh.vertices.colwise()) number.push_back(numbers[p]);
     Triangles triangles = mesh.triangles;
