@@ -122,6 +122,7 @@ public:
           other_(other),
           rule_(legendre_rule(std::min(kMaxLegendre, 2 + static_cast<int>(std::ceil(-std::log(tolerance) / 1.76))))) {
         levels_ = 1 + static_cast<int>(std::ceil(std::log(tolerance) / std::log(kGrading) / (all ? 1.2 : 2.0)));
+        levels_ = std::min(levels_, 14);
         for (int i = 0; i < 3; ++i) {
             if (corner(other, i) == a_) singular_ = i, from_a_ = true;
             if (corner(other, i) == b_) singular_ = i, from_a_ = false;
@@ -211,15 +212,39 @@ PairNumbers identical_pair(const TriangleGeometry& T) {
     return {M(0, 0), M(1, 1), M(2, 2), M(0, 1), M(0, 2), M(1, 2)};
 }
 
+TriangleGeometry shifted(TriangleGeometry T, const Vec& origin) {
+    for (auto& corner : T.corner) Eigen::Map<Vec>{corner} -= origin;
+    Eigen::Map<Vec>{T.centroid} -= origin;
+    return T;
+}
+
+/// The end of a path that is a corner of the other triangle, else its apex. As origin it keeps points near it exact,
+/// however far from the origin the body lies.
+Vec singular_corner(const TriangleGeometry& path, int apex, const TriangleGeometry& other) {
+    for (int end = 1; end <= 2; ++end)
+        for (int i = 0; i < 3; ++i)
+            if (corner(path, apex + end) == corner(other, i)) return corner(other, i);
+    return corner(path, apex);
+}
+
 PairNumbers touching_pair(const TriangleGeometry& t, int apex_t, const TriangleGeometry& s, int apex_s, bool all,
                           double tolerance) {
     const auto height = [](const TriangleGeometry& T, int apex) { return T.double_area / T.length[(apex + 1) % 3]; };
     PairNumbers sum{};
-    PotentialSum of_s(s, all, nullptr, sum), of_t(t, all, s.n, sum);
-    Path(t, apex_t, s, tolerance, all).add_to(of_s, height(t, apex_t));
-    of_s.flush();
-    Path(s, apex_s, t, tolerance, all).add_to(of_t, height(s, apex_s));
-    of_t.flush();
+    {
+        const Vec origin = singular_corner(t, apex_t, s);
+        const TriangleGeometry path = shifted(t, origin), other = shifted(s, origin);
+        PotentialSum potential(other, all, nullptr, sum);
+        Path(path, apex_t, other, tolerance, all).add_to(potential, height(t, apex_t));
+        potential.flush();
+    }
+    {
+        const Vec origin = singular_corner(s, apex_s, t);
+        const TriangleGeometry path = shifted(s, origin), other = shifted(t, origin);
+        PotentialSum potential(other, all, s.n, sum);
+        Path(path, apex_s, other, tolerance, all).add_to(potential, height(s, apex_s));
+        potential.flush();
+    }
     PairNumbers result{};
     for (std::size_t k = 0; k < kPairTensorNumbers; ++k) result[k] = sum[k] / 3.0;
     double whole = 0.0;
