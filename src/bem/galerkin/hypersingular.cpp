@@ -1,0 +1,217 @@
+#include "bem/galerkin/hypersingular.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <numbers>
+#include <vector>
+
+#include "base/parallel.hpp"
+#include "bem/galerkin/hat_curls.hpp"
+#include "elasticity/pair_integrals.hpp"
+
+namespace elastolab {
+
+namespace {
+
+constexpr int kStripTriangles = 64;            ///< a multiple of every number of lanes
+constexpr std::size_t kStripBytes = 1u << 27;  ///< of strips that wait to be added to the matrix
+
+/// D = alpha sum P (2 c_b c_a^T - c_a c_b^T) + beta sum [c_a]^T (P I - Q) [c_b].
+struct Factors {
+    double alpha, beta;
+};
+
+/// The rows of the vertices of some consecutive triangles, from the pairs of these with themselves and all later ones.
+struct Strip {
+    std::vector<int> vertices;
+    std::vector<double> blocks;  ///< [vertex of the mesh][vertex of the strip][3 x 3 by rows]
+};
+
+class HypersingularAssembly {
+public:
+    HypersingularAssembly(const Boundary& boundary, double tolerance, Factors factors)
+        : boundary_(boundary),
+          factors_(factors),
+          n_(boundary.n_triangles()),
+          order_(triangles_along_a_curve(boundary)),
+          triangles_(triangles_of(boundary)),
+          integrals_(triangles_, tolerance),
+          last_(static_cast<std::size_t>(boundary.mesh().n_vertices()), 0) {
+        for (const TriangleGeometry& T : triangles_) curls_.push_back(hat_curls(T));
+        for (int position = 0; position < n_; ++position)
+            for (int k = 0; k < 3; ++k) last_[vertex(position, k)] = position;
+    }
+
+    void run(Eigen::Ref<Eigen::MatrixXd> D, Control& control) const {
+        D.setZero();
+        const int n_strips = (n_ + kStripTriangles - 1) / kStripTriangles;
+        const std::size_t bytes = sizeof(double) * 9 * last_.size() * (kStripTriangles * 3 / 4);
+        const int at_once = static_cast<int>(std::clamp<std::size_t>(kStripBytes / bytes, 8, 1024));
+        for (int first = 0; first < n_strips; first += at_once) {
+            std::vector<Strip> strips(static_cast<std::size_t>(std::min(at_once, n_strips - first)));
+            parallel_blocks(static_cast<int>(strips.size()), 1, control, [&](int begin, int end) {
+                for (int i = begin; i < end; ++i) strips[static_cast<std::size_t>(i)] = make_strip(first + i);
+            });
+            add(strips, D, control);
+        }
+        add_transpose(D, control);
+    }
+
+private:
+    static std::vector<TriangleGeometry> triangles_of(const Boundary& boundary) {
+        std::vector<TriangleGeometry> triangles;
+        for (int t = 0; t < boundary.n_triangles(); ++t) triangles.push_back(boundary.triangle(t));
+        return triangles;
+    }
+    int triangle(int position) const { return order_[static_cast<std::size_t>(position)]; }
+    std::size_t vertex(int position, int k) const {
+        return static_cast<std::size_t>(boundary_.mesh().triangles(k, triangle(position)));
+    }
+
+    Strip make_strip(int number) const {
+        const int begin = number * kStripTriangles, end = std::min(n_, begin + kStripTriangles);
+        Strip strip;
+        for (int position = begin; position < end; ++position)
+            for (int k = 0; k < 3; ++k) strip.vertices.push_back(static_cast<int>(vertex(position, k)));
+        std::sort(strip.vertices.begin(), strip.vertices.end());
+        strip.vertices.erase(std::unique(strip.vertices.begin(), strip.vertices.end()), strip.vertices.end());
+        strip.blocks.assign(9 * strip.vertices.size() * last_.size(), 0.0);
+        std::vector<double> sums(kCurlNumbers * last_.size() * static_cast<std::size_t>(integrals_.lanes()));
+        for (int first = begin; first < end; first += integrals_.lanes())
+            add_pack(first, std::min(end, first + integrals_.lanes()), sums, strip);
+        return strip;
+    }
+
+    /// Adds the pairs of the triangles at these positions with all from `first` on.
+    void add_pack(int first, int end, std::vector<double>& sums, Strip& strip) const {
+        const auto tests =
+            std::span(order_).subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(end - first));
+        const PairIntegrals::Pack pack = integrals_.pack(tests);
+        std::fill(sums.begin(), sums.end(), 0.0);
+        for (int position = first; position < n_; ++position) add_field(pack, first, end, position, sums);
+        contract(pack, first, end, sums, strip);
+    }
+
+    double* sums_of(std::vector<double>& sums, std::size_t vertex) const {
+        return sums.data() + kCurlNumbers * static_cast<std::size_t>(integrals_.lanes()) * vertex;
+    }
+
+    void add_field(const PairIntegrals::Pack& pack, int first, int end, int position, std::vector<double>& sums) const {
+        const int lanes = integrals_.lanes();
+        double Q[kPairNumbers * kMaxLanes], P[kMaxLanes];
+        integrals_.integrate(pack, triangle(position), false, Q);
+        if (position < first + lanes)  // each pair once; that of a triangle with itself is half
+            for (int lane = 0; lane < lanes; ++lane) {
+                const int test = first + lane;
+                const double share = test >= end || test > position ? 0.0 : test == position ? 0.5 : 1.0;
+                for (int k = 0; k < kPairTensorNumbers; ++k) Q[k * lanes + lane] *= share;
+            }
+        for (int lane = 0; lane < lanes; ++lane) {  // N = P I - Q
+            P[lane] = Q[lane] + Q[lanes + lane] + Q[2 * lanes + lane];
+            for (int k = 0; k < kPairTensorNumbers; ++k)
+                Q[k * lanes + lane] = (k < 3 ? P[lane] : 0.0) - Q[k * lanes + lane];
+        }
+        const Eigen::Matrix3d& c = curls_[static_cast<std::size_t>(triangle(position))];
+        const double curls[3][3] = {
+            {c(0, 0), c(1, 0), c(2, 0)}, {c(0, 1), c(1, 1), c(2, 1)}, {c(0, 2), c(1, 2), c(2, 2)}};
+        double* const into[3] = {sums_of(sums, vertex(position, 0)), sums_of(sums, vertex(position, 1)),
+                                 sums_of(sums, vertex(position, 2))};
+        kernels_.add_curls(P, Q, curls, into);
+    }
+
+    void contract(const PairIntegrals::Pack& pack, int first, int end, std::vector<double>& sums, Strip& strip) const {
+        const auto lanes = static_cast<std::size_t>(integrals_.lanes());
+        double curls[9 * kMaxLanes];
+        std::size_t rows[3 * kMaxLanes];
+        for (std::size_t lane = 0; lane < lanes; ++lane)
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Eigen::Matrix3d& c = curls_[static_cast<std::size_t>(pack.triangles[lane])];
+                for (std::size_t i = 0; i < 3; ++i)
+                    curls[(3 * k + i) * lanes + lane] = c(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
+                const int v = boundary_.mesh().triangles(static_cast<Eigen::Index>(k), pack.triangles[lane]);
+                const auto at = std::lower_bound(strip.vertices.begin(), strip.vertices.end(), v);
+                rows[3 * lane + k] = static_cast<std::size_t>(at - strip.vertices.begin());
+            }
+        double blocks[27 * kMaxLanes];
+        for (std::size_t b = 0; b < last_.size(); ++b) {
+            if (last_[b] < first) continue;
+            kernels_.contract_curls(factors_.alpha, factors_.beta, curls, sums_of(sums, b), blocks);
+            double* row = strip.blocks.data() + 9 * strip.vertices.size() * b;
+            for (std::size_t lane = 0; lane < static_cast<std::size_t>(end - first); ++lane)
+                for (std::size_t k = 0; k < 3; ++k)
+                    for (std::size_t i = 0; i < 9; ++i)
+                        row[9 * rows[3 * lane + k] + i] += blocks[(9 * k + i) * lanes + lane];
+        }
+    }
+
+    /// Each column of the matrix takes the strips in their order.
+    void add(const std::vector<Strip>& strips, Eigen::Ref<Eigen::MatrixXd> D, Control& control) const {
+        parallel_blocks(static_cast<int>(last_.size()), 16, control, [&](int begin, int end) {
+            for (int b = begin; b < end; ++b)
+                for (const Strip& strip : strips) {
+                    const double* block = strip.blocks.data() + 9 * strip.vertices.size() * static_cast<std::size_t>(b);
+                    for (const int a : strip.vertices) {
+                        for (int i = 0; i < 3; ++i)
+                            for (int j = 0; j < 3; ++j) D(3 * a + i, 3 * b + j) += block[3 * i + j];
+                        block += 9;
+                    }
+                }
+        });
+    }
+
+    static void add_transpose(Eigen::Ref<Eigen::MatrixXd> D, Control& control) {
+        constexpr int kTile = 96;
+        const int n = static_cast<int>(D.rows()), n_tiles = (n + kTile - 1) / kTile;
+        parallel_blocks(n_tiles, 1, control, [&](int tile, int) {
+            const int i = tile * kTile, rows = std::min(kTile, n - i);
+            Eigen::MatrixXd sum;
+            for (int j = i; j < n; j += kTile) {
+                const int columns = std::min(kTile, n - j);
+                sum = D.block(i, j, rows, columns) + D.block(j, i, columns, rows).transpose();
+                D.block(i, j, rows, columns) = sum;
+                D.block(j, i, columns, rows) = sum.transpose();
+            }
+        });
+    }
+
+    const Boundary& boundary_;
+    Factors factors_;
+    int n_;
+    std::vector<int> order_;
+    std::vector<TriangleGeometry> triangles_;
+    PairIntegrals integrals_;
+    const PairKernels& kernels_ = best_pair_kernels();
+    std::vector<Eigen::Matrix3d> curls_;
+    std::vector<int> last_;  ///< last position of a triangle at each vertex
+};
+
+void assemble_parts(const Boundary& boundary, double tolerance, Factors factors, Eigen::Ref<Eigen::MatrixXd> D,
+                    Control& control) {
+    assert(D.rows() == 3 * boundary.mesh().n_vertices() && D.cols() == D.rows());
+    HypersingularAssembly(boundary, tolerance, factors).run(D, control);
+}
+
+constexpr double kFactor = 0.25 * std::numbers::inv_pi;
+
+}  // namespace
+
+void assemble_hypersingular(const Boundary& boundary, const Material& material, double tolerance,
+                            Eigen::Ref<Eigen::MatrixXd> D, Control& control) {
+    const double factor = kFactor * material.shear_modulus();
+    assemble_parts(boundary, tolerance, {factor, factor / (1.0 - material.poisson_ratio)}, D, control);
+}
+
+HypersingularParts::HypersingularParts(const Boundary& boundary, double tolerance, Control& control) {
+    const Eigen::Index n = 3 * boundary.mesh().n_vertices();
+    without_nu.resize(n, n);
+    with_nu.resize(n, n);
+    assemble_parts(boundary, tolerance, {kFactor, 0.0}, without_nu, control);
+    assemble_parts(boundary, tolerance, {0.0, kFactor}, with_nu, control);
+}
+
+void HypersingularParts::evaluate(const Material& material, Eigen::Ref<Eigen::MatrixXd> D) const {
+    const double mu = material.shear_modulus();
+    D = mu * without_nu + (mu / (1.0 - material.poisson_ratio)) * with_nu;
+}
+
+}  // namespace elastolab

@@ -1,0 +1,326 @@
+#include "elasticity/close_pairs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <Eigen/Geometry>
+
+#include "elasticity/pair_rules.hpp"
+
+namespace elastolab {
+
+namespace {
+
+using Vec = Eigen::Vector3d;
+
+constexpr double kGrading = 0.17;  ///< ratio of successive pieces towards a singular end
+constexpr int kMaxDepth = 40;
+
+Vec corner(const TriangleGeometry& T, int i) { return Eigen::Map<const Vec>(T.corner[i % 3]); }
+Vec normal(const TriangleGeometry& T) { return Eigen::Map<const Vec>(T.n); }
+
+double distance_to_segment(const Vec& p, const Vec& a, const Vec& b) {
+    const Vec ab = b - a;
+    const double s = std::clamp((p - a).dot(ab) / ab.squaredNorm(), 0.0, 1.0);
+    return (p - (a + s * ab)).norm();
+}
+
+/// Distance of the segments p-q and a-b.
+double segment_distance(const Vec& p, const Vec& q, const Vec& a, const Vec& b) {
+    const Vec d = q - p, e = b - a, w = p - a;
+    const double dd = d.squaredNorm(), ee = e.squaredNorm(), de = d.dot(e), dw = d.dot(w), ew = e.dot(w);
+    const double determinant = dd * ee - de * de;
+    double result = std::min({distance_to_segment(p, a, b), distance_to_segment(q, a, b), distance_to_segment(a, p, q),
+                              distance_to_segment(b, p, q)});
+    if (determinant > 1e-14 * dd * ee) {
+        const double s = (de * ew - ee * dw) / determinant, t = (dd * ew - de * dw) / determinant;
+        if (s > 0.0 && s < 1.0 && t > 0.0 && t < 1.0) result = std::min(result, (w + s * d - t * e).norm());
+    }
+    return result;
+}
+
+/// Collects weighted points, as many as a kernel takes at once, and sums potentials of one triangle over them.
+class PotentialSum {
+public:
+    /// normals: nullptr, or the normal of the plane in which the points y lie; then the sum's normal numbers are those
+    /// of the adjoint, phi_k(y) int (y - x) . n / r^3 dx, else those of the triangle's own hats (if `all`).
+    PotentialSum(const TriangleGeometry& triangle, bool all, const double* plane_normal, PairNumbers& sum)
+        : triangle_(triangle), all_(all), plane_normal_(plane_normal), sum_(sum) {}
+
+    void add(const Vec& x, double weight, const Vec& phi) {
+        points_.x[n_] = x[0], points_.y[n_] = x[1], points_.z[n_] = x[2];
+        points_.own_triangle[n_] = -1.0;
+        weights_[n_] = weight;
+        phi_[n_] = phi;
+        if (++n_ == kernels_.lanes) flush();
+    }
+
+    void flush() {
+        if (n_ == 0) return;
+        for (int i = n_; i < kernels_.lanes; ++i) {
+            points_.x[i] = points_.x[0], points_.y[i] = points_.y[0], points_.z[i] = points_.z[0];
+            points_.own_triangle[i] = -1.0;
+        }
+        add_tensor();
+        if (all_ && plane_normal_ == nullptr) add_normal();
+        if (all_ && plane_normal_ != nullptr) add_adjoint();
+        n_ = 0;
+    }
+
+private:
+    void add_tensor() {
+        double values[kSingleLayerNumbers * kMaxLanes] = {};
+        double* const out[1] = {values};
+        kernels_.single_layer_constant(triangle_, points_, nullptr, out);
+        for (int k = 0; k < kPairTensorNumbers; ++k)
+            for (int i = 0; i < n_; ++i)
+                sum_[static_cast<std::size_t>(k)] += weights_[i] * values[(1 + k) * kernels_.lanes + i];
+    }
+
+    void add_normal() {
+        double values[3][kDoubleLayerNumbers * kMaxLanes] = {};
+        double* const out[3] = {values[0], values[1], values[2]};
+        kernels_.double_layer_linear(triangle_, points_, nullptr, out);
+        for (int k = 0; k < 3; ++k)
+            for (int i = 0; i < n_; ++i)
+                sum_[static_cast<std::size_t>(kPairTensorNumbers + k)] += weights_[i] * values[k][i];
+    }
+
+    void add_adjoint() {
+        double values[kDoubleLayerNumbers * kMaxLanes] = {};
+        double* const out[1] = {values};
+        kernels_.double_layer_constant(triangle_, points_, nullptr, out);
+        const Vec n = normal(triangle_), plane = Eigen::Map<const Vec>(plane_normal_);
+        for (int i = 0; i < n_; ++i) {
+            const auto number = [&](int k) { return values[k * kernels_.lanes + i]; };
+            const Vec c(number(1), number(2), number(3));
+            const double g = -plane.dot(number(0) * n + n.cross(c));
+            for (int k = 0; k < 3; ++k)
+                sum_[static_cast<std::size_t>(kPairTensorNumbers + k)] += weights_[i] * phi_[i][k] * g;
+        }
+    }
+
+    const TriangleGeometry& triangle_;
+    bool all_;
+    const double* plane_normal_;
+    PairNumbers& sum_;
+    const TriangleKernels& kernels_ = best_triangle_kernels();
+    SourceLanes points_{};
+    double weights_[kMaxLanes] = {};
+    Vec phi_[kMaxLanes];
+    int n_ = 0;
+};
+
+/// Points along the edge of `path` opposite its corner `apex`, for the potential of `other`; the edge may begin or end
+/// at a corner of `other`.
+class Path {
+public:
+    Path(const TriangleGeometry& path, int apex, const TriangleGeometry& other, double tolerance, bool all)
+        : a_(corner(path, apex + 1)),
+          b_(corner(path, apex + 2)),
+          i_a_((apex + 1) % 3),
+          i_b_((apex + 2) % 3),
+          other_(other),
+          rule_(legendre_rule(std::min(kMaxLegendre, 2 + static_cast<int>(std::ceil(-std::log(tolerance) / 1.76))))) {
+        levels_ = 1 + static_cast<int>(std::ceil(std::log(tolerance) / std::log(kGrading) / (all ? 1.2 : 2.0)));
+        levels_ = std::min(levels_, 14);
+        for (int i = 0; i < 3; ++i) {
+            if (corner(other, i) == a_) singular_ = i, from_a_ = true;
+            if (corner(other, i) == b_) singular_ = i, from_a_ = false;
+        }
+    }
+
+    /// sum of f over the edge, times `factor`.
+    void add_to(PotentialSum& sum, double factor) {
+        const double scale = factor * (b_ - a_).norm();
+        if (singular_ < 0) return add_piece(sum, scale, 0.0, 1.0, 0);
+        double end = 1.0;
+        for (int level = 0; level < levels_; ++level) {
+            add_piece(sum, scale, kGrading * end, end, 0);
+            end *= kGrading;
+        }
+        add_gauss(sum, scale, 0.0, end);
+    }
+
+private:
+    /// u = 0 at the singular end, if there is one.
+    Vec point(double u) const { return from_a_ ? Vec(a_ + u * (b_ - a_)) : Vec(b_ + u * (a_ - b_)); }
+
+    void add_piece(PotentialSum& sum, double scale, double from, double to, int depth) {
+        if (depth > kMaxDepth || 0.5 * (to - from) * (b_ - a_).norm() <= clearance(point(from), point(to)))
+            return add_gauss(sum, scale, from, to);
+        const double middle = 0.5 * (from + to);
+        add_piece(sum, scale, from, middle, depth + 1);
+        add_piece(sum, scale, middle, to, depth + 1);
+    }
+
+    void add_gauss(PotentialSum& sum, double scale, double from, double to) {
+        for (std::size_t q = 0; q < rule_.nodes.size(); ++q) {
+            const double u = from + rule_.nodes[q] * (to - from), at_b = from_a_ ? u : 1.0 - u;
+            Vec phi = Vec::Zero();
+            phi[i_a_] = 1.0 - at_b;
+            phi[i_b_] = at_b;
+            sum.add(point(u), scale * (to - from) * rule_.weights[q], phi);
+        }
+    }
+
+    /// Distance from where the potential is not analytic. Along a ray from a corner it is A(u) + u log(u) B(u) with
+    /// A and B singular at the opposite edge only.
+    double clearance(const Vec& p, const Vec& q) const {
+        double result = 1e300;
+        for (int i = 0; i < 3; ++i)
+            if (singular_ < 0 || i == (singular_ + 1) % 3)
+                result = std::min(result, segment_distance(p, q, corner(other_, i), corner(other_, i + 1)));
+        return result;
+    }
+
+    Vec a_, b_;
+    int i_a_, i_b_;
+    const TriangleGeometry& other_;
+    const LineRule& rule_;
+    int levels_ = 0, singular_ = -1;
+    bool from_a_ = true;
+};
+
+/// int e e^T / r ds over the segment a-b, seen from p off its line.
+Eigen::Matrix3d segment_tensor(const Vec& p, const Vec& a, const Vec& b) {
+    const Vec da = a - p, db = b - p, t = (b - a).normalized();
+    const double sa = da.dot(t), sb = db.dot(t), ra = da.norm(), rb = db.norm();
+    const Vec off = da - sa * t;
+    const double h = off.norm();
+    const Vec m = off / h;
+    const double L = std::asinh(sb / h) - std::asinh(sa / h);
+    const double h2C = sb / rb - sa / ra, hD = h * (1.0 / ra - 1.0 / rb);
+    return h2C * m * m.transpose() + hD * (m * t.transpose() + t * m.transpose()) + (L - h2C) * t * t.transpose();
+}
+
+Eigen::Matrix3d tensor_of(const double* values, int stride) {
+    const auto v = [&](int k) { return values[k * stride]; };
+    Eigen::Matrix3d M;
+    M << v(0), v(3), v(4), v(3), v(1), v(5), v(4), v(5), v(2);
+    return M;
+}
+
+PairNumbers identical_pair(const TriangleGeometry& T) {
+    const Vec a = corner(T, 0), b = corner(T, 1), c = corner(T, 2);
+    PairNumbers numbers{};
+    PotentialSum potential(T, false, nullptr, numbers);
+    potential.add(c, 1.0, Vec::Zero());
+    potential.flush();
+    const Eigen::Matrix3d at_c = tensor_of(numbers.data(), 1);
+    const Eigen::Matrix3d lines = segment_tensor(b, c, a) / (a - c).norm() + segment_tensor(a, b, c) / (c - b).norm();
+    const Eigen::Matrix3d M = (T.double_area / 3.0) * (at_c + T.double_area * lines);
+    return {M(0, 0), M(1, 1), M(2, 2), M(0, 1), M(0, 2), M(1, 2)};
+}
+
+TriangleGeometry shifted(TriangleGeometry T, const Vec& origin) {
+    for (auto& corner : T.corner) Eigen::Map<Vec>{corner} -= origin;
+    Eigen::Map<Vec>{T.centroid} -= origin;
+    return T;
+}
+
+/// The end of a path that is a corner of the other triangle, else its apex. As origin it keeps points near it exact,
+/// however far from the origin the body lies.
+Vec singular_corner(const TriangleGeometry& path, int apex, const TriangleGeometry& other) {
+    for (int end = 1; end <= 2; ++end)
+        for (int i = 0; i < 3; ++i)
+            if (corner(path, apex + end) == corner(other, i)) return corner(other, i);
+    return corner(path, apex);
+}
+
+PairNumbers touching_pair(const TriangleGeometry& t, int apex_t, const TriangleGeometry& s, int apex_s, bool all,
+                          double tolerance) {
+    const auto height = [](const TriangleGeometry& T, int apex) { return T.double_area / T.length[(apex + 1) % 3]; };
+    PairNumbers sum{};
+    {
+        const Vec origin = singular_corner(t, apex_t, s);
+        const TriangleGeometry path = shifted(t, origin), other = shifted(s, origin);
+        PotentialSum potential(other, all, nullptr, sum);
+        Path(path, apex_t, other, tolerance, all).add_to(potential, height(t, apex_t));
+        potential.flush();
+    }
+    {
+        const Vec origin = singular_corner(s, apex_s, t);
+        const TriangleGeometry path = shifted(s, origin), other = shifted(t, origin);
+        PotentialSum potential(other, all, s.n, sum);
+        Path(path, apex_s, other, tolerance, all).add_to(potential, height(s, apex_s));
+        potential.flush();
+    }
+    PairNumbers result{};
+    for (std::size_t k = 0; k < kPairTensorNumbers; ++k) result[k] = sum[k] / 3.0;
+    double whole = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) whole += 0.5 * sum[kPairTensorNumbers + k];
+    for (int k = 0; k < 3; ++k)
+        if (k != apex_s) {
+            const auto i = static_cast<std::size_t>(kPairTensorNumbers + k);
+            result[i] = sum[i] / 3.0;
+            whole -= result[i];
+        }
+    result[static_cast<std::size_t>(kPairTensorNumbers + apex_s)] = whole;
+    return result;
+}
+
+struct Piece {
+    double corners[3][3];
+};
+
+void separate_pair(const Piece& piece, double area, const TriangleGeometry& s, double tolerance, int depth,
+                   PotentialSum& sum) {
+    const int n = outer_points(outer_ratio(piece.corners, s), tolerance);
+    const auto at = [&](int i) { return Vec(Eigen::Map<const Vec>(piece.corners[i % 3])); };
+    if (n <= max_outer_points(tolerance) || depth > kMaxDepth) {
+        const CollapsedRule& rule = collapsed_rule(std::min(n, max_outer_points(tolerance)));
+        for (std::size_t q = 0; q < rule.points.size(); ++q) {
+            const auto& b = rule.points[q];
+            sum.add(b[0] * at(0) + b[1] * at(1) + b[2] * at(2), area * rule.weights[q], Vec::Zero());
+        }
+        return;
+    }
+    int longest = 0;
+    for (int i = 1; i < 3; ++i)
+        if ((at(i + 1) - at(i)).squaredNorm() > (at(longest + 1) - at(longest)).squaredNorm()) longest = i;
+    const Vec middle = 0.5 * (at(longest) + at(longest + 1));
+    for (int half = 0; half < 2; ++half) {
+        Piece part = piece;
+        Eigen::Map<Vec>(part.corners[(longest + half) % 3]) = middle;
+        separate_pair(part, 0.5 * area, s, tolerance, depth + 1, sum);
+    }
+}
+
+}  // namespace
+
+int outer_points(double ratio, double tolerance) {
+    if (ratio <= 1.05) return kMaxLegendre + 1;
+    const double rho = ratio + std::sqrt(ratio * ratio - 1.0);
+    return std::max(2, 1 + static_cast<int>(std::ceil((-std::log(tolerance) - 3.0) / (2.0 * std::log(rho)))));
+}
+
+int max_outer_points(double tolerance) { return tolerance < 1e-9 ? 11 : 8; }
+
+double outer_ratio(const double (&test_corners)[3][3], const TriangleGeometry& field) {
+    const auto at = [&](int i) { return Eigen::Map<const Vec>(test_corners[i]); };
+    const Vec centre = (at(0) + at(1) + at(2)) / 3.0;
+    double radius = 0.0, distance = 1e300;
+    for (int i = 0; i < 3; ++i) {
+        radius = std::max(radius, (at(i) - centre).norm());
+        distance = std::min(distance, distance_to_segment(centre, corner(field, i), corner(field, i + 1)));
+    }
+    return distance / radius;
+}
+
+PairNumbers close_pair(const TriangleGeometry& test, const TriangleGeometry& field, bool all, double tolerance) {
+    int n_shared = 0, apex_t = 0, apex_s = 0;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            if (corner(test, i) == corner(field, j)) ++n_shared, apex_t = i, apex_s = j;
+    if (n_shared == 3) return identical_pair(test);
+    if (n_shared > 0) return touching_pair(test, apex_t, field, apex_s, all, tolerance);
+    Piece piece;
+    std::copy(&test.corner[0][0], &test.corner[0][0] + 9, &piece.corners[0][0]);
+    PairNumbers sum{};
+    PotentialSum potentials(field, all, nullptr, sum);
+    separate_pair(piece, 0.5 * test.double_area, field, tolerance, 0, potentials);
+    potentials.flush();
+    return sum;
+}
+
+}  // namespace elastolab

@@ -1,0 +1,158 @@
+#include "elasticity/pair_integrals.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace elastolab {
+
+namespace {
+
+/// Bound factor * distance^-exponent on the relative error of a rule, the distance of the centroids in units of the sum
+/// of the radii; measured in tests/elasticity/pair_integrals_test.cpp.
+struct RuleBound {
+    const PairRule* rule;
+    double factor, exponent;
+};
+
+std::vector<RuleBound> rule_bounds() {
+    return {{&pair_rule_5(), 6e-3, 6.0}, {&pair_rule_7(), 2e-3, 8.0}, {&pair_rule_8(), 1.2e-4, 9.0}};
+}
+
+double radius_of(const TriangleGeometry& T) {
+    double square = 0.0;
+    for (const auto& corner : T.corner) {
+        double sum = 0.0;
+        for (int k = 0; k < 3; ++k) sum += (corner[k] - T.centroid[k]) * (corner[k] - T.centroid[k]);
+        square = std::max(square, sum);
+    }
+    return std::sqrt(square);
+}
+
+double point_coordinate(const TriangleGeometry& T, const std::array<double, 3>& point, int axis) {
+    return point[0] * T.corner[0][axis] + point[1] * T.corner[1][axis] + point[2] * T.corner[2][axis];
+}
+
+}  // namespace
+
+PairIntegrals::PairIntegrals(std::span<const TriangleGeometry> triangles, double tolerance)
+    : triangles_(triangles), tolerance_(tolerance) {
+    for (const TriangleGeometry& T : triangles) radius_.push_back(radius_of(T));
+    std::size_t offset = 0;
+    for (const RuleBound& bound : rule_bounds()) {
+        FarRule far{
+            bound.rule, std::max(1.5, std::pow(bound.factor / tolerance, 1.0 / bound.exponent)), {}, {}, offset};
+        for (const auto& point : bound.rule->points) far.phi.insert(far.phi.end(), point.begin(), point.end());
+        for (const TriangleGeometry& T : triangles)
+            for (const auto& point : bound.rule->points)
+                for (int axis = 0; axis < 3; ++axis) far.points.push_back(point_coordinate(T, point, axis));
+        offset += 3 * static_cast<std::size_t>(lanes()) * bound.rule->points.size();
+        far_rules_.push_back(std::move(far));
+    }
+}
+
+PairIntegrals::Pack PairIntegrals::pack(std::span<const int> tests) const {
+    Pack pack{{tests.begin(), tests.end()}, {}, {}, {}, {}, {}};
+    pack.triangles.resize(static_cast<std::size_t>(lanes()), tests.back());
+    for (const FarRule& far : far_rules_)
+        for (const auto& point : far.rule->points)
+            for (int axis = 0; axis < 3; ++axis)
+                for (const int t : pack.triangles)
+                    pack.points.push_back(point_coordinate(triangles_[static_cast<std::size_t>(t)], point, axis));
+    for (int corner = 0; corner < 3; ++corner)
+        for (int axis = 0; axis < 3; ++axis)
+            for (const int t : pack.triangles)
+                pack.corners.push_back(triangles_[static_cast<std::size_t>(t)].corner[corner][axis]);
+    for (int lane = 0; lane < lanes(); ++lane) {
+        const auto t = static_cast<std::size_t>(pack.triangles[static_cast<std::size_t>(lane)]);
+        pack.radius[lane] = radius_[t];
+        pack.area[lane] = 0.5 * triangles_[t].double_area;
+        for (int axis = 0; axis < 3; ++axis) pack.centroid[axis][lane] = triangles_[t].centroid[axis];
+    }
+    return pack;
+}
+
+const PairIntegrals::FarRule* PairIntegrals::far_rule(const Pack& pack, int field) const {
+    const TriangleGeometry& s = triangles_[static_cast<std::size_t>(field)];
+    double least = 1e300;
+    for (int lane = 0; lane < lanes(); ++lane) {
+        double square = 0.0;
+        for (int axis = 0; axis < 3; ++axis) {
+            const double d = pack.centroid[axis][lane] - s.centroid[axis];
+            square += d * d;
+        }
+        const double radii = pack.radius[lane] + radius_[static_cast<std::size_t>(field)];
+        least = std::min(least, square / (radii * radii));
+    }
+    for (const FarRule& far : far_rules_)
+        if (least >= far.from * far.from) return &far;
+    return nullptr;
+}
+
+void PairIntegrals::integrate(const Pack& pack, int field, bool all, double* out) const {
+    const TriangleGeometry& s = triangles_[static_cast<std::size_t>(field)];
+    const FarRule* far = far_rule(pack, field);
+    if (far == nullptr) return integrate_close(pack, field, all, out);
+    const double* x = pack.points.data() + far->pack_offset;
+    const double* y = far->points.data() + static_cast<std::size_t>(field) * 3 * far->rule->points.size();
+    const auto& terms = far->rule->terms;
+    const int n_terms = static_cast<int>(terms.size()), n_numbers = all ? kPairNumbers : kPairTensorNumbers;
+    if (all)
+        kernels_.all(x, y, far->phi.data(), s.n, terms.data(), n_terms, out);
+    else
+        kernels_.tensor(x, y, terms.data(), n_terms, out);
+    for (int lane = 0; lane < lanes(); ++lane) {
+        const double areas = pack.area[lane] * 0.5 * s.double_area;
+        for (int k = 0; k < n_numbers; ++k) out[k * lanes() + lane] *= areas;
+    }
+}
+
+void PairIntegrals::integrate_close(const Pack& pack, int field, bool all, double* out) const {
+    const TriangleGeometry& s = triangles_[static_cast<std::size_t>(field)];
+    bool one_by_one[kMaxLanes];
+    int n_medium = 0;
+    for (int lane = 0; lane < lanes(); ++lane) {
+        const auto t = static_cast<std::size_t>(pack.triangles[static_cast<std::size_t>(lane)]);
+        const int n = outer_points(outer_ratio(triangles_[t].corner, s), tolerance_);
+        one_by_one[lane] = n > max_outer_points(tolerance_);
+        if (!one_by_one[lane]) n_medium = std::max(n_medium, n);
+    }
+    if (n_medium > 0) add_medium(pack, s, n_medium, all, out);
+    for (int lane = 0; lane < lanes(); ++lane) {
+        if (!one_by_one[lane]) continue;
+        const auto t = static_cast<std::size_t>(pack.triangles[static_cast<std::size_t>(lane)]);
+        const PairNumbers numbers = close_pair(triangles_[t], s, all, tolerance_);
+        for (int k = 0; k < (all ? kPairNumbers : kPairTensorNumbers); ++k)
+            out[k * lanes() + lane] = numbers[static_cast<std::size_t>(k)];
+    }
+}
+
+void PairIntegrals::add_medium(const Pack& pack, const TriangleGeometry& s, int n, bool all, double* out) const {
+    std::fill(out, out + (all ? kPairNumbers : kPairTensorNumbers) * lanes(), 0.0);
+    const CollapsedRule& rule = collapsed_rule(n);
+    SourceLanes points{};
+    std::fill(points.own_triangle, points.own_triangle + kMaxLanes, -1.0);
+    double* const coordinates[3] = {points.x, points.y, points.z};
+    for (std::size_t q = 0; q < rule.points.size(); ++q) {
+        const auto& b = rule.points[q];
+        for (int axis = 0; axis < 3; ++axis)
+            for (int lane = 0; lane < lanes(); ++lane) {
+                const double* c = pack.corners.data() + axis * lanes() + lane;
+                coordinates[axis][lane] = b[0] * c[0] + b[1] * c[3 * lanes()] + b[2] * c[6 * lanes()];
+            }
+        double single[kSingleLayerNumbers * kMaxLanes] = {};
+        double* const single_out[1] = {single};
+        closed_forms_.single_layer_constant(s, points, nullptr, single_out);
+        for (int i = 0; i < kPairTensorNumbers * lanes(); ++i) out[i] += rule.weights[q] * single[lanes() + i];
+        if (!all) continue;
+        double values[3][kDoubleLayerNumbers * kMaxLanes] = {};
+        double* const double_out[3] = {values[0], values[1], values[2]};
+        closed_forms_.double_layer_linear(s, points, nullptr, double_out);
+        for (int k = 0; k < 3; ++k)
+            for (int lane = 0; lane < lanes(); ++lane)
+                out[(kPairTensorNumbers + k) * lanes() + lane] += rule.weights[q] * values[k][lane];
+    }
+    for (int lane = 0; lane < lanes(); ++lane)
+        for (int k = 0; k < (all ? kPairNumbers : kPairTensorNumbers); ++k) out[k * lanes() + lane] *= pack.area[lane];
+}
+
+}  // namespace elastolab

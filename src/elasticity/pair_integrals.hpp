@@ -1,0 +1,59 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "elasticity/close_pairs.hpp"
+#include "elasticity/pair_rules.hpp"
+
+namespace elastolab {
+
+/// Integrals over pairs of triangles (PairNumbers in elasticity/close_pairs.hpp), several test triangles at once, each
+/// to a stated relative tolerance:
+///   far      the cheapest PairRule that keeps it, vectorised over the test triangles
+///   medium   the closed form over the field triangle, a Gauss rule over the test triangles, vectorised over them
+///   close    close_pair, one by one
+/// The triangles must outlive this object and not intersect each other.
+class PairIntegrals {
+public:
+    PairIntegrals(std::span<const TriangleGeometry> triangles, double tolerance);
+
+    /// Test triangles that are integrated at once: one a lane, at most lanes(). Lie them close together: the most
+    /// demanding of them decides for all.
+    int lanes() const { return kernels_.lanes; }
+
+    struct Pack {
+        std::vector<int> triangles;
+        std::vector<double> points;   ///< of every far rule in turn: [point][axis][lane]
+        std::vector<double> corners;  ///< [corner][axis][lane]
+        double radius[kMaxLanes];     ///< largest distance of a corner from the centroid
+        double area[kMaxLanes];
+        double centroid[3][kMaxLanes];
+    };
+    Pack pack(std::span<const int> tests) const;
+
+    /// out [kPairNumbers][lanes] <- the numbers of each test triangle of the pack with this field triangle; without
+    /// `all` the normal numbers are not written. Lanes beyond the pack's triangles repeat its last one.
+    void integrate(const Pack& pack, int field, bool all, double* out) const;
+
+private:
+    struct FarRule {
+        const PairRule* rule;
+        double from;                 ///< least distance of the centroids in units of the sum of both radii
+        std::vector<double> phi;     ///< [point][shape]
+        std::vector<double> points;  ///< of every triangle: [triangle][point][axis]
+        std::size_t pack_offset;     ///< of its points in Pack::points
+    };
+    const FarRule* far_rule(const Pack& pack, int field) const;
+    void integrate_close(const Pack& pack, int field, bool all, double* out) const;
+    void add_medium(const Pack& pack, const TriangleGeometry& field, int n, bool all, double* out) const;
+
+    std::span<const TriangleGeometry> triangles_;
+    double tolerance_;
+    const PairKernels& kernels_ = best_pair_kernels();
+    const TriangleKernels& closed_forms_ = best_triangle_kernels();
+    std::vector<double> radius_;
+    std::vector<FarRule> far_rules_;  ///< cheapest first
+};
+
+}  // namespace elastolab

@@ -1,0 +1,178 @@
+#include "elasticity/pair_integrals.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <Eigen/Geometry>
+#include <random>
+
+#include "elasticity/triangle_geometry.hpp"
+#include "support/quadrature.hpp"
+
+namespace elastolab {
+namespace {
+
+using Vec = Eigen::Vector3d;
+
+struct Pair {
+    const char* name;
+    TriangleGeometry t, s;
+};
+
+TriangleGeometry triangle(const Vec& a, const Vec& b, const Vec& c) { return make_triangle_geometry(a, b, c, 0); }
+
+const Vec P(0, 0, 0), Q(1, 0, 0), R(0.3, 0.8, 0.1);
+
+std::vector<Pair> pairs() {
+    const TriangleGeometry t = triangle(P, Q, R);
+    return {{"common edge", t, triangle(Q, P, {0.4, -0.7, 0.4})},
+            {"common edge, flat", triangle(P, Q, {0.3, 0.8, 0.0}), triangle(Q, P, {0.4, -0.7, 0.0})},
+            {"common edge, sharp", t, triangle(Q, P, R + Vec(0.05, 0.02, 0.1))},
+            {"common vertex", t, triangle(P, {-0.6, 0.3, 0.5}, {-0.5, -0.4, 0.2})},
+            {"common vertex, sharp", t, triangle(P, {1.0, 0.05, 0.05}, {0.3, -0.8, 0.1})},
+            {"apart", t, triangle({2, 0, 0}, {2.5, 1, 0}, {2, 0.5, 1})},
+            {"thin wall", t, triangle(P + Vec(0.1, 0.1, -0.1), Q + Vec(0, 0.1, -0.15), R + Vec(0, 0, -0.1))},
+            {"thin triangles, common edge", triangle(P, Q, {0.3, 0.05, 0}), triangle(Q, P, {0.5, -0.02, 0.02})},
+            {"thin triangles, common vertex", triangle(P, Q, {0.3, 0.05, 0}),
+             triangle(P, {-0.5, -0.02, 0.02}, {-0.9, 0.01, 0})}};
+}
+
+/// The outer integral by adaptive quadrature; the inner closed form has its own tests.
+PairNumbers by_adaptive_quadrature(const TriangleGeometry& t, const TriangleGeometry& s, long double tolerance) {
+    const TriangleKernels& kernels = plain_triangle_kernels();
+    std::array<testing::Point, 3> corners;
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t k = 0; k < 3; ++k) corners[i][k] = t.corner[i][k];
+    const auto values = testing::integrate(
+        corners, kPairNumbers,
+        [&](const testing::Point& x, std::vector<long double>& out) {
+            SourceLanes source{};
+            source.x[0] = static_cast<double>(x[0]), source.y[0] = static_cast<double>(x[1]);
+            source.z[0] = static_cast<double>(x[2]);
+            source.own_triangle[0] = -1.0;
+            double single[kSingleLayerNumbers] = {}, normal[3][kDoubleLayerNumbers] = {};
+            double* const single_out[1] = {single};
+            double* const normal_out[3] = {normal[0], normal[1], normal[2]};
+            kernels.single_layer_constant(s, source, nullptr, single_out);
+            kernels.double_layer_linear(s, source, nullptr, normal_out);
+            for (std::size_t k = 0; k < 6; ++k) out[k] = single[1 + k];
+            for (std::size_t k = 0; k < 3; ++k) out[6 + k] = normal[k][0];
+        },
+        tolerance);
+    PairNumbers numbers{};
+    for (std::size_t k = 0; k < numbers.size(); ++k) numbers[k] = static_cast<double>(values[k]);
+    return numbers;
+}
+
+/// Largest difference of the tensor numbers and of the normal numbers, each relative to its largest number.
+double difference(const PairNumbers& a, const PairNumbers& b) {
+    double worst = 0.0;
+    for (const auto& [from, to] : {std::pair<std::size_t, std::size_t>{0, 6}, {6, 9}}) {
+        double error = 0.0, size = 1e-12;  // of unit triangles: below it a number is zero
+        for (std::size_t k = from; k < to; ++k) {
+            error = std::max(error, std::abs(a[k] - b[k]));
+            size = std::max(size, std::abs(b[k]));
+        }
+        worst = std::max(worst, error / (size > 1e-10 ? size : 1.0));
+    }
+    return worst;
+}
+
+double mean_power(int i, int j) {  // of b1^i b2^j over a triangle
+    return 2.0 * std::tgamma(i + 1) * std::tgamma(j + 1) / std::tgamma(i + j + 3);
+}
+
+TEST(PairRules, IntegrateEveryPolynomialOfTheirTotalDegree) {
+    for (const PairRule* rule : {&pair_rule_5(), &pair_rule_7(), &pair_rule_8()})
+        for (int a = 0; a <= rule->degree; ++a)
+            for (int b = 0; a + b <= rule->degree; ++b)
+                for (int c = 0; a + b + c <= rule->degree; ++c)
+                    for (int d = 0; a + b + c + d <= rule->degree; ++d) {
+                        double sum = 0.0;
+                        for (const PairRuleTerm& term : rule->terms)
+                            for (int i = term.first_x; i < term.first_x + term.n_x; ++i)
+                                for (int j = term.first_y; j < term.first_y + term.n_y; ++j) {
+                                    const auto& x = rule->points[static_cast<std::size_t>(i)];
+                                    const auto& y = rule->points[static_cast<std::size_t>(j)];
+                                    sum += term.weight * std::pow(x[1], a) * std::pow(x[2], b) * std::pow(y[1], c) *
+                                           std::pow(y[2], d);
+                                }
+                        EXPECT_NEAR(sum, mean_power(a, b) * mean_power(c, d), 1e-14) << rule->degree;
+                    }
+}
+
+TEST(PairIntegrals, AgreeWithAdaptiveQuadrature) {
+    for (const Pair& pair : pairs()) {
+        const PairNumbers truth = by_adaptive_quadrature(pair.t, pair.s, 1e-10L);
+        EXPECT_LT(difference(close_pair(pair.t, pair.s, true, 1e-8), truth), 1e-8) << pair.name;
+    }
+}
+
+TEST(PairIntegrals, OfATriangleWithItselfAgreeWithAdaptiveQuadrature) {
+    const TriangleGeometry t = triangle(P, Q, R);
+    const PairNumbers truth = by_adaptive_quadrature(t, t, 1e-9L), numbers = close_pair(t, t, false, 1e-8);
+    for (std::size_t k = 0; k < 6; ++k) EXPECT_NEAR(numbers[k], truth[k], 1e-8 * truth[0]);
+}
+
+/// A triangle cut in two: identical pairs, which are closed forms, and the pair with a common edge check each other.
+TEST(PairIntegrals, AreTheSumOfThoseOfTheParts) {
+    for (const Vec& apex : {R, Vec(0.4, 0.02, 0.0), Vec(-0.7, 0.3, 0.2)}) {
+        const TriangleGeometry whole = triangle(P, Q, apex);
+        const Vec middle = 0.4 * P + 0.6 * Q;
+        const TriangleGeometry parts[2] = {triangle(P, middle, apex), triangle(middle, Q, apex)};
+        PairNumbers sum{};
+        for (const TriangleGeometry& a : parts)
+            for (const TriangleGeometry& b : parts) {
+                const PairNumbers part = close_pair(a, b, false, 1e-11);
+                for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += part[k];
+            }
+        EXPECT_LT(difference(sum, close_pair(whole, whole, false, 1e-11)), 1e-11) << apex.transpose();
+    }
+}
+
+TEST(PairIntegrals, KeepATightTolerance) {
+    for (const Pair& pair : pairs()) {
+        const PairNumbers loose = close_pair(pair.t, pair.s, true, 1e-11),
+                          tight = close_pair(pair.t, pair.s, true, 1e-15);
+        EXPECT_LT(difference(loose, tight), 1e-11) << pair.name;
+        const PairNumbers exchanged = close_pair(pair.s, pair.t, false, 1e-11);
+        for (std::size_t k = 0; k < 6; ++k)
+            EXPECT_NEAR(exchanged[k], tight[k], 1e-11 * (tight[0] + tight[1] + tight[2]));
+    }
+}
+
+/// Packs at all distances, so that every far rule and the medium range are met.
+TEST(PairIntegrals, OfPacksKeepTheTolerance) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    const auto vec = [&] { return Vec(unit(random), unit(random), unit(random)); };
+    for (const double tolerance : {1e-6, 1e-8, 1e-11})
+        for (const double distance : {2.0, 3.0, 4.0, 6.0, 9.0, 14.0, 40.0}) {
+            std::vector<TriangleGeometry> triangles;
+            for (int i = 0; i < kMaxLanes; ++i) {
+                const Vec at = 0.3 * vec();
+                triangles.push_back(
+                    triangle(at + Vec(0.6, 0, 0.1 * unit(random)), at + Vec(-0.3, 0.5, 0), at + Vec(-0.3, -0.5, 0)));
+            }
+            const Vec at = distance * vec().normalized();
+            triangles.push_back(triangle(at + Vec(0, 0.5, 0.1), at + Vec(0, -0.4, 0.4), at + Vec(0.2, -0.3, -0.5)));
+            const PairIntegrals integrals(triangles, tolerance);
+            std::vector<int> tests(static_cast<std::size_t>(integrals.lanes()));
+            for (std::size_t i = 0; i < tests.size(); ++i) tests[i] = static_cast<int>(i);
+            double out[kPairNumbers * kMaxLanes];
+            integrals.integrate(integrals.pack(tests), kMaxLanes, true, out);
+            for (std::size_t lane = 0; lane < tests.size(); ++lane) {
+                const PairNumbers truth = close_pair(triangles[lane], triangles.back(), true, 1e-14);
+                PairNumbers numbers;
+                for (std::size_t k = 0; k < numbers.size(); ++k)
+                    numbers[k] = out[k * static_cast<std::size_t>(integrals.lanes()) + lane];
+                double error = 0.0, size = 0.0;
+                for (std::size_t k = 0; k < 6; ++k)
+                    error = std::max(error, std::abs(numbers[k] - truth[k])), size = std::max(size, truth[k]);
+                EXPECT_LT(error, tolerance * size) << distance;
+            }
+        }
+}
+
+}  // namespace
+}  // namespace elastolab
