@@ -1,9 +1,11 @@
 #pragma once
 
 #include <chrono>
+#include <exception>
 #include <functional>
 #include <future>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <thread>
 #include <utility>
@@ -37,25 +39,23 @@ public:
     explicit BackgroundJob(std::function<void()> wake = {}) : wake_(std::move(wake)) {}
     BackgroundJob(const BackgroundJob&) = delete;
     BackgroundJob& operator=(const BackgroundJob&) = delete;
+    ~BackgroundJob() {
+        cancel();
+        const std::lock_guard lock(mutex_);
+        next_.reset();
+    }
 
     /// Starts a computation. One that is running is cancelled; the new one begins when it has stopped, so that two
-    /// never compete for memory.
+    /// never compete for memory. One that has not begun by then is replaced: however often this is called, there is one
+    /// thread and one computation that waits.
     void start(Work work) {
         cancel();
-        auto ticket = std::make_unique<Ticket>();
-        // The worker takes the job before it along and joins that first: the watcher does not wait, only one computes.
-        std::packaged_task<Result()> task(
-            [before = std::move(ticket_), work = std::move(work), control = &ticket->control]() mutable {
-                before.reset();
-                control->checkpoint();
-                return work(*control);
-            });
-        ticket->result = task.get_future();
-        ticket->thread = std::jthread([task = std::move(task), wake = wake_]() mutable {
-            task();
-            if (wake) wake();
-        });
-        ticket_ = std::move(ticket);
+        ticket_ = std::make_shared<Ticket>(std::move(work));
+        const std::lock_guard lock(mutex_);
+        next_ = ticket_;
+        if (worker_runs_) return;
+        worker_runs_ = true;
+        worker_ = std::jthread([this] { work_off(); });  // joins the one before, which has nothing left to do
     }
 
     /// Asks the running computation to stop; it does so at its next checkpoint.
@@ -66,9 +66,8 @@ public:
     /// What has become of the computation, told once. After `finished` take() gives the result; after `failed`
     /// failure() says why.
     JobEvent poll() {
-        using namespace std::chrono_literals;
-        if (!ticket_ || ticket_->result.wait_for(0s) != std::future_status::ready) return JobEvent::none;
-        const std::unique_ptr<Ticket> ticket = std::move(ticket_);
+        if (!ticket_ || working()) return JobEvent::none;
+        const std::shared_ptr<Ticket> ticket = std::move(ticket_);
         last_seconds_ = ticket->watch.seconds();
         failure_.clear();
         try {
@@ -104,20 +103,54 @@ public:
     const std::string& failure() const { return failure_; }
 
 private:
-    /// One computation. Its thread is declared last, so that it is joined before what it uses goes.
+    /// One computation, shared by the watcher and the worker.
     struct Ticket {
-        ~Ticket() { control.cancel(); }
+        explicit Ticket(Work what) : work(std::move(what)), result(promise.get_future()) {}
+        /// On the worker. The inputs are let go before the watcher can know of the result.
+        void run() {
+            try {
+                Result value = [&] {
+                    const Work mine = std::move(work);
+                    control.checkpoint();
+                    return mine(control);
+                }();
+                promise.set_value(std::move(value));
+            } catch (...) {
+                promise.set_exception(std::current_exception());
+            }
+        }
         Control control;
         Stopwatch watch;
+        Work work;
+        std::promise<Result> promise;
         std::future<Result> result;
-        std::jthread thread;
     };
 
-    std::function<void()> wake_;
-    std::unique_ptr<Ticket> ticket_;
+    /// The worker: one computation after the other, until none is left. It ends then, and with it the teams of threads
+    /// that OpenMP keeps for it.
+    void work_off() {
+        while (std::shared_ptr<Ticket> ticket = next()) {
+            ticket->run();
+            ticket.reset();  // a result that nobody wants any more is gone before the next computation begins
+            if (wake_) wake_();
+        }
+    }
+    std::shared_ptr<Ticket> next() {
+        const std::lock_guard lock(mutex_);
+        if (!next_) worker_runs_ = false;
+        return std::exchange(next_, nullptr);
+    }
+
+    const std::function<void()> wake_;
+    std::shared_ptr<Ticket> ticket_;
     Result result_{};
     std::string failure_;
     double last_seconds_ = 0.0;
+
+    std::mutex mutex_;  ///< for the next two
+    std::shared_ptr<Ticket> next_;
+    bool worker_runs_ = false;
+    std::jthread worker_;  ///< last: it ends before what it uses goes
 };
 
 using PrecomputeJob = BackgroundJob<std::shared_ptr<const Model>>;
