@@ -41,7 +41,7 @@ protected:
 };
 
 TEST_F(CutOpen, WhatIsCutAwayIsNotPointedAt) {
-    ASSERT_TRUE(stage.state.body(MethodKind::fem)->section());
+    ASSERT_TRUE(stage.state.shown.body(MethodKind::fem)->section());
     stage.move(stage.pixel(kept));
     EXPECT_EQ(stage.hovered(), kept);
     stage.move(stage.pixel(gone));
@@ -56,10 +56,10 @@ TEST_F(CutOpen, StaysOpenWhenTheModelIsCompleted) {
     stage.state.choices.complete_up_to = 2000;
     do {
         stage.frame();
-        EXPECT_TRUE(stage.state.body(MethodKind::fem)->section());
+        EXPECT_TRUE(stage.state.shown.body(MethodKind::fem)->section());
     } while (stage.state.simulation.busy());
     EXPECT_TRUE(stage.state.simulation.runner(MethodKind::fem).has_inverse());
-    EXPECT_FALSE(stage.state.cutting());
+    EXPECT_FALSE(stage.state.shown.cutting());
 }
 
 TEST_F(CutOpen, TheCutAppearsByItself) {
@@ -67,31 +67,31 @@ TEST_F(CutOpen, TheCutAppearsByItself) {
     stage.settle();
     stage.state.display.section = true;
     stage.frame();
-    ASSERT_TRUE(stage.state.cutting());
-    while (!stage.state.update_displacements()) EXPECT_TRUE(stage.state.cutting());
-    stage.state.update_bodies();
-    EXPECT_TRUE(stage.state.body(MethodKind::fem)->section());
+    ASSERT_TRUE(stage.state.shown.cutting());
+    while (!stage.state.update_displacements()) EXPECT_TRUE(stage.state.shown.cutting());
+    stage.state.update_picture();
+    EXPECT_TRUE(stage.state.shown.body(MethodKind::fem)->section());
 }
 
 TEST_F(CutOpen, OnlyDisplacementsColourTheCut) {
     for (const Field field : {Field::displacement, Field::von_mises}) {
         stage.state.display.field = field;
         stage.settle();
-        EXPECT_EQ(stage.state.body(MethodKind::fem)->is_coloured(), field == Field::displacement);
+        EXPECT_EQ(stage.state.shown.body(MethodKind::fem)->is_coloured(), field == Field::displacement);
     }
 }
 
 TEST_F(CutOpen, ABoxFixesWhatIsLeft) {
     stage.state.tools.tool = Tool::box;
     stage.state.tools.box_reach = Reach::through;
-    const Viewport& place = stage.state.viewports.front().place;
+    const Viewport& place = stage.state.shown.viewports.front().place;
     stage.drag({place.x + 1, place.y + 1}, {place.x + place.width - 2, place.y + place.height - 2});
     EXPECT_EQ(stage.scene().owner(kept), LiveScene::kFixed);
     EXPECT_EQ(stage.scene().owner(gone), LiveScene::kNobody);
 }
 
 TEST_F(CutOpen, APressOnTheCutPullsNothingInside) {
-    const auto& section = *stage.state.body(MethodKind::fem)->section();
+    const auto& section = *stage.state.shown.body(MethodKind::fem)->section();
     for (int v = stage.scene().mesh().n_vertices(); v < section.positions.cols(); ++v) {
         const Eigen::Vector2d at = stage.pixel(Eigen::Vector3d(section.positions.col(v)));
         stage.drag(at, at + Eigen::Vector2d(20, 0));

@@ -26,7 +26,7 @@ protected:
     }
     ViewerState& state = stage_.state;
     test::Stage& stage = stage_;
-    const ShownBody& shown(MethodKind kind = MethodKind::linear_bem) { return *state.body(kind); }
+    const ShownBody& shown(MethodKind kind = MethodKind::linear_bem) { return *state.shown.body(kind); }
     Eigen::Map<const Eigen::Matrix3Xd> u(MethodKind kind = MethodKind::linear_bem) {
         const Eigen::VectorXd& all = state.simulation.runner(kind).displacement();
         return {all.data(), 3, all.size() / 3};
@@ -50,7 +50,7 @@ TEST_F(ShownBodyTest, PositionsAreRestAndScaledDisplacement) {
 
 TEST_F(ShownBodyTest, DoesNothingWhenNothingChanged) {
     const std::uint64_t before = shown().revision();
-    EXPECT_FALSE(state.update_bodies());
+    EXPECT_FALSE(state.update_picture());
     EXPECT_EQ(shown().revision(), before);
     show(Field::displacement);
     EXPECT_GT(shown().revision(), before);
@@ -62,7 +62,7 @@ TEST_F(ShownBodyTest, DisplacementIsItsMagnitude) {
     ASSERT_EQ(std::ssize(shown().values()), u().cols());
     for (Eigen::Index v = 0; v < u().cols(); ++v)
         EXPECT_NEAR(shown().values()[static_cast<std::size_t>(v)], u().col(v).norm(), 1e-6);
-    EXPECT_NEAR(state.field_range().second, u().colwise().norm().maxCoeff(), 1e-6);
+    EXPECT_NEAR(state.shown.field_range(state.display).second, u().colwise().norm().maxCoeff(), 1e-6);
 }
 
 TEST_F(ShownBodyTest, TractionAndStressAreLargestWhereTheBodyIsHeld) {
@@ -92,6 +92,86 @@ TEST_F(ShownBodyTest, ReactionsBalance) {
     EXPECT_GT(body.reactions()[1].force.x(), 0.0);
     EXPECT_LT(force.norm(), 1e-6 * size);
     EXPECT_LT(moment.norm(), 1e-6 * size);
+}
+
+TEST_F(ShownBodyTest, AMotionWithoutASolutionIsToldAndEndsNothing) {
+    for (const MethodKind kind : all_method_kinds())
+        for (const Field field : {Field::traction, Field::von_mises}) {
+            stage.scene().set_motion(0, AffineMotion{.translate = {0.1, 0, 0.05}});
+            state.method = kind;
+            state.display.arrows = true;
+            show(field);
+            ASSERT_THAT(shown(kind).reactions(), SizeIs(2));
+            stage.scene().set_motion(0, AffineMotion{.translate = {1e308, 1e308, 0}});
+            EXPECT_NO_THROW(stage.settle());
+            EXPECT_FALSE(state.shown.reaction_failure(kind).empty());
+            EXPECT_THAT(shown(kind).reactions(), IsEmpty());
+            EXPECT_FALSE(shown(kind).is_coloured());
+            const std::uint64_t before = shown(kind).revision();
+            for (int i = 0; i < 3; ++i) stage.frame();
+            EXPECT_EQ(shown(kind).revision(), before) << "solved again";
+        }
+    stage.scene().set_motion(0, AffineMotion{.translate = {0.1, 0, 0.05}});
+    stage.settle();
+    EXPECT_THAT(shown(all_method_kinds().back()).reactions(), SizeIs(2));
+    EXPECT_EQ(state.shown.reaction_failure(all_method_kinds().back()), "");
+}
+
+TEST_F(ShownBodyTest, ReactionsAreThoseOfTheLastMotion) {
+    state.method = MethodKind::fem;
+    state.display.arrows = true;
+    stage.settle();
+    const Eigen::Vector3d before = shown(MethodKind::fem).reactions()[1].force;
+    for (const double factor : {1.5, 2.0, 3.0}) {  // the first on the worker, the others as fast as it was
+        stage.scene().set_motion(0, AffineMotion{.translate = factor * Eigen::Vector3d(0.1, 0, 0.05)});
+        stage.settle();
+        EXPECT_LT((shown(MethodKind::fem).reactions()[1].force - factor * before).norm(), 1e-9 * before.norm());
+    }
+}
+
+TEST(ReactionRunners, SolveOnTheWorkerWhatTakesLongAndKeepTheLastMeanwhile) {
+    test::Stage stage(3);
+    stage.scene().add_handle(std::vector<int>{stage.vertex_near({1, 1, 1})});
+    stage.scene().set_motion(0, AffineMotion{.translate = {0.1, 0, 0}});
+    stage.settle();
+    const MethodRunner& answer = stage.state.simulation.runner(stage.state.method);
+    ReactionRunner runner([] {});
+    runner.set_solve_budget(0.0);
+    const auto wait = [&] {
+        while (runner.running()) runner.update(answer);
+    };
+    runner.update(answer);
+    EXPECT_TRUE(runner.running());
+    EXPECT_EQ(runner.surface(), nullptr);
+    wait();
+    EXPECT_EQ(runner.surface(), &stage.scene().mesh());
+    const Eigen::Matrix3Xd first = runner.reactions().forces;
+    stage.scene().set_motion(0, AffineMotion{.translate = {0.2, 0, 0}});
+    stage.frame();
+    runner.update(answer);
+    EXPECT_TRUE(runner.running());
+    EXPECT_EQ(runner.reactions().forces, first);
+    wait();
+    EXPECT_LT((runner.reactions().forces - 2.0 * first).norm(), 1e-9 * first.norm());
+    runner.set_solve_budget(1e9);
+    stage.scene().set_motion(0, AffineMotion{.translate = {0.3, 0, 0}});
+    stage.frame();
+    runner.update(answer);
+    EXPECT_FALSE(runner.running());
+    EXPECT_LT((runner.reactions().forces - 3.0 * first).norm(), 1e-9 * first.norm());
+}
+
+TEST_F(ShownBodyTest, StressIsOfTheMaterialThatAnswered) {
+    show(Field::von_mises);
+    const std::vector<float> before = shown().values();
+    stage.scene().set_material({.young_modulus = 1.0, .poisson_ratio = 0.05});
+    stage.frame();
+    ASSERT_TRUE(state.simulation.busy()) << "the old model still answers";
+    state.display.deformation_scale = 2.0;  // whatever makes it be computed anew
+    state.update_picture();
+    EXPECT_EQ(shown().values(), before);
+    stage.settle();
+    EXPECT_NE(shown().values(), before);
 }
 
 TEST_F(ShownBodyTest, DifferencesAreToTheReference) {
@@ -143,7 +223,7 @@ TEST_F(ShownBodyTest, ADifferenceAloneHasTheReferenceComputed) {
     show(Field::difference);
     ASSERT_TRUE(shown(MethodKind::fem).difference());
     EXPECT_GT(shown(MethodKind::fem).difference()->max, 0.0);
-    EXPECT_THAT(state.bodies, SizeIs(1));
+    EXPECT_THAT(state.shown.bodies(), SizeIs(1));
 }
 
 TEST_F(ShownBodyTest, IsAtRestBeforeTheFirstAnswer) {
