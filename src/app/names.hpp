@@ -10,7 +10,7 @@ namespace elastolab {
 /// For headings: the name of a method with a capital ("Linear BEM"), made from its name in scene files.
 std::string title(MethodKind kind);
 
-/// An entry of a list of choices: its words, and what it does in physical ones.
+/// An entry of a list of choices: its label, and what choosing it means, in physical terms.
 template <class Value>
 struct Choice {
     Value value;

@@ -5,13 +5,14 @@
 #include <thread>
 #include <utility>
 
-#include "app/panels/gui.hpp"
 #include "app/input/interaction_log.hpp"
-#include "app/panels/layout.hpp"
-#include "app/picture/palette.hpp"
-#include "app/panels/panels.hpp"
-#include "app/picture/scene_renderer.hpp"
 #include "app/input/shortcuts.hpp"
+#include "app/panels/gui.hpp"
+#include "app/panels/layout.hpp"
+#include "app/panels/panels.hpp"
+#include "app/picture/palette.hpp"
+#include "app/picture/scene_renderer.hpp"
+#include "app/viewer_outputs.hpp"
 #include "app/viewer_state.hpp"
 #include "app/window/window.hpp"
 #include "app/window/window_picture.hpp"
@@ -49,10 +50,11 @@ public:
                    .visible = !options.hidden}),
           gui_(window_),
           state_([] { Window::wake(); }) {
-        if (options.n_frames > 0 || options.hidden) window_.set_vsync(false);
-        if (!options.timings.empty()) state_.timings = std::make_unique<TimingsRecorder>(options.timings);
+        if (options.n_frames > 0 || options.hidden) window_.disable_vsync();
+        if (nobody_watches() || !options.scene_out.empty()) state_.unsaved.never_ask();  // that keeps the changes
+        if (!options.timings.empty()) state_.measurements.timings = std::make_unique<TimingsRecorder>(options.timings);
         if (!options.record.empty())
-            state_.recorder = std::make_unique<InteractionRecorder>(options.record, window_.size());
+            state_.measurements.recorder = std::make_unique<InteractionRecorder>(options.record, window_.size());
         for (const std::filesystem::path& file : {options.screenshot, options.scene_out, options.mesh_out})
             if (!file.empty()) AtomicFile::require_writable(file);
         open_input();
@@ -63,7 +65,8 @@ public:
             window_.wait(timeout());
             if (must_draw()) draw_frame();
         }
-        finish_outputs();
+        draw_last_picture();
+        write_outputs(options_, state_, picture_);
         end_workers();
     }
 
@@ -94,12 +97,13 @@ private:
 
     /// A replay that is over leaves the window to the person.
     bool replaying() const { return replay_ && (options_.hidden || !replay_->done()); }
-    bool computing() const { return state_.loading() || state_.simulation.waiting(); }
+    bool computing() const { return state_.waiting(); }
 
-    /// Frames by number and replays go on only when the scene is ready, and the model will not be replaced any more: the
-    /// set of a completed one is prepared anew.
+    /// Frames by number and replays go on only when the scene is ready, and the model will not be replaced any more:
+    /// the set of a completed one is prepared anew.
     bool held_back() const {
-        const bool late_frames = options_.n_frames > 0 && 2 * (state_.frame + 1) > options_.n_frames && !replay_;
+        const bool late_frames =
+            options_.n_frames > 0 && 2 * (state_.measurements.frame + 1) > options_.n_frames && !replay_;
         return late_frames && (computing() || state_.simulation.busy());
     }
 
@@ -120,9 +124,11 @@ private:
         const bool damaged = window_.take_damage();
         if (!queue_.empty() || damaged || state_.simulation.busy() || computing()) pending_frames_ = kSettlingFrames;
         if (message_seconds_ >= 0.0 || gui_.wants_text()) pending_frames_ = std::max(pending_frames_, 1);
+        if (window_.close_requested() && !may_close()) pending_frames_ = kSettlingFrames;  // for the question
         if (window_.close_requested()) return false;
         if (held_back()) {
             state_.update_displacements();
+            state_.update_picture();
             return false;
         }
         if (options_.n_frames == 0 && pending_frames_ == 0 && !replaying()) {
@@ -134,18 +140,26 @@ private:
         return window_.size().minCoeff() > 0;
     }
 
+    /// A window that is closed by hand stays open while a question about unsaved changes waits for its answer.
+    bool may_close() {
+        if (!state_.requests.quit) state_.quit();
+        if (!state_.requests.quit) window_.stay_open();
+        return state_.requests.quit;
+    }
+
     /// The events of this frame: from the log when there is one, else as many as one frame can take.
     std::vector<InputEvent> take_events() {
         std::vector<InputEvent> events;
         if (replaying()) {
-            if (!replay_->done() && !state_.simulation.busy() && !state_.loading() && state_.frame > 2)
+            if (!replay_->done() && !state_.simulation.busy() && !state_.loading() && state_.measurements.frame > 2)
                 events = replay_->log.frames[replay_->next++].events;
         } else {
             const auto n = static_cast<std::ptrdiff_t>(Gui::n_for_one_frame(queue_));
             events.assign(queue_.begin(), queue_.begin() + n);
             queue_.erase(queue_.begin(), queue_.begin() + n);
         }
-        if (state_.recorder && !events.empty()) state_.recorder->add({Window::seconds(), events});
+        if (state_.measurements.recorder && !events.empty())
+            state_.measurements.recorder->add({Window::seconds(), events});
         if (!events.empty()) pending_frames_ = kSettlingFrames;
         return events;
     }
@@ -167,8 +181,8 @@ private:
         GestureContext context = state_.gesture_context();
         for (const InputEvent& event : events) {
             const bool is_text = event.kind == InputEvent::Kind::text;
-            if (is_text && event.code == '?' && !gui_.wants_text()) state_.show_help = !state_.show_help;
-            if (event.kind == InputEvent::Kind::key && !gui_.wants_text() && !state_.gestures.pulling() &&
+            if (is_text && event.code == '?' && !gui_.wants_keys()) state_.show_help = !state_.show_help;
+            if (event.kind == InputEvent::Kind::key && !gui_.wants_keys() && !state_.gestures.pulling() &&
                 run_shortcut(event, state_, panels_)) {
                 context.targets = state_.gesture_context().targets;
                 continue;
@@ -202,12 +216,14 @@ private:
         times.gui_ms = 1e3 * part.seconds();
 
         part = {};
-        guarded([&] { dispatch(events); });
-        state_.update_displacements();
+        guarded([&] {
+            dispatch(events);
+            state_.update_displacements();
+        });
         times.update_ms = 1e3 * part.seconds();
 
         part = {};
-        state_.update_bodies();
+        guarded([&] { state_.update_picture(); });
         renderer_.upload(state_, palette());
         times.upload_ms = 1e3 * part.seconds();
 
@@ -229,9 +245,9 @@ private:
 
     /// Lays out the viewports; when their number changes, the body is made to fit again.
     void arrange(const Layout& layout) {
-        const std::size_t before = state_.viewports.size();
-        state_.viewports = viewports_of(state_, layout.scene);
-        if (state_.viewports.size() != before) state_.frame_body();
+        const std::size_t before = state_.shown.viewports.size();
+        state_.shown.viewports = viewports_of(state_, layout.scene);
+        if (state_.shown.viewports.size() != before) state_.frame_body();
     }
 
     void prepare_look() {
@@ -244,7 +260,7 @@ private:
 
     bool is_last_frame() const {
         if (window_.close_requested()) return true;
-        if (options_.n_frames > 0) return state_.frame + 1 >= options_.n_frames;
+        if (options_.n_frames > 0) return state_.measurements.frame + 1 >= options_.n_frames;
         return replay_over() && options_.hidden;
     }
 
@@ -252,8 +268,8 @@ private:
 
     void take_screenshots() {
         if (!options_.screenshot.empty() && is_last_frame()) picture_ = window_picture(window_.framebuffer_size());
-        if (!state_.screenshot_request) return;
-        const std::filesystem::path file = *std::exchange(state_.screenshot_request, std::nullopt);
+        if (!state_.requests.screenshot) return;
+        const std::filesystem::path file = *std::exchange(state_.requests.screenshot, std::nullopt);
         try {
             write_png(file, window_picture(window_.framebuffer_size()));
             state_.messages.note("Saved " + file.string());
@@ -263,41 +279,28 @@ private:
     }
 
     void end_frame(const FrameTimes& times, double now) {
-        state_.last_frame = times;
-        state_.history.add(times);
-        if (state_.timings) state_.timings->add(state_.frame_record(times, now));
-        ++state_.frame;
+        state_.measurements.last_frame = times;
+        state_.measurements.history.add(times);
+        if (state_.measurements.timings) state_.measurements.timings->add(state_.frame_record(times, now));
+        ++state_.measurements.frame;
         pending_frames_ = std::max(0, pending_frames_ - 1);
         message_seconds_ = state_.messages.expire(now);
-        if (state_.quit_requested) window_.request_close(true);
+        if (state_.requests.quit) window_.request_close();
     }
 
     bool finished() const {
         if (window_.close_requested()) return true;
-        if (options_.n_frames > 0) return state_.frame >= options_.n_frames;
+        if (options_.n_frames > 0) return state_.measurements.frame >= options_.n_frames;
         return replay_over() && options_.hidden;
     }
 
-    /// Writes all that can be written, then throws Error with what could not be.
-    void finish_outputs() {
-        std::string failures;
-        const auto attempt = [&](const auto& write) {
-            try {
-                write();
-            } catch (const std::exception& error) {
-                failures += (failures.empty() ? "" : " ") + user_text(error);
-            }
-        };
-        attempt([&] {
-            if (!options_.screenshot.empty() && !picture_ && window_.size().minCoeff() > 0)
-                draw_frame();  // closed by hand: one more, for the picture
-            if (picture_) write_png(options_.screenshot, *picture_);
-        });
-        if (state_.timings) attempt([&] { state_.timings->finish(); });
-        if (state_.recorder) attempt([&] { state_.recorder->finish(); });
-        if (!options_.scene_out.empty()) attempt([&] { state_.write_scene(options_.scene_out); });
-        if (!options_.mesh_out.empty()) attempt([&] { state_.write_mesh(options_.mesh_out); });
-        if (!failures.empty()) throw Error(failures);
+    /// Closed by hand: one more frame, for the picture. Where it fails the other outputs are written all the same.
+    void draw_last_picture() {
+        if (options_.screenshot.empty() || picture_ || window_.size().minCoeff() <= 0) return;
+        try {
+            draw_frame();
+        } catch (const std::exception&) {  // write_outputs() tells that there is no picture
+        }
     }
 
     /// A worker inside a library call that cannot be interrupted must not keep a closed window's process alive:

@@ -65,20 +65,13 @@ void Camera::orbit(double dx, double dy, const Viewport& viewport) {
     const double per_pixel = std::numbers::pi / viewport.height;
     pose_.orientation = turn(-dx * per_pixel, up_axis_) * pose_.orientation;
     const double upright = up().dot(up_axis_);
-    const double side = upright >= -kRounding ? 1.0 : -1.0;  // upside down after a tumble
+    const double side = upright >= -kRounding ? 1.0 : -1.0;  // -1: upside down, by set_pose()
     // 0 when looking down. By both of its sides, as near the poles an arc cosine has half the digits; a camera that is
     // upright but for rounding may be just beyond a pole.
     double polar = std::atan2(side * upright, backward().dot(up_axis_));
     if (polar < -0.5 * std::numbers::pi) polar += 2.0 * std::numbers::pi;
     const double wanted = std::clamp(polar - side * dy * per_pixel, 0.0, std::numbers::pi);
     pose_.orientation = (turn(side * (wanted - polar), right()) * pose_.orientation).normalized();
-}
-
-void Camera::tumble(double dx, double dy, const Viewport& viewport) {
-    const double per_pixel = std::numbers::pi / viewport.height;
-    const Eigen::Vector3d axis = -dx * up() - dy * right();
-    const double length = axis.norm();
-    if (length > 0.0) pose_.orientation = (turn(length * per_pixel, axis / length) * pose_.orientation).normalized();
 }
 
 void Camera::pan(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Viewport& viewport) {
@@ -178,10 +171,5 @@ Eigen::Vector3d Camera::drag_in_plane(const Eigen::Vector3d& anchor, const Eigen
 }
 
 double Camera::pixel_size(double depth, const Viewport& viewport) const { return depth * slope_per_pixel(viewport); }
-
-CameraPose blend(const CameraPose& from, const CameraPose& to, double t) {
-    return {from.target + t * (to.target - from.target), from.orientation.slerp(t, to.orientation),
-            from.distance * std::pow(to.distance / from.distance, t)};
-}
 
 }  // namespace elastolab

@@ -58,8 +58,6 @@ public:
     /// A drag of the cursor by (dx, dy) pixels turns the view about the target: sideways about the up axis, upward
     /// until looking along it. The height of the viewport is half a turn.
     void orbit(double dx, double dy, const Viewport& viewport);
-    /// The same without an up axis: turns about the axes of the screen.
-    void tumble(double dx, double dy, const Viewport& viewport);
     /// Moves the view so that what is seen at `from` in the plane of the target is then seen at `to`.
     void pan(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Viewport& viewport);
     /// Comes closer by `factor` > 1, or goes back by factor < 1. The point under the cursor in the plane through
@@ -91,8 +89,5 @@ private:
     SceneFrame scene_;
     Eigen::Vector3d up_axis_ = Eigen::Vector3d::UnitZ();
 };
-
-/// A view between two, t in [0, 1]: turns along the shorter way, distances change in proportion.
-CameraPose blend(const CameraPose& from, const CameraPose& to, double t);
 
 }  // namespace elastolab

@@ -9,12 +9,4 @@ SceneFrame frame_of(const PositionsView& positions) {
     return {0.5 * (low + high), radius > 0.0 ? radius : 1.0};
 }
 
-SceneFrame united(const SceneFrame& a, const SceneFrame& b) {
-    const double distance = (b.center - a.center).norm();
-    if (distance + b.radius <= a.radius) return a;
-    if (distance + a.radius <= b.radius) return b;
-    const double radius = 0.5 * (a.radius + distance + b.radius);
-    return {a.center + (b.center - a.center) * ((radius - a.radius) / distance), radius};
-}
-
 }  // namespace elastolab

@@ -19,7 +19,5 @@ struct SceneFrame {
 
 /// The ball around the bounding box of these positions; a radius of 1 when they have no extent.
 SceneFrame frame_of(const PositionsView& positions);
-/// A ball around both, not much larger than needed.
-SceneFrame united(const SceneFrame& a, const SceneFrame& b);
 
 }  // namespace elastolab

@@ -12,6 +12,8 @@
 #include <stdexcept>
 #include <thread>
 
+#include "app/x11_client.hpp"
+
 namespace elastolab::test {
 
 namespace {
@@ -82,6 +84,9 @@ void RealWindow::type(const std::string& text) {
 void RealWindow::resize(int width, int height) {
     tell("windowsize " + id_ + " " + std::to_string(width) + " " + std::to_string(height));
 }
+
+void RealWindow::close() { ask_to_close(std::stoul(id_)); }
+void RealWindow::drop(const std::filesystem::path& file) { drop_file(std::stoul(id_), file); }
 
 /// Whether every thread of it sleeps.
 bool RealWindow::sleeps() const {

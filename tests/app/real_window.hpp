@@ -26,11 +26,16 @@ public:
     /// Types a text and Enter.
     void type(const std::string& text);
     void resize(int width, int height);
+    /// The cross of its title bar, and a file from a file manager.
+    void close();
+    void drop(const std::filesystem::path& file);
 
     /// Returns when the program sleeps because nothing is left to do.
     void settle();
     /// Ctrl+Q, and what the program left behind.
     ProgramRun quit();
+    /// Waits for its end, which something else has brought about.
+    ProgramRun wait() { return program_.wait(); }
     /// Processor time that it has used [s].
     double processor_seconds() const;
     bool ended() { return program_.ended(); }

@@ -40,25 +40,25 @@ void Stage::open(const Document& document) {
 }
 
 void Stage::frame() {
-    state.viewports = viewports_of(state, kScene);
+    state.shown.viewports = viewports_of(state, kScene);
     state.update_displacements();
-    state.update_bodies();
+    state.update_picture();
 }
 
 void Stage::settle() {
     do {
         frame();
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    } while (state.loading() || state.cutting() || state.simulation.busy());
+    } while (state.waiting() || state.simulation.busy());
     frame();
 }
 
 Eigen::Vector2d Stage::pixel(const Eigen::Vector3d& point, std::size_t viewport) const {
-    return state.camera.project(point, state.viewports[viewport].place).pixel;
+    return state.camera.project(point, state.shown.viewports[viewport].place).pixel;
 }
 
 Eigen::Vector3d Stage::place(int vertex, std::size_t viewport) const {
-    return state.body(state.viewports[viewport].kinds.front())->positions().col(vertex);
+    return state.shown.body(state.shown.viewports[viewport].kinds.front())->positions().col(vertex);
 }
 
 Eigen::Vector2d Stage::pixel(int vertex, std::size_t viewport) const {

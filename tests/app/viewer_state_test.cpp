@@ -66,6 +66,7 @@ TEST(ViewerState, ABareMeshIsHeldAtItsLowestPart) {
     EXPECT_THAT(fixed, SizeIs(16));
     for (const int v : fixed) EXPECT_EQ(stage.scene().mesh().vertices(1, v), 0.0);  // meshes from files have Y up
     EXPECT_THAT(stage.state.recent_files(), SizeIs(1));
+    EXPECT_FALSE(stage.scene().modified()) << "nobody has changed anything yet";
 }
 
 TEST(ViewerState, ABodyThatCannotBeMadeIsTellingAndKeepsTheOldScene) {
@@ -172,7 +173,7 @@ TEST(ViewerState, FailuresOfOutputsBecomeMessages) {
     stage.state.export_mesh("/no/such/folder/out.obj");
     stage.state.record_timings("/no/such/folder/t.csv");
     EXPECT_EQ(n_errors(stage.state), 3);
-    EXPECT_EQ(stage.state.timings, nullptr);
+    EXPECT_EQ(stage.state.measurements.timings, nullptr);
 }
 
 TEST(ViewerState, AFrameRecordTellsMethodSizesAndState) {
@@ -224,11 +225,11 @@ TEST(ViewerState, CancelledWorkersStop) {
 
 TEST(ViewerState, ARangeByHandIsKept) {
     Stage stage(2);
-    EXPECT_EQ(stage.state.field_range(), std::pair(0.0, 1.0));  // never empty
+    EXPECT_EQ(stage.state.shown.field_range(stage.state.display), std::pair(0.0, 1.0));  // never empty
     stage.state.display.auto_range = false;
     stage.state.display.range_low = 2.0;
     stage.state.display.range_high = 3.0;
-    EXPECT_EQ(stage.state.field_range(), std::pair(2.0, 3.0));
+    EXPECT_EQ(stage.state.shown.field_range(stage.state.display), std::pair(2.0, 3.0));
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ TEST(FarBody, DeformsAsTheSameBodyAtTheOrigin) {
 
 TEST(FarBody, HasItsInsideWhereItIs) {
     const Body near = cube_at(Eigen::Vector3d::Zero()), far = cube_at(kOffset);
-    const Method fem = test::make_method(MethodKind::fem);
+    const Method fem = test::make_method(kFem);
     Control control;
     const auto a = Volume::of(test::precomputed(near, fem), control),
                b = Volume::of(test::precomputed(far, fem), control);

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <atomic>
+#include <filesystem>
 #include <thread>
 
 #include "base/error.hpp"
@@ -137,6 +138,49 @@ TEST(ModelJob, ANewRequestReplacesTheOldOnesAndNeverRunsBesideThem) {
     EXPECT_EQ(wait_for_event(job), JobEvent::finished);
     EXPECT_EQ(job.take()->body().name, "19");
     EXPECT_EQ(most, 1);
+}
+
+/// Threads of this process.
+std::ptrdiff_t n_threads() {
+    return std::distance(std::filesystem::directory_iterator("/proc/self/task"), std::filesystem::directory_iterator());
+}
+
+TEST(ModelJob, ManyRequestsDuringOneThatCannotBeStoppedWaitInOneThread) {
+    std::atomic<bool> begun{false}, go{false};
+    std::atomic<int> n_begun{0};
+    ModelJob job;
+    job.start([&](Control&) {
+        begun = true;
+        wait_until([&] { return go.load(); });  // a library that knows of no checkpoints
+        return model_called("stroke 0");
+    });
+    wait_until([&] { return begun.load(); });
+    const std::ptrdiff_t before = n_threads();
+    for (int i = 1; i <= 200; ++i)
+        job.start([&n_begun, i](Control&) {
+            ++n_begun;
+            return model_called("stroke " + std::to_string(i));
+        });
+    EXPECT_EQ(n_threads(), before);
+    go = true;
+    EXPECT_EQ(wait_for_event(job), JobEvent::finished);
+    EXPECT_EQ(job.take()->body().name, "stroke 200");
+    EXPECT_EQ(n_begun, 1);
+}
+
+TEST(ModelJob, WhatARequestHoldsIsGoneWhenItIsReplaced) {
+    std::atomic<bool> begun{false};
+    ModelJob job;
+    job.start(endless(begun));
+    wait_until([&] { return begun.load(); });
+    auto model = model_called("held");
+    const std::weak_ptr<const Model> trace = model;
+    job.cancel();
+    job.start([model](Control&) { return model; });
+    job.start(giving("new"));
+    model.reset();
+    EXPECT_EQ(wait_for_event(job), JobEvent::finished);
+    EXPECT_TRUE(trace.expired());
 }
 
 TEST(ModelJob, ShutsDownWhileItRuns) {

@@ -4,42 +4,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <Eigen/Geometry>
 
 namespace elastolab {
 
 namespace {
 
-constexpr double kClickPixels = 3.0;  ///< a press that moved no further is a click
 constexpr double kDoubleClickSeconds = 0.35;
-constexpr double kZoomStep = 1.15;        ///< for a notch of the wheel
-constexpr double kTurnPerPixel = 0.01;    ///< [radians]
-constexpr double kScalePerPixel = 0.005;  ///< of the logarithm
+constexpr double kZoomStep = 1.15;  ///< for a notch of the wheel
 constexpr double kSpringSeconds = 0.25;
 
-/// How far along the line (point, direction) the cursor has dragged a point of it: where the line comes nearest to the
-/// ray of the cursor. Directions that point at the eye give nothing to hold on to: 0.
-double along_line(const Ray& ray, const Eigen::Vector3d& point, const Eigen::Vector3d& direction) {
-    const double cosine = ray.direction.dot(direction);
-    const double denominator = 1.0 - cosine * cosine;
-    if (denominator < 1e-4) return 0.0;
-    const Eigen::Vector3d to_point = point - ray.origin;
-    return (cosine * ray.direction.dot(to_point) - direction.dot(to_point)) / denominator;
-}
-
-Eigen::Vector3d triangle_normal(const PointingTarget& target, int triangle) {
-    const Positions& x = *target.positions;
-    const Eigen::Vector3i t = target.triangles->col(triangle);
-    return (x.col(t[1]) - x.col(t[0])).cross(x.col(t[2]) - x.col(t[0])).stableNormalized();
-}
-
-/// Not so of vertices inside the body, which show where it is cut open and cannot be grabbed.
+/// False for vertices inside the body: they show where it is cut open, and cannot be grabbed.
 bool is_on_surface(const GestureContext& context, int vertex) { return vertex < context.scene.mesh().n_vertices(); }
 
 /// Fixes these vertices, those inside the body aside, or frees them.
-void fix_or_free(const GestureContext& context, std::vector<int> vertices, bool free) {
+void fix_or_free(const GestureContext& context, std::vector<int> vertices, Hold hold) {
     std::erase_if(vertices, [&](int v) { return !is_on_surface(context, v); });
-    if (free)
+    if (hold == Hold::free)
         context.scene.unfix(vertices);
     else
         context.scene.fix(vertices);
@@ -64,7 +44,10 @@ void Gestures::handle(const InputEvent& event, GestureContext& context) {
         case InputEvent::Kind::key:
             std::erase(held_keys_, event.code);
             if (event.pressed) held_keys_.push_back(event.code);
-            if (pulling()) pull(context);
+            if (pulling() && event.pressed && event.code == GLFW_KEY_DELETE)
+                remove_pulled(context);
+            else if (pulling())
+                pull(context);
             break;
         case InputEvent::Kind::focus:
             if (event.code == 0) held_keys_.clear();
@@ -110,115 +93,34 @@ void Gestures::press(const InputEvent& event, GestureContext& context) {
         action_ = Action::pan;
         return;
     }
-    freeing_ = (event.modifiers & GLFW_MOD_SHIFT) != 0;
+    const bool shifted = (event.modifiers & GLFW_MOD_SHIFT) != 0;
+    hold_ = shifted ? Hold::free : Hold::fix;
     if (context.tools.tool == Tool::box) {
         action_ = Action::box;
         return;
     }
     const std::optional<PickHit> hit = hit_in(context, *target);
     if (hit && is_on_surface(context, hit->vertex))
-        press_body(context, hit->vertex, hit->triangle);
+        press_body(context, *hit);
     else
-        action_ = freeing_ ? Action::pan : Action::orbit;
+        action_ = shifted ? Action::pan : Action::orbit;
 }
 
-void Gestures::press_body(GestureContext& context, int vertex, int triangle) {
+void Gestures::press_body(GestureContext& context, const PickHit& hit) {
     if (context.tools.tool == Tool::brush) {
         action_ = Action::paint;
         return;
     }
-    const int owner = context.scene.owner(vertex);
+    const int owner = context.scene.owner(hit.vertex);
     if (owner == LiveScene::kFixed) {
         hint_ = "This vertex is fixed. Free it with the brush (B) and Shift.";
-        action_ = Action::orbit;
+        action_ = Action::blocked;  // to turn the view would look as if the body had been pulled
     } else if (owner != LiveScene::kNobody) {
-        begin_pull(context, owner, false, vertex, triangle);
+        begin_pull(context, owner, Grabbed::present_handle, hit);
     } else {
         const std::vector<int> patch =
-            patch_around(context.scene.mesh(), context.graph, vertex, context.tools.patch_radius);
-        begin_pull(context, context.scene.add_handle(patch), true, vertex, triangle);
-    }
-}
-
-void Gestures::begin_pull(GestureContext& context, int handle, bool created, int vertex, int triangle) {
-    action_ = Action::pull;
-    selected_ = handle;
-    pull_ = {};
-    pull_.handle = handle;
-    pull_.created = created;
-    pull_.vertex = vertex;
-    if (triangle >= 0) pull_.normal = triangle_normal(context.targets[target_], triangle);
-    pull_.motion = context.scene.document().handles[static_cast<std::size_t>(handle)].motion;
-    pull_.place = context.targets[target_].positions->col(vertex);
-    set_baseline(context);
-}
-
-/// What is shown may lag behind while a new handle is prepared: the place follows from the motion since the last one.
-void Gestures::set_baseline(GestureContext& context) {
-    pull_.mode = pull_mode();
-    pull_.cursor = cursor_;
-    const Eigen::Vector3d x = context.scene.mesh().vertices.col(pull_.vertex);
-    const Motion& motion = context.scene.document().handles[static_cast<std::size_t>(pull_.handle)].motion;
-    pull_.place += context.deformation_scale * (mean_displacement(motion, x) - mean_displacement(pull_.motion, x));
-    pull_.motion = motion;
-}
-
-Gestures::PullMode Gestures::pull_mode() const {
-    const auto held = [&](int key) { return std::find(held_keys_.begin(), held_keys_.end(), key) != held_keys_.end(); };
-    if (held(GLFW_KEY_X)) return PullMode::axis_x;
-    if (held(GLFW_KEY_Y)) return PullMode::axis_y;
-    if (held(GLFW_KEY_Z)) return PullMode::axis_z;
-    if (held(GLFW_KEY_R) || (modifiers_ & GLFW_MOD_CONTROL) != 0) return PullMode::turn;
-    if (held(GLFW_KEY_S) || (modifiers_ & GLFW_MOD_ALT) != 0) return PullMode::scale;
-    if ((modifiers_ & GLFW_MOD_SHIFT) != 0) return PullMode::normal;
-    return PullMode::plane;
-}
-
-/// How far the vertex is to go, as shown.
-Eigen::Vector3d Gestures::pull_shift(const GestureContext& context) const {
-    const Viewport& viewport = context.targets[target_].viewport;
-    if (pull_.mode == PullMode::plane)
-        return context.camera.drag_in_plane(pull_.place, pull_.cursor, cursor_, viewport);
-    Eigen::Vector3d direction = pull_.normal;
-    if (pull_.mode != PullMode::normal)
-        direction = Eigen::Vector3d::Unit(static_cast<int>(pull_.mode) - static_cast<int>(PullMode::axis_x));
-    return direction * (along_line(context.camera.ray(cursor_, viewport), pull_.place, direction) -
-                        along_line(context.camera.ray(pull_.cursor, viewport), pull_.place, direction));
-}
-
-void Gestures::pull(GestureContext& context) {
-    if (pull_mode() != pull_.mode) set_baseline(context);
-    if (!pull_.moved && (cursor_ - press_cursor_).norm() < kClickPixels) return;
-    pull_.moved = true;
-    const std::span<const int> vertices = context.scene.vertices(pull_.handle);
-    if (pull_.mode != PullMode::turn && pull_.mode != PullMode::scale) {
-        const Eigen::Vector3d shift = pull_shift(context) / context.deformation_scale;
-        context.scene.set_motion(pull_.handle, translated(pull_.motion, shift));
-        return;
-    }
-    const Eigen::Vector2d d = cursor_ - pull_.cursor;
-    Eigen::Matrix3d map = std::exp(-kScalePerPixel * d.y()) * Eigen::Matrix3d::Identity();
-    if (pull_.mode == PullMode::turn)
-        map = (Eigen::AngleAxisd(kTurnPerPixel * d.x(), context.camera.up()) *
-               Eigen::AngleAxisd(kTurnPerPixel * d.y(), context.camera.right()))
-                  .toRotationMatrix();
-    const Positions rest =
-        context.scene.mesh().vertices(Eigen::all, std::vector<int>(vertices.begin(), vertices.end()));
-    const Eigen::Vector3d center = rest.rowwise().mean() + mean_displacement(pull_.motion, rest);
-    context.scene.set_motion(pull_.handle, transformed(pull_.motion, map, center, rest));
-}
-
-void Gestures::end_pull(GestureContext& context) {
-    if (!pull_.moved) {
-        if (pull_.created) {
-            context.scene.remove_handle(pull_.handle);  // a click pulls nothing
-            selected_ = -1;
-        }
-    } else if (context.tools.release == Release::spring_back) {
-        spring_ = Spring{pull_.handle, context.scene.document().handles[static_cast<std::size_t>(pull_.handle)].motion};
-        selected_ = -1;
-    } else {
-        context.scene.commit();
+            patch_around(context.scene.mesh(), context.graph, hit.vertex, context.tools.patch_radius);
+        begin_pull(context, context.scene.add_handle(patch), Grabbed::new_handle, hit);
     }
 }
 
@@ -282,11 +184,11 @@ void Gestures::paint(GestureContext& context) {
     fix_or_free(context,
                 vertices_in_brush(context.camera, target.viewport, cursor_, context.tools.brush_pixels,
                                   *target.positions, *target.triangles, Reach::visible),
-                freeing_);
+                hold_);
 }
 
 void Gestures::toggle_fixed(GestureContext& context, int vertex) {
-    fix_or_free(context, {vertex}, context.scene.owner(vertex) == LiveScene::kFixed);
+    fix_or_free(context, {vertex}, context.scene.owner(vertex) == LiveScene::kFixed ? Hold::free : Hold::fix);
 }
 
 void Gestures::end_box(GestureContext& context) {
@@ -295,7 +197,7 @@ void Gestures::end_box(GestureContext& context) {
     fix_or_free(context,
                 vertices_in_rectangle(context.camera, target.viewport, press_cursor_, cursor_, *target.positions,
                                       *target.triangles, context.tools.box_reach),
-                freeing_);
+                hold_);
     context.scene.commit();
 }
 

@@ -41,16 +41,20 @@ struct Hover {
     bool operator==(const Hover&) const = default;
 };
 
+/// What brush and box do to vertices.
+enum class Hold { fix, free };
+
 /// Turns mouse events into camera moves and edits of the scene. Owned by one thread; knows no window.
 ///   body     left: grab a handle or make one, and pull it. While pulling: Shift along the normal, X/Y/Z along an axis,
-///            Ctrl (or R) turns the patch, Alt (or S) scales it
+///            Ctrl (or R) turns the patch, Alt (or S) scales it, Delete removes it. A fixed vertex cannot be pulled
 ///   empty    left: orbit; right, middle or Shift + left: pan; double click: frame the body
 ///   wheel    zoom to the cursor
 ///   brush    left fixes vertices under the brush, with Shift frees them; a click fixes or frees one vertex
 ///   box      left draws a box, likewise
 class Gestures {
 public:
-    enum class Action { none, orbit, pan, pull, paint, box };
+    /// blocked: the button is down where it can do nothing, which hint() explains.
+    enum class Action { none, orbit, pan, pull, paint, box, blocked };
 
     void handle(const InputEvent& event, GestureContext& context);
     /// Moves what springs back; true while something does.
@@ -76,10 +80,15 @@ public:
     bool take_frame_request() { return std::exchange(frame_requested_, false); }
 
 private:
+    static constexpr double kClickPixels = 3.0;  ///< a press that moved no further is a click
+
+    /// Whether the press made the handle, so that a mere click takes it away again.
+    enum class Grabbed { present_handle, new_handle };
     enum class PullMode { plane, normal, axis_x, axis_y, axis_z, turn, scale };
     struct Pull {
         int handle = -1;
-        bool created = false, moved = false;
+        Grabbed grabbed = Grabbed::present_handle;
+        bool moved = false;
         int vertex = -1;                                    ///< under the cursor
         Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< of the surface there when it was grabbed
         PullMode mode = PullMode::plane;
@@ -95,12 +104,13 @@ private:
     };
 
     void press(const InputEvent& event, GestureContext& context);
-    void press_body(GestureContext& context, int vertex, int triangle);
+    void press_body(GestureContext& context, const PickHit& hit);
     void release(GestureContext& context);
     void move(GestureContext& context);
     void scroll(const InputEvent& event, GestureContext& context);
     void point(GestureContext& context);
-    void begin_pull(GestureContext& context, int handle, bool created, int vertex, int triangle);
+    void begin_pull(GestureContext& context, int handle, Grabbed grabbed, const PickHit& hit);
+    void remove_pulled(GestureContext& context);
     void set_baseline(GestureContext& context);
     void pull(GestureContext& context);
     PullMode pull_mode() const;
@@ -119,7 +129,7 @@ private:
     std::size_t target_ = 0;  ///< that the action goes on in
     Eigen::Vector2d cursor_ = Eigen::Vector2d::Zero(), last_cursor_ = cursor_, press_cursor_ = cursor_;
     bool dragged_ = false;
-    bool freeing_ = false;  ///< brush and box: free vertices instead of fixing them
+    Hold hold_ = Hold::fix;  ///< what brush and box do
     int modifiers_ = 0;
     std::vector<int> held_keys_;
     Hover hover_;

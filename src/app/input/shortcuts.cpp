@@ -63,7 +63,9 @@ std::vector<Shortcut> make_shortcuts() {
         {GLFW_KEY_T, 0, "T", "light or dark theme", [](ViewerState& s, Panels&) { s.display.dark = !s.display.dark; }},
         {GLFW_KEY_O, GLFW_MOD_CONTROL, "Ctrl+O", "open a mesh or scene",
          [](ViewerState& s, Panels& p) { p.ask_open(s); }},
-        {GLFW_KEY_S, GLFW_MOD_CONTROL, "Ctrl+S", "save the scene", [](ViewerState& s, Panels& p) { p.ask_save(s); }},
+        {GLFW_KEY_S, GLFW_MOD_CONTROL, "Ctrl+S", "save the scene", [](ViewerState& s, Panels& p) { p.save(s); }},
+        {GLFW_KEY_S, GLFW_MOD_CONTROL | GLFW_MOD_SHIFT, "Ctrl+Shift+S", "save the scene under another name",
+         [](ViewerState& s, Panels& p) { p.save_as(s); }},
         {GLFW_KEY_F1, 0, "F1 or ?", "show or hide this help",
          [](ViewerState& s, Panels&) { s.show_help = !s.show_help; }},
         {GLFW_KEY_ESCAPE, 0, "Esc", "close help and messages",
@@ -71,7 +73,7 @@ std::vector<Shortcut> make_shortcuts() {
              s.show_help = false;
              while (!s.messages.all().empty()) s.messages.dismiss(0);
          }},
-        {GLFW_KEY_Q, GLFW_MOD_CONTROL, "Ctrl+Q", "quit", [](ViewerState& s, Panels&) { s.quit_requested = true; }},
+        {GLFW_KEY_Q, GLFW_MOD_CONTROL, "Ctrl+Q", "quit", [](ViewerState& s, Panels&) { s.quit(); }},
     };
     all.insert(all.end(), more.begin(), more.end());
     return all;

@@ -50,7 +50,7 @@ void draw_differences(const PanelContext& context) {
         ImGui::TextColored(imgui_colour(context.palette.text_dim), "%s", heading);
     }
     for (const MethodKind kind : all_methods()) {
-        const ShownBody* shown = state.body(kind);
+        const ShownBody* shown = state.shown.body(kind);
         if (shown == nullptr) continue;
         ImGui::TableNextColumn();
         ImGui::TextColored(imgui_colour(context.palette.body(kind)), "%s", title(kind).c_str());

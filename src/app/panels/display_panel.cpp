@@ -30,7 +30,7 @@ void draw_range(ViewerState& state, float scale) {
     if (ImGui::Checkbox("range from the data", &display.auto_range) && !display.auto_range)
         display.range_high = std::max(display.range_low, [&] {
             double high = 0.0;
-            for (const ShownBody& body : state.bodies) high = std::max(high, body.max_value());
+            for (const ShownBody& body : state.shown.bodies()) high = std::max(high, body.max_value());
             return high;
         }());
     if (!display.auto_range) {

@@ -85,6 +85,7 @@ Gui::Gui(Window& window) : window_(window) {
     ImGuiIO& io = ImGui::GetIO();
     io.IniFilename = nullptr;
     io.BackendFlags |= ImGuiBackendFlags_HasMouseCursors;
+    io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
     io.MousePos = {-1e6f, -1e6f};
     map_keys(io);
     set_clipboard(io, window_);
@@ -150,7 +151,8 @@ void Gui::feed(const InputEvent& event) {
     }
     io.KeyShift = (event.modifiers & GLFW_MOD_SHIFT) != 0;
     io.KeyCtrl = (event.modifiers & GLFW_MOD_CONTROL) != 0;
-    io.KeyAlt = (event.modifiers & GLFW_MOD_ALT) != 0;
+    // Alt is for scaling what is pulled; F10 is what goes to the menu.
+    if (event.kind == InputEvent::Kind::key && event.code == GLFW_KEY_F10) io.KeyAlt = event.pressed;
     io.KeySuper = (event.modifiers & GLFW_MOD_SUPER) != 0;
 }
 
@@ -161,8 +163,18 @@ void Gui::begin(std::span<const InputEvent> events, double dt) {
     if (size.minCoeff() > 0.0f) io.DisplayFramebufferScale = {pixels.x() / size.x(), pixels.y() / size.y()};
     io.DeltaTime = static_cast<float>(std::max(dt, 1e-4));
     for (const InputEvent& event : events) feed(event);
+    popup_was_open_ = !ImGui::GetCurrentContext()->OpenPopupStack.empty();
     ImGui_ImplOpenGL3_NewFrame();
     ImGui::NewFrame();
+    close_menus_on_escape();
+}
+
+/// Dear ImGui itself closes them only once the keys have moved about in them.
+void Gui::close_menus_on_escape() {
+    const ImVector<ImGuiPopupData>& open = ImGui::GetCurrentContext()->OpenPopupStack;
+    if (open.empty() || wants_text() || !ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false)) return;
+    const ImGuiWindow* top = open.back().Window;
+    if (top == nullptr || (top->Flags & ImGuiWindowFlags_Modal) == 0) ImGui::ClosePopupToLevel(open.size() - 1, true);
 }
 
 void Gui::end() {
@@ -195,5 +207,6 @@ void Gui::update_cursor_shape() {
 
 bool Gui::wants_mouse() const { return ImGui::GetIO().WantCaptureMouse; }
 bool Gui::wants_text() const { return ImGui::GetIO().WantTextInput; }
+bool Gui::wants_keys() const { return wants_text() || popup_was_open_; }
 
 }  // namespace elastolab

@@ -37,6 +37,8 @@ public:
 
     bool wants_mouse() const;
     bool wants_text() const;  ///< a field is being typed in
+    /// Keys are for the panels: a field is being typed in, or a menu, a list of choices or a dialog is open.
+    bool wants_keys() const;
     const Fonts& fonts() const { return fonts_; }
     /// Logical pixels for a length that is 1 on an ordinary screen.
     float scale() const { return scale_; }
@@ -46,11 +48,13 @@ public:
 
 private:
     void feed(const InputEvent& event);
+    void close_menus_on_escape();
     void update_cursor_shape();
 
     Window& window_;
     Fonts fonts_;
     float scale_ = 0.0f;
+    bool popup_was_open_ = false;  ///< before the events of this frame, which may have closed it
 };
 
 }  // namespace elastolab

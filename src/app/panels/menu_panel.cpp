@@ -80,11 +80,12 @@ void Panels::draw_menu(const PanelContext& context) {
             ImGui::EndMenu();
         }
         ImGui::Separator();
-        if (ImGui::MenuItem("Save scene...", "Ctrl+S")) ask_save(state);
+        if (ImGui::MenuItem("Save scene", "Ctrl+S")) save(state);
+        if (ImGui::MenuItem("Save scene as...", "Ctrl+Shift+S")) save_as(state);
         if (ImGui::MenuItem("Export deformed mesh...")) ask_export(state);
         if (ImGui::MenuItem("Screenshot...")) ask_screenshot(state);
         ImGui::Separator();
-        if (ImGui::MenuItem("Quit", "Ctrl+Q")) state.quit_requested = true;
+        if (ImGui::MenuItem("Quit", "Ctrl+Q")) state.quit();
         ImGui::EndMenu();
     }
     draw_edit(state);

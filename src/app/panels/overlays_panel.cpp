@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "app/panels/panels.hpp"
-#include "app/picture/scene_renderer.hpp"
 #include "app/panels/widgets.hpp"
+#include "app/picture/scene_renderer.hpp"
 #include "base/text.hpp"
 #include "render/drawing/legend.hpp"
 
@@ -50,7 +50,7 @@ void draw_title(const PanelContext& context, ImDrawList& list, const SceneViewpo
         const Colour& colour = palette.body(kind);
         shaded_text(list, font, height, place, mix(colour, palette.text, 0.35), palette.background_bottom, text);
         place.y += 1.25f * height;
-        const ShownBody* shown = state.body(kind);
+        const ShownBody* shown = state.shown.body(kind);
         if (state.comparing() && shown != nullptr) {
             std::string note = kind == state.compare.reference ? "reference" : "";
             if (shown->difference())
@@ -77,7 +77,8 @@ void draw_axes_letters(const PanelContext& context, ImDrawList& list, const Scen
 void draw_legend(const PanelContext& context, ImDrawList& list) {
     const ViewerState& state = context.state;
     const auto is_coloured = [](const ShownBody& body) { return body.is_coloured(); };
-    if (state.display.field == Field::none || std::none_of(state.bodies.begin(), state.bodies.end(), is_coloured))
+    if (state.display.field == Field::none ||
+        std::none_of(state.shown.bodies().begin(), state.shown.bodies().end(), is_coloured))
         return;
     const Viewport& scene = context.layout.scene;
     const float scale = context.gui.scale(), width = 16.0f * scale;
@@ -92,7 +93,7 @@ void draw_legend(const PanelContext& context, ImDrawList& list) {
         list.AddRectFilled({x, top}, {x + width, bottom + 0.5f}, imgui_packed(map.sample((i + 0.5) / kSteps)));
     }
     list.AddRect({x, y}, {x + width, y + height}, imgui_packed(context.palette.border));
-    const auto [low, high] = state.field_range();
+    const auto [low, high] = state.shown.field_range(state.display);
     ImFont* font = context.gui.fonts().regular;
     const float size = ImGui::GetFontSize();
     for (const LegendTick& tick : legend_ticks(low, high, 5)) {
@@ -181,7 +182,7 @@ void draw_messages(const PanelContext& context) {
 
 void Panels::draw_overlays(const PanelContext& context) {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
-    for (const SceneViewport& viewport : context.state.viewports) {
+    for (const SceneViewport& viewport : context.state.shown.viewports) {
         const Viewport& v = viewport.place;
         list.PushClipRect(point(v.x, v.y), point(v.x + v.width, v.y + v.height));
         draw_title(context, list, viewport);

@@ -28,10 +28,32 @@ void Panels::ask_open(ViewerState& state) {
     files_.open({"Open a mesh or scene", with_scenes(kMeshFiles), "", [&](const auto& file) { state.open(file); }});
 }
 
-void Panels::ask_save(ViewerState& state) {
-    files_.open({"Save the scene", {".json"}, suggested_name(state, ".json"), [&](const auto& file) {
-                     state.save_scene(file);
-                 }});
+void Panels::save(ViewerState& state) {
+    if (state.owns_scene_file())
+        state.save_scene(std::filesystem::path(state.scene_file()));
+    else
+        save_as(state);
+}
+
+void Panels::save_as(ViewerState& state) {
+    const std::filesystem::path& present = state.scene_file();
+    files_.open({.title = "Save the scene",
+                 .extensions = {".json"},
+                 .suggestion = present.empty() ? suggested_name(state, ".json") : present.filename().string(),
+                 .done = [&](const auto& file) { state.save_scene(file); },
+                 .folder = present.parent_path()});
+}
+
+/// Of a scene that is to be saved before it goes. Without a name it stays.
+void Panels::ask_name_of_unsaved(ViewerState& state) {
+    files_.open({.title = "Save the scene",
+                 .extensions = {".json"},
+                 .suggestion = suggested_name(state, ".json"),
+                 .done =
+                     [&](const auto& file) {
+                         if (state.save_scene(file)) state.unsaved.proceed();
+                     },
+                 .cancelled = [&] { state.unsaved.cancel(); }});
 }
 
 void Panels::ask_export(ViewerState& state) {
@@ -41,7 +63,7 @@ void Panels::ask_export(ViewerState& state) {
 
 void Panels::ask_screenshot(ViewerState& state) {
     files_.open({"Save a screenshot", {".png"}, suggested_name(state, ".png"), [&](const auto& file) {
-                     state.screenshot_request = file;
+                     state.requests.screenshot = file;
                  }});
 }
 
@@ -65,7 +87,9 @@ void Panels::draw(const PanelContext& context) {
     draw_status(context);
     draw_overlays(context);
     if (context.state.show_help) draw_help(context);
+    if (std::exchange(context.state.requests.scene_name, false)) ask_name_of_unsaved(context.state);
     files_.draw(context.gui.scale());
+    draw_unsaved(context);
 }
 
 void Panels::draw_side(const PanelContext& context) {

@@ -5,11 +5,11 @@
 #include <string>
 #include <utility>
 
-#include "app/window/file_dialog.hpp"
 #include "app/panels/gui.hpp"
 #include "app/panels/layout.hpp"
 #include "app/picture/palette.hpp"
 #include "app/viewer_state.hpp"
+#include "app/window/file_dialog.hpp"
 #include "findings/cost.hpp"
 
 namespace elastolab {
@@ -29,13 +29,15 @@ public:
     void draw(const PanelContext& context);
 
     void ask_open(ViewerState& state);
-    void ask_save(ViewerState& state);
+    /// Over the scene's own file when it was written here already, else as save_as().
+    void save(ViewerState& state);
+    void save_as(ViewerState& state);
     void ask_export(ViewerState& state);
     void ask_screenshot(ViewerState& state);
     void ask_timings(ViewerState& state);
 
 private:
-    // One file each: panel_menu.cpp, panel_method.cpp, ...
+    // One file each: menu_panel.cpp, method_panel.cpp, ...
     void draw_menu(const PanelContext& context);
     void draw_side(const PanelContext& context);
     void draw_method(const PanelContext& context);
@@ -48,11 +50,14 @@ private:
     void draw_status(const PanelContext& context);
     void draw_overlays(const PanelContext& context);
     void draw_help(const PanelContext& context);
+    void draw_unsaved(const PanelContext& context);
+    void ask_name_of_unsaved(ViewerState& state);
     void draw_young_modulus(ViewerState& state, float scale);
     void open_primitive(ViewerState& state);
     const Cost& cost(const ViewerState& state, const Method& method);
 
     FileDialog files_;
+    int unsaved_choice_ = 0;  ///< which button of the question Enter presses
     std::string primitive_ = "cube";
     int resolution_ = 13;
     std::optional<double> typed_modulus_;  ///< Young's modulus while it is typed

@@ -25,7 +25,7 @@ constexpr std::array<Part, 5> kParts = {
      {"frame", &FrameTimes::frame_ms, "All of it, with the exchange of buffers."}}};
 
 void draw_frames(const PanelContext& context) {
-    const FrameHistory& history = context.state.history;
+    const FrameHistory& history = context.state.measurements.history;
     if (ImGui::BeginTable("frames", 4, ImGuiTableFlags_SizingStretchProp)) {
         for (const char* heading : {"ms", "last", "median", "95 %"}) {
             ImGui::TableNextColumn();
@@ -35,8 +35,8 @@ void draw_frames(const PanelContext& context) {
             ImGui::TableNextColumn();
             ImGui::TextUnformatted(part.label);
             tooltip(part.explanation);
-            for (const double value : {context.state.last_frame.*part.value, history.percentile(part.value, 0.5),
-                                       history.percentile(part.value, 0.95)}) {
+            for (const double value : {context.state.measurements.last_frame.*part.value,
+                                       history.percentile(part.value, 0.5), history.percentile(part.value, 0.95)}) {
                 ImGui::TableNextColumn();
                 ImGui::Text("%.3f", value);
             }
@@ -69,15 +69,15 @@ void draw_stages(const PanelContext& context) {
 void Panels::draw_performance(const PanelContext& context) {
     ViewerState& state = context.state;
     draw_frames(context);
-    if (!state.timings) {
+    if (!state.measurements.timings) {
         if (ImGui::Button("Record timings...")) ask_timings(state);
     } else {
         ImGui::PushStyleColor(ImGuiCol_Button, imgui_colour(context.palette.bad));
         if (ImGui::Button("Stop recording")) state.stop_timings();
         ImGui::PopStyleColor();
-        if (state.timings) {
+        if (state.measurements.timings) {
             ImGui::SameLine();
-            ImGui::Text("%d frames", state.timings->n_rows());
+            ImGui::Text("%d frames", state.measurements.timings->n_rows());
         }
     }
     tooltip("A CSV file with one row for every frame.");

@@ -67,7 +67,7 @@ void Panels::draw_pull(const PanelContext& context) {
     const LiveScene& scene = state.scene();
     ImGui::TextColored(imgui_colour(context.palette.fixed), "fixed: %s vertices",
                        count_text(std::ssize(scene.vertices(LiveScene::kFixed))).c_str());
-    const ShownBody* shown = state.body(state.method);
+    const ShownBody* shown = state.shown.body(state.method);
     for (int h = 0; h < scene.n_handles(); ++h) {
         ImGui::PushID(h);
         const bool selected = h == state.gestures.selected_handle();
@@ -90,6 +90,8 @@ void Panels::draw_pull(const PanelContext& context) {
         paragraph("No handle yet: press on the body and pull.", context.palette.text_dim);
     else if (ImGui::Button("Remove all"))
         state.clear_handles();
+    if (const std::string& problem = state.shown.reaction_failure(state.method); !problem.empty())
+        paragraph(problem, context.palette.bad);
     if (shown == nullptr || shown->reactions().empty()) return;
     for (const ShownReaction& reaction : shown->reactions())
         fact(("force on " + reaction.name).c_str(), number_text(reaction.force.norm()), context.palette.text_dim);

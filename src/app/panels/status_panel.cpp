@@ -1,7 +1,7 @@
 #include <imgui.h>
 
-#include "app/panels/panels.hpp"
 #include "app/input/shortcuts.hpp"
+#include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
 #include "base/text.hpp"
 
@@ -26,10 +26,11 @@ std::string left_text(const ViewerState& state) {
 }
 
 std::string right_text(const ViewerState& state) {
-    const FrameHistory& history = state.history;
-    return formatted("update %.3f ms   frame %.2f ms   ", state.last_frame.update_ms,
+    const FrameHistory& history = state.measurements.history;
+    return formatted("update %.3f ms   frame %.2f ms   ", state.measurements.last_frame.update_ms,
                      history.percentile(&FrameTimes::frame_ms, 0.5)) +
-           (state.timings ? "recording timings   " : "") + (state.recorder ? "recording the interaction   " : "");
+           (state.measurements.timings ? "recording timings   " : "") +
+           (state.measurements.recorder ? "recording the interaction   " : "");
 }
 
 /// Two columns: what is done with the mouse or keyboard, and what it does.

@@ -23,7 +23,7 @@ float crowd_factor(int n_vertices) { return n_vertices > 3000 ? 0.65f : n_vertic
 
 /// And in small views.
 float view_factor(const ViewerState& state) {
-    const double width = state.viewports.empty() ? kFullView : state.viewports.front().place.width;
+    const double width = state.shown.viewports.empty() ? kFullView : state.shown.viewports.front().place.width;
     return static_cast<float>(std::clamp(width / kFullView, 0.6, 1.0));
 }
 
@@ -60,7 +60,7 @@ void SceneRenderer::upload(const ViewerState& state, const Palette& palette) {
         gizmo_palette_ = &palette;
         gizmo_.emplace(palette.axes);
     }
-    for (const ShownBody& body : state.bodies) upload_body(state, body, palette);
+    for (const ShownBody& body : state.shown.bodies()) upload_body(state, body, palette);
 }
 
 void SceneRenderer::upload_body(const ViewerState& state, const ShownBody& body, const Palette& palette) {
@@ -149,7 +149,7 @@ SurfaceStyle SceneRenderer::surface_style(const ViewerState& state, MethodKind k
     style.feature_edges = display.feature_edges;
     style.feature_opacity = 0.55f;
     style.colour_map = &colour_map(display.colour_map);
-    std::tie(style.low, style.high) = state.field_range();
+    std::tie(style.low, style.high) = state.shown.field_range(state.display);
     style.contour_bands = display.bands ? kBands : 0;
     if (display.field != Field::none) style.light = 0.75f;
     return style;
@@ -197,7 +197,7 @@ SceneRenderer::Look SceneRenderer::look_of(const ViewerState& state, const Scene
     Look look;
     look.kinds = viewport.kinds;
     for (const MethodKind kind : viewport.kinds)
-        look.body_revisions.push_back(state.body(kind) != nullptr ? state.body(kind)->revision() : 0);
+        look.body_revisions.push_back(state.shown.body(kind) != nullptr ? state.shown.body(kind)->revision() : 0);
     const CameraPose& pose = state.camera.pose();
     look.camera_target = pose.target;
     look.camera_turn = pose.orientation.coeffs();
@@ -208,7 +208,7 @@ SceneRenderer::Look SceneRenderer::look_of(const ViewerState& state, const Scene
     look.width = viewport.place.width;
     look.height = viewport.place.height;
     look.display = state.display;
-    look.range = state.field_range();
+    look.range = state.shown.field_range(state.display);
     look.hover = state.gestures.hover();
     look.selected_handle = state.gestures.selected_handle();
     look.pulling = state.gestures.pulling();
@@ -220,9 +220,9 @@ SceneRenderer::Look SceneRenderer::look_of(const ViewerState& state, const Scene
 
 int SceneRenderer::draw(const ViewerState& state, const Palette& palette, double pixel_ratio) {
     int n_drawn = 0;
-    pictures_.resize(state.viewports.size());
+    pictures_.resize(state.shown.viewports.size());
     for (std::size_t i = 0; i < pictures_.size(); ++i) {
-        const SceneViewport& viewport = state.viewports[i];
+        const SceneViewport& viewport = state.shown.viewports[i];
         Picture& picture = pictures_[i];
         Look look = look_of(state, viewport, palette, pixel_ratio);
         if (picture.framebuffer && look == picture.look) continue;
@@ -243,7 +243,7 @@ void SceneRenderer::show(const ViewerState& state, double pixel_ratio, const Eig
     glClearColor(0.0f, 0.0f, 0.0f, 1.0f);  // between the viewports
     glClear(GL_COLOR_BUFFER_BIT);
     for (std::size_t i = 0; i < pictures_.size(); ++i) {
-        const Viewport& place = state.viewports[i].place;
+        const Viewport& place = state.shown.viewports[i].place;
         const int x = static_cast<int>(std::lround(place.x * pixel_ratio));
         const int y = framebuffer.y() - static_cast<int>(std::lround((place.y + place.height) * pixel_ratio));
         pictures_[i].framebuffer->copy_to_window(x, y);

@@ -11,11 +11,11 @@
 #include "render/drawing/arrows_drawing.hpp"
 #include "render/drawing/axes_gizmo.hpp"
 #include "render/drawing/background_drawing.hpp"
-#include "render/gl/framebuffer.hpp"
 #include "render/drawing/ground_drawing.hpp"
 #include "render/drawing/lines_drawing.hpp"
 #include "render/drawing/points_drawing.hpp"
 #include "render/drawing/surface_drawing.hpp"
+#include "render/gl/framebuffer.hpp"
 
 namespace elastolab {
 
@@ -24,10 +24,10 @@ class SceneRenderer {
 public:
     SceneRenderer();
 
-    /// Hands vertex data to OpenGL; nothing that is there already.
+    /// Hands vertex data to OpenGL, as far as it has changed.
     void upload(const ViewerState& state, const Palette& palette);
-    /// Draws the viewports that look different from what they last did, `pixel_ratio` framebuffer pixels to a logical
-    /// one. Returns how many did.
+    /// Draws the viewports whose look has changed since they were last drawn; `pixel_ratio` framebuffer pixels make one
+    /// logical pixel. Returns how many were drawn.
     int draw(const ViewerState& state, const Palette& palette, double pixel_ratio);
     /// Copies the drawn viewports to the window of this size [framebuffer pixels].
     void show(const ViewerState& state, double pixel_ratio, const Eigen::Vector2i& framebuffer);

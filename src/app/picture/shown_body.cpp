@@ -44,6 +44,12 @@ Difference difference_of(const Eigen::VectorXd& u, const Eigen::VectorXd& refere
     return result;
 }
 
+std::vector<int> joined(const std::vector<int>& a, const std::vector<int>& b) {
+    std::vector<int> all = a;
+    all.insert(all.end(), b.begin(), b.end());
+    return all;
+}
+
 SectionPlane plane_of(const MeshReport& report, const DisplaySettings& display) {
     const double low = report.min_corner[display.section_axis], high = report.max_corner[display.section_axis];
     return {display.section_axis, low + display.section_place * (high - low), display.section_flip};
@@ -51,51 +57,55 @@ SectionPlane plane_of(const MeshReport& report, const DisplaySettings& display) 
 
 }  // namespace
 
-bool ShownBody::update(const LiveScene& scene, const MethodRunner& runner, const MethodRunner* reference,
-                       const Volume* volume, const DisplaySettings& display) {
-    const bool differs = comparable(runner, reference);
-    const Key key{.mesh = &scene.mesh(),
-                  .version = runner.version(),
-                  .reference_version = differs ? reference->version() : 0,
-                  .reference = differs ? reference : nullptr,
-                  .field = display.field,
-                  .scale = display.deformation_scale,
-                  .arrows = display.arrows,
-                  .volume = volume,
-                  .plane = plane_of(scene.report(), display)};
-    if (key == key_ && positions_.cols() == scene.mesh().n_vertices()) return false;
+ShownBody::Key ShownBody::key_of(const Sources& sources, const DisplaySettings& display) {
+    const bool differs = comparable(sources.runner, sources.reference);
+    return {.mesh = &sources.scene.mesh(),
+            .version = sources.runner.version(),
+            .reference_version = differs ? sources.reference->version() : 0,
+            .reference = differs ? sources.reference : nullptr,
+            .field = display.field,
+            .scale = display.deformation_scale,
+            .reactions = sources.reactions,
+            .reaction_revision = sources.reactions ? sources.reactions->revision() : 0,
+            .scene_revision = sources.reactions ? sources.scene.revision() : 0,
+            .volume = sources.volume,
+            .plane = plane_of(sources.scene.report(), display)};
+}
+
+bool ShownBody::update(const Sources& sources, const DisplaySettings& display) {
+    const Key key = key_of(sources, display);
+    if (key == key_ && positions_.cols() == sources.scene.mesh().n_vertices()) return false;
     key_ = key;
     static std::uint64_t last_revision = 0;  // one thread owns all of them
     revision_ = ++last_revision;
-    update_positions(scene, runner, display.deformation_scale);
-    const bool needs_tractions = display.field == Field::traction || display.field == Field::von_mises;
-    update_reactions(scene, runner, display.arrows || needs_tractions);
-    update_difference(scene, runner, reference);
-    update_values(scene, runner, reference, display.field);
-    update_section(runner, volume, display);
+    update_positions(sources, display.deformation_scale);
+    update_reactions(sources);
+    update_difference(sources);
+    update_values(sources, display.field);
+    update_section(sources, display);
     return true;
 }
 
-void ShownBody::update_positions(const LiveScene& scene, const MethodRunner& runner, double scale) {
-    positions_ = scene.mesh().vertices;
+void ShownBody::update_positions(const Sources& sources, double scale) {
+    positions_ = sources.scene.mesh().vertices;
     max_displacement_ = 0.0;
-    if (runner.displacement().size() != positions_.size()) return;
-    const Columns u = columns(runner.displacement());
+    if (sources.runner.displacement().size() != positions_.size()) return;
+    const Columns u = columns(sources.runner.displacement());
     positions_ += scale * u;
     max_displacement_ = std::sqrt(u.colwise().squaredNorm().maxCoeff());
 }
 
-void ShownBody::update_reactions(const LiveScene& scene, const MethodRunner& runner, bool wanted) {
+void ShownBody::update_reactions(const Sources& sources) {
     reactions_.clear();
-    tractions_ = Eigen::Matrix3Xd::Zero(3, scene.mesh().n_vertices());
-    if (!wanted || !runner.deformer()) return;
-    const ConstrainedSet& set = runner.deformer()->set();
-    const ConstrainedSet& present = scene.constraints().set;
-    if (set.base != present.base || set.handles != present.handles) return;  // the new set is on its way
-    const Reactions reactions = runner.deformer()->reactions(runner.values());
-    std::vector<int> constrained = set.base;
-    constrained.insert(constrained.end(), set.handles.begin(), set.handles.end());
+    tractions_.resize(3, 0);
+    const LiveScene& scene = sources.scene;
+    const ReactionRunner* known = sources.reactions;
+    if (known == nullptr || known->surface() != &scene.mesh()) return;
+    const std::vector<int>& constrained = known->vertices();
+    const Reactions& reactions = known->reactions();
     tractions_ = vertex_tractions(scene.mesh(), constrained, reactions.forces);
+    const ConstrainedSet& set = scene.constraints().set;
+    if (constrained != joined(set.base, set.handles)) return;  // the new set is on its way
     for (const ConstraintGroup& group : scene.constraints().groups) {
         const int n = group.end - group.begin;
         const std::vector<int> vertices(constrained.begin() + group.begin, constrained.begin() + group.end);
@@ -106,45 +116,48 @@ void ShownBody::update_reactions(const LiveScene& scene, const MethodRunner& run
     }
 }
 
-void ShownBody::update_difference(const LiveScene&, const MethodRunner& runner, const MethodRunner* reference) {
+void ShownBody::update_difference(const Sources& sources) {
     difference_.reset();
-    if (comparable(runner, reference)) difference_ = difference_of(runner.displacement(), reference->displacement());
+    if (comparable(sources.runner, sources.reference))
+        difference_ = difference_of(sources.runner.displacement(), sources.reference->displacement());
 }
 
-void ShownBody::update_section(const MethodRunner& runner, const Volume* volume, const DisplaySettings& display) {
-    if (volume == nullptr || runner.displacement().size() != positions_.size()) {
+void ShownBody::update_section(const Sources& sources, const DisplaySettings& display) {
+    if (sources.volume == nullptr || sources.runner.displacement().size() != positions_.size()) {
         section_.reset();
         return;
     }
-    const TetMesh& mesh = volume->mesh();
+    const TetMesh& mesh = sources.volume->mesh();
     if (!section_ || section_->plane != key_.plane || section_->rest.cols() != mesh.vertices.cols())
         section_ = ShownSection{key_.plane, cut_faces(mesh, key_.plane), mesh.vertices, {}, {}};
     if (section_->triangles.cols() == 0) {  // all cut away: the whole body says more
         section_.reset();
         return;
     }
-    const Eigen::VectorXd u = volume->displace(runner.displacement());
+    const Eigen::VectorXd u = sources.volume->displace(sources.runner.displacement());
     section_->positions = mesh.vertices + display.deformation_scale * columns(u);
     section_->values.clear();
     if (display.field == Field::displacement) section_->values = magnitudes(columns(u));
 }
 
-void ShownBody::update_values(const LiveScene& scene, const MethodRunner& runner, const MethodRunner* reference,
-                              Field field) {
+void ShownBody::update_values(const Sources& sources, Field field) {
     values_.clear();
     max_value_ = 0.0;
+    const MethodRunner& runner = sources.runner;
     if (field == Field::none || runner.displacement().size() != positions_.size()) return;
     const Eigen::VectorXd& u = runner.displacement();
     if (field == Field::displacement) values_ = magnitudes(columns(u));
     if (field == Field::traction) values_ = magnitudes(tractions_);
     if (field == Field::difference) {
-        if (comparable(runner, reference))
-            values_ = magnitudes(columns(u) - columns(reference->displacement()));
+        if (comparable(runner, sources.reference))
+            values_ = magnitudes(columns(u) - columns(sources.reference->displacement()));
         else
             values_.assign(static_cast<std::size_t>(positions_.cols()), 0.0f);
     }
-    if (field == Field::von_mises) {
-        const Eigen::VectorXd stress = surface_von_mises(scene.mesh(), scene.document().material, u, tractions_);
+    if (field == Field::von_mises && tractions_.cols() > 0) {
+        // Of the model that answered: the material of the scene may be newer than its displacements.
+        const Material& material = runner.deformer()->model().body().material;
+        const Eigen::VectorXd stress = surface_von_mises(sources.scene.mesh(), material, u, tractions_);
         values_.assign(stress.begin(), stress.end());
     }
     for (const float value : values_) max_value_ = std::max(max_value_, static_cast<double>(value));

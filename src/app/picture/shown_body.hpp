@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/picture/reaction_runner.hpp"
 #include "app/picture/section.hpp"
 #include "app/settings.hpp"
 #include "deform/volume.hpp"
@@ -35,48 +36,55 @@ struct ShownSection {
     std::vector<float> values;  ///< displacements, when these are shown; else empty
 };
 
-/// What is seen of one method's answer: made from it whenever it changes, and nothing otherwise.
+/// What is seen of one method's answer; made anew only when the answer or the settings have changed.
 class ShownBody {
 public:
     explicit ShownBody(MethodKind kind) : kind_(kind) {}
 
-    /// Brings everything up to date. `reference`: what differences are to; null when there is none.
-    /// `volume`: its inside, when it has one and is to be cut open; else null.
-    /// Returns whether positions or values changed.
-    bool update(const LiveScene& scene, const MethodRunner& runner, const MethodRunner* reference, const Volume* volume,
-                const DisplaySettings& display);
+    /// What is shown of one method's answer, and what else that needs.
+    struct Sources {
+        const LiveScene& scene;
+        const MethodRunner& runner;
+        const MethodRunner* reference = nullptr;    ///< what differences are to; null when there is none
+        const ReactionRunner* reactions = nullptr;  ///< null when nothing is shown that needs them
+        const Volume* volume = nullptr;             ///< its inside, when it has one and is to be cut open
+    };
+    /// Brings everything up to date. Returns whether positions or values changed.
+    bool update(const Sources& sources, const DisplaySettings& display);
 
     MethodKind kind() const { return kind_; }
     std::uint64_t revision() const { return revision_; }       ///< grows with every change; different for every body
     const Positions& positions() const { return positions_; }  ///< rest + scale * displacement
-    /// One value a vertex for the chosen field; empty when there is none.
+    /// One value a vertex for the chosen field; empty when there is none, or when it is not known yet.
     const std::vector<float>& values() const { return values_; }
     double max_value() const { return max_value_; }
     /// Whether what is seen has these values: inside the body only displacements are known.
-    bool is_coloured() const { return !section_ || !section_->values.empty(); }
+    bool is_coloured() const { return section_ ? !section_->values.empty() : !values_.empty(); }
     double max_displacement() const { return max_displacement_; }
     const std::optional<Difference>& difference() const { return difference_; }
     const std::vector<ShownReaction>& reactions() const { return reactions_; }
     const std::optional<ShownSection>& section() const { return section_; }
 
 private:
-    /// All that the shown depends on besides the values of settings.
+    /// Everything that positions, values and reactions are made from: equal keys, equal picture.
     struct Key {
         const SurfaceMesh* mesh = nullptr;
         std::uint64_t version = 0, reference_version = 0;
         const MethodRunner* reference = nullptr;
         Field field = Field::none;
         double scale = 1.0;
-        bool arrows = false;
+        const ReactionRunner* reactions = nullptr;
+        std::uint64_t reaction_revision = 0, scene_revision = 0;
         const Volume* volume = nullptr;
         SectionPlane plane;
         bool operator==(const Key&) const = default;
     };
-    void update_positions(const LiveScene& scene, const MethodRunner& runner, double scale);
-    void update_reactions(const LiveScene& scene, const MethodRunner& runner, bool wanted);
-    void update_difference(const LiveScene& scene, const MethodRunner& runner, const MethodRunner* reference);
-    void update_section(const MethodRunner& runner, const Volume* volume, const DisplaySettings& display);
-    void update_values(const LiveScene& scene, const MethodRunner& runner, const MethodRunner* reference, Field field);
+    static Key key_of(const Sources& sources, const DisplaySettings& display);
+    void update_positions(const Sources& sources, double scale);
+    void update_reactions(const Sources& sources);
+    void update_difference(const Sources& sources);
+    void update_section(const Sources& sources, const DisplaySettings& display);
+    void update_values(const Sources& sources, Field field);
 
     MethodKind kind_;
     Key key_;
@@ -87,7 +95,7 @@ private:
     std::optional<Difference> difference_;
     std::vector<ShownReaction> reactions_;
     std::optional<ShownSection> section_;
-    Eigen::Matrix3Xd tractions_;
+    Eigen::Matrix3Xd tractions_;  ///< 3 x n_vertices [force / L^2]; no columns when not known
 };
 
 /// "displacement", "difference to linear-bem", ... and its unit in words.

@@ -40,6 +40,7 @@ void FileDialog::open(Purpose purpose) {
     problem_.clear();
     to_replace_.clear();
     std::error_code error;
+    if (!purpose_.folder.empty()) folder_ = purpose_.folder;
     if (folder_.empty()) folder_ = fs::current_path(error);
     list_folder();
     open_ = opening_ = true;
@@ -128,6 +129,7 @@ void FileDialog::draw_name(float scale) {
     if (ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) {
         open_ = false;
         ImGui::CloseCurrentPopup();
+        if (purpose_.cancelled) purpose_.cancelled();
     } else if (go && !name_.empty()) {
         accept(fs::path(name_).is_absolute() ? fs::path(name_) : folder_ / name_);
     }

@@ -15,9 +15,12 @@ public:
         std::vector<std::string> extensions;  ///< of the files shown, with dot; empty: all
         std::string suggestion;               ///< name to save under; empty: an existing file is to be opened
         std::function<void(const std::filesystem::path&)> done;
+        std::function<void()> cancelled = {};  ///< may be empty
+        std::filesystem::path folder = {};     ///< to begin in; empty: the one before
     };
 
     void open(Purpose purpose);
+    bool is_open() const { return open_; }
     /// Draws it, when it is open, in the middle of the window.
     void draw(float scale);
 

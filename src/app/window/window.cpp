@@ -114,7 +114,7 @@ Window::Window(const Options& options) : state_(std::make_unique<State>()) {
     glfwSetDropCallback(handle_, &Callbacks::drop);
     glfwSetWindowRefreshCallback(handle_, &Callbacks::refresh);
     glfwSetFramebufferSizeCallback(handle_, &Callbacks::resized);
-    set_vsync(options.visible);
+    glfwSwapInterval(options.visible ? 1 : 0);
 }
 
 Window::~Window() {
@@ -140,7 +140,8 @@ std::vector<std::filesystem::path> Window::take_dropped_files() { return std::ex
 bool Window::take_damage() { return std::exchange(state_->damaged, false); }
 
 bool Window::close_requested() const { return glfwWindowShouldClose(handle_) == GLFW_TRUE; }
-void Window::request_close(bool close) { glfwSetWindowShouldClose(handle_, close ? GLFW_TRUE : GLFW_FALSE); }
+void Window::request_close() { glfwSetWindowShouldClose(handle_, GLFW_TRUE); }
+void Window::stay_open() { glfwSetWindowShouldClose(handle_, GLFW_FALSE); }
 
 Eigen::Vector2i Window::size() const {
     Eigen::Vector2i size;
@@ -161,7 +162,7 @@ float Window::content_scale() const {
 }
 
 void Window::swap_buffers() { glfwSwapBuffers(handle_); }
-void Window::set_vsync(bool on) { glfwSwapInterval(on ? 1 : 0); }
+void Window::disable_vsync() { glfwSwapInterval(0); }
 void Window::hide() { glfwHideWindow(handle_); }
 
 std::string Window::clipboard() const {

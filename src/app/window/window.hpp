@@ -39,13 +39,14 @@ public:
     bool take_damage();
 
     bool close_requested() const;
-    void request_close(bool close);
+    void request_close();
+    void stay_open();                          ///< takes a request back
     Eigen::Vector2i size() const;              ///< logical pixels; zero when minimised
     Eigen::Vector2i framebuffer_size() const;  ///< physical pixels
     float content_scale() const;               ///< suggested size of text: 1 on an ordinary screen
     void swap_buffers();
-    /// Waiting for the screen's refresh in swap_buffers(), or not.
-    void set_vsync(bool on);
+    /// swap_buffers() does not wait for the screen's refresh any more. It does in a visible window unless told so.
+    void disable_vsync();
     void hide();
 
     std::string clipboard() const;

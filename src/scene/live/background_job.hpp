@@ -1,9 +1,11 @@
 #pragma once
 
 #include <chrono>
+#include <exception>
 #include <functional>
 #include <future>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <thread>
 #include <utility>
@@ -36,36 +38,51 @@ public:
     explicit BackgroundJob(std::function<void()> wake = {}) : wake_(std::move(wake)) {}
     BackgroundJob(const BackgroundJob&) = delete;
     BackgroundJob& operator=(const BackgroundJob&) = delete;
+    ~BackgroundJob() {
+        cancel();
+        const std::lock_guard lock(mutex_);
+        next_.reset();
+    }
 
-    /// Starts a computation. One that is running is cancelled; the new one begins when that has stopped, so that two
-    /// never compete for memory. However often it is called meanwhile, one waits: the last.
+    /// Starts a computation. One that is running is cancelled; the new one begins when it has stopped, so that two
+    /// never compete for memory. One that has not begun by then is replaced: however often this is called, there is one
+    /// thread and one computation that waits.
     void start(Work work) {
         cancel();
-        waiting_ = std::move(work);
-        begin_waiting();
+        ticket_ = std::make_shared<Ticket>(std::move(work));
+        const std::lock_guard lock(mutex_);
+        next_ = ticket_;
+        if (worker_runs_) return;
+        worker_runs_ = true;
+        worker_ = std::jthread([this] { work_off(); });  // joins the one before, which has nothing left to do
     }
 
     /// Asks the running computation to stop; it does so at its next checkpoint.
     void cancel() {
-        if (waiting_) {
-            waiting_ = nullptr;
-            cancelled_ = true;
-        }
         if (ticket_) ticket_->control.cancel();
     }
 
     /// What has become of the computation, told once. After `finished` take() gives the result; after `failed`
     /// failure() says why.
     JobEvent poll() {
-        if (ticket_ && !working()) {
-            const std::unique_ptr<Ticket> ticket = std::move(ticket_);
-            if (!waiting_) return finish(*ticket);  // else it was cancelled, and nobody waits for it
+        if (!ticket_ || working()) return JobEvent::none;
+        const std::shared_ptr<Ticket> ticket = std::move(ticket_);
+        last_seconds_ = ticket->watch.seconds();
+        failure_.clear();
+        try {
+            Result result = ticket->result.get();
+            ticket->control.checkpoint();  // a cancel that came too late for the worker still counts
+            result_ = std::move(result);
+            return JobEvent::finished;
+        } catch (const Cancelled&) {
+            return JobEvent::cancelled;
+        } catch (const std::exception& error) {
+            failure_ = user_text(error);
+            return JobEvent::failed;
         }
-        begin_waiting();
-        return std::exchange(cancelled_, false) && !running() ? JobEvent::cancelled : JobEvent::none;
     }
 
-    bool running() const { return ticket_ || waiting_; }
+    bool running() const { return ticket_ != nullptr; }
     /// Whether the worker itself has not ended yet; without a poll().
     bool working() const {
         return ticket_ && ticket_->result.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
@@ -85,54 +102,54 @@ public:
     const std::string& failure() const { return failure_; }
 
 private:
-    /// One computation. Its thread is declared last, so that it is joined before what it uses goes.
+    /// One computation, shared by the watcher and the worker.
     struct Ticket {
-        ~Ticket() { control.cancel(); }
+        explicit Ticket(Work what) : work(std::move(what)), result(promise.get_future()) {}
+        /// On the worker. The inputs are let go before the watcher can know of the result.
+        void run() {
+            try {
+                Result value = [&] {
+                    const Work mine = std::move(work);
+                    control.checkpoint();
+                    return mine(control);
+                }();
+                promise.set_value(std::move(value));
+            } catch (...) {
+                promise.set_exception(std::current_exception());
+            }
+        }
         Control control;
         Stopwatch watch;
+        Work work;
+        std::promise<Result> promise;
         std::future<Result> result;
-        std::jthread thread;
     };
 
-    void begin_waiting() {
-        if (!waiting_ || ticket_) return;
-        cancelled_ = false;
-        ticket_ = std::make_unique<Ticket>();
-        std::packaged_task<Result()> task([work = std::exchange(waiting_, nullptr), control = &ticket_->control] {
-            control->checkpoint();
-            return work(*control);
-        });
-        ticket_->result = task.get_future();
-        ticket_->thread = std::jthread([task = std::move(task), wake = wake_]() mutable {
-            task();
-            if (wake) wake();
-        });
-    }
-
-    JobEvent finish(Ticket& ticket) {
-        last_seconds_ = ticket.watch.seconds();
-        failure_.clear();
-        cancelled_ = false;
-        try {
-            Result result = ticket.result.get();
-            ticket.control.checkpoint();  // a cancel that came too late for the worker still counts
-            result_ = std::move(result);
-            return JobEvent::finished;
-        } catch (const Cancelled&) {
-            return JobEvent::cancelled;
-        } catch (const std::exception& error) {
-            failure_ = user_text(error);
-            return JobEvent::failed;
+    /// The worker: one computation after the other, until none is left. It ends then, and with it the teams of threads
+    /// that OpenMP keeps for it.
+    void work_off() {
+        while (std::shared_ptr<Ticket> ticket = next()) {
+            ticket->run();
+            ticket.reset();  // a result that nobody wants any more is gone before the next computation begins
+            if (wake_) wake_();
         }
     }
+    std::shared_ptr<Ticket> next() {
+        const std::lock_guard lock(mutex_);
+        if (!next_) worker_runs_ = false;
+        return std::exchange(next_, nullptr);
+    }
 
-    std::function<void()> wake_;
-    Work waiting_;            ///< begins when the computation that was cancelled for it has ended
-    bool cancelled_ = false;  ///< what waited was cancelled, which poll() has not told yet
-    std::unique_ptr<Ticket> ticket_;
+    const std::function<void()> wake_;
+    std::shared_ptr<Ticket> ticket_;
     Result result_{};
     std::string failure_;
     double last_seconds_ = 0.0;
+
+    std::mutex mutex_;  ///< for the next two
+    std::shared_ptr<Ticket> next_;
+    bool worker_runs_ = false;
+    std::jthread worker_;  ///< last: it ends before what it uses goes
 };
 
 }  // namespace elastolab

@@ -1,5 +1,8 @@
 #include "scene/live/history.hpp"
 
+#include <numeric>
+#include <utility>
+
 namespace elastolab {
 
 namespace {
@@ -7,13 +10,45 @@ namespace {
 /// Enough for an afternoon of edits.
 constexpr std::size_t kMaxSteps = 1000;
 
+std::size_t bytes_of(const Selector& selector) {
+    if (const auto* list = std::get_if<VertexSelector>(&selector.shape)) return list->vertices.size() * sizeof(int);
+    std::size_t bytes = 0;
+    if (const auto* members = std::get_if<std::vector<Selector>>(&selector.shape))
+        for (const Selector& member : *members) bytes += sizeof(Selector) + bytes_of(member);
+    return bytes;
+}
+
+std::size_t bytes_of(const Handle& handle) {
+    std::size_t bytes = sizeof(Handle) + handle.name.size() + bytes_of(handle.select);
+    if (const auto* motion = std::get_if<VertexMotion>(&handle.motion))
+        bytes += motion->displacements.size() * sizeof(Eigen::Vector3d);
+    return bytes;
+}
+
 }  // namespace
+
+std::size_t bytes_of(const Document& document) {
+    std::size_t bytes = sizeof(Document);
+    if (document.fixed) bytes += bytes_of(*document.fixed);
+    for (const Handle& handle : document.handles) bytes += bytes_of(handle);
+    return bytes;
+}
+
+History::History(Document start, std::size_t max_bytes) : max_bytes_(max_bytes) {
+    const std::size_t bytes = bytes_of(start);
+    steps_.push_back({std::move(start), bytes});
+}
+
+std::size_t History::bytes() const {
+    return std::accumulate(steps_.begin(), steps_.end(), std::size_t{0},
+                           [](std::size_t sum, const Step& step) { return sum + step.bytes; });
+}
 
 void History::commit(const Document& document) {
     if (document == present()) return;
     steps_.resize(present_ + 1);
-    if (steps_.size() == kMaxSteps) steps_.erase(steps_.begin());
-    steps_.push_back(document);
+    steps_.push_back({document, bytes_of(document)});
+    while (steps_.size() > kMaxSteps || (steps_.size() > 2 && bytes() > max_bytes_)) steps_.pop_front();
     present_ = steps_.size() - 1;
 }
 

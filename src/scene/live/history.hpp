@@ -1,28 +1,39 @@
 #pragma once
 
-#include <vector>
+#include <cstddef>
+#include <deque>
 
 #include "scene/document.hpp"
 
 namespace elastolab {
 
-/// The steps that led to a document, for undo and redo. Documents are small: meshes are not part of them.
+/// Bytes that a document takes, about: lists of vertices and their displacements, meshes not being part of it.
+std::size_t bytes_of(const Document& document);
+
+/// The steps that led to a document, for undo and redo. The oldest are forgotten when there are more than a thousand,
+/// or when together they take more than `max_bytes`; one step can always be taken back.
 class History {
 public:
-    explicit History(Document start) : steps_{std::move(start)} {}
+    explicit History(Document start, std::size_t max_bytes = std::size_t{64} << 20);
 
     /// Ends a step with this document; later steps that were undone are forgotten. A step that changed nothing is none.
     void commit(const Document& document);
     bool can_undo() const { return present_ > 0; }
     bool can_redo() const { return present_ + 1 < steps_.size(); }
     /// The document before the last step (requires can_undo), or after the next one (requires can_redo).
-    const Document& undo() { return steps_[--present_]; }
-    const Document& redo() { return steps_[++present_]; }
-    const Document& present() const { return steps_[present_]; }
+    const Document& undo() { return steps_[--present_].document; }
+    const Document& redo() { return steps_[++present_].document; }
+    const Document& present() const { return steps_[present_].document; }
+    /// Of all steps together, about.
+    std::size_t bytes() const;
 
 private:
-    std::vector<Document> steps_;
-    std::size_t present_ = 0;
+    struct Step {
+        Document document;
+        std::size_t bytes = 0;
+    };
+    std::deque<Step> steps_;
+    std::size_t present_ = 0, max_bytes_ = 0;
 };
 
 }  // namespace elastolab

@@ -17,9 +17,10 @@ std::string unused_name(const std::vector<Handle>& handles) {
 
 /// The vertices of `all` that are not among `some`.
 std::vector<int> without(std::span<const int> all, std::span<const int> some) {
-    std::vector<int> rest;
+    std::vector<int> sorted(some.begin(), some.end()), rest;
+    std::sort(sorted.begin(), sorted.end());
     for (const int v : all)
-        if (std::find(some.begin(), some.end(), v) == some.end()) rest.push_back(v);
+        if (!std::binary_search(sorted.begin(), sorted.end(), v)) rest.push_back(v);
     return rest;
 }
 

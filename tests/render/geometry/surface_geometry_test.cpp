@@ -64,10 +64,6 @@ TEST(SceneFrame, HoldsWhatItIsMadeOf) {
     EXPECT_TRUE(frame.center.isApprox(Eigen::Vector3d(0.5, 1.0, 1.5)));
     EXPECT_NEAR(frame.radius, 0.5 * std::sqrt(14.0), 1e-12);
     EXPECT_EQ(frame_of(Eigen::Matrix3Xd::Zero(3, 1)).radius, 1.0);
-    const SceneFrame both = united(frame, {{10, 0, 0}, 1.0});
-    EXPECT_NEAR((both.center - frame.center).norm() + frame.radius, both.radius, 1e-12);
-    EXPECT_NEAR((both.center - Eigen::Vector3d(10, 0, 0)).norm() + 1.0, both.radius, 1e-12);
-    EXPECT_EQ(united(frame, {frame.center, 0.1}).radius, frame.radius);
 }
 
 TEST(Edges, AreListedOnce) {

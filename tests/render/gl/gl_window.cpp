@@ -1,4 +1,4 @@
-#include "render/gl_window.hpp"
+#include "render/gl/gl_window.hpp"
 
 #include <GLFW/glfw3.h>
 

@@ -5,7 +5,7 @@
 #include "base/error.hpp"
 #include "render/gl/embedded_shaders.hpp"
 #include "render/gl/framebuffer.hpp"
-#include "render/gl_window.hpp"
+#include "render/gl/gl_window.hpp"
 
 namespace elastolab {
 namespace {

@@ -12,7 +12,7 @@
 #include "render/drawing/axes_gizmo.hpp"
 #include "render/drawing/background_drawing.hpp"
 #include "render/gl/framebuffer.hpp"
-#include "render/gl_window.hpp"
+#include "render/gl/gl_window.hpp"
 #include "render/drawing/ground_drawing.hpp"
 #include "render/drawing/legend.hpp"
 #include "render/drawing/lines_drawing.hpp"

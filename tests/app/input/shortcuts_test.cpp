@@ -42,7 +42,7 @@ TEST_F(Shortcuts, NumbersChooseTheMethods) {
 TEST_F(Shortcuts, ModifiersMakeAnotherKey) {
     EXPECT_FALSE(press(GLFW_KEY_Z));
     EXPECT_TRUE(press(GLFW_KEY_Q, GLFW_MOD_CONTROL | GLFW_MOD_NUM_LOCK));  // locks do not
-    EXPECT_TRUE(stage.state.quit_requested);
+    EXPECT_TRUE(stage.state.requests.quit);
 }
 
 TEST_F(Shortcuts, EscapeClosesHelpAndMessages) {

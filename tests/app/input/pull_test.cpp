@@ -206,9 +206,35 @@ TEST(Pull, ARemovalWhileAnotherHandleSpringsBackTakesTheOneThatWasMeant) {
 TEST(Pull, AFixedVertexIsNotPulledAndSaysWhy) {
     Stage stage;
     const int v = stage.vertex_near({0, 1.0 / 3, 1});
+    const Eigen::Vector3d eye = stage.state.camera.eye();
     stage.drag(stage.pixel(v) + Eigen::Vector2d(1.0, 1.0), stage.pixel(v) + kDrag);
     EXPECT_EQ(stage.scene().n_handles(), 0);
     EXPECT_THAT(stage.state.gestures.hint(), HasSubstr("fixed"));
+    EXPECT_EQ(stage.state.camera.eye(), eye) << "the view has turned";
+    EXPECT_EQ(stage.state.gestures.action(), Gestures::Action::none);
+}
+
+TEST(Pull, DeleteDuringADragRemovesTheHandleAndUndoBringsItBackAsItWas) {
+    Stage stage;
+    const int v = top_vertex(stage);
+    stage.drag(stage.pixel(v) + kAside, stage.pixel(v) + kAside + kDrag);  // made and left
+    stage.settle();
+    const AffineMotion before = stage.motion(0);
+    stage.wait(1.0);
+    stage.move(stage.pixel(v) + kAside);
+    stage.press();
+    stage.move(stage.pixel(v) + kAside + kDrag);
+    stage.key(GLFW_KEY_DELETE, true);
+    stage.key(GLFW_KEY_DELETE, false);
+    EXPECT_EQ(stage.scene().n_handles(), 0);
+    const Eigen::Vector3d eye = stage.state.camera.eye();
+    stage.move(stage.pixel(v));  // the button is still down
+    stage.release();
+    EXPECT_EQ(stage.state.camera.eye(), eye);
+    EXPECT_EQ(stage.scene().n_handles(), 0);
+    stage.state.undo();
+    ASSERT_EQ(stage.scene().n_handles(), 1);
+    EXPECT_EQ(stage.motion(0), before);
 }
 
 TEST(Pull, FollowsTheCursorInAnExaggeratedView) {
@@ -227,7 +253,7 @@ TEST(Pull, WorksInEveryViewOfAComparison) {
     stage.state.compare.mode = CompareMode::side_by_side;
     stage.settle();
     stage.state.frame_body();
-    ASSERT_THAT(stage.state.viewports, SizeIs(3));
+    ASSERT_THAT(stage.state.shown.viewports, SizeIs(3));
     const int v = top_vertex(stage);
     const Eigen::Vector2d before = stage.pixel(v, 2);
     stage.move(before);

@@ -13,7 +13,7 @@ protected:
     std::ptrdiff_t n_fixed() { return std::ssize(stage.scene().vertices(LiveScene::kFixed)); }
     /// Around all that is there.
     void draw_around_all() {
-        const Viewport& place = stage.state.viewports.front().place;
+        const Viewport& place = stage.state.shown.viewports.front().place;
         stage.drag({place.x + 1, place.y + 1}, {place.x + place.width - 2, place.y + place.height - 2});
     }
     Stage stage;

@@ -20,7 +20,7 @@ public:
     explicit Screen(const std::filesystem::path& scene) {
         state_.open_now(scene);
         place_ = layout_of(kWindow, 1.0f).scene;
-        state_.viewports = viewports_of(state_, place_);
+        state_.shown.viewports = viewports_of(state_, place_);
         state_.frame_body();
     }
     const SurfaceMesh& mesh() const { return state_.scene().mesh(); }

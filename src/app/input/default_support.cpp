@@ -1,10 +1,10 @@
-#include "app/input/usual_base.hpp"
+#include "app/input/default_support.hpp"
 
 #include "mesh/primitives.hpp"
 
 namespace elastolab {
 
-Selector usual_base(const Primitive& primitive) {
+Selector default_support(const Primitive& primitive) {
     const SurfaceMesh mesh = make_primitive(primitive.name, primitive.resolution, primitive.size);
     const bool at_left = primitive.name == "cube" || primitive.name == "box" || primitive.name == "beam";
     const int axis = at_left ? 0 : 2;

@@ -87,7 +87,7 @@ TEST(Navigation, FramingTakesTheDeformedBodyIntoAccount) {
     stage.drag(stage.pixel(v), stage.pixel(v) + Eigen::Vector2d(0, -500));
     stage.settle();
     stage.state.frame_body();
-    EXPECT_TRUE(stage.state.viewports.front().place.contains(stage.pixel(v)));
+    EXPECT_TRUE(stage.state.shown.viewports.front().place.contains(stage.pixel(v)));
 }
 
 }  // namespace

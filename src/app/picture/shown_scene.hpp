@@ -1,0 +1,76 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/picture/reaction_runner.hpp"
+#include "app/picture/section_volume.hpp"
+#include "app/picture/shown_body.hpp"
+#include "app/settings.hpp"
+#include "render/viewport.hpp"
+#include "scene/live/live_scene.hpp"
+#include "scene/live/simulation.hpp"
+
+namespace elastolab {
+
+/// A view of one or more methods' answers, somewhere in the window.
+struct SceneViewport {
+    Viewport place;
+    std::vector<MethodKind> kinds;  ///< the first is the solid one, the others are its ghosts
+};
+
+/// What is to be seen.
+struct ShownAnswers {
+    const LiveScene& scene;
+    const Simulation& simulation;
+    std::vector<MethodKind> kinds;            ///< of the methods on the screen
+    const MethodRunner* reference = nullptr;  ///< of differences; null when nothing needs one
+    const DisplaySettings& display;
+};
+
+/// What is on the screen: the bodies as the methods' answers have them, and what only the picture needs of the answers
+/// (reactions, the inside of a body that is cut open). Owned by one thread.
+class ShownScene {
+public:
+    /// `wake` is called by workers when poll() or update() will find something.
+    explicit ShownScene(const std::function<void()>& wake) : wake_(wake), volume_(wake) {}
+
+    std::vector<SceneViewport> viewports;  ///< where the scene is in this frame
+    const std::vector<ShownBody>& bodies() const { return bodies_; }
+    const ShownBody* body(MethodKind kind) const;
+    /// Why forces, tractions and stresses of this method are not known; empty when they are or will be.
+    const std::string& reaction_failure(MethodKind kind) const;
+    /// The range of the colours.
+    std::pair<double, double> field_range(const DisplaySettings& display) const;
+
+    /// The scene was replaced.
+    void forget();
+    /// Takes over the inside of a body that is to be cut open. True when there is something new to see;
+    /// volume_failure() when it is that.
+    bool poll_volume() { return volume_.poll(); }
+    const std::string& volume_failure() const { return volume_.failure(); }
+    /// Brings all that is shown up to date; returns whether something changed.
+    bool update(const ShownAnswers& answers);
+
+    bool cutting() const { return volume_.running(); }  ///< the inside of the body is being made
+    bool solving() const;                               ///< reactions are being computed
+    /// Stops all workers at their next checkpoints; working(): some have not stopped yet.
+    void cancel();
+    bool working() const;
+
+private:
+    ShownBody& body_of(MethodKind kind);
+    const ReactionRunner* reactions(const ShownAnswers& answers, MethodKind kind);
+    const Volume* volume(const ShownAnswers& answers, MethodKind kind);
+
+    std::vector<ShownBody> bodies_;  ///< of every method on the screen
+    std::function<void()> wake_;
+    std::map<MethodKind, std::unique_ptr<ReactionRunner>> reactions_;
+    SectionVolume volume_;
+};
+
+}  // namespace elastolab

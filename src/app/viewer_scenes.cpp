@@ -1,0 +1,140 @@
+// How a ViewerState comes to its scenes, and where it leaves them.
+#include <algorithm>
+#include <utility>
+
+#include "app/input/default_support.hpp"
+#include "app/viewer_state.hpp"
+#include "app/window/recent_files.hpp"
+
+namespace elastolab {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double kPatchPart = 0.07;  ///< default radius of a patch: of the body's diagonal,
+constexpr double kPatchEdges = 1.6;  ///< but so many edges, so that it has whole triangles
+
+double diagonal(const MeshReport& report) { return (report.max_corner - report.min_corner).norm(); }
+
+}  // namespace
+
+void ViewerState::open(const fs::path& file) {
+    finish_gesture();
+    unsaved.guard(scene_->modified(), [this, file] { begin_loading(file); });
+}
+
+void ViewerState::begin_loading(const fs::path& file) {
+    load_job_.start([file](Control&) { return std::make_shared<LoadedScene>(load_scene_or_mesh(file)); });
+    pending_file_ = file;
+    revision_at_open_ = scene_->revision();
+}
+
+void ViewerState::open_now(const fs::path& file) {
+    take_scene(load_scene_or_mesh(file));
+    add_recent(file);
+}
+
+void ViewerState::start_with(MethodKind kind) {
+    method = kind;
+    if (loading()) first_method_ = kind;
+}
+
+void ViewerState::open_document(Document document, const fs::path& scene_file) {
+    finish_gesture();
+    attempt([&] { take_scene({.scene = std::make_unique<LiveScene>(std::move(document), scene_file), .file = {}}); });
+}
+
+void ViewerState::open_primitive(const Primitive& primitive) {
+    finish_gesture();
+    unsaved.guard(scene_->modified(), [this, primitive] { make_primitive_scene(primitive); });
+}
+
+void ViewerState::make_primitive_scene(const Primitive& primitive) {
+    Document document;
+    document.mesh = primitive;
+    document.material = scene_->document().material;
+    document.method = method;
+    if (attempt([&] { document.fixed = default_support(primitive); }))
+        open_document(std::move(document), primitive.name + ".json");
+}
+
+void ViewerState::quit() {
+    finish_gesture();
+    unsaved.guard(scene_->modified(), [this] { requests.quit = true; });
+}
+
+/// A save that fails leaves the question: there is still time to choose otherwise.
+void ViewerState::answer_unsaved(UnsavedAnswer answer) {
+    if (answer == UnsavedAnswer::cancel) return unsaved.cancel();
+    if (answer == UnsavedAnswer::save) {
+        requests.scene_name = scene_file_.empty();
+        if (requests.scene_name || !save_scene(fs::path(scene_file_))) return;
+    }
+    unsaved.proceed();
+}
+
+void ViewerState::take_scene(LoadedScene loaded) {
+    gestures.reset();
+    scene_ = std::move(loaded.scene);
+    scene_file_ = std::move(loaded.file);
+    owns_scene_file_ = false;
+    graph_ = std::make_unique<VertexGraph>(scene_->mesh());
+    ++scene_number_;
+    method = std::exchange(first_method_, std::nullopt).value_or(scene_->document().method);
+    tools.patch_radius = std::max(kPatchPart * diagonal(scene_->report()), kPatchEdges * scene_->report().mean_edge);
+    shown.forget();
+    camera.set_scene(frame_of(scene_->mesh().vertices));
+    camera.set_up_axis(loaded.up_axis);
+    camera.set_view(ViewDirection::isometric);
+    frame_body();
+    for (const Defect& defect : scene_->report().defects) messages.note(scene_->name() + ": " + defect.text);
+}
+
+bool ViewerState::save_scene(const fs::path& file) {
+    finish_gesture();
+    return attempt([&] {
+        write_scene(file, *scene_, method);
+        scene_->mark_saved();
+        scene_file_ = fs::absolute(file);
+        owns_scene_file_ = true;
+        add_recent(file);
+        messages.note("Saved " + file.string());
+    });
+}
+
+void ViewerState::export_mesh(const fs::path& file) {
+    attempt([&] {
+        write_deformed_mesh(file, *scene_, simulation.runner(method).displacement());
+        messages.note("Exported " + file.string());
+    });
+}
+
+void ViewerState::add_recent(const fs::path& file) {
+    recent_ = with_recent_file(recent_, fs::absolute(file));
+    save_recent_files(recent_);
+}
+
+void ViewerState::poll_loading() {
+    switch (load_job_.poll()) {
+        case JobEvent::finished:
+            // What was changed while it was being loaded counts, too.
+            unsaved.guard(scene_->modified() && scene_->revision() != revision_at_open_,
+                          [this, loaded = load_job_.take(), file = pending_file_] {
+                              take_scene(std::move(*loaded));
+                              add_recent(file);
+                          });
+            break;
+        case JobEvent::failed:
+            messages.error(load_job_.failure());
+            first_method_.reset();
+            break;
+        case JobEvent::cancelled:
+            first_method_.reset();
+            break;
+        case JobEvent::none:
+            break;
+    }
+}
+
+}  // namespace elastolab

@@ -1,0 +1,122 @@
+// No change is lost without a question.
+#include "app/unsaved_changes.hpp"
+
+#include <gmock/gmock.h>
+
+#include "app/stage.hpp"
+#include "scene/file/scene_file.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace elastolab {
+namespace {
+
+using test::Stage;
+using test::TemporaryFolder;
+
+/// A cube of 26 vertices with a handle that nobody has saved, and ways to lose it.
+class Unsaved : public testing::Test {
+protected:
+    Unsaved() {
+        save_scene(folder.path() / "other.json", test::cube_document(3));
+        stage.scene().add_handle(std::vector<int>{stage.vertex_near({1, 1, 1})});
+        stage.scene().commit();
+        stage.settle();
+    }
+    bool is_kept() { return stage.scene().mesh().n_vertices() == 26 && stage.scene().n_handles() == 1; }
+    ViewerState& state() { return stage.state; }
+    const TemporaryFolder folder;
+    Stage stage{2};
+};
+
+TEST_F(Unsaved, NothingHappensBeforeTheAnswerAndNothingAfterACancel) {
+    const std::vector<std::function<void()>> losses = {
+        [&] { state().open(folder.path() / "other.json"); },
+        [&] { state().open_primitive({.name = "sphere", .resolution = 2, .size = {}}); },
+        [&] { state().quit(); },
+    };
+    for (const auto& lose : losses) {
+        lose();
+        EXPECT_TRUE(state().unsaved.asking());
+        stage.settle();
+        EXPECT_TRUE(is_kept());
+        state().answer_unsaved(UnsavedAnswer::cancel);
+        stage.settle();
+        EXPECT_FALSE(state().unsaved.asking());
+        EXPECT_TRUE(is_kept());
+        EXPECT_FALSE(state().requests.quit);
+        EXPECT_TRUE(state().scene().modified());
+    }
+}
+
+TEST_F(Unsaved, DiscardedChangesGo) {
+    state().open(folder.path() / "other.json");
+    state().answer_unsaved(UnsavedAnswer::discard);
+    stage.settle();
+    EXPECT_EQ(stage.scene().mesh().n_vertices(), 56);
+    EXPECT_FALSE(state().unsaved.asking());
+    state().open_primitive({.name = "cube", .resolution = 1, .size = {}});  // nothing to lose: no question
+    EXPECT_EQ(stage.scene().mesh().n_vertices(), 8);
+    state().quit();
+    EXPECT_TRUE(state().requests.quit);
+}
+
+TEST_F(Unsaved, SavingAsksForANameWhereThereIsNone) {
+    state().quit();
+    state().answer_unsaved(UnsavedAnswer::save);
+    EXPECT_TRUE(state().requests.scene_name);
+    EXPECT_TRUE(state().unsaved.asking());
+    EXPECT_FALSE(state().requests.quit);
+}
+
+TEST_F(Unsaved, SavingWritesOverTheFileThatTheSceneCameFrom) {
+    const auto file = folder.path() / "other.json";
+    state().open_now(file);
+    stage.scene().add_handle(std::vector<int>{stage.vertex_near({1, 1, 1})});
+    state().quit();
+    state().answer_unsaved(UnsavedAnswer::save);
+    EXPECT_TRUE(state().requests.quit);
+    EXPECT_EQ(load_scene(file).handles.size(), 1u);
+}
+
+TEST_F(Unsaved, ASaveThatFailsLosesNothing) {
+    std::filesystem::create_directories(folder.path() / "gone");
+    save_scene(folder.path() / "gone" / "cube.json", test::cube_document(2));
+    state().open_now(folder.path() / "gone" / "cube.json");
+    stage.scene().add_handle(std::vector<int>{stage.vertex_near({1, 1, 1})});
+    std::filesystem::remove_all(folder.path() / "gone");
+    state().quit();
+    state().answer_unsaved(UnsavedAnswer::save);
+    EXPECT_FALSE(state().requests.quit);
+    EXPECT_TRUE(state().unsaved.asking());
+    EXPECT_TRUE(is_kept());
+}
+
+TEST_F(Unsaved, WhatIsChangedWhileAFileIsLoadedCounts) {
+    state().save_scene(folder.path() / "mine.json");
+    state().open(folder.path() / "other.json");
+    EXPECT_TRUE(state().loading());
+    stage.scene().clear_handles();
+    stage.settle();
+    EXPECT_TRUE(state().unsaved.asking());
+    EXPECT_EQ(stage.scene().mesh().n_vertices(), 26);
+    state().answer_unsaved(UnsavedAnswer::discard);
+    EXPECT_EQ(stage.scene().mesh().n_vertices(), 56);
+}
+
+TEST_F(Unsaved, ADragThatIsNotOverIsAChange) {
+    state().save_scene(folder.path() / "mine.json");
+    stage.move(stage.pixel(stage.vertex_near({1, 1, 1})));
+    stage.press();
+    stage.move(stage.pixel(stage.vertex_near({1, 1, 1})) + Eigen::Vector2d(40, 0));
+    state().quit();
+    EXPECT_TRUE(state().unsaved.asking());
+}
+
+TEST_F(Unsaved, NobodyIsAskedWhereChangesAreKeptAnyway) {
+    state().unsaved.never_ask();
+    state().quit();
+    EXPECT_TRUE(state().requests.quit);
+}
+
+}  // namespace
+}  // namespace elastolab
