@@ -14,12 +14,12 @@ namespace elastolab {
 
 namespace {
 
-constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
+constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
 
 std::uint64_t read_number(const char* path) {
     std::ifstream file(path);
     std::uint64_t value = 0;
-    return file >> value ? value : kUnlimited;
+    return file >> value ? value : kNoLimit;
 }
 
 std::uint64_t system_available() {
@@ -29,7 +29,7 @@ std::uint64_t system_available() {
     std::string unit;
     while (file >> key >> kib && std::getline(file, unit))
         if (key == "MemAvailable:") return kib * 1024;
-    return kUnlimited;
+    return kNoLimit;
 }
 
 std::uint64_t own_groups_available() {
@@ -41,9 +41,9 @@ std::uint64_t own_groups_available() {
 /// What the limit of the address space (ulimit -v) leaves.
 std::uint64_t address_space_available() {
     rlimit limit{};
-    if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return kUnlimited;
+    if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return kNoLimit;
     const std::uint64_t pages = read_number("/proc/self/statm");
-    if (pages == kUnlimited) return kUnlimited;
+    if (pages == kNoLimit) return kNoLimit;
     const std::uint64_t used = pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
     return limit.rlim_cur > used ? limit.rlim_cur - used : 0;
 }

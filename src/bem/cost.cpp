@@ -35,4 +35,20 @@ Cost predict_linear_bem(const SurfaceMesh& mesh, const Method& method) {
     return predict(mesh, method, mesh.n_vertices());
 }
 
+/// Half an LU, and half of the pairs of triangles: each once.
+Cost predict_galerkin_bem(const SurfaceMesh& mesh, const Method& method) {
+    const double n = 3.0 * mesh.n_vertices(), triangles = mesh.n_triangles();
+    Cost cost{static_cast<std::int64_t>(n), 192u << 20, 0.0};
+    if (!factorises_ahead(method)) return cost;
+    cost.memory_bytes += square_bytes(n);
+    double flops = n * n * n / 3.0 + 0.5 * kFlopsPerPair * triangles * triangles;
+    if (method.keep_integrals) cost.memory_bytes += 2 * square_bytes(n);
+    if (method.mode != Mode::on_demand) {
+        cost.memory_bytes += 4 * square_bytes(n);
+        flops += 2.0 * n * n * n;
+    }
+    cost.seconds = flops / product_speed();
+    return cost;
+}
+
 }  // namespace elastolab

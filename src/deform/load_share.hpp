@@ -1,6 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
+
+#include "mesh/surface_mesh.hpp"
 
 namespace elastolab {
 
@@ -12,5 +15,8 @@ struct LoadShare {
     double weight = 0.0;                                     ///< int psi dS (nodal forces: 1)
     Eigen::Vector3d first_moment = Eigen::Vector3d::Zero();  ///< int psi y dS
 };
+
+/// A load slot per vertex, carrying a force at its position.
+std::vector<LoadShare> nodal_shares(const Positions& positions, const std::vector<int>& vertices);
 
 }  // namespace elastolab

@@ -7,10 +7,7 @@ namespace elastolab {
 namespace {
 
 constexpr std::array kMethods = {
-    kFem,
-    kConstantBem,
-    kLinearBem,
-    kQuadraticFem,
+    kFem, kConstantBem, kLinearBem, kGalerkinBem, kQuadraticFem,
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <span>
 #include <string_view>
 
+#include "bem/galerkin/method.hpp"
 #include "bem/method.hpp"
 #include "deform/method.hpp"
 #include "fem/method.hpp"

@@ -30,10 +30,10 @@ public:
 
     int n_packs() const { return (static_cast<int>(order_.size()) + integrals_.lanes() - 1) / integrals_.lanes(); }
 
+    /// Both layers.
     void run(int number, TractionRows& rows) const {
+        const std::span<const int> tests = tests_of(number);
         const auto lanes = static_cast<std::size_t>(integrals_.lanes());
-        const std::size_t first = static_cast<std::size_t>(number) * lanes, n = std::min(lanes, order_.size() - first);
-        const auto tests = std::span(order_).subspan(first, n);
         const PairIntegrals::Pack pack = integrals_.pack(tests);
         Sums sums(boundary_.mesh().vertices.cols(), lanes);
         for (int s = 0; s < boundary_.n_triangles(); ++s) {
@@ -42,10 +42,28 @@ public:
             write_single(tests, s, numbers, rows.single_layer);
             add_field(s, numbers, sums);
         }
-        for (std::size_t lane = 0; lane < n; ++lane) write_double(tests[lane], lane, sums, rows.double_layer);
+        for (std::size_t lane = 0; lane < tests.size(); ++lane)
+            write_double(tests[lane], lane, sums, rows.double_layer);
+    }
+
+    /// The single layer.
+    void run(int number, Eigen::MatrixXd& V) const {
+        const std::span<const int> tests = tests_of(number);
+        const PairIntegrals::Pack pack = integrals_.pack(tests);
+        for (const int s : order_) {
+            double numbers[kPairNumbers * kMaxLanes];
+            integrals_.integrate(pack, s, false, numbers);
+            write_single(tests, s, numbers, V);
+        }
     }
 
 private:
+    std::span<const int> tests_of(int number) const {
+        const auto lanes = static_cast<std::size_t>(integrals_.lanes());
+        const std::size_t first = static_cast<std::size_t>(number) * lanes;
+        return std::span(order_).subspan(first, std::min(lanes, order_.size() - first));
+    }
+
     /// What the vertices have collected: [vertex][number][lane].
     struct Sums {
         Sums(Eigen::Index n_vertices, std::size_t n_lanes)
@@ -139,6 +157,18 @@ TractionRows assemble_traction_rows(const Boundary& boundary, std::span<const in
         for (int pack = begin; pack < end; ++pack) assembly.run(pack, rows);
     });
     return rows;
+}
+
+Eigen::MatrixXd assemble_single_layer(const Boundary& boundary, std::span<const int> triangles,
+                                      const Material& material, double tolerance, Control& control) {
+    const auto n = static_cast<Eigen::Index>(3 * triangles.size());
+    Eigen::MatrixXd V(n, n);
+    if (triangles.empty()) return V;
+    const RowAssembly assembly(boundary, triangles, material, tolerance);
+    parallel_blocks(assembly.n_packs(), 1, control, [&](int begin, int end) {
+        for (int pack = begin; pack < end; ++pack) assembly.run(pack, V);
+    });
+    return V;
 }
 
 Eigen::SparseMatrix<double, Eigen::RowMajor> traction_mass(const Boundary& boundary, std::span<const int> triangles) {

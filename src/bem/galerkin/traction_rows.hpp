@@ -28,6 +28,10 @@ struct TractionRows {
 TractionRows assemble_traction_rows(const Boundary& boundary, std::span<const int> triangles, const Material& material,
                                     double tolerance, Control& control);
 
+/// The single layer alone: pairs of these triangles only.
+Eigen::MatrixXd assemble_single_layer(const Boundary& boundary, std::span<const int> triangles,
+                                      const Material& material, double tolerance, Control& control);
+
 /// int tau phi, 3n x 3V [L^2]: a third of a triangle's area for each of its corners.
 Eigen::SparseMatrix<double, Eigen::RowMajor> traction_mass(const Boundary& boundary, std::span<const int> triangles);
 

@@ -1,0 +1,34 @@
+#include "bem/galerkin/method.hpp"
+
+#include "bem/cost.hpp"
+#include "bem/galerkin/model.hpp"
+
+namespace elastolab {
+
+namespace {
+
+std::shared_ptr<const SolidModel> precompute(const SurfaceMesh& surface, const std::string&, double poisson_ratio,
+                                             const Method& method, const SolidModel* before, Control& control) {
+    return std::make_shared<GalerkinModel>(surface, poisson_ratio, method, dynamic_cast<const GalerkinModel*>(before),
+                                           control);
+}
+
+constexpr std::array kModes = {Mode::on_demand, Mode::full};
+constexpr std::array kUpdates = {Update::direct, Update::reduced};
+
+}  // namespace
+
+constinit const MethodTraits kGalerkinBemTraits = {
+    .name = "galerkin-bem",
+    .label = "Galerkin BEM",
+    .colour = 3,
+    .matrix = "hypersingular matrix",
+    .cheaper = "fem, whose matrix is sparse",
+    .modes = kModes,
+    .updates = kUpdates,
+    .integrates_boundary = true,
+    .precompute = precompute,
+    .predict = predict_galerkin_bem,
+};
+
+}  // namespace elastolab

@@ -1,0 +1,77 @@
+#include "bem/galerkin/model.hpp"
+
+#include "bem/galerkin/solvers.hpp"
+
+namespace elastolab {
+
+namespace {
+
+std::vector<int> joined(std::span<const int> base, std::span<const int> handles) {
+    std::vector<int> vertices(base.begin(), base.end());
+    vertices.insert(vertices.end(), handles.begin(), handles.end());
+    return vertices;
+}
+
+bool same_system(const Method& a, const Method& b) {
+    return a.mode == b.mode && a.integral_tolerance == b.integral_tolerance && a.column_memory == b.column_memory &&
+           factorises_ahead(a) == factorises_ahead(b);
+}
+
+}  // namespace
+
+GalerkinModel::GalerkinModel(const SurfaceMesh& surface, double poisson_ratio, const Method& method,
+                             const GalerkinModel* before, Control& control)
+    : method_(method), poisson_ratio_(poisson_ratio) {
+    if (before != nullptr && before->poisson_ratio_ == poisson_ratio && same_system(before->method_, method)) {
+        system_ = before->system_;
+    } else {
+        const bool same_integrals =
+            before != nullptr && before->method_.integral_tolerance == method.integral_tolerance;
+        auto boundary =
+            before != nullptr ? before->system_->shared_boundary() : std::make_shared<const Boundary>(surface);
+        system_ = std::make_shared<const GalerkinSystem>(std::move(boundary), poisson_ratio, method,
+                                                         same_integrals ? before->system_->parts() : nullptr,
+                                                         facts_.stages, control);
+    }
+    facts_.n_vertices = surface.n_vertices();
+    facts_.n_triangles = surface.n_triangles();
+    facts_.n_degrees_of_freedom = static_cast<int>(system_->size());
+    facts_.memory_bytes = system_->memory_bytes();
+    facts_.condition_estimate = factorises_ahead(method) ? 1.0 / system_->reciprocal_condition() : 0.0;
+}
+
+std::unique_ptr<ConstrainedSolid> GalerkinModel::constrain(std::span<const int> base, std::span<const int> handles,
+                                                           Control& control) const {
+    const std::vector<int> vertices = joined(base, handles);
+    const GalerkinTractions tractions(system_->boundary().mesh(), system_->surfaces(), vertices);
+    std::unique_ptr<NodeSolver> solver;
+    if (method_.update == Update::direct)
+        solver = std::make_unique<GalerkinDirectSolver>(*system_, vertices, tractions, control);
+    else
+        solver =
+            std::make_unique<ReducedSolver>(galerkin_reduced_system(system_, vertices, tractions, control), control);
+    const auto residual = [system = system_, vertices, tractions](const NodeSolution& solution, Control& its_control) {
+        return galerkin_residual(*system, vertices, tractions, solution, its_control);
+    };
+    return std::make_unique<ConstrainedSolid>(facts_.n_vertices, constrain_vertices(vertices),
+                                              nodal_shares(system_->boundary().mesh().vertices, vertices), nullptr,
+                                              std::move(solver), SolutionChecks{residual, {}});
+}
+
+std::uint64_t GalerkinModel::constrain_memory(std::span<const int> base, std::span<const int> handles) const {
+    const std::vector<int> vertices = joined(base, handles);
+    const GalerkinTractions tractions(system_->boundary().mesh(), system_->surfaces(), vertices);
+    const Eigen::Index n_loads = 3 * std::ssize(vertices);
+    if (method_.update == Update::reduced) return half_response_memory(*system_, n_loads + tractions.size());
+    const auto n = static_cast<std::uint64_t>(system_->size()), m = static_cast<std::uint64_t>(tractions.size());
+    return 8 * (2 * n * n + 3 * n * m + m * m);
+}
+
+void GalerkinModel::visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const {
+    const auto dense = system_->dense();
+    if (!dense) return;
+    visit({"D", dense->K, YoungScaling::stiffness});
+    visit({"Dplus", dense->D(), YoungScaling::compliance});
+}
+
+}  // namespace elastolab

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <memory>
+
+#include "bem/galerkin/system.hpp"
+#include "deform/solid_model.hpp"
+
+namespace elastolab {
+
+/// A solid by symmetric Galerkin boundary elements: displacements linear on triangles, tractions constant on
+/// constrained ones. A constrained vertex without a constrained triangle has a reaction and no traction.
+class GalerkinModel : public SolidModel {
+public:
+    /// before: a model of the same surface, of which is taken over what serves, or null. Throws SolveError, Cancelled.
+    GalerkinModel(const SurfaceMesh& surface, double poisson_ratio, const Method& method, const GalerkinModel* before,
+                  Control& control);
+
+    std::unique_ptr<ConstrainedSolid> constrain(std::span<const int> base, std::span<const int> handles,
+                                                Control& control) const override;
+    std::uint64_t constrain_memory(std::span<const int> base, std::span<const int> handles) const override;
+    void visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const override;
+
+private:
+    Method method_;
+    double poisson_ratio_;
+    std::shared_ptr<const GalerkinSystem> system_;
+};
+
+}  // namespace elastolab

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "bem/galerkin/system.hpp"
+#include "deform/node_solver.hpp"
+#include "deform/reduced_solver.hpp"
+
+namespace elastolab {
+
+/// Responses of a solid to reactions R at its constrained vertices and tractions t, for the small system
+///   [ Z^T D^+ Z + diag(0, V)   (C^T Z)^T ] [ R; t ]   [ u_C; 0 ]
+///   [ C^T Z                     0        ] [  c   ] = [   0    ],   u = D^+ Z [R; t] + C c
+/// which is that of docs/formulation.md section 7: symmetric, and exact for any constrained set.
+class GalerkinResponses : public Responses {
+public:
+    GalerkinResponses(std::shared_ptr<const GalerkinSystem> system, std::vector<int> vertices,
+                      GalerkinTractions tractions, Control& control);
+
+    Eigen::Index cols() const override { return columns_.cols(); }
+    Eigen::MatrixXd small_matrix(const std::vector<int>& nodes, const Eigen::MatrixXd& rigid,
+                                 Control& control) const override;
+    void add_product(const Eigen::MatrixXd& loads, Eigen::Ref<Eigen::MatrixXd> displacements) const override;
+
+private:
+    std::shared_ptr<const GalerkinSystem> system_;
+    std::vector<int> vertices_;
+    GalerkinTractions tractions_;
+    Columns columns_;  ///< L^-1 Z over C^T Z
+};
+
+/// Tractions and free displacements by elimination: with V = L_V L_V^T and Y = L_V^-1 K the free block D + Y^T Y is
+/// symmetric positive definite. Factorised afresh for each constrained set.
+class GalerkinDirectSolver : public NodeSolver {
+public:
+    /// Throws NotHeldError when the constraints do not hold the body; SolveError, Cancelled.
+    GalerkinDirectSolver(const GalerkinSystem& system, const std::vector<int>& vertices,
+                         const GalerkinTractions& tractions, Control& control);
+    /// loads: reactions at the vertices, then tractions.
+    NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const override;
+
+private:
+    Partition partition_;
+    CholeskyFactorization single_layer_, free_;
+    Eigen::MatrixXd Y_;              ///< L_V^-1 K
+    Eigen::MatrixXd D_constrained_;  ///< rows of D at the constrained vertices
+};
+
+/// The small system of a constrained set, its responses kept.
+ReducedSystem galerkin_reduced_system(const std::shared_ptr<const GalerkinSystem>& system,
+                                      const std::vector<int>& vertices, const GalerkinTractions& tractions,
+                                      Control& control);
+
+/// | D u + K^T t - R, K u - V t | over the same of absolute values, Euclidean, with integrals computed afresh.
+/// loads: as those of a solution.
+double galerkin_residual(const GalerkinSystem& system, const std::vector<int>& vertices,
+                         const GalerkinTractions& tractions, const NodeSolution& solution, Control& control);
+
+}  // namespace elastolab

@@ -1,0 +1,205 @@
+#include "bem/galerkin/system.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "bem/galerkin/traction_rows.hpp"
+#include "elasticity/rigid_motion.hpp"
+
+namespace elastolab {
+
+namespace {
+
+/// First numbers of cache keys: a unit load at a vertex, a traction on a triangle, the rigid tractions on a surface.
+enum GalerkinKey { kVertexLoad, kTriangleTraction, kSurfaceTraction };
+/// Triangles whose rows are integrated and solved for at once.
+constexpr std::size_t kTrianglesAtOnce = 256;
+
+int components_of(const ColumnKey& key) { return key.front() == kSurfaceTraction ? 6 : 3; }
+
+std::uint64_t half_column_budget(Eigen::Index n, Mode mode) {
+    const auto matrix = static_cast<std::uint64_t>(n * n) * 8;
+    return (64ull << 20) + (mode == Mode::on_demand ? matrix / 4 : matrix);
+}
+
+/// Rows (or rows and columns) of the triangles of a space, taken to its unknowns: rigid fields for whole surfaces.
+class Reduction {
+public:
+    Reduction(const Boundary& boundary, const ClosedSurfaces& surfaces, const GalerkinTractions& tractions)
+        : n_single_(3 * std::ssize(tractions.triangles)), triangles_(tractions.triangles) {
+        for (const int s : tractions.free_surfaces) {
+            const std::vector<int>& all = surfaces.triangles[static_cast<std::size_t>(s)];
+            rigid_.push_back(rigid_tractions(boundary, all));
+            triangles_.insert(triangles_.end(), all.begin(), all.end());
+        }
+    }
+    const std::vector<int>& triangles() const { return triangles_; }
+
+    Eigen::MatrixXd rows(Eigen::MatrixXd all) const {
+        if (rigid_.empty()) return all;
+        Eigen::MatrixXd reduced(n_single_ + 6 * std::ssize(rigid_), all.cols());
+        reduced.topRows(n_single_) = all.topRows(n_single_);
+        Eigen::Index from = n_single_, to = n_single_;
+        for (const Eigen::MatrixXd& fields : rigid_) {
+            reduced.middleRows(to, 6) = fields.transpose() * all.middleRows(from, fields.rows());
+            from += fields.rows();
+            to += 6;
+        }
+        return reduced;
+    }
+
+private:
+    Eigen::Index n_single_;
+    std::vector<int> triangles_;
+    std::vector<Eigen::MatrixXd> rigid_;
+};
+
+}  // namespace
+
+GalerkinSystem::GalerkinSystem(std::shared_ptr<const Boundary> boundary, double poisson_ratio, const Method& method,
+                               std::shared_ptr<const HypersingularParts> parts, StageTimes& stages, Control& control)
+    : boundary_(std::move(boundary)),
+      material_{1.0, poisson_ratio},
+      tolerance_(std::max(method.integral_tolerance, 1e-13)),
+      surfaces_(boundary_->mesh()),
+      body_modes_(rigid_modes(boundary_->mesh().vertices)),
+      parts_(std::move(parts)),
+      cache_(std::make_unique<ColumnCache>(method.column_memory.value_or(half_column_budget(size(), method.mode)))) {
+    if (!factorises_ahead(method)) return;
+    Eigen::MatrixXd D;
+    {
+        const Stage stage("integrate", control, stages);
+        if (method.keep_integrals && !parts_)
+            parts_ = std::make_shared<const HypersingularParts>(*boundary_, tolerance_, control);
+        D = hypersingular(control);
+    }
+    if (method.mode != Mode::on_demand) dense_ = nullptr;
+    shift_ = D.diagonal().mean();
+    Eigen::MatrixXd kept;
+    if (method.mode != Mode::on_demand) kept = D;
+    D.noalias() += shift_ * surfaces_.rigid * surfaces_.rigid.transpose();
+    {
+        const Stage stage("factorise", control, stages);
+        factor_ = CholeskyFactorization(std::move(D), "hypersingular matrix", &control);
+    }
+    if (method.mode != Mode::on_demand) complete(std::move(kept), stages, control);
+}
+
+Eigen::MatrixXd GalerkinSystem::hypersingular(Control& control) const {
+    Eigen::MatrixXd D(size(), size());
+    if (parts_)
+        parts_->evaluate(material_, D);
+    else
+        assemble_hypersingular(*boundary_, material_, tolerance_, D, control);
+    // P D P with P = I - C C^T.
+    const Eigen::MatrixXd& C = surfaces_.rigid;
+    Eigen::MatrixXd left = D * C;
+    left.noalias() -= 0.5 * C * (C.transpose() * left).eval();
+    D.noalias() -= left * C.transpose();
+    D.noalias() -= C * left.transpose();
+    return D;
+}
+
+void GalerkinSystem::free_of_rigid_motions(Eigen::MatrixXd& K) const {
+    const Eigen::MatrixXd rest = K * body_modes_;
+    K.noalias() -= rest * body_modes_.transpose();
+}
+
+GalerkinOperators GalerkinSystem::operators(const GalerkinTractions& tractions, Control& control) const {
+    const Reduction reduction(*boundary_, surfaces_, tractions);
+    TractionRows rows = assemble_traction_rows(*boundary_, reduction.triangles(), material_, tolerance_, control);
+    GalerkinOperators operators;
+    operators.double_layer = reduction.rows(std::move(rows.double_layer));
+    free_of_rigid_motions(operators.double_layer);
+    const Eigen::MatrixXd half = reduction.rows(std::move(rows.single_layer));
+    operators.single_layer = reduction.rows(half.transpose());
+    return operators;
+}
+
+Eigen::MatrixXd GalerkinSystem::single_layer(const GalerkinTractions& tractions, Control& control) const {
+    const Reduction reduction(*boundary_, surfaces_, tractions);
+    const Eigen::MatrixXd half =
+        reduction.rows(assemble_single_layer(*boundary_, reduction.triangles(), material_, tolerance_, control));
+    return reduction.rows(half.transpose());
+}
+
+Columns GalerkinSystem::half_responses(std::span<const int> vertices, const GalerkinTractions& tractions,
+                                       Control& control) const {
+    std::vector<ColumnKey> keys;
+    for (const int v : vertices) keys.push_back({kVertexLoad, v});
+    for (const int t : tractions.triangles) keys.push_back({kTriangleTraction, t});
+    for (const int s : tractions.free_surfaces) keys.push_back({kSurfaceTraction, s});
+    const auto row_bytes = 8 * static_cast<std::uint64_t>(size() + surfaces_.rigid.cols());
+    return cache_->get(
+        keys, [&](const ColumnKey& key) { return row_bytes * static_cast<std::uint64_t>(components_of(key)); },
+        [&](const std::vector<ColumnKey>& missing) { return compute(missing, control); });
+}
+
+std::vector<Columns::Block> GalerkinSystem::compute(const std::vector<ColumnKey>& missing, Control& control) const {
+    const Eigen::Index n = size(), n_border = surfaces_.rigid.cols();
+    std::vector<Columns::Block> blocks;
+    for (std::size_t begin = 0; begin < missing.size();) {
+        GalerkinTractions tractions = {};
+        Eigen::Index n_columns = 0;
+        std::size_t end = begin;
+        for (; end < missing.size() && end - begin < kTrianglesAtOnce; ++end) {
+            const ColumnKey& key = missing[end];
+            if (key.front() == kTriangleTraction) tractions.triangles.push_back(key.back());
+            if (key.front() == kSurfaceTraction) tractions.free_surfaces.push_back(key.back());
+            n_columns += components_of(key);
+        }
+        Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(n + n_border, n_columns);
+        const Eigen::Index n_loads = n_columns - tractions.size();  // vertices come first
+        for (Eigen::Index i = 0; 3 * i < n_loads; ++i)
+            columns.block<3, 3>(3 * missing[begin + static_cast<std::size_t>(i)].back(), 3 * i).setIdentity();
+        if (tractions.size() > 0)
+            columns.topRightCorner(n, tractions.size()) = -operators(tractions, control).double_layer.transpose();
+        columns.bottomRows(n_border) = surfaces_.rigid.transpose() * columns.topRows(n);
+        factor_.solve_lower_in_place(columns.topRows(n));
+        control.checkpoint();
+        Eigen::Index next = 0;
+        for (; begin < end; ++begin) {
+            const int count = components_of(missing[begin]);
+            blocks.push_back(std::make_shared<const Eigen::MatrixXd>(columns.middleCols(next, count)));
+            next += count;
+        }
+    }
+    return blocks;
+}
+
+void GalerkinSystem::finish(Eigen::MatrixXd& y, const Eigen::MatrixXd& f) const {
+    factor_.solve_upper_in_place(y);
+    y.noalias() -= surfaces_.rigid * (f / shift_);
+}
+
+void GalerkinSystem::complete(Eigen::MatrixXd D, StageTimes& stages, Control& control) {
+    const Stage stage("D^+", control, stages);
+    auto dense = std::make_shared<DenseOperators>();
+    const Eigen::Index n = size(), n_border = surfaces_.rigid.cols();
+    dense->Khatinv = Eigen::MatrixXd::Zero(n + n_border, n + n_border);
+    Eigen::MatrixXd inverse = Eigen::MatrixXd::Identity(n, n);
+    constexpr Eigen::Index kAtOnce = 384;
+    for (Eigen::Index first = 0; first < n; first += kAtOnce) {
+        factor_.solve_in_place(inverse.middleCols(first, std::min(kAtOnce, n - first)));
+        control.set_progress(static_cast<double>(first) / static_cast<double>(n));
+        control.checkpoint();
+    }
+    inverse.noalias() -= surfaces_.rigid * surfaces_.rigid.transpose() / shift_;
+    dense->Khatinv.topLeftCorner(n, n) = inverse;
+    dense->Khatinv.topRightCorner(n, n_border) = surfaces_.rigid;
+    dense->Khatinv.bottomLeftCorner(n_border, n) = surfaces_.rigid.transpose();
+    dense->K = std::move(D);
+    dense_ = std::move(dense);
+}
+
+std::uint64_t GalerkinSystem::memory_bytes() const {
+    const auto n = static_cast<std::uint64_t>(factor_.size());
+    return 8 * n * n * ((dense_ ? 3u : 1u) + (parts_ ? 2u : 0u));
+}
+
+std::uint64_t half_response_memory(const GalerkinSystem& system, Eigen::Index n_unknowns) {
+    const auto n = static_cast<std::uint64_t>(system.size()), m = static_cast<std::uint64_t>(n_unknowns);
+    return 8 * (2 * n * m + 3 * m * m);
+}
+
+}  // namespace elastolab

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstdint>
+#include <Eigen/Core>
+#include <memory>
+
+#include "base/cholesky.hpp"
+#include "base/control.hpp"
+#include "base/timer.hpp"
+#include "bem/galerkin/hypersingular.hpp"
+#include "bem/galerkin/tractions.hpp"
+#include "deform/columns.hpp"
+#include "deform/dense_solvers.hpp"
+#include "deform/method.hpp"
+
+namespace elastolab {
+
+/// The symmetric Galerkin equations of one solid with unit Young's modulus (docs/formulation.md section 7):
+///   V t = K u  on the tractions of a constrained set,    D u + K^T t = R,   R zero at free vertices
+/// D is freed of what its integrals leave of the rigid motions C of each closed surface, and factorised once as
+///   D + a C C^T = L L^T,  so that its pseudo-inverse is  D^+ = (L L^T)^-1 - C C^T / a.
+/// R is the reaction: the derivative of the energy with respect to the prescribed displacements. Any thread may use it.
+class GalerkinSystem {
+public:
+    /// On demand with the update `direct` nothing is factorised here. `parts`: D's integrals of this boundary and
+    /// tolerance, if they were kept, or null.
+    GalerkinSystem(std::shared_ptr<const Boundary> boundary, double poisson_ratio, const Method& method,
+                   std::shared_ptr<const HypersingularParts> parts, StageTimes& stages, Control& control);
+
+    const Boundary& boundary() const { return *boundary_; }
+    std::shared_ptr<const Boundary> shared_boundary() const { return boundary_; }
+    const ClosedSurfaces& surfaces() const { return surfaces_; }
+    std::shared_ptr<const HypersingularParts> parts() const { return parts_; }
+    Eigen::Index size() const { return 3 * boundary_->mesh().n_vertices(); }
+    double reciprocal_condition() const { return factor_.reciprocal_condition(); }
+    std::uint64_t memory_bytes() const;
+
+    /// D afresh, both triangles, freed of rigid motions.
+    Eigen::MatrixXd hypersingular(Control& control) const;
+    /// V and K of a traction space, integrated afresh.
+    GalerkinOperators operators(const GalerkinTractions& tractions, Control& control) const;
+    /// V alone: pairs of its own triangles.
+    Eigen::MatrixXd single_layer(const GalerkinTractions& tractions, Control& control) const;
+
+    /// L^-1 Z over C^T Z, with Z = [I at these vertices, -K^T of the tractions]; computed once, kept within a budget.
+    Columns half_responses(std::span<const int> vertices, const GalerkinTractions& tractions, Control& control) const;
+    /// u <- D^+ Z q from y = (L^-1 Z) q and f = (C^T Z) q.
+    void finish(Eigen::MatrixXd& y, const Eigen::MatrixXd& f) const;
+    /// G <- G - F^T F / a: the pseudo-inverse where (L^-1 Z)^T (L^-1 Z) is that of D + a C C^T.
+    double shift() const { return shift_; }
+
+    /// D and D^+; only in the mode `full`, else null.
+    std::shared_ptr<const DenseOperators> dense() const { return dense_; }
+
+private:
+    void complete(Eigen::MatrixXd D, StageTimes& stages, Control& control);
+    std::vector<Columns::Block> compute(const std::vector<ColumnKey>& missing, Control& control) const;
+    void free_of_rigid_motions(Eigen::MatrixXd& K) const;
+
+    std::shared_ptr<const Boundary> boundary_;
+    Material material_;
+    double tolerance_;
+    ClosedSurfaces surfaces_;
+    Eigen::MatrixXd body_modes_;  ///< 3V x 6: rigid motions of the whole body
+    std::shared_ptr<const HypersingularParts> parts_;
+    double shift_ = 1.0;
+    CholeskyFactorization factor_;
+    std::shared_ptr<const DenseOperators> dense_;
+    std::unique_ptr<ColumnCache> cache_;
+};
+
+/// Bytes of half responses for a constrained set, and of the small system made from them.
+std::uint64_t half_response_memory(const GalerkinSystem& system, Eigen::Index n_unknowns);
+
+}  // namespace elastolab

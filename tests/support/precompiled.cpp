@@ -1,0 +1,1 @@
+// Only there so that its target has precompiled headers, which the test programs share.
