@@ -26,7 +26,7 @@ enum class CompareMode { off, side_by_side, ghosts };
 
 struct CompareSettings {
     CompareMode mode = CompareMode::off;
-    std::vector<MethodKind> kinds{all_methods().begin(), all_methods().end()};  ///< shown when comparing
+    std::vector<MethodKind> kinds{kFem, kConstantBem, kLinearBem};  ///< shown when comparing
     MethodKind reference = default_method();                                    ///< differences are to this one
 };
 

@@ -32,7 +32,7 @@ struct SolveOptions {
 };
 
 void add_options(CLI::App& parser, SolveOptions& options) {
-    const CLI::IsMember methods({"fem", "constant-bem", "linear-bem"});
+    const CLI::IsMember methods(method_names());
     const CLI::IsMember modes({"on-demand", "full", "full-volume"});
     const CLI::IsMember tractions({"discontinuous", "restricted", "continuous"});
     const CLI::IsMember updates({"direct", "eqn9", "reduced"});

@@ -67,7 +67,7 @@ Command add_view_command(CLI::App& program) {
     const CLI::Validator path([](std::string& text) { return text.empty() ? "the name is empty" : ""; }, "PATH");
     parser->add_option("input", words->input, "scene file (.json) or mesh")->check(path);
     parser->add_option("--method", words->method, "instead of the scene's own method")
-        ->check(CLI::IsMember({"fem", "constant-bem", "linear-bem"}));
+        ->check(CLI::IsMember(method_names()));
     parser->add_option("--frames", words->frames, "quit after so many frames")->check(CLI::Range(1, 1000000000));
     parser->add_option("--screenshot", words->screenshot, "PNG of the last frame")->check(path);
     parser->add_option("--timings", words->timings, "CSV: records frame timings from the start")->check(path);

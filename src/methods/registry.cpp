@@ -14,6 +14,12 @@ constexpr std::array kMethods = {
 
 std::span<const MethodKind> all_methods() { return kMethods; }
 
+std::vector<std::string> method_names() {
+    std::vector<std::string> names;
+    for (const MethodKind kind : kMethods) names.emplace_back(kind->name);
+    return names;
+}
+
 MethodKind default_method() { return kLinearBem; }
 
 std::optional<MethodKind> parse_method_kind(std::string_view text) {

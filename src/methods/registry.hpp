@@ -2,7 +2,9 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "bem/galerkin/method.hpp"
 #include "bem/method.hpp"
@@ -14,6 +16,9 @@ namespace elastolab {
 
 /// All methods that the program has, in the order in which they are shown.
 std::span<const MethodKind> all_methods();
+
+/// Their names, in the same order.
+std::vector<std::string> method_names();
 
 /// The one that is taken when nobody chooses.
 MethodKind default_method();

@@ -16,7 +16,7 @@ struct Palette {
     Colour wire, grid, outline;
     Colour fixed, handle, active, hover;
     std::array<Colour, 3> axes;
-    std::array<Colour, 6> bodies;  ///< one for each method, in the order of all_methods()
+    std::array<Colour, 6> bodies;  ///< by MethodTraits::colour
 
     const Colour& body(MethodKind kind) const;
 };

@@ -75,7 +75,7 @@ Material read_material(const JsonNode& node) {
 MethodKind read_method(const JsonNode& node) {
     if (const auto kind = parse_method_kind(node.text())) return *kind;
     std::string known;
-    for (const MethodKind kind : all_methods()) known.append(known.empty() ? "" : ", ").append(kind->name);
+    for (const std::string& name : method_names()) known.append(known.empty() ? "" : ", ").append(name);
     node.fail(node.quoted() + " is not a known method. Known ones: " + known + ".");
 }
 
