@@ -25,9 +25,9 @@ public:
         std::vector<int> vertices(base.begin(), base.end());
         vertices.insert(vertices.end(), handles.begin(), handles.end());
         ConstrainedNodes nodes = constrain_triangles(boundary.mesh(), triangles_of_vertex, vertices);
-        LoadPlan plan = plan_constant_loads(boundary, nodes.nodes, nodes.prescribe);
+        TractionSpace space = constant_traction_space(boundary, nodes.nodes, nodes.prescribe);
         // Triangles may have corners of the base and of a handle; none of them counts as resting then.
-        return {std::move(nodes), std::move(plan), 0};
+        return {std::move(nodes), std::move(space), 0};
     }
 
     std::shared_ptr<const SparseRows> display(const SurfaceMesh& mesh,
@@ -35,9 +35,9 @@ public:
         return std::make_shared<const SparseRows>(average_of_triangles(mesh, triangles_of_vertex));
     }
 
-    Eigen::VectorXd error(const std::shared_ptr<const BemSystem>& system, const SparseRows* display, const LoadPlan&,
-                          const std::vector<int>&, const NodeSolver&, const NodeSolution& solution,
-                          Control&) const override {
+    Eigen::VectorXd error(const std::shared_ptr<const BemSystem>& system, const SparseRows* display,
+                          const TractionSpace&, const std::vector<int>&, const NodeSolver&,
+                          const NodeSolution& solution, Control&) const override {
         return spread_around_vertices(*system, *display, solution);
     }
 };

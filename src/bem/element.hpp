@@ -16,7 +16,7 @@ class BemSystem;
 /// A constrained set in terms of nodes and tractions.
 struct BemConstraints {
     ConstrainedNodes nodes;
-    LoadPlan plan;
+    TractionSpace space;
     int n_base = 0;  ///< so many of the nodes rest
 };
 
@@ -41,7 +41,7 @@ public:
                                                       const VertexTriangles& triangles_of_vertex) const = 0;
     /// Estimated error of the displacements of all vertices, 3*n_vertices [L]. display: as above.
     virtual Eigen::VectorXd error(const std::shared_ptr<const BemSystem>& system, const SparseRows* display,
-                                  const LoadPlan& plan, const std::vector<int>& nodes, const NodeSolver& solver,
+                                  const TractionSpace& space, const std::vector<int>& nodes, const NodeSolver& solver,
                                   const NodeSolution& solution, Control& control) const = 0;
 };
 

@@ -11,8 +11,8 @@ constexpr double kTolerance = 1e-4;
 
 }  // namespace
 
-Eigen::VectorXd residual_between_nodes(const BemSystem& system, const LoadPlan& plan, const NodeSolution& solution,
-                                       Control& control) {
+Eigen::VectorXd residual_between_nodes(const BemSystem& system, const TractionSpace& space,
+                                       const NodeSolution& solution, Control& control) {
     const Boundary& boundary = system.boundary();
     const SurfaceMesh& mesh = boundary.mesh();
     const Eigen::VectorXd u = solution.displacements.col(0), q = solution.loads.col(0);
@@ -20,7 +20,7 @@ Eigen::VectorXd residual_between_nodes(const BemSystem& system, const LoadPlan& 
     for_source_strips(linear_centroid_sources(boundary), [&](int first, const Sources& strip) {
         at_centroids.segment(3 * first, 3 * strip.size()) =
             system.double_layer(strip, control, kTolerance) * u -
-            system.single_layer(strip, plan.elements, control, kTolerance) * q;
+            system.single_layer(strip, space.elements, control, kTolerance) * q;
         control.set_progress(static_cast<double>(first) / mesh.n_triangles());
     });
     Eigen::VectorXd mean = Eigen::VectorXd::Zero(3 * mesh.n_vertices()),

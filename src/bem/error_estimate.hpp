@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 
 #include "bem/system.hpp"
-#include "deform/constraint_map.hpp"
 #include "bem/traction_space.hpp"
+#include "deform/constraint_map.hpp"
 #include "deform/node_solver.hpp"
 
 namespace elastolab {
@@ -17,8 +17,8 @@ namespace elastolab {
 /// The displacements that would cause this residual, with its sign turned (NodeSolver::response_to_residual), are what
 /// an averaged (Galerkin) instead of a collocated equation would add: an estimate of the error. The residual alone says
 /// little: in a soft thin part a thousandth of it can be a tenth of the displacement.
-Eigen::VectorXd residual_between_nodes(const BemSystem& system, const LoadPlan& plan, const NodeSolution& solution,
-                                       Control& control);
+Eigen::VectorXd residual_between_nodes(const BemSystem& system, const TractionSpace& space,
+                                       const NodeSolution& solution, Control& control);
 
 /// Constant elements show a vertex at the mean of the triangles around it: by how much the worst of these differs from
 /// the mean; 3*n_vertices [L]. Of the first order in the size of the triangles, as the error of the method is.

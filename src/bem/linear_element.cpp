@@ -17,7 +17,7 @@ public:
                              std::span<const int> base, std::span<const int> handles) const override {
         std::vector<int> vertices(base.begin(), base.end());
         vertices.insert(vertices.end(), handles.begin(), handles.end());
-        return {constrain_vertices(vertices), plan_linear_loads(boundary, triangles_of_vertex, tractions, vertices),
+        return {constrain_vertices(vertices), linear_traction_space(boundary, triangles_of_vertex, tractions, vertices),
                 static_cast<int>(base.size())};
     }
 
@@ -26,13 +26,13 @@ public:
     }
 
     /// What an averaged (Galerkin) instead of a collocated equation would add.
-    Eigen::VectorXd error(const std::shared_ptr<const BemSystem>& system, const SparseRows*, const LoadPlan& plan,
+    Eigen::VectorXd error(const std::shared_ptr<const BemSystem>& system, const SparseRows*, const TractionSpace& space,
                           const std::vector<int>& nodes, const NodeSolver& solver, const NodeSolution& solution,
                           Control& control) const override {
-        const Eigen::VectorXd residual = -residual_between_nodes(*system, plan, solution, control);
+        const Eigen::VectorXd residual = -residual_between_nodes(*system, space, solution, control);
         Eigen::VectorXd error = solver.response_to_residual(residual, control);
         if (error.size() > 0) return error;
-        return ReducedSolver(reduced_system(system, plan, nodes, control), control)  // Eqns. 7 and 9 on K
+        return ReducedSolver(reduced_system(system, space, nodes, control), control)  // Eqns. 7 and 9 on K
             .response_to_residual(residual, control);
     }
 };

@@ -16,11 +16,11 @@ namespace elastolab {
 namespace {
 
 /// Constrained nodes at which the integral equation is still asked to hold.
-std::vector<int> collocated(const LoadPlan& plan, const std::vector<int>& nodes) {
+std::vector<int> collocated(const TractionSpace& space, const std::vector<int>& nodes) {
     std::vector<int> kept;
     for (const int node : nodes)
-        if (std::find(plan.dropped_collocation.begin(), plan.dropped_collocation.end(), node) ==
-            plan.dropped_collocation.end())
+        if (std::find(space.dropped_collocation.begin(), space.dropped_collocation.end(), node) ==
+            space.dropped_collocation.end())
             kept.push_back(node);
     return kept;
 }
@@ -59,11 +59,11 @@ Sources some_of(const Sources& sources, int most) {
 struct Balance {
     double off = 0.0, size = 0.0;
 
-    void add(const BemSystem& system, const LoadPlan& plan, const NodeSolution& solution, const Sources& sources,
+    void add(const BemSystem& system, const TractionSpace& space, const NodeSolution& solution, const Sources& sources,
              Control& control) {
         for_source_strips(sources, [&](int, const Sources& strip) {
             const Eigen::MatrixXd H = system.double_layer(strip, control);
-            const Eigen::MatrixXd G = system.single_layer(strip, plan.elements, control);
+            const Eigen::MatrixXd G = system.single_layer(strip, space.elements, control);
             const Eigen::VectorXd u = solution.displacements.col(0), q = solution.loads.col(0);
             off += (H * u - G * q).squaredNorm();
             size += (H.cwiseAbs() * u.cwiseAbs() + G.cwiseAbs() * q.cwiseAbs()).squaredNorm();
@@ -73,20 +73,20 @@ struct Balance {
 
 }  // namespace
 
-MixedProblem::MixedProblem(const BemSystem& system, const LoadPlan& plan, const std::vector<int>& nodes, int n_base,
-                           Control& control)
+MixedProblem::MixedProblem(const BemSystem& system, const TractionSpace& space, const std::vector<int>& nodes,
+                           int n_base, Control& control)
     : partition(3 * system.n_nodes(), nodes) {
     at = free_nodes(partition);
-    const Eigen::Index n_free = 3 * std::ssize(at), n = n_free + 3 * plan.n_slots();
-    for (const int node : collocated(plan, nodes)) at.push_back(node);
-    const Sources points = interior_sources(system.boundary(), plan.interior_triangles);
+    const Eigen::Index n_free = 3 * std::ssize(at), n = n_free + 3 * space.n_slots();
+    for (const int node : collocated(space, nodes)) at.push_back(node);
+    const Sources points = interior_sources(system.boundary(), space.interior_triangles);
     assert(3 * (std::ssize(at) + points.size()) == n);
     unknown.resize(n, n);
     const std::vector<Eigen::Index> moving(partition.constrained.begin() + 3 * n_base, partition.constrained.end());
     known.resize(n, std::ssize(moving));
     Eigen::Index row = 0;
     const auto add = [&](const Eigen::MatrixXd& H, const Sources& sources) {
-        const Eigen::MatrixXd G = system.single_layer(sources, plan.elements, control);
+        const Eigen::MatrixXd G = system.single_layer(sources, space.elements, control);
         parallel_blocks(static_cast<int>(n), kColumnsAtOnce, control, [&](int begin, int end) {
             for (Eigen::Index column = begin; column < end; ++column) {
                 auto target = unknown.col(column).segment(row, H.rows());
@@ -107,17 +107,17 @@ MixedProblem::MixedProblem(const BemSystem& system, const LoadPlan& plan, const 
     for_source_strips(points, [&](int, const Sources& strip) { add(system.double_layer(strip, control), strip); });
 }
 
-std::uint64_t mixed_memory(const BemSystem& system, const LoadPlan& plan, int n_constrained, int n_base) {
-    const Eigen::Index nodes = system.n_nodes(), n = 3 * (nodes - n_constrained + plan.n_slots());
-    const Eigen::Index strip = 9 * kSourcesAtOnce * (nodes + plan.n_slots());
+std::uint64_t mixed_memory(const BemSystem& system, const TractionSpace& space, int n_constrained, int n_base) {
+    const Eigen::Index nodes = system.n_nodes(), n = 3 * (nodes - n_constrained + space.n_slots());
+    const Eigen::Index strip = 9 * kSourcesAtOnce * (nodes + space.n_slots());
     return 8 * static_cast<std::uint64_t>(n * 3 * (n_constrained - n_base) + strip) + RefinedLu::memory_bytes(n);
 }
 
-MixedSolver::MixedSolver(const BemSystem& system, const LoadPlan& plan, const std::vector<int>& nodes, int n_base,
+MixedSolver::MixedSolver(const BemSystem& system, const TractionSpace& space, const std::vector<int>& nodes, int n_base,
                          Control& control)
-    : problem_(system, plan, nodes, n_base, control) {
+    : problem_(system, space, nodes, n_base, control) {
     // Tractions have another unit than displacements; without a common scale the condition would depend on it.
-    auto tractions = problem_.unknown.rightCols(3 * plan.n_slots());
+    auto tractions = problem_.unknown.rightCols(3 * space.n_slots());
     if (tractions.size() > 0) traction_scale_ = 1.0 / tractions.cwiseAbs().maxCoeff();
     tractions *= traction_scale_;
     control.begin_stage("factorise");
@@ -145,11 +145,11 @@ Eigen::VectorXd MixedSolver::response_to_residual(const Eigen::VectorXd& residua
     return response;
 }
 
-BoundaryEqn9Solver::BoundaryEqn9Solver(const BemSystem& system, const LoadPlan& plan, const std::vector<int>& nodes,
-                                       int n_base, Control& control)
-    : problem_(system, plan, nodes, n_base, control),
+BoundaryEqn9Solver::BoundaryEqn9Solver(const BemSystem& system, const TractionSpace& space,
+                                       const std::vector<int>& nodes, int n_base, Control& control)
+    : problem_(system, space, nodes, n_base, control),
       H00_inverse_(inverse_by_eqn9(system.bordered_inverse(), problem_.partition)) {
-    const Eigen::Index q = 3 * plan.n_slots(), n_free = H00_inverse_.rows();
+    const Eigen::Index q = 3 * space.n_slots(), n_free = H00_inverse_.rows();
     Eigen::MatrixXd small = -problem_.unknown.bottomRightCorner(q, q);
     small.noalias() +=
         problem_.unknown.bottomLeftCorner(q, n_free) * (H00_inverse_ * problem_.unknown.topRightCorner(n_free, q));
@@ -172,13 +172,13 @@ NodeSolution BoundaryEqn9Solver::solve(const Eigen::MatrixXd& prescribed, bool w
     return solution;
 }
 
-double boundary_residual(const BemSystem& system, const LoadPlan& plan, const NodeSolution& solution,
+double boundary_residual(const BemSystem& system, const TractionSpace& space, const NodeSolution& solution,
                          Control& control) {
     Balance balance;
-    const Sources nodes = system.nodes().subset(collocated(plan, range(0, system.n_nodes())));
-    const Sources points = interior_sources(system.boundary(), plan.interior_triangles);
-    balance.add(system, plan, solution, some_of(nodes, kSampledSources), control);
-    balance.add(system, plan, solution, some_of(points, kSampledSources), control);
+    const Sources nodes = system.nodes().subset(collocated(space, range(0, system.n_nodes())));
+    const Sources points = interior_sources(system.boundary(), space.interior_triangles);
+    balance.add(system, space, solution, some_of(nodes, kSampledSources), control);
+    balance.add(system, space, solution, some_of(points, kSampledSources), control);
     return balance.size > 0.0 ? std::sqrt(balance.off / balance.size) : 0.0;
 }
 

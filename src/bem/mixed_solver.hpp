@@ -7,13 +7,13 @@
 #include "base/lapack.hpp"
 #include "base/refined_lu.hpp"
 #include "bem/system.hpp"
-#include "deform/dense_solvers.hpp"
 #include "bem/traction_space.hpp"
+#include "deform/dense_solvers.hpp"
 #include "deform/node_solver.hpp"
 
 namespace elastolab {
 
-/// The mixed boundary problem of one constrained set, with the traction coefficients q of a load plan:
+/// The mixed boundary problem of one constrained set, with the traction coefficients q of a load space:
 ///     H0 u = G0 q   at the free nodes,      A u = Gp q   at the collocated constrained nodes and the interior points
 /// For the traction models whose ansatz depends on the constrained set there is no K that serves all sets; these are
 /// the rows from which Eqns. 7 and 9 are formed then. As one matrix for the unknowns (u0, q):
@@ -24,7 +24,7 @@ struct MixedProblem {
     Eigen::MatrixXd known;    ///< [H01; A1], columns of the prescribed displacements, without those of the base
 
     /// The first n_base nodes rest. Integrates in strips, so that nothing of the matrix's size is held beside it.
-    MixedProblem(const BemSystem& system, const LoadPlan& plan, const std::vector<int>& nodes, int n_base,
+    MixedProblem(const BemSystem& system, const TractionSpace& space, const std::vector<int>& nodes, int n_base,
                  Control& control);
 
     /// The prescribed displacements of all constrained nodes, times their columns.
@@ -34,12 +34,12 @@ struct MixedProblem {
 };
 
 /// Bytes that a MixedProblem of this many constrained nodes takes while it is made.
-std::uint64_t mixed_memory(const BemSystem& system, const LoadPlan& plan, int n_constrained, int n_base);
+std::uint64_t mixed_memory(const BemSystem& system, const TractionSpace& space, int n_constrained, int n_base);
 
 /// Eqn. 7 with the tractions kept: the mixed system for free displacements and q, factorised afresh.
 class MixedSolver : public NodeSolver {
 public:
-    MixedSolver(const BemSystem& system, const LoadPlan& plan, const std::vector<int>& nodes, int n_base,
+    MixedSolver(const BemSystem& system, const TractionSpace& space, const std::vector<int>& nodes, int n_base,
                 Control& control);
     NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const override;
     Eigen::VectorXd response_to_residual(const Eigen::VectorXd& residual, Control& control) const override;
@@ -53,7 +53,7 @@ private:
 /// Eqn. 9 applied to H: H00^-1 = D'00 - D'01 D'11^-1 D'10, then q from the small system Gp - A0 H00^-1 G0.
 class BoundaryEqn9Solver : public NodeSolver {
 public:
-    BoundaryEqn9Solver(const BemSystem& system, const LoadPlan& plan, const std::vector<int>& nodes, int n_base,
+    BoundaryEqn9Solver(const BemSystem& system, const TractionSpace& space, const std::vector<int>& nodes, int n_base,
                        Control& control);
     NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const override;
 
@@ -65,6 +65,7 @@ private:
 
 /// Relative residual |H u - G q| / | |H| |u| + |G| |q| | in the Euclidean norm, with integrals computed afresh, over a
 /// sample of the collocated equations: those of at least 128 nodes and 128 interior points, evenly spread, or of all.
-double boundary_residual(const BemSystem& system, const LoadPlan& plan, const NodeSolution& solution, Control& control);
+double boundary_residual(const BemSystem& system, const TractionSpace& space, const NodeSolution& solution,
+                         Control& control);
 
 }  // namespace elastolab

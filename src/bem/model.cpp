@@ -47,21 +47,21 @@ void BemModel::note_facts() {
     display_ = element_.display(mesh, system_->triangles_of_vertex());
 }
 
-std::unique_ptr<NodeSolver> BemModel::make_solver(const LoadPlan& plan, const std::vector<int>& nodes, int n_base,
+std::unique_ptr<NodeSolver> BemModel::make_solver(const TractionSpace& space, const std::vector<int>& nodes, int n_base,
                                                   Control& control) const {
     switch (method_.update) {
         case Update::direct:
             if (has_K()) return std::make_unique<DirectSolver>(system_->operators(), nodes, &control);
-            return std::make_unique<MixedSolver>(*system_, plan, nodes, n_base, control);
+            return std::make_unique<MixedSolver>(*system_, space, nodes, n_base, control);
         case Update::eqn9:
             if (has_K()) return make_paper_solver(system_->operators(), nodes, control);
             if (2 * std::ssize(nodes) >= system_->n_nodes())
-                return std::make_unique<MixedSolver>(*system_, plan, nodes, n_base, control);
-            return std::make_unique<BoundaryEqn9Solver>(*system_, plan, nodes, n_base, control);
+                return std::make_unique<MixedSolver>(*system_, space, nodes, n_base, control);
+            return std::make_unique<BoundaryEqn9Solver>(*system_, space, nodes, n_base, control);
         case Update::reduced:
             break;
     }
-    return std::make_unique<ReducedSolver>(reduced_system(system_, plan, nodes, control), control);
+    return std::make_unique<ReducedSolver>(reduced_system(system_, space, nodes, control), control);
 }
 
 bool BemModel::has_K() const { return system_->operators() && element_.has_stiffness(method_.tractions); }
@@ -72,33 +72,33 @@ BemConstraints BemModel::constraints_of(std::span<const int> base, std::span<con
 
 std::uint64_t BemModel::constrain_memory(std::span<const int> base, std::span<const int> handles) const {
     const BemConstraints setting = constraints_of(base, handles);
-    if (method_.update == Update::reduced) return response_memory(*system_, setting.plan);
+    if (method_.update == Update::reduced) return response_memory(*system_, setting.space);
     const auto all = 3 * static_cast<std::uint64_t>(system_->n_nodes());
     const auto constrained = 3 * static_cast<std::uint64_t>(setting.nodes.nodes.size()), free = all - constrained;
     const bool inverts = method_.update == Update::eqn9 && 2 * constrained < all;
     if (has_K()) return 8 * free * (inverts ? 2 * free + constrained : all);
-    return mixed_memory(*system_, setting.plan, static_cast<int>(setting.nodes.nodes.size()), setting.n_base) +
+    return mixed_memory(*system_, setting.space, static_cast<int>(setting.nodes.nodes.size()), setting.n_base) +
            (inverts ? 16 * free * free : 0);
 }
 
 std::unique_ptr<ConstrainedSolid> BemModel::constrain(std::span<const int> base, std::span<const int> handles,
                                                       Control& control) const {
     BemConstraints setting = constraints_of(base, handles);
-    const LoadPlan& plan = setting.plan;
-    std::unique_ptr<NodeSolver> solver = make_solver(plan, setting.nodes.nodes, setting.n_base, control);
-    SolutionChecks its_checks = checks(plan, setting.nodes.nodes);
-    return std::make_unique<ConstrainedSolid>(facts_.n_vertices, std::move(setting.nodes), plan.shares, display_,
+    const TractionSpace& space = setting.space;
+    std::unique_ptr<NodeSolver> solver = make_solver(space, setting.nodes.nodes, setting.n_base, control);
+    SolutionChecks its_checks = checks(space, setting.nodes.nodes);
+    return std::make_unique<ConstrainedSolid>(facts_.n_vertices, std::move(setting.nodes), space.shares, display_,
                                               std::move(solver), std::move(its_checks));
 }
 
-SolutionChecks BemModel::checks(const LoadPlan& plan, const std::vector<int>& nodes) const {
+SolutionChecks BemModel::checks(const TractionSpace& space, const std::vector<int>& nodes) const {
     SolutionChecks checks;
-    checks.residual = [system = system_, plan](const NodeSolution& solution, Control& control) {
-        return boundary_residual(*system, plan, solution, control);
+    checks.residual = [system = system_, space](const NodeSolution& solution, Control& control) {
+        return boundary_residual(*system, space, solution, control);
     };
-    checks.error = [&element = element_, system = system_, display = display_, plan, nodes](
+    checks.error = [&element = element_, system = system_, display = display_, space, nodes](
                        const NodeSolver& solver, const NodeSolution& solution, Control& control) {
-        return element.error(system, display.get(), plan, nodes, solver, solution, control);
+        return element.error(system, display.get(), space, nodes, solver, solution, control);
     };
     return checks;
 }

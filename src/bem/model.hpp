@@ -25,8 +25,8 @@ private:
     /// Whether Eqns. 7 and 9 act on K itself: where one K serves every constrained set.
     bool has_K() const;
     void note_facts();
-    SolutionChecks checks(const LoadPlan& plan, const std::vector<int>& nodes) const;
-    std::unique_ptr<NodeSolver> make_solver(const LoadPlan& plan, const std::vector<int>& nodes, int n_base,
+    SolutionChecks checks(const TractionSpace& space, const std::vector<int>& nodes) const;
+    std::unique_ptr<NodeSolver> make_solver(const TractionSpace& space, const std::vector<int>& nodes, int n_base,
                                             Control& control) const;
 
     const BoundaryElement& element_;

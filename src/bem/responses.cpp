@@ -13,15 +13,15 @@ constexpr Eigen::Index kStripColumns = 384;
 
 }  // namespace
 
-BemResponses::BemResponses(std::shared_ptr<const BemSystem> system, LoadPlan plan, Control& control)
-    : system_(std::move(system)), plan_(std::move(plan)), kept_(system_->keeps(plan_)) {
-    if (kept_) columns_ = system_->responses(plan_, control);
+BemResponses::BemResponses(std::shared_ptr<const BemSystem> system, TractionSpace space, Control& control)
+    : system_(std::move(system)), space_(std::move(space)), kept_(system_->keeps(space_)) {
+    if (kept_) columns_ = system_->responses(space_, control);
 }
 
 Eigen::MatrixXd BemResponses::small_matrix(const std::vector<int>& nodes, const Eigen::MatrixXd& rigid,
                                            Control& control) const {
     const Eigen::Index n = 3 * system_->n_nodes(), n_upper = 3 * std::ssize(nodes) + rigid.cols();
-    const Eigen::Index n_closing = 9 * std::ssize(plan_.interior_triangles);
+    const Eigen::Index n_closing = 9 * std::ssize(space_.interior_triangles);
     Eigen::MatrixXd S(n_upper + n_closing, cols() + rigid.cols());
     Eigen::Index first = 0;
     const auto add = [&](const Columns& columns) {
@@ -32,7 +32,7 @@ Eigen::MatrixXd BemResponses::small_matrix(const std::vector<int>& nodes, const 
     if (kept_)
         add(columns_);
     else
-        system_->visit_responses(plan_, add, control);
+        system_->visit_responses(space_, add, control);
     S.topRightCorner(n_upper, rigid.cols()) = border_columns(nodes, rigid);
     if (n_closing > 0) add_closing_of_border_and_loads(rigid, S.bottomRows(n_closing), control);
     return S;
@@ -40,7 +40,7 @@ Eigen::MatrixXd BemResponses::small_matrix(const std::vector<int>& nodes, const 
 
 void BemResponses::add_closing(const Columns& columns, Eigen::Index first, Eigen::Ref<Eigen::MatrixXd> rows,
                                Control& control) const {
-    for_source_strips(interior_sources(system_->boundary(), plan_.interior_triangles),
+    for_source_strips(interior_sources(system_->boundary(), space_.interior_triangles),
                       [&](int source, const Sources& strip) {
                           const Eigen::MatrixXd A = system_->double_layer(strip, control);
                           for (Eigen::Index c = 0; c < columns.cols(); c += kStripColumns) {
@@ -53,12 +53,12 @@ void BemResponses::add_closing(const Columns& columns, Eigen::Index first, Eigen
 
 void BemResponses::add_closing_of_border_and_loads(const Eigen::MatrixXd& rigid, Eigen::Ref<Eigen::MatrixXd> rows,
                                                    Control& control) const {
-    for_source_strips(interior_sources(system_->boundary(), plan_.interior_triangles),
+    for_source_strips(interior_sources(system_->boundary(), space_.interior_triangles),
                       [&](int source, const Sources& strip) {
                           auto out = rows.middleRows(3 * source, 3 * strip.size());
                           out.rightCols(rigid.cols()).noalias() =
                               system_->double_layer(strip, control) * rigid.topRows(3 * system_->n_nodes());
-                          out.leftCols(3 * plan_.n_slots()) -= system_->single_layer(strip, plan_.elements, control);
+                          out.leftCols(3 * space_.n_slots()) -= system_->single_layer(strip, space_.elements, control);
                       });
 }
 
@@ -67,15 +67,15 @@ void BemResponses::add_product(const Eigen::MatrixXd& loads, Eigen::Ref<Eigen::M
         columns_.add_product(loads, displacements);
         return;
     }
-    const Eigen::Index n = 3 * system_->n_nodes(), n_loads = 3 * plan_.n_slots();
+    const Eigen::Index n = 3 * system_->n_nodes(), n_loads = 3 * space_.n_slots();
     Eigen::MatrixXd response = Eigen::MatrixXd::Zero(n + 6, loads.cols());
     Control control;
     for_source_strips(system_->nodes(), [&](int source, const Sources& strip) {
         response.middleRows(3 * source, 3 * strip.size()).noalias() =
-            system_->single_layer(strip, plan_.elements, control) * loads.topRows(n_loads);
+            system_->single_layer(strip, space_.elements, control) * loads.topRows(n_loads);
     });
-    for (std::size_t i = 0; i < plan_.dropped_collocation.size(); ++i)
-        response.middleRows<3>(3 * plan_.dropped_collocation[i]) +=
+    for (std::size_t i = 0; i < space_.dropped_collocation.size(); ++i)
+        response.middleRows<3>(3 * space_.dropped_collocation[i]) +=
             loads.middleRows<3>(n_loads + 3 * static_cast<Eigen::Index>(i));
     system_->solve_in_place(response);
     displacements += response.topRows(displacements.rows());
@@ -87,8 +87,8 @@ Responses::Particular BemResponses::particular(const Eigen::VectorXd& residual, 
     result.solution = Eigen::VectorXd::Zero(n + 6);
     result.solution.head(n) = residual;
     system_->solve_in_place(result.solution);
-    result.closing.resize(9 * std::ssize(plan_.interior_triangles));
-    for_source_strips(interior_sources(system_->boundary(), plan_.interior_triangles),
+    result.closing.resize(9 * std::ssize(space_.interior_triangles));
+    for_source_strips(interior_sources(system_->boundary(), space_.interior_triangles),
                       [&](int source, const Sources& strip) {
                           result.closing.segment(3 * source, 3 * strip.size()) =
                               system_->double_layer(strip, control) * result.solution.head(n);
@@ -96,21 +96,21 @@ Responses::Particular BemResponses::particular(const Eigen::VectorXd& residual, 
     return result;
 }
 
-std::uint64_t response_memory(const BemSystem& system, const LoadPlan& plan) {
+std::uint64_t response_memory(const BemSystem& system, const TractionSpace& space) {
     const auto rows = 3 * static_cast<std::uint64_t>(system.n_nodes()) + 6;
-    const auto unknowns = static_cast<std::uint64_t>(plan.n_unknowns());
+    const auto unknowns = static_cast<std::uint64_t>(space.n_unknowns());
     const std::uint64_t strips = 3 * kSourcesAtOnce * (rows + unknowns) + 2 * kStripColumns * rows;
     return 8 * ((unknowns + 6) * (unknowns + 6) + strips) +
-           (system.keeps(plan) ? 8 * rows * unknowns : system.cache_budget() / 2);
+           (system.keeps(space) ? 8 * rows * unknowns : system.cache_budget() / 2);
 }
 
-ReducedSystem reduced_system(const std::shared_ptr<const BemSystem>& system, const LoadPlan& plan,
+ReducedSystem reduced_system(const std::shared_ptr<const BemSystem>& system, const TractionSpace& space,
                              const std::vector<int>& nodes, Control& control) {
     ReducedSystem reduced;
-    reduced.responses = std::make_shared<const BemResponses>(system, plan, control);
+    reduced.responses = std::make_shared<const BemResponses>(system, space, control);
     reduced.rigid = system->rigid();
     reduced.nodes = nodes;
-    reduced.n_loads = 3 * plan.n_slots();
+    reduced.n_loads = 3 * space.n_slots();
     return reduced;
 }
 

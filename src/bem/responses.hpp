@@ -11,15 +11,15 @@
 
 namespace elastolab {
 
-/// Responses Hhat^-1 [G; 0] of a boundary-element solid to the loads of a plan. They are kept where the system keeps
+/// Responses Hhat^-1 [G; 0] of a boundary-element solid to the loads of a space. They are kept where the system keeps
 /// columns for so many (BemSystem::keeps); else nothing is kept: the small system is made from groups of columns, and
 /// a product integrates and solves afresh. That is as exact, and takes the time of a set change for each product
 /// (divided by the number of loads) instead of a second matrix.
 class BemResponses : public Responses {
 public:
-    BemResponses(std::shared_ptr<const BemSystem> system, LoadPlan plan, Control& control);
+    BemResponses(std::shared_ptr<const BemSystem> system, TractionSpace space, Control& control);
 
-    Eigen::Index cols() const override { return plan_.n_unknowns(); }
+    Eigen::Index cols() const override { return space_.n_unknowns(); }
     Eigen::MatrixXd small_matrix(const std::vector<int>& nodes, const Eigen::MatrixXd& rigid,
                                  Control& control) const override;
     void add_product(const Eigen::MatrixXd& loads, Eigen::Ref<Eigen::MatrixXd> displacements) const override;
@@ -34,16 +34,16 @@ private:
                                          Control& control) const;
 
     std::shared_ptr<const BemSystem> system_;
-    LoadPlan plan_;
+    TractionSpace space_;
     bool kept_;
     Columns columns_;  ///< empty when nothing is kept
 };
 
 /// The small system of a constrained set: its responses, kept or not, and the border.
-ReducedSystem reduced_system(const std::shared_ptr<const BemSystem>& system, const LoadPlan& plan,
+ReducedSystem reduced_system(const std::shared_ptr<const BemSystem>& system, const TractionSpace& space,
                              const std::vector<int>& nodes, Control& control);
 
-/// Bytes that the responses of a plan, their small system and its making take at their peak.
-std::uint64_t response_memory(const BemSystem& system, const LoadPlan& plan);
+/// Bytes that the responses of a space, their small system and its making take at their peak.
+std::uint64_t response_memory(const BemSystem& system, const TractionSpace& space);
 
 }  // namespace elastolab

@@ -149,32 +149,32 @@ const Eigen::MatrixXd& BemSystem::bordered_inverse() const {
     return inverse_;
 }
 
-bool BemSystem::keeps(const LoadPlan& plan) const {
+bool BemSystem::keeps(const TractionSpace& space) const {
     const auto rows = 3 * static_cast<std::uint64_t>(n_nodes()) + 6;
-    return 8 * rows * static_cast<std::uint64_t>(plan.n_unknowns()) <= cache_budget_;
+    return 8 * rows * static_cast<std::uint64_t>(space.n_unknowns()) <= cache_budget_;
 }
 
-void BemSystem::visit_responses(const LoadPlan& plan, const std::function<void(const Columns&)>& visit,
+void BemSystem::visit_responses(const TractionSpace& space, const std::function<void(const Columns&)>& visit,
                                 Control& control) const {
     const auto row_bytes = 24 * (3 * static_cast<std::uint64_t>(n_nodes()) + 6);  // of a load, which has three columns
     const auto loads_at_once = std::max<std::uint64_t>(cache_budget_ / 2 / row_bytes, 64);
     cache_->drop_unused();
-    std::vector<const LoadPlan::Block*> group;
+    std::vector<const TractionSpace::Block*> group;
     std::uint64_t n_loads = 0;
-    for (const LoadPlan::Block& block : plan.blocks) {
+    for (const TractionSpace::Block& block : space.blocks) {
         group.push_back(&block);
         n_loads += static_cast<std::uint64_t>(std::max(block.n_slots, 1));
-        if (n_loads < loads_at_once && &block != &plan.blocks.back()) continue;
-        visit(Columns(compute(group, plan.elements.order, control)));
+        if (n_loads < loads_at_once && &block != &space.blocks.back()) continue;
+        visit(Columns(compute(group, space.elements.order, control)));
         group.clear();
         n_loads = 0;
     }
 }
 
-Columns BemSystem::responses(const LoadPlan& plan, Control& control) const {
+Columns BemSystem::responses(const TractionSpace& space, Control& control) const {
     std::vector<ColumnKey> keys;
-    std::map<ColumnKey, const LoadPlan::Block*> blocks;
-    for (const LoadPlan::Block& block : plan.blocks) {
+    std::map<ColumnKey, const TractionSpace::Block*> blocks;
+    for (const TractionSpace::Block& block : space.blocks) {
         keys.push_back(block.key);
         blocks[block.key] = &block;
     }
@@ -184,12 +184,12 @@ Columns BemSystem::responses(const LoadPlan& plan, Control& control) const {
     };
     return cache_->get(keys, bytes, [&](const std::vector<ColumnKey>& missing) {
         std::vector<Columns::Block> result;
-        std::vector<const LoadPlan::Block*> wanted;
+        std::vector<const TractionSpace::Block*> wanted;
         for (const ColumnKey& key : missing) {
             result.push_back(from_inverse(*blocks.at(key)));
             if (!result.back()) wanted.push_back(blocks.at(key));
         }
-        const std::vector<Columns::Block> computed = compute(wanted, plan.elements.order, control);
+        const std::vector<Columns::Block> computed = compute(wanted, space.elements.order, control);
         auto next = computed.begin();
         for (Columns::Block& block : result)
             if (!block) block = *next++;
@@ -197,12 +197,12 @@ Columns BemSystem::responses(const LoadPlan& plan, Control& control) const {
     });
 }
 
-Columns::Block BemSystem::from_inverse(const LoadPlan::Block& block) const {
+Columns::Block BemSystem::from_inverse(const TractionSpace::Block& block) const {
     if (!full_ || block.whole_node < 0) return nullptr;
     return std::make_shared<const Eigen::MatrixXd>(full_->operators->Khatinv.middleCols<3>(3 * block.whole_node));
 }
 
-std::vector<Columns::Block> BemSystem::compute(const std::vector<const LoadPlan::Block*>& missing,
+std::vector<Columns::Block> BemSystem::compute(const std::vector<const TractionSpace::Block*>& missing,
                                                Elements::Order order, Control& control) const {
     const Eigen::Index n = 3 * n_nodes();
     std::vector<Columns::Block> result;

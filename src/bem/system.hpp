@@ -64,12 +64,12 @@ public:
 
     /// Bytes of columns that are kept at most.
     std::uint64_t cache_budget() const { return cache_budget_; }
-    /// Whether the responses to a plan fit into what is kept.
-    bool keeps(const LoadPlan& plan) const;
-    /// Responses Hhat^-1 [G; 0] to the unit loads of a plan, then to its residuals; cached.
-    Columns responses(const LoadPlan& plan, Control& control) const;
+    /// Whether the responses to a space fit into what is kept.
+    bool keeps(const TractionSpace& space) const;
+    /// Responses Hhat^-1 [G; 0] to the unit loads of a space, then to its residuals; cached.
+    Columns responses(const TractionSpace& space, Control& control) const;
     /// The same, computed afresh, a group of columns at a time; none is kept.
-    void visit_responses(const LoadPlan& plan, const std::function<void(const Columns&)>& visit,
+    void visit_responses(const TractionSpace& space, const std::function<void(const Columns&)>& visit,
                          Control& control) const;
     /// X <- Hhat^-1 X.
     void solve_in_place(Eigen::Ref<Eigen::MatrixXd> X) const { lu_.solve_in_place(X); }
@@ -90,8 +90,8 @@ private:
     void factorise(Eigen::MatrixXd&& bordered, Control& control);
     void complete(Eigen::MatrixXd H, const Method& method, StageTimes& stages, Control& control);
     /// The columns of a whole shape function, out of K^-1; null when K^-1 is not in memory or does not have them.
-    Columns::Block from_inverse(const LoadPlan::Block& block) const;
-    std::vector<Columns::Block> compute(const std::vector<const LoadPlan::Block*>& missing, Elements::Order order,
+    Columns::Block from_inverse(const TractionSpace::Block& block) const;
+    std::vector<Columns::Block> compute(const std::vector<const TractionSpace::Block*>& missing, Elements::Order order,
                                         Control& control) const;
 
     const BoundaryElement& element_;

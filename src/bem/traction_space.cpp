@@ -18,34 +18,36 @@ Eigen::Vector3d first_moment(const Boundary& boundary, int t, int corner) {
     return boundary.area(t) / 12.0 * (V.col(v[0]) + V.col(v[1]) + V.col(v[2]) + V.col(v[corner]));
 }
 
-/// Adds blocks to a plan, numbering slots as it goes.
-class PlanBuilder {
+/// Adds blocks to a space, numbering slots as it goes.
+class TractionSpaceBuilder {
 public:
-    PlanBuilder(const Boundary& boundary, Elements::Order order) : boundary_(boundary) { plan_.elements.order = order; }
+    TractionSpaceBuilder(const Boundary& boundary, Elements::Order order) : boundary_(boundary) {
+        space_.elements.order = order;
+    }
 
-    void add_block(LoadPlan::Block block) {
+    void add_block(TractionSpace::Block block) {
         for (Elements::Element element : block.elements) {
             for (int& slot : element.slots)
-                if (slot >= 0) slot += plan_.elements.n_slots;
-            plan_.elements.elements.push_back(element);
+                if (slot >= 0) slot += space_.elements.n_slots;
+            space_.elements.elements.push_back(element);
         }
-        plan_.elements.n_slots += block.n_slots;
-        plan_.blocks.push_back(std::move(block));
+        space_.elements.n_slots += block.n_slots;
+        space_.blocks.push_back(std::move(block));
     }
 
     void share(int slot, int constrained, double weight, const Eigen::Vector3d& moment) {
-        plan_.shares.push_back({slot, constrained, weight, moment});
+        space_.shares.push_back({slot, constrained, weight, moment});
     }
     /// The share of a linear shape function of one triangle.
     void share_corner(int slot, int constrained, int t, int corner) {
         share(slot, constrained, boundary_.area(t) / 3.0, first_moment(boundary_, t, corner));
     }
-    int next_slot() const { return plan_.elements.n_slots; }
-    LoadPlan& plan() { return plan_; }
+    int next_slot() const { return space_.elements.n_slots; }
+    TractionSpace& space() { return space_; }
 
 private:
     const Boundary& boundary_;
-    LoadPlan plan_;
+    TractionSpace space_;
 };
 
 /// Which triangles a constrained set owns, and how each of them is treated.
@@ -98,9 +100,9 @@ std::vector<int> support_of_hat(const Patch& patch, Tractions tractions, int v) 
     return support;
 }
 
-void add_hat(PlanBuilder& builder, const Boundary& boundary, int vertex, int constrained,
+void add_hat(TractionSpaceBuilder& builder, const Boundary& boundary, int vertex, int constrained,
              const std::vector<int>& support, bool whole) {
-    LoadPlan::Block block{{kHat, vertex}, {}, 1, whole ? vertex : -1};
+    TractionSpace::Block block{{kHat, vertex}, {}, 1, whole ? vertex : -1};
     for (const int t : support) {
         const int corner = corner_of(boundary.mesh(), t, vertex);
         Elements::Element element{t, {-1, -1, -1}};
@@ -112,19 +114,19 @@ void add_hat(PlanBuilder& builder, const Boundary& boundary, int vertex, int con
     builder.add_block(std::move(block));
 }
 
-void add_triangle(PlanBuilder& builder, const Boundary& boundary, const Patch& patch, int t) {
+void add_triangle(TractionSpaceBuilder& builder, const Boundary& boundary, const Patch& patch, int t) {
     for (int corner = 0; corner < 3; ++corner)
         builder.share_corner(builder.next_slot() + corner, patch.number[index(boundary.mesh().triangles(corner, t))], t,
                              corner);
     builder.add_block({{kTriangle, t}, {{t, {0, 1, 2}}}, 3, -1});
-    builder.plan().interior_triangles.push_back(t);
+    builder.space().interior_triangles.push_back(t);
 }
 
 }  // namespace
 
-LoadPlan plan_constant_loads(const Boundary& boundary, const std::vector<int>& triangles,
-                             const Eigen::SparseMatrix<double, Eigen::RowMajor>& prescribe) {
-    PlanBuilder builder(boundary, Elements::Order::constant);
+TractionSpace constant_traction_space(const Boundary& boundary, const std::vector<int>& triangles,
+                                      const Eigen::SparseMatrix<double, Eigen::RowMajor>& prescribe) {
+    TractionSpaceBuilder builder(boundary, Elements::Order::constant);
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         const int t = triangles[i], slot = builder.next_slot();
         const Eigen::Vector3d centroid = Eigen::Map<const Eigen::Vector3d>(boundary.triangle(t).centroid);
@@ -135,27 +137,27 @@ LoadPlan plan_constant_loads(const Boundary& boundary, const std::vector<int>& t
         }
         builder.add_block({{kConstant, t}, {{t, {0, -1, -1}}}, 1, t});
     }
-    return std::move(builder.plan());
+    return std::move(builder.space());
 }
 
-LoadPlan plan_linear_loads(const Boundary& boundary, const VertexTriangles& triangles_of_vertex, Tractions tractions,
-                           std::span<const int> vertices) {
+TractionSpace linear_traction_space(const Boundary& boundary, const VertexTriangles& triangles_of_vertex,
+                                    Tractions tractions, std::span<const int> vertices) {
     Patch patch(boundary.mesh(), triangles_of_vertex, vertices);
     if (tractions == Tractions::discontinuous) patch.separate_rim(boundary.mesh(), vertices);
 
-    PlanBuilder builder(boundary, Elements::Order::linear);
+    TractionSpaceBuilder builder(boundary, Elements::Order::linear);
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         const std::vector<int> support = support_of_hat(patch, tractions, vertices[i]);
         if (support.empty())
-            builder.plan().dropped_collocation.push_back(vertices[i]);
+            builder.space().dropped_collocation.push_back(vertices[i]);
         else
             add_hat(builder, boundary, vertices[i], static_cast<int>(i), support,
                     support.size() == triangles_of_vertex[vertices[i]].size());
     }
     for (int t = 0; t < boundary.n_triangles(); ++t)
         if (patch.by_itself[index(t)]) add_triangle(builder, boundary, patch, t);
-    for (const int v : builder.plan().dropped_collocation) builder.add_block({{kResidual, v}, {}, 0, -1});
-    return std::move(builder.plan());
+    for (const int v : builder.space().dropped_collocation) builder.add_block({{kResidual, v}, {}, 0, -1});
+    return std::move(builder.space());
 }
 
 }  // namespace elastolab

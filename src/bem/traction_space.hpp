@@ -17,7 +17,7 @@ namespace elastolab {
 /// close it. Unknowns: a traction vector per slot of `elements`, then a free residual for every vertex in
 /// `dropped_collocation`. Equations: prescribed displacements at the nodes, and collocation at three interior points of
 /// every triangle in `interior_triangles`.
-struct LoadPlan {
+struct TractionSpace {
     Elements elements;
     std::vector<LoadShare> shares;
     std::vector<int> interior_triangles;
@@ -37,8 +37,8 @@ struct LoadPlan {
 };
 
 /// Constant elements: a traction per constrained triangle. `prescribe` rows say which vertices carry it.
-LoadPlan plan_constant_loads(const Boundary& boundary, const std::vector<int>& triangles,
-                             const Eigen::SparseMatrix<double, Eigen::RowMajor>& prescribe);
+TractionSpace constant_traction_space(const Boundary& boundary, const std::vector<int>& triangles,
+                                      const Eigen::SparseMatrix<double, Eigen::RowMajor>& prescribe);
 
 /// Linear elements under one of the three traction models.
 ///   continuous     a hat function per vertex
@@ -46,7 +46,7 @@ LoadPlan plan_constant_loads(const Boundary& boundary, const std::vector<int>& t
 ///   discontinuous  as restricted inside a patch; on the triangles that touch its rim, where the tractions are
 ///                  singular, linear functions of each triangle by itself
 /// A vertex with no triangle of its own keeps its whole hat in all three.
-LoadPlan plan_linear_loads(const Boundary& boundary, const VertexTriangles& triangles_of_vertex, Tractions tractions,
-                           std::span<const int> vertices);
+TractionSpace linear_traction_space(const Boundary& boundary, const VertexTriangles& triangles_of_vertex,
+                                    Tractions tractions, std::span<const int> vertices);
 
 }  // namespace elastolab

@@ -74,9 +74,9 @@ FemModel::FemModel(const FemModel& before, double poisson_ratio, const Method& m
         facts_.stages.clear();
         system_ = before.system_;
         operators_ = before.operators_;
-        const std::scoped_lock lock(before.grounded_mutex_);
+        const std::scoped_lock lock(before.factorised_mutex_);
         free_body_ = before.free_body_;
-        grounded_body_ = before.grounded_body_;
+        factorised_body_ = before.factorised_body_;
     } else {
         precompute(poisson_ratio, control);
     }
@@ -110,11 +110,11 @@ void FemModel::precompute(double poisson_ratio, Control& control) {
     operators_ = std::move(operators);
 }
 
-std::shared_ptr<const GroundedBody> FemModel::grounded_on(std::span<const int> base, Control& control) const {
+std::shared_ptr<const FactorisedBody> FemModel::factorised_on(std::span<const int> base, Control& control) const {
     const std::vector<int> wanted(base.begin(), base.end());
-    const std::scoped_lock lock(grounded_mutex_);
-    std::shared_ptr<const GroundedBody>& body = wanted.empty() ? free_body_ : grounded_body_;
-    if (!body || body->base() != wanted) body = std::make_shared<const GroundedBody>(system_, wanted, control);
+    const std::scoped_lock lock(factorised_mutex_);
+    std::shared_ptr<const FactorisedBody>& body = wanted.empty() ? free_body_ : factorised_body_;
+    if (!body || body->base() != wanted) body = std::make_shared<const FactorisedBody>(system_, wanted, control);
     return body;
 }
 
@@ -186,9 +186,9 @@ std::unique_ptr<ConstrainedSolid> FemModel::constrain_dense(ConstrainedFemNodes 
 std::unique_ptr<ConstrainedSolid> FemModel::constrain_reduced(ConstrainedFemNodes constrained, Control& control) const {
     const std::vector<int>& nodes = constrained.prescribed.nodes;
     const int n_eliminated = holds(system_->positions(), constrained.base()) ? constrained.n_base : 0;
-    const auto body = grounded_on(std::span(nodes).first(static_cast<std::size_t>(n_eliminated)), control);
-    auto solver =
-        std::make_unique<GroundedSolver>(body, std::vector<int>(nodes.begin() + n_eliminated, nodes.end()), control);
+    const auto body = factorised_on(std::span(nodes).first(static_cast<std::size_t>(n_eliminated)), control);
+    auto solver = std::make_unique<FactorisedBodySolver>(
+        body, std::vector<int>(nodes.begin() + n_eliminated, nodes.end()), control);
     const auto residual = [body, nodes](const NodeSolution& solution, Control&) {
         Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(solution.displacements.rows(), 1);
         set_prescribed(nodes, solution.loads, loads);

@@ -41,7 +41,7 @@ private:
     ConstrainedFemNodes nodes_of(std::span<const int> base, std::span<const int> handles) const;
     std::unique_ptr<ConstrainedSolid> make_solid(ConstrainedFemNodes nodes, std::unique_ptr<NodeSolver> solver,
                                                  SolutionChecks checks) const;
-    std::shared_ptr<const GroundedBody> grounded_on(std::span<const int> base, Control& control) const;
+    std::shared_ptr<const FactorisedBody> factorised_on(std::span<const int> base, Control& control) const;
 
     Method method_;
     double poisson_ratio_ = 0.0;
@@ -49,8 +49,8 @@ private:
     std::shared_ptr<const FemSystem> system_;
     std::shared_ptr<const DenseOperators> operators_;  ///< modes full and full_volume
     /// On demand: the body free, and grounded on the base asked for last.
-    mutable std::mutex grounded_mutex_;
-    mutable std::shared_ptr<const GroundedBody> free_body_, grounded_body_;
+    mutable std::mutex factorised_mutex_;
+    mutable std::shared_ptr<const FactorisedBody> free_body_, factorised_body_;
 };
 
 /// MethodTraits::precompute of elements of this degree: takes over the tetrahedra of a model of the same degree.

@@ -16,7 +16,7 @@ constexpr std::uint64_t kCacheBudget = 512ull << 20;
 /// Columns are copied from strips of these into the blocks that are kept.
 constexpr std::size_t kVerticesAtOnce = 128;
 
-ReducedSystem reduced_system(const GroundedBody& body, const std::vector<int>& vertices, Control& control) {
+ReducedSystem reduced_system(const FactorisedBody& body, const std::vector<int>& vertices, Control& control) {
     const Eigen::MatrixXd& R = body.compliance().rigid();
     ReducedSystem reduced;
     reduced.responses = std::make_shared<const KeptResponses>(body.responses(vertices, control));
@@ -51,14 +51,14 @@ FemMesh make_fem_mesh(TetMesh tets, ElementDegree degree, Control& control) {
     return mesh;
 }
 
-GroundedBody::GroundedBody(std::shared_ptr<const FemSystem> system, std::vector<int> base, Control& control)
+FactorisedBody::FactorisedBody(std::shared_ptr<const FemSystem> system, std::vector<int> base, Control& control)
     : system_(std::move(system)),
       base_(std::move(base)),
       compliance_(system_->K, *system_->mesh->analysis, system_->positions(), system_->n_surface(), base_, control),
       reciprocal_condition_(compliance_.reciprocal_condition()),
       cache_(kCacheBudget) {}
 
-Columns GroundedBody::responses(const std::vector<int>& vertices, Control& control) const {
+Columns FactorisedBody::responses(const std::vector<int>& vertices, Control& control) const {
     std::vector<ColumnKey> keys;
     for (const int v : vertices) keys.push_back({v});
     const auto block_bytes = 24 * static_cast<std::uint64_t>(3 * system_->n_surface() + compliance_.rigid().cols());
@@ -75,8 +75,8 @@ Columns GroundedBody::responses(const std::vector<int>& vertices, Control& contr
         });
 }
 
-void GroundedBody::add_blocks(std::span<const int> vertices, std::vector<Columns::Block>& blocks,
-                              Control& control) const {
+void FactorisedBody::add_blocks(std::span<const int> vertices, std::vector<Columns::Block>& blocks,
+                                Control& control) const {
     const Eigen::MatrixXd columns = compliance_.columns(vertices, control);
     const Eigen::MatrixXd& R = compliance_.rigid();
     for (std::size_t i = 0; i < vertices.size(); ++i) {
@@ -87,7 +87,8 @@ void GroundedBody::add_blocks(std::span<const int> vertices, std::vector<Columns
     }
 }
 
-Eigen::MatrixXd GroundedBody::volume_displacements(const Eigen::MatrixXd& surface, const Eigen::MatrixXd& loads) const {
+Eigen::MatrixXd FactorisedBody::volume_displacements(const Eigen::MatrixXd& surface,
+                                                     const Eigen::MatrixXd& loads) const {
     Eigen::MatrixXd u = compliance_.volume_response(loads);
     if (compliance_.rigid().cols() > 0) {
         // The response is right up to a rigid motion, which the surface tells.
@@ -99,7 +100,8 @@ Eigen::MatrixXd GroundedBody::volume_displacements(const Eigen::MatrixXd& surfac
     return u;
 }
 
-GroundedSolver::GroundedSolver(std::shared_ptr<const GroundedBody> body, std::vector<int> vertices, Control& control)
+FactorisedBodySolver::FactorisedBodySolver(std::shared_ptr<const FactorisedBody> body, std::vector<int> vertices,
+                                           Control& control)
     : body_(std::move(body)),
       vertices_(std::move(vertices)),
       reduced_(reduced_system(*body_, vertices_, control), control) {
@@ -107,7 +109,7 @@ GroundedSolver::GroundedSolver(std::shared_ptr<const GroundedBody> body, std::ve
     held_ = reduced_.held();
 }
 
-NodeSolution GroundedSolver::solve(const Eigen::MatrixXd& prescribed, bool want_loads) const {
+NodeSolution FactorisedBodySolver::solve(const Eigen::MatrixXd& prescribed, bool want_loads) const {
     const Eigen::Index n_base = 3 * std::ssize(body_->base());
     NodeSolution solution = reduced_.solve(prescribed.bottomRows(prescribed.rows() - n_base), want_loads);
     if (!want_loads || n_base == 0) return solution;

@@ -47,9 +47,9 @@ struct FemSystem {
 };
 
 /// The body factorised with a base eliminated (or free), and the columns of its surface compliance so far.
-class GroundedBody {
+class FactorisedBody {
 public:
-    GroundedBody(std::shared_ptr<const FemSystem> system, std::vector<int> base, Control& control);
+    FactorisedBody(std::shared_ptr<const FemSystem> system, std::vector<int> base, Control& control);
 
     const FemSystem& system() const { return *system_; }
     const std::vector<int>& base() const { return base_; }
@@ -73,14 +73,14 @@ private:
 
 /// Eqn. (9') on a grounded body: the small system of the vertices that are not eliminated. Its loads are nodal forces
 /// at the base, then at these vertices.
-class GroundedSolver : public NodeSolver {
+class FactorisedBodySolver : public NodeSolver {
 public:
-    GroundedSolver(std::shared_ptr<const GroundedBody> body, std::vector<int> vertices, Control& control);
+    FactorisedBodySolver(std::shared_ptr<const FactorisedBody> body, std::vector<int> vertices, Control& control);
     /// prescribed: the base (zero) first, then the vertices
     NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const override;
 
 private:
-    std::shared_ptr<const GroundedBody> body_;
+    std::shared_ptr<const FactorisedBody> body_;
     std::vector<int> vertices_;
     ReducedSolver reduced_;
 };

@@ -144,9 +144,9 @@ void change_set(benchmark::State& state, const std::vector<int>& vertices) {
     const Body body = make_body(cube());
     const LuFactorization lu(Eigen::MatrixXd(bordered_matrix()), "H");
     const Boundary boundary(cube());
-    const LoadPlan plan = plan_linear_loads(boundary, VertexTriangles(cube()), method.tractions, vertices);
-    const Eigen::Index unknowns = 3 * plan.n_slots() + 3 * std::ssize(plan.dropped_collocation);
-    const Eigen::MatrixXd rows = Eigen::MatrixXd::Ones(9 * std::ssize(plan.interior_triangles), lu.size());
+    const TractionSpace space = linear_traction_space(boundary, VertexTriangles(cube()), method.tractions, vertices);
+    const Eigen::Index unknowns = 3 * space.n_slots() + 3 * std::ssize(space.dropped_collocation);
+    const Eigen::MatrixXd rows = Eigen::MatrixXd::Ones(9 * std::ssize(space.interior_triangles), lu.size());
     std::shared_ptr<const Model> model;
     compare(
         state, 2.0,

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "base/blas.hpp"
+#include "deform/holds.hpp"
 #include "elasticity/rigid_motion.hpp"
 #include "fem/fem_body.hpp"
 

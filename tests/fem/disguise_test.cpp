@@ -56,7 +56,9 @@ TEST_P(Disguise, DoesNotChangeDisplacements) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Degrees, Disguise, testing::Values(ElementDegree::linear, ElementDegree::quadratic),
-                         [](const auto& info) { return info.param == ElementDegree::linear ? "linear" : "quadratic"; });
+                         [](const auto& parameter) {
+                             return parameter.param == ElementDegree::linear ? "linear" : "quadratic";
+                         });
 
 }  // namespace
 }  // namespace elastolab

@@ -24,13 +24,13 @@ struct StretchedCube {
           constraints(
               element.constrain(system.boundary(), system.triangles_of_vertex(), method.tractions, {}, left_and_right)),
           nodes(constraints.nodes),
-          plan(constraints.plan) {
+          space(constraints.space) {
         Eigen::VectorXd values = Eigen::VectorXd::Zero(3 * std::ssize(left_and_right));
         for (std::size_t i = 0; i < left_and_right.size(); ++i)
             values[3 * static_cast<Eigen::Index>(i)] = mesh.vertices(0, left_and_right[i]);
-        solution = MixedSolver(system, plan, nodes.nodes, 0, control).solve(nodes.prescribe * values, true);
+        solution = MixedSolver(system, space, nodes.nodes, 0, control).solve(nodes.prescribe * values, true);
     }
-    double residual() { return boundary_residual(system, plan, solution, control); }
+    double residual() { return boundary_residual(system, space, solution, control); }
 
     Control control;
     StageTimes stages;
@@ -40,7 +40,7 @@ struct StretchedCube {
     BemSystem system;
     BemConstraints constraints;
     ConstrainedNodes& nodes;
-    LoadPlan& plan;
+    TractionSpace& space;
     NodeSolution solution;
 };
 

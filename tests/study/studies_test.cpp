@@ -3,11 +3,11 @@
 #include "mesh/primitives.hpp"
 #include "methods/registry.hpp"
 #include "study/error/error_frontier.hpp"
-#include "study/paper/paper_way.hpp"
+#include "study/paper/paper_procedure.hpp"
 #include "study/runner.hpp"
 #include "study/setups.hpp"
-#include "study/stability/stress.hpp"
-#include "study/stability/stress_edits.hpp"
+#include "study/stability/trial_edits.hpp"
+#include "study/stability/trials.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace elastolab::test {
@@ -115,10 +115,10 @@ TEST(Frontier, FindsTheFastestBetweenTheSizes) {
     EXPECT_EQ(best[2].variant, "linear-bem");
 }
 
-TEST(Stress, SaysRightToldAndRefused) {
+TEST(StabilityTrial, SaysRightToldAndRefused) {
     Control control;
     const auto group = [](const std::string& name) {
-        for (const StressGroup& one : stress_groups(false))
+        for (const TrialGroup& one : trial_groups(false))
             if (one.name == name) return one;
         throw std::logic_error(name);
     };
@@ -131,9 +131,9 @@ TEST(Stress, SaysRightToldAndRefused) {
     EXPECT_EQ(attempt(group("two-bodies").make(-0.1), fem, control).text("outcome"), "refused");
 }
 
-TEST(Stress, SurvivesRandomEdits) {
+TEST(StabilityTrial, SurvivesRandomEdits) {
     Control control;
-    for (const StressVariant& variant : stress_variants()) {
+    for (const TrialVariant& variant : trial_variants()) {
         const Row row = random_edits(variant.method, 60, 6, 1, control);
         EXPECT_EQ(row.text("outcome"), "right") << variant.name << " " << row.text("error");
         EXPECT_GT(row.number("checks"), 0.0);

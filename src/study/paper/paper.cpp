@@ -7,8 +7,8 @@
 #include "methods/precompute.hpp"
 #include "methods/registry.hpp"
 #include "study/paper/paper_picture.hpp"
+#include "study/paper/paper_procedure.hpp"
 #include "study/paper/paper_report.hpp"
-#include "study/paper/paper_way.hpp"
 #include "study/report/statistics.hpp"
 #include "study/setups.hpp"
 #include "study/study.hpp"
@@ -31,7 +31,7 @@ double disagreement(const std::vector<PaperUpdate>& updates) {
     return worst;
 }
 
-std::vector<Row> measure_paper_way(MethodKind kind, int cells, unsigned seed, Control& control) {
+std::vector<Row> measure_paper_procedure(MethodKind kind, int cells, unsigned seed, Control& control) {
     const Body body = cube(cells);
     PaperSystem system;
     std::vector<double> seconds;
@@ -85,7 +85,7 @@ std::vector<int> choose_vertices(const SurfaceMesh& mesh, MethodKind kind, doubl
 
 /// On demand: BEM factorises ahead, FEM when a set is there; the columns of the known vertices when they are chosen;
 /// the drag response. Columns are kept whatever memory they take.
-std::vector<Row> measure_our_way(MethodKind kind, int cells, unsigned seed, Control& control) {
+std::vector<Row> measure_our_procedure(MethodKind kind, int cells, unsigned seed, Control& control) {
     const Body body = cube(cells);
     const int n = body.surface->n_vertices();
     const Method method{.kind = kind, .column_memory = std::uint64_t{1} << 33};
@@ -141,21 +141,21 @@ std::vector<Row> measure_artefact(MethodKind kind, int cells, Control& control) 
 }
 
 /// Cells along an edge of the cube, so that each method reaches the paper's sizes and the cheaper ones go on.
-std::vector<int> sizes(MethodKind kind, bool paper_way, bool quick) {
+std::vector<int> sizes(MethodKind kind, bool paper_procedure, bool quick) {
     if (quick) return {2, 3, 4, 5, 6};
     std::vector<int> cells = {2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13};
-    if (kind == kLinearBem || !paper_way) cells.insert(cells.end(), {14, 16});
-    if (kind != kLinearBem && paper_way) cells.insert(cells.end(), {14, 15});  // around the crossing
-    if (kind == kFem && !paper_way) cells.insert(cells.end(), {20, 26});
+    if (kind == kLinearBem || !paper_procedure) cells.insert(cells.end(), {14, 16});
+    if (kind != kLinearBem && paper_procedure) cells.insert(cells.end(), {14, 15});  // around the crossing
+    if (kind == kFem && !paper_procedure) cells.insert(cells.end(), {20, 26});
     return cells;
 }
 
 /// Nodes cubed, plus what every case costs.
-double weight_of(MethodKind kind, int cells, bool paper_way) {
+double weight_of(MethodKind kind, int cells, bool paper_procedure) {
     const double vertices = 6.0 * cells * cells, inside = (cells - 1.0) * (cells - 1.0) * (cells - 1.0);
     const double nodes = kind == kFem ? vertices + inside : kind == kConstantBem ? 2.0 * vertices : vertices;
-    if (kind == kFem && !paper_way) return 1.0 + 1e-3 * nodes;
-    return 1.0 + (paper_way ? 4e-9 : 4e-10) * nodes * nodes * nodes;
+    if (kind == kFem && !paper_procedure) return 1.0 + 1e-3 * nodes;
+    return 1.0 + (paper_procedure ? 4e-9 : 4e-10) * nodes * nodes * nodes;
 }
 
 void add_case(std::vector<Case>& cases, const std::string& way, MethodKind kind, int cells, double weight,
@@ -175,10 +175,10 @@ Study make_paper_study(const StudyOptions& options) {
     for (const MethodKind kind : paper_methods()) {
         for (const int cells : sizes(kind, true, options.quick))
             add_case(study.cases, "paper", kind, cells, weight_of(kind, cells, true),
-                     [=](Control& control) { return measure_paper_way(kind, cells, options.seed, control); });
+                     [=](Control& control) { return measure_paper_procedure(kind, cells, options.seed, control); });
         for (const int cells : sizes(kind, false, options.quick))
             add_case(study.cases, "ours", kind, cells, weight_of(kind, cells, false),
-                     [=](Control& control) { return measure_our_way(kind, cells, options.seed, control); });
+                     [=](Control& control) { return measure_our_procedure(kind, cells, options.seed, control); });
         const int cells = options.quick ? 4 : 8;
         add_case(study.cases, "fig1", kind, cells, 0.5,
                  [=](Control& control) { return measure_artefact(kind, cells, control); });

@@ -4,8 +4,8 @@
 #include "base/error.hpp"
 #include "study/report/report.hpp"
 #include "study/stability/stability_report.hpp"
-#include "study/stability/stress.hpp"
-#include "study/stability/stress_edits.hpp"
+#include "study/stability/trial_edits.hpp"
+#include "study/stability/trials.hpp"
 #include "study/study.hpp"
 
 namespace elastolab {
@@ -19,9 +19,9 @@ std::string shortest(double value) {
 }
 
 void add_sweeps(std::vector<Case>& cases, bool quick) {
-    for (const StressGroup& group : stress_groups(quick))
+    for (const TrialGroup& group : trial_groups(quick))
         for (const double level : group.levels)
-            for (const StressVariant& variant : stress_variants()) {
+            for (const TrialVariant& variant : trial_variants()) {
                 const Row id =
                     Row().set("group", group.name).set("level", shortest(level)).set("variant", variant.name);
                 cases.push_back({id, 1.0, [=](Control& control) {
@@ -45,7 +45,7 @@ Row or_failed(const std::function<Row()>& work, Control& control) {
 void add_edits(std::vector<Case>& cases, const StudyOptions& options) {
     const int n_edits = options.quick ? 100 : 20000, n_checks = options.quick ? 10 : 200;
     const int most = options.quick ? 3 : 8;
-    for (const StressVariant& variant : stress_variants()) {
+    for (const TrialVariant& variant : trial_variants()) {
         const Row id = Row().set("group", std::string("edits")).set("level", n_edits).set("variant", variant.name);
         cases.push_back({id, options.quick ? 2.0 : 100.0, [=](Control& control) {
                              const auto edit = [&] {

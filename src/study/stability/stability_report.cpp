@@ -5,7 +5,7 @@
 
 #include "methods/registry.hpp"
 #include "study/report/report.hpp"
-#include "study/stability/stress.hpp"
+#include "study/stability/trials.hpp"
 
 namespace elastolab {
 
@@ -49,7 +49,7 @@ std::string group_table(const Table& table, const std::string& group) {
 }
 
 std::string heading(const Table& table, const std::string& group) {
-    const auto& groups = stress_groups(false);
+    const auto& groups = trial_groups(false);
     const auto found = std::find_if(groups.begin(), groups.end(), [&](const auto& g) { return g.name == group; });
     const std::string parameter = table.where({{"group", group}}).rows.front().text("parameter");
     const std::string what = found != groups.end() ? found->what
@@ -85,14 +85,14 @@ std::string edit_findings(const Table& table) {
 }
 
 Plot sweep_plot(const Table& table, const std::string& group, bool log_x) {
-    Plot plot{.name = "stability-" + group, .title = "Error under stress: " + group};
+    Plot plot{.name = "stability-" + group, .title = "Error in the trial: " + group};
     plot.caption = "Against the exact solution; where a method was refused there is no point.";
     plot.x_label = table.where({{"group", group}}).rows.front().text("parameter");
     plot.y_label = "largest error / largest displacement";
     plot.log_x = log_x;
     plot.log_y = true;
     plot.extra = "set yrange [1e-16:*]";
-    for (const StressVariant& variant : stress_variants()) {
+    for (const TrialVariant& variant : trial_variants()) {
         const int color = variant.name == "linear-bem restricted"   ? 3
                           : variant.name == "linear-bem continuous" ? 4
                                                                     : method_color(variant.name);

@@ -4,7 +4,7 @@
 
 namespace elastolab {
 
-/// The stress table: for every sweep and method how far it stays right, and what is said beyond.
+/// The stability table: for every sweep and method how far it stays right, and what is said beyond.
 Conclusions conclude_stability(const Table& table);
 
 }  // namespace elastolab

@@ -1,4 +1,4 @@
-#include "study/stability/stress_edits.hpp"
+#include "study/stability/trial_edits.hpp"
 
 #include <algorithm>
 #include <random>

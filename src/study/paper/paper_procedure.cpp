@@ -1,4 +1,4 @@
-#include "study/paper/paper_way.hpp"
+#include "study/paper/paper_procedure.hpp"
 
 #include <optional>
 

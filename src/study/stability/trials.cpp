@@ -1,4 +1,4 @@
-#include "study/stability/stress.hpp"
+#include "study/stability/trials.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -34,7 +34,7 @@ std::string outcome(double error, double allowed, const std::vector<std::string>
 
 }  // namespace
 
-std::vector<StressVariant> stress_variants() {
+std::vector<TrialVariant> trial_variants() {
     const auto linear = [](Tractions tractions) { return Method{.kind = kLinearBem, .tractions = tractions}; };
     return {{"fem", {.kind = kFem}},
             {"constant-bem", {.kind = kConstantBem}},

@@ -12,7 +12,7 @@
 namespace elastolab {
 
 /// Something done to a scene, harder from level to level; the first is harmless.
-struct StressGroup {
+struct TrialGroup {
     std::string name;
     std::string what;       ///< one line for the report
     std::string parameter;  ///< what the levels are
@@ -21,14 +21,14 @@ struct StressGroup {
     std::function<Problem(double level)> make;
 };
 
-const std::vector<StressGroup>& stress_groups(bool quick);
+const std::vector<TrialGroup>& trial_groups(bool quick);
 
 /// A method with its tractions, by the name that the tables use.
-struct StressVariant {
+struct TrialVariant {
     std::string name;
     Method method;
 };
-std::vector<StressVariant> stress_variants();
+std::vector<TrialVariant> trial_variants();
 
 /// Largest error of a vertex, over the largest displacement, up to which an answer counts as right: 10 %, and 25 % for
 /// constant BEM, whose elements are of first order. The eye would hardly notice less.

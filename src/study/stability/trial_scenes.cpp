@@ -8,7 +8,7 @@
 #include "elasticity/rigid_motion.hpp"
 #include "mesh/primitives.hpp"
 #include "study/setups.hpp"
-#include "study/stability/stress.hpp"
+#include "study/stability/trials.hpp"
 
 namespace elastolab {
 
@@ -29,7 +29,7 @@ Problem ends_prescribed(SurfaceMesh mesh, const Field& field, double length) {
     Problem problem;
     problem.truth = displacements(field, mesh.vertices);
     problem.constrained = vertices_where(mesh, [=](const auto& x) { return at_end(x, length); });
-    problem.body = study_body(std::move(mesh), field.material, "stressed body");
+    problem.body = study_body(std::move(mesh), field.material, "body on trial");
     return problem;
 }
 
@@ -115,7 +115,7 @@ Problem far_away(double distance) {
     Problem problem;
     problem.truth = displacements(PureBending{kMaterial, 1.0}, near.vertices);
     problem.constrained = vertices_where(near, [](const auto& x) { return x[0] < 0.1 || x[0] > 1.9; });
-    problem.body = study_body(std::move(mesh), kMaterial, "stressed body");
+    problem.body = study_body(std::move(mesh), kMaterial, "body on trial");
     return problem;
 }
 
@@ -133,7 +133,7 @@ Problem close_handles(double distance) {
     mesh.vertices.col(b) = mesh.vertices.col(a) + Eigen::Vector3d(distance, 0, 0);
     problem.truth = displacements(UniaxialStretch{kMaterial, 1.0}, mesh.vertices);
     problem.constrained.insert(problem.constrained.end(), {a, b});
-    problem.body = study_body(std::move(mesh), kMaterial, "stressed body");
+    problem.body = study_body(std::move(mesh), kMaterial, "body on trial");
     return problem;
 }
 
@@ -151,7 +151,7 @@ Problem barely_held(double distance) {
     Problem problem;
     problem.truth = rigid_motion(mesh.vertices, {0.1, 0.0, 0.2}, {0.3, -0.2, 0.5});
     problem.constrained = held;
-    problem.body = study_body(std::move(mesh), kMaterial, "stressed body");
+    problem.body = study_body(std::move(mesh), kMaterial, "body on trial");
     return problem;
 }
 
@@ -166,7 +166,7 @@ Problem few_held(double n) {
         problem.constrained.push_back(static_cast<int>(v));
     }
     problem.truth = rigid_motion(mesh.vertices, {0.1, 0.0, 0.2}, {0.3, -0.2, 0.5});
-    problem.body = study_body(mesh, kMaterial, "stressed body");
+    problem.body = study_body(mesh, kMaterial, "body on trial");
     return problem;
 }
 
@@ -203,7 +203,7 @@ Problem two_bodies(double gap) {
         problem.truth.segment<3>(3 * v) = field.displacement(x);
         if (at_end(x, 1.0)) problem.constrained.push_back(v);
     }
-    problem.body = study_body(std::move(mesh), kMaterial, "stressed body");
+    problem.body = study_body(std::move(mesh), kMaterial, "body on trial");
     return problem;
 }
 
@@ -220,7 +220,7 @@ Problem nested(double radius) {
         problem.truth.segment<3>(3 * v) = in_shell ? Eigen::Vector3d(0.1, 0, 0) : Eigen::Vector3d(0, 0.2, 0);
         if (mesh.vertices(0, v) < (in_shell ? -0.5 : -0.5 * radius)) problem.constrained.push_back(v);
     }
-    problem.body = study_body(std::move(mesh), kMaterial, "stressed body");
+    problem.body = study_body(std::move(mesh), kMaterial, "body on trial");
     return problem;
 }
 
@@ -236,7 +236,7 @@ Problem stiff(double young_modulus) {
     return problem;
 }
 
-std::vector<StressGroup> all_groups() {
+std::vector<TrialGroup> all_groups() {
     return {
         {"nu-to-half",
          "bending bar, Poisson's ratio towards 1/2",
@@ -317,11 +317,11 @@ std::vector<StressGroup> all_groups() {
 
 }  // namespace
 
-const std::vector<StressGroup>& stress_groups(bool quick) {
-    static const std::vector<StressGroup> all = all_groups();
-    static const std::vector<StressGroup> few = [] {
-        std::vector<StressGroup> groups = all_groups();
-        for (StressGroup& group : groups) {  // the first, the middle and the last level
+const std::vector<TrialGroup>& trial_groups(bool quick) {
+    static const std::vector<TrialGroup> all = all_groups();
+    static const std::vector<TrialGroup> few = [] {
+        std::vector<TrialGroup> groups = all_groups();
+        for (TrialGroup& group : groups) {  // the first, the middle and the last level
             const std::vector<double> levels = group.levels;
             const bool costly = group.name == "graded";
             group.levels = {levels.front(), levels[levels.size() / 2]};
