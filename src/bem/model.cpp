@@ -10,12 +10,12 @@ namespace elastolab {
 namespace {
 
 bool same_system(const Method& a, const Method& b) {
-    return a.kind == b.kind && a.mode == b.mode && a.integral_tolerance == b.integral_tolerance &&
+    return a.kind == b.kind && a.mode == b.mode && integral_tolerance(a) == integral_tolerance(b) &&
            a.column_memory == b.column_memory && factorises_ahead(a) == factorises_ahead(b);
 }
 
 bool same_integrals(const Method& a, const Method& b) {
-    return a.kind == b.kind && a.integral_tolerance == b.integral_tolerance;
+    return a.kind == b.kind && integral_tolerance(a) == integral_tolerance(b);
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ BemSystem::BemSystem(const BoundaryElement& element, std::shared_ptr<const Bound
     : element_(element),
       boundary_(std::move(boundary)),
       material_{1.0, poisson_ratio},
-      tolerance_(method.integral_tolerance),
+      tolerance_(integral_tolerance(method)),
       triangles_of_vertex_(boundary_->mesh()),
       nodes_(element.nodes(*boundary_)),
       elements_(element.shape_functions(*boundary_)),

@@ -69,6 +69,7 @@ struct MethodTraits {
     bool takes_incompressible = true;    ///< Poisson's ratio 1/2 itself
     bool K_takes_incompressible = true;  ///< so do K and the updates that need it (direct and eqn9 in the mode full)
     bool locks = false;                  ///< errors grow without bound as Poisson's ratio nears 1/2
+    double integral_tolerance = 0.0;     ///< Method::integral_tolerance where it is not chosen
     bool integrates_boundary = false;    ///< slivers, thin walls and slender bodies cost accuracy (src/findings)
     /// Estimated relative error of the worst vertex above which the user should know; none where there is no estimate.
     std::optional<double> error_to_tell = {};
@@ -92,8 +93,9 @@ struct Method {
     Mode mode = Mode::on_demand;
     Tractions tractions = Tractions::discontinuous;
     Update update = Update::reduced;
-    /// BEM: relative error allowed to a boundary integral; decides where Gauss rules replace closed forms.
-    double integral_tolerance = 1e-10;
+    /// BEM: relative error allowed to a boundary integral; decides which rule is used where. 0: that of the method
+    /// (MethodTraits::integral_tolerance).
+    double integral_tolerance = 0.0;
     /// BEM: keep the material-free integrals (1.1 times the memory of the matrix itself), so that another Poisson's
     /// ratio integrates nothing.
     bool keep_integrals = false;
@@ -101,6 +103,11 @@ struct Method {
     /// eighth of the matrix and 40 MiB on demand, one matrix and 40 MiB in the mode `full`.
     std::optional<std::uint64_t> column_memory = {};
 };
+
+/// Relative error allowed to a boundary integral.
+inline double integral_tolerance(const Method& method) {
+    return method.integral_tolerance > 0.0 ? method.integral_tolerance : method.kind->integral_tolerance;
+}
 
 bool has(MethodKind kind, Mode mode);
 bool has(MethodKind kind, Update update);

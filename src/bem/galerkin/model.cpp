@@ -13,7 +13,7 @@ std::vector<int> joined(std::span<const int> base, std::span<const int> handles)
 }
 
 bool same_system(const Method& a, const Method& b) {
-    return a.mode == b.mode && a.integral_tolerance == b.integral_tolerance && a.column_memory == b.column_memory &&
+    return a.mode == b.mode && integral_tolerance(a) == integral_tolerance(b) && a.column_memory == b.column_memory &&
            factorises_ahead(a) == factorises_ahead(b);
 }
 
@@ -26,7 +26,7 @@ GalerkinModel::GalerkinModel(const SurfaceMesh& surface, double poisson_ratio, c
         system_ = before->system_;
     } else {
         const bool same_integrals =
-            before != nullptr && before->method_.integral_tolerance == method.integral_tolerance;
+            before != nullptr && integral_tolerance(before->method_) == integral_tolerance(method);
         auto boundary =
             before != nullptr ? before->system_->shared_boundary() : std::make_shared<const Boundary>(surface);
         system_ = std::make_shared<const GalerkinSystem>(std::move(boundary), poisson_ratio, method,

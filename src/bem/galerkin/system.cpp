@@ -60,7 +60,7 @@ GalerkinSystem::GalerkinSystem(std::shared_ptr<const Boundary> boundary, double 
                                std::shared_ptr<const HypersingularParts> parts, StageTimes& stages, Control& control)
     : boundary_(std::move(boundary)),
       material_{1.0, poisson_ratio},
-      tolerance_(std::max(method.integral_tolerance, 1e-13)),
+      tolerance_(integral_tolerance(method)),
       surfaces_(boundary_->mesh()),
       body_modes_(rigid_modes(boundary_->mesh().vertices)),
       parts_(std::move(parts)),
