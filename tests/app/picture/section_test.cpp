@@ -42,11 +42,7 @@ protected:
 };
 
 TEST_F(CutOpen, WhatIsCutAwayIsNotPointedAt) {
-<<<<<<< HEAD:tests/app/section_test.cpp
-    ASSERT_TRUE(stage.state.body(kFem)->section());
-=======
     ASSERT_TRUE(stage.state.shown.body(kFem)->section());
->>>>>>> h/app:tests/app/picture/section_test.cpp
     stage.move(stage.pixel(kept));
     EXPECT_EQ(stage.hovered(), kept);
     stage.move(stage.pixel(gone));
@@ -61,17 +57,10 @@ TEST_F(CutOpen, StaysOpenWhenTheModelIsCompleted) {
     stage.state.choices.complete_up_to = 2000;
     do {
         stage.frame();
-<<<<<<< HEAD:tests/app/section_test.cpp
-        EXPECT_TRUE(stage.state.body(kFem)->section());
-    } while (stage.state.simulation.busy());
-    EXPECT_TRUE(stage.state.simulation.runner(kFem).has_inverse());
-    EXPECT_FALSE(stage.state.cutting());
-=======
         EXPECT_TRUE(stage.state.shown.body(kFem)->section());
     } while (stage.state.simulation.busy());
     EXPECT_TRUE(stage.state.simulation.runner(kFem).has_inverse());
     EXPECT_FALSE(stage.state.shown.cutting());
->>>>>>> h/app:tests/app/picture/section_test.cpp
 }
 
 TEST_F(CutOpen, TheCutAppearsByItself) {
@@ -79,28 +68,17 @@ TEST_F(CutOpen, TheCutAppearsByItself) {
     stage.settle();
     stage.state.display.section = true;
     stage.frame();
-<<<<<<< HEAD:tests/app/section_test.cpp
-    ASSERT_TRUE(stage.state.cutting());
-    while (!stage.state.update_displacements()) EXPECT_TRUE(stage.state.cutting());
-    stage.state.update_bodies();
-    EXPECT_TRUE(stage.state.body(kFem)->section());
-=======
     ASSERT_TRUE(stage.state.shown.cutting());
     while (!stage.state.update_displacements()) EXPECT_TRUE(stage.state.shown.cutting());
     stage.state.update_picture();
     EXPECT_TRUE(stage.state.shown.body(kFem)->section());
->>>>>>> h/app:tests/app/picture/section_test.cpp
 }
 
 TEST_F(CutOpen, OnlyDisplacementsColourTheCut) {
     for (const Field field : {Field::displacement, Field::von_mises}) {
         stage.state.display.field = field;
         stage.settle();
-<<<<<<< HEAD:tests/app/section_test.cpp
-        EXPECT_EQ(stage.state.body(kFem)->is_coloured(), field == Field::displacement);
-=======
         EXPECT_EQ(stage.state.shown.body(kFem)->is_coloured(), field == Field::displacement);
->>>>>>> h/app:tests/app/picture/section_test.cpp
     }
 }
 
@@ -114,11 +92,7 @@ TEST_F(CutOpen, ABoxFixesWhatIsLeft) {
 }
 
 TEST_F(CutOpen, APressOnTheCutPullsNothingInside) {
-<<<<<<< HEAD:tests/app/section_test.cpp
-    const auto& section = *stage.state.body(kFem)->section();
-=======
     const auto& section = *stage.state.shown.body(kFem)->section();
->>>>>>> h/app:tests/app/picture/section_test.cpp
     for (int v = stage.scene().mesh().n_vertices(); v < section.positions.cols(); ++v) {
         const Eigen::Vector2d at = stage.pixel(Eigen::Vector3d(section.positions.col(v)));
         stage.drag(at, at + Eigen::Vector2d(20, 0));

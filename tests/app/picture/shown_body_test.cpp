@@ -27,13 +27,8 @@ protected:
     }
     ViewerState& state = stage_.state;
     test::Stage& stage = stage_;
-<<<<<<< HEAD:tests/app/shown_body_test.cpp
-    const ShownBody& shown(MethodKind kind = kLinearBem) { return *state.body(kind); }
-    Eigen::Map<const Eigen::Matrix3Xd> u(MethodKind kind = kLinearBem) {
-=======
     const ShownBody& shown(MethodKind kind = kLinearBem) { return *state.shown.body(kind); }
     Eigen::Map<const Eigen::Matrix3Xd> u(MethodKind kind = kLinearBem) {
->>>>>>> h/app:tests/app/picture/shown_body_test.cpp
         const Eigen::VectorXd& all = state.simulation.runner(kind).displacement();
         return {all.data(), 3, all.size() / 3};
     }
@@ -227,15 +222,9 @@ TEST_F(ShownBodyTest, OnlyAnswersToTheSameSceneAreCompared) {
 TEST_F(ShownBodyTest, ADifferenceAloneHasTheReferenceComputed) {
     state.method = kFem;
     show(Field::difference);
-<<<<<<< HEAD:tests/app/shown_body_test.cpp
-    ASSERT_TRUE(shown(kFem).difference());
-    EXPECT_GT(shown(kFem).difference()->max, 0.0);
-    EXPECT_THAT(state.bodies, SizeIs(1));
-=======
     ASSERT_TRUE(shown(kFem).difference());
     EXPECT_GT(shown(kFem).difference()->max, 0.0);
     EXPECT_THAT(state.shown.bodies(), SizeIs(1));
->>>>>>> h/app:tests/app/picture/shown_body_test.cpp
 }
 
 TEST_F(ShownBodyTest, IsAtRestBeforeTheFirstAnswer) {
