@@ -102,10 +102,10 @@ public:
 
     /// How far the displacements for these values may be off because the mesh is coarse. Linear BEM lets thin free
     /// parts (ears, plates, needles) follow too far: an estimate from one pass over the integral equation between the
-    /// nodes, within a factor of two of the largest error on the bodies of tests/deform/discretisation_test.cpp (it
+    /// nodes, within a factor of three of the largest error on the bodies of tests/methods/discretisation_test.cpp (it
     /// sees a third of the error of bars 40 times as long as thick, of which ModelFacts::surface_findings tell). Takes
     /// a few assemblies: not for every frame. Constant BEM: by how much the triangles around a vertex differ, at no
-    /// cost. Nothing for FEM.
+    /// cost. Nothing for the other methods.
     std::optional<DiscretisationCheck> discretisation_check(const Eigen::VectorXd& values, Control& control) const;
 
     /// Relative residual of the full system for these values, evaluated independently of the factorisation (BEM: the

@@ -8,7 +8,7 @@
 namespace elastolab {
 
 // What is to be said of a model, a constrained set and an answer. The limits come from measurements that are named
-// here; tests/findings/solution_test.cpp repeats them.
+// here; tests/findings/findings_test.cpp repeats them.
 
 /// Of a material: linear tetrahedra lock as Poisson's ratio nears 1/2. From 0.48 on their error in the bending of a bar
 /// is more than twice that at 0.3; 3 times at 0.49, 9 times at 0.499, 29 times (a tenth of the displacement) at 0.4999.

@@ -10,7 +10,7 @@
 namespace elastolab {
 
 // What a method does badly on a surface, found before anybody believes its result. The limits come from measurements
-// that are named here; tests/findings/surface_test.cpp repeats them.
+// that are named here; tests/findings/findings_test.cpp repeats them.
 
 /// Of methods that integrate over the surface (MethodTraits::integrates_boundary), else nothing:
 ///   thin_triangle  altitude / longest edge so small (below 5e-5) that the integrals keep fewer than six digits

@@ -4,7 +4,7 @@
 
 namespace elastolab {
 
-/// What import_surface() and the helper program elastolab-import say to each other, as in mesh/tetgen_protocol.hpp.
+/// What import_surface() and the helper program elastolab-import say to each other, like mesh/tets/tetgen_protocol.hpp.
 constexpr std::uint64_t kImportMagic = 0x656c61696d70'0002;
 
 /// Followed by the path.
