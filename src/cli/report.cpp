@@ -122,6 +122,11 @@ void write_report(std::ostream& out, const Solution& solution) {
         {"predicted_memory_bytes", solution.predicted.memory_bytes},
         {"residual", solution.residual ? finite_or_null(*solution.residual) : Json(nullptr)},
         {"condition_estimate", finite_or_null(solution.condition_estimate)},
+        {"force_imbalance", finite_or_null(solution.imbalance.force)},
+        {"moment_imbalance", finite_or_null(solution.imbalance.moment)},
+        {"error_estimate",
+         {{"displacement", solution.error_estimate ? finite_or_null(*solution.error_estimate) : Json(nullptr)},
+          {"force", nullptr}}},
         {"warnings", solution.warnings()},
     };
     out << json.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";

@@ -64,6 +64,7 @@ struct MethodTraits {
     std::span<const Update> updates;
     bool chooses_tractions = false;      ///< Method::tractions means something
     bool has_inside = false;             ///< nodes inside: the surface must be one that tetrahedra can fill
+    bool full_serves_sets = true;        ///< the mode full makes constrained sets faster than on demand
     bool sparse = false;                 ///< the matrix factorised on demand is sparse
     bool shows_averages = false;         ///< nodes are triangles; a vertex is shown at the mean of those around it
     bool takes_incompressible = true;    ///< Poisson's ratio 1/2 itself

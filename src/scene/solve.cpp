@@ -1,6 +1,7 @@
 #include "scene/solve.hpp"
 
 #include <algorithm>
+#include <Eigen/Geometry>
 
 #include "deform/node_solver.hpp"
 #include "findings/cost.hpp"
@@ -42,6 +43,16 @@ void precompute_model(const Method& method, const Body& body, Solution& solution
     append(solution.findings, findings_of_model(*solution.model));
 }
 
+/// Part of the largest reaction from which an imbalance is told.
+constexpr double kLargeImbalance = 0.05;
+
+void add_imbalance(const Imbalance& imbalance, MethodKind method, Findings& findings) {
+    if (imbalance.force > kLargeImbalance)
+        findings.push_back({.kind = FindingKind::force_imbalance, .value = imbalance.force, .method = method});
+    if (imbalance.moment > kLargeImbalance)
+        findings.push_back({.kind = FindingKind::moment_imbalance, .value = imbalance.moment, .method = method});
+}
+
 /// Applies the constraints and evaluates what follows from them.
 void apply(const Constraints& constraints, bool with_checks, Solution& solution, Control& control) {
     Deformer deformer(solution.model);
@@ -59,11 +70,14 @@ void apply(const Constraints& constraints, bool with_checks, Solution& solution,
             Eigen::Map<const Eigen::Matrix3Xd>(answer.displacements.data(), 3, answer.displacements.size() / 3);
         solution.reactions = totals(constraints.groups, answer.reactions);
         solution.residual = answer.residual;
+        solution.imbalance = imbalance_of(solution.reactions, *solution.model->body().surface);
+        add_imbalance(solution.imbalance, solution.model->method().kind, solution.findings);
     }
     if (with_checks) {
         const Stage stage("check", control, solution.stages);
         Deformer::Answer answer;
         answer.check = deformer.discretisation_check(constraints.values, control);
+        if (answer.check) solution.error_estimate = answer.check->relative_error;
         append(solution.findings, findings_of_answer(deformer, answer));
     }
     solution.condition_estimate =
@@ -72,6 +86,22 @@ void apply(const Constraints& constraints, bool with_checks, Solution& solution,
 }
 
 }  // namespace
+
+Imbalance imbalance_of(const std::vector<GroupReaction>& reactions, const SurfaceMesh& surface) {
+    const Eigen::Vector3d centre = surface.vertices.rowwise().mean();
+    const double radius = (surface.vertices.colwise() - centre).colwise().norm().maxCoeff();
+    Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = force;
+    double largest_force = 0.0, largest_moment = 0.0;
+    for (const GroupReaction& reaction : reactions) {
+        const Eigen::Vector3d about_centre = reaction.moment - centre.cross(reaction.force);
+        force += reaction.force;
+        moment += about_centre;
+        largest_force = std::max(largest_force, reaction.force.stableNorm());
+        largest_moment = std::max({largest_moment, about_centre.stableNorm(), radius * reaction.force.stableNorm()});
+    }
+    return {largest_force > 0.0 ? force.stableNorm() / largest_force : 0.0,
+            largest_moment > 0.0 ? moment.stableNorm() / largest_moment : 0.0};
+}
 
 std::vector<std::string> Solution::warnings() const {
     std::vector<std::string> texts;

@@ -34,6 +34,13 @@ struct GroupReaction {
     Eigen::Vector3d force, moment;
 };
 
+/// How far the reactions are from equilibrium: the resultant of all groups over the largest of one group; 0 where
+/// there is no force. Moments are about the centroid of the body's vertices, where a force counts with the body's size.
+struct Imbalance {
+    double force = 0.0, moment = 0.0;
+};
+Imbalance imbalance_of(const std::vector<GroupReaction>& reactions, const SurfaceMesh& surface);
+
 /// Everything that solve writes or prints.
 struct Solution {
     std::shared_ptr<const Model> model;
@@ -42,6 +49,8 @@ struct Solution {
     int n_constrained = 0;
     Eigen::Matrix3Xd displacement;  ///< 3 x n_vertices [L]
     std::vector<GroupReaction> reactions;
+    Imbalance imbalance;
+    std::optional<double> error_estimate;  ///< of the displacement of the worst vertex, over the largest
     std::optional<double> residual;
     double condition_estimate = 0.0;  ///< the larger of that of the factorised system and that of the update
     StageTimes stages;

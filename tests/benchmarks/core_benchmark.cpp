@@ -199,10 +199,19 @@ void constant_bem_precomputation_beside_its_lu(benchmark::State& state) {
         [&] { LuFactorization(std::move(matrix), "H"); }, [&] { matrix = Eigen::MatrixXd::Random(n, n); });
 }
 
+/// Symmetric Galerkin elements on demand, beside the LU of linear elements on the same cube.
+void precomputation_of_galerkin_bem_beside_that_lu(benchmark::State& state) {
+    const Body body = make_body(cube());
+    Eigen::MatrixXd copy;
+    compare(
+        state, 1.2, [&] { benchmark::DoNotOptimize(precomputed(body, make_method(kGalerkinBem))); },
+        [&] { LuFactorization(std::move(copy), "H"); }, [&] { copy = bordered_matrix(); });
+}
+
 /// One set on demand, from the surface to the displacements, by the update `direct`, which factorises once.
 void single_solve_beside_the_lu_of_linear_bem(benchmark::State& state) {
-    const Method method =
-        make_method(static_cast<MethodKind>(state.range(0)), Tractions::discontinuous, Mode::on_demand, Update::direct);
+    const Method method = make_method(all_methods()[static_cast<std::size_t>(state.range(0))], Tractions::discontinuous,
+                                      Mode::on_demand, Update::direct);
     const Body body = make_body(cube());
     const ConstrainedSet set{
         vertices_where(cube(), [](const auto& x) { return x[0] < 1e-9; }),
@@ -215,7 +224,7 @@ void single_solve_beside_the_lu_of_linear_bem(benchmark::State& state) {
             Control control;
             Deformer deformer(precomputed(body, method));
             deformer.constrain(set, control);
-            benchmark::DoNotOptimize(deformer.answer(values, true, false, control));
+            benchmark::DoNotOptimize(deformer.answer(values, {.residual = true}, control));
         },
         [&] { LuFactorization(std::move(copy), "H"); }, [&] { copy = bordered_matrix(); });
     state.counters["constrained"] = static_cast<double>(set.base.size() + set.handles.size());
@@ -242,7 +251,7 @@ void fem_beside_its_factorisation(benchmark::State& state) {
 
 void drag_frame_beside_a_copy_of_its_columns(benchmark::State& state) {
     const SurfaceMesh mesh = make_box(static_cast<int>(state.range(1)));
-    const Method method = make_method(static_cast<MethodKind>(state.range(0)), Tractions::restricted);
+    const Method method = make_method(all_methods()[static_cast<std::size_t>(state.range(0))], Tractions::restricted);
     const auto base = vertices_where(mesh, [](const auto& x) { return x[0] < 1e-9; });
     const auto pull = vertices_where(mesh, [](const auto& x) { return x[0] > 1 - 1e-9 && x[1] > 0.7 && x[2] > 0.7; });
     Deformer deformer(precomputed(make_body(mesh), method));

@@ -31,6 +31,10 @@ TEST(BackgroundWork, ACompletedInverseIsKeptWhenPoissonsRatioStays) {
         LiveScene scene = pulled_cube();
         Bench bench({kind});
         bench.settle(scene);
+        if (!has(kind, Mode::full) || !kind->full_serves_sets) {  // nobody would gain from an inverse
+            EXPECT_FALSE(bench.runner(kind).has_inverse()) << kind->name;
+            continue;
+        }
         ASSERT_TRUE(bench.runner(kind).has_inverse());
         for (int change = 0; change < 3; ++change) {
             if (change == 0) scene.set_material({.young_modulus = 5.0, .poisson_ratio = 0.3});

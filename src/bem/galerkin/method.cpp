@@ -26,6 +26,7 @@ constinit const MethodTraits kGalerkinBemTraits = {
     .cheaper = "fem, whose matrix is sparse",
     .modes = kModes,
     .updates = kUpdates,
+    .full_serves_sets = false,
     .integral_tolerance = 1e-8,
     .integrates_boundary = true,
     .precompute = precompute,

@@ -73,7 +73,6 @@ GalerkinSystem::GalerkinSystem(std::shared_ptr<const Boundary> boundary, double 
             parts_ = std::make_shared<const HypersingularParts>(*boundary_, tolerance_, control);
         D = hypersingular(control);
     }
-    if (method.mode != Mode::on_demand) dense_ = nullptr;
     shift_ = D.diagonal().mean();
     Eigen::MatrixXd kept;
     if (method.mode != Mode::on_demand) kept = D;

@@ -68,6 +68,8 @@ void ModelKeeper::begin() {
 
 bool ModelKeeper::may_complete(Update update) const {
     if (!is_wanted() || completion_tried_ == update || precompute_.running()) return false;
+    const MethodKind kind = model_->method().kind;
+    if (!kind->full_serves_sets || !has(kind, Mode::full) || !has(kind, update)) return false;
     return !has_inverse() || model_->method().update != update;
 }
 

@@ -57,7 +57,7 @@ TEST(TimingsRecorder, WritesTheHeaderAndARowForEveryFrame) {
     EXPECT_EQ(recorder.n_rows(), 1);
     EXPECT_EQ(recorder.file(), file);
     recorder.finish();
-    EXPECT_EQ(test::read_text(file), std::string(kHeader) + "\n7,1.25,linear-bem,98,25,1,ready,0.5,0.25,2,1,4\n");
+    EXPECT_EQ(test::read_text(file), std::string(kHeader).append("\n7,1.25,linear-bem,98,25,1,ready,0.5,0.25,2,1,4\n"));
 }
 
 TEST(TimingsRecorder, TheFileAppearsWhenItIsComplete) {
