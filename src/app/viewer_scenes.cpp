@@ -111,6 +111,7 @@ void ViewerState::export_mesh(const fs::path& file) {
 }
 
 void ViewerState::add_recent(const fs::path& file) {
+    if (file.empty()) return;  // a primitive
     recent_ = with_recent_file(recent_, fs::absolute(file));
     save_recent_files(recent_);
 }

@@ -29,7 +29,7 @@ std::vector<fs::path> files(const OutputPaths& paths) {
 
 fs::path resolved(const fs::path& path) {
     std::error_code error;
-    const fs::path full = fs::weakly_canonical(fs::absolute(path), error);
+    const fs::path full = fs::weakly_canonical(fs::absolute(path, error), error);
     return error ? path.lexically_normal() : full;
 }
 

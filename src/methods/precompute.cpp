@@ -74,9 +74,11 @@ std::shared_ptr<const Model> precompute(const Body& body, const Method& method, 
     std::vector<Model::Part> parts;
     for (std::size_t i = 0; i < solids.size(); ++i) {
         const SolidModel* old = before != nullptr ? before->parts()[i].solid.get() : nullptr;
-        parts.push_back(
-            {method.kind->precompute(solids[i].surface, body.name, body.material.poisson_ratio, method, old, control),
-             solids[i].vertices});
+        SurfaceMesh local = solids[i].surface;
+        const Eigen::Vector3d origin = computing_origin(local);
+        local.vertices.colwise() -= origin;
+        parts.push_back({method.kind->precompute(local, body.name, body.material.poisson_ratio, method, old, control),
+                         solids[i].vertices, origin});
     }
     ModelFacts facts = summed(parts);
     facts.surface_findings = before != nullptr && same_findings(method.kind, before->method().kind)

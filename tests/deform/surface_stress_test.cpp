@@ -6,6 +6,7 @@
 #include "elasticity/exact_fields.hpp"
 #include "mesh/primitives.hpp"
 #include "methods/precompute.hpp"
+#include "methods/registry.hpp"
 
 namespace elastolab {
 namespace {
@@ -25,7 +26,7 @@ TEST(SurfaceStress, StretchedBarHasTheStressOfItsStretchEverywhere) {
     const double nu = kRubber.poisson_ratio;
     const Eigen::Matrix3Xd u = Eigen::Vector3d(1, -nu, -nu).asDiagonal() * bar->vertices;
     Control control;
-    Deformer deformer(precompute({"bar", bar, kRubber}, Method{.tractions = Tractions::restricted}, control));
+    Deformer deformer(precompute({"bar", bar, kRubber}, Method{.kind = kLinearBem, .tractions = Tractions::restricted}, control));
     deformer.constrain({{}, ends(*bar)}, control);
     const Eigen::Matrix3Xd values = u(Eigen::all, ends(*bar));
     const Reactions reactions = deformer.reactions(Eigen::Map<const Eigen::VectorXd>(values.data(), values.size()));

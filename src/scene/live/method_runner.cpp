@@ -68,7 +68,10 @@ bool MethodRunner::takes_long() const {
 void MethodRunner::update_displacement() {
     const Eigen::VectorXd& wanted = sets_.wanted_values();
     if (up_to_date_ && values_.size() == wanted.size() && values_ == wanted) return;
-    if (takes_long()) return sets_.solve_on_worker();
+    if (takes_long()) {
+        failure_.clear();
+        return sets_.solve_on_worker();
+    }
     try {
         if (sets_.frame_rule() == FrameRule::drag_columns)
             drag();

@@ -97,6 +97,7 @@ SetKeeper::Event SetKeeper::take_finished() {
         case JobEvent::failed:
             if (!same_as_wanted(preparing_set_)) return Event::none;  // a prefetch: nobody asked for it yet
             if (is_current()) {
+                if (solving_values_ != wanted_values_) return Event::none;  // the motion went on: that is tried next
                 motion_failure_ = job_.failure();
                 current_.drag.reset();
                 return Event::motion_failed;
@@ -164,6 +165,7 @@ void SetKeeper::prepare(const ConstrainedSet& set, Eigen::VectorXd values, std::
 void SetKeeper::solve_on_worker() {
     if (!is_current() || solving()) return;
     preparing_set_ = wanted_set_;
+    solving_values_ = wanted_values_;
     motion_failure_.clear();
     DragSolver drag = current_.drag ? *current_.drag : DragSolver(current_.deformer, handle_ends_);
     job_.start(

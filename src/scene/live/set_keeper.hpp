@@ -98,6 +98,7 @@ private:
     PreparedSet current_;
     PreparedSet spare_;  ///< of the same model: prefetched, or the one used before
     ConstrainedSet preparing_set_;
+    Eigen::VectorXd solving_values_;  ///< that the worker solves for within the present set
     std::string failure_, motion_failure_;
     BackgroundJob<PreparedSet> job_;  // last: its thread ends before what it wakes goes
 };
