@@ -8,6 +8,8 @@
 #include "base/blas.hpp"
 #include "base/blas_memory.hpp"
 #include "base/control.hpp"
+#include "base/error.hpp"
+#include "base/stack.hpp"
 #include "base/text.hpp"
 #include "cli/command.hpp"
 #include "cli/interrupt.hpp"
@@ -52,6 +54,11 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    try {
+        elastolab::ensure_stack(argv);
+    } catch (const elastolab::Error& error) {
+        return complain(error.what(), kFailure);
+    }
     elastolab::start_blas_within_limits(argv);
     elastolab::select_blas_kernels(argv);
     std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow any more is an error of writing, not the end

@@ -10,8 +10,8 @@
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
 #include "cli/solve_outputs.hpp"
-#include "methods/registry.hpp"
 #include "cli/threads.hpp"
+#include "methods/registry.hpp"
 #include "scene/file/scene_file.hpp"
 #include "scene/solve.hpp"
 
@@ -64,9 +64,10 @@ void choose(Value& value, const std::string& word, const Parse& parse) {
 }
 
 /// Refuses choices that exclude each other.
-void require_sensible(const Method& method, double poisson_ratio, bool with_matrices) {
-    if (const std::string why = refusal(method, poisson_ratio); !why.empty())
-        throw UsageError("--method " + std::string(name(method.kind)) + ", " + why);
+void require_sensible(const Method& method, bool with_matrices) {
+    constexpr double kAnyMaterial = 0.3;  // that of the scene is judged with the scene
+    if (const std::string why = refusal(method, kAnyMaterial); !why.empty())
+        throw UsageError("--method " + std::string(name(method.kind)) + ": " + why);
     if (with_matrices && method.mode == Mode::on_demand && !method.kind->sparse)
         throw UsageError("--matrices: the mode on-demand keeps none for " + std::string(name(method.kind)) +
                          ". Add --mode full.");
@@ -79,7 +80,7 @@ Method choose_method(const SolveOptions& options, const Document& document) {
     choose(method.mode, options.mode, parse_mode);
     choose(method.tractions, options.tractions, parse_tractions);
     choose(method.update, options.update, parse_update);
-    require_sensible(method, document.material.poisson_ratio, !options.matrices.empty());
+    require_sensible(method, !options.matrices.empty());
     return method;
 }
 

@@ -196,7 +196,7 @@ INSTANTIATE_TEST_SUITE_P(
         usage("MissingValue", {"solve", "good.json", "--report"}, {"--report"}),
         usage("EmptyName", {"solve", "good.json", "--report", ""}, {"--report"}),
         usage("FullVolumeOfBem", {"solve", "good.json", "--mode", "full-volume"}, {"full-volume", "FEM"}),
-        usage("Eqn9OnDemand", {"solve", "good.json", "--update", "eqn9"}, {"eqn9", "--mode full"}),
+        usage("Eqn9OnDemand", {"solve", "good.json", "--update", "eqn9"}, {"eqn9", "mode full"}),
         usage("NoMatricesOnDemand", {"solve", "good.json", "--matrices", "m"}, {"--matrices", "--mode full"}),
         usage("UnknownMeshFormat", {"solve", "good.json", "--mesh-out", "m.dae"}, {"m.dae", ".obj"}),
         usage("SameOutputTwice", {"solve", "good.json", "--forces", "a.csv", "--displacements", "./a.csv"}, {"a.csv"}),

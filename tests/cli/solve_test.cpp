@@ -132,6 +132,9 @@ TEST_F(SolveTest, WritesAReportWithEveryKey) {
                                            "seconds",
                                            "peak_memory_bytes",
                                            "predicted_memory_bytes",
+                                           "force_imbalance",
+                                           "moment_imbalance",
+                                           "error_estimate",
                                            "residual",
                                            "condition_estimate",
                                            "warnings"};

@@ -71,16 +71,19 @@ const Colour& state_colour(const MethodRunner& runner, const Palette& palette) {
     }
 }
 
+/// Methods side by side in a row of buttons: as many as leave room for their names.
+constexpr int kButtonsPerRow = 3;
+
 /// A button for each method, underlined with how it is doing.
 void draw_buttons(const PanelContext& context) {
     ViewerState& state = context.state;
-    const auto n = static_cast<float>(all_methods().size());
+    constexpr float n = kButtonsPerRow;
     const float width = (ImGui::GetContentRegionAvail().x - (n - 1.0f) * ImGui::GetStyle().ItemSpacing.x) / n;
     const float scale = context.gui.scale();
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {2.0f * scale, ImGui::GetStyle().FramePadding.y});  // long names
     int number = 0;
     for (const MethodKind kind : all_methods()) {
-        if (number++ > 0) ImGui::SameLine();
+        if (number++ % kButtonsPerRow > 0) ImGui::SameLine();
         const bool active = kind == state.method;
         const Colour& colour = context.palette.body(kind);
         if (active) {

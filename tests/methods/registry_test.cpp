@@ -1,0 +1,59 @@
+#include "methods/registry.hpp"
+
+#include <gmock/gmock.h>
+
+#include <set>
+
+#include "base/error.hpp"
+#include "mesh/primitives.hpp"
+#include "methods/problem.hpp"
+
+namespace elastolab::test {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+TEST(Registry, EveryMethodHasANameALabelAndAColourOfItsOwn) {
+    std::set<std::string_view> names, labels;
+    std::set<int> colours;
+    for (const MethodKind kind : elastolab::all_methods()) {
+        EXPECT_TRUE(names.insert(kind->name).second) << kind->name;
+        EXPECT_TRUE(labels.insert(kind->label).second) << kind->label;
+        EXPECT_TRUE(colours.insert(kind->colour).second) << kind->name;
+        EXPECT_EQ(parse_method_kind(kind->name), kind);
+    }
+    EXPECT_EQ(parse_method_kind("no such method"), std::nullopt);
+}
+
+TEST(Registry, EveryMethodAnswersOnDemandByTheReducedUpdate) {
+    for (const MethodKind kind : elastolab::all_methods()) {
+        EXPECT_THAT(refusal({.kind = kind}, 0.3), IsEmpty()) << kind->name;
+        EXPECT_EQ(refusal({.kind = kind}, 0.5).empty(), kind->takes_incompressible) << kind->name;
+    }
+}
+
+TEST(Registry, WhatIsNotPossibleIsRefusedWithTheReasonAndAWayForward) {
+    EXPECT_THAT(refusal({.kind = kLinearBem, .mode = Mode::full_volume}, 0.3), HasSubstr("Choose the mode full"));
+    EXPECT_THAT(refusal({.kind = kQuadraticFem, .mode = Mode::full}, 0.3), HasSubstr("Choose the mode on-demand"));
+    EXPECT_THAT(refusal({.kind = kGalerkinBem, .mode = Mode::full, .update = Update::eqn9}, 0.3),
+                HasSubstr("Choose the update reduced"));
+    EXPECT_THAT(refusal({.kind = kFem, .update = Update::eqn9}, 0.3), HasSubstr("Choose the mode full"));
+    EXPECT_THAT(refusal({.kind = kFem}, 0.5), HasSubstr("linear-bem"));
+    Control control;
+    EXPECT_THROW(precompute(make_body(make_box(2)), {.kind = kLinearBem, .mode = Mode::full_volume}, control),
+                 SolveError);
+}
+
+/// G of constant elements is singular at Poisson's ratio 1/2, so K = G^-1 H carries no digit there.
+TEST(Registry, ConstantElementsHaveNoStiffnessAtPoissonsRatioOneHalf) {
+    const Method by_K{.kind = kConstantBem, .mode = Mode::full, .update = Update::eqn9};
+    EXPECT_THAT(refusal(by_K, 0.5), HasSubstr("Choose the update reduced"));
+    EXPECT_THAT(refusal(by_K, 0.499), IsEmpty());
+    Method reduced = by_K;
+    reduced.update = Update::reduced;
+    EXPECT_THAT(refusal(reduced, 0.5), IsEmpty());
+}
+
+}  // namespace
+}  // namespace elastolab::test
