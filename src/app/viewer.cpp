@@ -120,7 +120,10 @@ private:
     bool must_draw() {
         std::vector<InputEvent> events = window_.take_events();
         if (!replaying()) queue_.insert(queue_.end(), events.begin(), events.end());
-        for (const std::filesystem::path& file : window_.take_dropped_files()) state_.open(file);
+        for (const std::filesystem::path& file : window_.take_dropped_files()) {
+            state_.open(file);
+            pending_frames_ = kSettlingFrames;  // for the question that it may raise
+        }
         const bool damaged = window_.take_damage();
         if (!queue_.empty() || damaged || state_.simulation.busy() || computing()) pending_frames_ = kSettlingFrames;
         if (message_seconds_ >= 0.0 || gui_.wants_text()) pending_frames_ = std::max(pending_frames_, 1);
