@@ -225,6 +225,9 @@ Deformer::Answer Deformer::answer(const Eigen::VectorXd& values, Wanted wanted, 
         place(s, solid->displacements(std::move(solution)), u);
     }
     require_finite(u);
+    if (!answer.reactions.forces.allFinite() || !answer.reactions.moments.allFinite())
+        throw SolveError(model_->body().name +
+                         ": forces are beyond double precision. Choose a smaller Young's modulus, or smaller motions.");
     if (wanted.check) answer.check = check_of(u, error);
     answer.displacements = std::move(u);
     return answer;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <Eigen/Geometry>
 
+#include "base/error.hpp"
 #include "deform/node_solver.hpp"
 #include "findings/cost.hpp"
 #include "findings/solution.hpp"
@@ -20,6 +21,10 @@ std::vector<GroupReaction> totals(const std::vector<ConstraintGroup>& groups, co
         result.push_back({.name = group.name,
                           .force = reactions.forces.middleCols(group.begin, n).rowwise().sum(),
                           .moment = reactions.moments.middleCols(group.begin, n).rowwise().sum()});
+        if (!result.back().force.allFinite() || !result.back().moment.allFinite())
+            throw SolveError(group.name +
+                             ": its total force is beyond double precision. Choose a smaller Young's modulus, or "
+                             "smaller motions.");
     }
     return result;
 }

@@ -297,6 +297,10 @@ BENCHMARK(set_change_of_patches_beside_its_lapack_calls)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(set_change_with_known_columns)->UseManualTime()->Iterations(9)->Unit(benchmark::kMillisecond);
 BENCHMARK(constant_bem_precomputation_beside_its_lu)->UseManualTime()->Iterations(3)->Unit(benchmark::kMillisecond);
+BENCHMARK(precomputation_of_galerkin_bem_beside_that_lu)
+    ->UseManualTime()
+    ->Iterations(9)
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK(single_solve_beside_the_lu_of_linear_bem)
     ->ArgName("method")
     ->DenseRange(0, 2)

@@ -166,5 +166,18 @@ TEST(Methods, HaveNamesThatAreReadBack) {
     EXPECT_EQ(parse_update("eqn9"), Update::eqn9);
 }
 
+/// Young's modulus times displacement may overflow where each of them does not.
+TEST(Reactions, ThatAreBeyondDoublePrecisionAreAnError) {
+    const SurfaceMesh mesh = make_box(2);
+    const auto base = vertices_where(mesh, [](const auto& x) { return x[0] < 1e-9; });
+    for (const MethodKind kind : elastolab::all_methods()) {
+        Control control;
+        Deformer deformer(precomputed(make_body(mesh, {1e300, 0.3}), {.kind = kind}));
+        deformer.constrain({base, {mesh.n_vertices() - 1}}, control);
+        EXPECT_TRUE(deformer.displace(Eigen::Vector3d(1e10, 0.0, 0.0)).allFinite()) << kind->name;
+        EXPECT_THROW(deformer.reactions(Eigen::Vector3d(1e10, 0.0, 0.0)), SolveError) << kind->name;
+    }
+}
+
 }  // namespace
 }  // namespace elastolab::test
