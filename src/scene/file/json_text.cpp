@@ -25,8 +25,14 @@ std::string parser_reason(const std::string& what) {
     const std::size_t place = what.find("column ");
     const std::size_t colon = place == std::string::npos ? place : what.find(": ", place);
     const std::size_t bracket = what.find("] ");
-    if (colon != std::string::npos) return what.substr(colon + 2);
-    return bracket == std::string::npos ? what : what.substr(bracket + 2);
+    std::string reason = what;
+    if (colon != std::string::npos)
+        reason = what.substr(colon + 2);
+    else if (bracket != std::string::npos)
+        reason = what.substr(bracket + 2);
+    constexpr std::size_t kLongest = 200;  // it may quote a whole file of one line
+    if (reason.size() > kLongest) reason = reason.substr(0, kLongest) + "...";
+    return reason;
 }
 
 /// Receives the parser's events and builds the value; knows where it is, which the parser's own builder does not.
