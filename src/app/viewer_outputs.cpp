@@ -15,7 +15,7 @@ void write_outputs(const ViewerOptions& options, ViewerState& state, const std::
             if (!failure) failure = std::current_exception();
         }
     };
-    const Eigen::VectorXd& displacement = state.simulation.runner(state.method).displacement();
+    const Eigen::VectorXd& displacement = state.simulation.answer(state.method).displacement();
     if (!options.scene_out.empty()) attempt([&] { write_scene(options.scene_out, state.scene(), state.method); });
     if (!options.mesh_out.empty()) attempt([&] { write_deformed_mesh(options.mesh_out, state.scene(), displacement); });
     if (state.measurements.timings) attempt([&] { state.measurements.timings->finish(); });

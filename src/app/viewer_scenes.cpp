@@ -105,7 +105,7 @@ bool ViewerState::save_scene(const fs::path& file) {
 
 void ViewerState::export_mesh(const fs::path& file) {
     attempt([&] {
-        write_deformed_mesh(file, *scene_, simulation.runner(method).displacement());
+        write_deformed_mesh(file, *scene_, simulation.answer(method).displacement());
         messages.note("Exported " + file.string());
     });
 }

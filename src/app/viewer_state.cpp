@@ -52,10 +52,10 @@ std::vector<MethodKind> ViewerState::needed_kinds() const {
     return kinds;
 }
 
-const MethodRunner* ViewerState::reference() const {
+const EmbeddedRunner* ViewerState::reference() const {
     const std::vector<MethodKind> kinds = needed_kinds();
     const bool is_there = std::find(kinds.begin(), kinds.end(), compare.reference) != kinds.end();
-    return is_there && (comparing() || display.field == Field::difference) ? &simulation.runner(compare.reference)
+    return is_there && (comparing() || display.field == Field::difference) ? &simulation.embedded(compare.reference)
                                                                            : nullptr;
 }
 
@@ -177,7 +177,7 @@ bool ViewerState::update_displacements() {
     const bool changed = simulation.update(*scene_, needed_kinds(), choices) || has_new_volume;
     const std::vector<int>& patch = gestures.hover().patch;
     if (gestures.action() == Gestures::Action::none && !patch.empty() && patch != prefetched_)
-        simulation.prefetch(scene_->set_with_handle(patch));
+        simulation.prefetch(scene_->constraints_with_handle(patch));
     prefetched_ = patch;
     return changed;
 }

@@ -58,7 +58,7 @@ public:
     std::vector<MethodKind> shown_kinds() const;
     std::vector<MethodKind> needed_kinds() const;
     /// The reference of differences: only when something is shown that needs one.
-    const MethodRunner* reference() const;
+    const EmbeddedRunner* reference() const;
 
     // What is measured.
     Measurements measurements;

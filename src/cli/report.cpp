@@ -45,6 +45,13 @@ Json machine() {
     return {{"cpu", machine.cpu}, {"cores", machine.cores}, {"memory_bytes", machine.memory_bytes}};
 }
 
+Json proxy(const Proxy* proxy) {
+    if (proxy == nullptr) return nullptr;
+    return {{"vertices", proxy->surface->n_vertices()},
+            {"faces", proxy->surface->n_triangles()},
+            {"largest_distance", proxy->places.distance.maxCoeff()}};
+}
+
 Json tractions(const Method& method) {
     if (!method.kind->chooses_tractions) return nullptr;
     return std::string(name(method.tractions));
@@ -58,7 +65,9 @@ void print_heading(std::ostream& out, const SolveRequest& request, const Method&
 
 void print_sizes(std::ostream& out, const Solution& solution) {
     const ModelFacts& facts = solution.model->facts();
-    out << "  sizes         " << facts.n_vertices << " vertices, " << facts.n_triangles << " faces, ";
+    out << "  sizes         " << solution.surface->n_vertices() << " vertices, " << solution.surface->n_triangles()
+        << " faces, ";
+    if (solution.proxy) out << "proxy of " << solution.proxy->surface->n_vertices() << " vertices, ";
     if (facts.n_tetrahedra > 0) out << facts.n_tetrahedra << " tetrahedra, ";
     out << facts.n_degrees_of_freedom << " degrees of freedom, " << solution.n_constrained << " constrained vertices\n";
 }
@@ -112,8 +121,9 @@ void write_report(std::ostream& out, const Solution& solution) {
         {"mode", std::string(name(method.mode))},
         {"tractions", tractions(method)},
         {"update", std::string(name(method.update))},
-        {"vertices", facts.n_vertices},
-        {"faces", facts.n_triangles},
+        {"vertices", solution.surface->n_vertices()},
+        {"faces", solution.surface->n_triangles()},
+        {"proxy", proxy(solution.proxy.get())},
         {"tetrahedra", facts.n_tetrahedra},
         {"degrees_of_freedom", facts.n_degrees_of_freedom},
         {"constrained_vertices", solution.n_constrained},

@@ -25,6 +25,8 @@ namespace fs = std::filesystem;
 struct SolveOptions {
     std::string scene, method, mode, tractions, update;
     std::string displacements, mesh_out, forces, report, matrices;
+    std::string proxy;
+    int proxy_vertices = 0;
     int threads = 0;
     bool quiet = false;
 
@@ -53,6 +55,13 @@ void add_options(CLI::App& parser, SolveOptions& options) {
     parser.add_option("--report", options.report, "JSON: sizes, times, memory, accuracy, warnings")->check(path);
     parser.add_option("--matrices", options.matrices, "folder for the matrices that the mode keeps (.npy, .mtx)")
         ->check(path);
+    parser
+        .add_option("--proxy", options.proxy,
+                    "simulate a closed surface around the scene's own (default: the scene's choice, else auto: where "
+                    "the method cannot use it)")
+        ->check(CLI::IsMember({"never", "auto", "always"}));
+    parser.add_option("--proxy-vertices", options.proxy_vertices, "about so many vertices of it (default 1500)")
+        ->check(CLI::Range(kFewestProxyVertices, kMostProxyVertices));
     add_threads_option(parser, options.threads);
     parser.add_flag("--quiet", options.quiet, "no summary and no progress bar");
 }
@@ -108,6 +117,8 @@ void run_solve(const SolveOptions& options) {
     SolveRequest request;
     request.scene_file = options.scene;
     request.document = load_scene(request.scene_file);
+    choose(request.document.proxy.use, options.proxy, parse_proxy_use);
+    if (options.proxy_vertices > 0) request.document.proxy.n_vertices = options.proxy_vertices;
     request.method = choose_method(options, request.document);
     request.solve_once = options.update.empty() && request.method.mode == Mode::on_demand;
     request.with_checks = !options.quiet || !options.report.empty();

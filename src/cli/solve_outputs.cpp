@@ -62,7 +62,7 @@ private:
 };
 
 void write_deformed_mesh(std::ostream& out, const fs::path& name, const Solution& solution) {
-    SurfaceMesh mesh = *solution.model->body().surface;
+    SurfaceMesh mesh = *solution.surface;
     mesh.vertices += solution.displacement;
     write_surface(out, mesh, name);
 }
@@ -136,7 +136,7 @@ void write_outputs(const OutputPaths& paths, const Solution& solution) {
     const NewFolder folder(paths.matrices);  // destroyed after `outputs`, whose temporaries lie in it
     OutputSet outputs;
     if (!paths.displacements.empty())
-        write_displacements(outputs.add(paths.displacements).stream(), *solution.model->body().surface,
+        write_displacements(outputs.add(paths.displacements).stream(), *solution.surface,
                             solution.displacement);
     if (!paths.mesh.empty()) write_deformed_mesh(outputs.add(paths.mesh).stream(), paths.mesh, solution);
     if (!paths.forces.empty()) write_forces(outputs.add(paths.forces).stream(), solution.reactions);

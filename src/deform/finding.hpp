@@ -28,6 +28,9 @@ enum class FindingKind {
     nothing_constrained,   ///< no vertex of the scene `object` is fixed or moved
     choice_left_aside,     ///< the option `object` means nothing to the method
     large_residual,        ///< relative residual of the solution
+    proxy,                 ///< a closed surface of `first` vertices stands for the mesh `object`; its largest distance
+    capped_holes,          ///< how many holes of the mesh `object` a proxy closes
+    thin_sheets,           ///< open sheets of the mesh `object` became walls; their thickness
 };
 
 enum class Severity {

@@ -82,6 +82,12 @@ std::string coarse_mesh(const Finding& finding) {
            advice;
 }
 
+std::string proxy(const Finding& finding) {
+    return finding.object + ": is simulated through a proxy, a closed surface of " + std::to_string(finding.first) +
+           " vertices around it; no vertex is farther from it than " + readable_number(finding.value) +
+           " mesh units. Displacements are those of that body. Mend the surface to have its own.";
+}
+
 std::string imbalance(const Finding& finding, const char* what) {
     return std::string(finding.method->name) + ": the reaction " + what + " do not balance; their sum is " +
            percent(finding.value) +
@@ -129,6 +135,15 @@ std::string words(const Finding& finding) {
         case FindingKind::large_residual:
             return finding.object + ": the solution leaves a relative residual of " + readable_number(finding.value) +
                    ", so it is wrong. Fix more vertices, or use another method.";
+        case FindingKind::proxy:
+            return proxy(finding);
+        case FindingKind::capped_holes:
+            return finding.object + ": " + readable_number(finding.value) +
+                   (finding.value == 1.0 ? " hole is" : " holes are") +
+                   " taken as closed. Close them in the file where another shape is meant.";
+        case FindingKind::thin_sheets:
+            return finding.object + ": has no inside in places; its sheets are simulated as walls " +
+                   readable_number(finding.value) + " mesh units thick. Give them their thickness in the file.";
     }
     return {};
 }

@@ -144,6 +144,28 @@ Approach closest_facing_approach(const SurfaceMesh& mesh) {
     return closest_facing_approach(mesh, control);
 }
 
+std::vector<double> wall_thickness(const SurfaceMesh& mesh, double reach, Control& control) {
+    const std::vector<Side> sides = sides_of(mesh);
+    const Eigen::Matrix3Xd normals = vertex_normals(mesh).colwise().normalized();
+    const BoxTree tree = tree_of(mesh);
+    std::vector<double> thickness(static_cast<std::size_t>(mesh.n_vertices()), std::numeric_limits<double>::infinity());
+    parallel_blocks(mesh.n_vertices(), kGrain, control, [&](int begin, int end) {
+        for (int v = begin; v < end; ++v) {
+            double& nearest = thickness[static_cast<std::size_t>(v)];
+            const Vector3d x = mesh.vertices.col(v), normal = normals.col(v);
+            tree.for_each_near(
+                x, [&](double) { return kSlack * std::min(nearest, reach); },
+                [&](int t) {
+                    if (sides[static_cast<std::size_t>(t)].normal.dot(normal) > -kFacing) return;
+                    if ((mesh.triangles.col(t).array() == v).any() || normal.dot(centroid(mesh, t) - x) > 0.0) return;
+                    const double distance = distance_to_triangle(x, mesh, t);
+                    if (distance < std::min(nearest, reach)) nearest = distance;
+                });
+        }
+    });
+    return thickness;
+}
+
 std::optional<Contact> find_contact(const SurfaceMesh& mesh, std::span<const std::vector<int>> parts, double distance,
                                     Control& control) {
     std::vector<std::size_t> part_of(static_cast<std::size_t>(mesh.n_vertices()), parts.size());

@@ -25,6 +25,10 @@ struct Approach {
 Approach closest_facing_approach(const SurfaceMesh& mesh, Control& control);
 Approach closest_facing_approach(const SurfaceMesh& mesh);
 
+/// For every vertex the distance to the nearest triangle on the other side of its wall: one that faces the opposite way
+/// and lies behind the vertex, the outside being in front [L]; infinite where none is within `reach`. Throws Cancelled.
+std::vector<double> wall_thickness(const SurfaceMesh& mesh, double reach, Control& control);
+
 /// Two parts of a mesh that come closer than `distance`, and a vertex there.
 struct Contact {
     std::size_t first, second;

@@ -22,6 +22,8 @@ std::vector<std::string> method_names();
 
 /// The one that is taken when nobody chooses.
 MethodKind default_method();
+/// The one that answers on a coarse surface while others compute: few unknowns for its accuracy, whatever the triangles.
+MethodKind preview_method();
 
 /// By MethodTraits::name; nothing for an unknown name.
 std::optional<MethodKind> parse_method_kind(std::string_view text);

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -81,6 +82,22 @@ struct Handle {
     bool operator==(const Handle&) const = default;
 };
 
+/// When a closed surface around the scene's own is simulated in its place (scene/proxy).
+enum class ProxyUse {
+    never,      ///< a surface that a method cannot use is an error
+    automatic,  ///< where the method cannot use the surface itself
+    always
+};
+struct ProxyChoice {
+    ProxyUse use = ProxyUse::automatic;
+    int n_vertices = 1500;  ///< wanted
+    bool operator==(const ProxyChoice&) const = default;
+};
+inline constexpr int kFewestProxyVertices = 20, kMostProxyVertices = 100000;
+/// The words of scene files and command lines; nothing for another one.
+std::string_view name(ProxyUse use);
+std::optional<ProxyUse> parse_proxy_use(std::string_view text);
+
 /// A scene as plain values: what a scene file says, before any mesh is loaded.
 struct Document {
     MeshSource mesh;
@@ -88,6 +105,7 @@ struct Document {
     MethodKind method = default_method();
     std::optional<Selector> fixed;
     std::vector<Handle> handles;
+    ProxyChoice proxy = {};
 };
 
 bool operator==(const Document& a, const Document& b);

@@ -62,6 +62,7 @@ private:
                  "\"fixed\" is what the fixed part is called. Choose another name.");
         const std::vector<int> vertices = claim(handle.select, handle_path(i) + "/select", static_cast<int>(i));
         std::visit([&](const auto& motion) { add_values(motion, vertices, i); }, handle.motion);
+        result_.motions.push_back(handle.motion);
         result_.set.handles.insert(result_.set.handles.end(), vertices.begin(), vertices.end());
         add_group(handle.name.empty() ? "handle-" + std::to_string(i) : handle.name, vertices.size());
     }
@@ -135,17 +136,18 @@ SceneMesh load_scene_mesh(const MeshSource& source, const fs::path& scene_file) 
     return {file.string(), std::move(checked)};
 }
 
-void require_fit(const SceneMesh& mesh, const Material& material, MethodKind kind, const fs::path& scene_file) {
-    require_usable(mesh.checked.report, mesh.name, kind->has_inside);
-    if (const std::string why = refusal({.kind = kind}, material.poisson_ratio); !why.empty())
-        throw SceneError(one_line(place(scene_file, "/material/" + why)));
+bool needs_proxy(const ProxyChoice& choice, const MeshReport& mesh, MethodKind kind) {
+    if (choice.use == ProxyUse::automatic) return kind->has_inside ? !mesh.usable_for_fem() : !mesh.usable();
+    return choice.use == ProxyUse::always;
 }
 
-Body make_body(const Document& document, SceneMesh mesh, MethodKind kind, const fs::path& scene_file) {
-    require_fit(mesh, document.material, kind, scene_file);
-    return {.name = std::move(mesh.name),
-            .surface = std::make_shared<const SurfaceMesh>(std::move(mesh.checked.mesh)),
-            .material = document.material};
+void require_usable(const SceneMesh& mesh, MethodKind kind) {
+    require_usable(mesh.checked.report, mesh.name, kind->has_inside);
+}
+
+void require_material(const Material& material, MethodKind kind, const fs::path& scene_file) {
+    if (const std::string why = refusal({.kind = kind}, material.poisson_ratio); !why.empty())
+        throw SceneError(one_line(place(scene_file, "/material/" + why)));
 }
 
 Constraints make_constraints(const Document& document, const SurfaceMesh& mesh, const fs::path& scene_file) {

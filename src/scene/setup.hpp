@@ -9,6 +9,7 @@
 #include "deform/model.hpp"
 #include "mesh/checks/check.hpp"
 #include "scene/document.hpp"
+#include "scene/motion.hpp"
 
 namespace elastolab {
 
@@ -22,13 +23,13 @@ struct SceneMesh {
 /// Throws MeshError (a file that cannot be read) or SceneError (a primitive that cannot be made).
 SceneMesh load_scene_mesh(const MeshSource& source, const std::filesystem::path& scene_file);
 
-/// Throws MeshError when a mesh is not usable for a method of `kind`, SceneError when the material is not.
-void require_fit(const SceneMesh& mesh, const Material& material, MethodKind kind,
-                 const std::filesystem::path& scene_file);
+/// Whether a method of `kind` simulates a closed surface around this mesh (scene/proxy/proxy.hpp), not the mesh itself.
+bool needs_proxy(const ProxyChoice& choice, const MeshReport& mesh, MethodKind kind);
 
-/// The body of a scene, fit for a method of `kind` (which need not be the one that the document names).
-/// Throws MeshError when the mesh is not usable for it, SceneError when the material is not.
-Body make_body(const Document& document, SceneMesh mesh, MethodKind kind, const std::filesystem::path& scene_file);
+/// Throws MeshError when a mesh is not usable for a method of `kind`.
+void require_usable(const SceneMesh& mesh, MethodKind kind);
+/// Throws SceneError when the material is not.
+void require_material(const Material& material, MethodKind kind, const std::filesystem::path& scene_file);
 
 /// Constrained vertices that belong together: columns [begin, end) of Deformer::reactions.
 struct ConstraintGroup {
@@ -41,7 +42,10 @@ struct ConstraintGroup {
 struct Constraints {
     ConstrainedSet set;                   ///< base: the fixed part; handles: those of all handles, one after the other
     Eigen::VectorXd values;               ///< 3 * set.handles.size(), node-major [L]
+    std::vector<Motion> motions;          ///< of every handle; `values` are what they do to its vertices
     std::vector<ConstraintGroup> groups;  ///< "fixed" first when there is one, then every handle
+
+    bool has_fixed() const { return groups.size() > motions.size(); }
 };
 
 /// Throws SceneError naming the JSON path when a selector selects nothing or a vertex that is not there, when a vertex

@@ -1,6 +1,7 @@
 #include "scene/solve.hpp"
 
 #include <algorithm>
+#include <array>
 #include <Eigen/Geometry>
 
 #include "base/error.hpp"
@@ -9,6 +10,7 @@
 #include "findings/solution.hpp"
 #include "findings/words.hpp"
 #include "methods/precompute.hpp"
+#include "scene/proxy/carried_constraints.hpp"
 
 namespace elastolab {
 
@@ -31,12 +33,31 @@ std::vector<GroupReaction> totals(const std::vector<ConstraintGroup>& groups, co
 
 void append(Findings& all, const Findings& more) { all.insert(all.end(), more.begin(), more.end()); }
 
-Body load_body(const SolveRequest& request, Solution& solution, Control& control) {
+SceneMesh load_mesh(const SolveRequest& request, Solution& solution, Control& control) {
     const Stage stage("load", control, solution.stages);
     SceneMesh mesh = load_scene_mesh(request.document.mesh, request.scene_file);
     solution.mesh_name = mesh.name;
     solution.defects = mesh.checked.report.defects;
-    return make_body(request.document, std::move(mesh), request.method.kind, request.scene_file);
+    solution.surface = std::make_shared<const SurfaceMesh>(std::move(mesh.checked.mesh));
+    return mesh;
+}
+
+/// What is simulated: the scene's surface, or a proxy.
+Body make_body(const SolveRequest& request, const SceneMesh& mesh, Solution& solution, Control& control) {
+    const Document& document = request.document;
+    const MethodKind kind = request.method.kind;
+    require_material(document.material, kind, request.scene_file);
+    Body body{.name = mesh.name, .surface = solution.surface, .material = document.material};
+    if (needs_proxy(document.proxy, mesh.checked.report, kind)) {
+        const Stage stage("proxy", control, solution.stages);
+        const std::array sizes = {document.proxy.n_vertices};
+        solution.proxy = make_proxies(mesh.name, solution.surface, mesh.checked.report, sizes, control).front();
+        append(solution.findings, findings_of_proxy(*solution.proxy, mesh.name));
+        body.surface = solution.proxy->surface;
+    } else {
+        require_usable(mesh, kind);
+    }
+    return body;
 }
 
 void precompute_model(const Method& method, const Body& body, Solution& solution, Control& control) {
@@ -90,6 +111,11 @@ void apply(const Constraints& constraints, bool with_checks, Solution& solution,
     append(solution.findings, findings_of_set(deformer));
 }
 
+void carry_back(const CarriedConstraints& carried, Solution& solution) {
+    const Eigen::VectorXd u = carried.displacement(solution.displacement.reshaped());
+    solution.displacement = Eigen::Map<const Eigen::Matrix3Xd>(u.data(), 3, u.size() / 3);
+}
+
 }  // namespace
 
 Imbalance imbalance_of(const std::vector<GroupReaction>& reactions, const SurfaceMesh& surface) {
@@ -117,9 +143,13 @@ std::vector<std::string> Solution::warnings() const {
 
 Solution solve(const SolveRequest& request, Control& control) {
     Solution solution;
-    const Body body = load_body(request, solution, control);
-    const Constraints constraints = make_constraints(request.document, *body.surface, request.scene_file);
-    solution.n_constrained = static_cast<int>(constraints.set.base.size() + constraints.set.handles.size());
+    const SceneMesh mesh = load_mesh(request, solution, control);
+    const Body body = make_body(request, mesh, solution, control);
+    const Constraints shown = make_constraints(request.document, *solution.surface, request.scene_file);
+    std::optional<CarriedConstraints> carried;
+    if (solution.proxy) carried.emplace(solution.proxy).set(shown);
+    const Constraints& constraints = carried ? carried->constraints() : shown;
+    solution.n_constrained = static_cast<int>(shown.set.base.size() + shown.set.handles.size());
     if (solution.n_constrained == 0)
         solution.findings.push_back({.kind = FindingKind::nothing_constrained, .object = request.scene_file.string()});
     Method method = request.method;
@@ -128,6 +158,7 @@ Solution solve(const SolveRequest& request, Control& control) {
             method.update = Update::direct;
             precompute_model(method, body, solution, control);
             apply(constraints, request.with_checks, solution, control);
+            if (carried) carry_back(*carried, solution);
             return solution;
         } catch (const NotHeldError&) {
             method.update = Update::reduced;
@@ -135,6 +166,7 @@ Solution solve(const SolveRequest& request, Control& control) {
     }
     precompute_model(method, body, solution, control);
     apply(constraints, request.with_checks, solution, control);
+    if (carried) carry_back(*carried, solution);
     return solution;
 }
 

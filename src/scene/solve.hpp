@@ -11,6 +11,7 @@
 #include "deform/deformer.hpp"
 #include "deform/finding.hpp"
 #include "scene/document.hpp"
+#include "scene/proxy/proxy.hpp"
 #include "scene/setup.hpp"
 
 namespace elastolab {
@@ -43,6 +44,8 @@ Imbalance imbalance_of(const std::vector<GroupReaction>& reactions, const Surfac
 
 /// Everything that solve writes or prints.
 struct Solution {
+    std::shared_ptr<const SurfaceMesh> surface;  ///< that of the scene, whose vertices the results speak of
+    std::shared_ptr<const Proxy> proxy;          ///< that was simulated in its place; null: the surface itself was
     std::shared_ptr<const Model> model;
     Cost predicted;
     std::string mesh_name;

@@ -1,6 +1,7 @@
 #include <imgui.h>
 
 #include <array>
+#include <utility>
 
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
@@ -136,8 +137,22 @@ std::string readiness(const MethodRunner& runner) {
     return text + (runner.has_inverse() ? "; K and its inverse are ready" : "; columns on demand");
 }
 
-void draw_warnings(const PanelContext& context, const MethodRunner& runner) {
+void draw_warnings(const PanelContext& context, const EmbeddedRunner& runner) {
     for (const std::string& text : words(runner.findings())) paragraph(text, context.palette.busy);
+}
+
+/// How the preview does while the method is not ready, and how far it was off.
+void draw_preview(const PanelContext& context) {
+    const Simulation& simulation = context.state.simulation;
+    const MethodKind kind = context.state.method;
+    if (simulation.making_proxy(kind)) {
+        const JobStatus status = simulation.proxies().status();
+        paragraph("making a closed surface to simulate  " + readable_seconds(status.seconds), context.palette.busy);
+    } else if (simulation.previewing(kind)) {
+        paragraph("pulls move a preview meanwhile", context.palette.good);
+    } else if (const auto error = simulation.preview_error(kind)) {
+        paragraph("the preview was " + readable_number(100.0 * *error) + " % off", context.palette.text_dim);
+    }
 }
 
 }  // namespace
@@ -162,9 +177,10 @@ void Panels::draw_method(const PanelContext& context) {
     if (runner.state() == State::idle || runner.state() == State::failed) {
         const std::string problem = state.simulation.problem(state.method);
         if (!problem.empty()) paragraph(problem, palette.bad);
-        if (ImGui::Button("Compute")) runner.retry();
+        if (ImGui::Button("Compute")) state.simulation.retry(state.method);
     }
-    draw_warnings(context, runner);
+    draw_preview(context);
+    draw_warnings(context, std::as_const(state.simulation).embedded(state.method));
 
     if (!ImGui::TreeNode("How it computes")) return;
     draw_mode(context);

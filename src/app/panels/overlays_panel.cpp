@@ -26,6 +26,33 @@ void shaded_text(ImDrawList& list, ImFont* font, float size, ImVec2 place, const
     list.AddText(font, size, place, imgui_packed(colour), text.c_str());
 }
 
+constexpr const char* kDash = "  \u2013  ";
+
+/// What is seen of a method: its answer, the preview of it, or why there is none.
+std::string source_words(const ViewerState& state, MethodKind kind) {
+    const Simulation& simulation = state.simulation;
+    const MethodRunner& runner = simulation.runner(kind);
+    const auto progress = [](const JobStatus& status) {
+        return formatted("%s %.0f %%", status.stage, std::floor(100.0 * status.progress));
+    };
+    std::string text;
+    if (simulation.previewing(kind)) {
+        const Proxy* proxy = simulation.preview().proxy();
+        text = std::string(kDash) + "preview";
+        if (proxy) text += " (proxy of " + count_text(proxy->surface->n_vertices()) + " vertices)";
+    }
+    if (simulation.making_proxy(kind)) return text + kDash + progress(simulation.proxies().status());
+    if (runner.precomputing()) return text + kDash + progress(runner.status());
+    if (!simulation.problem(kind).empty()) return text + kDash + "not available: see Method";
+    if (simulation.previewing(kind)) return text;
+    if (!runner.has_answer())
+        return kDash + std::string(runner.preparing()     ? "preparing the held vertices"
+                                   : simulation.waiting() ? "waiting"
+                                                          : "not computed");
+    const Proxy* proxy = simulation.embedded(kind).proxy();
+    return proxy ? kDash + ("on a proxy of " + count_text(proxy->surface->n_vertices()) + " vertices") : "";
+}
+
 /// Whose answer a viewport shows, how it is doing, and how far it is from the reference.
 void draw_title(const PanelContext& context, ImDrawList& list, const SceneViewport& viewport) {
     const ViewerState& state = context.state;
@@ -36,17 +63,7 @@ void draw_title(const PanelContext& context, ImDrawList& list, const SceneViewpo
     for (const MethodKind kind : viewport.kinds) {
         ImFont* font = first ? context.gui.fonts().large : context.gui.fonts().regular;
         const float height = first ? 1.35f * size : size;
-        const MethodRunner& runner = state.simulation.runner(kind);
-        std::string text = title(kind);
-        if (runner.precomputing())
-            text +=
-                formatted("  \u2013  %s %.0f %%", runner.status().stage, std::floor(100.0 * runner.status().progress));
-        else if (!state.simulation.problem(kind).empty())
-            text += "  \u2013  not available: see Method";
-        else if (!runner.has_answer())
-            text += runner.preparing()           ? "  \u2013  preparing the held vertices"
-                    : state.simulation.waiting() ? "  \u2013  waiting"
-                                                 : "  \u2013  not computed";
+        const std::string text = title(kind) + source_words(state, kind);
         const Colour& colour = palette.body(kind);
         shaded_text(list, font, height, place, mix(colour, palette.text, 0.35), palette.background_bottom, text);
         place.y += 1.25f * height;

@@ -73,11 +73,17 @@ void Panels::ask_timings(ViewerState& state) {
                  }});
 }
 
+/// Of the proxy, where one is simulated, once it is there; of nothing until then.
 const Cost& Panels::cost(const ViewerState& state, const Method& method) {
+    const SurfaceMesh* surface = state.simulation.simulated_surface(method.kind, state.scene());
     if (costs_of_scene_ != state.scene_number()) costs_.clear();
     costs_of_scene_ = state.scene_number();
+    if (surface == nullptr) {
+        static const Cost kUnknown;
+        return kUnknown;
+    }
     const auto [place, is_new] = costs_.try_emplace({method.kind, method.mode});
-    if (is_new) place->second = predict_cost(state.scene().mesh(), method);
+    if (is_new) place->second = predict_cost(*surface, method);
     return place->second;
 }
 

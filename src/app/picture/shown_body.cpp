@@ -1,5 +1,6 @@
 #include "app/picture/shown_body.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "app/names.hpp"
@@ -14,14 +15,13 @@ using Columns = Eigen::Map<const Eigen::Matrix3Xd>;
 Columns columns(const Eigen::VectorXd& u) { return {u.data(), 3, u.size() / 3}; }
 
 /// Only answers to the same question differ by their methods.
-bool comparable(const MethodRunner& runner, const MethodRunner* reference) {
-    constexpr auto kReady = MethodRunner::State::ready;
-    if (reference == nullptr || reference == &runner) return false;
-    if (runner.state() != kReady || reference->state() != kReady || runner.surface() != reference->surface())
-        return false;
-    const auto poisson_ratio = [](const MethodRunner& of) { return of.model()->body().material.poisson_ratio; };
-    return poisson_ratio(runner) == poisson_ratio(*reference) && runner.values().size() == reference->values().size() &&
-           runner.values() == reference->values();
+bool comparable(const EmbeddedRunner& answer, const EmbeddedRunner* reference) {
+    if (reference == nullptr || reference == &answer || !answer.ready() || !reference->ready()) return false;
+    if (answer.displacement().size() != reference->displacement().size()) return false;
+    const auto poisson_ratio = [](const EmbeddedRunner& of) {
+        return of.runner().model()->body().material.poisson_ratio;
+    };
+    return poisson_ratio(answer) == poisson_ratio(*reference);
 }
 
 std::vector<float> magnitudes(const Eigen::Matrix3Xd& vectors) {
@@ -29,6 +29,11 @@ std::vector<float> magnitudes(const Eigen::Matrix3Xd& vectors) {
     for (Eigen::Index i = 0; i < vectors.cols(); ++i)
         values[static_cast<std::size_t>(i)] = static_cast<float>(vectors.col(i).norm());
     return values;
+}
+
+std::vector<float> as_floats(const Eigen::VectorXd& numbers) {
+    const Eigen::VectorXf floats = numbers.cast<float>();
+    return {floats.begin(), floats.end()};
 }
 
 double ratio(double value, double to) { return to > 0.0 ? value / to : 0.0; }
@@ -58,10 +63,11 @@ SectionPlane plane_of(const MeshReport& report, const DisplaySettings& display) 
 }  // namespace
 
 ShownBody::Key ShownBody::key_of(const Sources& sources, const DisplaySettings& display) {
-    const bool differs = comparable(sources.runner, sources.reference);
+    const bool differs = comparable(sources.answer, sources.reference);
     return {.mesh = &sources.scene.mesh(),
-            .version = sources.runner.version(),
+            .version = sources.answer.version(),
             .reference_version = differs ? sources.reference->version() : 0,
+            .answer = &sources.answer,
             .reference = differs ? sources.reference : nullptr,
             .field = display.field,
             .scale = display.deformation_scale,
@@ -89,8 +95,8 @@ bool ShownBody::update(const Sources& sources, const DisplaySettings& display) {
 void ShownBody::update_positions(const Sources& sources, double scale) {
     positions_ = sources.scene.mesh().vertices;
     max_displacement_ = 0.0;
-    if (sources.runner.displacement().size() != positions_.size()) return;
-    const Columns u = columns(sources.runner.displacement());
+    if (sources.answer.displacement().size() != positions_.size()) return;
+    const Columns u = columns(sources.answer.displacement());
     positions_ += scale * u;
     max_displacement_ = std::sqrt(u.colwise().squaredNorm().maxCoeff());
 }
@@ -98,17 +104,19 @@ void ShownBody::update_positions(const Sources& sources, double scale) {
 void ShownBody::update_reactions(const Sources& sources) {
     reactions_.clear();
     tractions_.resize(3, 0);
-    const LiveScene& scene = sources.scene;
+    const EmbeddedRunner& answer = sources.answer;
     const ReactionRunner* known = sources.reactions;
-    if (known == nullptr || known->surface() != &scene.mesh()) return;
+    if (known == nullptr || known->surface() == nullptr || known->surface() != answer.surface()) return;
     const std::vector<int>& constrained = known->vertices();
     const Reactions& reactions = known->reactions();
-    tractions_ = vertex_tractions(scene.mesh(), constrained, reactions.forces);
-    const ConstrainedSet& set = scene.constraints().set;
-    if (constrained != joined(set.base, set.handles)) return;  // the new set is on its way
-    for (const ConstraintGroup& group : scene.constraints().groups) {
+    tractions_ = vertex_tractions(*answer.surface(), constrained, reactions.forces);
+    const Constraints &computed = answer.constraints(), &shown = sources.scene.constraints();
+    if (constrained != joined(computed.set.base, computed.set.handles)) return;  // the new set is on its way
+    const std::vector<int> shown_vertices = joined(shown.set.base, shown.set.handles);
+    for (std::size_t g = 0; g < std::min(computed.groups.size(), shown.groups.size()); ++g) {
+        const ConstraintGroup &group = computed.groups[g], &seen = shown.groups[g];
         const int n = group.end - group.begin;
-        const std::vector<int> vertices(constrained.begin() + group.begin, constrained.begin() + group.end);
+        const std::vector<int> vertices(shown_vertices.begin() + seen.begin, shown_vertices.begin() + seen.end);
         reactions_.push_back({.name = group.name,
                               .force = reactions.forces.middleCols(group.begin, n).rowwise().sum(),
                               .moment = reactions.moments.middleCols(group.begin, n).rowwise().sum(),
@@ -118,12 +126,13 @@ void ShownBody::update_reactions(const Sources& sources) {
 
 void ShownBody::update_difference(const Sources& sources) {
     difference_.reset();
-    if (comparable(sources.runner, sources.reference))
-        difference_ = difference_of(sources.runner.displacement(), sources.reference->displacement());
+    if (comparable(sources.answer, sources.reference))
+        difference_ = difference_of(sources.answer.displacement(), sources.reference->displacement());
 }
 
 void ShownBody::update_section(const Sources& sources, const DisplaySettings& display) {
-    if (sources.volume == nullptr || sources.runner.displacement().size() != positions_.size()) {
+    const Eigen::VectorXd& of_surface = sources.answer.runner().displacement();
+    if (sources.volume == nullptr || of_surface.size() != 3 * sources.volume->mesh().n_surface_vertices) {
         section_.reset();
         return;
     }
@@ -134,7 +143,7 @@ void ShownBody::update_section(const Sources& sources, const DisplaySettings& di
         section_.reset();
         return;
     }
-    const Eigen::VectorXd u = sources.volume->displace(sources.runner.displacement());
+    const Eigen::VectorXd u = sources.volume->displace(of_surface);
     section_->positions = mesh.vertices + display.deformation_scale * columns(u);
     section_->values.clear();
     if (display.field == Field::displacement) section_->values = magnitudes(columns(u));
@@ -143,22 +152,23 @@ void ShownBody::update_section(const Sources& sources, const DisplaySettings& di
 void ShownBody::update_values(const Sources& sources, Field field) {
     values_.clear();
     max_value_ = 0.0;
-    const MethodRunner& runner = sources.runner;
-    if (field == Field::none || runner.displacement().size() != positions_.size()) return;
-    const Eigen::VectorXd& u = runner.displacement();
+    const EmbeddedRunner& answer = sources.answer;
+    if (field == Field::none || answer.displacement().size() != positions_.size()) return;
+    const Eigen::VectorXd& u = answer.displacement();
     if (field == Field::displacement) values_ = magnitudes(columns(u));
-    if (field == Field::traction) values_ = magnitudes(tractions_);
+    if (field == Field::traction && tractions_.cols() > 0)
+        values_ = as_floats(answer.shown_values(tractions_.colwise().norm().transpose()));
     if (field == Field::difference) {
-        if (comparable(runner, sources.reference))
+        if (comparable(answer, sources.reference))
             values_ = magnitudes(columns(u) - columns(sources.reference->displacement()));
         else
             values_.assign(static_cast<std::size_t>(positions_.cols()), 0.0f);
     }
     if (field == Field::von_mises && tractions_.cols() > 0) {
         // Of the model that answered: the material of the scene may be newer than its displacements.
-        const Material& material = runner.deformer()->model().body().material;
-        const Eigen::VectorXd stress = surface_von_mises(sources.scene.mesh(), material, u, tractions_);
-        values_.assign(stress.begin(), stress.end());
+        const Material& material = answer.runner().deformer()->model().body().material;
+        values_ = as_floats(answer.shown_values(
+            surface_von_mises(*answer.surface(), material, answer.runner().displacement(), tractions_)));
     }
     for (const float value : values_) max_value_ = std::max(max_value_, static_cast<double>(value));
 }

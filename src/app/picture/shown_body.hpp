@@ -44,8 +44,8 @@ public:
     /// What is shown of one method's answer, and what else that needs.
     struct Sources {
         const LiveScene& scene;
-        const MethodRunner& runner;
-        const MethodRunner* reference = nullptr;    ///< what differences are to; null when there is none
+        const EmbeddedRunner& answer;
+        const EmbeddedRunner* reference = nullptr;  ///< what differences are to; null when there is none
         const ReactionRunner* reactions = nullptr;  ///< null when nothing is shown that needs them
         const Volume* volume = nullptr;             ///< its inside, when it has one and is to be cut open
     };
@@ -70,7 +70,7 @@ private:
     struct Key {
         const SurfaceMesh* mesh = nullptr;
         std::uint64_t version = 0, reference_version = 0;
-        const MethodRunner* reference = nullptr;
+        const EmbeddedRunner *answer = nullptr, *reference = nullptr;
         Field field = Field::none;
         double scale = 1.0;
         const ReactionRunner* reactions = nullptr;

@@ -54,14 +54,15 @@ const ReactionRunner* ShownScene::reactions(const ShownAnswers& answers, MethodK
         runner->rest();
         return nullptr;
     }
-    runner->update(answers.simulation.runner(kind));
+    runner->update(answers.simulation.answer(kind).runner());
     return runner.get();
 }
 
 /// The inside of a method's body, when it is to be cut open.
 const Volume* ShownScene::volume(const ShownAnswers& answers, MethodKind kind) {
-    const MethodRunner& runner = answers.simulation.runner(kind);
-    return answers.display.section && runner.surface() == &answers.scene.mesh() ? volume_.of(runner) : nullptr;
+    const EmbeddedRunner& answer = answers.simulation.embedded(kind);
+    const bool answers_now = &answer == &answers.simulation.answer(kind) && answer.shows(answers.scene.mesh());
+    return answers.display.section && answers_now ? volume_.of(answer.runner()) : nullptr;
 }
 
 bool ShownScene::update(const ShownAnswers& answers) {
@@ -75,8 +76,8 @@ bool ShownScene::update(const ShownAnswers& answers) {
     bool changed = false;
     for (const MethodKind kind : answers.kinds) {
         const ShownBody::Sources sources{.scene = answers.scene,
-                                         .runner = answers.simulation.runner(kind),
-                                         .reference = answers.reference,
+                                         .answer = answers.simulation.answer(kind),
+                                         .reference = answers.simulation.previewing(kind) ? nullptr : answers.reference,
                                          .reactions = reactions(answers, kind),
                                          .volume = volume(answers, kind)};
         changed = body_of(kind).update(sources, answers.display) || changed;

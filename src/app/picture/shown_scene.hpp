@@ -27,8 +27,8 @@ struct SceneViewport {
 struct ShownAnswers {
     const LiveScene& scene;
     const Simulation& simulation;
-    std::vector<MethodKind> kinds;            ///< of the methods on the screen
-    const MethodRunner* reference = nullptr;  ///< of differences; null when nothing needs one
+    std::vector<MethodKind> kinds;              ///< of the methods on the screen
+    const EmbeddedRunner* reference = nullptr;  ///< of differences; null when nothing needs one
     const DisplaySettings& display;
 };
 

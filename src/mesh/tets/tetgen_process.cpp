@@ -10,19 +10,12 @@
 #include <vector>
 
 #include "mesh/input/child_process.hpp"
+#include "mesh/input/messages.hpp"
 #include "mesh/tets/tetgen_protocol.hpp"
 
 namespace elastolab {
 
 namespace {
-
-template <class T>
-void append(std::string& bytes, const T* values, Eigen::Index count) {
-    const auto size = sizeof(T) * static_cast<std::size_t>(count);
-    const std::size_t end = bytes.size();
-    bytes.resize(end + size);
-    if (size > 0) std::memcpy(bytes.data() + end, values, size);
-}
 
 std::string request_bytes(const SurfaceMesh& surface, const Positions& holes, const std::string& switches) {
     TetgenRequestHeader header;
@@ -32,10 +25,10 @@ std::string request_bytes(const SurfaceMesh& surface, const Positions& holes, co
     header.n_triangles = surface.n_triangles();
     header.n_holes = static_cast<std::int32_t>(holes.cols());
     std::string bytes;
-    append(bytes, &header, 1);
-    append(bytes, surface.vertices.data(), surface.vertices.size());
-    append(bytes, surface.triangles.data(), surface.triangles.size());
-    append(bytes, holes.data(), holes.size());
+    append_bytes(bytes, &header, 1);
+    append_bytes(bytes, surface.vertices.data(), static_cast<std::size_t>(surface.vertices.size()));
+    append_bytes(bytes, surface.triangles.data(), static_cast<std::size_t>(surface.triangles.size()));
+    append_bytes(bytes, holes.data(), static_cast<std::size_t>(holes.size()));
     return bytes;
 }
 
@@ -102,13 +95,12 @@ TetgenResult run_tetgen(const SurfaceMesh& surface, const Positions& holes, cons
         result.failure = meaning_of_status(header.status) + reason_in(helper.output());
         return result;
     }
-    const char* data = reply.data() + sizeof(header);
     result.vertices.resize(3, header.n_vertices);
     result.tetrahedra.resize(4, header.n_tetrahedra);
-    const std::size_t vertex_bytes = sizeof(double) * static_cast<std::size_t>(result.vertices.size());
-    if (header.n_vertices > 0) std::memcpy(result.vertices.data(), data, vertex_bytes);
-    if (header.n_tetrahedra > 0)
-        std::memcpy(result.tetrahedra.data(), data + vertex_bytes, reply.size() - sizeof(header) - vertex_bytes);
+    ReplyReader reader(reply);
+    reader.read(&header, 1);
+    reader.read(result.vertices.data(), static_cast<std::size_t>(result.vertices.size()));
+    reader.read(result.tetrahedra.data(), static_cast<std::size_t>(result.tetrahedra.size()));
     return result;
 }
 

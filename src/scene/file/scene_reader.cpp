@@ -168,6 +168,19 @@ Handle read_handle(const JsonNode& node) {
     return handle;
 }
 
+ProxyChoice read_proxy(const JsonNode& node) {
+    node.require_keys({"use", "vertices"});
+    ProxyChoice proxy;
+    if (const auto use = node.find("use")) {
+        const auto known = parse_proxy_use(use->text());
+        if (!known) use->fail(use->quoted() + " is none of never, auto, always. Choose one of these.");
+        proxy.use = *known;
+    }
+    if (const auto vertices = node.find("vertices"))
+        proxy.n_vertices = vertices->integer(kFewestProxyVertices, kMostProxyVertices);
+    return proxy;
+}
+
 /// The last of `handles`, which `node` holds, has a name that none before it has.
 void require_new_name(const JsonNode& node, const std::vector<Handle>& handles) {
     const auto last = std::prev(handles.end());
@@ -194,7 +207,7 @@ std::vector<Handle> read_handles(const JsonNode& node) {
 Document parse_scene(std::string_view text, const std::string& name) {
     const Json json = parse_json(text, name);
     const JsonNode root(json, "", name);
-    root.require_keys({"elastolab", "mesh", "material", "method", "fixed", "handles"});
+    root.require_keys({"elastolab", "mesh", "material", "method", "fixed", "handles", "proxy"});
     read_version(root);
     Document document;
     document.mesh = read_mesh(root.at("mesh", "Give a mesh file or a primitive."));
@@ -202,6 +215,7 @@ Document parse_scene(std::string_view text, const std::string& name) {
     if (const auto method = root.find("method")) document.method = read_method(*method);
     if (const auto fixed = root.find("fixed")) document.fixed = read_selector(*fixed);
     if (const auto handles = root.find("handles")) document.handles = read_handles(*handles);
+    if (const auto proxy = root.find("proxy")) document.proxy = read_proxy(*proxy);
     return document;
 }
 

@@ -77,6 +77,8 @@ Json to_json(const Document& document) {
     if (document.fixed) json["fixed"] = to_json(*document.fixed);
     json["handles"] = Json::array();
     for (const Handle& handle : document.handles) json["handles"].push_back(to_json(handle));
+    if (document.proxy != ProxyChoice{})
+        json["proxy"] = {{"use", std::string(name(document.proxy.use))}, {"vertices", document.proxy.n_vertices}};
     return json;
 }
 

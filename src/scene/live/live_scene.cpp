@@ -31,7 +31,10 @@ LiveScene::LiveScene(Document document, std::filesystem::path scene_file)
       file_(std::move(scene_file)),
       mesh_(load_scene_mesh(document_.mesh, file_)),
       history_(document_) {
-    require_usable(mesh_.checked.report, mesh_.name, false);
+    if (document_.proxy.use == ProxyUse::never)
+        require_usable(mesh_.checked.report, mesh_.name, false);
+    else
+        require_shape(mesh_.checked.report, mesh_.name);
     for (std::size_t i = 0; i < document_.handles.size(); ++i)
         if (std::string& name = document_.handles[i].name; name.empty()) name = "handle-" + std::to_string(i);
     saved_ = document_;
@@ -41,9 +44,10 @@ LiveScene::LiveScene(Document document, std::filesystem::path scene_file)
     become(document_);
 }
 
-Body LiveScene::body(MethodKind kind) const {
-    require_fit(mesh_, document_.material, kind, file_);
-    return {.name = mesh_.name, .surface = surface_, .material = document_.material};
+Body LiveScene::body(MethodKind kind, const Proxy* proxy) const {
+    require_material(document_.material, kind, file_);
+    if (proxy == nullptr) require_usable(mesh_, kind);
+    return {.name = mesh_.name, .surface = proxy ? proxy->surface : surface_, .material = document_.material};
 }
 
 std::span<const int> LiveScene::vertices(int owner) const {
@@ -127,6 +131,7 @@ void LiveScene::set_motion(int handle, const Motion& motion) {
     }
     if (!values.allFinite()) return;
     document_.handles[static_cast<std::size_t>(handle)].motion = motion;
+    constraints_.motions[static_cast<std::size_t>(handle)] = motion;
     constraints_.values.segment(3 * begin, values.size()) = values;
     ++revision_;
 }
@@ -140,11 +145,17 @@ void LiveScene::undo() { become(history_.undo()); }
 
 void LiveScene::redo() { become(history_.redo()); }
 
-ConstrainedSet LiveScene::set_with_handle(std::span<const int> vertices) const {
-    ConstrainedSet set = constraints_.set;
+Constraints LiveScene::constraints_with_handle(std::span<const int> vertices) const {
+    Constraints all = constraints_;
     const std::vector<int> own = only_free(vertices);
-    set.handles.insert(set.handles.end(), own.begin(), own.end());
-    return set;
+    if (own.empty()) return all;
+    const int begin = all.groups.empty() ? 0 : all.groups.back().end;
+    all.set.handles.insert(all.set.handles.end(), own.begin(), own.end());
+    all.values.conservativeResize(all.values.size() + 3 * std::ssize(own));
+    all.values.tail(3 * std::ssize(own)).setZero();
+    all.motions.emplace_back(AffineMotion{});
+    all.groups.push_back({unused_name(document_.handles), begin, begin + static_cast<int>(own.size())});
+    return all;
 }
 
 /// The whole of it or, on an exception, nothing.

@@ -9,6 +9,7 @@
 
 #include "scene/live/history.hpp"
 #include "scene/motion.hpp"
+#include "scene/proxy/proxy.hpp"
 #include "scene/setup.hpp"
 
 namespace elastolab {
@@ -20,17 +21,21 @@ public:
     static constexpr int kNobody = -1;  ///< owner of a free vertex
     static constexpr int kFixed = -2;   ///< owner of a vertex of the fixed part
 
-    /// Loads the mesh. Throws MeshError or SceneError as the functions of scene/setup.hpp do; MeshError too when the
-    /// mesh is usable for no method.
+    /// Loads the mesh. Throws MeshError or SceneError as the functions of scene/setup.hpp do; MeshError too when no
+    /// method can simulate the mesh or a proxy of it.
     LiveScene(Document document, std::filesystem::path scene_file);
 
     const Document& document() const { return document_; }
     const std::filesystem::path& file() const { return file_; }  ///< where relative names of the document start
     const std::string& name() const { return mesh_.name; }       ///< of the mesh
     const SurfaceMesh& mesh() const { return *surface_; }
+    const std::shared_ptr<const SurfaceMesh>& surface() const { return surface_; }
     const MeshReport& report() const { return mesh_.checked.report; }
-    /// The body for a method of this kind. Throws MeshError or SceneError when it is not fit for it.
-    Body body(MethodKind kind) const;
+    /// Whether a method of this kind simulates a proxy of the surface.
+    bool needs_proxy(MethodKind kind) const { return elastolab::needs_proxy(document_.proxy, report(), kind); }
+    /// The body that a method of this kind simulates: this surface, or that of `proxy` when there is one. Throws
+    /// MeshError or SceneError when surface or material are not fit for it.
+    Body body(MethodKind kind, const Proxy* proxy) const;
 
     const Constraints& constraints() const { return constraints_; }
     int n_handles() const { return static_cast<int>(document_.handles.size()); }
@@ -66,8 +71,9 @@ public:
     void undo();
     void redo();
 
-    /// What an edit would make of the constrained set: with these vertices (those that are free) as one more handle.
-    ConstrainedSet set_with_handle(std::span<const int> vertices) const;
+    /// What an edit would make of the constraints: with these vertices (those that are free) as one more handle, at
+    /// rest.
+    Constraints constraints_with_handle(std::span<const int> vertices) const;
 
 private:
     std::vector<int> only_free(std::span<const int> vertices) const;

@@ -3,12 +3,14 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "methods/registry.hpp"
+#include "scene/live/embedded_runner.hpp"
 #include "scene/live/live_scene.hpp"
-#include "scene/live/method_runner.hpp"
+#include "scene/live/proxy_keeper.hpp"
 
 namespace elastolab {
 
@@ -25,8 +27,10 @@ struct MethodChoices {
     Method of(MethodKind kind) const;
 };
 
-/// The answers of several methods to one scene. Methods that nobody looks at are not computed; their last answers are
-/// kept, so that switching back is instant. All members are for one thread, which calls update() once per frame.
+/// The answers of several methods to one scene, each on the scene's surface or, where the method cannot use that, on a
+/// proxy of it. Methods that nobody looks at are not computed; their last answers are kept, so that switching back is
+/// instant. While a method's model or a new constrained set of it is being prepared, a coarse preview answers in its
+/// place. All members are for one thread, which calls update() once per frame.
 class Simulation {
 public:
     /// `wake` is called by the workers when update() will find something.
@@ -36,10 +40,27 @@ public:
     /// precomputation when the one before has its model. Returns whether any displacement changed.
     bool update(const LiveScene& scene, const std::vector<MethodKind>& shown, const MethodChoices& choices);
     /// Prepares the methods of the last update for this set, that may be asked for soon.
-    void prefetch(const ConstrainedSet& set);
+    void prefetch(const Constraints& constraints);
+    /// Tries again what failed or was stopped.
+    void retry(MethodKind kind);
 
-    MethodRunner& runner(MethodKind kind);
-    const MethodRunner& runner(MethodKind kind) const;
+    MethodRunner& runner(MethodKind kind) { return embedded(kind).runner(); }
+    const MethodRunner& runner(MethodKind kind) const { return embedded(kind).runner(); }
+    /// The method's own answer, whether it is ready or not.
+    const EmbeddedRunner& embedded(MethodKind kind) const { return *entries_[place(kind)].runner; }
+    /// What is to be shown for the method: its answer, or the preview's.
+    const EmbeddedRunner& answer(MethodKind kind) const;
+    bool previewing(MethodKind kind) const { return entries_[place(kind)].previewing; }
+    /// How far the preview was from the method's answer when that came: rms over all vertices, relative to the
+    /// answer's; nothing when there was none.
+    std::optional<double> preview_error(MethodKind kind) const { return entries_[place(kind)].preview_error; }
+    /// The proxy that a method simulates, or the preview's; null while there is none.
+    const ProxyKeeper& proxies() const { return proxies_; }
+    const EmbeddedRunner& preview() const { return preview_; }
+    /// The surface that a method computes on in this scene; null while its proxy is not there.
+    const SurfaceMesh* simulated_surface(MethodKind kind, const LiveScene& scene) const;
+    /// Whether the proxy that a method needs is being made.
+    bool making_proxy(MethodKind kind) const { return entries_[place(kind)].waits_for_proxy; }
     /// Why a method cannot take this scene (a mesh or material that is not fit for it), else why it failed; empty when
     /// neither.
     std::string problem(MethodKind kind) const;
@@ -53,17 +74,28 @@ public:
 private:
     struct Entry {
         MethodKind kind;
-        std::unique_ptr<MethodRunner> runner;
-        std::string unfit;
+        std::unique_ptr<EmbeddedRunner> runner;
+        std::string unfit = {};
+        bool waits_for_proxy = false;
+        bool previewing = false;
+        std::optional<double> preview_error = {};
     };
     std::size_t place(MethodKind kind) const;
     bool is_shown(MethodKind kind) const;
     void rest_hidden(const LiveScene& scene);
-    static bool give_body(Entry& entry, const LiveScene& scene, const MethodChoices& choices);
-    void complete_one(const LiveScene& scene, const MethodChoices& choices);
+    EmbeddedRunner& embedded(MethodKind kind) { return *entries_[place(kind)].runner; }
+    void ask_for_proxies(const LiveScene& scene);
+    bool update_preview(const LiveScene& scene, const MethodChoices& choices);
+    bool update_method(Entry& entry, const LiveScene& scene, const MethodChoices& choices, bool may_begin);
+    bool choose_answer(Entry& entry) const;
+    bool give_body(Entry& entry, const LiveScene& scene, const MethodChoices& choices);
+    void complete_one(const MethodChoices& choices);
 
     std::vector<Entry> entries_;
     std::vector<MethodKind> shown_;
+    ProxyKeeper proxies_;
+    EmbeddedRunner preview_;
+    bool has_preview_ = false;  ///< this scene is worth one
 };
 
 }  // namespace elastolab

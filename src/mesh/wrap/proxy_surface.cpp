@@ -1,0 +1,202 @@
+#include "mesh/wrap/proxy_surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <Eigen/Geometry>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/error.hpp"
+#include "mesh/checks/defects.hpp"
+#include "mesh/closest_point.hpp"
+#include "mesh/measures.hpp"
+#include "mesh/surface_distance.hpp"
+#include "mesh/wrap/hole_caps.hpp"
+#include "mesh/wrap/wrap_process.hpp"
+
+namespace elastolab {
+
+namespace {
+
+/// A wall of a wrap is thin where its other side is closer than so many offsets: two make an open sheet.
+constexpr double kThinWall = 3.0;
+constexpr int kMostRepairs = 8;
+/// Part of a wrap's vertices on thin walls from which it is taken for one of open sheets.
+constexpr double kMostThin = 0.3;
+
+/// x = scale y + centre takes a body of size 1 around the origin back to its place: geometric libraries have
+/// thresholds.
+struct Frame {
+    Eigen::Vector3d centre;
+    double scale;
+};
+
+/// The triangles that can be wrapped: of finite corners, with some area.
+SurfaceMesh solid_triangles(const SurfaceMesh& shown) {
+    std::vector<int> kept;
+    for (int t = 0; t < shown.n_triangles(); ++t) {
+        const TrianglePoints p = triangle_points(shown, t);
+        const bool finite =
+            ((p.a.cwiseAbs().cwiseMax(p.b.cwiseAbs()).cwiseMax(p.c.cwiseAbs())).array() <= kLargestCoordinate).all();
+        if (finite) kept.push_back(t);
+    }
+    SurfaceMesh mesh{shown.vertices, shown.triangles(Eigen::all, kept)};
+    for (int v = 0; v < mesh.n_vertices(); ++v)
+        if (!(mesh.vertices.col(v).array().abs() <= kLargestCoordinate).all()) mesh.vertices.col(v).setZero();
+    return mesh;
+}
+
+Frame to_unit_size(SurfaceMesh& mesh) {
+    Eigen::AlignedBox3d box;
+    for (const int v : mesh.triangles.reshaped()) box.extend(mesh.vertices.col(v));
+    const double size = box.isEmpty() ? 0.0 : box.diagonal().stableNorm();
+    if (!(size > 0.0))
+        throw MeshError("it has no three vertices that are not on a line. Choose a file with a surface.");
+    const Frame frame{box.min() + 0.5 * box.diagonal(), size};
+    mesh.vertices = (mesh.vertices.colwise() - frame.centre) / size;
+    return frame;
+}
+
+/// Moves the vertices of a wrap onto the surface that it was made around.
+class Settling {
+public:
+    Settling(const SurfaceMesh& wrap, double offset, const SurfaceMesh& around, Control& control)
+        : wrap_(wrap), offset_(offset), moved_(wrap) {
+        const SurfacePlaces places = closest_points(around, wrap.vertices, control);
+        find_thin(control);
+        for (int v = 0; v < wrap.n_vertices(); ++v)
+            if (!thin_[static_cast<std::size_t>(v)])
+                moved_.vertices.col(v) = around.vertices(Eigen::all, places.nodes.col(v)) * places.weights.col(v);
+    }
+
+    /// As far as the surface stays sound.
+    SurfaceMesh settle() {
+        for (int repair = 0; repair < kMostRepairs; ++repair)
+            if (!take_back_damaged()) return moved_;
+        return wrap_;
+    }
+    double thin_part() const {
+        return static_cast<double>(std::count(thin_.begin(), thin_.end(), true)) / static_cast<double>(thin_.size());
+    }
+
+private:
+    /// Where the other side is near, both would come down on the same sheet.
+    void find_thin(Control& control) {
+        const std::vector<double> walls = wall_thickness(wrap_, (kThinWall + 1.0) * offset_, control);
+        for (const double wall : walls) thin_.push_back(wall < kThinWall * offset_);
+    }
+
+    bool take_back_damaged() {
+        std::vector<int> damaged;
+        for (int t = 0; t < wrap_.n_triangles(); ++t) {
+            const Eigen::Vector3d before = area_vector(triangle_points(wrap_, t));
+            const Eigen::Vector3d after = area_vector(triangle_points(moved_, t));
+            if (!(after.dot(before) > 0.3 * before.norm() * after.norm()) || after.norm() < 0.05 * before.norm())
+                damaged.push_back(t);
+        }
+        if (damaged.empty())
+            for (const auto& [a, b] : find_crossing_pairs(moved_).pairs) damaged.insert(damaged.end(), {a, b});
+        for (const int t : damaged)
+            for (const int v : wrap_.triangles.col(t)) moved_.vertices.col(v) = wrap_.vertices.col(v);
+        return !damaged.empty();
+    }
+
+    const SurfaceMesh& wrap_;
+    double offset_;
+    SurfaceMesh moved_;
+    std::vector<bool> thin_;
+};
+
+bool is_usable(const SurfaceMesh& surface) { return check_and_repair(surface).report.usable_for_fem(); }
+
+/// Whether every method could use the surface if its holes were closed.
+bool is_sound_but_for_holes(const MeshReport& report) {
+    return std::all_of(report.defects.begin(), report.defects.end(), [](const Defect& d) {
+        return d.repaired || d.kind == Defect::Kind::open_edges || !(d.fatal || d.fatal_for_fem);
+    });
+}
+
+/// Parts of a collapsed surface may cross where it is thin; with somewhat other triangles they mostly do not. Nothing
+/// when none of these is sound.
+std::optional<SurfaceMesh> collapsed(const SurfaceMesh& sound, int n_vertices, Control& control) {
+    for (const double part : {1.0, 1.15, 0.9, 1.35, 1.6}) {
+        WrapResult result = collapse_edges(sound, static_cast<int>(part * n_vertices), control);
+        if (result.failure.empty() && is_usable(result.surface)) return std::move(result.surface);
+    }
+    return std::nullopt;
+}
+
+/// A wrap of so many vertices rounds what is finer than its triangles and bridges gaps of their size; one of this many
+/// times the vertices, with its edges collapsed, is far closer to the body and takes hardly longer.
+constexpr int kFinerWrap = 4;
+
+/// The settled wrap, or the wrap itself where settling did not keep it sound.
+ProxySurface wrapped_once(const SurfaceMesh& closed, int n_vertices, Control& control) {
+    WrapResult wrap = alpha_wrap(closed, n_vertices, control);
+    if (!wrap.failure.empty())
+        throw MeshError("no closed surface could be made around it (" + wrap.failure +
+                        "). Mend the file, or choose another.");
+    Settling settling(wrap.surface, wrap.offset, closed, control);
+    ProxySurface proxy{.surface = settling.settle(), .kind = ProxySurface::Kind::wrapped};
+    proxy.thin_part = settling.thin_part();
+    proxy.thickness = 2.0 * wrap.offset;
+    if (!is_usable(proxy.surface)) proxy.surface = std::move(wrap.surface);
+    return proxy;
+}
+
+/// Open sheets are as thick as the wrap is coarse, and have to be: a finer one would make them too thin for its own
+/// triangles.
+std::vector<ProxySurface> wrapped(const SurfaceMesh& closed, std::span<const int> sizes, Control& control) {
+    const ProxySurface fine = wrapped_once(closed, kFinerWrap * std::ranges::max(sizes), control);
+    std::vector<ProxySurface> proxies;
+    for (const int n_vertices : sizes) {
+        auto coarse = fine.thin_part <= kMostThin ? collapsed(fine.surface, n_vertices, control) : std::nullopt;
+        proxies.push_back(coarse ? fine : wrapped_once(closed, n_vertices, control));
+        if (coarse) proxies.back().surface = std::move(*coarse);
+    }
+    return proxies;
+}
+
+/// Nothing when some could not be made.
+std::vector<ProxySurface> collapsed_to(const SurfaceMesh& sound, std::span<const int> sizes, Control& control) {
+    std::vector<ProxySurface> proxies;
+    for (const int n_vertices : sizes) {
+        auto surface = sound.n_vertices() > n_vertices ? collapsed(sound, n_vertices, control) : sound;
+        if (!surface) return {};
+        proxies.push_back({.surface = std::move(*surface), .kind = ProxySurface::Kind::collapsed});
+    }
+    return proxies;
+}
+
+/// The surface itself, or its closed form, when every method can use it.
+std::optional<SurfaceMesh> sound_surface(const SurfaceMesh& closed, const MeshReport& report) {
+    if (!is_sound_but_for_holes(report)) return std::nullopt;
+    if (report.usable_for_fem()) return closed;
+    CheckedMesh checked = check_and_repair(closed);
+    if (!checked.report.usable_for_fem()) return std::nullopt;
+    return std::move(checked.mesh);
+}
+
+}  // namespace
+
+std::vector<ProxySurface> make_proxy_surfaces(const SurfaceMesh& shown, const MeshReport& report,
+                                              std::span<const int> sizes, Control& control) {
+    control.begin_stage("proxy");
+    SurfaceMesh triangles = solid_triangles(shown);
+    const Frame frame = to_unit_size(triangles);
+    const HoleCaps capped = cap_holes(triangles);
+    std::vector<ProxySurface> proxies;
+    if (const auto sound = sound_surface(capped.closed, report)) proxies = collapsed_to(*sound, sizes, control);
+    if (proxies.empty()) proxies = wrapped(capped.closed, sizes, control);
+    for (ProxySurface& proxy : proxies) {
+        proxy.n_capped_holes = capped.n_holes;
+        proxy.surface.vertices = (proxy.surface.vertices * frame.scale).colwise() + frame.centre;
+        proxy.thickness *= frame.scale;
+    }
+    return proxies;
+}
+
+}  // namespace elastolab

@@ -1,0 +1,79 @@
+#include "mesh/wrap/wrap_process.hpp"
+
+#include <sys/wait.h>
+
+#include <csignal>
+#include <cstddef>
+#include <cstring>
+#include <vector>
+
+#include "mesh/input/child_process.hpp"
+#include "mesh/input/messages.hpp"
+#include "mesh/wrap/wrap_protocol.hpp"
+
+namespace elastolab {
+
+namespace {
+
+std::string wrap_request(WrapTask task, const SurfaceMesh& surface, int n_vertices) {
+    WrapRequestHeader header;
+    header.task = task;
+    header.n_vertices = surface.n_vertices();
+    header.n_triangles = surface.n_triangles();
+    header.wanted_vertices = n_vertices;
+    std::string bytes;
+    append_bytes(bytes, &header, 1);
+    append_bytes(bytes, surface.vertices.data(), static_cast<std::size_t>(surface.vertices.size()));
+    append_bytes(bytes, surface.triangles.data(), static_cast<std::size_t>(surface.triangles.size()));
+    return bytes;
+}
+
+std::size_t reply_size(const WrapReplyHeader& header) {
+    return sizeof(header) + 3 * sizeof(double) * static_cast<std::size_t>(header.n_vertices) +
+           3 * sizeof(int) * static_cast<std::size_t>(header.n_triangles);
+}
+
+std::string end_of_wrap(int status, const std::string& output) {
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL) return "it was killed, most likely for lack of memory";
+    if (WIFSIGNALED(status)) return "it crashed (signal " + std::to_string(WTERMSIG(status)) + ")";
+    return output.empty() ? "it ended early" : output.substr(0, output.find('\n'));
+}
+
+WrapResult run_wrap(WrapTask task, const SurfaceMesh& surface, int n_vertices, Control& control) {
+    ChildProcess helper(helper_program("elastolab-wrap"));
+    const std::vector<char> reply = helper.exchange(wrap_request(task, surface, n_vertices), control);
+    const int status = helper.wait(control);
+
+    WrapResult result;
+    WrapReplyHeader header;
+    if (reply.size() >= sizeof(header)) std::memcpy(&header, reply.data(), sizeof(header));
+    if (reply.size() < sizeof(header) || header.magic != kWrapMagic || header.n_vertices < 0 ||
+        header.n_triangles < 0 || reply.size() != reply_size(header)) {
+        result.failure = end_of_wrap(status, helper.output());
+        return result;
+    }
+    if (header.n_triangles == 0) {
+        result.failure = "nothing is left of the surface";
+        return result;
+    }
+    result.offset = header.offset;
+    result.surface.vertices.resize(3, header.n_vertices);
+    result.surface.triangles.resize(3, header.n_triangles);
+    ReplyReader reader(reply);
+    reader.read(&header, 1);
+    reader.read(result.surface.vertices.data(), static_cast<std::size_t>(result.surface.vertices.size()));
+    reader.read(result.surface.triangles.data(), static_cast<std::size_t>(result.surface.triangles.size()));
+    return result;
+}
+
+}  // namespace
+
+WrapResult alpha_wrap(const SurfaceMesh& triangles, int n_vertices, Control& control) {
+    return run_wrap(WrapTask::wrap, triangles, n_vertices, control);
+}
+
+WrapResult collapse_edges(const SurfaceMesh& surface, int n_vertices, Control& control) {
+    return run_wrap(WrapTask::collapse, surface, n_vertices, control);
+}
+
+}  // namespace elastolab

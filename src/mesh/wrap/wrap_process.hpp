@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+
+#include "base/control.hpp"
+#include "mesh/surface_mesh.hpp"
+
+namespace elastolab {
+
+/// A surface that was made to stand for another.
+struct WrapResult {
+    SurfaceMesh surface;
+    double offset = 0.0;  ///< distance of its vertices from the other's triangles [L]; 0 when collapsed
+    std::string failure;  ///< empty on success; else what went wrong
+};
+
+/// A closed, oriented 2-manifold without self-intersections around any triangles, of about so many vertices: the alpha
+/// wrap of CGAL (C. Portaneri, M. Rouxel-Labbe, M. Hemmer, D. Cohen-Steiner, P. Alliez, Alpha wrapping with an offset,
+/// ACM Trans. Graph. 41, 2022), in a process of its own. Coordinates are finite and at most 1e3 or so; triangles
+/// without area do not count. Throws MeshError only when the helper program is missing; Cancelled.
+WrapResult alpha_wrap(const SurfaceMesh& triangles, int n_vertices, Control& control);
+
+/// A closed manifold surface with edges collapsed until it has so many vertices, its volume kept (P. Lindstrom, G.
+/// Turk, Fast and memory efficient polygonal simplification, 1998), in the same process. Parts of the result may cross.
+WrapResult collapse_edges(const SurfaceMesh& surface, int n_vertices, Control& control);
+
+}  // namespace elastolab

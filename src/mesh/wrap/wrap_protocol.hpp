@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+
+namespace elastolab {
+
+/// What the caller and the helper program elastolab-wrap say to each other over a socket, in the byte order of the
+/// machine. Both are built together; `magic` catches a helper of another version.
+constexpr std::uint64_t kWrapMagic = 0x656c617374'77'0001;
+
+enum class WrapTask : std::int32_t {
+    wrap,     ///< alpha wrap of any triangles
+    collapse  ///< edge collapse of a closed manifold surface
+};
+
+/// Followed by n_vertices x 3 doubles and n_triangles x 3 ints.
+struct WrapRequestHeader {
+    std::uint64_t magic = kWrapMagic;
+    WrapTask task = WrapTask::wrap;
+    std::int32_t n_vertices = 0, n_triangles = 0, wanted_vertices = 0;
+};
+
+/// Followed by n_vertices x 3 doubles and n_triangles x 3 ints. No triangle: it could not be done.
+struct WrapReplyHeader {
+    std::uint64_t magic = kWrapMagic;
+    std::int32_t n_vertices = 0, n_triangles = 0;
+    double offset = 0.0;  ///< distance of the wrap's vertices from the surface [L]
+};
+
+}  // namespace elastolab

@@ -1,0 +1,58 @@
+#include "scene/live/embedded_runner.hpp"
+
+namespace elastolab {
+
+void EmbeddedRunner::set_body(const Body& body, const Method& method, const std::shared_ptr<const Proxy>& proxy) {
+    if (proxy.get() != this->proxy()) {
+        carried_.reset();
+        prefetched_.reset();
+        if (proxy) prefetched_.emplace(carried_.emplace(proxy));
+        displacement_version_.reset();
+    }
+    runner_.set_body(body, method);
+}
+
+void EmbeddedRunner::clear() {
+    runner_.clear();
+    carried_.reset();
+    prefetched_.reset();
+    displacement_version_.reset();
+}
+
+void EmbeddedRunner::set_constraints(const Constraints& constraints) {
+    if (carried_)
+        carried_->set(constraints);
+    else
+        shown_ = constraints;
+    runner_.set_constraints(this->constraints());
+}
+
+void EmbeddedRunner::prefetch(const Constraints& constraints) {
+    if (!carried_) return runner_.prefetch(constraints.set);
+    prefetched_->set(constraints);
+    runner_.prefetch(prefetched_->constraints().set);
+}
+
+const Eigen::VectorXd& EmbeddedRunner::displacement() const {
+    const Eigen::VectorXd& own = runner_.displacement();
+    if (!carried_ || own.size() == 0) return own;
+    if (displacement_version_ != runner_.version()) {
+        displacement_ = carried_->displacement(own);
+        displacement_version_ = runner_.version();
+    }
+    return displacement_;
+}
+
+Findings EmbeddedRunner::findings() const {
+    Findings all = carried_ ? findings_of_proxy(carried_->proxy(), runner_.model() ? runner_.model()->body().name : "")
+                            : Findings{};
+    const Findings own = runner_.findings();
+    all.insert(all.end(), own.begin(), own.end());
+    return all;
+}
+
+Eigen::VectorXd EmbeddedRunner::shown_values(const Eigen::VectorXd& of_surface) const {
+    return carried_ ? carried_values(carried_->proxy(), of_surface) : of_surface;
+}
+
+}  // namespace elastolab

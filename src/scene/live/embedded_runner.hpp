@@ -1,0 +1,59 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "scene/live/method_runner.hpp"
+#include "scene/proxy/carried_constraints.hpp"
+
+namespace elastolab {
+
+/// A method's answer for the surface that is shown: computed on that surface itself, or on a proxy and carried back.
+/// All members are for one thread.
+class EmbeddedRunner : public Answer {
+public:
+    /// `wake` is called by the workers when poll() will find something.
+    explicit EmbeddedRunner(const std::function<void()>& wake) : runner_(wake) {}
+
+    /// The body's surface is that of `proxy`, or, when there is none, the one that is shown.
+    void set_body(const Body& body, const Method& method, const std::shared_ptr<const Proxy>& proxy);
+    void clear();
+    /// What computes, on surface().
+    MethodRunner& runner() { return runner_; }
+    const MethodRunner& runner() const { return runner_; }
+    /// Null when the shown surface itself is computed on.
+    const Proxy* proxy() const { return carried_ ? &carried_->proxy() : nullptr; }
+    /// That the answer is computed on; null before set_body().
+    const SurfaceMesh* surface() const { return runner_.surface(); }
+    /// Whether the answer is for this surface.
+    bool shows(const SurfaceMesh& mesh) const { return (proxy() ? proxy()->shown.get() : surface()) == &mesh; }
+    /// That the answer is for: of surface().
+    const Constraints& constraints() const { return carried_ ? carried_->constraints() : shown_; }
+
+    /// Of the shown surface.
+    void set_constraints(const Constraints& constraints) override;
+    /// Constraints that may be asked for soon.
+    void prefetch(const Constraints& constraints);
+    void poll() override { runner_.poll(); }
+
+    bool has_answer() const override { return runner_.has_answer(); }
+    bool ready() const { return runner_.state() == MethodRunner::State::ready; }
+    const Eigen::VectorXd& displacement() const override;
+    std::uint64_t version() const override { return runner_.version(); }
+    /// Of the body that is computed on.
+    Findings findings() const override;
+
+    /// One value a vertex of surface(), as it is shown.
+    Eigen::VectorXd shown_values(const Eigen::VectorXd& of_surface) const;
+
+private:
+    MethodRunner runner_;
+    Constraints shown_;
+    std::optional<CarriedConstraints> carried_, prefetched_;
+    // What was carried back last; made when it is asked for.
+    mutable Eigen::VectorXd displacement_;
+    mutable std::optional<std::uint64_t> displacement_version_;
+};
+
+}  // namespace elastolab

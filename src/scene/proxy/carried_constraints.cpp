@@ -1,0 +1,273 @@
+#include "scene/proxy/carried_constraints.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <unordered_map>
+#include <utility>
+#include <variant>
+
+#include "base/parallel.hpp"
+
+namespace elastolab {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::Vector3d;
+
+constexpr int kVerticesAtATime = 4096;
+
+bool same_set(const Constraints& a, const Constraints& b) {
+    if (a.set.base != b.set.base || a.set.handles != b.set.handles || a.groups.size() != b.groups.size()) return false;
+    const auto same_group = [](const ConstraintGroup& x, const ConstraintGroup& y) {
+        return x.begin == y.begin && x.end == y.end && x.name == y.name;
+    };
+    if (!std::equal(a.groups.begin(), a.groups.end(), b.groups.begin(), same_group)) return false;
+    // Which of a handle's neighbours follow it depends on whether its motion means something beside its own vertices.
+    return std::equal(a.motions.begin(), a.motions.end(), b.motions.begin(), b.motions.end(),
+                      [](const Motion& x, const Motion& y) { return x.index() == y.index(); });
+}
+
+}  // namespace
+
+CarriedConstraints::CarriedConstraints(std::shared_ptr<const Proxy> proxy)
+    : proxy_(std::move(proxy)), around_(*proxy_->shown) {}
+
+void CarriedConstraints::set(const Constraints& shown) {
+    const bool same = chosen_ && same_set(shown, shown_);
+    if (same && shown.values == shown_.values && shown.motions == shown_.motions) return;
+    shown_ = shown;
+    if (!same) {
+        choose_vertices();
+        find_followers();
+        chosen_ = true;
+    }
+    carry_values();
+}
+
+std::vector<int> CarriedConstraints::vertices_of(const Constraints& constraints, std::size_t group) const {
+    const ConstraintGroup& range = constraints.groups[group];
+    const auto n_base = static_cast<int>(constraints.set.base.size());
+    const bool in_base = range.begin < n_base;
+    const std::vector<int>& all = in_base ? constraints.set.base : constraints.set.handles;
+    const int shift = in_base ? 0 : n_base;
+    return {all.begin() + (range.begin - shift), all.begin() + (range.end - shift)};
+}
+
+std::vector<CarriedConstraints::Part> CarriedConstraints::parts() const {
+    const SurfaceMesh& mesh = *proxy_->shown;
+    std::vector<std::size_t> group_of(static_cast<std::size_t>(mesh.n_vertices()), kNoGroup);
+    std::vector<int> member_of(group_of.size());
+    std::vector<Part> parts(shown_.groups.size());
+    std::vector<std::vector<Eigen::Vector3i>> triangles(parts.size());
+    for (std::size_t g = 0; g < parts.size(); ++g) {
+        const std::vector<int> vertices = vertices_of(shown_, g);
+        parts[g].surface.vertices = mesh.vertices(Eigen::all, vertices);
+        for (std::size_t i = 0; i < vertices.size(); ++i) {
+            group_of[static_cast<std::size_t>(vertices[i])] = g;
+            member_of[static_cast<std::size_t>(vertices[i])] = static_cast<int>(i);
+            parts[g].members.push_back(static_cast<int>(i));
+            triangles[g].push_back(Eigen::Vector3i::Constant(static_cast<int>(i)));  // a vertex by itself
+        }
+    }
+    for (int t = 0; t < mesh.n_triangles(); ++t) {
+        const Eigen::Vector3i v = mesh.triangles.col(t);
+        const auto place = [](int vertex) { return static_cast<std::size_t>(vertex); };
+        const std::size_t g = group_of[place(v[0])];
+        if (g == kNoGroup || group_of[place(v[1])] != g || group_of[place(v[2])] != g) continue;
+        triangles[g].emplace_back(member_of[place(v[0])], member_of[place(v[1])], member_of[place(v[2])]);
+    }
+    for (std::size_t g = 0; g < parts.size(); ++g) {
+        parts[g].surface.triangles.resize(3, std::ssize(triangles[g]));
+        for (std::size_t i = 0; i < triangles[g].size(); ++i)
+            parts[g].surface.triangles.col(static_cast<Index>(i)) = triangles[g][i];
+    }
+    return parts;
+}
+
+/// Of every proxy vertex, the constrained part within reach that is nearest.
+std::vector<CarriedConstraints::Nearest> CarriedConstraints::nearest_parts(const std::vector<Part>& parts) const {
+    const Positions& vertices = proxy_->surface->vertices;
+    std::vector<Nearest> nearest(static_cast<std::size_t>(vertices.cols()));
+    const double reach = kReach * proxy_->edge;
+    for (std::size_t g = 0; g < parts.size(); ++g) {
+        const ClosestPoint closest(parts[g].surface);
+        int near = 0;
+        for (Index v = 0; v < vertices.cols(); ++v) {
+            const SurfacePoint found = closest(vertices.col(v), near);
+            near = found.triangle;
+            Nearest& present = nearest[static_cast<std::size_t>(v)];
+            if (found.distance <= reach && found.distance < present.point.distance) present = {g, found};
+        }
+    }
+    return nearest;
+}
+
+/// How far the body follows a vertex without a whole triangle depends on the mesh: a part that has triangles has only
+/// their corners.
+void CarriedConstraints::leave_out_lone_vertices(std::vector<Nearest>& nearest) const {
+    std::vector<bool> in_triangle(nearest.size(), false);
+    std::vector<bool> has_triangle(shown_.groups.size(), false);
+    const auto group = [&](int v) { return nearest[static_cast<std::size_t>(v)].group; };
+    for (const auto& v : proxy_->surface->triangles.colwise()) {
+        if (group(v[0]) == kNoGroup || group(v[0]) != group(v[1]) || group(v[1]) != group(v[2])) continue;
+        has_triangle[group(v[0])] = true;
+        for (const int corner : v) in_triangle[static_cast<std::size_t>(corner)] = true;
+    }
+    for (std::size_t v = 0; v < nearest.size(); ++v)
+        if (nearest[v].group != kNoGroup && has_triangle[nearest[v].group] && !in_triangle[v])
+            nearest[v].group = kNoGroup;
+}
+
+/// A part that is too small to have a vertex of the proxy gets the corners of the nearest triangle, or the nearest
+/// vertex if it is hardly more than a point itself.
+void CarriedConstraints::hold_nearest(const Part& part, std::size_t group, std::vector<Nearest>& nearest) const {
+    if (std::any_of(nearest.begin(), nearest.end(), [&](const Nearest& n) { return n.group == group; })) return;
+    const SurfaceMesh& surface = *proxy_->surface;
+    const Vector3d middle = part.surface.vertices.rowwise().mean();
+    const SurfacePoint place = ClosestPoint(surface)(middle);
+    std::vector<int> corners(3);
+    Eigen::Vector3i::Map(corners.data()) = surface.triangles.col(place.triangle);
+    const auto distance = [&](int v) { return (surface.vertices.col(v) - middle).norm(); };
+    std::sort(corners.begin(), corners.end(), [&](int a, int b) { return distance(a) < distance(b); });
+    if (part.members.size() < 3) corners.resize(1);
+    for (const int v : corners) {
+        Nearest& present = nearest[static_cast<std::size_t>(v)];
+        if (present.group == kNoGroup) present = {group, ClosestPoint(part.surface)(surface.vertices.col(v))};
+    }
+}
+
+void CarriedConstraints::choose_vertices() {
+    const std::vector<Part> constrained = parts();
+    std::vector<Nearest> nearest = nearest_parts(constrained);
+    leave_out_lone_vertices(nearest);
+    for (std::size_t g = 0; g < constrained.size(); ++g) hold_nearest(constrained[g], g, nearest);
+
+    carried_ = {};
+    carried_.groups = shown_.groups;
+    origins_.clear();
+    origin_weights_.clear();
+    int end = 0;
+    for (std::size_t g = 0; g < constrained.size(); ++g) {
+        const bool in_base = g == 0 && shown_.has_fixed();
+        carried_.groups[g].begin = end;
+        for (std::size_t v = 0; v < nearest.size(); ++v) {
+            if (nearest[v].group != g) continue;
+            ++end;
+            (in_base ? carried_.set.base : carried_.set.handles).push_back(static_cast<int>(v));
+            if (in_base) continue;
+            origins_.push_back(constrained[g].surface.triangles.col(nearest[v].point.triangle));
+            origin_weights_.push_back(nearest[v].point.weights);
+        }
+        carried_.groups[g].end = end;
+    }
+}
+
+/// A walk over the shown surface, outwards from what is constrained.
+void CarriedConstraints::find_followers() {
+    const SurfaceMesh& mesh = *proxy_->shown;
+    followers_.clear();
+    std::unordered_map<int, std::size_t> source_of;  // the follower that a seen vertex is nearest to, so far
+    for (std::size_t g = 0; g < shown_.groups.size(); ++g) {
+        const std::vector<int> vertices = vertices_of(shown_, g);
+        for (std::size_t i = 0; i < vertices.size(); ++i) {
+            source_of[vertices[i]] = followers_.size();
+            followers_.push_back({vertices[i], g, static_cast<int>(i), 1.0});
+        }
+    }
+    const std::size_t n_constrained = followers_.size();
+    std::vector<std::pair<int, std::size_t>> front;  // a vertex, and where it was reached from
+    for (std::size_t i = 0; i < n_constrained; ++i) front.emplace_back(followers_[i].vertex, i);
+    const double reach = proxy_->edge;
+    std::unordered_map<int, double> distances;
+    while (!front.empty()) {
+        std::vector<std::pair<int, std::size_t>> next;
+        for (const auto& [vertex, source] : front)
+            for (const int t : around_[vertex])
+                for (const int w : mesh.triangles.col(t)) {
+                    const auto known = source_of.find(w);
+                    if (known != source_of.end() && known->second < n_constrained && !distances.contains(w)) continue;
+                    const double d = (mesh.vertices.col(w) - mesh.vertices.col(followers_[source].vertex)).norm();
+                    const auto before = distances.find(w);
+                    if (d >= reach || (before != distances.end() && before->second <= d)) continue;
+                    distances[w] = d;
+                    source_of[w] = source;
+                    next.emplace_back(w, source);
+                }
+        front = std::move(next);
+    }
+    for (const auto& [vertex, d] : distances) {
+        const std::size_t group = followers_[source_of[vertex]].group;
+        const std::size_t first_handle = shown_.has_fixed() ? 1 : 0;
+        const bool is_vertexwise =
+            group >= first_handle && std::holds_alternative<VertexMotion>(shown_.motions[group - first_handle]);
+        const double fade = 1.0 - d / reach;
+        if (!is_vertexwise) followers_.push_back({vertex, group, -1, fade * fade});
+    }
+}
+
+void CarriedConstraints::carry_values() {
+    const SurfaceMesh& surface = *proxy_->surface;
+    carried_.motions = shown_.motions;
+    carried_.values.resize(3 * std::ssize(carried_.set.handles));
+    const std::size_t first_handle = shown_.has_fixed() ? 1 : 0;
+    const auto n_base = static_cast<int>(carried_.set.base.size());
+    for (std::size_t h = 0; h < carried_.motions.size(); ++h) {
+        const ConstraintGroup& group = carried_.groups[h + first_handle];
+        VertexMotion carried_motion;
+        for (int i = group.begin - n_base; i < group.end - n_base; ++i) {
+            const auto place = static_cast<std::size_t>(i);
+            Vector3d u = Vector3d::Zero();
+            if (const auto* affine = std::get_if<AffineMotion>(&shown_.motions[h])) {
+                u = affine->matrix * surface.vertices.col(carried_.set.handles[place]) + affine->translate;
+            } else {
+                const auto& each = std::get<VertexMotion>(shown_.motions[h]).displacements;
+                for (int k = 0; k < 3; ++k)
+                    u += origin_weights_[place][k] * each[static_cast<std::size_t>(origins_[place][k])];
+                carried_motion.displacements.push_back(u);
+            }
+            carried_.values.segment<3>(3 * Index{i}) = u;
+        }
+        if (!carried_motion.displacements.empty()) carried_.motions[h] = std::move(carried_motion);
+    }
+}
+
+Vector3d CarriedConstraints::value_of(const Follower& follower) const {
+    const std::size_t first_handle = shown_.has_fixed() ? 1 : 0;
+    if (follower.group < first_handle) return Vector3d::Zero();
+    const Motion& motion = shown_.motions[follower.group - first_handle];
+    if (const auto* affine = std::get_if<AffineMotion>(&motion))
+        return affine->matrix * proxy_->shown->vertices.col(follower.vertex) + affine->translate;
+    return std::get<VertexMotion>(motion).displacements[static_cast<std::size_t>(follower.member)];
+}
+
+Eigen::VectorXd CarriedConstraints::displacement(const Eigen::VectorXd& of_proxy) const {
+    const SurfacePlaces& places = proxy_->places;
+    Eigen::VectorXd u(3 * places.nodes.cols());
+    Control control;
+    parallel_blocks(static_cast<int>(places.nodes.cols()), kVerticesAtATime, control, [&](int begin, int end) {
+        for (Index v = begin; v < end; ++v) {
+            Vector3d sum = Vector3d::Zero();
+            for (int k = 0; k < 3; ++k)
+                sum += places.weights(k, v) * of_proxy.segment<3>(3 * Index{places.nodes(k, v)});
+            u.segment<3>(3 * v) = sum;
+        }
+    });
+    for (const Follower& follower : followers_) {
+        auto own = u.segment<3>(3 * Index{follower.vertex});
+        own += follower.share * (value_of(follower) - own);
+    }
+    return u;
+}
+
+Eigen::VectorXd carried_values(const Proxy& proxy, const Eigen::VectorXd& of_proxy) {
+    const SurfacePlaces& places = proxy.places;
+    Eigen::VectorXd values(places.nodes.cols());
+    for (Index v = 0; v < values.size(); ++v) {
+        values[v] = 0.0;
+        for (int k = 0; k < 3; ++k) values[v] += places.weights(k, v) * of_proxy[places.nodes(k, v)];
+    }
+    return values;
+}
+
+}  // namespace elastolab

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "mesh/topology.hpp"
+#include "scene/proxy/proxy.hpp"
+#include "scene/setup.hpp"
+
+namespace elastolab {
+
+/// Constraints of the shown surface, carried over to its proxy, and displacements of the proxy, carried back.
+///
+/// A vertex of the proxy is constrained when it is within kReach mean edges of the constrained part of the shown
+/// surface: the triangles of which all corners are constrained, and single constrained vertices. It follows the same
+/// motion. A part that is smaller than the proxy's triangles holds the corners of the nearest one.
+///
+/// Shown vertices follow their places on the proxy, but constrained ones go exactly where they were put; what is left
+/// between the two fades out around them within one edge of the proxy.
+class CarriedConstraints {
+public:
+    static constexpr double kReach = 0.35;
+
+    explicit CarriedConstraints(std::shared_ptr<const Proxy> proxy);
+
+    const Proxy& proxy() const { return *proxy_; }
+    /// Carries them over; cheap when only values are new.
+    void set(const Constraints& shown);
+    /// As of the last set(): for a body with the proxy's surface.
+    const Constraints& constraints() const { return carried_; }
+
+    /// Displacements of the shown vertices, 3 * n_shown [L], from those of the proxy's under constraints(), 3 *
+    /// n_proxy.
+    Eigen::VectorXd displacement(const Eigen::VectorXd& of_proxy) const;
+
+private:
+    /// The constrained part of the shown surface that belongs to one group; its vertices are numbered anew.
+    struct Part {
+        SurfaceMesh surface;
+        std::vector<int> members;  ///< for each vertex, its place in the group
+    };
+    /// A shown vertex that is constrained (share 1) or near one that is.
+    struct Follower {
+        int vertex;
+        std::size_t group;
+        int member;    ///< place in the group; -1 when it is only near
+        double share;  ///< of the group's motion in its displacement
+    };
+    static constexpr std::size_t kNoGroup = std::numeric_limits<std::size_t>::max();
+    /// What is closest to a proxy vertex: of which group, and where in its part.
+    struct Nearest {
+        std::size_t group = kNoGroup;
+        SurfacePoint point{-1, Eigen::Vector3d::Zero(), std::numeric_limits<double>::infinity()};
+    };
+    std::vector<int> vertices_of(const Constraints& constraints, std::size_t group) const;
+    std::vector<Part> parts() const;
+    std::vector<Nearest> nearest_parts(const std::vector<Part>& parts) const;
+    void leave_out_lone_vertices(std::vector<Nearest>& nearest) const;
+    void hold_nearest(const Part& part, std::size_t group, std::vector<Nearest>& nearest) const;
+    void choose_vertices();
+    void find_followers();
+    void carry_values();
+    Eigen::Vector3d value_of(const Follower& follower) const;
+
+    std::shared_ptr<const Proxy> proxy_;
+    VertexTriangles around_;  ///< of the shown surface
+    Constraints shown_, carried_;
+    bool chosen_ = false;
+    std::vector<Eigen::Vector3i> origins_;         ///< of each carried handle vertex: places in its handle,
+    std::vector<Eigen::Vector3d> origin_weights_;  ///< whose weighted mean is nearest to it
+    std::vector<Follower> followers_;
+};
+
+/// One value a proxy vertex, carried to the shown vertices.
+Eigen::VectorXd carried_values(const Proxy& proxy, const Eigen::VectorXd& of_proxy);
+
+}  // namespace elastolab

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/control.hpp"
+#include "deform/finding.hpp"
+#include "mesh/closest_point.hpp"
+#include "mesh/wrap/proxy_surface.hpp"
+
+namespace elastolab {
+
+/// A closed surface that is simulated in place of the one that is shown, and how the shown one hangs on it.
+struct Proxy {
+    std::shared_ptr<const SurfaceMesh> shown, surface;
+    SurfacePlaces places;  ///< of the shown vertices on `surface`: they move with these points
+    double edge = 0.0;     ///< mean edge of `surface` [L]
+    ProxySurface::Kind kind = ProxySurface::Kind::wrapped;
+    int n_capped_holes = 0;  ///< see ProxySurface
+    double thin_part = 0.0, thickness = 0.0;
+};
+
+/// Makes proxies of about each of these numbers of vertices (mesh/wrap/proxy_surface.hpp) and embeds the shown
+/// vertices. `name` is for messages. Throws MeshError also when a coordinate is not finite; Cancelled.
+std::vector<std::shared_ptr<const Proxy>> make_proxies(const std::string& name,
+                                                       const std::shared_ptr<const SurfaceMesh>& shown,
+                                                       const MeshReport& report, std::span<const int> sizes,
+                                                       Control& control);
+
+/// Throws MeshError with `name` where no proxy can help: no triangle, or a coordinate that is not finite.
+void require_shape(const MeshReport& report, const std::string& name);
+
+/// What the person should know of it; `name` is that of the mesh that is shown.
+Findings findings_of_proxy(const Proxy& proxy, const std::string& name);
+
+}  // namespace elastolab
