@@ -24,10 +24,12 @@ void append(std::string& bytes, const T* values, Eigen::Index count) {
     if (size > 0) std::memcpy(bytes.data() + end, values, size);
 }
 
-std::string request_bytes(const SurfaceMesh& surface, const Positions& holes, const std::string& switches) {
+std::string request_bytes(const SurfaceMesh& surface, const Positions& holes, const TetgenSettings& settings) {
     TetgenRequestHeader header;
-    assert(switches.size() < header.switches.size());
-    std::copy(switches.begin(), switches.end(), header.switches.begin());
+    assert(settings.switches.size() < header.switches.size());
+    std::copy(settings.switches.begin(), settings.switches.end(), header.switches.begin());
+    header.relative_volume = settings.relative_volume;
+    header.growth = settings.growth;
     header.n_vertices = surface.n_vertices();
     header.n_triangles = surface.n_triangles();
     header.n_holes = static_cast<std::int32_t>(holes.cols());
@@ -85,10 +87,10 @@ std::size_t expected_size(const TetgenReplyHeader& header) {
 
 }  // namespace
 
-TetgenResult run_tetgen(const SurfaceMesh& surface, const Positions& holes, const std::string& switches,
+TetgenResult run_tetgen(const SurfaceMesh& surface, const Positions& holes, const TetgenSettings& settings,
                         Control& control) {
     ChildProcess helper(helper_program("elastolab-tetgen"));
-    const std::vector<char> reply = helper.exchange(request_bytes(surface, holes, switches), control);
+    const std::vector<char> reply = helper.exchange(request_bytes(surface, holes, settings), control);
     const int status = helper.wait(control);
 
     TetgenResult result;
