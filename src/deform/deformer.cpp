@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <Eigen/Geometry>
 
 #include "base/error.hpp"
 #include "base/memory.hpp"
