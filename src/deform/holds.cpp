@@ -7,7 +7,8 @@ namespace elastolab {
 bool holds(const Positions& positions, std::span<const int> nodes) {
     constexpr double kLeastSpread = 1e-6;
     if (nodes.size() < 3) return false;
-    const double body = (positions.colwise() - positions.rowwise().mean()).colwise().norm().maxCoeff();
+    const Eigen::Vector3d centre = positions.rowwise().mean();
+    const double body = (positions.colwise() - centre).colwise().norm().maxCoeff();
     Eigen::Matrix3Xd points(3, std::ssize(nodes));
     for (std::size_t i = 0; i < nodes.size(); ++i) points.col(static_cast<Eigen::Index>(i)) = positions.col(nodes[i]);
     points.colwise() -= points.rowwise().mean().eval();

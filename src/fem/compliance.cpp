@@ -7,6 +7,7 @@
 #include "base/blas.hpp"
 #include "base/parallel.hpp"
 #include "elasticity/rigid_motion.hpp"
+#include "fem/forward_elimination.hpp"
 
 namespace elastolab {
 
@@ -28,7 +29,12 @@ SurfaceCompliance::SurfaceCompliance(int n_surface, std::span<const int> base, c
     : n_surface_(n_surface),
       base_(base.begin(), base.end()),
       rigid_(base.empty() ? rigid_modes(positions.leftCols(n_surface)) : Eigen::MatrixXd(3 * n_surface, 0)),
-      factor_(std::move(factor)) {}
+      factor_(std::move(factor)) {
+    if (rigid_.cols() == 0) return;
+    Eigen::MatrixXd load = Eigen::MatrixXd::Zero(factor_.size(), rigid_.cols());
+    load.topRows(rigid_.rows()) = rigid_;
+    rigid_response_ = factor_.solve(load).topRows(rigid_.rows());
+}
 
 SurfaceCompliance::SurfaceCompliance(const SparseMatrix& K, const CholeskyAnalysis& analysis,
                                      const Positions& positions, int n_surface, std::span<const int> base,
@@ -79,8 +85,35 @@ Eigen::MatrixXd SurfaceCompliance::columns(std::span<const int> vertices, Contro
     return unit_loads;
 }
 
+Eigen::MatrixXd SurfaceCompliance::block(std::span<const int> vertices, Control& control) const {
+    const Eigen::Index n = 3 * std::ssize(vertices);
+    SparseMatrix unit_loads(factor_.size(), n);
+    unit_loads.reserve(n);
+    for (Eigen::Index k = 0; k < n; ++k) {
+        unit_loads.startVec(k);
+        unit_loads.insertBack(3 * vertices[static_cast<std::size_t>(k / 3)] + k % 3, k) = 1.0;
+    }
+    unit_loads.finalize();
+    Eigen::MatrixXd D = Eigen::MatrixXd::Zero(n, n);
+    subtract_compressed_inverse(factor_, unit_loads, D, control);
+    D = -D;
+    if (rigid_.cols() > 0) {
+        // P K_g^-1 P with P = I - R R^T, of which K_g^-1 is there so far.
+        Eigen::MatrixXd R(n, rigid_.cols()), G_R(n, rigid_.cols());
+        for (Eigen::Index k = 0; k < n; ++k) {
+            const Eigen::Index row = 3 * vertices[static_cast<std::size_t>(k / 3)] + k % 3;
+            R.row(k) = rigid_.row(row);
+            G_R.row(k) = rigid_response_.row(row);
+        }
+        const Eigen::MatrixXd cross = G_R * R.transpose();
+        D += R * (rigid_.transpose() * rigid_response_) * R.transpose() - cross - cross.transpose();
+    }
+    D.triangularView<Eigen::StrictlyUpper>() = D.transpose();
+    return D;
+}
+
 std::uint64_t SurfaceCompliance::memory_bytes() const {
-    return factor_.memory_bytes() + 8 * static_cast<std::uint64_t>(rigid_.size());
+    return factor_.memory_bytes() + 8 * static_cast<std::uint64_t>(rigid_.size() + rigid_response_.size());
 }
 
 }  // namespace elastolab

@@ -25,6 +25,8 @@ namespace elastolab {
 /// does not depend on where they are. With a base (nodes fixed at zero), D = K_ff^-1, zero in rows and columns of the
 /// base, and there is no R.
 ///
+/// A block of D between few vertices is had without its columns, by a forward substitution of what they reach.
+///
 /// Immutable; any thread may use it.
 class SurfaceCompliance {
 public:
@@ -44,6 +46,8 @@ public:
     /// Columns of D for these surface vertices: 3*n_surface x 3*vertices.size() [L / force]. Blocks of columns in
     /// parallel, checkpoints between them; the result does not depend on the number of threads.
     Eigen::MatrixXd columns(std::span<const int> vertices, Control& control) const;
+    /// Rows and columns of D for these surface vertices: 3*vertices.size() square, symmetric.
+    Eigen::MatrixXd block(std::span<const int> vertices, Control& control) const;
     /// D * loads, loads 3*n_surface x m.
     Eigen::MatrixXd apply(const Eigen::MatrixXd& loads, Control& control) const;
 
@@ -67,6 +71,7 @@ private:
     std::vector<int> base_;
     Eigen::MatrixXd rigid_;
     SparseCholesky factor_;
+    Eigen::MatrixXd rigid_response_;  ///< K_g^-1 R at the surface nodes; without a base
 };
 
 }  // namespace elastolab

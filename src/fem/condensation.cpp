@@ -1,10 +1,8 @@
 #include "fem/condensation.hpp"
 
-#include <algorithm>
 #include <cassert>
-#include <Eigen/Dense>
-#include <vector>
 
+#include "fem/forward_elimination.hpp"
 #include "fem/sparse_cholesky.hpp"
 
 namespace elastolab {
@@ -18,136 +16,6 @@ SparseMatrix submatrix(const SparseMatrix& K, int row, int rows, int column, int
     return sub;
 }
 
-/// Forward substitution Y = L^-1 P K_is by supernodes, which only touches the columns that are not zero.
-class ForwardElimination {
-public:
-    ForwardElimination(const SparseCholesky& factor, const SparseMatrix& K_is)
-        : L_(factor.view()), n_columns_(static_cast<int>(K_is.cols())), blocks_(size(L_.n_supernodes())) {
-        number_rows();
-        find_columns(K_is);
-        scatter(K_is);
-    }
-
-    /// S -= Y^T Y (lower triangle), supernode by supernode.
-    void subtract_from(Eigen::MatrixXd& S, Control& control);
-
-private:
-    /// The rows of Y that belong to one supernode, in the columns that are not zero there.
-    struct Block {
-        std::vector<int> columns;  // ascending
-        Eigen::MatrixXd Y;
-    };
-
-    static std::size_t size(int n) { return static_cast<std::size_t>(n); }
-    static int at(std::span<const int> values, int i) { return values[size(i)]; }
-    int n_own(int s) const { return at(L_.super, s + 1) - at(L_.super, s); }
-    int n_rows(int s) const { return at(L_.first_row, s + 1) - at(L_.first_row, s); }
-    std::span<const int> rows_below(int s) const {
-        return L_.rows.subspan(size(at(L_.first_row, s) + n_own(s)), size(n_rows(s) - n_own(s)));
-    }
-
-    void number_rows();
-    void find_columns(const SparseMatrix& K_is);
-    void scatter(const SparseMatrix& K_is);
-    void eliminate(int s);
-    void add_to(int t, const Block& from, const Eigen::MatrixXd& update, std::span<const int> rows, int first);
-
-    SupernodalView L_;
-    int n_columns_;
-    std::vector<Block> blocks_;
-    std::vector<int> supernode_of_row_, place_of_row_;  // place: of an interior degree of freedom in the order of L
-};
-
-void ForwardElimination::number_rows() {
-    supernode_of_row_.resize(L_.permutation.size());
-    place_of_row_.resize(L_.permutation.size());
-    for (std::size_t i = 0; i < L_.permutation.size(); ++i)
-        place_of_row_[size(L_.permutation[i])] = static_cast<int>(i);
-    for (int s = 0; s < L_.n_supernodes(); ++s) std::fill_n(supernode_of_row_.begin() + at(L_.super, s), n_own(s), s);
-}
-
-void ForwardElimination::find_columns(const SparseMatrix& K_is) {
-    for (int column = 0; column < K_is.cols(); ++column)
-        for (SparseMatrix::InnerIterator it(K_is, column); it; ++it) {
-            const int s = supernode_of_row_[size(place_of_row_[size(static_cast<int>(it.row()))])];
-            std::vector<int>& columns = blocks_[size(s)].columns;
-            if (columns.empty() || columns.back() != column) columns.push_back(column);
-        }
-    // What is not zero in a supernode is not zero in its parent, the supernode of its first row below.
-    std::vector<int> merged;
-    for (int s = 0; s < L_.n_supernodes(); ++s) {
-        if (rows_below(s).empty()) continue;
-        const std::vector<int>& mine = blocks_[size(s)].columns;
-        std::vector<int>& parents = blocks_[size(supernode_of_row_[size(rows_below(s).front())])].columns;
-        merged.clear();
-        std::set_union(mine.begin(), mine.end(), parents.begin(), parents.end(), std::back_inserter(merged));
-        parents.assign(merged.begin(), merged.end());
-    }
-    for (int s = 0; s < L_.n_supernodes(); ++s) {
-        Block& block = blocks_[size(s)];
-        block.Y.setZero(n_own(s), std::ssize(block.columns));
-    }
-}
-
-void ForwardElimination::scatter(const SparseMatrix& K_is) {
-    for (int column = 0; column < K_is.cols(); ++column)
-        for (SparseMatrix::InnerIterator it(K_is, column); it; ++it) {
-            const int row = place_of_row_[size(static_cast<int>(it.row()))];
-            const int s = supernode_of_row_[size(row)];
-            Block& block = blocks_[size(s)];
-            const auto j = std::lower_bound(block.columns.begin(), block.columns.end(), column) - block.columns.begin();
-            block.Y(row - at(L_.super, s), j) = it.value();
-        }
-}
-
-/// Block t -= update, whose rows `rows[first...]` and columns are those of `from`.
-void ForwardElimination::add_to(int t, const Block& from, const Eigen::MatrixXd& update, std::span<const int> rows,
-                                int first) {
-    Block& to = blocks_[size(t)];
-    auto column = to.columns.begin();
-    for (std::size_t j = 0; j < from.columns.size(); ++j) {
-        column = std::lower_bound(column, to.columns.end(), from.columns[j]);
-        double* target = to.Y.col(column - to.columns.begin()).data();
-        const double* source = update.col(static_cast<Eigen::Index>(j)).data() + first;
-        for (std::size_t i = 0; i < rows.size(); ++i) target[rows[i] - at(L_.super, t)] -= source[i];
-    }
-}
-
-void ForwardElimination::eliminate(int s) {
-    Block& block = blocks_[size(s)];
-    if (block.columns.empty()) return;
-    const Eigen::Map<const Eigen::MatrixXd> L(L_.values + at(L_.first_value, s), n_rows(s), n_own(s));
-    L.topRows(n_own(s)).triangularView<Eigen::Lower>().solveInPlace(block.Y);
-    const std::span<const int> below = rows_below(s);
-    const Eigen::MatrixXd update = L.bottomRows(std::ssize(below)) * block.Y;
-    for (std::size_t begin = 0, end = 0; begin < below.size(); begin = end) {
-        const int t = supernode_of_row_[size(below[begin])];
-        while (end < below.size() && below[end] < at(L_.super, t + 1)) ++end;
-        add_to(t, block, update, below.subspan(begin, end - begin), static_cast<int>(begin));
-    }
-}
-
-void ForwardElimination::subtract_from(Eigen::MatrixXd& S, Control& control) {
-    for (int s = 0; s < L_.n_supernodes(); ++s) {
-        control.checkpoint();
-        control.set_progress(static_cast<double>(s) / L_.n_supernodes());
-        eliminate(s);
-        Block& block = blocks_[size(s)];
-        const Eigen::Index n = std::ssize(block.columns);
-        if (n == n_columns_) {
-            S.selfadjointView<Eigen::Lower>().rankUpdate(block.Y.transpose(), -1.0);
-        } else if (n > 0) {
-            Eigen::MatrixXd product = Eigen::MatrixXd::Zero(n, n);
-            product.selfadjointView<Eigen::Lower>().rankUpdate(block.Y.transpose());
-            for (Eigen::Index j = 0; j < n; ++j)
-                for (Eigen::Index i = j; i < n; ++i)
-                    S(block.columns[size(static_cast<int>(i))], block.columns[size(static_cast<int>(j))]) -=
-                        product(i, j);
-        }
-        block = Block{};
-    }
-}
-
 }  // namespace
 
 Eigen::MatrixXd condense_to_surface(const SparseMatrix& K, int n_surface, Control& control) {
@@ -159,7 +27,7 @@ Eigen::MatrixXd condense_to_surface(const SparseMatrix& K, int n_surface, Contro
     const CholeskyAnalysis analysis(K_ii);
     const SparseCholesky factor(analysis, K_ii, "stiffness matrix of the interior");
     control.checkpoint();
-    ForwardElimination(factor, submatrix(K, n_s, n_i, 0, n_s)).subtract_from(S, control);
+    subtract_compressed_inverse(factor, submatrix(K, n_s, n_i, 0, n_s), S, control);
     S.triangularView<Eigen::StrictlyUpper>() = S.transpose();
     return S;
 }

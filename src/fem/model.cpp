@@ -1,5 +1,7 @@
 #include "fem/model.hpp"
 
+#include <algorithm>
+
 #include "base/error.hpp"
 #include "base/lapack.hpp"
 #include "deform/holds.hpp"
@@ -41,6 +43,12 @@ ReducedSystem reduced_from(const DenseOperators& operators, const std::vector<in
     return reduced;
 }
 
+/// Part by which a set may be dearer than the cheapest, where later ones gain by it.
+constexpr double kWorthForLater = 0.3;
+
+/// Of one factor; a second one is dropped above.
+constexpr std::uint64_t kLargeFactor = 256ull << 20;
+
 }  // namespace
 
 FemModel::FemModel(const SurfaceMesh& surface, const std::string& name, double poisson_ratio, const Method& method,
@@ -59,6 +67,7 @@ FemModel::FemModel(const SurfaceMesh& surface, const std::string& name, double p
     {
         const Stage stage("analyse", control, facts_.stages);
         mesh->analysis = std::make_unique<CholeskyAnalysis>(mesh->parts.mu);
+        mesh->prices = fem_prices(mesh->analysis->view());
     }
     mesh_ = std::move(mesh);
     facts_.n_triangles = surface.n_triangles();
@@ -114,23 +123,55 @@ std::shared_ptr<const FactorisedBody> FemModel::factorised_on(std::span<const in
     const std::vector<int> wanted(base.begin(), base.end());
     const std::scoped_lock lock(factorised_mutex_);
     std::shared_ptr<const FactorisedBody>& body = wanted.empty() ? free_body_ : factorised_body_;
-    if (!body || body->base() != wanted) body = std::make_shared<const FactorisedBody>(system_, wanted, control);
-    return body;
+    if (body && body->base() == wanted) return body;
+    if (mesh_->analysis->factor_bytes() > kLargeFactor) free_body_ = factorised_body_ = nullptr;
+    return body = std::make_shared<const FactorisedBody>(system_, wanted, control);
+}
+
+bool FemModel::is_at_hand(std::span<const int> base) const {
+    const std::scoped_lock lock(factorised_mutex_);
+    const std::shared_ptr<const FactorisedBody>& body = base.empty() ? free_body_ : factorised_body_;
+    return body && std::equal(base.begin(), base.end(), body->base().begin(), body->base().end());
+}
+
+FemModel::Elimination FemModel::cheapest_elimination(const ConstrainedFemNodes& nodes) const {
+    const std::span<const int> all = nodes.prescribed.nodes, base = nodes.base();
+    const bool holding_base = holds(system_->positions(), base);
+    if (!holds(system_->positions(), all)) return Elimination::nothing;
+    const SupernodalView pattern = mesh_->analysis->view();
+    const double afresh = mesh_->prices.factorisation;
+    const auto price = [&](std::span<const int> eliminated, std::span<const int> others) {
+        return (is_at_hand(eliminated) ? 0.0 : afresh) +
+               (keeps_columns(*system_, std::ssize(others)) ? 0.0 : block_price(pattern, others).price);
+    };
+    const double with_base = holding_base ? price(base, all.subspan(base.size())) : price({}, all);
+    const double least = std::min(with_base, is_at_hand({}) ? price({}, all) : with_base);
+    // Where a factorisation serves the next handle too, it may cost more than one that serves this set alone.
+    if (least > (1.0 + kWorthForLater) * afresh) return Elimination::all;
+    return holding_base && with_base <= least ? Elimination::base : Elimination::nothing;
 }
 
 std::uint64_t FemModel::constrain_memory(std::span<const int> base, std::span<const int> handles) const {
     const ConstrainedFemNodes nodes = nodes_of(base, handles);
-    const auto n_base = 3 * static_cast<std::uint64_t>(nodes.n_base);
     const auto constrained = 3 * static_cast<std::uint64_t>(nodes.prescribed.nodes.size());
     const auto surface = 3 * static_cast<std::uint64_t>(system_->n_surface());
     if (operators_ && method_.update != Update::reduced) {
         const auto all = static_cast<std::uint64_t>(operators_->K.rows()), free = all - constrained;
         return 8 * free * (method_.update == Update::eqn9 ? 2 * free + constrained : all);
     }
-    const std::uint64_t factor = operators_ ? 0 : mesh_->analysis->factor_bytes();
-    if (method_.update == Update::direct) return factor;
-    const auto unknowns = 6 + (!operators_ && holds(system_->positions(), base) ? constrained - n_base : constrained);
-    return factor + 8 * unknowns * (unknowns + surface);
+    if (operators_) return 8 * (6 + constrained) * (6 + constrained + surface);
+    const Elimination elimination = method_.update == Update::reduced ? cheapest_elimination(nodes) : Elimination::all;
+    // Beside the factor: K with what is eliminated, and CHOLMOD's permuted triangles.
+    const std::uint64_t factorisation =
+        mesh_->analysis->factor_bytes() + 28 * static_cast<std::uint64_t>(system_->K.nonZeros());
+    if (elimination == Elimination::all) return factorisation;
+    const std::span<const int> all = nodes.prescribed.nodes;
+    const std::span<const int> eliminated = elimination == Elimination::base ? nodes.base() : std::span<const int>();
+    const std::span<const int> others = all.subspan(eliminated.size());
+    const auto unknowns = 6 + 3 * static_cast<std::uint64_t>(others.size());
+    return (is_at_hand(eliminated) ? 0 : factorisation) + (keeps_columns(*system_, std::ssize(others))
+                                                               ? 8 * unknowns * (2 * unknowns + surface)
+                                                               : block_price(mesh_->analysis->view(), others).bytes);
 }
 
 ConstrainedFemNodes FemModel::nodes_of(std::span<const int> base, std::span<const int> handles) const {
@@ -146,8 +187,11 @@ std::unique_ptr<ConstrainedSolid> FemModel::make_solid(ConstrainedFemNodes nodes
 std::unique_ptr<ConstrainedSolid> FemModel::constrain(std::span<const int> base, std::span<const int> handles,
                                                       Control& control) const {
     if (operators_) return constrain_dense(nodes_of(base, handles), control);
-    return method_.update == Update::reduced ? constrain_reduced(nodes_of(base, handles), control)
-                                             : constrain_direct(nodes_of(base, handles), control);
+    ConstrainedFemNodes nodes = nodes_of(base, handles);
+    const Elimination elimination = method_.update == Update::reduced ? cheapest_elimination(nodes) : Elimination::all;
+    if (elimination == Elimination::all) return constrain_direct(std::move(nodes), control);
+    const int n_eliminated = elimination == Elimination::base ? nodes.n_base : 0;
+    return constrain_reduced(std::move(nodes), n_eliminated, control);
 }
 
 std::unique_ptr<ConstrainedSolid> FemModel::constrain_direct(ConstrainedFemNodes constrained, Control& control) const {
@@ -183,9 +227,9 @@ std::unique_ptr<ConstrainedSolid> FemModel::constrain_dense(ConstrainedFemNodes 
     return make_solid(std::move(constrained), std::move(solver), {residual, {}});
 }
 
-std::unique_ptr<ConstrainedSolid> FemModel::constrain_reduced(ConstrainedFemNodes constrained, Control& control) const {
+std::unique_ptr<ConstrainedSolid> FemModel::constrain_reduced(ConstrainedFemNodes constrained, int n_eliminated,
+                                                              Control& control) const {
     const std::vector<int>& nodes = constrained.prescribed.nodes;
-    const int n_eliminated = holds(system_->positions(), constrained.base()) ? constrained.n_base : 0;
     const auto body = factorised_on(std::span(nodes).first(static_cast<std::size_t>(n_eliminated)), control);
     auto solver = std::make_unique<FactorisedBodySolver>(
         body, std::vector<int>(nodes.begin() + n_eliminated, nodes.end()), control);

@@ -34,10 +34,20 @@ public:
     }
 
 private:
+    /// How the update `reduced` treats a set on demand.
+    enum class Elimination {
+        base,     ///< the small system of the handles, on the body with its base eliminated
+        nothing,  ///< that of all vertices, on the free body
+        all       ///< none: a factorisation with all of them eliminated
+    };
+
     void precompute(double poisson_ratio, Control& control);
+    Elimination cheapest_elimination(const ConstrainedFemNodes& nodes) const;
+    bool is_at_hand(std::span<const int> base) const;
     std::unique_ptr<ConstrainedSolid> constrain_dense(ConstrainedFemNodes nodes, Control& control) const;
     std::unique_ptr<ConstrainedSolid> constrain_direct(ConstrainedFemNodes nodes, Control& control) const;
-    std::unique_ptr<ConstrainedSolid> constrain_reduced(ConstrainedFemNodes nodes, Control& control) const;
+    std::unique_ptr<ConstrainedSolid> constrain_reduced(ConstrainedFemNodes nodes, int n_eliminated,
+                                                        Control& control) const;
     ConstrainedFemNodes nodes_of(std::span<const int> base, std::span<const int> handles) const;
     std::unique_ptr<ConstrainedSolid> make_solid(ConstrainedFemNodes nodes, std::unique_ptr<NodeSolver> solver,
                                                  SolutionChecks checks) const;
@@ -48,7 +58,7 @@ private:
     std::shared_ptr<const FemMesh> mesh_;
     std::shared_ptr<const FemSystem> system_;
     std::shared_ptr<const DenseOperators> operators_;  ///< modes full and full_volume
-    /// On demand: the body free, and grounded on the base asked for last.
+    /// On demand: the body free, and with the base eliminated that was asked for last. Large ones are not both kept.
     mutable std::mutex factorised_mutex_;
     mutable std::shared_ptr<const FactorisedBody> free_body_, factorised_body_;
 };

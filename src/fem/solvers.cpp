@@ -1,12 +1,14 @@
 #include "fem/solvers.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <Eigen/QR>
 
 #include "base/error.hpp"
 #include "deform/holds.hpp"
 #include "elasticity/rigid_motion.hpp"
 #include "fem/constraints.hpp"
+#include "fem/prices.hpp"
 
 namespace elastolab {
 
@@ -19,7 +21,7 @@ constexpr std::size_t kVerticesAtOnce = 128;
 ReducedSystem reduced_system(const FactorisedBody& body, const std::vector<int>& vertices, Control& control) {
     const Eigen::MatrixXd& R = body.compliance().rigid();
     ReducedSystem reduced;
-    reduced.responses = std::make_shared<const KeptResponses>(body.responses(vertices, control));
+    reduced.responses = body.responses_of_set(vertices, control);
     reduced.rigid = Eigen::MatrixXd::Zero(R.rows() + R.cols(), R.cols());
     reduced.rigid.topRows(R.rows()) = R;
     reduced.nodes = vertices;
@@ -33,6 +35,10 @@ SparseMatrix eliminated_held(const FemSystem& system, const std::vector<int>& ve
 }
 
 }  // namespace
+
+bool keeps_columns(const FemSystem& system, std::ptrdiff_t n_vertices) {
+    return 3.0 * static_cast<double>(n_vertices) * system.mesh->prices.solve <= kColumnsWorthKeeping;
+}
 
 FemMesh make_fem_mesh(TetMesh tets, ElementDegree degree, Control& control) {
     FemMesh mesh;
@@ -75,6 +81,13 @@ Columns FactorisedBody::responses(const std::vector<int>& vertices, Control& con
         });
 }
 
+std::shared_ptr<const Responses> FactorisedBody::responses_of_set(const std::vector<int>& vertices,
+                                                                  Control& control) const {
+    if (keeps_columns(*system_, std::ssize(vertices)))
+        return std::make_shared<const KeptResponses>(responses(vertices, control));
+    return std::make_shared<const FactorResponses>(shared_from_this(), vertices);
+}
+
 void FactorisedBody::add_blocks(std::span<const int> vertices, std::vector<Columns::Block>& blocks,
                                 Control& control) const {
     const Eigen::MatrixXd columns = compliance_.columns(vertices, control);
@@ -98,6 +111,27 @@ Eigen::MatrixXd FactorisedBody::volume_displacements(const Eigen::MatrixXd& surf
     }
     u.topRows(surface.rows()) = surface;
     return u;
+}
+
+FactorResponses::FactorResponses(std::shared_ptr<const FactorisedBody> body, std::vector<int> vertices)
+    : body_(std::move(body)), vertices_(std::move(vertices)) {}
+
+Eigen::MatrixXd FactorResponses::small_matrix(const std::vector<int>& nodes, const Eigen::MatrixXd& rigid,
+                                              Control& control) const {
+    assert(nodes == vertices_);
+    const Eigen::Index n = cols(), n_border = rigid.cols();
+    Eigen::MatrixXd S(n + n_border, n + n_border);
+    S.topLeftCorner(n, n) = body_->compliance().block(vertices_, control);
+    S.rightCols(n_border) = border_columns(nodes, rigid);
+    S.bottomLeftCorner(n_border, n) = S.topRightCorner(n, n_border).transpose();
+    return S;
+}
+
+void FactorResponses::add_product(const Eigen::MatrixXd& loads, Eigen::Ref<Eigen::MatrixXd> displacements) const {
+    Eigen::MatrixXd at_surface = Eigen::MatrixXd::Zero(3 * body_->system().n_surface(), loads.cols());
+    set_prescribed(vertices_, loads, at_surface);
+    Control control;
+    displacements += body_->compliance().apply(at_surface, control);
 }
 
 FactorisedBodySolver::FactorisedBodySolver(std::shared_ptr<const FactorisedBody> body, std::vector<int> vertices,

@@ -12,6 +12,7 @@
 #include "fem/assembly.hpp"
 #include "fem/compliance.hpp"
 #include "fem/constrained_nodes.hpp"
+#include "fem/prices.hpp"
 #include "fem/sparse_cholesky.hpp"
 
 namespace elastolab {
@@ -28,9 +29,10 @@ struct FemMesh {
     int n_elements = 0;
     StiffnessParts parts;
     std::unique_ptr<const CholeskyAnalysis> analysis;
+    FemPrices prices;
 };
 
-/// Takes the tetrahedra as elements of a degree and integrates them; `analysis` is left to be made.
+/// Takes the tetrahedra as elements of a degree and integrates them; `analysis` and `prices` are left to be made.
 /// Throws as assemble_stiffness_parts does.
 FemMesh make_fem_mesh(TetMesh tets, ElementDegree degree, Control& control);
 
@@ -46,8 +48,11 @@ struct FemSystem {
     int n_vertices() const { return mesh->tets.n_surface_vertices; }
 };
 
+/// Whether the columns of so many vertices are kept (kColumnsWorthKeeping).
+bool keeps_columns(const FemSystem& system, std::ptrdiff_t n_vertices);
+
 /// The body factorised with a base eliminated (or free), and the columns of its surface compliance so far.
-class FactorisedBody {
+class FactorisedBody : public std::enable_shared_from_this<FactorisedBody> {
 public:
     FactorisedBody(std::shared_ptr<const FemSystem> system, std::vector<int> base, Control& control);
 
@@ -58,6 +63,8 @@ public:
     double reciprocal_condition() const { return reciprocal_condition_; }
     /// D over R^T for these vertices (with a base: D alone); cached.
     Columns responses(const std::vector<int>& vertices, Control& control) const;
+    /// The same for a set of vertices: columns that are kept where they are cheap, else their block and nothing more.
+    std::shared_ptr<const Responses> responses_of_set(const std::vector<int>& vertices, Control& control) const;
     /// Displacements of all nodes for displacements of the surface and the loads on it that cause them.
     Eigen::MatrixXd volume_displacements(const Eigen::MatrixXd& surface, const Eigen::MatrixXd& loads) const;
 
@@ -69,6 +76,22 @@ private:
     SurfaceCompliance compliance_;
     double reciprocal_condition_;
     mutable ColumnCache cache_;
+};
+
+/// Responses of a factorised body to loads at some vertices, none of them kept: only their rows and columns at these
+/// vertices are formed, and a product with them is a solve.
+class FactorResponses : public Responses {
+public:
+    FactorResponses(std::shared_ptr<const FactorisedBody> body, std::vector<int> vertices);
+
+    Eigen::Index cols() const override { return 3 * std::ssize(vertices_); }
+    Eigen::MatrixXd small_matrix(const std::vector<int>& nodes, const Eigen::MatrixXd& rigid,
+                                 Control& control) const override;
+    void add_product(const Eigen::MatrixXd& loads, Eigen::Ref<Eigen::MatrixXd> displacements) const override;
+
+private:
+    std::shared_ptr<const FactorisedBody> body_;
+    std::vector<int> vertices_;
 };
 
 /// Eqn. (9') on a grounded body: the small system of the vertices that are not eliminated. Its loads are nodal forces

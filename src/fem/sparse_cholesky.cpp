@@ -125,6 +125,17 @@ std::vector<int> ordering(const SparseMatrix& pattern, int block) {
     return order;
 }
 
+SupernodalView view_of(const cholmod_factor& factor) {
+    const auto ints = [](const void* data, std::size_t n) { return std::span(static_cast<const int*>(data), n); };
+    SupernodalView view;
+    view.permutation = ints(factor.Perm, factor.n);
+    view.super = ints(factor.super, factor.nsuper + 1);
+    view.first_row = ints(factor.pi, factor.nsuper + 1);
+    view.first_value = ints(factor.px, factor.nsuper + 1);
+    view.rows = ints(factor.s, factor.ssize);
+    return view;
+}
+
 }  // namespace
 
 struct CholeskyAnalysis::Impl {
@@ -151,6 +162,8 @@ std::uint64_t CholeskyAnalysis::factor_bytes() const {
     const cholmod_factor& factor = *impl_->factor;
     return 8 * factor.xsize + 4 * (factor.ssize + 3 * factor.nsuper + 2 * factor.n);
 }
+
+SupernodalView CholeskyAnalysis::view() const { return view_of(*impl_->factor); }
 
 struct SparseCholesky::Impl {
     FactorPtr factor;
@@ -210,15 +223,8 @@ double SparseCholesky::reciprocal_condition() const {
 }
 
 SupernodalView SparseCholesky::view() const {
-    const cholmod_factor& factor = *impl_->factor;
-    const auto ints = [](const void* data, std::size_t n) { return std::span(static_cast<const int*>(data), n); };
-    SupernodalView view;
-    view.permutation = ints(factor.Perm, factor.n);
-    view.super = ints(factor.super, factor.nsuper + 1);
-    view.first_row = ints(factor.pi, factor.nsuper + 1);
-    view.first_value = ints(factor.px, factor.nsuper + 1);
-    view.rows = ints(factor.s, factor.ssize);
-    view.values = static_cast<const double*>(factor.x);
+    SupernodalView view = view_of(*impl_->factor);
+    view.values = static_cast<const double*>(impl_->factor->x);
     return view;
 }
 

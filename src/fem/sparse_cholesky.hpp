@@ -10,6 +10,16 @@
 
 namespace elastolab {
 
+/// Supernodal factor P A P^T = L L^T, for code that works on L itself. Columns super[s] .. super[s+1] form supernode s:
+/// a dense column-major block at values[first_value[s]] with rows rows[first_row[s]] .. rows[first_row[s+1]], the first
+/// of which are its own columns (the part above its diagonal is not used). Row i of P A P^T is row permutation[i] of A.
+struct SupernodalView {
+    std::span<const int> permutation, super, first_row, first_value, rows;
+    const double* values = nullptr;
+
+    int n_supernodes() const { return static_cast<int>(super.size()) - 1; }
+};
+
 /// Fill-reducing ordering and symbolic factorisation of a symmetric pattern: done once, shared by every matrix with
 /// that pattern (another material, other eliminated vertices). Immutable; any thread may use it.
 class CholeskyAnalysis {
@@ -26,21 +36,13 @@ public:
     int size() const;
     /// Bytes that each factor of this pattern takes.
     std::uint64_t factor_bytes() const;
+    /// Where the entries of a factor will be; no values.
+    SupernodalView view() const;
 
 private:
     friend class SparseCholesky;
     struct Impl;
     std::unique_ptr<const Impl> impl_;
-};
-
-/// Supernodal factor P A P^T = L L^T, for code that works on L itself. Columns super[s] .. super[s+1] form supernode s:
-/// a dense column-major block at values[first_value[s]] with rows rows[first_row[s]] .. rows[first_row[s+1]], the first
-/// of which are its own columns (the part above its diagonal is not used). Row i of P A P^T is row permutation[i] of A.
-struct SupernodalView {
-    std::span<const int> permutation, super, first_row, first_value, rows;
-    const double* values = nullptr;
-
-    int n_supernodes() const { return static_cast<int>(super.size()) - 1; }
 };
 
 /// Cholesky factor of a sparse symmetric positive definite matrix (CHOLMOD, supernodal). Immutable; any thread may

@@ -108,6 +108,25 @@ TEST(SurfaceCompliance, AppliesToLoadsAsItsColumnsDo) {
     EXPECT_LT(relative_error(compliance.apply(loads, control), D * loads), 1e-12);
 }
 
+TEST(SurfaceCompliance, ItsBlocksAreThoseOfItsColumns) {
+    const FemBody body({6, 4, 4});
+    Control control;
+    const std::vector<int> scattered = {70, 3, 41, body.n_surface() - 1, 12};
+    for (const std::vector<int>& base : {std::vector<int>{}, body.face(0, 0.0)}) {
+        std::vector<int> vertices = body.face(0, 1.0);
+        for (const int v : scattered)
+            if (body.mesh.vertices(0, v) > 0.0 && body.mesh.vertices(0, v) < 1.0) vertices.push_back(v);
+        const SurfaceCompliance compliance(body.K, body.analysis, body.mesh.vertices, body.n_surface(), base, control);
+        const Eigen::MatrixXd columns = compliance.columns(vertices, control);
+        Eigen::MatrixXd expected(columns.cols(), columns.cols());
+        for (std::size_t i = 0; i < vertices.size(); ++i)
+            expected.middleRows<3>(3 * static_cast<Eigen::Index>(i)) = columns.middleRows<3>(3 * vertices[i]);
+        const Eigen::MatrixXd block = compliance.block(vertices, control);
+        EXPECT_LT(relative_error(block, expected), kRounding);
+        EXPECT_EQ(block, Eigen::MatrixXd(block.transpose())) << "not exactly symmetric";
+    }
+}
+
 TEST(SurfaceCompliance, DoesNotDependOnTheNumberOfThreads) {
     const FemBody body({6, 6, 5});
     Control control;

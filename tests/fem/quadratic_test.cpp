@@ -59,8 +59,8 @@ struct QuadraticField {
             const Eigen::Matrix3d random = Eigen::Matrix3d::Random();
             ci = random + random.transpose();
         }
-        // Half of grad div u is sum_i c_i e_i, half of lap u_i the trace of c_i. Entry jj of c_i, j != i, appears in the
-        // second only.
+        // Half of grad div u is sum_i c_i e_i, half of lap u_i the trace of c_i. Entry jj of c_i, j != i, appears in
+        // the second only.
         const double a = material.lame_lambda() + material.shear_modulus(), mu = material.shear_modulus();
         Eigen::Vector3d grad_div = Eigen::Vector3d::Zero();
         for (int i = 0; i < 3; ++i) grad_div += c[static_cast<std::size_t>(i)].col(i);

@@ -6,6 +6,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <thread>
 
@@ -14,6 +15,7 @@
 #include "mesh/meshes.hpp"
 #include "mesh/primitives.hpp"
 #include "mesh/tets/tet_quality.hpp"
+#include "mesh/topology.hpp"
 
 namespace elastolab {
 namespace {
@@ -125,7 +127,7 @@ TEST(Tetrahedralize, DoesNotDependOnTheNumberingOfASymmetricBody) {
 
 TEST(Tetrahedralize, MakesAboutAsManyInteriorVerticesAsAUniformGridOfTheSurfacesSize) {
     for (const int cells : {8, 13}) {
-        const TetMesh mesh = fill(make_box(cells));
+        const TetMesh mesh = fill(make_box(cells), {.growth = 0.0});
         const double uniform = std::pow(cells - 1, 3), interior = mesh.n_vertices() - mesh.n_surface_vertices;
         EXPECT_GT(interior, 0.87 * uniform) << cells;
         EXPECT_LT(interior, 1.15 * uniform) << cells;
@@ -135,6 +137,57 @@ TEST(Tetrahedralize, MakesAboutAsManyInteriorVerticesAsAUniformGridOfTheSurfaces
 TEST(Tetrahedralize, WithoutVolumeBoundNeedsFewerTetrahedra) {
     const SurfaceMesh solid = make_box(8);
     EXPECT_LT(fill(solid, {.relative_volume = 0.0}).n_tetrahedra(), fill(solid).n_tetrahedra());
+}
+
+/// The definition of the wanted edge length, vertex by vertex.
+double wanted_edge(const SurfaceMesh& solid, double growth, const Eigen::Vector3d& x) {
+    const EdgeTable edges(solid);
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(solid.n_vertices()), count = sum;
+    for (int e = 0; e < edges.size(); ++e)
+        for (const int v : {edges[e].a, edges[e].b}) {
+            sum[v] += (solid.vertices.col(edges[e].a) - solid.vertices.col(edges[e].b)).norm();
+            count[v] += 1.0;
+        }
+    const double mean = sum.sum() / count.sum();
+    double least = std::numeric_limits<double>::max();
+    for (int v = 0; v < solid.n_vertices(); ++v)
+        least = std::min(least, std::max(sum[v] / count[v], mean) + growth * (x - solid.vertices.col(v)).norm());
+    return least;
+}
+
+TEST(Tetrahedralize, TetrahedraGrowTowardsTheInsideAsFarAsTheyMay) {
+    for (const double growth : {0.1, 0.3}) {
+        const SurfaceMesh solid = make_box(9);
+        const TetMesh mesh = fill(solid, {.growth = growth});
+        int n_larger = 0;
+        double largest = 0.0;
+        for (int t = 0; t < mesh.n_tetrahedra(); ++t) {
+            const Eigen::Vector3d middle = mesh.vertices(Eigen::all, mesh.tetrahedra.col(t)).rowwise().mean();
+            const double edge = wanted_edge(solid, growth, middle);
+            n_larger += tet_volume(mesh, t) > 1.8 * std::pow(edge, 3) / (6.0 * std::sqrt(2.0));
+            largest = std::max(largest, tet_volume(mesh, t));
+        }
+        // The last step of TetGen moves vertices to improve shapes, and may enlarge some.
+        EXPECT_LT(n_larger, 0.01 * mesh.n_tetrahedra()) << growth;
+        EXPECT_GT(largest, 1.2 * 1.8 * std::pow(wanted_edge(solid, 0.0, {0, 0, 0}), 3) / (6.0 * std::sqrt(2.0)));
+    }
+}
+
+TEST(Tetrahedralize, NeedsFewerTetrahedraTheMoreTheyMayGrow) {
+    const SurfaceMesh solid = make_lumpy_ball(14);
+    const int uniform = fill(solid, {.growth = 0.0}).n_tetrahedra(),
+              unbounded = fill(solid, {.relative_volume = 0.0}).n_tetrahedra();
+    const int graded = fill(solid, {.growth = 0.2}).n_tetrahedra(), more = fill(solid, {.growth = 0.4}).n_tetrahedra();
+    EXPECT_LT(graded, 0.85 * uniform);
+    EXPECT_LT(more, 0.95 * graded);
+    EXPECT_LT(unbounded, 1.02 * more);
+}
+
+TEST(Tetrahedralize, GradesTheInsideTheMoreTheLargerTheSurface) {
+    EXPECT_EQ(default_growth(8), 0.1);
+    EXPECT_EQ(default_growth(1000), 0.1);
+    EXPECT_NEAR(default_growth(40000), 0.35, 0.01);
+    EXPECT_LT(default_growth(10000), default_growth(20000));
 }
 
 std::string failure(const SurfaceMesh& solid) {

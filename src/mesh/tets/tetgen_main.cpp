@@ -3,10 +3,14 @@
 #include <tetgen.h>
 
 #include <algorithm>
+#include <cmath>
+#include <memory>
 #include <new>
+#include <numbers>
 #include <vector>
 
 #include "mesh/input/helper_io.hpp"
+#include "mesh/tets/size_field.hpp"
 #include "mesh/tets/tetgen_protocol.hpp"
 
 namespace {
@@ -36,6 +40,39 @@ void fill(tetgenio& in, const std::vector<double>& vertices, const std::vector<i
     std::copy(holes.begin(), holes.end(), in.holelist);
 }
 
+/// What TetGen's callback, which takes no context, asks about each tetrahedron.
+struct VolumeBound {
+    std::unique_ptr<const SizeField> sizes;
+    double relative_volume = 0.0;
+
+    bool exceeded(const double* a, const double* b, const double* c, const double* d) const {
+        const double volume = volume_of(a, b, c, d);
+        if (volume <= allowed(sizes->least())) return false;
+        const double centre[3] = {mean(a, b, c, d, 0), mean(a, b, c, d, 1), mean(a, b, c, d, 2)};
+        return volume > allowed(sizes->at(centre));
+    }
+    double allowed(double edge) const { return relative_volume * edge * edge * edge / (6.0 * std::numbers::sqrt2); }
+    static double mean(const double* a, const double* b, const double* c, const double* d, int i) {
+        return (a[i] + b[i] + c[i] + d[i]) / 4.0;
+    }
+    static double volume_of(const double* a, const double* b, const double* c, const double* d) {
+        double u[3], v[3], w[3];
+        for (int i = 0; i < 3; ++i) {
+            u[i] = a[i] - d[i];
+            v[i] = b[i] - d[i];
+            w[i] = c[i] - d[i];
+        }
+        return std::abs(u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) +
+                        u[2] * (v[0] * w[1] - v[1] * w[0])) /
+               6.0;
+    }
+};
+VolumeBound volume_bound;
+
+bool is_too_large(double* a, double* b, double* c, double* d, double*, double) {
+    return volume_bound.exceeded(a, b, c, d);
+}
+
 int run(char* switches, tetgenio& in, tetgenio& out) {
     try {
         tetrahedralize(switches, &in, &out);
@@ -60,6 +97,10 @@ int main() {
 
     tetgenio in, out;
     fill(in, vertices, triangles, holes);
+    if (request.relative_volume > 0.0) {
+        volume_bound = {std::make_unique<SizeField>(vertices, triangles, request.growth), request.relative_volume};
+        in.tetunsuitable = is_too_large;
+    }
     TetgenReplyHeader reply;
     reply.status = run(request.switches.data(), in, out);
     if (reply.status == 0) {

@@ -17,10 +17,12 @@ namespace elastolab {
 
 namespace {
 
-std::string request_bytes(const SurfaceMesh& surface, const Positions& holes, const std::string& switches) {
+std::string request_bytes(const SurfaceMesh& surface, const Positions& holes, const TetgenSettings& settings) {
     TetgenRequestHeader header;
-    assert(switches.size() < header.switches.size());
-    std::copy(switches.begin(), switches.end(), header.switches.begin());
+    assert(settings.switches.size() < header.switches.size());
+    std::copy(settings.switches.begin(), settings.switches.end(), header.switches.begin());
+    header.relative_volume = settings.relative_volume;
+    header.growth = settings.growth;
     header.n_vertices = surface.n_vertices();
     header.n_triangles = surface.n_triangles();
     header.n_holes = static_cast<std::int32_t>(holes.cols());
@@ -78,10 +80,10 @@ std::size_t expected_size(const TetgenReplyHeader& header) {
 
 }  // namespace
 
-TetgenResult run_tetgen(const SurfaceMesh& surface, const Positions& holes, const std::string& switches,
+TetgenResult run_tetgen(const SurfaceMesh& surface, const Positions& holes, const TetgenSettings& settings,
                         Control& control) {
     ChildProcess helper(helper_program("elastolab-tetgen"));
-    const std::vector<char> reply = helper.exchange(request_bytes(surface, holes, switches), control);
+    const std::vector<char> reply = helper.exchange(request_bytes(surface, holes, settings), control);
     const int status = helper.wait(control);
 
     TetgenResult result;

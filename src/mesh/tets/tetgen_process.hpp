@@ -14,9 +14,17 @@ struct TetgenResult {
     std::string failure;    ///< empty on success; else what went wrong, e.g. "the surface intersects itself"
 };
 
-/// Runs TetGen with these command-line switches in a process of its own. `holes`: a point inside each cavity.
+/// What TetGen is to do.
+struct TetgenSettings {
+    std::string switches;  ///< of its command line
+    /// Bound on a tetrahedron's volume, in units of the regular one whose edge the SizeField of this growth tells at
+    /// its middle; <= 0: no bound.
+    double relative_volume = 0.0, growth = 0.0;
+};
+
+/// Runs TetGen in a process of its own. `holes`: a point inside each cavity.
 /// Throws MeshError only when the helper program is missing or of another version; Cancelled.
-TetgenResult run_tetgen(const SurfaceMesh& surface, const Positions& holes, const std::string& switches,
+TetgenResult run_tetgen(const SurfaceMesh& surface, const Positions& holes, const TetgenSettings& settings,
                         Control& control);
 
 }  // namespace elastolab

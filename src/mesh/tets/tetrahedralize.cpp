@@ -1,6 +1,7 @@
 #include "mesh/tets/tetrahedralize.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <Eigen/Geometry>
 #include <numbers>
 #include <vector>
@@ -43,10 +44,18 @@ Positions cavity_points(const SurfaceMesh& mesh) {
 /// p: a surface; Y: keep it as it is, no vertex added on it; q: bounds on radius over edge and on the dihedral angles;
 /// O, o: improve until angles are below 145 degrees (least angle measured on primitives: 15 to 17 degrees, 6 to 9
 /// without); T: tolerance for coplanar; a: volume bound.
-std::string switches(const TetOptions& options, double edge, double tolerance) {
-    const double regular_volume = edge * edge * edge / (6.0 * std::numbers::sqrt2);
-    const std::string text = formatted("pYzq%.6g/12O9/7o/145T%.3g", options.radius_edge_ratio, tolerance);
-    return options.relative_volume > 0.0 ? text + formatted("a%.15f", options.relative_volume * regular_volume) : text;
+TetgenSettings settings(const TetOptions& options, const SurfaceMesh& solid, double tolerance) {
+    TetgenSettings settings;
+    settings.switches = formatted("pYzq%.6g/12O9/7o/145T%.3g", options.radius_edge_ratio, tolerance);
+    if (options.relative_volume <= 0.0) return settings;
+    settings.growth = options.growth.value_or(default_growth(solid.n_vertices()));
+    if (settings.growth > 0.0) {
+        settings.relative_volume = options.relative_volume;
+    } else {
+        const double edge = mean_edge(solid), regular_volume = edge * edge * edge / (6.0 * std::numbers::sqrt2);
+        settings.switches += formatted("a%.15f", options.relative_volume * regular_volume);
+    }
+    return settings;
 }
 
 /// det > 0 for every tetrahedron; TetGen's convention is the other one.
@@ -105,6 +114,8 @@ TetMesh to_mesh(const TetgenResult& result, const SurfaceMesh& solid, const Cano
 
 }  // namespace
 
+double default_growth(int n_vertices) { return 0.1 * std::pow(std::max(n_vertices, 1000) / 1000.0, 0.34); }
+
 TetMesh tetrahedralize(const SurfaceMesh& solid, const std::string& name, const TetOptions& options, Control& control) {
     std::string finding = obstacle(solid);
     if (!finding.empty()) throw MeshError(message(name, finding));
@@ -118,8 +129,7 @@ TetMesh tetrahedralize(const SurfaceMesh& solid, const std::string& name, const 
     for (const auto& [tolerance, grid_bits] : {Attempt{1e-8, 40}, Attempt{1e-13, 52}}) {
         const CanonicalFrame frame(solid, grid_bits);
         const SurfaceMesh& unit = frame.mesh();
-        TetgenResult result =
-            run_tetgen(unit, cavity_points(unit), switches(options, mean_edge(unit), tolerance), control);
+        TetgenResult result = run_tetgen(unit, cavity_points(unit), settings(options, unit, tolerance), control);
         if (result.failure.empty()) {
             TetMesh mesh = to_mesh(result, solid, frame);
             result.failure = flaw(mesh, solid);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "base/control.hpp"
@@ -10,13 +11,20 @@ namespace elastolab {
 /// Quality of the tetrahedra that TetGen makes.
 struct TetOptions {
     double radius_edge_ratio = 1.4;  ///< bound on circumradius / shortest edge
-    /// Bound on a tetrahedron's volume, in units of that of the regular tetrahedron over the mean surface edge, so that
-    /// elements inside match the surface's size. <= 0: no bound.
-    /// Measured: cubes of 4, 8, 13 and 20 cells get 49, 644, 3221, 12763 interior vertices at 1.0; 25, 347, 1735, 6940
-    /// at 1.8; 27, 309, 1500, 6176 at 2.0. The uniform grid of these cells has 27, 343, 1728, 6859: so 1.8 is the size
-    /// of the surface.
+    /// Bound on a tetrahedron's volume, in units of that of the regular tetrahedron over the edge length wanted at its
+    /// middle. <= 0: no bound.
+    /// Measured without growth: cubes of 4, 8, 13 and 20 cells get 49, 644, 3221, 12763 interior vertices at 1.0; 25,
+    /// 347, 1735, 6940 at 1.8; 27, 309, 1500, 6176 at 2.0. The uniform grid of these cells has 27, 343, 1728, 6859: so
+    /// 1.8 is the size of the surface.
     double relative_volume = 1.8;
+    /// By how much the wanted edge length grows per distance from the surface (mesh/tets/size_field.hpp); 0: it is the
+    /// mean edge of the surface everywhere. None: as the number of vertices says (default_growth).
+    std::optional<double> growth = {};
 };
+
+/// Growth for a surface of so many vertices: 0.1 up to 1000, then more and more, 0.35 at 40 000, where uniform
+/// tetrahedra would be four times as many. docs/formulation.md section 10 has the measurements.
+double default_growth(int n_vertices);
 
 /// Fills one solid (an outer surface and its cavities) with tetrahedra. The surface's vertices and triangles are kept
 /// as they are; no vertex is added on the surface. The tetrahedra do not depend on the numbering, nor on mirrors, turns

@@ -61,7 +61,8 @@ TetMesh fill(const RefinedSurface& refined, double edge, double inside) {
     Control control;
     const double ratio = edge / mean_edge(refined.mesh);
     return tetrahedralize(refined.mesh, "truth",
-                          {.radius_edge_ratio = 1.4, .relative_volume = inside * std::pow(ratio, 3)}, control);
+                          {.radius_edge_ratio = 1.4, .relative_volume = inside * std::pow(ratio, 3), .growth = 0.0},
+                          control);
 }
 
 Solution solve_on(const RefinedSurface& refined, const TetMesh& tetrahedra, const TruthProblem& problem) {
