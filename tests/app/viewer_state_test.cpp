@@ -39,7 +39,7 @@ TEST(ViewerState, ABadFileIsTellingAndKeepsTheOldScene) {
     const TemporaryFolder folder;
     for (const auto& file :
          {folder.write("bad.obj", "f 1 2 3\n"), folder.write("bad.json", "{}"),
-          folder.write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), folder.path() / "none.stl"}) {
+          folder.write("line.obj", "v 0 0 0\nv 1 0 0\nv nan 0 0\nf 1 2 3\n"), folder.path() / "none.stl"}) {
         Stage stage(2);
         const LiveScene* before = &stage.scene();
         stage.state.open(file);

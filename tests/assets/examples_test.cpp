@@ -13,6 +13,7 @@
 #include "methods/precompute.hpp"
 #include "methods/registry.hpp"
 #include "scene/file/scene_file.hpp"
+#include "scene/live/live_scene.hpp"
 #include "scene/selectors.hpp"
 #include "scene/setup.hpp"
 
@@ -43,7 +44,7 @@ class Examples : public testing::TestWithParam<Example> {
 protected:
     Examples()
         : document_(load_scene(file_)),
-          body_(make_body(document_, load_scene_mesh(document_.mesh, file_), kFem, file_)),
+          body_(LiveScene(document_, file_).body(kFem)),
           constraints_(make_constraints(document_, *body_.surface, file_)) {}
 
     /// Displacements, one column each vertex.

@@ -75,13 +75,20 @@ BadInput changed(const char* name, const std::string& from, const std::string& t
     return scene(name, content.replace(place, from.size(), to), std::move(findings));
 }
 
-/// A mesh that `method` cannot use.
+/// A mesh that `method` cannot use itself.
 BadInput mesh(const char* name, const std::string& file, std::string content, std::vector<std::string> findings,
               const std::string& method = "linear-bem") {
     findings.push_back(file);
-    return {name,      {"solve", "--method", method, "--displacements", "before.csv", "mesh.json"},
+    return {name,      {"solve", "--proxy", "never", "--method", method, "--displacements", "before.csv", "mesh.json"},
             file,      std::move(content),
             kBadInput, std::move(findings)};
+}
+
+/// A mesh that not even a proxy makes a body of.
+BadInput shapeless(const char* name, std::string content) {
+    return {name,        {"solve", "--proxy", "always", "--displacements", "before.csv", "mesh.json"},
+            "input.obj", std::move(content),
+            kBadInput,   {"input.obj"}};
 }
 
 BadInput usage(const char* name, std::vector<std::string> arguments, std::vector<std::string> findings) {
@@ -124,6 +131,9 @@ INSTANTIATE_TEST_SUITE_P(
         changed("IncompressibleFem", "0.3}", "0.5}", {"/material/poisson_ratio", "FEM"}, "fem"),
         changed("UnknownMethod", "linear-bem", "quadratic-bem", {"/method", "quadratic-bem"}),
         changed("UnknownPrimitive", "\"cube\"", "\"teapot\"", {"/mesh/primitive", "teapot"}),
+        changed("UnknownProxyUse", "\"method\"", R"("proxy": {"use": "perhaps"}, "method")", {"/proxy/use", "perhaps"}),
+        changed("FewProxyVertices", "\"method\"", R"("proxy": {"vertices": 3}, "method")", {"/proxy/vertices"}),
+        changed("ProxyWithAnotherKey", "\"method\"", R"("proxy": {"size": 30}, "method")", {"/proxy/size"}),
         changed("NoCells", "\"resolution\": 2", "\"resolution\": 0", {"/mesh/resolution"}),
         changed("TooManyCells", "\"resolution\": 2", "\"resolution\": 100000", {"/mesh/resolution"}),
         changed("TooThin", "\"resolution\": 2", R"("resolution": 100, "size": [1, 1, 1e9])", {"/mesh"}),
@@ -178,6 +188,9 @@ INSTANTIATE_TEST_SUITE_P(
              "v 2 0 -.3\nv 2 0 .3\nv -1 1.7 -.3\nv -1 1.7 .3\nv -1 -1.7 -.3\nv -1 -1.7 .3\nf 1 3 4 2\nf 3 5 6 4\n"
              "f 5 2 1 6\n",
              {}),
+        shapeless("NaNInAnyProxy", "v nan 0 0\nv 0 1 0\nv 0 0 1\nv 1 0 0\nf 1 4 3\nf 1 2 4\nf 1 3 2\nf 2 3 4\n"),
+        shapeless("OnALine", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\nf 3 2 1\n"),
+        shapeless("OnePoint", "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n"),
         mesh("CrossingParts", "input.obj", tetrahedron(0, 0) + tetrahedron(0.25, 4), {"cross"}, "fem")),
     case_name);
 
@@ -199,6 +212,8 @@ INSTANTIATE_TEST_SUITE_P(
         usage("Eqn9OnDemand", {"solve", "good.json", "--update", "eqn9"}, {"eqn9", "mode full"}),
         usage("NoMatricesOnDemand", {"solve", "good.json", "--matrices", "m"}, {"--matrices", "--mode full"}),
         usage("UnknownMeshFormat", {"solve", "good.json", "--mesh-out", "m.dae"}, {"m.dae", ".obj"}),
+        usage("UnknownProxyUse", {"solve", "good.json", "--proxy", "perhaps"}, {"--proxy", "perhaps"}),
+        usage("ProxyOfTwo", {"solve", "good.json", "--proxy-vertices", "2"}, {"--proxy-vertices"}),
         usage("SameOutputTwice", {"solve", "good.json", "--forces", "a.csv", "--displacements", "./a.csv"}, {"a.csv"}),
         usage("OverwritesItsScene", {"solve", "good.json", "--report", "good.json"}, {"good.json", "input"})),
     case_name);

@@ -68,7 +68,7 @@ TEST(BackgroundWork, AStopOfTheCompletionLeavesTheAnswerReady) {
     Bench bench;
     do bench.update(scene);
     while (!bench.runner().completing());
-    bench.simulation.prefetch(scene.set_with_handle(where(scene, 0.9, 0.6)));
+    bench.simulation.prefetch(scene.constraints_with_handle(where(scene, 0.9, 0.6)));
     do bench.update(scene);
     while (bench.runner().completing() && !bench.runner().preparing());
     bench.simulation.runner(kLinearBem).cancel();
@@ -125,7 +125,7 @@ TEST(BackgroundWork, AHandleThatWasPrefetchedAnswersAtOnce) {
     Bench bench;
     bench.settle(scene);
     const std::vector<int> patch = where(scene, 0.9, 0.6);
-    bench.simulation.prefetch(scene.set_with_handle(patch));
+    bench.simulation.prefetch(scene.constraints_with_handle(patch));
     do bench.update(scene);
     while (bench.runner().preparing());
     EXPECT_EQ(bench.runner().displacement().norm(), 0.0);

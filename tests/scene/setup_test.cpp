@@ -121,9 +121,9 @@ TEST(Setup, AMeshFileLiesBesideTheScene) {
     Document document = cube();
     document.mesh = MeshFile{"cube.obj"};
     const auto scene_file = folder.path() / "scene.json";
-    const Body body = make_body(document, load_scene_mesh(document.mesh, scene_file), kFem, scene_file);
-    EXPECT_EQ(body.surface->n_vertices(), 26);
-    EXPECT_THAT(body.name, HasSubstr("cube.obj"));
+    const SceneMesh mesh = load_scene_mesh(document.mesh, scene_file);
+    EXPECT_EQ(mesh.checked.mesh.n_vertices(), 26);
+    EXPECT_THAT(mesh.name, HasSubstr("cube.obj"));
 }
 
 TEST(Setup, PrimitivesThatCannotBeMadeAreErrorsOfTheScene) {
@@ -138,7 +138,7 @@ TEST(Setup, OnlyFemRefusesAnIncompressibleMaterial) {
     Document document = cube();
     document.material.poisson_ratio = 0.5;
     const auto body = [&](MethodKind kind) {
-        return finding([&] { make_body(document, load_scene_mesh(document.mesh, "s.json"), kind, "s.json"); });
+        return finding([&] { require_material(document.material, kind, "s.json"); });
     };
     EXPECT_THAT(body(kFem), HasSubstr("s.json: /material/poisson_ratio: FEM needs"));
     EXPECT_EQ(body(kLinearBem), "");

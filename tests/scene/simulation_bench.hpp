@@ -59,6 +59,7 @@ struct Bench {
     /// However slow the machine, answers within a set come in the frame that asks for them.
     explicit Bench(std::vector<MethodKind> kinds = kLinear) : shown(std::move(kinds)) {
         set_solve_budget(std::numeric_limits<double>::infinity());
+        choices.preview = false;  // but in tests of it
     }
 
     Simulation simulation{[] {}};

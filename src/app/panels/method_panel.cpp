@@ -180,7 +180,7 @@ void Panels::draw_method(const PanelContext& context) {
         if (ImGui::Button("Compute")) state.simulation.retry(state.method);
     }
     draw_preview(context);
-    draw_warnings(context, std::as_const(state.simulation).embedded(state.method));
+    draw_warnings(context, state.simulation.embedded(state.method));
 
     if (!ImGui::TreeNode("How it computes")) return;
     draw_mode(context);

@@ -35,7 +35,7 @@ public:
     bool needs_proxy(MethodKind kind) const { return elastolab::needs_proxy(document_.proxy, report(), kind); }
     /// The body that a method of this kind simulates: this surface, or that of `proxy` when there is one. Throws
     /// MeshError or SceneError when surface or material are not fit for it.
-    Body body(MethodKind kind, const Proxy* proxy) const;
+    Body body(MethodKind kind, const Proxy* proxy = nullptr) const;
 
     const Constraints& constraints() const { return constraints_; }
     int n_handles() const { return static_cast<int>(document_.handles.size()); }

@@ -143,6 +143,12 @@ MethodRunner::State MethodRunner::state() const {
     return sets_.is_current() && !sets_.solving() ? State::ready : State::preparing;
 }
 
+bool MethodRunner::answers() const {
+    return solved_ && sets_.answers() && values_.size() == sets_.wanted_values().size() &&
+           values_ == sets_.wanted_values() &&
+           deformer()->model().body().material.poisson_ratio == models_.body().material.poisson_ratio;
+}
+
 JobStatus MethodRunner::status() const {
     if (models_.precomputing()) return models_.precompute_status();
     return models_.completing() && state() != State::preparing ? models_.completion_status() : sets_.status();

@@ -79,6 +79,10 @@ public:
     /// Whether displacement() is the solution for values(): false where there is none, and the answer before stands.
     bool solved() const { return solved_; }
 
+    /// Whether displacement() is what the scene asks for, by whichever model of this body and Poisson's ratio: a model
+    /// with its inverse is prepared while the one without it answers.
+    bool answers() const;
+
     bool precomputing() const { return models_.precomputing(); }
     bool preparing() const { return sets_.preparing(); }
     bool completing() const { return models_.completing(); }

@@ -72,15 +72,20 @@ const SurfaceMesh* Simulation::simulated_surface(MethodKind kind, const LiveScen
     return proxies_.model() && proxies_.model()->shown == scene.surface() ? proxies_.model()->surface.get() : nullptr;
 }
 
-void Simulation::ask_for_proxies(const LiveScene& scene) {
+void Simulation::ask_for_proxies(const LiveScene& scene, const MethodChoices& choices) {
     const auto needs_proxy = [&](MethodKind kind) { return scene.needs_proxy(kind); };
     const bool needs_model = std::any_of(shown_.begin(), shown_.end(), needs_proxy) || proxies_.model();
-    has_preview_ = scene.mesh().n_vertices() > kFewestToPreview && scene.document().proxy.use != ProxyUse::never;
+    has_preview_ = choices.preview && scene.mesh().n_vertices() > kFewestToPreview;
     const bool is_own_preview =
         !scene.needs_proxy(preview_method()) && scene.mesh().n_vertices() <= kMostToPreviewThemselves;
     proxies_.ask(scene, needs_model ? scene.document().proxy.n_vertices : 0,
                  has_preview_ && !is_own_preview ? kPreviewVertices : 0);
     proxies_.poll();
+}
+
+bool Simulation::preview_works() const {
+    const State state = preview_.runner().state();
+    return has_preview_ && (state == State::precomputing || state == State::preparing);
 }
 
 /// The preview is served before all methods: its model is what a press waits for.
@@ -140,8 +145,10 @@ bool Simulation::update_method(Entry& entry, const LiveScene& scene, const Metho
         runner.clear();  // its turn has not come yet
         return runner.version() != before;
     }
+    // Two at a time would keep each other waiting: the preview's set is a matter of a moment.
+    entry.waits_for_preview = preview_works();
     runner.runner().set_frame_rule(choices.frame_rule);
-    runner.set_constraints(scene.constraints());
+    if (!entry.waits_for_preview) runner.set_constraints(scene.constraints());
     runner.poll();
     return runner.version() != before;
 }
@@ -149,15 +156,16 @@ bool Simulation::update_method(Entry& entry, const LiveScene& scene, const Metho
 /// The preview answers as long as it is ready and the method is not. Returns whether another one answers now.
 bool Simulation::choose_answer(Entry& entry) const {
     const bool before = entry.previewing;
-    if (entry.runner->ready())
+    const bool ready = entry.runner->runner().answers() && !entry.waits_for_preview;
+    if (ready)
         entry.previewing = false;
-    else if (has_preview_ && preview_.ready())
+    else if (has_preview_ && preview_.runner().answers())
         entry.previewing = true;
     else if (entry.previewing ? !preview_.has_answer() : !entry.runner->has_answer())
         entry.previewing = has_preview_ && preview_.has_answer();
-    if (entry.previewing || !entry.runner->ready()) {
+    if (entry.previewing || !ready) {
         if (entry.previewing) entry.preview_error.reset();
-    } else if (before && preview_.ready()) {
+    } else if (before && preview_.runner().answers()) {
         const Eigen::VectorXd& exact = entry.runner->displacement();
         const Eigen::VectorXd& coarse = preview_.displacement();
         if (exact.size() == coarse.size() && !exact.isZero(0.0))
@@ -168,11 +176,11 @@ bool Simulation::choose_answer(Entry& entry) const {
 
 bool Simulation::update(const LiveScene& scene, const std::vector<MethodKind>& shown, const MethodChoices& choices) {
     shown_ = shown;
-    ask_for_proxies(scene);
+    ask_for_proxies(scene, choices);
     rest_hidden(scene);
     bool changed = false;
     const bool preview_changed = update_preview(scene, choices);
-    bool waiting = has_preview_ && (proxies_.running() || preview_.runner().precomputing());
+    bool waiting = has_preview_ && (proxies_.running() || preview_works());
     for (const MethodKind kind : shown) {
         Entry& present = entries_[place(kind)];
         changed = update_method(present, scene, choices, !waiting) || changed;
@@ -215,7 +223,7 @@ void Simulation::complete_one(const MethodChoices& choices) {
 
 void Simulation::prefetch(const Constraints& constraints) {
     if (has_preview_) preview_.prefetch(constraints);
-    for (const MethodKind kind : shown_) embedded(kind).prefetch(constraints);
+    for (const MethodKind kind : shown_) own(kind).prefetch(constraints);
 }
 
 void Simulation::retry(MethodKind kind) {
@@ -233,8 +241,7 @@ bool Simulation::waiting() const {
 }
 
 bool Simulation::busy() const {
-    const State preview = preview_.runner().state();
-    return waiting() || preview == State::precomputing || preview == State::preparing ||
+    return waiting() || preview_works() ||
            std::any_of(shown_.begin(), shown_.end(), [&](MethodKind kind) { return runner(kind).completing(); });
 }
 

@@ -22,6 +22,8 @@ struct MethodChoices {
     FrameRule frame_rule = FrameRule::drag_columns;
     /// Bodies of at most so many vertices get K and its inverse in the background.
     int complete_up_to = 2000;
+    /// While a method is being prepared, a coarse preview answers.
+    bool preview = true;
 
     /// The whole method of a kind under these choices.
     Method of(MethodKind kind) const;
@@ -44,7 +46,7 @@ public:
     /// Tries again what failed or was stopped.
     void retry(MethodKind kind);
 
-    MethodRunner& runner(MethodKind kind) { return embedded(kind).runner(); }
+    MethodRunner& runner(MethodKind kind) { return own(kind).runner(); }
     const MethodRunner& runner(MethodKind kind) const { return embedded(kind).runner(); }
     /// The method's own answer, whether it is ready or not.
     const EmbeddedRunner& embedded(MethodKind kind) const { return *entries_[place(kind)].runner; }
@@ -77,14 +79,16 @@ private:
         std::unique_ptr<EmbeddedRunner> runner;
         std::string unfit = {};
         bool waits_for_proxy = false;
+        bool waits_for_preview = false;  ///< its constraints are older than the scene's
         bool previewing = false;
         std::optional<double> preview_error = {};
     };
     std::size_t place(MethodKind kind) const;
     bool is_shown(MethodKind kind) const;
     void rest_hidden(const LiveScene& scene);
-    EmbeddedRunner& embedded(MethodKind kind) { return *entries_[place(kind)].runner; }
-    void ask_for_proxies(const LiveScene& scene);
+    EmbeddedRunner& own(MethodKind kind) { return *entries_[place(kind)].runner; }
+    void ask_for_proxies(const LiveScene& scene, const MethodChoices& choices);
+    bool preview_works() const;
     bool update_preview(const LiveScene& scene, const MethodChoices& choices);
     bool update_method(Entry& entry, const LiveScene& scene, const MethodChoices& choices, bool may_begin);
     bool choose_answer(Entry& entry) const;

@@ -1,0 +1,177 @@
+// Closed surfaces around surfaces of every kind that files have: what comes out must serve every method.
+#include "mesh/wrap/proxy_surface.hpp"
+
+#include <gmock/gmock.h>
+
+#include <array>
+
+#include "base/error.hpp"
+#include "mesh/closest_point.hpp"
+#include "mesh/measures.hpp"
+#include "mesh/meshes.hpp"
+
+namespace elastolab {
+namespace {
+
+ProxySurface proxy_of(const SurfaceMesh& mesh, int n_vertices) {
+    CheckedMesh checked = check_and_repair(mesh);
+    Control control;
+    const std::array sizes = {n_vertices};
+    return make_proxy_surfaces(checked.mesh, checked.report, sizes, control).front();
+}
+
+double largest_distance(const Positions& points, const SurfaceMesh& from) {
+    Control control;
+    return closest_points(from, points, control).distance.maxCoeff();
+}
+
+SurfaceMesh single_triangle() { return without_last(make_box(1), 11); }
+
+SurfaceMesh sphere_with_hole(int cells) {
+    const SurfaceMesh sphere = make_sphere(cells);
+    std::vector<int> kept;
+    for (int t = 0; t < sphere.n_triangles(); ++t)
+        if (centroid(sphere, t).z() < 0.93) kept.push_back(t);
+    return {sphere.vertices, sphere.triangles(Eigen::all, kept)};
+}
+
+/// Every third triangle faces the other way, every fifth is there twice.
+SurfaceMesh carelessly_exported(SurfaceMesh mesh) {
+    for (int t = 0; t < mesh.n_triangles(); t += 3) mesh.triangles.col(t).reverseInPlace();
+    const SurfaceMesh before = mesh;
+    for (int t = 0; t < before.n_triangles(); t += 5)
+        mesh = with_triangle(mesh, before.triangles(0, t), before.triangles(1, t), before.triangles(2, t));
+    return mesh;
+}
+
+/// Every triangle has vertices of its own, moved a little: nothing hangs together.
+SurfaceMesh torn(const SurfaceMesh& mesh, double gap) {
+    SurfaceMesh pieces{Positions(3, 3 * mesh.n_triangles()), Triangles(3, mesh.n_triangles())};
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> shift(-gap, gap);
+    for (int t = 0; t < mesh.n_triangles(); ++t)
+        for (int i = 0; i < 3; ++i) {
+            const Eigen::Vector3d by(shift(random), shift(random), shift(random));
+            pieces.vertices.col(3 * t + i) = mesh.vertices.col(mesh.triangles(i, t)) + by;
+            pieces.triangles(i, t) = 3 * t + i;
+        }
+    return pieces;
+}
+
+SurfaceMesh sheet(int cells) {
+    const SurfaceMesh box = make_box(cells);
+    std::vector<int> kept;
+    for (int t = 0; t < box.n_triangles(); ++t)
+        if (centroid(box, t).z() < 1e-9) kept.push_back(t);
+    return {box.vertices, box.triangles(Eigen::all, kept)};
+}
+
+/// Two balls, one of them far smaller and sticking out of the other, and needles around them.
+SurfaceMesh soup() {
+    SurfaceMesh mesh = joined(make_sphere(8), moved(scaled(make_sphere(5), 0.4), {0.9, 0.0, 0.2}));
+    mesh = joined(mesh, moved(scaled(make_sphere(3), 0.2), {0.0, 0.0, 0.0}));
+    for (int i = 0; i < 10; ++i) {
+        SurfaceMesh needle = single_triangle();
+        needle.vertices.row(1) *= 1e-6;
+        mesh = joined(mesh, moved(scaled(needle, 0.1 * i), {0.1 * i, 0.2, 0.0}));
+    }
+    return mesh;
+}
+
+struct Corpus {
+    const char* name;
+    SurfaceMesh mesh;
+};
+void PrintTo(const Corpus& body, std::ostream* out) { *out << body.name; }
+
+class AnyTriangles : public testing::TestWithParam<Corpus> {};
+
+TEST_P(AnyTriangles, HaveAProxyThatEveryMethodCanUse) {
+    const SurfaceMesh& mesh = GetParam().mesh;
+    const ProxySurface proxy = proxy_of(mesh, 400);
+    const MeshReport report = check_and_repair(proxy.surface).report;
+    EXPECT_TRUE(report.usable_for_fem());
+    EXPECT_GT(report.volume, 0.0);
+    EXPECT_GT(proxy.surface.n_vertices(), mesh.n_triangles() == 12 ? 7 : 150);
+    EXPECT_LT(proxy.surface.n_vertices(), 900);
+    // Around the triangles, and nowhere else: a cap of a hole is farther from them.
+    const double size = (report.max_corner - report.min_corner).norm();
+    EXPECT_LT(largest_distance(mesh.vertices(Eigen::all, mesh.triangles.reshaped()), proxy.surface), 0.3 * size);
+    EXPECT_LT(largest_distance(proxy.surface.vertices, mesh), 0.2 * size);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Corpus, AnyTriangles,
+    testing::Values(Corpus{"sphere", make_sphere(20)}, Corpus{"sphere with a hole", sphere_with_hole(12)},
+                    Corpus{"half sphere", without_last(make_sphere(12), make_sphere(12).n_triangles() / 2)},
+                    Corpus{"one triangle", single_triangle()}, Corpus{"sheet", sheet(5)}, Corpus{"soup", soup()},
+                    Corpus{"careless", carelessly_exported(make_lumpy_ball(8))},
+                    Corpus{"torn", torn(make_lumpy_ball(10), 0.02)}, Corpus{"cube of 12 triangles", make_box(1)},
+                    Corpus{"tiny", scaled(sphere_with_hole(6), 1e-9)},
+                    Corpus{"huge", scaled(sphere_with_hole(6), 1e12)},
+                    Corpus{"far", moved(torn(make_sphere(6), 0.01), {1e5, -1e5, 3e5})},
+                    Corpus{"bowtie", joined(make_box(2), moved(make_box(2), {1, 1, 1}))},
+                    Corpus{"inside out", inside_out(sphere_with_hole(8))}));
+
+TEST(ProxySurface, ASoundSurfaceKeepsItsVolumeAndShape) {
+    const SurfaceMesh mesh = make_lumpy_ball(30);
+    const ProxySurface proxy = proxy_of(mesh, 600);
+    EXPECT_EQ(proxy.kind, ProxySurface::Kind::collapsed);
+    EXPECT_NEAR(enclosed_volume(proxy.surface), enclosed_volume(mesh), 2e-3 * enclosed_volume(mesh));
+    EXPECT_LT(largest_distance(proxy.surface.vertices, mesh), 0.02);
+    EXPECT_EQ(proxy.thin_part, 0.0);
+}
+
+TEST(ProxySurface, AFlatFaceKeepsTrianglesOfOneSize) {
+    const ProxySurface proxy = proxy_of(make_box(14), 500);
+    EXPECT_EQ(proxy.kind, ProxySurface::Kind::collapsed);
+    const MeshReport report = check_and_repair(proxy.surface).report;
+    EXPECT_LT(report.longest_edge, 4.0 * report.mean_edge);
+    EXPECT_NEAR(report.volume, 1.0, 1e-3);
+}
+
+TEST(ProxySurface, AWrapLiesOnTheSurfaceItIsMadeAround) {
+    const SurfaceMesh mesh = torn(make_sphere(16), 1e-4);
+    const ProxySurface proxy = proxy_of(mesh, 800);
+    EXPECT_EQ(proxy.kind, ProxySurface::Kind::wrapped);
+    const double ball = enclosed_volume(make_sphere(16));
+    EXPECT_NEAR(enclosed_volume(proxy.surface), ball, 0.02 * ball);
+}
+
+TEST(ProxySurface, ASmallHoleIsClosedAndASheetGetsAThickness) {
+    EXPECT_EQ(proxy_of(sphere_with_hole(12), 500).n_capped_holes, 1);
+    const ProxySurface wall = proxy_of(sheet(6), 500);
+    EXPECT_EQ(wall.n_capped_holes, 0);
+    EXPECT_GT(wall.thin_part, 0.5);
+    EXPECT_GT(wall.thickness, 0.0);
+    EXPECT_LT(wall.thickness, 0.2);
+}
+
+TEST(ProxySurface, SeveralSizesAtOnceAreOfOneBody) {
+    const CheckedMesh checked = check_and_repair(sphere_with_hole(16));
+    Control control;
+    const std::array sizes = {700, 200};
+    const auto proxies = make_proxy_surfaces(checked.mesh, checked.report, sizes, control);
+    ASSERT_EQ(proxies.size(), 2u);
+    EXPECT_GT(proxies[0].surface.n_vertices(), 2 * proxies[1].surface.n_vertices());
+    const double volume = enclosed_volume(proxies[0].surface);
+    EXPECT_NEAR(enclosed_volume(proxies[1].surface), volume, 0.05 * volume);
+}
+
+TEST(ProxySurface, PointsOnALineAreNoBody) {
+    SurfaceMesh line{Positions(3, 3), Triangles(3, 1)};
+    line.vertices << 0, 1, 2, 0, 1, 2, 0, 1, 2;
+    line.triangles << 0, 1, 2;
+    EXPECT_THROW(proxy_of(line, 100), MeshError);
+}
+
+TEST(ProxySurface, CanBeCancelled) {
+    const CheckedMesh checked = check_and_repair(torn(make_sphere(60), 1e-3));
+    Control control;
+    control.cancel();
+    const std::array sizes = {1000};
+    EXPECT_THROW(make_proxy_surfaces(checked.mesh, checked.report, sizes, control), Cancelled);
+}
+
+}  // namespace
+}  // namespace elastolab

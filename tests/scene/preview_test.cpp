@@ -1,0 +1,157 @@
+// What a person sees before the method that was asked for can answer, and on surfaces that it cannot take.
+#include <gmock/gmock.h>
+
+#include "base/error.hpp"
+#include "mesh/input/export.hpp"
+#include "mesh/measures.hpp"
+#include "mesh/primitives.hpp"
+#include "scene/simulation_bench.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace elastolab {
+namespace {
+
+using namespace testing_simulation;
+
+/// A preview and a method that are both being computed, as in the viewer.
+struct PreviewBench : Bench {
+    using Bench::Bench;
+    void begin(const LiveScene& scene) {
+        choices.preview = true;
+        update(scene);
+    }
+    /// Frames until the preview answers for what is pulled now.
+    void wait_for_preview(const LiveScene& scene) {
+        while (!simulation.previewing(shown.front()) && simulation.busy()) {
+            update(scene);
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+    }
+};
+
+void expect_handles_where_they_are_put(const LiveScene& scene, const Eigen::VectorXd& u) {
+    ASSERT_EQ(u.size(), 3 * scene.mesh().n_vertices());
+    const Constraints& constraints = scene.constraints();
+    for (std::size_t i = 0; i < constraints.set.handles.size(); ++i)
+        EXPECT_EQ((u.segment<3>(3 * constraints.set.handles[i])),
+                  (constraints.values.segment<3>(3 * static_cast<Eigen::Index>(i))));
+    for (const int v : constraints.set.base) EXPECT_EQ((u.segment<3>(3 * v)), Eigen::Vector3d::Zero());
+}
+
+TEST(Preview, AnswersBeforeTheMethodDoesAndGivesWay) {
+    const LiveScene scene = pulled_cube(10);
+    PreviewBench bench({kConstantBem});       // the slowest
+    bench.begin(scene);
+    bench.wait_for_preview(scene);
+    ASSERT_TRUE(bench.simulation.previewing(kConstantBem));
+    EXPECT_FALSE(bench.simulation.embedded(kConstantBem).has_answer());
+    const Eigen::VectorXd coarse = bench.simulation.answer(kConstantBem).displacement();
+    expect_handles_where_they_are_put(scene, coarse);
+    EXPECT_FALSE(bench.simulation.preview_error(kConstantBem));
+
+    bench.settle(scene);
+    EXPECT_FALSE(bench.simulation.previewing(kConstantBem));
+    const Eigen::VectorXd& exact = bench.simulation.answer(kConstantBem).displacement();
+    const double off = (coarse - exact).norm() / exact.norm();
+    EXPECT_LT(off, 0.1);
+    ASSERT_TRUE(bench.simulation.preview_error(kConstantBem));
+    EXPECT_NEAR(*bench.simulation.preview_error(kConstantBem), off, 1e-6);
+}
+
+TEST(Preview, MovesANewHandleWhileTheMethodPreparesIt) {
+    LiveScene scene = cube(9);
+    PreviewBench bench({kConstantBem});
+    bench.begin(scene);
+    bench.settle(scene);
+    scene.add_handle(where(scene, 0.9, 0.6));
+    scene.set_motion(0, AffineMotion{.translate = {0.1, 0, 0}});
+    bench.update(scene);
+    bench.wait_for_preview(scene);
+    if (bench.simulation.previewing(kConstantBem)) {  // else the method was as fast
+        expect_handles_where_they_are_put(scene, bench.simulation.answer(kConstantBem).displacement());
+        scene.set_motion(0, AffineMotion{.translate = {0.2, 0.1, 0}});
+        bench.update(scene);
+        expect_handles_where_they_are_put(scene, bench.simulation.answer(kConstantBem).displacement());
+    }
+    bench.settle(scene);
+    expect_handles_where_they_are_put(scene, bench.simulation.preview().displacement());
+    expect_near(bench.simulation.answer(kConstantBem).displacement(), bench.runner(kConstantBem).displacement());
+}
+
+TEST(Preview, IsNotMadeForABodyThatIsReadyAtOnce) {
+    const LiveScene scene = pulled_cube(3);
+    PreviewBench bench;
+    bench.begin(scene);
+    bench.settle(scene);
+    EXPECT_EQ(bench.simulation.preview().surface(), nullptr);
+}
+
+/// The cube without the lid at z = 1, in a file.
+LiveScene open_box(const std::filesystem::path& folder, int cells, ProxyUse use) {
+    SurfaceMesh box = make_primitive("cube", cells, {});
+    std::vector<int> kept;
+    for (int t = 0; t < box.n_triangles(); ++t)
+        if (centroid(box, t).z() < 0.999 || (centroid(box, t) - Eigen::Vector3d(0.5, 0.5, 1)).norm() > 0.2)
+            kept.push_back(t);
+    box.triangles = box.triangles(Eigen::all, kept).eval();
+    save_surface(folder / "box.obj", box);
+    Document document;
+    document.mesh = MeshFile{"box.obj"};
+    document.fixed = Selector{PlaneSelector{{0, 0, 0}, {1, 0, 0}, 1e-9}};
+    document.proxy.use = use;
+    return {document, folder / "scene.json"};
+}
+
+TEST(Proxy, AnOpenSurfaceIsPulledByEveryMethod) {
+    const test::TemporaryFolder folder;
+    LiveScene scene = open_box(folder.path(), 6, ProxyUse::automatic);
+    scene.add_handle(where(scene, 0.9, 0.6));
+    scene.set_motion(0, AffineMotion{.translate = {0.1, 0, 0}});
+    LiveScene closed = cube(6);
+    closed.add_handle(where(closed, 0.9, 0.6));
+    closed.set_motion(0, AffineMotion{.translate = {0.1, 0, 0}});
+    for (const MethodKind kind : all_methods()) {
+        SCOPED_TRACE(kind->name);
+        PreviewBench bench({kind});
+        bench.begin(scene);
+        bench.settle(scene);
+        EXPECT_EQ(bench.simulation.problem(kind), "");
+        ASSERT_TRUE(bench.simulation.embedded(kind).proxy());
+        EXPECT_TRUE(bench.simulation.embedded(kind).shows(scene.mesh()));
+        const Eigen::VectorXd& u = bench.simulation.answer(kind).displacement();
+        expect_handles_where_they_are_put(scene, u);
+        // The hole is closed: what comes out is close to the closed cube's answer.
+        const Eigen::VectorXd exact = truth(closed, {.kind = kind});
+        double off = 0.0, size = 0.0;
+        for (int v = 0; v < scene.mesh().n_vertices(); ++v)
+            for (int w = 0; w < closed.mesh().n_vertices(); ++w)
+                if ((scene.mesh().vertices.col(v) - closed.mesh().vertices.col(w)).norm() < 1e-6) {
+                    off += (u.segment<3>(3 * v) - exact.segment<3>(3 * w)).squaredNorm();
+                    size += exact.segment<3>(3 * w).squaredNorm();
+                }
+        EXPECT_LT(std::sqrt(off / size), 0.12);
+    }
+}
+
+TEST(Proxy, WhereItIsForbiddenTheSurfaceIsRefused) {
+    const test::TemporaryFolder folder;
+    EXPECT_THROW(open_box(folder.path(), 3, ProxyUse::never), MeshError);
+}
+
+TEST(Proxy, CanBeStoppedAndTriedAgain) {
+    const test::TemporaryFolder folder;
+    const LiveScene scene = open_box(folder.path(), 20, ProxyUse::automatic);
+    PreviewBench bench;
+    bench.begin(scene);
+    bench.simulation.cancel();
+    while (bench.simulation.stopping()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    bench.update(scene);
+    EXPECT_THAT(bench.simulation.problem(kLinearBem), HasSubstr("stopped"));
+    bench.simulation.retry(kLinearBem);
+    bench.settle(scene);
+    EXPECT_EQ(bench.simulation.problem(kLinearBem), "");
+    EXPECT_TRUE(bench.simulation.answer(kLinearBem).has_answer());
+}
+
+}  // namespace
+}  // namespace elastolab

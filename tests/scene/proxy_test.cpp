@@ -1,0 +1,166 @@
+// What is computed on a proxy, as the shown surface has it.
+#include "scene/proxy/carried_constraints.hpp"
+
+#include <gmock/gmock.h>
+
+#include <Eigen/Geometry>
+
+#include <array>
+#include <set>
+
+#include "deform/deformer.hpp"
+#include "mesh/primitives.hpp"
+#include "methods/precompute.hpp"
+#include "methods/registry.hpp"
+
+namespace elastolab {
+namespace {
+
+std::shared_ptr<const Proxy> proxy_of(const SurfaceMesh& mesh, int n_vertices) {
+    CheckedMesh checked = check_and_repair(mesh);
+    Control control;
+    const std::array sizes = {n_vertices};
+    return make_proxies("body", std::make_shared<const SurfaceMesh>(checked.mesh), checked.report, sizes, control)
+        .front();
+}
+
+Selector slab(double low, double high) { return {BoxSelector{{low, -9, -9}, {high, 9, 9}}}; }
+
+/// A bar along x with both ends constrained.
+Document bar(const Motion& motion) {
+    Document document;
+    document.fixed = slab(-9, 0.3);
+    document.handles = {{.name = "end", .select = slab(3.8, 9), .motion = motion}};
+    return document;
+}
+
+Eigen::VectorXd solved(const CarriedConstraints& carried) {
+    Control control;
+    const Body body{.name = "body", .surface = carried.proxy().surface, .material = {1.0, 0.3}};
+    Deformer deformer(precompute(body, Method{.kind = kQuadraticFem}, control));
+    deformer.constrain(carried.constraints().set, control);
+    return deformer.displace(carried.constraints().values);
+}
+
+const SurfaceMesh kBar = make_primitive("beam", 12, {});
+
+TEST(CarriedConstraints, TakeTheSamePartOfTheProxy) {
+    CarriedConstraints carried(proxy_of(kBar, 300));
+    carried.set(make_constraints(bar(AffineMotion{}), kBar, "s.json"));
+    const Positions& x = carried.proxy().surface->vertices;
+    const double reach = carried.proxy().edge;
+    const ConstrainedSet& set = carried.constraints().set;
+    EXPECT_GT(set.base.size(), 5u);
+    EXPECT_GT(set.handles.size(), 5u);
+    const std::set<int> base(set.base.begin(), set.base.end()), handle(set.handles.begin(), set.handles.end());
+    for (int v = 0; v < x.cols(); ++v) {
+        if (x(0, v) < 0.3 - reach) {
+            EXPECT_TRUE(base.contains(v)) << x.col(v).transpose();
+        }
+        if (x(0, v) > 0.3 + reach) {
+            EXPECT_FALSE(base.contains(v)) << x.col(v).transpose();
+        }
+        if (x(0, v) > 3.8 + reach) {
+            EXPECT_TRUE(handle.contains(v)) << x.col(v).transpose();
+        }
+        if (x(0, v) < 3.8 - reach) {
+            EXPECT_FALSE(handle.contains(v)) << x.col(v).transpose();
+        }
+    }
+}
+
+TEST(CarriedConstraints, ConstrainedShownVerticesGoExactlyWhereTheyArePut) {
+    const AffineMotion turn{.matrix = 0.3 * Eigen::Matrix3d::Random(), .translate = {0.1, 0.2, -0.1}};
+    const Constraints shown = make_constraints(bar(turn), kBar, "s.json");
+    CarriedConstraints carried(proxy_of(kBar, 300));
+    carried.set(shown);
+    const Eigen::VectorXd u = carried.displacement(solved(carried));
+    for (std::size_t i = 0; i < shown.set.handles.size(); ++i)
+        EXPECT_EQ((u.segment<3>(3 * shown.set.handles[i])),
+                  (shown.values.segment<3>(3 * static_cast<Eigen::Index>(i))));
+    for (const int v : shown.set.base) EXPECT_EQ((u.segment<3>(3 * v)), Eigen::Vector3d::Zero());
+}
+
+/// Both ends turn about the middle as one: the whole body does, and every shown vertex with it, but for its distance
+/// from the proxy.
+TEST(CarriedConstraints, ATurnOfEverythingIsATurn) {
+    const Eigen::Matrix3d spin = (Eigen::Matrix3d() << 0, -0.2, 0.1, 0.2, 0, -0.3, -0.1, 0.3, 0).finished();
+    Document document = bar(AffineMotion{.matrix = spin});
+    document.handles.push_back({.name = "other", .select = *document.fixed, .motion = AffineMotion{.matrix = spin}});
+    document.fixed.reset();
+    const Constraints shown = make_constraints(document, kBar, "s.json");
+    CarriedConstraints carried(proxy_of(kBar, 250));
+    carried.set(shown);
+    const Eigen::VectorXd u = carried.displacement(solved(carried));
+    const double off = carried.proxy().places.distance.maxCoeff();
+    for (int v = 0; v < kBar.n_vertices(); ++v)
+        EXPECT_LT((u.segment<3>(3 * v) - spin * kBar.vertices.col(v)).norm(), spin.norm() * off + 1e-9);
+}
+
+TEST(CarriedConstraints, NearbyVerticesFollowWithoutATear) {
+    const Constraints shown = make_constraints(bar(AffineMotion{.translate = {0, 0, 0.5}}), kBar, "s.json");
+    CarriedConstraints carried(proxy_of(kBar, 120));
+    carried.set(shown);
+    const Eigen::VectorXd u = carried.displacement(solved(carried));
+    double largest = 0.0;
+    for (const auto& t : kBar.triangles.colwise())
+        for (int i = 0; i < 3; ++i)
+            largest = std::max(largest, (u.segment<3>(3 * t[i]) - u.segment<3>(3 * t[(i + 1) % 3])).norm());
+    EXPECT_LT(largest, 0.1);  // a twentieth of the bar is the longest edge, and moves by a twentieth at least
+}
+
+TEST(CarriedConstraints, APartSmallerThanATriangleHoldsTheNearestOne) {
+    const auto proxy = proxy_of(kBar, 40);
+    Document document = bar(AffineMotion{.translate = {0, 0.1, 0}});
+    std::vector<int> patch;
+    for (const int v : kBar.triangles.col(kBar.n_triangles() / 2)) patch.push_back(v);
+    document.handles = {{.name = "spot", .select = {VertexSelector{patch}}, .motion = AffineMotion{}}};
+    CarriedConstraints carried(proxy);
+    carried.set(make_constraints(document, kBar, "s.json"));
+    EXPECT_THAT(carried.constraints().set.handles.size(), testing::AllOf(testing::Ge(1u), testing::Le(4u)));
+}
+
+TEST(CarriedConstraints, OneDisplacementEachIsInterpolated) {
+    Document document =
+        bar(AffineMotion{.matrix = Eigen::Vector3d(0.1, 0.2, 0.3).asDiagonal(), .translate = {1, 0, 0}});
+    const Constraints affine = make_constraints(document, kBar, "s.json");
+    VertexMotion each;
+    for (Eigen::Index i = 0; i < affine.values.size(); i += 3)
+        each.displacements.push_back(affine.values.segment<3>(i));
+    document.handles[0].motion = each;
+    const auto proxy = proxy_of(kBar, 300);
+    CarriedConstraints one(proxy), other(proxy);
+    one.set(affine);
+    other.set(make_constraints(document, kBar, "s.json"));
+    ASSERT_EQ(one.constraints().set.handles, other.constraints().set.handles);
+    EXPECT_LT((one.constraints().values - other.constraints().values).lpNorm<Eigen::Infinity>(),
+              0.3 * proxy->edge);  // a vertex beyond the part takes its rim's
+}
+
+/// Bodies, none of which served to tune anything here: the coarse answer against the fine one of the same method.
+TEST(Proxy, AnswersWithinATenthOfTheFineAnswer) {
+    for (const char* name : {"sphere", "cylinder", "torus", "beam"}) {
+        SCOPED_TRACE(name);
+        const SurfaceMesh mesh = make_primitive(name, std::string(name) == "beam" ? 4 : 5, {});
+        const double low = mesh.vertices.row(0).minCoeff(), high = mesh.vertices.row(0).maxCoeff();
+        Document document;
+        document.fixed = slab(low - 1.0, low + 0.2 * (high - low));
+        document.handles = {{.name = "end",
+                             .select = slab(high - 0.15 * (high - low), high + 1.0),
+                             .motion = AffineMotion{.translate = {0.1, 0.3, 0.2}}}};
+        const Constraints shown = make_constraints(document, mesh, "s.json");
+        Control control;
+        const Body body{.name = name, .surface = std::make_shared<const SurfaceMesh>(mesh), .material = {1.0, 0.3}};
+        Deformer fine(precompute(body, Method{.kind = kQuadraticFem, .update = Update::direct}, control));
+        fine.constrain(shown.set, control);
+        const Eigen::VectorXd exact = fine.displace(shown.values);
+        CarriedConstraints carried(proxy_of(mesh, 130));
+        carried.set(shown);
+        const Eigen::VectorXd u = carried.displacement(solved(carried));
+        EXPECT_LT((u - exact).norm(), 0.1 * exact.norm());
+        EXPECT_GT((u - exact).norm(), 1e-6 * exact.norm());  // it was coarser
+    }
+}
+
+}  // namespace
+}  // namespace elastolab
