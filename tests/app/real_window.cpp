@@ -103,7 +103,11 @@ void RealWindow::settle() {
     double before = -1.0;
     int n_sleeping = 0;
     for (int look = 0; n_sleeping < kSleepingLooks; ++look) {
-        if (program_.ended()) throw std::runtime_error("the program has ended: " + program_.wait().err);
+        if (program_.ended()) {
+            const ProgramRun run = program_.wait();
+            throw std::runtime_error("the program has ended with code " + std::to_string(run.exit_code) + ": " +
+                                     run.err);
+        }
         if (look == kMaxLooks) throw std::runtime_error("the program does not come to rest");
         std::this_thread::sleep_for(kLookEvery);
         const double now = processor_seconds();

@@ -148,6 +148,8 @@ void draw_preview(const PanelContext& context) {
     if (simulation.making_proxy(kind)) {
         const JobStatus status = simulation.proxies().status();
         paragraph("making a closed surface to simulate  " + readable_seconds(status.seconds), context.palette.busy);
+    } else if (simulation.preparing_preview() && !simulation.embedded(kind).has_answer()) {
+        paragraph("a first, coarse answer is on its way", context.palette.busy);
     } else if (simulation.previewing(kind)) {
         paragraph("pulls move a preview meanwhile", context.palette.good);
     } else if (const auto error = simulation.preview_error(kind)) {

@@ -46,9 +46,11 @@ std::string source_words(const ViewerState& state, MethodKind kind) {
     if (!simulation.problem(kind).empty()) return text + kDash + "not available: see Method";
     if (simulation.previewing(kind)) return text;
     if (!runner.has_answer())
-        return kDash + std::string(runner.preparing()     ? "preparing the held vertices"
-                                   : simulation.waiting() ? "waiting"
-                                                          : "not computed");
+        return kDash + std::string(simulation.proxies().running()   ? "making a coarse body for a first answer"
+                                   : simulation.preparing_preview() ? "preparing a first answer"
+                                   : runner.preparing()             ? "preparing the held vertices"
+                                   : simulation.waiting()           ? "waiting"
+                                                                    : "not computed");
     const Proxy* proxy = simulation.embedded(kind).proxy();
     return proxy ? kDash + ("on a proxy of " + count_text(proxy->surface->n_vertices()) + " vertices") : "";
 }

@@ -9,6 +9,7 @@ void EmbeddedRunner::set_body(const Body& body, const Method& method, const std:
         if (proxy) prefetched_.emplace(carried_.emplace(proxy));
         displacement_version_.reset();
     }
+    name_ = body.name;
     runner_.set_body(body, method);
 }
 
@@ -28,6 +29,7 @@ void EmbeddedRunner::set_constraints(const Constraints& constraints) {
 }
 
 void EmbeddedRunner::prefetch(const Constraints& constraints) {
+    if (surface() == nullptr) return;  // on what it will be computed is not known yet
     if (!carried_) return runner_.prefetch(constraints.set);
     prefetched_->set(constraints);
     runner_.prefetch(prefetched_->constraints().set);
@@ -44,8 +46,7 @@ const Eigen::VectorXd& EmbeddedRunner::displacement() const {
 }
 
 Findings EmbeddedRunner::findings() const {
-    Findings all = carried_ ? findings_of_proxy(carried_->proxy(), runner_.model() ? runner_.model()->body().name : "")
-                            : Findings{};
+    Findings all = carried_ ? findings_of_proxy(carried_->proxy(), name_) : Findings{};
     const Findings own = runner_.findings();
     all.insert(all.end(), own.begin(), own.end());
     return all;

@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "scene/live/method_runner.hpp"
 #include "scene/proxy/carried_constraints.hpp"
@@ -49,6 +50,7 @@ public:
 
 private:
     MethodRunner runner_;
+    std::string name_;  ///< of the body
     Constraints shown_;
     std::optional<CarriedConstraints> carried_, prefetched_;
     // What was carried back last; made when it is asked for.

@@ -64,6 +64,7 @@ void SetKeeper::clear() {
     job_.cancel();
     job_.poll();
     model_.reset();
+    prefetch_.reset();  // of another body
     current_ = {};
     spare_ = {};
     failure_.clear();

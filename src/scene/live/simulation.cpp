@@ -83,7 +83,7 @@ void Simulation::ask_for_proxies(const LiveScene& scene, const MethodChoices& ch
     proxies_.poll();
 }
 
-bool Simulation::preview_works() const {
+bool Simulation::preparing_preview() const {
     const State state = preview_.runner().state();
     return has_preview_ && (state == State::precomputing || state == State::preparing);
 }
@@ -146,7 +146,7 @@ bool Simulation::update_method(Entry& entry, const LiveScene& scene, const Metho
         return runner.version() != before;
     }
     // Two at a time would keep each other waiting: the preview's set is a matter of a moment.
-    entry.waits_for_preview = preview_works();
+    entry.waits_for_preview = preparing_preview();
     runner.runner().set_frame_rule(choices.frame_rule);
     if (!entry.waits_for_preview) runner.set_constraints(scene.constraints());
     runner.poll();
@@ -180,7 +180,7 @@ bool Simulation::update(const LiveScene& scene, const std::vector<MethodKind>& s
     rest_hidden(scene);
     bool changed = false;
     const bool preview_changed = update_preview(scene, choices);
-    bool waiting = has_preview_ && (proxies_.running() || preview_works());
+    bool waiting = has_preview_ && (proxies_.running() || preparing_preview());
     for (const MethodKind kind : shown) {
         Entry& present = entries_[place(kind)];
         changed = update_method(present, scene, choices, !waiting) || changed;
@@ -241,7 +241,7 @@ bool Simulation::waiting() const {
 }
 
 bool Simulation::busy() const {
-    return waiting() || preview_works() ||
+    return waiting() || preparing_preview() ||
            std::any_of(shown_.begin(), shown_.end(), [&](MethodKind kind) { return runner(kind).completing(); });
 }
 

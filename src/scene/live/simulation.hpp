@@ -67,11 +67,12 @@ public:
     /// neither.
     std::string problem(MethodKind kind) const;
 
-    bool waiting() const;   ///< a method of the last update is not ready yet, and will be by itself
-    bool busy() const;      ///< the same, or K and its inverse are being completed
-    bool checking() const;  ///< an answer is being checked, or will be once it has rested
-    void cancel();          ///< stops all workers at their next checkpoints
-    bool stopping() const;  ///< some worker has not stopped yet; for use after cancel(), without update()
+    bool preparing_preview() const;  ///< the preview cannot answer yet, and will by itself
+    bool waiting() const;            ///< a method of the last update is not ready yet, and will be by itself
+    bool busy() const;               ///< the same, or K and its inverse are being completed
+    bool checking() const;           ///< an answer is being checked, or will be once it has rested
+    void cancel();                   ///< stops all workers at their next checkpoints
+    bool stopping() const;           ///< some worker has not stopped yet; for use after cancel(), without update()
 
 private:
     struct Entry {
@@ -88,7 +89,6 @@ private:
     void rest_hidden(const LiveScene& scene);
     EmbeddedRunner& own(MethodKind kind) { return *entries_[place(kind)].runner; }
     void ask_for_proxies(const LiveScene& scene, const MethodChoices& choices);
-    bool preview_works() const;
     bool update_preview(const LiveScene& scene, const MethodChoices& choices);
     bool update_method(Entry& entry, const LiveScene& scene, const MethodChoices& choices, bool may_begin);
     bool choose_answer(Entry& entry) const;

@@ -1,9 +1,14 @@
 // A person's drag in a real window: the vertex stays under the cursor, and the body is what `solve` computes.
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <fstream>
+#include <thread>
+
 #include "app/panels/layout.hpp"
 #include "app/real_window.hpp"
 #include "app/stage.hpp"
+#include "mesh/primitives.hpp"
 #include "methods/registry.hpp"
 #include "scene/file/scene_file.hpp"
 
@@ -87,6 +92,45 @@ TEST_P(RealDrag, KeepsTheVertexUnderTheCursorAndTheBodyIsThatOfSolve) {
 
     ASSERT_EQ(run_program({"solve", "out.json", "--mesh-out", "solved.obj", "--quiet"}, folder.path()).exit_code, 0);
     const Positions solved = read_vertices(folder.path() / "solved.obj");
+    ASSERT_EQ(solved.cols(), shown.cols());
+    const double size = (solved - screen.mesh().vertices).colwise().norm().maxCoeff();
+    EXPECT_GT(size, 0.05);
+    EXPECT_LT((solved - shown).colwise().norm().maxCoeff(), kSameAsSolve * size);
+}
+
+/// A ball without its cap, in triangles that do not hang together, as careless scans come: pressed as soon as the window
+/// is there, before anything is computed.
+TEST(RealDragOfAScan, MovesWithTheMouseAtOnceAndIsWhatSolveComputes) {
+    const TemporaryFolder folder;
+    std::ofstream scan(folder.path() / "scan.obj");
+    const SurfaceMesh ball = make_primitive("sphere", 10, {});
+    int n_vertices = 0;
+    for (const auto& t : ball.triangles.colwise()) {
+        const Positions corners = ball.vertices(Eigen::all, t);
+        if (corners.row(2).mean() > 0.9) continue;
+        for (int i = 0; i < 3; ++i)
+            scan << "v " << corners(0, i) + 1e-4 * i << " " << corners(1, i) << " " << corners(2, i) << "\n";
+        scan << "f " << n_vertices + 1 << " " << n_vertices + 2 << " " << n_vertices + 3 << "\n";
+        n_vertices += 3;
+    }
+    scan.close();
+    RealWindow window({"scan.obj", "--size", "1000x700", "--scene-out", "out.json", "--mesh-out", "out.obj"},
+                      folder.path());
+    const Screen screen(folder.path() / "scan.obj");
+    const Eigen::Vector2d from = screen.pixel(Eigen::Vector3d(0.4, 0.4, 0.75)), to = from + Eigen::Vector2d(60, -40);
+    // The first may come while the file is still being read; whichever finds the body pulls it, without waiting for more.
+    for (int i = 0; i < 4; ++i) {
+        window.drag(from, to);
+        std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    }
+    window.settle();
+    ASSERT_EQ(window.quit().exit_code, 0);
+    ASSERT_GE(load_scene(folder.path() / "out.json").handles.size(), 1u);
+
+    const Positions shown = read_vertices(folder.path() / "out.obj");
+    ASSERT_EQ(run_program({"solve", "out.json", "--mesh-out", "solved.obj", "--quiet"}, folder.path()).exit_code, 0);
+    const Positions solved = read_vertices(folder.path() / "solved.obj");
+    ASSERT_EQ(shown.cols(), screen.mesh().n_vertices());
     ASSERT_EQ(solved.cols(), shown.cols());
     const double size = (solved - screen.mesh().vertices).colwise().norm().maxCoeff();
     EXPECT_GT(size, 0.05);
