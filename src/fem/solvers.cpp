@@ -72,7 +72,8 @@ Columns FactorisedBody::responses(const std::vector<int>& vertices, Control& con
                 add_blocks(std::span(wanted).subspan(first, std::min(kVerticesAtOnce, wanted.size() - first)), blocks,
                            control);
             return blocks;
-        });
+        },
+        control);
 }
 
 void FactorisedBody::add_blocks(std::span<const int> vertices, std::vector<Columns::Block>& blocks,
