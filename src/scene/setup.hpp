@@ -19,8 +19,8 @@ struct SceneMesh {
 };
 
 /// Loads a mesh file, relative names starting at the folder of `scene_file`, or makes a primitive.
-/// Throws MeshError (a file that cannot be read) or SceneError (a primitive that cannot be made).
-SceneMesh load_scene_mesh(const MeshSource& source, const std::filesystem::path& scene_file);
+/// Throws MeshError (a file that cannot be read), SceneError (a primitive that cannot be made), Cancelled.
+SceneMesh load_scene_mesh(const MeshSource& source, const std::filesystem::path& scene_file, Control& control);
 
 /// Throws MeshError when a mesh is not usable for a method of `kind`, SceneError when the material is not.
 void require_fit(const SceneMesh& mesh, const Material& material, MethodKind kind,

@@ -33,7 +33,7 @@ void append(Findings& all, const Findings& more) { all.insert(all.end(), more.be
 
 Body load_body(const SolveRequest& request, Solution& solution, Control& control) {
     const Stage stage("load", control, solution.stages);
-    SceneMesh mesh = load_scene_mesh(request.document.mesh, request.scene_file);
+    SceneMesh mesh = load_scene_mesh(request.document.mesh, request.scene_file, control);
     solution.mesh_name = mesh.name;
     solution.defects = mesh.checked.report.defects;
     return make_body(request.document, std::move(mesh), request.method.kind, request.scene_file);

@@ -43,7 +43,7 @@ class Examples : public testing::TestWithParam<Example> {
 protected:
     Examples()
         : document_(load_scene(file_)),
-          body_(make_body(document_, load_scene_mesh(document_.mesh, file_), kFem, file_)),
+          body_(make_body(document_, load_scene_mesh(document_.mesh, file_, control_), kFem, file_)),
           constraints_(make_constraints(document_, *body_.surface, file_)) {}
 
     /// Displacements, one column each vertex.
@@ -76,6 +76,7 @@ protected:
     }
 
     const std::filesystem::path file_ = kScenes / (GetParam().name + ".json");
+    Control control_;
     const Document document_;
     const Body body_;
     const Constraints constraints_;

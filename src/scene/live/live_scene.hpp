@@ -23,6 +23,8 @@ public:
     /// Loads the mesh. Throws MeshError or SceneError as the functions of scene/setup.hpp do; MeshError too when the
     /// mesh is usable for no method.
     LiveScene(Document document, std::filesystem::path scene_file);
+    /// The same; throws Cancelled too.
+    LiveScene(Document document, std::filesystem::path scene_file, Control& control);
 
     const Document& document() const { return document_; }
     const std::filesystem::path& file() const { return file_; }  ///< where relative names of the document start
