@@ -29,10 +29,11 @@ void hold_lowest(LiveScene& scene, const Eigen::Vector3d& up) {
 }  // namespace
 
 /// Our scenes have Z up; bare meshes mostly Y, as most modelling programs have it.
-LoadedScene load_scene_or_mesh(const fs::path& file) {
+LoadedScene load_scene_or_mesh(const fs::path& file, Control& control) {
     if (is_scene_file(file))
-        return {std::make_unique<LiveScene>(load_scene(file), file), Eigen::Vector3d::UnitZ(), fs::absolute(file)};
-    auto scene = std::make_unique<LiveScene>(document_for_mesh(file), file.parent_path() / "scene.json");
+        return {std::make_unique<LiveScene>(load_scene(file), file, control), Eigen::Vector3d::UnitZ(),
+                fs::absolute(file)};
+    auto scene = std::make_unique<LiveScene>(document_for_mesh(file), file.parent_path() / "scene.json", control);
     const Eigen::Vector3d up = Eigen::Vector3d::UnitY();
     hold_lowest(*scene, up);
     return {std::move(scene), up, {}};

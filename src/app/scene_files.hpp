@@ -16,8 +16,8 @@ struct LoadedScene {
 };
 
 /// Reads a scene file (.json), or a mesh, whose lowest part is held. Takes as long as the mesh is large. Throws
-/// SceneError, MeshError.
-LoadedScene load_scene_or_mesh(const std::filesystem::path& file);
+/// SceneError, MeshError, Cancelled.
+LoadedScene load_scene_or_mesh(const std::filesystem::path& file, Control& control);
 
 /// Writes the scene, with this method, in such a way that it finds its mesh from there. Throws Error.
 void write_scene(const std::filesystem::path& file, const LiveScene& scene, MethodKind method);

@@ -41,8 +41,9 @@ struct Replay {
 
 class Viewer {
 public:
-    explicit Viewer(const ViewerOptions& options)
+    Viewer(const ViewerOptions& options, Control& control)
         : options_(options),
+          control_(control),
           replay_(load_replay(options)),
           window_({.title = "Elastolab",
                    .width = window_size().x(),
@@ -63,6 +64,7 @@ public:
     void run() {
         while (!finished()) {
             window_.wait(timeout());
+            control_.checkpoint();
             if (must_draw()) draw_frame();
         }
         draw_last_picture();
@@ -87,7 +89,7 @@ private:
     void open_input() {
         if (!options_.input.empty()) {
             if (nobody_watches())
-                state_.open_now(options_.input);
+                state_.open_now(options_.input, control_);
             else
                 state_.open(options_.input);
         }
@@ -318,6 +320,7 @@ private:
     }
 
     ViewerOptions options_;
+    Control& control_;
     std::optional<Replay> replay_;
     Window window_;
     Gui gui_;
@@ -333,6 +336,13 @@ private:
 
 }  // namespace
 
-void run_viewer(const ViewerOptions& options) { Viewer(options).run(); }
+void run_viewer(const ViewerOptions& options, Control& control) { Viewer(options, control).run(); }
+
+void run_viewer(const ViewerOptions& options) {
+    Control never_cancelled;
+    run_viewer(options, never_cancelled);
+}
+
+void wake_viewer() { Window::wake(); }
 
 }  // namespace elastolab

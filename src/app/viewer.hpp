@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "base/control.hpp"
 #include "deform/method.hpp"
 
 namespace elastolab {
@@ -24,6 +25,13 @@ struct ViewerOptions {
 /// they come, the rest (and every frame of a replay) once the scene is ready, so that they show and measure it.
 /// Throws Error when there is no display, when an output cannot be written, or when the input cannot be read and
 /// nobody is there to see it (hidden, or with a number of frames).
+/// After a cancel of `control`, by a thread that then calls wake_viewer(), throws Cancelled within a frame: nothing is
+/// asked, and of the outputs only `timings` and `record` are written, as far as they go.
+void run_viewer(const ViewerOptions& options, Control& control);
+/// The same for callers that never cancel.
 void run_viewer(const ViewerOptions& options);
+
+/// Makes a viewer that sleeps look whether it was cancelled. Any thread may call it; without a viewer it does nothing.
+void wake_viewer();
 
 }  // namespace elastolab

@@ -25,13 +25,14 @@ void ViewerState::open(const fs::path& file) {
 }
 
 void ViewerState::begin_loading(const fs::path& file) {
-    load_job_.start([file](Control&) { return std::make_shared<LoadedScene>(load_scene_or_mesh(file)); });
+    load_job_.start(
+        [file](Control& control) { return std::make_shared<LoadedScene>(load_scene_or_mesh(file, control)); });
     pending_file_ = file;
     revision_at_open_ = scene_->revision();
 }
 
-void ViewerState::open_now(const fs::path& file) {
-    take_scene(load_scene_or_mesh(file));
+void ViewerState::open_now(const fs::path& file, Control& control) {
+    take_scene(load_scene_or_mesh(file, control));
     add_recent(file);
 }
 

@@ -13,12 +13,12 @@
 #include "app/scene_files.hpp"
 #include "app/settings.hpp"
 #include "app/unsaved_changes.hpp"
+#include "methods/registry.hpp"
 #include "render/camera.hpp"
 #include "scene/live/background_job.hpp"
 #include "scene/live/live_scene.hpp"
 #include "scene/live/simulation.hpp"
 #include "scene/user_text.hpp"
-#include "methods/registry.hpp"
 
 namespace elastolab {
 
@@ -70,8 +70,12 @@ public:
     // has answered: open, open_primitive and quit do nothing more than ask then.
     /// Opens a scene file (.json) or a mesh, on a worker.
     void open(const std::filesystem::path& file);
-    /// The same, here and now, without a question. Throws.
-    void open_now(const std::filesystem::path& file);
+    /// The same, here and now, without a question. Throws SceneError, MeshError, Cancelled.
+    void open_now(const std::filesystem::path& file, Control& control);
+    void open_now(const std::filesystem::path& file) {
+        Control never_cancelled;
+        open_now(file, never_cancelled);
+    }
     void open_document(Document document, const std::filesystem::path& scene_file);
     /// A new body of the present material, held where its kind usually is.
     void open_primitive(const Primitive& primitive);

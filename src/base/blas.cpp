@@ -51,28 +51,49 @@ void select_blas_kernels(char** argv) {
 
 std::string blas_kernels() { return openblas_get_corename(); }
 
-void set_thread_count(int n) {
-    threads() = n;
-    openblas_set_num_threads(n);
-}
-
 int thread_count() { return threads(); }
 
 namespace {
 
-std::mutex serial_mutex;
-int serial_count = 0;
+/// Settles OpenBLAS's number of threads between those who want one and those who want all.
+class BlasThreads {
+public:
+    void set_all(int n) {
+        const std::lock_guard lock(mutex_);
+        threads() = n;
+        apply();
+    }
+    void count_serial(int more) {
+        const std::lock_guard lock(mutex_);
+        n_serial_ += more;
+        apply();
+    }
+    void count_parallel(int more) {
+        const std::lock_guard lock(mutex_);
+        n_parallel_ += more;
+        apply();
+    }
+
+private:
+    void apply() const {
+        const int n = n_serial_ > 0 && n_parallel_ == 0 ? 1 : thread_count();
+        if (openblas_get_num_threads() != n) openblas_set_num_threads(n);
+    }
+
+    std::mutex mutex_;
+    int n_serial_ = 0, n_parallel_ = 0;
+};
+
+BlasThreads blas_threads;
 
 }  // namespace
 
-SerialBlas::SerialBlas() {
-    const std::lock_guard lock(serial_mutex);
-    if (serial_count++ == 0) openblas_set_num_threads(1);
-}
+void set_thread_count(int n) { blas_threads.set_all(n); }
 
-SerialBlas::~SerialBlas() {
-    const std::lock_guard lock(serial_mutex);
-    if (--serial_count == 0) openblas_set_num_threads(thread_count());
-}
+SerialBlas::SerialBlas() { blas_threads.count_serial(1); }
+SerialBlas::~SerialBlas() { blas_threads.count_serial(-1); }
+
+ParallelBlas::ParallelBlas() { blas_threads.count_parallel(1); }
+ParallelBlas::~ParallelBlas() { blas_threads.count_parallel(-1); }
 
 }  // namespace elastolab

@@ -16,15 +16,29 @@ std::string blas_kernels();
 void set_thread_count(int n);
 int thread_count();
 
-/// While an instance lives, every BLAS call runs on its caller's thread. For parallel loops whose bodies call the BLAS:
-/// OpenBLAS has one pool, in which calls from several threads wait for each other (sparse solves of many right-hand
-/// sides: three times slower). Affects all threads of the program; may nest.
+// OpenBLAS 0.3.21 has one number of threads for the whole program. Which it is while several workers compute, the next
+// two classes settle between them. Both may nest, on any threads.
+
+/// For a parallel loop whose bodies call the BLAS: while an instance lives, a BLAS call runs on its caller's thread.
+/// OpenBLAS has one pool of threads, in which calls from several threads wait for each other (sparse solves of many
+/// right-hand sides: three times slower).
 class SerialBlas {
 public:
     SerialBlas();
     ~SerialBlas();
     SerialBlas(const SerialBlas&) = delete;
     SerialBlas& operator=(const SerialBlas&) = delete;
+};
+
+/// For one large BLAS computation, such as a factorisation: while an instance lives, BLAS calls use thread_count()
+/// threads, even if another worker has a SerialBlas: a factorisation is not slowed down by that, and what it rounds
+/// does not depend on what runs beside it.
+class ParallelBlas {
+public:
+    ParallelBlas();
+    ~ParallelBlas();
+    ParallelBlas(const ParallelBlas&) = delete;
+    ParallelBlas& operator=(const ParallelBlas&) = delete;
 };
 
 }  // namespace elastolab

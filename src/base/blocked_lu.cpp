@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "base/blas.hpp"
+
 namespace elastolab {
 
 namespace {
@@ -44,6 +46,7 @@ void subtract_product(int m, int n, int k, const float* A, const float* B, float
 template <class Matrix>
 int factorise(Matrix& A, std::vector<int>& pivots, Control* control, int at_once) {
     assert(A.rows() == A.cols());
+    const ParallelBlas all_threads;
     const int n = static_cast<int>(A.rows());
     pivots.resize(static_cast<std::size_t>(n));
     const auto at = [&](int row, int column) { return A.data() + row + static_cast<std::ptrdiff_t>(column) * n; };

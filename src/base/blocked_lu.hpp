@@ -7,8 +7,9 @@
 
 namespace elastolab {
 
-/// Number of rows up to which LAPACK factorises a matrix in one call: about a second's work.
-constexpr int kLuAtOnce = 6144;
+/// Number of rows up to which LAPACK factorises a matrix in one call: a cancel is not heard meanwhile, for some tenths
+/// of a second.
+constexpr int kLuAtOnce = 3072;
 
 /// A <- its factors L and U with row exchanges, as LAPACK's getrf leaves them. Matrices larger than `at_once` are
 /// factorised by block columns: each by getrf, then the columns to its right are updated by triangular solves and

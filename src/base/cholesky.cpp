@@ -9,6 +9,7 @@
 #include <limits>
 #include <vector>
 
+#include "base/blas.hpp"
 #include "base/error.hpp"
 #include "base/lapack.hpp"
 
@@ -34,6 +35,7 @@ double norm_of(const Eigen::MatrixXd& A) {
 /// Right-looking, by block columns: the same work as dpotrf in one call, and a checkpoint after each.
 /// Returns the number of the pivot that is not positive, or 0.
 int factorise(Eigen::MatrixXd& A, Control* control) {
+    const ParallelBlas all_threads;
     const int n = static_cast<int>(A.rows());
     for (int k = 0; k < n; k += kCholeskyBlock) {
         const int size = std::min(kCholeskyBlock, n - k), rest = n - k - size;

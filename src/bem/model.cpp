@@ -107,10 +107,14 @@ void BemModel::visit_matrices(const std::function<void(const NamedMatrix&)>& vis
     const auto operators = system_->operators();
     if (!operators) return;
     visit({"H", *system_->double_layer_matrix()});
-    visit({"G", *system_->single_layer_matrix(), YoungScaling::compliance});
-    visit({"K", operators->K, YoungScaling::stiffness});
-    visit({"Kinv", operators->D(), YoungScaling::compliance});
-    visit({"Khatinv", operators->Khatinv, YoungScaling::bordered_inverse});
+    visit({"G", *system_->single_layer_matrix(), {kTractionCompliance}});
+    visit({"K", operators->K, {kTractionStiffness}});
+    visit({"Kinv", operators->D(), {kTractionCompliance}});
+    // Of [H B; B^T 0], times G where it meets tractions: both blocks on the left are.
+    visit(
+        {"Khatinv",
+         operators->Khatinv,
+         {.nodes = kTractionCompliance, .has_border = true, .columns = {}, .rows = kTractionCompliance, .corner = {}}});
 }
 
 }  // namespace elastolab

@@ -158,7 +158,7 @@ void BemSystem::visit_responses(const TractionSpace& space, const std::function<
                                 Control& control) const {
     const auto row_bytes = 24 * (3 * static_cast<std::uint64_t>(n_nodes()) + 6);  // of a load, which has three columns
     const auto loads_at_once = std::max<std::uint64_t>(cache_budget_ / 2 / row_bytes, 64);
-    cache_->drop_unused();
+    cache_->drop_unused(control);
     std::vector<const TractionSpace::Block*> group;
     std::uint64_t n_loads = 0;
     for (const TractionSpace::Block& block : space.blocks) {
@@ -182,7 +182,7 @@ Columns BemSystem::responses(const TractionSpace& space, Control& control) const
     const auto bytes = [&](const ColumnKey& key) {
         return row_bytes * static_cast<std::uint64_t>(std::max(blocks.at(key)->n_slots, 1));
     };
-    return cache_->get(keys, bytes, [&](const std::vector<ColumnKey>& missing) {
+    const auto compute_missing = [&](const std::vector<ColumnKey>& missing) {
         std::vector<Columns::Block> result;
         std::vector<const TractionSpace::Block*> wanted;
         for (const ColumnKey& key : missing) {
@@ -194,7 +194,8 @@ Columns BemSystem::responses(const TractionSpace& space, Control& control) const
         for (Columns::Block& block : result)
             if (!block) block = *next++;
         return result;
-    });
+    };
+    return cache_->get(keys, bytes, compute_missing, control);
 }
 
 Columns::Block BemSystem::from_inverse(const TractionSpace::Block& block) const {

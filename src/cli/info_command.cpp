@@ -4,6 +4,7 @@
 
 #include "cli/command.hpp"
 #include "cli/info.hpp"
+#include "cli/interrupt.hpp"
 #include "scene/file/scene_file.hpp"
 
 namespace elastolab {
@@ -15,13 +16,15 @@ struct InfoOptions {
     bool json = false;
 };
 
-SceneMesh load(const std::filesystem::path& file) {
-    if (is_scene_file(file)) return load_scene_mesh(load_scene(file).mesh, file);
-    return load_scene_mesh(MeshFile{file.string()}, {});
+SceneMesh load(const std::filesystem::path& file, Control& control) {
+    if (is_scene_file(file)) return load_scene_mesh(load_scene(file).mesh, file, control);
+    return load_scene_mesh(MeshFile{file.string()}, {}, control);
 }
 
 void run_info(const InfoOptions& options) {
-    const MeshInfo info = inspect(load(options.file));
+    Control control;
+    const InterruptGuard interrupt(control);
+    const MeshInfo info = inspect(load(options.file, control));
     if (options.json)
         write_info(std::cout, info);
     else

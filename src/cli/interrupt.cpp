@@ -67,7 +67,8 @@ void kill_children() {
 
 }  // namespace
 
-InterruptGuard::InterruptGuard(Control& control, std::string last_words) : last_words_(std::move(last_words)) {
+InterruptGuard::InterruptGuard(Control& control, std::string last_words, std::function<void()> wake)
+    : last_words_(std::move(last_words)), wake_(std::move(wake)) {
     assert(watched == nullptr);
     sem_init(&bell, 0, 0);
     watcher_ = std::thread([this] { watch(); });
@@ -88,6 +89,7 @@ InterruptGuard::~InterruptGuard() {
 void InterruptGuard::watch() {
     wait_for_bell();
     if (over_) return;
+    if (wake_) wake_();
     while (is_bell_posted_within(kInterruptGraceSeconds))
         if (over_) return;  // else another signal: the two have a handler each
     end_program(last_words_);

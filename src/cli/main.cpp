@@ -1,10 +1,10 @@
+#include <algorithm>
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
 #include <iostream>
 #include <vector>
 
-#include "app/viewer.hpp"
 #include "base/blas.hpp"
 #include "base/blas_memory.hpp"
 #include "base/control.hpp"
@@ -42,12 +42,9 @@ int run(int argc, char** argv) {
         const std::string finding = error.what();
         return complain(finding + (finding.ends_with('.') ? "" : ".") + " See elastolab --help.", kBadUsage);
     }
-    for (const Command& command : commands) {
-        if (!command.parser->parsed()) continue;
-        command.run();
-        return kSuccess;
-    }
-    run_viewer({});
+    const auto chosen =
+        std::find_if(commands.begin(), commands.end(), [](const Command& command) { return command.parser->parsed(); });
+    (chosen == commands.end() ? commands.front() : *chosen).run();  // the viewer, unless told otherwise
     return kSuccess;
 }
 

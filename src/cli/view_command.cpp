@@ -5,15 +5,17 @@
 
 #include "app/viewer.hpp"
 #include "cli/command.hpp"
+#include "cli/interrupt.hpp"
 #include "cli/solve_outputs.hpp"
-#include "methods/registry.hpp"
 #include "cli/threads.hpp"
+#include "methods/registry.hpp"
 
 namespace elastolab {
 
 namespace {
 
 constexpr int kMaxWindow = 16384;
+constexpr const char* kInterrupted = "Interrupted; no picture, scene or mesh was written.";
 
 /// What the command line says, word for word.
 struct ViewWords {
@@ -81,7 +83,13 @@ Command add_view_command(CLI::App& program) {
     parser->add_flag("--hidden", words->hidden, "no visible window; still real OpenGL");
     return {parser, [words] {
                 apply_threads_option(words->threads);
-                run_viewer(options_of(*words));
+                Control control;
+                const InterruptGuard interrupt(control, kInterrupted, wake_viewer);
+                try {
+                    run_viewer(options_of(*words), control);
+                } catch (const Cancelled&) {
+                    throw Interrupted(kInterrupted);
+                }
             }};
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "base/cancellable_lock.hpp"
+
 namespace elastolab {
 
 namespace {
@@ -54,8 +56,9 @@ void Columns::add_product(const Eigen::MatrixXd& coefficients, Eigen::Ref<Eigen:
 
 Columns ColumnCache::get(const std::vector<ColumnKey>& keys,
                          const std::function<std::uint64_t(const ColumnKey&)>& bytes,
-                         const std::function<std::vector<Columns::Block>(const std::vector<ColumnKey>&)>& compute) {
-    const std::scoped_lock lock(mutex_);
+                         const std::function<std::vector<Columns::Block>(const std::vector<ColumnKey>&)>& compute,
+                         const Control& control) {
+    const auto lock = lock_unless_cancelled(mutex_, control);
     ++clock_;
     std::vector<ColumnKey> missing;
     std::uint64_t incoming = 0;
@@ -76,8 +79,8 @@ Columns ColumnCache::get(const std::vector<ColumnKey>& keys,
     return Columns(std::move(blocks));
 }
 
-void ColumnCache::drop_unused() {
-    const std::scoped_lock lock(mutex_);
+void ColumnCache::drop_unused(const Control& control) {
+    const auto lock = lock_unless_cancelled(mutex_, control);
     std::erase_if(entries_, [](const auto& entry) { return entry.second.block.use_count() == 1; });
 }
 

@@ -9,6 +9,8 @@
 #include <span>
 #include <vector>
 
+#include "base/control.hpp"
+
 namespace elastolab {
 
 /// What a block of response columns answers to; made by the model, meaningful to it alone.
@@ -42,12 +44,14 @@ public:
 
     /// The blocks for these keys; `compute` is called once with the keys that are missing (if any) and returns their
     /// blocks. When all would exceed the budget, blocks that nobody else holds are dropped first, oldest first, for
-    /// which `bytes` tells the size of a block that is missing.
+    /// which `bytes` tells the size of a block that is missing. While another thread computes, this waits: throws
+    /// Cancelled when `control` is cancelled meanwhile.
     Columns get(const std::vector<ColumnKey>& keys, const std::function<std::uint64_t(const ColumnKey&)>& bytes,
-                const std::function<std::vector<Columns::Block>(const std::vector<ColumnKey>&)>& compute);
+                const std::function<std::vector<Columns::Block>(const std::vector<ColumnKey>&)>& compute,
+                const Control& control);
 
-    /// Drops all blocks that nobody else holds.
-    void drop_unused();
+    /// Drops all blocks that nobody else holds. Waits as get() does.
+    void drop_unused(const Control& control);
 
 private:
     struct Entry {

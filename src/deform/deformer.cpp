@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <Eigen/Geometry>
 
 #include "base/error.hpp"
@@ -42,6 +43,12 @@ std::unique_ptr<ConstrainedSolid> constrained(const SolidModel& solid, std::span
         if (held) throw NotHeldError(kSingularThoughHeld);
         throw;
     }
+}
+
+/// Of the largest of these; 0 where there is none, or where it is so small or not finite that its inverse is neither.
+int exponent_of(const Eigen::VectorXd& values) {
+    const double largest = values.size() == 0 ? 0.0 : values.cwiseAbs().maxCoeff();
+    return std::isnormal(largest) ? std::clamp(std::ilogb(largest), -1000, 1000) : 0;
 }
 
 DiscretisationCheck check_of(const Eigen::VectorXd& u, const Eigen::VectorXd& error) {
@@ -183,7 +190,12 @@ DragResponse Deformer::drag_response(const Eigen::VectorXd& values, const Eigen:
 void Deformer::add_reactions(std::size_t part, const NodeSolution& solution, Reactions& sum) const {
     const SolidState& state = solids_[part];
     Reactions own = state.solid->reactions(solution);
+    // Of the solid's coordinates, which are those of the body times a factor, and of these displacements as they are: a
+    // force is stiffness times displacement, [E L] [L].
     const Eigen::Vector3d& origin = model_->parts()[part].origin;
+    const double unit = 1.0 / model_->parts()[part].scale;
+    own.forces *= unit;
+    own.moments *= unit * unit;
     for (Eigen::Index i = 0; i < own.forces.cols(); ++i) own.moments.col(i) += origin.cross(own.forces.col(i).eval());
     Eigen::Index column = 0;
     const auto place_at = [&](Eigen::Index target) {
@@ -209,6 +221,11 @@ std::optional<DiscretisationCheck> Deformer::discretisation_check(const Eigen::V
 }
 
 Deformer::Answer Deformer::answer(const Eigen::VectorXd& values, Wanted wanted, Control& control) const {
+    // Residuals and errors square numbers: for values of order one these are far from over- and underflow. The problem
+    // is linear, and a power of two rounds nothing.
+    const int exponent = exponent_of(values);
+    const Eigen::VectorXd unit_values = values * std::ldexp(1.0, -exponent);
+    const double unit = std::ldexp(1.0, exponent);
     const Eigen::Index n = 3 * model_->facts().n_vertices;
     const Eigen::Index n_constrained = std::ssize(set_.base) + std::ssize(set_.handles);
     Eigen::MatrixXd u = Eigen::MatrixXd::Zero(n, 1), error = u;
@@ -219,17 +236,20 @@ Deformer::Answer Deformer::answer(const Eigen::VectorXd& values, Wanted wanted, 
     for (std::size_t s = 0; s < solids_.size(); ++s) {
         const ConstrainedSolid* solid = solids_[s].solid.get();
         if (solid == nullptr) continue;
-        NodeSolution solution = solid->solve(solids_[s].values(values), true);
+        NodeSolution solution = solid->solve(solids_[s].values(unit_values), true);
         add_reactions(s, solution, answer.reactions);
         if (wanted.residual) answer.residual = std::max(*answer.residual, solid->residual(solution, control));
         if (wanted.check) place(s, solid->error(solution, control), error);
         place(s, solid->displacements(std::move(solution)), u);
     }
+    if (wanted.check) answer.check = check_of(u, error);
+    u *= unit;
+    answer.reactions.forces *= unit;
+    answer.reactions.moments *= unit;
     require_finite(u);
     if (!answer.reactions.forces.allFinite() || !answer.reactions.moments.allFinite())
         throw SolveError(model_->body().name +
                          ": forces are beyond double precision. Choose a smaller Young's modulus, or smaller motions.");
-    if (wanted.check) answer.check = check_of(u, error);
     answer.displacements = std::move(u);
     return answer;
 }

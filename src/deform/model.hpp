@@ -36,12 +36,18 @@ struct ModelFacts {
     Findings surface_findings;        ///< of the surface alone, whatever the material (src/findings)
 };
 
-/// How a matrix of unit Young's modulus becomes that of another, E.
-enum class YoungScaling {
-    none,             ///< H
-    stiffness,        ///< K: times E
-    compliance,       ///< G, K^-1: over E
-    bordered_inverse  ///< of K: the block of the nodes over E, that of the six border values times E
+/// Physical dimension of a quantity of elastostatics, E^young L^length: how it follows Young's modulus and the unit of
+/// length. Nodal stiffness (force over displacement) is {1, 1}, traction over displacement {1, -1}.
+struct Dimension {
+    int young = 0;
+    int length = 0;
+};
+
+/// Dimensions of the blocks of a matrix that may have a border of six columns on the right and six rows below.
+struct MatrixDimensions {
+    Dimension nodes;
+    bool has_border = false;
+    Dimension columns = {}, rows = {}, corner = {};  ///< of the border
 };
 
 /// A named dense matrix for export; filled only when asked for. K^ is K bordered by six columns and rows: by the rigid
@@ -50,8 +56,12 @@ enum class YoungScaling {
 struct NamedMatrix {
     std::string name;  ///< "H", "G", "K", "Kinv" (D of the bordered inverse), "Khatinv" (the whole bordered inverse)
     Eigen::MatrixXd values;
-    YoungScaling scaling = YoungScaling::none;
+    MatrixDimensions dimensions = {};
 };
+
+// Dimensions of the matrices that methods keep.
+constexpr Dimension kNodalStiffness{1, 1}, kNodalCompliance{-1, -1};        ///< force over displacement; its inverse
+constexpr Dimension kTractionStiffness{1, -1}, kTractionCompliance{-1, 1};  ///< traction over displacement; likewise
 
 using SparseStiffness = Eigen::SparseMatrix<double>;
 
@@ -65,8 +75,10 @@ public:
     struct Part {
         std::shared_ptr<const SolidModel> solid;
         std::vector<int> vertices;  ///< vertex of the body, for each vertex of the solid
-        /// Of the solid's own coordinates: a solid far away is computed around its middle (mesh/solids.hpp).
+        /// Coordinates in which the solid is computed are scale * (x - origin), x those of the body (mesh/solids.hpp):
+        /// of order one and near zero, whatever the unit of length and the place. `scale` is a power of two.
         Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+        double scale = 1.0;
     };
 
     Model(Body body, Method method, std::vector<Part> parts, ModelFacts facts);

@@ -18,7 +18,7 @@ std::shared_ptr<const Volume> Volume::of(const std::shared_ptr<const Model>& mod
         std::vector<int> vertices = part.vertices;
         for (int i = 0; i < n_inside; ++i) vertices.push_back(static_cast<int>(all.vertices.cols()) + i);
         all.vertices.conservativeResize(Eigen::NoChange, all.vertices.cols() + n_inside);
-        all.vertices.rightCols(n_inside) = tets->vertices.rightCols(n_inside).colwise() + part.origin;
+        all.vertices.rightCols(n_inside) = (tets->vertices.rightCols(n_inside) / part.scale).colwise() + part.origin;
         const Eigen::Index before = all.tetrahedra.cols();
         all.tetrahedra.conservativeResize(Eigen::NoChange, before + tets->n_tetrahedra());
         for (Eigen::Index t = 0; t < tets->tetrahedra.cols(); ++t)

@@ -249,9 +249,11 @@ std::shared_ptr<const Interior> FemModel::interior(Control& control) const {
 
 void FemModel::visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const {
     if (!operators_) return;
-    visit({"K", operators_->K, YoungScaling::stiffness});
-    visit({"Kinv", operators_->D(), YoungScaling::compliance});
-    visit({"Khatinv", operators_->Khatinv, YoungScaling::bordered_inverse});
+    visit({"K", operators_->K, {kNodalStiffness}});
+    visit({"Kinv", operators_->D(), {kNodalCompliance}});
+    visit({"Khatinv",
+           operators_->Khatinv,
+           {.nodes = kNodalCompliance, .has_border = true, .columns = {}, .rows = {}, .corner = kNodalStiffness}});
 }
 
 }  // namespace elastolab

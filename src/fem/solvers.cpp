@@ -78,7 +78,8 @@ Columns FactorisedBody::responses(const std::vector<int>& vertices, Control& con
                 add_blocks(std::span(wanted).subspan(first, std::min(kVerticesAtOnce, wanted.size() - first)), blocks,
                            control);
             return blocks;
-        });
+        },
+        control);
 }
 
 std::shared_ptr<const Responses> FactorisedBody::responses_of_set(const std::vector<int>& vertices,

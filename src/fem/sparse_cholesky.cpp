@@ -174,9 +174,10 @@ struct SparseCholesky::Impl {
 
 SparseCholesky::SparseCholesky(const CholeskyAnalysis& analysis, const SparseMatrix& A, std::string name) {
     assert(A.rows() == analysis.size());
-    const double norm = A.rows() == 0 ? 0.0 : (A.cwiseAbs().transpose() * Eigen::VectorXd::Ones(A.rows())).maxCoeff();
-    if (!std::isfinite(norm))
+    const Eigen::VectorXd sums = A.cwiseAbs().transpose() * Eigen::VectorXd::Ones(A.rows());
+    if (!sums.allFinite())  // the largest of them says nothing: a maximum may pass over NaN
         throw SolveError(name + ": has entries that are not finite. Check the mesh for degenerate tetrahedra.");
+    const double norm = sums.size() == 0 ? 0.0 : sums.maxCoeff();
     Common common;
     FactorPtr factor(cholmod_copy_factor(analysis.impl_->factor.get(), common));
     common.check(name);

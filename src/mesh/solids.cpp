@@ -70,4 +70,9 @@ Eigen::Vector3d computing_origin(const SurfaceMesh& surface) {
     return centre.norm() > kFar * (high - low).norm() ? centre : Eigen::Vector3d::Zero();
 }
 
+double computing_scale(const SurfaceMesh& surface) {
+    const double diagonal = (surface.vertices.rowwise().maxCoeff() - surface.vertices.rowwise().minCoeff()).norm();
+    return std::ldexp(1.0, -std::ilogb(diagonal));
+}
+
 }  // namespace elastolab

@@ -22,4 +22,9 @@ std::vector<Solid> split_solids(const SurfaceMesh& mesh);
 /// nothing is rounded.
 Eigen::Vector3d computing_origin(const SurfaceMesh& surface);
 
+/// The power of two by which a solid with this surface is to be multiplied for computing: its box's diagonal is in
+/// [1, 2) then. Matrices hold entries of several physical dimensions, so that pivots, conditions and least-squares
+/// solutions would depend on the unit of length; a power of two rounds nothing.
+double computing_scale(const SurfaceMesh& surface);
+
 }  // namespace elastolab

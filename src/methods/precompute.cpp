@@ -76,9 +76,10 @@ std::shared_ptr<const Model> precompute(const Body& body, const Method& method, 
         const SolidModel* old = before != nullptr ? before->parts()[i].solid.get() : nullptr;
         SurfaceMesh local = solids[i].surface;
         const Eigen::Vector3d origin = computing_origin(local);
-        local.vertices.colwise() -= origin;
+        const double scale = computing_scale(local);
+        local.vertices = (local.vertices.colwise() - origin) * scale;
         parts.push_back({method.kind->precompute(local, body.name, body.material.poisson_ratio, method, old, control),
-                         solids[i].vertices, origin});
+                         solids[i].vertices, origin, scale});
     }
     ModelFacts facts = summed(parts);
     facts.surface_findings = before != nullptr && same_findings(method.kind, before->method().kind)

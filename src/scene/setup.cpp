@@ -124,12 +124,12 @@ private:
 
 }  // namespace
 
-SceneMesh load_scene_mesh(const MeshSource& source, const fs::path& scene_file) {
+SceneMesh load_scene_mesh(const MeshSource& source, const fs::path& scene_file, Control& control) {
     if (const auto* primitive = std::get_if<Primitive>(&source))
-        return {primitive->name, check_and_repair(make_mesh(*primitive, scene_file))};
+        return {primitive->name, check_and_repair(make_mesh(*primitive, scene_file), control)};
     const fs::path file = scene_file.parent_path() / std::get<MeshFile>(source).file;
-    ImportedSurface imported = import_surface(file);
-    CheckedMesh checked = check_and_repair(std::move(imported.mesh));
+    ImportedSurface imported = import_surface(file, control);
+    CheckedMesh checked = check_and_repair(std::move(imported.mesh), control);
     if (!imported.warning.empty())
         checked.report.defects.push_back(
             {.kind = Defect::Kind::coarse_coordinates, .count = 1, .places = {}, .text = imported.warning});

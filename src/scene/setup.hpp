@@ -20,8 +20,8 @@ struct SceneMesh {
 };
 
 /// Loads a mesh file, relative names starting at the folder of `scene_file`, or makes a primitive.
-/// Throws MeshError (a file that cannot be read) or SceneError (a primitive that cannot be made).
-SceneMesh load_scene_mesh(const MeshSource& source, const std::filesystem::path& scene_file);
+/// Throws MeshError (a file that cannot be read), SceneError (a primitive that cannot be made), Cancelled.
+SceneMesh load_scene_mesh(const MeshSource& source, const std::filesystem::path& scene_file, Control& control);
 
 /// Whether a method of `kind` simulates a closed surface around this mesh (scene/proxy/proxy.hpp), not the mesh itself.
 bool needs_proxy(const ProxyChoice& choice, const MeshReport& mesh, MethodKind kind);

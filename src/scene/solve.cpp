@@ -35,7 +35,7 @@ void append(Findings& all, const Findings& more) { all.insert(all.end(), more.be
 
 SceneMesh load_mesh(const SolveRequest& request, Solution& solution, Control& control) {
     const Stage stage("load", control, solution.stages);
-    SceneMesh mesh = load_scene_mesh(request.document.mesh, request.scene_file);
+    SceneMesh mesh = load_scene_mesh(request.document.mesh, request.scene_file, control);
     solution.mesh_name = mesh.name;
     solution.defects = mesh.checked.report.defects;
     solution.surface = std::make_shared<const SurfaceMesh>(std::move(mesh.checked.mesh));

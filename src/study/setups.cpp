@@ -42,12 +42,12 @@ Eigen::MatrixXd translation_basis(std::size_t n_vertices) {
 }
 
 double relative_error(const Eigen::VectorXd& u, const Eigen::VectorXd& truth) {
-    return (u - truth).norm() / truth.norm();
+    return (u - truth).stableNorm() / truth.stableNorm();
 }
 
 double largest_error(const Eigen::VectorXd& u, const Eigen::VectorXd& truth) {
-    return (u - truth).reshaped(3, u.size() / 3).colwise().norm().maxCoeff() /
-           truth.reshaped(3, u.size() / 3).colwise().norm().maxCoeff();
+    return (u - truth).reshaped(3, u.size() / 3).colwise().stableNorm().maxCoeff() /
+           truth.reshaped(3, u.size() / 3).colwise().stableNorm().maxCoeff();
 }
 
 double precompute_seconds(const Model& model) {

@@ -4,8 +4,10 @@
 #include <gmock/gmock.h>
 #include <stb_image.h>
 
+#include <chrono>
 #include <memory>
 #include <set>
+#include <thread>
 
 #include "app/input/interaction_log.hpp"
 #include "app/stage.hpp"
@@ -101,6 +103,21 @@ TEST_F(ViewerTest, WritesARowForEachOfTheFramesAskedFor) {
         EXPECT_EQ(rows.back()[3], "98");
         EXPECT_TRUE(n == 1 || rows.back()[6] == "ready");
     }
+}
+
+TEST_F(ViewerTest, WakesAndEndsWhenItIsCancelled) {
+    options.scene_out = folder.path() / "out.json";
+    options.record = folder.path() / "r.log";
+    Control control;
+    std::thread other([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(500));  // by then it sleeps: nothing moves
+        control.cancel();
+        wake_viewer();
+    });
+    EXPECT_THROW(run_viewer(options, control), Cancelled);
+    other.join();
+    EXPECT_FALSE(exists(options.scene_out));
+    EXPECT_TRUE(exists(options.record));
 }
 
 TEST_F(ViewerTest, TakesAPictureOfTheLastFrame) {

@@ -44,7 +44,7 @@ class Examples : public testing::TestWithParam<Example> {
 protected:
     Examples()
         : document_(load_scene(file_)),
-          body_(LiveScene(document_, file_).body(kFem)),
+          body_(LiveScene(document_, file_, control_).body(kFem)),
           constraints_(make_constraints(document_, *body_.surface, file_)) {}
 
     /// Displacements, one column each vertex.
@@ -77,6 +77,7 @@ protected:
     }
 
     const std::filesystem::path file_ = kScenes / (GetParam().name + ".json");
+    Control control_;
     const Document document_;
     const Body body_;
     const Constraints constraints_;

@@ -59,6 +59,16 @@ TEST(BlockedLu, TellsItsProgressAndCanBeCancelled) {
     EXPECT_THROW(factorise_lu(A, pivots, &control, kAtOnce), Cancelled);
 }
 
+/// A factorisation of a second can be cancelled on the way, not at its beginning only.
+TEST(BlockedLu, TellsItsProgressFromAThousandVerticesOn) {
+    constexpr int kRows = 3 * 1050;
+    Eigen::MatrixXf A = Eigen::MatrixXf::Identity(kRows, kRows);
+    std::vector<int> pivots;
+    Control control;
+    factorise_lu(A, pivots, &control);
+    EXPECT_GT(control.progress(), 0.9);
+}
+
 /// A maximum over the columns may pass over one that is NaN.
 TEST(LuFactorization, RefusesAnEntryThatIsNotFiniteWhereverItIs) {
     constexpr int kSmall = 9;

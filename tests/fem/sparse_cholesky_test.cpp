@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <limits>
+#include <string>
 
 #include "base/error.hpp"
 #include "fem/constraints.hpp"
@@ -61,6 +62,23 @@ TEST(SparseCholesky, RefusesWhatIsNotPositiveDefinite) {
     SparseMatrix broken = body.K;
     broken.valuePtr()[0] = std::numeric_limits<double>::quiet_NaN();
     EXPECT_THROW(SparseCholesky(body.analysis, broken, "A"), SolveError);
+}
+
+/// A maximum over the columns may pass over one that is NaN.
+TEST(SparseCholesky, RefusesAnEntryThatIsNotFiniteWhereverItIs) {
+    constexpr int kSize = 9;
+    for (int i = 0; i < kSize; ++i)
+        for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+            SparseMatrix A(kSize, kSize);
+            for (int k = 0; k < kSize; ++k) A.insert(k, k) = k == i ? bad : 1.0 + k;
+            A.makeCompressed();
+            try {
+                const SparseCholesky factor(CholeskyAnalysis(A, 1), A, "A");
+                ADD_FAILURE() << i;
+            } catch (const SolveError& error) {
+                EXPECT_NE(std::string(error.what()).find("not finite"), std::string::npos) << i << error.what();
+            }
+        }
 }
 
 TEST(SparseCholesky, CountsItsMemory) {

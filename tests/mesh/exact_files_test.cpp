@@ -156,7 +156,9 @@ TEST(ExactFiles, KeepDigitsFarFromTheOrigin) {
     const TemporaryFolder folder;
     SurfaceMesh mesh = make_sphere(3, 1.0);
     mesh.vertices.colwise() += Eigen::Vector3d(1e6, -1e6, 1e5);
-    const ImportedSurface read = import_surface(folder.write("far.obj", words(mesh, "v ") + faces(mesh, "f ", 1)));
+    Control control;
+    const ImportedSurface read =
+        import_surface(folder.write("far.obj", words(mesh, "v ") + faces(mesh, "f ", 1)), control);
     expect_equal(read.mesh, mesh);
     EXPECT_EQ(read.warning, "");
 }

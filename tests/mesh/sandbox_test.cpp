@@ -113,6 +113,20 @@ TEST(ImportHelper, QuotesLittleAndNoControlCodes) {
     }
 }
 
+/// As in "elastolab info ../bodies/own.gltf".
+TEST(ImportHelper, ReadsAFileWhoseNameLeadsUpAndDown) {
+    const TemporaryFolder folder;
+    std::filesystem::create_directory(folder.path() / "sub");
+    const float points[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    folder.write("own.bin", std::string(reinterpret_cast<const char*>(points), sizeof(points)));
+    folder.write("own.gltf", gltf("own.bin"));
+    Control control;
+    EXPECT_EQ(import_surface(folder.path() / "sub" / ".." / "own.gltf", control).mesh.n_triangles(), 1);
+    const std::filesystem::path relative = std::filesystem::relative(folder.path() / "own.gltf");
+    ASSERT_TRUE(relative.string().starts_with("..")) << relative;
+    EXPECT_EQ(import_surface(relative, control).mesh.n_triangles(), 1);
+}
+
 TEST(ImportHelper, ReadsFormatsOfItsListOnly) {
     const TemporaryFolder folder;
     EXPECT_THAT(finding(folder.write("a.bvh", "HIERARCHY")), HasSubstr("is of no format that is read"));
@@ -124,7 +138,8 @@ TEST(ImportHelper, WarnsOfCoordinatesThatAreCoarseForTheBody) {
     float points[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
     const auto warning = [&] {
         folder.write("own.bin", std::string(reinterpret_cast<const char*>(points), sizeof(points)));
-        return import_surface(folder.write("own.gltf", gltf("own.bin"))).warning;
+        Control control;
+        return import_surface(folder.write("own.gltf", gltf("own.bin")), control).warning;
     };
     EXPECT_EQ(warning(), "");
     for (float& x : points) x += 1000.0f;

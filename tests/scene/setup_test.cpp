@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <filesystem>
+
 #include "base/error.hpp"
 #include "mesh/input/export.hpp"
 #include "mesh/primitives.hpp"
@@ -26,7 +28,12 @@ Document cube() {
     return document;
 }
 
-SurfaceMesh mesh_of(const Document& document) { return load_scene_mesh(document.mesh, "s.json").checked.mesh; }
+SceneMesh load(const MeshSource& source, const std::filesystem::path& scene_file) {
+    Control control;
+    return load_scene_mesh(source, scene_file, control);
+}
+
+SurfaceMesh mesh_of(const Document& document) { return load(document.mesh, "s.json").checked.mesh; }
 
 Constraints constraints(const Document& document) { return make_constraints(document, mesh_of(document), "s.json"); }
 
@@ -121,14 +128,14 @@ TEST(Setup, AMeshFileLiesBesideTheScene) {
     Document document = cube();
     document.mesh = MeshFile{"cube.obj"};
     const auto scene_file = folder.path() / "scene.json";
-    const SceneMesh mesh = load_scene_mesh(document.mesh, scene_file);
+    const SceneMesh mesh = load(document.mesh, scene_file);
     EXPECT_EQ(mesh.checked.mesh.n_vertices(), 26);
     EXPECT_THAT(mesh.name, HasSubstr("cube.obj"));
 }
 
 TEST(Setup, PrimitivesThatCannotBeMadeAreErrorsOfTheScene) {
     const auto refused = [](std::vector<double> size) {
-        return finding([&] { load_scene_mesh(Primitive{"cylinder", 4, std::move(size)}, "s.json"); });
+        return finding([&] { load(Primitive{"cylinder", 4, std::move(size)}, "s.json"); });
     };
     EXPECT_THAT(refused({1, 2, 3, 4}), HasSubstr("s.json: /mesh: "));
     EXPECT_THAT(refused({1e-9, 1e9}), HasSubstr("s.json: /mesh: "));

@@ -85,7 +85,7 @@ TEST(Studies, EndInFilesWhateverTheCases) {
     }
 }
 
-TEST(PaperWay, AgreesWithItselfInAllFourForms) {
+TEST(PaperProcedure, AgreesWithItselfInAllFourForms) {
     Control control;
     for (const MethodKind kind : paper_methods()) {
         const PaperSystem system = paper_precomputation(study_body(make_box(2), Material{1.0, 0.3}), kind, control);

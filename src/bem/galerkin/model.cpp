@@ -70,8 +70,8 @@ std::uint64_t GalerkinModel::constrain_memory(std::span<const int> base, std::sp
 void GalerkinModel::visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const {
     const auto dense = system_->dense();
     if (!dense) return;
-    visit({"D", dense->K, YoungScaling::stiffness});
-    visit({"Dplus", dense->D(), YoungScaling::compliance});
+    visit({"D", dense->K, {kNodalStiffness}});
+    visit({"Dplus", dense->D(), {kNodalCompliance}});
 }
 
 }  // namespace elastolab

@@ -107,14 +107,20 @@ double galerkin_residual(const GalerkinSystem& system, const std::vector<int>& v
     const Eigen::MatrixXd D = system.hypersingular(control);
     const Eigen::MatrixXd &K = operators.double_layer, &V = operators.single_layer;
     const Eigen::VectorXd u = solution.displacements.col(0), t = solution.loads.col(0).tail(tractions.size());
-    Eigen::VectorXd off = D * u + K.transpose() * t;
+    Eigen::VectorXd off = D * u, size = D.cwiseAbs() * u.cwiseAbs();
+    const auto ratio = [](const Eigen::VectorXd& part, const Eigen::VectorXd& whole) {
+        return whole.norm() > 0.0 ? part.norm() / whole.norm() : 0.0;
+    };
+    // Both equations have units of their own, so each is judged by itself.
+    double second = 0.0;
+    if (t.size() > 0) {  // without a constrained triangle there is no second; the BLAS complains of empty matrices
+        off += K.transpose() * t;
+        size += K.cwiseAbs().transpose() * t.cwiseAbs();
+        second = ratio(K * u - V * t, K.cwiseAbs() * u.cwiseAbs() + V.cwiseAbs() * t.cwiseAbs());
+    }
     for (std::size_t i = 0; i < vertices.size(); ++i)
         off.segment<3>(3 * vertices[i]) -= solution.loads.col(0).segment<3>(3 * static_cast<Eigen::Index>(i));
-    const Eigen::VectorXd size = D.cwiseAbs() * u.cwiseAbs() + K.cwiseAbs().transpose() * t.cwiseAbs();
-    const Eigen::VectorXd off_t = K * u - V * t, size_of_t = K.cwiseAbs() * u.cwiseAbs() + V.cwiseAbs() * t.cwiseAbs();
-    // Both equations have units of their own, so each is judged by itself.
-    const double first = size.norm() > 0.0 ? off.norm() / size.norm() : 0.0;
-    const double second = size_of_t.norm() > 0.0 ? off_t.norm() / size_of_t.norm() : 0.0;
+    const double first = ratio(off, size);
     return std::max(first, second);
 }
 

@@ -131,7 +131,7 @@ Columns GalerkinSystem::half_responses(std::span<const int> vertices, const Gale
     const auto row_bytes = 8 * static_cast<std::uint64_t>(size() + surfaces_.rigid.cols());
     return cache_->get(
         keys, [&](const ColumnKey& key) { return row_bytes * static_cast<std::uint64_t>(components_of(key)); },
-        [&](const std::vector<ColumnKey>& missing) { return compute(missing, control); });
+        [&](const std::vector<ColumnKey>& missing) { return compute(missing, control); }, control);
 }
 
 std::vector<Columns::Block> GalerkinSystem::compute(const std::vector<ColumnKey>& missing, Control& control) const {

@@ -52,9 +52,11 @@ Defect no_triangles() {
 }
 
 /// Repairs orientation where that is possible and inspects the surface as a whole; needs finite coordinates.
-void inspect_as_a_whole(SurfaceMesh& mesh, const EdgeTable& edges, const Components& components, MeshReport& report) {
+void inspect_as_a_whole(SurfaceMesh& mesh, const EdgeTable& edges, const Components& components, MeshReport& report,
+                        const Control& control) {
     repair_orientation(mesh, edges, components, report);
-    const CrossingPairs crossings = find_crossing_pairs(mesh);
+    const CrossingPairs crossings =
+        find_crossing_pairs(mesh, any_fatal(report) ? CrossingSearch::briefly : CrossingSearch::all, control);
     report_crossings(mesh, crossings, report);
     if (report.closed && !any_fatal(report)) repair_inside_out(mesh, components, crossings, report);
 }
@@ -68,13 +70,14 @@ bool MeshReport::usable_for_fem() const {
            std::none_of(defects.begin(), defects.end(), [](const Defect& d) { return d.fatal_for_fem && !d.repaired; });
 }
 
-CheckedMesh check_and_repair(SurfaceMesh mesh) {
+CheckedMesh check_and_repair(SurfaceMesh mesh, Control& control) {
     CheckedMesh result{std::move(mesh), {}};
     MeshReport& report = result.report;
     if (result.mesh.n_triangles() == 0) {
         report.defects.push_back(no_triangles());
         return result;
     }
+    control.checkpoint();
     report_non_finite(result.mesh, report);
     report_unreferenced(result.mesh, report);
     report_collapsed(result.mesh, report);
@@ -93,9 +96,14 @@ CheckedMesh check_and_repair(SurfaceMesh mesh) {
     if (!finite) return result;
     measure(sound, edges, report);
     report_shapes(sound, report);
-    inspect_as_a_whole(sound, edges, components, report);
+    inspect_as_a_whole(sound, edges, components, report, control);
     if (complete) result.mesh = std::move(sound);
     return result;
+}
+
+CheckedMesh check_and_repair(SurfaceMesh mesh) {
+    Control never_cancelled;
+    return check_and_repair(std::move(mesh), never_cancelled);
 }
 
 void require_usable(const MeshReport& report, const std::string& name, bool for_fem) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/control.hpp"
 #include "mesh/surface_mesh.hpp"
 
 namespace elastolab {
@@ -57,6 +58,9 @@ struct CheckedMesh {
 ///   outward at even depth of nesting (solids), inward at odd depth (cavities).
 /// - warning: triangles of altitude below 1e-3 of the longest edge. Coordinates that were rounded when they were read
 ///   (coarse_coordinates) are reported by who read them (mesh/input/import.hpp).
+/// The search for crossing triangles, which takes most of the time, can be cancelled: then throws Cancelled.
+CheckedMesh check_and_repair(SurfaceMesh mesh, Control& control);
+/// The same for callers that never cancel.
 CheckedMesh check_and_repair(SurfaceMesh mesh);
 
 /// Throws MeshError with `name`, every fatal finding and a way forward in one line, when the report is not usable

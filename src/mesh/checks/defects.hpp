@@ -47,12 +47,16 @@ void report_shapes(const SurfaceMesh& mesh, MeshReport& report);
 /// Turns triangles so that all of a component face the same side; reports what was turned, or a one-sided surface.
 void repair_orientation(SurfaceMesh& mesh, const EdgeTable& edges, const Components& components, MeshReport& report);
 
-/// Pairs of triangles that cross or touch, at most so many. Every triangle has some area.
+/// Pairs of triangles that cross or touch, as far as they were looked for. Every triangle has some area.
 struct CrossingPairs {
     std::vector<std::pair<int, int>> pairs;
     bool complete = true;
 };
-CrossingPairs find_crossing_pairs(const SurfaceMesh& mesh);
+/// How long they are looked for: `briefly` where the mesh is refused anyway, because there the search may take forever
+/// (a vertex of 100 000 triangles has 5e9 pairs of neighbours).
+enum class CrossingSearch { all, briefly };
+/// Throws Cancelled.
+CrossingPairs find_crossing_pairs(const SurfaceMesh& mesh, CrossingSearch search, const Control& control);
 void report_crossings(const SurfaceMesh& mesh, const CrossingPairs& crossings, MeshReport& report);
 
 /// Turns closed components so that solids face outward and cavities inward; reports these, parts without volume, the

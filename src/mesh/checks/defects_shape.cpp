@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 
 #include "mesh/box_tree.hpp"
 #include "mesh/checks/defects.hpp"
@@ -48,7 +50,7 @@ void report_shapes(const SurfaceMesh& mesh, MeshReport& report) {
                       "triangles are thinner than a thousandth of their length", sliver_advice(thinnest)));
 }
 
-CrossingPairs find_crossing_pairs(const SurfaceMesh& mesh) {
+CrossingPairs find_crossing_pairs(const SurfaceMesh& mesh, CrossingSearch search, const Control& control) {
     constexpr std::size_t kMostPairs = 100000;  // a mesh with more is beyond repair, and could have n^2 of them
     // The exact predicates need numbers far from over- and underflow; scaling by a power of two changes no digit.
     const double size = std::max(mesh.vertices.cwiseAbs().maxCoeff(), 1e-300);
@@ -58,12 +60,17 @@ CrossingPairs find_crossing_pairs(const SurfaceMesh& mesh) {
         const TrianglePoints p = triangle_points(unit, t);
         if (!is_degenerate(p.a, p.b, p.c)) sound.push_back(t);
     }
+    // Triangles of a good surface have some fifteen others near them each.
+    const std::int64_t most_tests = search == CrossingSearch::all ? std::numeric_limits<std::int64_t>::max()
+                                                                  : 100 * std::int64_t{unit.n_triangles()} + 100000;
+    std::int64_t n_tests = 0;
     CrossingPairs found;
     BoxTree(unit, std::move(sound)).for_each_close_pair([&](int s, int t) {
+        control.checkpoint();
         if (in_contact(unit, s, t)) found.pairs.emplace_back(s, t);
-        return found.pairs.size() < kMostPairs;
+        return found.pairs.size() < kMostPairs && ++n_tests < most_tests;
     });
-    found.complete = found.pairs.size() < kMostPairs;
+    found.complete = found.pairs.size() < kMostPairs && n_tests < most_tests;
     return found;
 }
 

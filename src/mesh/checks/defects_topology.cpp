@@ -1,5 +1,9 @@
 #include <algorithm>
 #include <array>
+#include <numeric>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "mesh/checks/defects.hpp"
 #include "mesh/measures.hpp"
@@ -10,23 +14,31 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Whether the triangles around a vertex form more than one fan. Neighbours in a fan share a vertex beside this one.
+/// Whether the triangles around a vertex form more than one fan: whether their other corners, joined when they belong
+/// to one triangle, are more than one connected part. Damaged files have vertices of a hundred thousand triangles.
 bool is_hinge(const SurfaceMesh& mesh, int vertex, std::span<const int> around) {
-    std::vector<int> reached{0};
-    std::vector<bool> seen(around.size(), false);
-    if (around.size() > 1) seen[0] = true;
-    const auto share = [&](int s, int t) {
-        for (const int v : mesh.triangles.col(s))
-            if (v != vertex && (mesh.triangles.col(t).array() == v).any()) return true;
-        return false;
+    std::vector<int> corners;
+    for (const int t : around)
+        for (const int v : mesh.triangles.col(t))
+            if (v != vertex) corners.push_back(v);
+    std::vector<int> places = corners;
+    std::sort(places.begin(), places.end());
+    places.erase(std::unique(places.begin(), places.end()), places.end());
+    std::vector<std::size_t> parent(places.size());
+    std::iota(parent.begin(), parent.end(), std::size_t{0});
+    const auto root_of = [&](int v) {
+        auto i = static_cast<std::size_t>(std::lower_bound(places.begin(), places.end(), v) - places.begin());
+        while (parent[i] != i) i = parent[i] = parent[parent[i]];
+        return i;
     };
-    for (std::size_t next = 0; next < reached.size(); ++next)
-        for (std::size_t i = 0; i < around.size(); ++i)
-            if (!seen[i] && share(around[static_cast<std::size_t>(reached[next])], around[i])) {
-                seen[i] = true;
-                reached.push_back(static_cast<int>(i));
-            }
-    return around.size() > 1 && reached.size() < around.size();
+    std::size_t n_parts = places.size();
+    for (std::size_t k = 0; k + 1 < corners.size(); k += 2) {  // no triangle has a corner twice
+        const std::size_t a = root_of(corners[k]), b = root_of(corners[k + 1]);
+        if (a == b) continue;
+        parent[a] = b;
+        --n_parts;
+    }
+    return n_parts > 1;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 // For the helper programs only: their side of the socket to the caller (mesh/input/child_process.hpp), and how they
 // begin.
 
+#include <poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -37,6 +38,8 @@ constexpr bool kSanitized = false;
 inline void begin_helper() {
     std::signal(SIGINT, SIG_IGN);
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    pollfd caller{STDIN_FILENO, 0, 0};
+    if (::poll(&caller, 1, 0) > 0) std::_Exit(kHelperMisused);  // it has died before it could be said above
     const rlimit no_core{0, 0};
     ::setrlimit(RLIMIT_CORE, &no_core);
     std::ofstream("/proc/self/oom_score_adj") << 1000;

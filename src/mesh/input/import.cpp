@@ -58,7 +58,7 @@ ImportRequestHeader header_for(const fs::path& file) {
     const double size = static_cast<double>(fs::file_size(file));
     ImportRequestHeader header;
     header.path_size = static_cast<std::int32_t>(file.string().size());
-    header.cpu_seconds = static_cast<std::int32_t>(std::min(10.0 + 4e-6 * size, 1e6));
+    header.cpu_seconds = static_cast<std::int32_t>(std::min(5.0 + 4e-6 * size, 1e6));
     header.memory_bytes = static_cast<std::int64_t>(2e9 + 200.0 * size);
     return header;
 }
@@ -134,11 +134,16 @@ std::string precision_warning(const SurfaceMesh& mesh) {
         coarseness);
 }
 
-ImportedSurface import(const fs::path& file) {
-    Control control;  // nobody cancels: the helper has a time limit
+/// Without ".." and links in its folder, for which the sandbox has no answer.
+fs::path plain_path(const fs::path& file) {
+    const fs::path absolute = fs::absolute(file);
+    return fs::canonical(absolute.parent_path()) / absolute.filename();
+}
+
+ImportedSurface import(const fs::path& file, Control& control) {
     ChildProcess helper(helper_program("elastolab-import"));
-    const std::vector<char> bytes =
-        helper.exchange(request_bytes(file), control, static_cast<std::size_t>(header_for(file).memory_bytes));
+    const std::vector<char> bytes = helper.exchange(request_bytes(plain_path(file)), control,
+                                                    static_cast<std::size_t>(header_for(file).memory_bytes));
     const int status = helper.wait(control);
 
     ReplyReader reply(bytes);
@@ -158,12 +163,15 @@ ImportedSurface import(const fs::path& file) {
 
 }  // namespace
 
-ImportedSurface import_surface(const fs::path& file) {
+ImportedSurface import_surface(const fs::path& file, Control& control) {
     require_readable(file);
     require_known_format(file);
-    return import(file);
+    return import(file, control);
 }
 
-SurfaceMesh load_surface(const fs::path& file) { return import_surface(file).mesh; }
+SurfaceMesh load_surface(const fs::path& file) {
+    Control never_cancelled;
+    return import_surface(file, never_cancelled).mesh;
+}
 
 }  // namespace elastolab

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 
+#include "base/control.hpp"
 #include "mesh/surface_mesh.hpp"
 
 namespace elastolab {
@@ -21,10 +22,10 @@ struct ImportedSurface {
 /// the vertex list for OBJ, PLY and OFF, of the triangles' corners for STL, of the meshes in the order of the scene's
 /// nodes for formats that have such. A file is read in full or refused: throws MeshError when it is missing, a folder,
 /// empty, of another format, not readable, damaged, cut short, or holds no triangle. Other files that it names are read
-/// in its folder and below only.
-ImportedSurface import_surface(const std::filesystem::path& file);
+/// in its folder and below only. A cancel of `control` ends the reader within 20 ms: throws Cancelled.
+ImportedSurface import_surface(const std::filesystem::path& file, Control& control);
 
-/// The mesh alone.
+/// The mesh alone, for callers that never cancel.
 SurfaceMesh load_surface(const std::filesystem::path& file);
 
 }  // namespace elastolab

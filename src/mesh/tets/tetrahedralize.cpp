@@ -92,13 +92,13 @@ std::string message(const std::string& name, const std::string& finding) {
            ". Repair or remesh the surface, or choose a boundary-element method.";
 }
 
-/// Why TetGen has failed: a crossing found by our own search says more than TetGen, which tends to crash then.
-std::string reason(const SurfaceMesh& solid, const std::string& finding) {
-    const CrossingPairs crossings = find_crossing_pairs(solid);
+/// Why TetGen has failed: a crossing found by our own search says more than TetGen, which tends to crash then. Where it
+/// is, the checks of the mesh tell; here the solid may be in coordinates of its own.
+std::string reason(const SurfaceMesh& solid, const std::string& finding, const Control& control) {
+    const CrossingPairs crossings = find_crossing_pairs(solid, CrossingSearch::all, control);
     if (crossings.pairs.empty()) return finding;
-    const TrianglePoints p = triangle_points(solid, crossings.pairs.front().first);
-    return "its surface intersects itself, " + counted(static_cast<int>(crossings.pairs.size()), "pair of triangles",
-                                                       "pairs of triangles", {(p.a + p.b + p.c) / 3.0});
+    return "its surface intersects itself, " +
+           counted(static_cast<int>(crossings.pairs.size()), "pair of triangles", "pairs of triangles", {});
 }
 
 TetMesh to_mesh(const TetgenResult& result, const SurfaceMesh& solid, const CanonicalFrame& frame) {
@@ -138,7 +138,7 @@ TetMesh tetrahedralize(const SurfaceMesh& solid, const std::string& name, const 
         if (finding.empty()) finding = result.failure;
     }
     control.checkpoint();
-    throw MeshError(message(name, reason(solid, finding)));
+    throw MeshError(message(name, reason(solid, finding, control)));
 }
 
 }  // namespace elastolab

@@ -64,7 +64,7 @@ Frame to_unit_size(SurfaceMesh& mesh) {
 class Settling {
 public:
     Settling(const SurfaceMesh& wrap, double offset, const SurfaceMesh& around, Control& control)
-        : wrap_(wrap), offset_(offset), moved_(wrap) {
+        : wrap_(wrap), offset_(offset), control_(control), moved_(wrap) {
         const SurfacePlaces places = closest_points(around, wrap.vertices, control);
         find_thin(control);
         for (int v = 0; v < wrap.n_vertices(); ++v)
@@ -98,7 +98,7 @@ private:
                 damaged.push_back(t);
         }
         if (damaged.empty())
-            for (const auto& [a, b] : find_crossing_pairs(moved_).pairs) damaged.insert(damaged.end(), {a, b});
+            for (const auto& [a, b] : find_crossing_pairs(moved_, CrossingSearch::all, control_).pairs) damaged.insert(damaged.end(), {a, b});
         for (const int t : damaged)
             for (const int v : wrap_.triangles.col(t)) moved_.vertices.col(v) = wrap_.vertices.col(v);
         return !damaged.empty();
@@ -106,11 +106,14 @@ private:
 
     const SurfaceMesh& wrap_;
     double offset_;
+    Control& control_;
     SurfaceMesh moved_;
     std::vector<bool> thin_;
 };
 
-bool is_usable(const SurfaceMesh& surface) { return check_and_repair(surface).report.usable_for_fem(); }
+bool is_usable(const SurfaceMesh& surface, Control& control) {
+    return check_and_repair(surface, control).report.usable_for_fem();
+}
 
 /// Whether every method could use the surface if its holes were closed.
 bool is_sound_but_for_holes(const MeshReport& report) {
@@ -124,7 +127,7 @@ bool is_sound_but_for_holes(const MeshReport& report) {
 std::optional<SurfaceMesh> collapsed(const SurfaceMesh& sound, int n_vertices, Control& control) {
     for (const double part : {1.0, 1.15, 0.9, 1.35, 1.6}) {
         WrapResult result = collapse_edges(sound, static_cast<int>(part * n_vertices), control);
-        if (result.failure.empty() && is_usable(result.surface)) return std::move(result.surface);
+        if (result.failure.empty() && is_usable(result.surface, control)) return std::move(result.surface);
     }
     return std::nullopt;
 }
@@ -143,7 +146,7 @@ ProxySurface wrapped_once(const SurfaceMesh& closed, int n_vertices, Control& co
     ProxySurface proxy{.surface = settling.settle(), .kind = ProxySurface::Kind::wrapped};
     proxy.thin_part = settling.thin_part();
     proxy.thickness = 2.0 * wrap.offset;
-    if (!is_usable(proxy.surface)) proxy.surface = std::move(wrap.surface);
+    if (!is_usable(proxy.surface, control)) proxy.surface = std::move(wrap.surface);
     return proxy;
 }
 
@@ -172,10 +175,10 @@ std::vector<ProxySurface> collapsed_to(const SurfaceMesh& sound, std::span<const
 }
 
 /// The surface itself, or its closed form, when every method can use it.
-std::optional<SurfaceMesh> sound_surface(const SurfaceMesh& closed, const MeshReport& report) {
+std::optional<SurfaceMesh> sound_surface(const SurfaceMesh& closed, const MeshReport& report, Control& control) {
     if (!is_sound_but_for_holes(report)) return std::nullopt;
     if (report.usable_for_fem()) return closed;
-    CheckedMesh checked = check_and_repair(closed);
+    CheckedMesh checked = check_and_repair(closed, control);
     if (!checked.report.usable_for_fem()) return std::nullopt;
     return std::move(checked.mesh);
 }
@@ -189,7 +192,7 @@ std::vector<ProxySurface> make_proxy_surfaces(const SurfaceMesh& shown, const Me
     const Frame frame = to_unit_size(triangles);
     const HoleCaps capped = cap_holes(triangles);
     std::vector<ProxySurface> proxies;
-    if (const auto sound = sound_surface(capped.closed, report)) proxies = collapsed_to(*sound, sizes, control);
+    if (const auto sound = sound_surface(capped.closed, report, control)) proxies = collapsed_to(*sound, sizes, control);
     if (proxies.empty()) proxies = wrapped(capped.closed, sizes, control);
     for (ProxySurface& proxy : proxies) {
         proxy.n_capped_holes = capped.n_holes;

@@ -1,6 +1,7 @@
 #include "scene/live/live_scene.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 namespace elastolab {
@@ -27,9 +28,12 @@ std::vector<int> without(std::span<const int> all, std::span<const int> some) {
 }  // namespace
 
 LiveScene::LiveScene(Document document, std::filesystem::path scene_file)
+    : LiveScene(std::move(document), std::move(scene_file), *std::make_unique<Control>()) {}
+
+LiveScene::LiveScene(Document document, std::filesystem::path scene_file, Control& control)
     : document_(std::move(document)),
       file_(std::move(scene_file)),
-      mesh_(load_scene_mesh(document_.mesh, file_)),
+      mesh_(load_scene_mesh(document_.mesh, file_, control)),
       history_(document_) {
     if (document_.proxy.use == ProxyUse::never)
         require_usable(mesh_.checked.report, mesh_.name, false);

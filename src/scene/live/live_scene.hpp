@@ -24,6 +24,8 @@ public:
     /// Loads the mesh. Throws MeshError or SceneError as the functions of scene/setup.hpp do; MeshError too when no
     /// method can simulate the mesh or a proxy of it.
     LiveScene(Document document, std::filesystem::path scene_file);
+    /// The same; throws Cancelled too.
+    LiveScene(Document document, std::filesystem::path scene_file, Control& control);
 
     const Document& document() const { return document_; }
     const std::filesystem::path& file() const { return file_; }  ///< where relative names of the document start

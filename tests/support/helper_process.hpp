@@ -1,0 +1,17 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <fstream>
+#include <string>
+
+namespace elastolab::test {
+
+/// Whether a helper program (mesh/input/helper_io.hpp) has begun: until then it is a copy of its caller, which waits
+/// for it. That it is the first to go when memory runs out is the last thing that it sets.
+inline bool helper_has_begun(pid_t helper) {
+    int score = 0;
+    return std::ifstream("/proc/" + std::to_string(helper) + "/oom_score_adj") >> score && score == 1000;
+}
+
+}  // namespace elastolab::test
