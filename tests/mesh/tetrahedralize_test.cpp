@@ -184,10 +184,13 @@ TEST(Tetrahedralize, NeedsFewerTetrahedraTheMoreTheyMayGrow) {
 }
 
 TEST(Tetrahedralize, GradesTheInsideTheMoreTheLargerTheSurface) {
-    EXPECT_EQ(default_growth(8), 0.1);
-    EXPECT_EQ(default_growth(1000), 0.1);
+    EXPECT_EQ(default_growth(8), 0.0);
+    EXPECT_EQ(default_growth(1000), 0.0);
     EXPECT_NEAR(default_growth(40000), 0.35, 0.01);
     EXPECT_LT(default_growth(10000), default_growth(20000));
+    const SurfaceMesh solid = make_box(15);  // 1352 vertices
+    EXPECT_LT(fill(solid).n_vertices(), fill(solid, {.growth = 0.0}).n_vertices());
+    EXPECT_EQ(fill(make_box(6)).vertices, fill(make_box(6), {.growth = 0.0}).vertices);
 }
 
 std::string failure(const SurfaceMesh& solid) {
