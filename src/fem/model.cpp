@@ -244,7 +244,8 @@ std::unique_ptr<ConstrainedSolid> FemModel::constrain_reduced(ConstrainedFemNode
 
 std::shared_ptr<const Interior> FemModel::interior(Control& control) const {
     control.checkpoint();
-    return std::make_shared<const FemInterior>(std::shared_ptr<const TetMesh>(mesh_, &mesh_->tets), system_->K);
+    return std::make_shared<const FemInterior>(std::shared_ptr<const TetMesh>(mesh_, &mesh_->tets), system_->K,
+                                               control);
 }
 
 void FemModel::visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const {
