@@ -114,14 +114,24 @@ TEST(SparseCholesky, StopsInTheMiddleAndTellsHowFarItIs) {
     Control whole;
     const SparseCholesky factor(body.analysis, A, "A", &whole);
     EXPECT_NEAR(whole.progress(), 1.0, 1e-9);
-    Control control;
-    std::thread watcher([&] {
-        while (control.progress() == 0.0) std::this_thread::yield();
-        control.cancel();
-    });
-    EXPECT_THROW(SparseCholesky(body.analysis, A, "A", &control), Cancelled);
-    watcher.join();
-    EXPECT_LT(control.progress(), 1.0);
+    // A busy machine may leave the watcher asleep until all is done: then once more.
+    bool stopped = false;
+    for (int attempt = 0; attempt < 50 && !stopped; ++attempt) {
+        Control control;
+        std::thread watcher([&] {
+            while (control.progress() == 0.0) std::this_thread::yield();
+            control.cancel();
+        });
+        try {
+            const SparseCholesky unwanted(body.analysis, A, "A", &control);
+        } catch (const Cancelled&) {
+            stopped = true;
+            EXPECT_GT(control.progress(), 0.0);
+            EXPECT_LT(control.progress(), 1.0);
+        }
+        watcher.join();
+    }
+    EXPECT_TRUE(stopped);
 }
 
 TEST(SparseCholesky, CountsItsMemory) {
