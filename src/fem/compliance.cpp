@@ -40,14 +40,14 @@ SurfaceCompliance::SurfaceCompliance(const SparseMatrix& K, const CholeskyAnalys
                                      const Positions& positions, int n_surface, std::span<const int> base,
                                      Control& control)
     : SurfaceCompliance(n_surface, base, positions,
-                        SparseCholesky(analysis, held(K, positions, n_surface, base), "stiffness matrix")) {
+                        SparseCholesky(analysis, held(K, positions, n_surface, base), "stiffness matrix", &control)) {
     control.checkpoint();
 }
 
 SurfaceCompliance SurfaceCompliance::supported_at(const StaticSupport& support, const SparseMatrix& K,
                                                   const CholeskyAnalysis& analysis, const Positions& positions,
                                                   int n_surface, Control& control) {
-    SparseCholesky factor(analysis, grounded(K, positions, support), "stiffness matrix");
+    SparseCholesky factor(analysis, grounded(K, positions, support), "stiffness matrix", &control);
     control.checkpoint();
     return {n_surface, {}, positions, std::move(factor)};
 }

@@ -25,7 +25,7 @@ Eigen::MatrixXd condense_to_surface(const SparseMatrix& K, int n_surface, Contro
     if (n_i == 0) return S;
     const SparseMatrix K_ii = submatrix(K, n_s, n_i, n_s, n_i);
     const CholeskyAnalysis analysis(K_ii);
-    const SparseCholesky factor(analysis, K_ii, "stiffness matrix of the interior");
+    const SparseCholesky factor(analysis, K_ii, "stiffness matrix of the interior", &control);
     control.checkpoint();
     subtract_compressed_inverse(factor, submatrix(K, n_s, n_i, 0, n_s), S, control);
     S.triangularView<Eigen::StrictlyUpper>() = S.transpose();

@@ -4,7 +4,7 @@
 
 namespace elastolab {
 
-/// The number of tetrahedra is estimated from the volume and the mean edge length of the surface.
+/// Nodes are estimated from the surface (mesh/tets/node_estimate.hpp), the factor from their number and the shape.
 Cost predict_linear_fem(const SurfaceMesh& surface, const Method& method);
 Cost predict_quadratic_fem(const SurfaceMesh& surface, const Method& method);
 

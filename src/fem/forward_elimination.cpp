@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <Eigen/Dense>
+#include <iterator>
 #include <vector>
 
 namespace elastolab {

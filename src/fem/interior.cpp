@@ -18,18 +18,18 @@ SparseMatrix block(const SparseMatrix& K, Eigen::Index column, Eigen::Index n_co
     return result;
 }
 
-SparseCholesky factorised(const SparseMatrix& K_ii) {
-    return SparseCholesky(CholeskyAnalysis(K_ii), K_ii, "stiffness matrix of the interior nodes");
+SparseCholesky factorised(const SparseMatrix& K_ii, Control& control) {
+    return SparseCholesky(CholeskyAnalysis(K_ii), K_ii, "stiffness matrix of the interior nodes", &control);
 }
 
 }  // namespace
 
-FemInterior::FemInterior(std::shared_ptr<const TetMesh> tets, const SparseMatrix& K)
+FemInterior::FemInterior(std::shared_ptr<const TetMesh> tets, const SparseMatrix& K, Control& control)
     : tets_(std::move(tets)),
       n_all_(K.rows()),
       n_surface_(3 * tets_->n_surface_vertices),
       to_surface_(block(K, 0, n_surface_, n_surface_)) {
-    if (n_all_ > n_surface_) factor_ = factorised(block(K, n_surface_, n_all_ - n_surface_, n_surface_));
+    if (n_all_ > n_surface_) factor_ = factorised(block(K, n_surface_, n_all_ - n_surface_, n_surface_), control);
 }
 
 Eigen::VectorXd FemInterior::extend(const Eigen::VectorXd& surface) const {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "base/control.hpp"
 #include "deform/interior.hpp"
 #include "fem/sparse_cholesky.hpp"
 #include "fem/sparse_matrix.hpp"
@@ -13,8 +14,8 @@ namespace elastolab {
 /// K_ii u_i = -K_is u_s, interior nodes free of load. One factorisation, then a solve for each shape of the surface.
 class FemInterior : public Interior {
 public:
-    /// K: 3n x 3n over the nodes of `tets`, both triangles. Throws SolveError.
-    FemInterior(std::shared_ptr<const TetMesh> tets, const SparseMatrix& K);
+    /// K: 3n x 3n over the nodes of `tets`, both triangles. Throws SolveError, Cancelled.
+    FemInterior(std::shared_ptr<const TetMesh> tets, const SparseMatrix& K, Control& control);
     const TetMesh& tetrahedra() const override { return *tets_; }
     Eigen::VectorXd extend(const Eigen::VectorXd& surface) const override;
 

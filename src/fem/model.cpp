@@ -161,9 +161,9 @@ std::uint64_t FemModel::constrain_memory(std::span<const int> base, std::span<co
     }
     if (operators_) return 8 * (6 + constrained) * (6 + constrained + surface);
     const Elimination elimination = method_.update == Update::reduced ? cheapest_elimination(nodes) : Elimination::all;
-    // Beside the factor: K with what is eliminated, and CHOLMOD's permuted triangles.
+    // Beside the factor: K with what is eliminated.
     const std::uint64_t factorisation =
-        mesh_->analysis->factor_bytes() + 28 * static_cast<std::uint64_t>(system_->K.nonZeros());
+        mesh_->analysis->factor_bytes() + 12 * static_cast<std::uint64_t>(system_->K.nonZeros());
     if (elimination == Elimination::all) return factorisation;
     const std::span<const int> all = nodes.prescribed.nodes;
     const std::span<const int> eliminated = elimination == Elimination::base ? nodes.base() : std::span<const int>();
@@ -244,7 +244,8 @@ std::unique_ptr<ConstrainedSolid> FemModel::constrain_reduced(ConstrainedFemNode
 
 std::shared_ptr<const Interior> FemModel::interior(Control& control) const {
     control.checkpoint();
-    return std::make_shared<const FemInterior>(std::shared_ptr<const TetMesh>(mesh_, &mesh_->tets), system_->K);
+    return std::make_shared<const FemInterior>(std::shared_ptr<const TetMesh>(mesh_, &mesh_->tets), system_->K,
+                                               control);
 }
 
 void FemModel::visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const {

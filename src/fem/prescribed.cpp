@@ -11,7 +11,7 @@ PrescribedSolution solve_prescribed(const SparseMatrix& K, const CholeskyAnalysi
     assert(values.rows() == 3 * std::ssize(nodes));
     constexpr Eigen::Index kBlock = 128;
     control.checkpoint();
-    const SparseCholesky factor(analysis, eliminated(K, nodes), "stiffness matrix of the free nodes");
+    const SparseCholesky factor(analysis, eliminated(K, nodes), "stiffness matrix of the free nodes", &control);
     PrescribedSolution solution;
     solution.reciprocal_condition = factor.reciprocal_condition();
     solution.displacements.setZero(K.rows(), values.cols());

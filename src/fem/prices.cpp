@@ -8,11 +8,11 @@ namespace elastolab {
 
 namespace {
 
-/// Time of a flop in units of one of the factorisation, which does many small ones; a dense block and an LU do large
-/// ones, a substitution waits for memory.
-constexpr double kBlock = 0.5, kLu = 0.5, kSubstitution = 2.0;
+/// Time of a flop in units of one of the factorisation: the block's and the LU's are alike, a substitution waits for
+/// memory.
+constexpr double kBlock = 1.0, kLu = 1.0, kSubstitution = 4.0;
 /// What a factorisation spends on copying and adding up, in flops for an entry of the factor.
-constexpr double kEntry = 200.0;
+constexpr double kEntry = 300.0;
 
 }  // namespace
 

@@ -25,6 +25,6 @@ BlockPrice block_price(const SupernodalView& pattern, std::span<const int> nodes
 /// Columns are computed and kept where this is what they cost at most: then a solve is a product with them, of no
 /// account, and the next set finds those of its vertices that the last one had. Dearer ones are not: the block between
 /// the vertices and one substitution for each solve cost less.
-inline constexpr double kColumnsWorthKeeping = 2e8;
+inline constexpr double kColumnsWorthKeeping = 1e9;
 
 }  // namespace elastolab

@@ -161,7 +161,7 @@ SparseDirectSolver::SparseDirectSolver(std::shared_ptr<const FemSystem> system, 
                                        Control& control)
     : system_(std::move(system)),
       vertices_(std::move(vertices)),
-      factor_(*system_->mesh->analysis, eliminated_held(*system_, vertices_), "stiffness matrix") {
+      factor_(*system_->mesh->analysis, eliminated_held(*system_, vertices_), "stiffness matrix", &control) {
     control.checkpoint();
     condition_ = 1.0 / factor_.reciprocal_condition();
 }

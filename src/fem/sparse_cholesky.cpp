@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "fem/supernodal.hpp"
 
 namespace elastolab {
 
@@ -38,8 +39,6 @@ public:
             throw SolveError(name + ": not enough memory for its sparse factor. Use a coarser mesh.");
         if (common_.status == CHOLMOD_TOO_LARGE)
             throw SolveError(name + ": its sparse factor exceeds 2^31 entries. Use a coarser mesh.");
-        if (common_.status == CHOLMOD_NOT_POSDEF)
-            throw SolveError(name + ": is not positive definite. Check the mesh for degenerate tetrahedra.");
         if (common_.status < 0)
             throw SolveError(name + ": sparse factorisation failed (CHOLMOD status " + std::to_string(common_.status) +
                              ").");
@@ -172,7 +171,8 @@ struct SparseCholesky::Impl {
     std::string name;
 };
 
-SparseCholesky::SparseCholesky(const CholeskyAnalysis& analysis, const SparseMatrix& A, std::string name) {
+SparseCholesky::SparseCholesky(const CholeskyAnalysis& analysis, const SparseMatrix& A, std::string name,
+                               Control* control) {
     assert(A.rows() == analysis.size());
     const Eigen::VectorXd sums = A.cwiseAbs().transpose() * Eigen::VectorXd::Ones(A.rows());
     if (!sums.allFinite())  // the largest of them says nothing: a maximum may pass over NaN
@@ -181,9 +181,12 @@ SparseCholesky::SparseCholesky(const CholeskyAnalysis& analysis, const SparseMat
     Common common;
     FactorPtr factor(cholmod_copy_factor(analysis.impl_->factor.get(), common));
     common.check(name);
-    cholmod_sparse view = sparse_view(A);
-    cholmod_factorize(&view, factor.get(), common);
+    // Supernodal and numeric: makes room for the values and no more.
+    cholmod_change_factor(CHOLMOD_REAL, 1, 1, 1, 1, factor.get(), common);
     common.check(name);
+    Control unwatched;
+    factorise_supernodes(view_of(*factor), A, static_cast<double*>(factor->x), name, control ? *control : unwatched);
+    factor->minor = factor->n;
     impl_ = std::make_unique<const Impl>(Impl{std::move(factor), analysis.factor_bytes(), norm, std::move(name)});
 }
 

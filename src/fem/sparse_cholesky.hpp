@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "base/control.hpp"
 #include "fem/sparse_matrix.hpp"
 
 namespace elastolab {
@@ -45,13 +46,15 @@ private:
     std::unique_ptr<const Impl> impl_;
 };
 
-/// Cholesky factor of a sparse symmetric positive definite matrix (CHOLMOD, supernodal). Immutable; any thread may
-/// solve, also at the same time: each call has a workspace of its own.
+/// Cholesky factor of a sparse symmetric positive definite matrix (supernodal; CHOLMOD's analysis and solves).
+/// Immutable; any thread may solve, also at the same time: each call has a workspace of its own.
 class SparseCholesky {
 public:
     /// Factorises A, which has the pattern given to `analysis`; only its lower triangle is read.
-    /// Throws SolveError, naming `name`, when A is not positive definite, not finite, or memory runs out.
-    SparseCholesky(const CholeskyAnalysis& analysis, const SparseMatrix& A, std::string name);
+    /// Throws SolveError, naming `name`, when A is not positive definite, not finite, or memory runs out; Cancelled,
+    /// where a control is given, within a fraction of a second; it is told the progress.
+    SparseCholesky(const CholeskyAnalysis& analysis, const SparseMatrix& A, std::string name,
+                   Control* control = nullptr);
     ~SparseCholesky();
     SparseCholesky(SparseCholesky&&) noexcept;
     SparseCholesky& operator=(SparseCholesky&&) noexcept;

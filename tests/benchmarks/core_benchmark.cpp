@@ -4,14 +4,18 @@
 //   build/release/tests/benchmarks/core_benchmark
 
 #include <benchmark/benchmark.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
 #include <functional>
 #include <numeric>
 #include <random>
 
 #include "base/blas.hpp"
 #include "base/lapack.hpp"
+#include "base/memory.hpp"
 #include "bem/assembly.hpp"
 #include "bem/traction_space.hpp"
 #include "deform/deformer.hpp"
@@ -19,6 +23,9 @@
 #include "fem/assembly.hpp"
 #include "fem/compliance.hpp"
 #include "fem/constraints.hpp"
+#include "mesh/checks/check.hpp"
+#include "mesh/input/export.hpp"
+#include "mesh/input/import.hpp"
 #include "mesh/primitives.hpp"
 #include "mesh/tets/tetrahedralize.hpp"
 #include "methods/problem.hpp"
@@ -249,6 +256,117 @@ void fem_beside_its_factorisation(benchmark::State& state) {
     state.counters["degrees_of_freedom"] = static_cast<double>(K.rows());
 }
 
+/// A round body of 4 cells^2 + 2 vertices with bumps, as an OBJ file.
+class LumpFile {
+public:
+    explicit LumpFile(int cells) {
+        SurfaceMesh mesh = make_sphere(cells);
+        for (auto p : mesh.vertices.colwise())
+            p *= 1.0 + 0.25 * std::sin(3.0 * p[0]) * std::cos(4.0 * p[1] + 1.0) +
+                 0.15 * std::sin(5.0 * p[2] + 2.0 * p[0]);
+        save_surface(file_, mesh);
+    }
+    ~LumpFile() { std::filesystem::remove(file_); }
+    LumpFile(const LumpFile&) = delete;
+    LumpFile& operator=(const LumpFile&) = delete;
+
+    SurfaceMesh read() const {
+        CheckedMesh checked = check_and_repair(load_surface(file_));
+        require_usable(checked.report, file_.filename(), true);
+        return std::move(checked.mesh);
+    }
+
+private:
+    std::filesystem::path file_ =
+        std::filesystem::temp_directory_path() / ("core_benchmark_" + std::to_string(::getpid()) + ".obj");
+};
+
+/// The lowest part of a body, and the vertices nearest to the outermost one along an axis.
+std::vector<int> lowest(const SurfaceMesh& mesh, double share) {
+    const double low = mesh.vertices.row(1).minCoeff(), high = mesh.vertices.row(1).maxCoeff();
+    return vertices_where(mesh, [&](const auto& x) { return x[1] < low + share * (high - low); });
+}
+std::vector<int> tip(const SurfaceMesh& mesh, const Eigen::Vector3d& axis, int n) {
+    Eigen::Index outermost = 0;
+    (axis.transpose() * mesh.vertices).maxCoeff(&outermost);
+    std::vector<int> vertices(static_cast<std::size_t>(mesh.n_vertices()));
+    std::iota(vertices.begin(), vertices.end(), 0);
+    const auto distance = [&](int v) { return (mesh.vertices.col(v) - mesh.vertices.col(outermost)).norm(); };
+    std::partial_sort(vertices.begin(), vertices.begin() + n, vertices.end(),
+                      [&](int a, int b) { return distance(a) < distance(b); });
+    vertices.resize(static_cast<std::size_t>(n));
+    return vertices;
+}
+
+DragResponse drag(Deformer& deformer, const ConstrainedSet& set) {
+    Control control;
+    deformer.constrain(set, control);
+    const std::ptrdiff_t n = std::ssize(set.handles);
+    return deformer.drag_response(Eigen::VectorXd::Zero(3 * n), Eigen::MatrixXd::Identity(3, 3).replicate(n, 1));
+}
+
+/// Linear FEM from a file to the columns of a drag, base and handle included, beside TetGen, ordering and factorisation
+/// of the same body. `memory_over_factor`: what the process has taken at most, over the factor; 2.5 is wanted.
+void fem_from_file_to_drag_beside_its_parts(benchmark::State& state) {
+    const LumpFile file(static_cast<int>(state.range(0)));
+    const SurfaceMesh mesh = file.read();
+    const ConstrainedSet set{lowest(mesh, 0.08), tip(mesh, Eigen::Vector3d::UnitX(), 30)};
+    const std::uint64_t before = peak_memory_bytes();
+    Control control;
+    const auto work = [&] {
+        Deformer deformer(precomputed(make_body(file.read()), make_method(kFem)));
+        benchmark::DoNotOptimize(drag(deformer, set));
+    };
+    work();  // before the parts, whose memory is not to count
+    const std::uint64_t peak = peak_memory_bytes();
+    std::uint64_t factor = 0;
+    compare(state, 1.5, work, [&] {
+        const TetMesh tets = tetrahedralize(mesh, "lump", {}, control);
+        const SparseMatrix K = stiffness(assemble_stiffness_parts(tets, control), Material{1.0, 0.3});
+        const CholeskyAnalysis analysis(K);
+        benchmark::DoNotOptimize(SparseCholesky(analysis, eliminated(K, set.base), "stiffness"));
+        factor = analysis.factor_bytes();
+    });
+    state.counters["vertices"] = mesh.n_vertices();
+    state.counters["memory_over_factor"] = static_cast<double>(peak - before) / static_cast<double>(factor);
+}
+
+/// A new handle on a kept base by linear FEM, until it can be dragged, beside the cheaper of its two old prices: the
+/// set eliminated in a factorisation of its own; or the columns of the handle's vertices, and their dense system.
+void fem_changed_handle_beside_the_cheaper_price(benchmark::State& state) {
+    Control control;
+    const SurfaceMesh mesh = LumpFile(static_cast<int>(state.range(0))).read();
+    const ConstrainedSet first{lowest(mesh, 0.08), tip(mesh, Eigen::Vector3d::UnitX(), 30)};
+    ConstrainedSet next{first.base, tip(mesh, -Eigen::Vector3d::UnitX(), static_cast<int>(state.range(1)))};
+    std::erase_if(next.handles,
+                  [&](int v) { return std::find(first.base.begin(), first.base.end(), v) != first.base.end(); });
+    const std::shared_ptr<const Model> model = precomputed(make_body(mesh), make_method(kFem));
+    Deformer deformer(model);
+    benchmark::DoNotOptimize(drag(deformer, first));
+
+    const TetMesh tets = tetrahedralize(mesh, "lump", {}, control);
+    const SparseMatrix K = stiffness(assemble_stiffness_parts(tets, control), Material{1.0, 0.3});
+    const CholeskyAnalysis analysis(K);
+    const SurfaceCompliance held(K, analysis, tets.vertices, tets.n_surface_vertices, first.base, control);
+    std::vector<int> all = next.base;
+    all.insert(all.end(), next.handles.begin(), next.handles.end());
+    const Eigen::Index n = 3 * std::ssize(next.handles);
+    const auto eliminate = [&] {
+        const SparseCholesky factor(analysis, eliminated(K, all), "stiffness");
+        benchmark::DoNotOptimize(factor.solve(Eigen::MatrixXd::Ones(K.rows(), 4)));
+    };
+    const auto respond = [&] {
+        benchmark::DoNotOptimize(held.columns(next.handles, control));
+        LuFactorization(Eigen::MatrixXd::Random(n, n), "small system");
+    };
+    const bool eliminating_is_cheaper = seconds_of(eliminate) < seconds_of(respond);
+    compare(
+        state, 1.3, [&] { benchmark::DoNotOptimize(drag(deformer, next)); },
+        eliminating_is_cheaper ? std::function<void()>(eliminate) : respond);
+    state.counters["vertices"] = mesh.n_vertices();
+    state.counters["factorise"] = eliminating_is_cheaper ? 1.0 : 0.0;
+}
+
 void drag_frame_beside_a_copy_of_its_columns(benchmark::State& state) {
     const SurfaceMesh mesh = make_box(static_cast<int>(state.range(1)));
     const Method method = make_method(all_methods()[static_cast<std::size_t>(state.range(0))], Tractions::restricted);
@@ -297,10 +415,7 @@ BENCHMARK(set_change_of_patches_beside_its_lapack_calls)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(set_change_with_known_columns)->UseManualTime()->Iterations(9)->Unit(benchmark::kMillisecond);
 BENCHMARK(constant_bem_precomputation_beside_its_lu)->UseManualTime()->Iterations(3)->Unit(benchmark::kMillisecond);
-BENCHMARK(precomputation_of_galerkin_bem_beside_that_lu)
-    ->UseManualTime()
-    ->Iterations(9)
-    ->Unit(benchmark::kMillisecond);
+BENCHMARK(precomputation_of_galerkin_bem_beside_that_lu)->UseManualTime()->Iterations(9)->Unit(benchmark::kMillisecond);
 BENCHMARK(single_solve_beside_the_lu_of_linear_bem)
     ->ArgName("method")
     ->DenseRange(0, 2)
@@ -312,6 +427,19 @@ BENCHMARK(fem_beside_its_factorisation)
     ->DenseRange(0, 2)
     ->UseManualTime()
     ->Iterations(9)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(fem_from_file_to_drag_beside_its_parts)
+    ->ArgName("cells")
+    ->Arg(35)
+    ->Arg(100)  // 40 002 vertices
+    ->UseManualTime()
+    ->Iterations(3)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(fem_changed_handle_beside_the_cheaper_price)
+    ->ArgNames({"cells", "handle"})
+    ->ArgsProduct({{35, 100}, {30, 300}})
+    ->UseManualTime()
+    ->Iterations(3)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(drag_frame_beside_a_copy_of_its_columns)
     ->ArgNames({"method", "cells"})

@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <Eigen/Dense>
 #include <limits>
 #include <string>
+#include <thread>
 
+#include "base/blas.hpp"
 #include "base/error.hpp"
 #include "fem/constraints.hpp"
 #include "fem/fem_body.hpp"
@@ -79,6 +82,74 @@ TEST(SparseCholesky, RefusesAnEntryThatIsNotFiniteWhereverItIs) {
                 EXPECT_NE(std::string(error.what()).find("not finite"), std::string::npos) << i << error.what();
             }
         }
+}
+
+TEST(SparseCholesky, EqualsTheDenseFactor) {
+    // Large enough for several parts of the elimination tree, and for supernodes of more than one panel.
+    const FemBody body({14, 12, 12});
+    const SparseMatrix A = eliminated(body.K, body.face(0, 0.0));
+    const SparseCholesky factor(body.analysis, A, "A");
+    const SupernodalView L = factor.view();
+    int widest = 0;
+    for (int s = 0; s < L.n_supernodes(); ++s)
+        widest = std::max(widest, L.super[static_cast<std::size_t>(s) + 1] - L.super[static_cast<std::size_t>(s)]);
+    EXPECT_GT(widest, 192);
+    // P A P^T x = L L^T x, by the entries of L.
+    const Eigen::Index n = A.rows();
+    Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(n, n);
+    for (int s = 0; s < L.n_supernodes(); ++s) {
+        const auto i = static_cast<std::size_t>(s);
+        const int columns = L.super[i + 1] - L.super[i], rows = L.first_row[i + 1] - L.first_row[i];
+        for (int c = 0; c < columns; ++c)
+            for (int r = c; r < rows; ++r)
+                dense(L.rows[static_cast<std::size_t>(L.first_row[i] + r)], L.super[i] + c) =
+                    L.values[L.first_value[i] + r + static_cast<std::ptrdiff_t>(c) * rows];
+    }
+    const Eigen::VectorXd x = Eigen::VectorXd::Random(n);
+    Eigen::VectorXd permuted(n), expected(n);
+    for (Eigen::Index i = 0; i < n; ++i) permuted[i] = x[L.permutation[static_cast<std::size_t>(i)]];
+    const Eigen::VectorXd Ax = A * x;
+    for (Eigen::Index i = 0; i < n; ++i) expected[i] = Ax[L.permutation[static_cast<std::size_t>(i)]];
+    EXPECT_LT(relative_error(dense * (dense.transpose() * permuted), expected), 1e-13);
+}
+
+TEST(SparseCholesky, DoesNotDependOnTheNumberOfThreads) {
+    const FemBody body({8, 7, 6});
+    const SparseMatrix A = eliminated(body.K, body.face(0, 0.0));
+    const Eigen::VectorXd b = Eigen::VectorXd::Ones(A.rows());
+    const int before = thread_count();
+    set_thread_count(1);
+    const Eigen::MatrixXd one = SparseCholesky(body.analysis, A, "A").solve(b);
+    set_thread_count(3);
+    const Eigen::MatrixXd three = SparseCholesky(body.analysis, A, "A").solve(b);
+    set_thread_count(before);
+    EXPECT_LT(relative_error(three, one), 1e-13);
+}
+
+TEST(SparseCholesky, StopsInTheMiddleAndTellsHowFarItIs) {
+    const FemBody body({16, 14, 14});
+    const SparseMatrix A = eliminated(body.K, body.face(0, 0.0));
+    Control whole;
+    const SparseCholesky factor(body.analysis, A, "A", &whole);
+    EXPECT_NEAR(whole.progress(), 1.0, 1e-9);
+    // A busy machine may leave the watcher asleep until all is done: then once more.
+    bool stopped = false;
+    for (int attempt = 0; attempt < 50 && !stopped; ++attempt) {
+        Control control;
+        std::thread watcher([&] {
+            while (control.progress() == 0.0) std::this_thread::yield();
+            control.cancel();
+        });
+        try {
+            const SparseCholesky unwanted(body.analysis, A, "A", &control);
+        } catch (const Cancelled&) {
+            stopped = true;
+            EXPECT_GT(control.progress(), 0.0);
+            EXPECT_LT(control.progress(), 1.0);
+        }
+        watcher.join();
+    }
+    EXPECT_TRUE(stopped);
 }
 
 TEST(SparseCholesky, CountsItsMemory) {

@@ -14,6 +14,7 @@
 #include "mesh/measures.hpp"
 #include "mesh/meshes.hpp"
 #include "mesh/primitives.hpp"
+#include "mesh/tets/node_estimate.hpp"
 #include "mesh/tets/tet_quality.hpp"
 #include "mesh/topology.hpp"
 
@@ -184,10 +185,24 @@ TEST(Tetrahedralize, NeedsFewerTetrahedraTheMoreTheyMayGrow) {
 }
 
 TEST(Tetrahedralize, GradesTheInsideTheMoreTheLargerTheSurface) {
-    EXPECT_EQ(default_growth(8), 0.1);
-    EXPECT_EQ(default_growth(1000), 0.1);
+    EXPECT_EQ(default_growth(8), 0.0);
+    EXPECT_EQ(default_growth(1000), 0.0);
     EXPECT_NEAR(default_growth(40000), 0.35, 0.01);
     EXPECT_LT(default_growth(10000), default_growth(20000));
+    const SurfaceMesh solid = make_box(15);  // 1352 vertices
+    EXPECT_LT(fill(solid).n_vertices(), fill(solid, {.growth = 0.0}).n_vertices());
+    EXPECT_EQ(fill(make_box(6)).vertices, fill(make_box(6), {.growth = 0.0}).vertices);
+}
+
+TEST(Tetrahedralize, ItsNodesAreEstimatedFromTheSurface) {
+    const Eigen::Vector3d far(1e5, -2e5, 3e4);
+    const SurfaceMesh flat = make_box(6, Eigen::Vector3d(9, 9, 1));
+    for (const SurfaceMesh& solid : {make_box(13), make_box(8, {6, 1, 1}), flat, make_lumpy_ball(20),
+                                     make_hollow_sphere(12), make_torus(12), moved(make_lumpy_ball(12), far)}) {
+        const double nodes = fill(solid).n_vertices(), estimate = estimated_tet_nodes(solid);
+        EXPECT_LT(std::abs(estimate / nodes - 1.0), 0.15) << solid.n_vertices() << ": " << estimate << " " << nodes;
+    }
+    EXPECT_EQ(estimated_tet_nodes({}), 0.0);
 }
 
 std::string failure(const SurfaceMesh& solid) {

@@ -3,12 +3,14 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <fstream>
 #include <numeric>
 #include <string>
 
 #include "base/error.hpp"
 #include "base/memory.hpp"
+#include "findings/cost.hpp"
 #include "mesh/primitives.hpp"
 #include "methods/problem.hpp"
 #include "methods/registry.hpp"
@@ -130,6 +132,49 @@ public:
 private:
     rlimit before_{};
 };
+
+/// A held end and a handle at the other.
+ConstrainedSet two_ends(const SurfaceMesh& mesh, double share) {
+    const Eigen::Vector3d low = mesh.vertices.rowwise().minCoeff(), high = mesh.vertices.rowwise().maxCoeff();
+    return {patch(mesh, 0.05, low), patch(mesh, share, high)};
+}
+
+TEST(Memory, OfFemIsPredictedFromTheSurfaceToTheFirstSetAndForLaterOnes) {
+#ifdef ELASTOLAB_TEST_SANITIZED
+    GTEST_SKIP() << "a sanitizer has memory of its own";
+#endif
+    SurfaceMesh lump = make_sphere(24);  // 2306 vertices
+    lump.vertices.row(0) *= 1.6;
+    lump.vertices.row(2) += 0.3 * lump.vertices.row(0).array().square().matrix();
+    struct Case {
+        MethodKind kind;
+        SurfaceMesh mesh;
+        double share;  // of the vertices, pulled
+    };
+    for (const Case& c : {Case{kFem, lump, 0.02}, Case{kFem, make_box(24), 0.4},
+                          Case{kFem, make_box(5, {9, 9, 1}), 0.02}, Case{kQuadraticFem, make_sphere(12), 0.05}}) {
+        SCOPED_TRACE(testing::Message() << c.kind->name << ", " << c.mesh.n_vertices() << " vertices");
+        const Body body = make_body(c.mesh);
+        const ConstrainedSet set = two_ends(c.mesh, c.share);
+        const auto predicted = static_cast<double>(predict_cost(c.mesh, make_method(c.kind)).memory_bytes);
+        constexpr double kSmall = 10e6;  // of the allocator, and of the threads
+        ASSERT_TRUE(reset_peak());
+        double before = memory_of_process("VmRSS");
+        Control control;
+        Deformer deformer(precomputed(body, make_method(c.kind)));
+        const double held = memory_of_process("VmRSS");
+        const auto of_set = static_cast<double>(deformer.predict_memory(set));
+        deformer.constrain(set, control);
+        deformer.displace(Eigen::VectorXd::Zero(3 * std::ssize(set.handles)));
+        const double peak = memory_of_process("VmHWM");
+        std::printf("[ measured ] %d vertices: %.0f MB, predicted %.0f; the set %.0f, predicted %.0f\n",
+                    c.mesh.n_vertices(), 1e-6 * (peak - before), 1e-6 * predicted, 1e-6 * (peak - held), 1e-6 * of_set);
+        EXPECT_LT(predicted, 1.3 * (peak - before) + kSmall);
+        EXPECT_GT(predicted, (peak - before) / 1.3 - kSmall);
+        EXPECT_LT(of_set, 1.3 * (peak - held) + kSmall);
+        EXPECT_GT(of_set, (peak - held) / 1.3 - kSmall);
+    }
+}
 
 TEST(Memory, ThatASetWouldLackIsSaidBeforeItIsComputedAndThePreviousSetStays) {
     const SurfaceMesh mesh = make_box(8);

@@ -114,7 +114,7 @@ TetMesh to_mesh(const TetgenResult& result, const SurfaceMesh& solid, const Cano
 
 }  // namespace
 
-double default_growth(int n_vertices) { return 0.1 * std::pow(std::max(n_vertices, 1000) / 1000.0, 0.34); }
+double default_growth(int n_vertices) { return 0.35 * std::log(std::max(n_vertices, 1000) / 1000.0) / std::log(40.0); }
 
 TetMesh tetrahedralize(const SurfaceMesh& solid, const std::string& name, const TetOptions& options, Control& control) {
     std::string finding = obstacle(solid);

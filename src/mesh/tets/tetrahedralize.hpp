@@ -22,8 +22,8 @@ struct TetOptions {
     std::optional<double> growth = {};
 };
 
-/// Growth for a surface of so many vertices: 0.1 up to 1000, then more and more, 0.35 at 40 000, where uniform
-/// tetrahedra would be four times as many. docs/formulation.md section 10 has the measurements.
+/// Growth for a surface of so many vertices: none up to 1000, which are cheap, then with the logarithm, 0.35 at 40 000,
+/// where uniform tetrahedra would be four times as many. docs/formulation.md section 10 has the measurements.
 double default_growth(int n_vertices);
 
 /// Fills one solid (an outer surface and its cavities) with tetrahedra. The surface's vertices and triangles are kept

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+#include "base/control.hpp"
+#include "fem/sparse_cholesky.hpp"
+#include "fem/sparse_matrix.hpp"
+
+namespace elastolab {
+
+/// Numeric Cholesky factorisation by supernodes, left-looking: each takes over what those before it leave in its rows,
+/// as products of dense blocks. CHOLMOD's own can be neither stopped nor watched, and its threads are those of the BLAS
+/// alone; here parts of the elimination tree that do not see each other go to different threads, the rest to the BLAS.
+/// Neither the parts nor the order of sums depend on the number of threads.
+/// pattern  where entries go; its values are not looked at
+/// A        its lower triangle is read
+/// values   room for all entries of the factor; the result
+/// Throws SolveError, naming `name`, when A is not positive definite; Cancelled within a block product.
+void factorise_supernodes(const SupernodalView& pattern, const SparseMatrix& A, double* values, const std::string& name,
+                          Control& control);
+
+}  // namespace elastolab
