@@ -76,10 +76,14 @@ std::string coarse_mesh(const Finding& finding) {
     const std::string begin = std::string(finding.method->name) + ": ";
     const std::string off = percent(finding.value) + " of the largest", place = place_of(finding);
     const std::string advice(finding.method->against_coarseness);
-    if (finding.method->shows_averages)
-        return begin + "near " + place + " displacements of neighbouring triangles differ by " + off + ". " + advice;
     return begin + "the mesh is too coarse near " + place + ": displacements there are off by about " + off + ". " +
            advice;
+}
+
+std::string coarse_forces(const Finding& finding) {
+    return std::string(finding.method->name) + ": the mesh is too coarse for forces: those that hold or move the " +
+           "body are off by about " + percent(finding.value) + " of the largest. " +
+           std::string(finding.method->against_coarseness);
 }
 
 std::string imbalance(const Finding& finding, const char* what) {
@@ -118,6 +122,8 @@ std::string words(const Finding& finding) {
             return std::string(kSingularThoughHeld) + " The smallest solution is taken.";
         case FindingKind::coarse_mesh:
             return coarse_mesh(finding);
+        case FindingKind::coarse_forces:
+            return coarse_forces(finding);
         case FindingKind::force_imbalance:
             return imbalance(finding, "forces");
         case FindingKind::moment_imbalance:

@@ -82,7 +82,10 @@ void apply(const Constraints& constraints, bool with_checks, Solution& solution,
         const Stage stage("check", control, solution.stages);
         Deformer::Answer answer;
         answer.check = deformer.discretisation_check(constraints.values, control);
-        if (answer.check) solution.error_estimate = answer.check->relative_error;
+        if (answer.check) {
+            solution.error_estimate = answer.check->relative_error;
+            solution.force_error_estimate = answer.check->relative_force_error;
+        }
         append(solution.findings, findings_of_answer(deformer, answer));
     }
     solution.condition_estimate =
