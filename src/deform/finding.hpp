@@ -28,6 +28,7 @@ enum class FindingKind {
     moment_imbalance,      ///< resultant of all reaction moments, over the largest
     nothing_constrained,   ///< no vertex of the scene `object` is fixed or moved
     choice_left_aside,     ///< the option `object` means nothing to the method
+    impossible_volume,     ///< change of volume over volume, of an incompressible solid that is held all over
     large_residual,        ///< relative residual of the solution
 };
 

@@ -132,6 +132,10 @@ std::string words(const Finding& finding) {
             return finding.object + ": no vertex is fixed or moved, so the body rests. Add a handle.";
         case FindingKind::choice_left_aside:
             return finding.object + ": only linear-bem has a choice of them; it was left aside.";
+        case FindingKind::impossible_volume:
+            return "constraints: hold the whole surface of an incompressible body and change its volume by " +
+                   percent(finding.value) +
+                   ", which no displacement inside does. Free some vertices, or choose a Poisson's ratio below 1/2.";
         case FindingKind::large_residual:
             return finding.object + ": the solution leaves a relative residual of " + readable_number(finding.value) +
                    ", so it is wrong. Fix more vertices, or use another method.";

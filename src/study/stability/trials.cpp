@@ -39,6 +39,7 @@ bool tells_of(const Finding& finding, Wrong what) {
         case FindingKind::weak_hold:
         case FindingKind::free_motion:
         case FindingKind::singular_though_held:
+        case FindingKind::impossible_volume:
         case FindingKind::large_residual:
             return true;
         case FindingKind::contact:
