@@ -80,6 +80,7 @@ void apply(const Constraints& constraints, bool with_checks, Solution& solution,
     }
     if (with_checks) {
         const Stage stage("check", control, solution.stages);
+        solution.predicted.memory_bytes += predict_check_memory(*solution.model, constraints.set);
         Deformer::Answer answer;
         answer.check = deformer.discretisation_check(constraints.values, control);
         if (answer.check) {
