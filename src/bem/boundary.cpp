@@ -50,14 +50,6 @@ Sources centroid_sources(const Boundary& boundary) {
     return sources;
 }
 
-Sources linear_centroid_sources(const Boundary& boundary) {
-    Sources sources = centroid_sources(boundary);
-    for (int t = 0; t < boundary.n_triangles(); ++t)
-        for (int corner = 0; corner < 3; ++corner)
-            sources.weights[as_size(t)][as_size(corner)] = {boundary.mesh().triangles(corner, t), 1.0 / 3.0};
-    return sources;
-}
-
 Sources interior_sources(const Boundary& boundary, std::span<const int> triangles) {
     Sources sources;
     sources.points.resize(3, 3 * static_cast<Eigen::Index>(triangles.size()));

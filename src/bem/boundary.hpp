@@ -47,8 +47,6 @@ struct Sources {
 Sources vertex_sources(const Boundary& boundary);
 /// Every triangle's centroid (constant elements).
 Sources centroid_sources(const Boundary& boundary);
-/// The same points, for linear elements.
-Sources linear_centroid_sources(const Boundary& boundary);
 /// Three interior points of each of these triangles, barycentric (2/3, 1/6, 1/6) and its turns: 3*triangles.size().
 Sources interior_sources(const Boundary& boundary, std::span<const int> triangles);
 

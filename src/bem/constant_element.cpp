@@ -2,7 +2,6 @@
 
 #include "bem/constant_constraints.hpp"
 #include "bem/element.hpp"
-#include "bem/error_estimate.hpp"
 
 namespace elastolab {
 
@@ -33,12 +32,6 @@ public:
     std::shared_ptr<const SparseRows> display(const SurfaceMesh& mesh,
                                               const VertexTriangles& triangles_of_vertex) const override {
         return std::make_shared<const SparseRows>(average_of_triangles(mesh, triangles_of_vertex));
-    }
-
-    Eigen::VectorXd error(const std::shared_ptr<const BemSystem>& system, const SparseRows* display,
-                          const TractionSpace&, const std::vector<int>&, const NodeSolver&,
-                          const NodeSolution& solution, Control&) const override {
-        return spread_around_vertices(*system, *display, solution);
     }
 };
 

@@ -7,11 +7,8 @@
 #include "bem/boundary.hpp"
 #include "bem/traction_space.hpp"
 #include "deform/constraint_map.hpp"
-#include "deform/node_solver.hpp"
 
 namespace elastolab {
-
-class BemSystem;
 
 /// A constrained set in terms of nodes and tractions.
 struct BemConstraints {
@@ -39,10 +36,6 @@ public:
     /// What takes displacements of nodes to those of vertices, 3*n_vertices x 3*n_nodes; null where they are the same.
     virtual std::shared_ptr<const SparseRows> display(const SurfaceMesh& mesh,
                                                       const VertexTriangles& triangles_of_vertex) const = 0;
-    /// Estimated error of the displacements of all vertices, 3*n_vertices [L]. display: as above.
-    virtual Eigen::VectorXd error(const std::shared_ptr<const BemSystem>& system, const SparseRows* display,
-                                  const TractionSpace& space, const std::vector<int>& nodes, const NodeSolver& solver,
-                                  const NodeSolution& solution, Control& control) const = 0;
 };
 
 /// A node at the centroid of each triangle, displacement and traction constant on it. A vertex is shown at the mean of

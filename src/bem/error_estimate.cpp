@@ -1,49 +1,125 @@
 #include "bem/error_estimate.hpp"
 
-#include "bem/source_strips.hpp"
+#include <algorithm>
+#include <cstdint>
+#include <Eigen/Geometry>
+#include <memory>
+#include <vector>
+
+#include "base/memory.hpp"
+#include "bem/galerkin/method.hpp"
+#include "bem/galerkin/solvers.hpp"
+#include "mesh/refine.hpp"
 
 namespace elastolab {
 
 namespace {
 
-/// Of the integrals: far below what an estimate within a factor of two needs.
-constexpr double kTolerance = 1e-4;
+/// Of the integrals: far below what an estimate needs.
+constexpr double kReferenceTolerance = 1e-5;
+/// Scalar unknowns above which the reference would take minutes.
+constexpr Eigen::Index kMostUnknowns = 20000;
+/// Error of Galerkin BEM over what halving the rims changes. The first order alone would make it 2; what other
+/// triangles contribute is partly of the other sign. tests/methods/discretisation_test.cpp measures it.
+constexpr double kShareOfRims = 1.4;
+
+/// The problem on a surface with finer rims. Its first vertices are those of the surface.
+struct RimProblem {
+    RefinedSurface surface;
+    std::vector<int> vertices;  ///< constrained
+    Eigen::VectorXd values;
+};
+
+std::vector<char> constrained_triangles(const SurfaceMesh& surface, const std::vector<int>& place) {
+    std::vector<char> inside;
+    for (const auto& t : surface.triangles.colwise())
+        inside.push_back(
+            std::all_of(t.begin(), t.end(), [&](int v) { return place[static_cast<std::size_t>(v)] >= 0; }) ? 1 : 0);
+    return inside;
+}
+
+/// Those around the rims, and around constrained vertices without a constrained triangle.
+std::vector<char> triangles_to_halve(const SurfaceMesh& surface, const std::vector<int>& place,
+                                     const std::vector<char>& inside) {
+    std::vector<char> marked = around_rim(unrefined(surface), inside);
+    std::vector<char> lone(place.size(), 0);
+    for (std::size_t v = 0; v < place.size(); ++v) lone[v] = place[v] >= 0 ? 1 : 0;
+    for (int t = 0; t < surface.n_triangles(); ++t)
+        for (const int v : surface.triangles.col(t))
+            if (inside[static_cast<std::size_t>(t)]) lone[static_cast<std::size_t>(v)] = 0;
+    for (int t = 0; t < surface.n_triangles(); ++t)
+        for (const int v : surface.triangles.col(t))
+            if (lone[static_cast<std::size_t>(v)]) marked[static_cast<std::size_t>(t)] = 1;
+    return marked;
+}
+
+RimProblem with_finer_rims(const SurfaceMesh& surface, std::span<const int> vertices, const Eigen::VectorXd& values) {
+    std::vector<int> place(static_cast<std::size_t>(surface.n_vertices()), -1);
+    Eigen::Matrix3Xd field = Eigen::Matrix3Xd::Zero(3, surface.n_vertices());
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        place[static_cast<std::size_t>(vertices[i])] = static_cast<int>(i);
+        field.col(vertices[i]) = values.segment<3>(3 * static_cast<Eigen::Index>(i));
+    }
+    const std::vector<char> inside = constrained_triangles(surface, place);
+    RimProblem problem{refine_marked(unrefined(surface), triangles_to_halve(surface, place, inside)), {}, {}};
+    const RefinedSurface& fine = problem.surface;
+    std::vector<char> is_constrained(static_cast<std::size_t>(fine.mesh.n_vertices()), 0);
+    for (const int v : vertices) is_constrained[static_cast<std::size_t>(v)] = 1;
+    for (int t = 0; t < fine.mesh.n_triangles(); ++t)
+        if (inside[static_cast<std::size_t>(fine.coarse_triangle[static_cast<std::size_t>(t)])])
+            for (const int v : fine.mesh.triangles.col(t)) is_constrained[static_cast<std::size_t>(v)] = 1;
+    for (int v = 0; v < fine.mesh.n_vertices(); ++v)
+        if (is_constrained[static_cast<std::size_t>(v)]) problem.vertices.push_back(v);
+    problem.values = fine.interpolate(field)(Eigen::all, problem.vertices).reshaped();
+    return problem;
+}
+
+/// Reactions of the fine problem at the constrained vertices of the coarse one.
+Reactions on_coarse_vertices(const RimProblem& problem, const Eigen::VectorXd& loads, std::span<const int> vertices) {
+    const SurfaceMesh& fine = problem.surface.mesh;
+    Eigen::Matrix3Xd forces = Eigen::Matrix3Xd::Zero(3, fine.n_vertices()), moments = forces;
+    for (std::size_t i = 0; i < problem.vertices.size(); ++i) {
+        const int v = problem.vertices[i];
+        forces.col(v) = loads.segment<3>(3 * static_cast<Eigen::Index>(i));
+        moments.col(v) = fine.vertices.col(v).cross(forces.col(v));
+    }
+    const std::vector<int> wanted(vertices.begin(), vertices.end());
+    return {problem.surface.gather(forces)(Eigen::all, wanted), problem.surface.gather(moments)(Eigen::all, wanted)};
+}
+
+bool affordable(Eigen::Index n_unknowns, Eigen::Index n_tractions) {
+    const auto n = static_cast<std::uint64_t>(n_unknowns), m = static_cast<std::uint64_t>(n_tractions);
+    return n_unknowns <= kMostUnknowns && 8 * (2 * n * n + 3 * n * m + m * m) < available_memory_bytes();
+}
 
 }  // namespace
 
-Eigen::VectorXd residual_between_nodes(const BemSystem& system, const TractionSpace& space,
-                                       const NodeSolution& solution, Control& control) {
-    const Boundary& boundary = system.boundary();
-    const SurfaceMesh& mesh = boundary.mesh();
-    const Eigen::VectorXd u = solution.displacements.col(0), q = solution.loads.col(0);
-    Eigen::VectorXd at_centroids(3 * mesh.n_triangles());
-    for_source_strips(linear_centroid_sources(boundary), [&](int first, const Sources& strip) {
-        at_centroids.segment(3 * first, 3 * strip.size()) =
-            system.double_layer(strip, control, kTolerance) * u -
-            system.single_layer(strip, space.elements, control, kTolerance) * q;
-        control.set_progress(static_cast<double>(first) / mesh.n_triangles());
-    });
-    Eigen::VectorXd mean = Eigen::VectorXd::Zero(3 * mesh.n_vertices()),
-                    area = Eigen::VectorXd::Zero(mesh.n_vertices());
-    for (int t = 0; t < mesh.n_triangles(); ++t)
-        for (const int v : mesh.triangles.col(t)) {
-            mean.segment<3>(3 * v) += 0.75 * boundary.area(t) * at_centroids.segment<3>(3 * t);
-            area[v] += boundary.area(t);
-        }
-    for (int v = 0; v < mesh.n_vertices(); ++v) mean.segment<3>(3 * v) /= area[v];
-    return mean;
+std::optional<ReferenceAnswer> galerkin_reference(const SurfaceMesh& surface, double poisson_ratio,
+                                                  std::span<const int> vertices, const Eigen::VectorXd& values,
+                                                  Control& control) {
+    const RimProblem problem = with_finer_rims(surface, vertices, values);
+    StageTimes stages;
+    const Method method{.kind = kGalerkinBem, .update = Update::direct, .integral_tolerance = kReferenceTolerance};
+    const GalerkinSystem system(std::make_shared<const Boundary>(problem.surface.mesh), poisson_ratio, method, nullptr,
+                                stages, control);
+    const GalerkinTractions tractions(problem.surface.mesh, system.surfaces(), problem.vertices);
+    if (!affordable(system.size(), tractions.size())) return {};
+    try {
+        const GalerkinDirectSolver solver(system, problem.vertices, tractions, control);
+        const NodeSolution solution = solver.solve(problem.values, true);
+        return ReferenceAnswer{solution.displacements.col(0).head(3 * surface.n_vertices()),
+                               on_coarse_vertices(problem, solution.loads.col(0), vertices)};
+    } catch (const NotHeldError&) {
+        return {};
+    }
 }
 
-Eigen::VectorXd spread_around_vertices(const BemSystem& system, const SparseRows& display,
-                                       const NodeSolution& solution) {
-    const Eigen::VectorXd u = solution.displacements.col(0), shown = display * u;
-    Eigen::VectorXd spread = Eigen::VectorXd::Zero(shown.size());
-    for (int v = 0; v < system.boundary().mesh().n_vertices(); ++v)
-        for (const int t : system.triangles_of_vertex()[v]) {
-            const Eigen::Vector3d off = u.segment<3>(3 * t) - shown.segment<3>(3 * v);
-            if (off.norm() > spread.segment<3>(3 * v).norm()) spread.segment<3>(3 * v) = off;
-        }
-    return spread;
+std::optional<ReferenceAnswer> galerkin_self_reference(const SurfaceMesh& surface, double poisson_ratio,
+                                                       std::span<const int> vertices, const Eigen::VectorXd& values,
+                                                       Control& control) {
+    std::optional<ReferenceAnswer> reference = galerkin_reference(surface, poisson_ratio, vertices, values, control);
+    if (reference) reference->share = kShareOfRims;
+    return reference;
 }
 
 }  // namespace elastolab

@@ -1,7 +1,4 @@
 #include "bem/element.hpp"
-#include "bem/error_estimate.hpp"
-#include "bem/responses.hpp"
-#include "deform/reduced_solver.hpp"
 
 namespace elastolab {
 
@@ -23,17 +20,6 @@ public:
 
     std::shared_ptr<const SparseRows> display(const SurfaceMesh&, const VertexTriangles&) const override {
         return nullptr;
-    }
-
-    /// What an averaged (Galerkin) instead of a collocated equation would add.
-    Eigen::VectorXd error(const std::shared_ptr<const BemSystem>& system, const SparseRows*, const TractionSpace& space,
-                          const std::vector<int>& nodes, const NodeSolver& solver, const NodeSolution& solution,
-                          Control& control) const override {
-        const Eigen::VectorXd residual = -residual_between_nodes(*system, space, solution, control);
-        Eigen::VectorXd error = solver.response_to_residual(residual, control);
-        if (error.size() > 0) return error;
-        return ReducedSolver(reduced_system(system, space, nodes, control), control)  // Eqns. 7 and 9 on K
-            .response_to_residual(residual, control);
     }
 };
 

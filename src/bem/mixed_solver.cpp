@@ -136,15 +136,6 @@ NodeSolution MixedSolver::solve(const Eigen::MatrixXd& prescribed, bool want_loa
     return solution;
 }
 
-Eigen::VectorXd MixedSolver::response_to_residual(const Eigen::VectorXd& residual, Control&) const {
-    Eigen::VectorXd right = Eigen::VectorXd::Zero(lu_.size());
-    for (std::size_t i = 0; i < problem_.at.size(); ++i)
-        right.segment<3>(3 * static_cast<Eigen::Index>(i)) = residual.segment<3>(3 * problem_.at[i]);
-    Eigen::VectorXd response = Eigen::VectorXd::Zero(residual.size());
-    response(problem_.partition.free) = lu_.solve(right).topRows(std::ssize(problem_.partition.free));
-    return response;
-}
-
 BoundaryEqn9Solver::BoundaryEqn9Solver(const BemSystem& system, const TractionSpace& space,
                                        const std::vector<int>& nodes, int n_base, Control& control)
     : problem_(system, space, nodes, n_base, control),

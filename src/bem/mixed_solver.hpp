@@ -42,7 +42,6 @@ public:
     MixedSolver(const BemSystem& system, const TractionSpace& space, const std::vector<int>& nodes, int n_base,
                 Control& control);
     NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const override;
-    Eigen::VectorXd response_to_residual(const Eigen::VectorXd& residual, Control& control) const override;
 
 private:
     MixedProblem problem_;  ///< its matrix of the unknowns is given up to the factorisation

@@ -1,6 +1,7 @@
 #include "bem/model.hpp"
 
 #include "base/error.hpp"
+#include "bem/error_estimate.hpp"
 #include "bem/mixed_solver.hpp"
 #include "bem/responses.hpp"
 #include "deform/reduced_solver.hpp"
@@ -86,19 +87,21 @@ std::unique_ptr<ConstrainedSolid> BemModel::constrain(std::span<const int> base,
     BemConstraints setting = constraints_of(base, handles);
     const TractionSpace& space = setting.space;
     std::unique_ptr<NodeSolver> solver = make_solver(space, setting.nodes.nodes, setting.n_base, control);
-    SolutionChecks its_checks = checks(space, setting.nodes.nodes);
+    std::vector<int> vertices(base.begin(), base.end());
+    vertices.insert(vertices.end(), handles.begin(), handles.end());
+    SolutionChecks its_checks = checks(space, std::move(vertices));
     return std::make_unique<ConstrainedSolid>(facts_.n_vertices, std::move(setting.nodes), space.shares, display_,
                                               std::move(solver), std::move(its_checks));
 }
 
-SolutionChecks BemModel::checks(const TractionSpace& space, const std::vector<int>& nodes) const {
+SolutionChecks BemModel::checks(const TractionSpace& space, std::vector<int> vertices) const {
     SolutionChecks checks;
     checks.residual = [system = system_, space](const NodeSolution& solution, Control& control) {
         return boundary_residual(*system, space, solution, control);
     };
-    checks.error = [&element = element_, system = system_, display = display_, space, nodes](
-                       const NodeSolver& solver, const NodeSolution& solution, Control& control) {
-        return element.error(system, display.get(), space, nodes, solver, solution, control);
+    checks.reference = [boundary = system_->shared_boundary(), nu = poisson_ratio_, vertices = std::move(vertices)](
+                           const Eigen::VectorXd& values, Control& control) {
+        return galerkin_reference(boundary->mesh(), nu, vertices, values, control);
     };
     return checks;
 }

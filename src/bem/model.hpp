@@ -25,7 +25,7 @@ private:
     /// Whether Eqns. 7 and 9 act on K itself: where one K serves every constrained set.
     bool has_K() const;
     void note_facts();
-    SolutionChecks checks(const TractionSpace& space, const std::vector<int>& nodes) const;
+    SolutionChecks checks(const TractionSpace& space, std::vector<int> vertices) const;
     std::unique_ptr<NodeSolver> make_solver(const TractionSpace& space, const std::vector<int>& nodes, int n_base,
                                             Control& control) const;
 

@@ -81,21 +81,6 @@ void BemResponses::add_product(const Eigen::MatrixXd& loads, Eigen::Ref<Eigen::M
     displacements += response.topRows(displacements.rows());
 }
 
-Responses::Particular BemResponses::particular(const Eigen::VectorXd& residual, Control& control) const {
-    const Eigen::Index n = residual.size();
-    Particular result;
-    result.solution = Eigen::VectorXd::Zero(n + 6);
-    result.solution.head(n) = residual;
-    system_->solve_in_place(result.solution);
-    result.closing.resize(9 * std::ssize(space_.interior_triangles));
-    for_source_strips(interior_sources(system_->boundary(), space_.interior_triangles),
-                      [&](int source, const Sources& strip) {
-                          result.closing.segment(3 * source, 3 * strip.size()) =
-                              system_->double_layer(strip, control) * result.solution.head(n);
-                      });
-    return result;
-}
-
 std::uint64_t response_memory(const BemSystem& system, const TractionSpace& space) {
     const auto rows = 3 * static_cast<std::uint64_t>(system.n_nodes()) + 6;
     const auto unknowns = static_cast<std::uint64_t>(space.n_unknowns());

@@ -23,7 +23,6 @@ public:
     Eigen::MatrixXd small_matrix(const std::vector<int>& nodes, const Eigen::MatrixXd& rigid,
                                  Control& control) const override;
     void add_product(const Eigen::MatrixXd& loads, Eigen::Ref<Eigen::MatrixXd> displacements) const override;
-    Particular particular(const Eigen::VectorXd& residual, Control& control) const override;
 
 private:
     /// Rows of the equations at interior points <- their integrals times these columns, from column `first` on.

@@ -136,7 +136,7 @@ void write_report(std::ostream& out, const Solution& solution) {
         {"moment_imbalance", finite_or_null(solution.imbalance.moment)},
         {"error_estimate",
          {{"displacement", solution.error_estimate ? finite_or_null(*solution.error_estimate) : Json(nullptr)},
-          {"force", nullptr}}},
+          {"force", solution.force_error_estimate ? finite_or_null(*solution.force_error_estimate) : Json(nullptr)}}},
         {"warnings", solution.warnings()},
     };
     out << json.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";

@@ -9,6 +9,7 @@
 #include "base/memory.hpp"
 #include "base/text.hpp"
 #include "deform/holds.hpp"
+#include "deform/patch_reactions.hpp"
 #include "deform/solid_model.hpp"
 
 namespace elastolab {
@@ -51,11 +52,10 @@ int exponent_of(const Eigen::VectorXd& values) {
     return std::isnormal(largest) ? std::clamp(std::ilogb(largest), -1000, 1000) : 0;
 }
 
-DiscretisationCheck check_of(const Eigen::VectorXd& u, const Eigen::VectorXd& error) {
-    Eigen::Index moving_most = 0, worst = 0;
-    const double size = largest_motion(u, moving_most), off = largest_motion(error, worst);
-    return {size > 0.0 ? off / size : 0.0, static_cast<int>(worst)};
-}
+/// Forces below this part of Young's modulus times displacement times length are rounding.
+constexpr double kNoForce = 1e-9;
+
+Reactions no_reactions(Eigen::Index n) { return {Eigen::Matrix3Xd::Zero(3, n), Eigen::Matrix3Xd::Zero(3, n)}; }
 
 }  // namespace
 
@@ -187,9 +187,8 @@ DragResponse Deformer::drag_response(const Eigen::VectorXd& values, const Eigen:
     return {u.col(0), u.rightCols(basis.cols())};
 }
 
-void Deformer::add_reactions(std::size_t part, const NodeSolution& solution, Reactions& sum) const {
+void Deformer::add_reactions(std::size_t part, Reactions own, Reactions& sum) const {
     const SolidState& state = solids_[part];
-    Reactions own = state.solid->reactions(solution);
     // Of the solid's coordinates, which are those of the body times a factor, and of these displacements as they are: a
     // force is stiffness times displacement, [E L] [L].
     const Eigen::Vector3d& origin = model_->parts()[part].origin;
@@ -220,6 +219,24 @@ std::optional<DiscretisationCheck> Deformer::discretisation_check(const Eigen::V
     return answer(values, {.check = true}, control).check;
 }
 
+std::optional<DiscretisationCheck> Deformer::check_of(const Answer& answer, const SolutionError& error) const {
+    const SurfaceMesh& surface = *model_->body().surface;
+    Eigen::Index moving_most = 0, worst = 0;
+    // Over the better answer: one that moves too little would overstate its error.
+    const double size = largest_motion(answer.displacements + error.to_better * error.displacements, moving_most);
+    const double off = largest_motion(error.displacements, worst);
+    if (!std::isfinite(off)) return {};
+    const ConstrainedPatches patches = constrained_patches(surface, set_.base, set_.handles);
+    const double length = (surface.vertices.rowwise().maxCoeff() - surface.vertices.rowwise().minCoeff()).norm();
+    const Reactions better{answer.reactions.forces + error.to_better * error.reactions.forces,
+                           answer.reactions.moments + error.to_better * error.reactions.moments};
+    const double force = std::max(largest_patch_reaction(surface, patches, better),
+                                  kNoForce * model_->body().material.young_modulus * size * length);
+    const double force_off = largest_patch_reaction(surface, patches, error.reactions);
+    return DiscretisationCheck{size > 0.0 ? off / size : 0.0, static_cast<int>(worst),
+                               force > 0.0 ? force_off / force : 0.0};
+}
+
 Deformer::Answer Deformer::answer(const Eigen::VectorXd& values, Wanted wanted, Control& control) const {
     // Residuals and errors square numbers: for values of order one these are far from over- and underflow. The problem
     // is linear, and a power of two rounds nothing.
@@ -228,29 +245,39 @@ Deformer::Answer Deformer::answer(const Eigen::VectorXd& values, Wanted wanted, 
     const double unit = std::ldexp(1.0, exponent);
     const Eigen::Index n = 3 * model_->facts().n_vertices;
     const Eigen::Index n_constrained = std::ssize(set_.base) + std::ssize(set_.handles);
-    Eigen::MatrixXd u = Eigen::MatrixXd::Zero(n, 1), error = u;
+    Eigen::MatrixXd u = Eigen::MatrixXd::Zero(n, 1), off = u;
     Answer answer;
-    answer.reactions = {Eigen::Matrix3Xd::Zero(3, n_constrained), Eigen::Matrix3Xd::Zero(3, n_constrained)};
+    answer.reactions = no_reactions(n_constrained);
+    SolutionError error{{}, answer.reactions};
     if (wanted.residual) answer.residual = 0.0;
     wanted.check = wanted.check && model_->method().kind->error_to_tell.has_value();
     for (std::size_t s = 0; s < solids_.size(); ++s) {
         const ConstrainedSolid* solid = solids_[s].solid.get();
         if (solid == nullptr) continue;
         NodeSolution solution = solid->solve(solids_[s].values(unit_values), true);
-        add_reactions(s, solution, answer.reactions);
+        add_reactions(s, solid->reactions(solution), answer.reactions);
         if (wanted.residual) answer.residual = std::max(*answer.residual, solid->residual(solution, control));
-        if (wanted.check) place(s, solid->error(solution, control), error);
+        if (wanted.check) {
+            std::optional<SolutionError> own = solid->error(solids_[s].values(unit_values), solution, control);
+            wanted.check = own.has_value();
+            if (own) {
+                error.to_better = own->to_better;
+                place(s, std::move(own->displacements), off);
+                add_reactions(s, std::move(own->reactions), error.reactions);
+            }
+        }
         place(s, solid->displacements(std::move(solution)), u);
     }
-    if (wanted.check) answer.check = check_of(u, error);
-    u *= unit;
+    answer.displacements = u.col(0);
+    error.displacements = off.col(0);
+    if (wanted.check) answer.check = check_of(answer, error);
+    answer.displacements *= unit;
     answer.reactions.forces *= unit;
     answer.reactions.moments *= unit;
-    require_finite(u);
+    require_finite(answer.displacements);
     if (!answer.reactions.forces.allFinite() || !answer.reactions.moments.allFinite())
         throw SolveError(model_->body().name +
                          ": forces are beyond double precision. Choose a smaller Young's modulus, or smaller motions.");
-    answer.displacements = std::move(u);
     return answer;
 }
 

@@ -42,13 +42,17 @@ struct SolutionQuality {
     bool free_to_move = false;        ///< the reason for that: some solid can move as a whole
 };
 
-/// How far displacements may be off because the mesh is coarse.
+/// How far displacements and reactions may be off because the mesh is coarse.
 struct DiscretisationCheck {
-    double relative_error = 0.0;  ///< estimated error of the worst vertex, over the largest displacement
-    int vertex = -1;              ///< the worst
+    /// Estimated error of the worst vertex, over the largest displacement of the better answer.
+    double relative_error = 0.0;
+    int vertex = -1;  ///< the worst
+    /// Estimated error of the reactions of the worst patch, over the largest (deform/patch_reactions.hpp).
+    double relative_force_error = 0.0;
 };
 
 struct NodeSolution;
+struct SolutionError;
 
 /// Displacements of a Model for one constrained set at a time. Owned by one thread, others may call its const members
 /// while it is not changed; several may share a Model.
@@ -100,12 +104,11 @@ public:
     };
     Answer answer(const Eigen::VectorXd& values, Wanted wanted, Control& control) const;
 
-    /// How far the displacements for these values may be off because the mesh is coarse. Linear BEM lets thin free
-    /// parts (ears, plates, needles) follow too far: an estimate from one pass over the integral equation between the
-    /// nodes, within a factor of three of the largest error on the bodies of tests/methods/discretisation_test.cpp (it
-    /// sees a third of the error of bars 40 times as long as thick, of which ModelFacts::surface_findings tell). Takes
-    /// a few assemblies: not for every frame. Constant BEM: by how much the triangles around a vertex differ, at no
-    /// cost. Nothing for the other methods.
+    /// How far displacements and reactions for these values may be off because the mesh is coarse: the difference to a
+    /// second, better answer. Boundary elements: symmetric Galerkin, the triangles along the rims of the constrained
+    /// patches halved. FEM: quadratic elements on the same tetrahedra (quadratic FEM: linear ones, which tells what a
+    /// degree brings). Measured against converged answers in tests/methods/discretisation_test.cpp. Takes up to three
+    /// times a single solve: not for every frame. Nothing where the memory left does not suffice.
     std::optional<DiscretisationCheck> discretisation_check(const Eigen::VectorXd& values, Control& control) const;
 
     /// Relative residual of the full system for these values, evaluated independently of the factorisation (BEM: the
@@ -126,7 +129,9 @@ private:
     /// Rows of all vertices <- those of a part.
     void place(std::size_t part, Eigen::MatrixXd&& own, Eigen::MatrixXd& all) const;
     void require_finite(const Eigen::MatrixXd& u) const;
-    void add_reactions(std::size_t part, const NodeSolution& solution, Reactions& sum) const;
+    /// Adds those of a part, for unit Young's modulus and about its own origin, to those of the whole body.
+    void add_reactions(std::size_t part, Reactions own, Reactions& sum) const;
+    std::optional<DiscretisationCheck> check_of(const Answer& answer, const SolutionError& error) const;
 
     std::shared_ptr<const Model> model_;
     ConstrainedSet set_;

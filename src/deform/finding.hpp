@@ -23,10 +23,12 @@ enum class FindingKind {
     free_motion,           ///< the constraints leave the body free to move; the smallest motion is taken
     singular_though_held,  ///< the constraints hold the body, and yet their system is singular
     coarse_mesh,           ///< estimated error of the displacement of the worst vertex, over the largest displacement
+    coarse_forces,         ///< estimated error of the reactions of the worst patch, over the largest
     force_imbalance,       ///< resultant of all reaction forces, over the largest
     moment_imbalance,      ///< resultant of all reaction moments, over the largest
     nothing_constrained,   ///< no vertex of the scene `object` is fixed or moved
     choice_left_aside,     ///< the option `object` means nothing to the method
+    impossible_volume,     ///< change of volume over volume, of an incompressible solid that is held all over
     large_residual,        ///< relative residual of the solution
     proxy,                 ///< a closed surface of `first` vertices stands for the mesh `object`; its largest distance
     capped_holes,          ///< how many holes of the mesh `object` a proxy closes

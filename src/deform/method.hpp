@@ -46,6 +46,9 @@ struct Cost {
     double seconds = 0.0;
 };
 
+/// MethodTraits::error_to_tell of methods whose estimate is of the size of the error: half of what must not be silent.
+inline constexpr double kErrorToTell = 0.05;
+
 /// Everything that code above the methods may know about one: a row of the table that src/methods collects. Every rule
 /// about methods is read from here, so that a new one is a folder with such a row.
 struct MethodTraits {
@@ -57,7 +60,7 @@ struct MethodTraits {
     std::string_view matrix;
     /// What to choose when memory does not suffice on demand, for a sentence that begins "Choose".
     std::string_view cheaper;
-    /// What to do where the error estimate finds the mesh too coarse, one or two sentences.
+    /// What helps where the error estimate finds the mesh too coarse, one or two sentences.
     std::string_view against_coarseness = {};
 
     std::span<const Mode> modes;
@@ -72,7 +75,8 @@ struct MethodTraits {
     bool locks = false;                  ///< errors grow without bound as Poisson's ratio nears 1/2
     double integral_tolerance = 0.0;     ///< Method::integral_tolerance where it is not chosen
     bool integrates_boundary = false;    ///< slivers, thin walls and slender bodies cost accuracy (src/findings)
-    /// Estimated relative error of the worst vertex above which the user should know; none where there is no estimate.
+    /// Estimated relative error of the worst vertex above which the user should know (of reactions, twice that); none
+    /// where there is no estimate.
     std::optional<double> error_to_tell = {};
 
     /// Precomputes one solid of unit Young's modulus; `before`: a model of the same solid, by whatever method, of which

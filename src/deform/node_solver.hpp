@@ -38,10 +38,6 @@ public:
     /// prescribed  3*n_constrained_nodes x m, in the order of the constrained nodes
     virtual NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const = 0;
 
-    /// Displacements of all nodes, zero at the constrained ones, for which the boundary equation has this residual:
-    /// H u - G q = residual at the nodes (3*n_nodes), zero at interior points. Empty where the solver cannot tell.
-    virtual Eigen::VectorXd response_to_residual(const Eigen::VectorXd&, Control&) const { return {}; }
-
     /// Condition number of the system that is solved, 1-norm, estimated.
     double condition() const { return condition_; }
     /// False when the constraints leave some rigid motion free.

@@ -95,16 +95,4 @@ NodeSolution ReducedSolver::solve(const Eigen::MatrixXd& prescribed, bool want_l
     return solution;
 }
 
-Eigen::VectorXd ReducedSolver::response_to_residual(const Eigen::VectorXd& residual, Control& control) const {
-    const Responses::Particular particular = system_.responses->particular(residual, control);
-    if (particular.solution.size() == 0) return {};
-    const Eigen::Index n_border = system_.rigid.cols(), n = residual.size(), k = 3 * std::ssize(system_.nodes);
-    Eigen::VectorXd right(k + n_border + particular.closing.size());
-    for (std::size_t i = 0; i < system_.nodes.size(); ++i)
-        right.segment<3>(3 * static_cast<Eigen::Index>(i)) = -particular.solution.segment<3>(3 * system_.nodes[i]);
-    right.segment(k, n_border) = -particular.solution.tail(n_border);
-    right.tail(particular.closing.size()) = -particular.closing;
-    return particular.solution.head(n) + displacements(unknowns(right)).col(0);
-}
-
 }  // namespace elastolab

@@ -24,13 +24,6 @@ public:
                                          Control& control) const = 0;
     /// displacements += W_u * loads
     virtual void add_product(const Eigen::MatrixXd& loads, Eigen::Ref<Eigen::MatrixXd> displacements) const = 0;
-
-    /// What a residual of the equations at the nodes causes with no load: displacements over border values, and what
-    /// the closing rows say of them. Empty where there is no such thing.
-    struct Particular {
-        Eigen::VectorXd solution, closing;
-    };
-    virtual Particular particular(const Eigen::VectorXd&, Control&) const { return {}; }
 };
 
 /// Responses that are all in memory, as many as prescribed displacements.
@@ -66,7 +59,6 @@ class ReducedSolver : public NodeSolver {
 public:
     ReducedSolver(ReducedSystem system, Control& control);
     NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const override;
-    Eigen::VectorXd response_to_residual(const Eigen::VectorXd& residual, Control& control) const override;
 
 private:
     /// The small system solved for its right sides, whose columns may be shorter.

@@ -5,6 +5,16 @@
 
 namespace elastolab {
 
+Reactions gathered_reactions(const std::vector<LoadShare>& shares, int n, const Eigen::VectorXd& loads) {
+    Reactions reactions{Eigen::Matrix3Xd::Zero(3, n), Eigen::Matrix3Xd::Zero(3, n)};
+    for (const LoadShare& share : shares) {
+        const Eigen::Vector3d load = loads.segment<3>(3 * share.slot);
+        reactions.forces.col(share.constrained) += share.weight * load;
+        reactions.moments.col(share.constrained) += share.first_moment.cross(load);
+    }
+    return reactions;
+}
+
 ConstrainedSolid::ConstrainedSolid(int n_vertices, ConstrainedNodes nodes, std::vector<LoadShare> shares,
                                    std::shared_ptr<const SparseRows> display, std::unique_ptr<NodeSolver> solver,
                                    SolutionChecks checks)
@@ -28,22 +38,26 @@ Eigen::MatrixXd ConstrainedSolid::displacements(NodeSolution&& solution) const {
 }
 
 Reactions ConstrainedSolid::reactions(const NodeSolution& solution) const {
-    Reactions reactions{Eigen::Matrix3Xd::Zero(3, n_constrained_), Eigen::Matrix3Xd::Zero(3, n_constrained_)};
-    for (const LoadShare& share : shares_) {
-        const Eigen::Vector3d load = solution.loads.col(0).segment<3>(3 * share.slot);
-        reactions.forces.col(share.constrained) += share.weight * load;
-        reactions.moments.col(share.constrained) += share.first_moment.cross(load);
-    }
-    return reactions;
+    return gathered_reactions(shares_, n_constrained_, solution.loads.col(0));
 }
 
 double ConstrainedSolid::residual(const NodeSolution& solution, Control& control) const {
     return checks_.residual(solution, control);
 }
 
-Eigen::VectorXd ConstrainedSolid::error(const NodeSolution& solution, Control& control) const {
-    if (!checks_.error) return {};
-    return checks_.error(*solver_, solution, control);
+std::optional<SolutionError> ConstrainedSolid::error(const Eigen::VectorXd& values, const NodeSolution& solution,
+                                                     Control& control) const {
+    if (!checks_.reference) return {};
+    const std::optional<ReferenceAnswer> reference = checks_.reference(values, control);
+    if (!reference) return {};
+    const Eigen::VectorXd u =
+        display_ ? Eigen::VectorXd(*display_ * solution.displacements.col(0))
+                 : Eigen::VectorXd(solution.displacements.col(0).head(3 * static_cast<Eigen::Index>(n_vertices_)));
+    const Reactions own = reactions(solution);
+    return SolutionError{reference->share * (reference->displacements - u),
+                         {reference->share * (reference->reactions.forces - own.forces),
+                          reference->share * (reference->reactions.moments - own.moments)},
+                         reference->share > 0.0 ? 1.0 / reference->share : 0.0};
 }
 
 }  // namespace elastolab

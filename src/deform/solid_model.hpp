@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,13 +19,33 @@
 
 namespace elastolab {
 
+/// A second answer to the same problem, by a method that tells how far the first is off.
+struct ReferenceAnswer {
+    Eigen::VectorXd displacements;  ///< of all vertices, 3*n_vertices [L]
+    Reactions reactions;            ///< at the constrained vertices, for unit Young's modulus
+    /// What the first answer lacks over the difference between both, second less first. Above 1: the second lacks some
+    /// too; negative: the first is the better one.
+    double share = 1.0;
+};
+
 /// What can be asked about a solution with loads besides its displacements.
 struct SolutionChecks {
     /// Relative residual of the full system.
     std::function<double(const NodeSolution&, Control&)> residual;
-    /// Estimated error of the displacements of all vertices (3*n_vertices); null where there is none.
-    std::function<Eigen::VectorXd(const NodeSolver&, const NodeSolution&, Control&)> error;
+    /// The second answer for these displacements of the constrained vertices; nothing where it would not fit into
+    /// memory. Null where there is none.
+    std::function<std::optional<ReferenceAnswer>(const Eigen::VectorXd& values, Control&)> reference;
 };
+
+/// What a solution lacks, estimated.
+struct SolutionError {
+    Eigen::VectorXd displacements;  ///< 3*n_vertices [L]
+    Reactions reactions;            ///< at the constrained vertices, for unit Young's modulus
+    double to_better = 1.0;         ///< this times it leads from the solution to the better of both answers
+};
+
+/// Forces and moments at n constrained vertices from the loads that they share, one column.
+Reactions gathered_reactions(const std::vector<LoadShare>& shares, int n, const Eigen::VectorXd& loads);
 
 /// Displacements of one solid's vertices for one constrained set, whatever the method. Loads are those of unit Young's
 /// modulus; the Deformer scales them.
@@ -44,8 +65,9 @@ public:
     /// Forces and moments at the constrained vertices, for the first column of a solution with loads.
     Reactions reactions(const NodeSolution& solution) const;
     double residual(const NodeSolution& solution, Control& control) const;
-    /// Estimated error of the displacements, 3*n_vertices; empty where the method has no estimate.
-    Eigen::VectorXd error(const NodeSolution& solution, Control& control) const;
+    /// Estimated error of a solution for these values; nothing where the method has no estimate.
+    std::optional<SolutionError> error(const Eigen::VectorXd& values, const NodeSolution& solution,
+                                       Control& control) const;
 
     double condition() const { return solver_->condition(); }
     bool held() const { return solver_->held(); }

@@ -42,6 +42,7 @@ public:
     ConstrainedFemNodes finish() && {
         result_.prescribed.prescribe.resize(3 * n_nodes(), 3 * std::ssize(vertices_));
         result_.prescribed.prescribe.setFromTriplets(entries_.begin(), entries_.end());
+        result_.vertices = std::move(vertices_);
         return std::move(result_);
     }
 

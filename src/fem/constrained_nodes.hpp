@@ -20,6 +20,7 @@ struct ConstrainedFemNodes {
     ConstrainedNodes prescribed;  ///< those of the base first
     int n_base = 0;
     std::vector<LoadShare> shares;
+    std::vector<int> vertices;  ///< constrained: the base, then the handles
 
     std::span<const int> base() const { return std::span(prescribed.nodes).first(static_cast<std::size_t>(n_base)); }
 };

@@ -11,12 +11,15 @@ constinit const MethodTraits kLinearFemTraits = {
     .colour = 0,
     .matrix = "stiffness matrix",
     .cheaper = "a coarser mesh",
+    .against_coarseness = "Choose galerkin-bem or quadratic-fem, or halve the triangles along the rims of the "
+                          "constrained patches.",
     .modes = kAllModes,
     .updates = kAllUpdates,
     .has_inside = true,
     .sparse = true,
     .takes_incompressible = false,
     .locks = true,
+    .error_to_tell = kErrorToTell,
     .precompute = precompute_fem<ElementDegree::linear>,
     .predict = predict_linear_fem,
 };

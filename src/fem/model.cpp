@@ -8,6 +8,7 @@
 #include "elasticity/rigid_motion.hpp"
 #include "fem/condensation.hpp"
 #include "fem/constraints.hpp"
+#include "fem/error_estimate.hpp"
 #include "fem/interior.hpp"
 #include "mesh/tets/tetrahedralize.hpp"
 
@@ -200,7 +201,8 @@ std::unique_ptr<ConstrainedSolid> FemModel::constrain_direct(ConstrainedFemNodes
     const auto residual = [system = system_, nodes](const NodeSolution& solution, Control&) {
         return stiffness_residual(system->K, solution.displacements, nodes, solution.loads);
     };
-    return make_solid(std::move(constrained), std::move(solver), {residual, {}});
+    SolutionChecks checks{residual, reference_for(constrained)};
+    return make_solid(std::move(constrained), std::move(solver), std::move(checks));
 }
 
 std::unique_ptr<ConstrainedSolid> FemModel::constrain_dense(ConstrainedFemNodes constrained, Control& control) const {
@@ -224,7 +226,8 @@ std::unique_ptr<ConstrainedSolid> FemModel::constrain_dense(ConstrainedFemNodes 
         const double size = (operators->K.cwiseAbs() * u.cwiseAbs() + f.cwiseAbs()).norm();
         return size > 0.0 ? (operators->K * u - f).norm() / size : 0.0;
     };
-    return make_solid(std::move(constrained), std::move(solver), {residual, {}});
+    SolutionChecks checks{residual, reference_for(constrained)};
+    return make_solid(std::move(constrained), std::move(solver), std::move(checks));
 }
 
 std::unique_ptr<ConstrainedSolid> FemModel::constrain_reduced(ConstrainedFemNodes constrained, int n_eliminated,
@@ -239,7 +242,16 @@ std::unique_ptr<ConstrainedSolid> FemModel::constrain_reduced(ConstrainedFemNode
         const Eigen::MatrixXd u = body->volume_displacements(solution.displacements, loads);
         return stiffness_residual(body->system().K, u, nodes, solution.loads);
     };
-    return make_solid(std::move(constrained), std::move(solver), {residual, {}});
+    SolutionChecks checks{residual, reference_for(constrained)};
+    return make_solid(std::move(constrained), std::move(solver), std::move(checks));
+}
+
+decltype(SolutionChecks::reference) FemModel::reference_for(const ConstrainedFemNodes& nodes) const {
+    return [system = system_, degree = degree(), nu = poisson_ratio_, vertices = nodes.vertices](
+               const Eigen::VectorXd& values, Control& control) {
+        return degree == ElementDegree::linear ? quadratic_reference(*system, nu, vertices, values, control)
+                                               : linear_reference(*system, vertices, values, control);
+    };
 }
 
 std::shared_ptr<const Interior> FemModel::interior(Control& control) const {

@@ -48,6 +48,8 @@ private:
     std::unique_ptr<ConstrainedSolid> constrain_direct(ConstrainedFemNodes nodes, Control& control) const;
     std::unique_ptr<ConstrainedSolid> constrain_reduced(ConstrainedFemNodes nodes, int n_eliminated,
                                                         Control& control) const;
+    /// The second answer that a solution is judged by (fem/error_estimate.hpp).
+    decltype(SolutionChecks::reference) reference_for(const ConstrainedFemNodes& nodes) const;
     ConstrainedFemNodes nodes_of(std::span<const int> base, std::span<const int> handles) const;
     std::unique_ptr<ConstrainedSolid> make_solid(ConstrainedFemNodes nodes, std::unique_ptr<NodeSolver> solver,
                                                  SolutionChecks checks) const;

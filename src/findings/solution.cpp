@@ -70,6 +70,50 @@ Findings findings_of_hold(const SurfaceMesh& surface, std::span<const int> solid
     return {{.kind = FindingKind::weak_hold, .value = reach / off_line, .place = centre}};
 }
 
+/// Volume between the surface of a solid and the origin, and what displacements add to it, to first order.
+struct VolumeChange {
+    double volume = 0.0, change = 0.0;
+};
+
+VolumeChange volume_change(const SurfaceMesh& surface, std::span<const char> in_solid, const Eigen::VectorXd& u) {
+    VolumeChange sum;
+    for (const auto& t : surface.triangles.colwise()) {
+        if (!in_solid[static_cast<std::size_t>(t[0])]) continue;
+        const Vector3d a = surface.vertices.col(t[0]), b = surface.vertices.col(t[1]), c = surface.vertices.col(t[2]);
+        const Vector3d area = 0.5 * (b - a).cross(c - a);
+        sum.volume += area.dot(a) / 3.0;
+        for (const int v : t) sum.change += area.dot(u.segment<3>(3 * v)) / 3.0;
+    }
+    return sum;
+}
+
+/// Incompressible solids all of whose vertices are prescribed, to another volume than they have.
+Findings findings_of_volume(const Deformer& deformer, const Eigen::VectorXd& u) {
+    constexpr double kIncompressible = 0.5 - 1e-9, kChange = 1e-6;
+    const Body& body = deformer.model().body();
+    Findings findings;
+    if (body.material.poisson_ratio < kIncompressible || u.size() == 0) return findings;
+    const std::vector<char> constrained = marked(*body.surface, deformer.set());
+    for (const Model::Part& part : deformer.model().parts()) {
+        std::vector<char> in_solid(constrained.size(), 0);
+        bool all = true;
+        for (const int v : part.vertices) {
+            in_solid[static_cast<std::size_t>(v)] = 1;
+            all = all && constrained[static_cast<std::size_t>(v)] != 0;
+        }
+        if (!all) continue;
+        const VolumeChange sum = volume_change(*body.surface, in_solid, u);
+        const double relative = std::abs(sum.change) / std::abs(sum.volume);
+        // To first order in u, whatever its scale: against how far it moves the surface.
+        const double extent =
+            (body.surface->vertices.rowwise().maxCoeff() - body.surface->vertices.rowwise().minCoeff()).norm();
+        if (relative > kChange * u.cwiseAbs().maxCoeff() / extent)
+            findings.push_back(
+                {.kind = FindingKind::impossible_volume, .severity = Severity::error, .value = relative});
+    }
+    return findings;
+}
+
 }  // namespace
 
 Findings findings_of_material(MethodKind method, double poisson_ratio) {
@@ -109,8 +153,12 @@ Findings findings_of_set(const Deformer& deformer) {
 
 Findings findings_of_answer(const Deformer& deformer, const Deformer::Answer& answer) {
     const MethodKind method = deformer.model().method().kind;
-    Findings findings;
-    if (answer.check && method->error_to_tell && answer.check->relative_error > *method->error_to_tell)
+    Findings findings = findings_of_volume(deformer, answer.displacements);
+    const bool has_limit = answer.check && method->error_to_tell;
+    if (has_limit && answer.check->relative_force_error > *method->error_to_tell)
+        findings.push_back(
+            {.kind = FindingKind::coarse_forces, .value = answer.check->relative_force_error, .method = method});
+    if (has_limit && answer.check->relative_error > *method->error_to_tell)
         findings.push_back({.kind = FindingKind::coarse_mesh,
                             .value = answer.check->relative_error,
                             .method = method,

@@ -26,7 +26,8 @@ Findings findings_of_model(const Model& model);
 /// the size of the mesh). Microseconds.
 Findings findings_of_set(const Deformer& deformer);
 
-/// Of an answer: the mesh is too coarse for it (MethodTraits::error_to_tell), or it leaves a large residual.
+/// Of an answer: it asks an incompressible solid for another volume, the mesh is too coarse for its displacements or its reactions (MethodTraits::error_to_tell), or it
+/// leaves a large residual.
 Findings findings_of_answer(const Deformer& deformer, const Deformer::Answer& answer);
 
 }  // namespace elastolab

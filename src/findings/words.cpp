@@ -76,8 +76,6 @@ std::string coarse_mesh(const Finding& finding) {
     const std::string begin = std::string(finding.method->name) + ": ";
     const std::string off = percent(finding.value) + " of the largest", place = place_of(finding);
     const std::string advice(finding.method->against_coarseness);
-    if (finding.method->shows_averages)
-        return begin + "near " + place + " displacements of neighbouring triangles differ by " + off + ". " + advice;
     return begin + "the mesh is too coarse near " + place + ": displacements there are off by about " + off + ". " +
            advice;
 }
@@ -86,6 +84,12 @@ std::string proxy(const Finding& finding) {
     return finding.object + ": is simulated through a proxy, a closed surface of " + std::to_string(finding.first) +
            " vertices around it; no vertex is farther from it than " + readable_number(finding.value) +
            " mesh units. Displacements are those of that body. Mend the surface to have its own.";
+}
+
+std::string coarse_forces(const Finding& finding) {
+    return std::string(finding.method->name) + ": the mesh is too coarse for forces: those that hold or move the " +
+           "body are off by about " + percent(finding.value) + " of the largest. " +
+           std::string(finding.method->against_coarseness);
 }
 
 std::string imbalance(const Finding& finding, const char* what) {
@@ -124,6 +128,8 @@ std::string words(const Finding& finding) {
             return std::string(kSingularThoughHeld) + " The smallest solution is taken.";
         case FindingKind::coarse_mesh:
             return coarse_mesh(finding);
+        case FindingKind::coarse_forces:
+            return coarse_forces(finding);
         case FindingKind::force_imbalance:
             return imbalance(finding, "forces");
         case FindingKind::moment_imbalance:
@@ -132,6 +138,10 @@ std::string words(const Finding& finding) {
             return finding.object + ": no vertex is fixed or moved, so the body rests. Add a handle.";
         case FindingKind::choice_left_aside:
             return finding.object + ": only linear-bem has a choice of them; it was left aside.";
+        case FindingKind::impossible_volume:
+            return "constraints: hold the whole surface of an incompressible body and change its volume by " +
+                   percent(finding.value) +
+                   ", which no displacement inside does. Free some vertices, or choose a Poisson's ratio below 1/2.";
         case FindingKind::large_residual:
             return finding.object + ": the solution leaves a relative residual of " + readable_number(finding.value) +
                    ", so it is wrong. Fix more vertices, or use another method.";

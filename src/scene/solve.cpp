@@ -101,9 +101,13 @@ void apply(const Constraints& constraints, bool with_checks, Solution& solution,
     }
     if (with_checks) {
         const Stage stage("check", control, solution.stages);
+        solution.predicted.memory_bytes += predict_check_memory(*solution.model, constraints.set);
         Deformer::Answer answer;
         answer.check = deformer.discretisation_check(constraints.values, control);
-        if (answer.check) solution.error_estimate = answer.check->relative_error;
+        if (answer.check) {
+            solution.error_estimate = answer.check->relative_error;
+            solution.force_error_estimate = answer.check->relative_force_error;
+        }
         append(solution.findings, findings_of_answer(deformer, answer));
     }
     solution.condition_estimate =

@@ -24,7 +24,7 @@ struct SolveRequest {
     /// Solving once, on demand: take the direct update, which factorises once and nothing else, unless the body is not
     /// held; then the reduced one.
     bool solve_once = false;
-    /// Residual, and linear BEM's error between the nodes, which costs a few times the assembly.
+    /// Residual, and the estimates of the error, which take up to three times the solve.
     bool with_checks = true;
 };
 
@@ -53,7 +53,8 @@ struct Solution {
     Eigen::Matrix3Xd displacement;  ///< 3 x n_vertices [L]
     std::vector<GroupReaction> reactions;
     Imbalance imbalance;
-    std::optional<double> error_estimate;  ///< of the displacement of the worst vertex, over the largest
+    std::optional<double> error_estimate;        ///< of the displacement of the worst vertex, over the largest
+    std::optional<double> force_error_estimate;  ///< of the reactions of the worst patch, over the largest
     std::optional<double> residual;
     double condition_estimate = 0.0;  ///< the larger of that of the factorised system and that of the update
     StageTimes stages;

@@ -1,5 +1,6 @@
 #include "study/measure.hpp"
 
+#include <limits>
 #include <optional>
 
 #include "fem/assembly.hpp"
@@ -16,6 +17,11 @@ namespace {
 
 void set_errors(Row& row, const Problem& problem, const Eigen::VectorXd& u) {
     row.set("error", problem.error(u)).set("error_max", problem.largest_error(u));
+}
+
+/// What is left empty where there is nothing.
+double or_nothing(const std::optional<double>& value) {
+    return value.value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
 /// Mesh to displacements with one factorisation, as `solve` does it.
@@ -52,7 +58,9 @@ Row measure(const Problem& problem, const Method& method, const Repeats& repeats
             set_change.push_back(ready.back() - precomputed.back());
         },
         repeats.budget_seconds, repeats.most);
-    const Eigen::VectorXd u = deformer->displace(problem.values());
+    const Stopwatch watch;
+    const Deformer::Answer answer = deformer->answer(problem.values(), {.check = true}, control);
+    const double check_seconds = watch.seconds();
     const ModelFacts& facts = deformer->model().facts();
     std::vector<std::string> warnings = words(findings_of_model(deformer->model()));
     for (const Finding& finding : findings_of_set(*deformer)) warnings.push_back(words(finding));
@@ -65,7 +73,12 @@ Row measure(const Problem& problem, const Method& method, const Repeats& repeats
         .set("ready_s", median(ready))
         .set("once_s", once_seconds(problem, method, repeats, control))
         .set("frame_s", frame_seconds(*deformer, problem));
-    set_errors(row, problem, u);
+    set_errors(row, problem, answer.displacements);
+    row.set("error_force", or_nothing(problem.force_error(answer.reactions)));
+    if (answer.check)
+        row.set("estimate", answer.check->relative_error)
+            .set("estimate_force", answer.check->relative_force_error)
+            .set("check_s", check_seconds);
     return row.set("condition", std::max(facts.condition_estimate, deformer->quality().condition_estimate))
         .set("residual", deformer->residual(problem.values(), control))
         .set("warnings", joined(warnings));

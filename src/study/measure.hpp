@@ -21,7 +21,9 @@ struct Repeats {
 ///   ready_s        both: from the mesh to a set that can be dragged
 ///   once_s         a single solve and nothing kept (the program's `solve`)
 ///   frame_s        a frame of a drag
-///   error, error_max, condition, residual, warnings
+///   error, error_max, error_force, condition, residual, warnings
+///   estimate, estimate_force   what the program says of the largest error of displacements and of reactions
+///   check_s        an answer with these estimates
 Row measure(const Problem& problem, const Method& method, const Repeats& repeats, Control& control);
 
 /// The same for FEM on tetrahedra of another size or quality, which the program does not offer: a single solve only.

@@ -6,6 +6,7 @@
 #include "findings/solution.hpp"
 #include "findings/words.hpp"
 #include "mesh/primitives.hpp"
+#include "methods/organic_cases.hpp"
 #include "methods/problem.hpp"
 #include "methods/registry.hpp"
 
@@ -82,7 +83,8 @@ TEST(DiscretisationCheck, EstimatesTheLargestErrorWithinAFactorOfThree) {
             print_measured(example.name + ", " + std::string(name(tractions)) + ", estimate", check.relative_error);
             EXPECT_GT(check.relative_error, error / 3.0) << example.name << " " << name(tractions);
             EXPECT_LT(check.relative_error, error * 3.0) << example.name << " " << name(tractions);
-            EXPECT_EQ(findings_of_answer(deformer, {.check = check}).empty(), check.relative_error < 0.08);
+            EXPECT_EQ(findings_of_answer(deformer, {.check = check}).empty(),
+                      check.relative_error < 0.05 && check.relative_force_error < 0.05);
         }
 }
 
@@ -98,7 +100,7 @@ TEST(DiscretisationCheck, NamesTheFreeEndThatMovesTooFar) {
     EXPECT_GT(true_error(example, deformer.displace(values)), 0.08);
     EXPECT_GT(example.coarse.vertices(0, check.vertex), 9.0);
     EXPECT_THAT(words(findings_of_answer(deformer, {.check = check})),
-                testing::ElementsAre(testing::HasSubstr("compare with fem")));
+                testing::Contains(testing::HasSubstr("Choose galerkin-bem")));
 }
 
 TEST(DiscretisationCheck, IsTheSameForAllUpdates) {
@@ -120,12 +122,13 @@ TEST(DiscretisationCheck, IsTheSameForAllUpdates) {
               check(Mode::on_demand, Update::reduced, tractions, 0), check(Mode::full, Update::eqn9, tractions, 1),
               check(Mode::full, Update::direct, tractions, 1)}) {
             EXPECT_NEAR(other.relative_error, expected.relative_error, 1e-9) << name(tractions);
+            EXPECT_NEAR(other.relative_force_error, expected.relative_force_error, 1e-8) << name(tractions);
             EXPECT_EQ(other.vertex, expected.vertex) << name(tractions);
         }
     }
 }
 
-TEST(DiscretisationCheck, FindsNothingInARotationByLinearElements) {
+TEST(DiscretisationCheck, FindsNothingInARotation) {
     const SurfaceMesh mesh = make_box(3);
     const auto held = vertices_where(mesh, [](const auto& x) { return x[0] < 0.4; });
     const Eigen::VectorXd values = at(rigid_motion(mesh.vertices, {0.1, 0.0, 0.2}, {0.3, -0.5, 0.8}), held);
@@ -134,31 +137,91 @@ TEST(DiscretisationCheck, FindsNothingInARotationByLinearElements) {
         Deformer deformer(precomputed(make_body(mesh), method));
         deformer.constrain({{}, held}, control);
         const auto check = deformer.discretisation_check(values, control);
-        EXPECT_EQ(check.has_value(), method.kind != kFem);
-        if (method.kind == kLinearBem) {
-            EXPECT_LT(check->relative_error, 1e-3) << describe(method);  // integrals to four digits
-        }
+        ASSERT_TRUE(check.has_value()) << describe(method);
+        if (method.kind == kConstantBem) continue;                   // resists a rotation
+        EXPECT_LT(check->relative_error, 1e-4) << describe(method);  // integrals to five digits
+        EXPECT_LT(check->relative_force_error, 1e-4) << describe(method);
     }
 }
 
-/// Constant elements turn the triangles between them not at all: what a vertex shows is the mean of several motions.
-TEST(DiscretisationCheck, SeesWhatConstantElementsAverage) {
-    const auto check = [](int cells) {
-        const SurfaceMesh mesh = make_box(cells, {4, 1, 1});
+/// True and estimated errors of one answer.
+struct Judged {
+    std::string what;
+    double error = 0.0, estimate = 0.0;
+
+    bool within(double factor) const { return estimate < factor * error && error < factor * estimate; }
+};
+
+std::vector<Judged> judge(const OrganicCase& body, const std::string& motion, MethodKind kind,
+                          const Eigen::VectorXd& values, const KnownAnswer& truth, Deformer& deformer) {
+    Control control;
+    const Deformer::Answer answer = deformer.answer(values, {.check = true}, control);
+    const std::string what = body.name + " " + motion + ", " + std::string(name(kind));
+    std::vector<Judged> judged = {
+        {what + ", displacements", displacement_error(answer.displacements, truth.displacements),
+         answer.check.value().relative_error},
+        {what + ", reactions", reaction_error(body, answer.reactions, truth.reactions),
+         answer.check->relative_force_error}};
+    for (const Judged& one : judged)
+        std::printf("[ measured ] %s: error %.3f, estimate %.3f%s\n", one.what.c_str(), one.error, one.estimate,
+                    one.within(3.0) ? "" : "  <- off");
+    const std::vector<std::string> told = words(findings_of_answer(deformer, answer));
+    if (judged[0].error > 0.1) {
+        EXPECT_THAT(told, testing::Contains(testing::HasSubstr("displacements"))) << what;
+    }
+    if (judged[1].error > 0.1) {
+        EXPECT_THAT(told, testing::Contains(testing::HasSubstr("forces"))) << what;
+    }
+    return judged;
+}
+
+/// The shares of the error in error_estimate.cpp (bem and fem) were chosen on other bodies: a rabbit, a potato, a bumpy
+/// sphere of another phase and a thicker tube.
+TEST(DiscretisationCheck, IsWithinAFactorOfThreeOnOrganicBodiesInNineOfTenCasesAndNeverSilent) {
+    const std::vector<std::pair<OrganicCase, double>> bodies = {
+        {organic_case(make_cactus(220)), 0.3},
+        {held_below("bumpy sphere", make_bumpy_sphere(7, 1.7), {-0.8, 0.5, 0.4}, 0.12, 0.55), 0.45},
+        {held_below("bent tube", make_bent_tube(2, 0.35, 4.0, 3.0), {0.1, 0.3, 1.0}, 0.15, 0.6), 0.0},
+        {held_below("torus", make_torus(4), {1.0, 0.0, 0.2}, 0.15, 0.7), 0.49}};
+    int good = 0, all = 0;
+    for (const auto& [body, nu] : bodies) {
+        ASSERT_GT(body.set.base.size(), 3u) << body.name;
+        ASSERT_GT(body.set.handles.size(), 3u) << body.name;
+        const std::vector<Eigen::Matrix3Xd> motions = {body.pulled(), body.turned()};
+        const std::vector<KnownAnswer> truths = refined_answers(body, motions, nu, 1);
+        for (const MethodKind kind : all_methods()) {
+            Control control;
+            Deformer deformer(precomputed(make_body(body.surface, {1.0, nu}), make_method(kind)));
+            deformer.constrain(body.set, control);
+            for (std::size_t m = 0; m < motions.size(); ++m)
+                for (const Judged& one :
+                     judge(body, m == 0 ? "pulled" : "turned", kind, body.values(motions[m]), truths[m], deformer)) {
+                    good += one.within(3.0) ? 1 : 0;
+                    ++all;
+                }
+        }
+    }
+    print_measured("estimates within a factor of three", static_cast<double>(good) / all);
+    EXPECT_GE(good, 0.9 * all);
+}
+
+/// The iterations of the estimate of linear tetrahedra stop early enough to be cheap and late enough to be right.
+TEST(DiscretisationCheck, OfFemIsHalfAgainTheDifferenceToQuadraticFem) {
+    const OrganicCase body = held_below("bent tube", make_bent_tube(2, 0.35, 4.0, 3.0), {0.1, 0.3, 1.0}, 0.15, 0.6);
+    const Eigen::VectorXd values = body.values(body.turned());
+    for (const double nu : {0.0, 0.3, 0.49}) {
         Control control;
-        Deformer deformer(precomputed(make_body(mesh), make_method(kConstantBem)));
-        const ConstrainedSet set{vertices_where(mesh, [](const auto& x) { return x[0] < 1e-9; }),
-                                 vertices_where(mesh, [](const auto& x) { return x[0] > 4.0 - 1e-9; })};
-        deformer.constrain(set, control);
-        const Eigen::VectorXd values = Eigen::Vector3d(0.0, 0.0, 0.4).replicate(std::ssize(set.handles), 1);
-        return deformer.discretisation_check(values, control).value();
-    };
-    const DiscretisationCheck coarse = check(1), fine = check(4);
-    print_measured("constant-bem, bar of one cell across, spread", coarse.relative_error);
-    print_measured("constant-bem, bar of four cells across, spread", fine.relative_error);
-    EXPECT_GT(coarse.relative_error, *kConstantBem->error_to_tell);
-    EXPECT_LT(fine.relative_error, 0.5 * coarse.relative_error);
-    EXPECT_LT(fine.relative_error, *kConstantBem->error_to_tell);
+        const Body what = make_body(body.surface, {1.0, nu});
+        Deformer linear(precomputed(what, make_method(kFem))), quadratic(precomputed(what, make_method(kQuadraticFem)));
+        linear.constrain(body.set, control);
+        quadratic.constrain(body.set, control);
+        const Deformer::Answer coarse = linear.answer(values, {.check = true}, control);
+        const Deformer::Answer fine = quadratic.answer(values, {.check = true}, control);
+        const Eigen::VectorXd& u = coarse.displacements;
+        const Eigen::VectorXd step = fine.displacements - u;
+        EXPECT_NEAR(coarse.check->relative_error / (1.45 * displacement_error(u, u + step)), 1.0, 0.03) << nu;
+        EXPECT_NEAR(fine.check->relative_error / (0.45 * displacement_error(u, u + step)), 1.0, 1e-6) << nu;
+    }
 }
 
 /// One answer is what displace, reactions, residual and the check say one by one.
@@ -174,7 +237,7 @@ TEST(DiscretisationCheck, IsPartOfAnAnswerThatSolvesOnce) {
         EXPECT_EQ(answer.displacements, deformer.displace(values)) << describe(method);
         EXPECT_EQ(answer.reactions.forces, deformer.reactions(values).forces) << describe(method);
         EXPECT_EQ(answer.residual.value(), deformer.residual(values, control)) << describe(method);
-        EXPECT_EQ(answer.check.has_value(), method.kind != kFem) << describe(method);
+        EXPECT_TRUE(answer.check.has_value()) << describe(method);
         EXPECT_FALSE(deformer.answer(values, {}, control).residual.has_value()) << describe(method);
     }
 }

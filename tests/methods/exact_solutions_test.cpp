@@ -41,6 +41,11 @@ std::vector<Method> linear_methods() {
     return methods;
 }
 
+/// Where all others are exact, Galerkin BEM is so to the tolerance of its integrals.
+double exactness(const Method& method, double of_the_others) {
+    return std::max(of_the_others, 3.0 * method.kind->integral_tolerance * (method.kind == kGalerkinBem ? 1.0 : 0.0));
+}
+
 TEST(ExactSolutions, ReproduceARigidRotationToRounding) {
     const std::vector<std::pair<std::string, SurfaceMesh>> bodies = {
         {"cube", make_box(4)}, {"sphere", make_sphere(4)}, {"rabbit", make_rabbit(300).surface}};
@@ -62,7 +67,7 @@ TEST(ExactSolutions, PassThePatchTestOnRegularAndIrregularBoxes) {
             const auto ends = vertices_where(mesh, [](const auto& x) { return x[0] < kEdge || x[0] > 1.0 - kEdge; });
             for (const Method& method : linear_methods()) {
                 if (method.kind == kLinearBem && method.tractions == Tractions::continuous) continue;
-                EXPECT_LT(relative_error(solve(mesh, material, method, ends, exact), exact), 1e-12)
+                EXPECT_LT(relative_error(solve(mesh, material, method, ends, exact), exact), exactness(method, 1e-12))
                     << describe(method) << ", nu " << nu;
             }
         }
@@ -210,7 +215,7 @@ TEST(Reactions, OfAStretchedBoxAreStressTimesArea) {
         deformer.constrain({{}, ends}, control);
         const Reactions reactions = deformer.reactions(at(exact, ends));
         const Eigen::Vector3d pull = reactions.forces.leftCols(static_cast<Eigen::Index>(n_right)).rowwise().sum();
-        EXPECT_LT((pull - Eigen::Vector3d(2.5, 0.0, 0.0)).norm(), 1e-10) << describe(method);
+        EXPECT_LT((pull - Eigen::Vector3d(2.5, 0.0, 0.0)).norm(), exactness(method, 1e-10)) << describe(method);
         EXPECT_LT(reactions.forces.rowwise().sum().norm(), 1e-10) << describe(method);
         EXPECT_LT(reactions.moments.rowwise().sum().norm(), 1e-10) << describe(method);
     }

@@ -18,11 +18,16 @@ inline Method make_method(MethodKind kind, Tractions tractions = Tractions::disc
     return {.kind = kind, .mode = mode, .tractions = tractions, .update = update};
 }
 
-/// The three methods, linear BEM under each of its traction models.
+/// All methods that have this mode and this update, linear BEM under each of its traction models.
 inline std::vector<Method> method_variants(Mode mode = Mode::on_demand, Update update = Update::reduced) {
-    std::vector<Method> methods = {make_method(kFem, Tractions::discontinuous, mode, update),
-                                   make_method(kConstantBem, Tractions::discontinuous, mode, update)};
-    for (const Tractions tractions : kAllTractions) methods.push_back(make_method(kLinearBem, tractions, mode, update));
+    std::vector<Method> methods;
+    for (const MethodKind kind : all_methods()) {
+        if (!has(kind, mode) || !has(kind, update)) continue;
+        methods.push_back(make_method(kind, Tractions::discontinuous, mode, update));
+        if (!kind->chooses_tractions) continue;
+        methods.push_back(make_method(kind, Tractions::restricted, mode, update));
+        methods.push_back(make_method(kind, Tractions::continuous, mode, update));
+    }
     return methods;
 }
 

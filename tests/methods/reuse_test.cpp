@@ -40,7 +40,8 @@ TEST(PrecomputeAgain, WithAnotherPoissonsRatioIntegratesNothingAndEqualsAFreshMo
         const Eigen::VectorXd expected = displaced(fresh, pull.set, pull.values);
         EXPECT_LT((displaced(again, pull.set, pull.values) - expected).norm(), 1e-13 * expected.norm())
             << describe(method);
-        EXPECT_FALSE(has_stage(*again, "integrate")) << describe(method);
+        // Galerkin BEM calls it so when it adds up what was integrated.
+        EXPECT_EQ(has_stage(*again, "integrate"), method.kind == kGalerkinBem) << describe(method);
         EXPECT_FALSE(has_stage(*again, "integrate G")) << describe(method);
         EXPECT_FALSE(has_stage(*again, "tetrahedralize")) << describe(method);
     }
@@ -115,6 +116,7 @@ TEST(Precompute, IsIndifferentToUnitsOfLengthAndForce) {
 TEST(FullMode, ExportsAStiffnessWhoseBorderedInverseItIs) {
     const Body body = make_body(make_box(3), {2.0e5, 0.3});
     for (const Method& method : method_variants(Mode::full)) {
+        if (method.kind == kGalerkinBem) continue;  // which has no K, but D and its pseudo-inverse
         const auto model = precomputed(body, method);
         Eigen::MatrixXd K, inverse;
         model->visit_matrices([&](const NamedMatrix& matrix) {

@@ -10,7 +10,7 @@
 #include "elasticity/exact_fields.hpp"
 #include "fem/fem_body.hpp"
 #include "study/error/organic_body.hpp"
-#include "study/error/refine.hpp"
+#include "mesh/refine.hpp"
 
 namespace elastolab {
 namespace {
@@ -75,6 +75,14 @@ TEST(Refinement, KeepsThePolyhedron) {
     }
     EXPECT_EQ(fine.mesh.vertices.leftCols(coarse.n_vertices()), coarse.vertices);
     EXPECT_LT((fine.interpolate(coarse.vertices) - fine.mesh.vertices).norm(), 1e-14);
+}
+
+TEST(Refinement, GathersLoadsThatDoTheSameWork) {
+    const SurfaceMesh coarse = test::boundary(test::make_tet_box({2, 2, 2}, {1.0, 1.0, 1.0}, 0.1));
+    const RefinedSurface fine = refine_all(refine_all(unrefined(coarse)));
+    const Eigen::Matrix3Xd u = Eigen::Matrix3Xd::Random(3, coarse.n_vertices());
+    const Eigen::Matrix3Xd loads = Eigen::Matrix3Xd::Random(3, fine.mesh.n_vertices());
+    EXPECT_NEAR(fine.interpolate(u).cwiseProduct(loads).sum(), u.cwiseProduct(fine.gather(loads)).sum(), 1e-10);
 }
 
 TEST(Refinement, SplitsTetrahedraInEight) {

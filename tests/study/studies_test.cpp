@@ -1,8 +1,11 @@
 #include <gmock/gmock.h>
 
+#include "deform/patch_reactions.hpp"
 #include "mesh/primitives.hpp"
+#include "methods/precompute.hpp"
 #include "methods/registry.hpp"
 #include "study/error/error_frontier.hpp"
+#include "study/error/problems.hpp"
 #include "study/paper/paper_procedure.hpp"
 #include "study/runner.hpp"
 #include "study/setups.hpp"
@@ -94,6 +97,51 @@ TEST(PaperProcedure, AgreesWithItselfInAllFourForms) {
         for (const PaperUpdate& update : updates)
             EXPECT_LT(relative_error(update.displacements, updates[0].displacements), 1e-9) << update.name;
     }
+}
+
+/// Totals of the patches at both ends, in the order of the patches.
+std::vector<Eigen::Vector3d> total_forces(const Problem& problem) {
+    std::vector<Eigen::Vector3d> totals;
+    for (const std::vector<int>& patch : constrained_patches(*problem.body.surface, {}, problem.constrained))
+        totals.emplace_back(problem.reactions->forces(Eigen::all, patch).rowwise().sum());
+    return totals;
+}
+
+TEST(Problems, KnowTheForcesOfTheirFields) {
+    const auto stretched = total_forces(problem_family("stretch").make(3, 0.3));
+    ASSERT_EQ(stretched.size(), 2U);
+    EXPECT_LT((stretched[0] + stretched[1]).norm(), 1e-14);
+    EXPECT_NEAR(stretched[0].cwiseAbs().maxCoeff(), 1.0, 1e-13);  // unit strain, modulus and section
+    const auto bent = total_forces(problem_family("bending").make(3, 0.3));
+    EXPECT_NEAR(bent[0].cwiseAbs().maxCoeff(), 0.5, 1e-13);  // stress z over 0 to 1
+    const Problem sphere = problem_family("hollow-sphere").make(3, 0.3);
+    EXPECT_FALSE(sphere.force_error(*sphere.reactions).has_value());  // adds up to nothing
+    const Problem bar = problem_family("bending").make(3, 0.3);
+    Reactions larger = *bar.reactions;
+    larger.forces *= 1.01;
+    larger.moments *= 1.01;
+    EXPECT_NEAR(bar.force_error(larger).value(), 0.01, 1e-12);
+}
+
+/// The two kinds of truth, finite and boundary elements, know the forces of an organic body alike.
+TEST(Problems, HaveForcesOfOrganicBodiesOnWhichTwoMethodsAgree) {
+    const Problem problem = problem_family("potato-turned").make(100, 0.3);
+    Control control;
+    Deformer deformer(precompute(problem.body, {.kind = kGalerkinBem}, control));
+    deformer.constrain({{}, problem.constrained}, control);
+    const Deformer::Answer answer = deformer.answer(problem.values(), {.check = true}, control);
+    const double error = problem.force_error(answer.reactions).value();
+    EXPECT_LT(error, 3.0 * answer.check->relative_force_error + problem.truth_force_error);
+    EXPECT_LT(problem.truth_force_error, 0.3);
+    EXPECT_LT(problem.reactions->forces.rowwise().sum().norm(), 1e-6 * problem.reactions->forces.cwiseAbs().sum());
+}
+
+TEST(Frontier, NamesTheFastestDefaultBesideTheFastestVariant) {
+    std::vector<FrontierPoint> points = {{"p", "0.3", "linear-bem restricted", 0.1, 1.0, 100.0},
+                                         {"p", "0.3", "linear-bem", 0.1, 2.0, 100.0},
+                                         {"p", "0.3", "galerkin-bem", 0.1, 3.0, 100.0}};
+    EXPECT_EQ(fastest(points).front().variant, "linear-bem restricted");
+    EXPECT_EQ(fastest(defaults_of(points)).front().variant, "linear-bem");
 }
 
 TEST(Frontier, FindsTheFastestBetweenTheSizes) {

@@ -24,11 +24,13 @@ constinit const MethodTraits kGalerkinBemTraits = {
     .colour = 3,
     .matrix = "hypersingular matrix",
     .cheaper = "fem, whose matrix is sparse",
+    .against_coarseness = "Halve the triangles along the rims of the constrained patches.",
     .modes = kModes,
     .updates = kUpdates,
     .full_serves_sets = false,
     .integral_tolerance = 1e-8,
     .integrates_boundary = true,
+    .error_to_tell = kErrorToTell,
     .precompute = precompute,
     .predict = predict_galerkin_bem,
 };

@@ -1,5 +1,6 @@
 #include "bem/galerkin/model.hpp"
 
+#include "bem/error_estimate.hpp"
 #include "bem/galerkin/solvers.hpp"
 
 namespace elastolab {
@@ -53,9 +54,13 @@ std::unique_ptr<ConstrainedSolid> GalerkinModel::constrain(std::span<const int> 
     const auto residual = [system = system_, vertices, tractions](const NodeSolution& solution, Control& its_control) {
         return galerkin_residual(*system, vertices, tractions, solution, its_control);
     };
+    const auto reference = [system = system_, nu = poisson_ratio_, vertices](const Eigen::VectorXd& values,
+                                                                             Control& its_control) {
+        return galerkin_self_reference(system->boundary().mesh(), nu, vertices, values, its_control);
+    };
     return std::make_unique<ConstrainedSolid>(facts_.n_vertices, constrain_vertices(vertices),
                                               nodal_shares(system_->boundary().mesh().vertices, vertices), nullptr,
-                                              std::move(solver), SolutionChecks{residual, {}});
+                                              std::move(solver), SolutionChecks{residual, reference});
 }
 
 std::uint64_t GalerkinModel::constrain_memory(std::span<const int> base, std::span<const int> handles) const {

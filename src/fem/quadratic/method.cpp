@@ -18,11 +18,13 @@ constinit const MethodTraits kQuadraticFemTraits = {
     .colour = 4,
     .matrix = "stiffness matrix",
     .cheaper = "fem, which has an eighth of the unknowns",
+    .against_coarseness = "Halve the triangles along the rims of the constrained patches, or choose galerkin-bem.",
     .modes = kModes,
     .updates = kUpdates,
     .has_inside = true,
     .sparse = true,
     .takes_incompressible = false,
+    .error_to_tell = kErrorToTell,
     .precompute = precompute_fem<ElementDegree::quadratic>,
     .predict = predict_quadratic_fem,
 };

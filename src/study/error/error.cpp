@@ -33,6 +33,8 @@ Repeats repeats(bool quick) { return quick ? Repeats{0.05, 3} : Repeats{}; }
 std::vector<Variant> main_variants(bool quick) {
     return {{"fem", {.kind = kFem}, up_to(20, quick)},
             {"constant-bem", {.kind = kConstantBem}, up_to(8, quick)},
+            {"quadratic-fem", {.kind = kQuadraticFem}, up_to(10, quick)},
+            {"galerkin-bem", {.kind = kGalerkinBem}, up_to(12, quick)},
             {"linear-bem", with_tractions(Tractions::discontinuous), up_to(12, quick)},
             {"linear-bem restricted", with_tractions(Tractions::restricted), up_to(12, quick)},
             {"linear-bem continuous", with_tractions(Tractions::continuous), up_to(12, quick)}};
@@ -66,13 +68,15 @@ public:
         cases_.push_back({id, weight, [=, store = store_](Control& control) {
                               const std::shared_ptr<const Problem> problem = store->get(family, size, nu);
                               Row row = work(*problem, control);
-                              row.set("truth", problem_family(family).truth).set("truth_error", problem->truth_error);
+                              row.set("truth", problem_family(family).truth)
+                                  .set("truth_error", problem->truth_error)
+                                  .set("truth_force_error", problem->truth_force_error);
                               return std::vector<Row>{row};
                           }});
     }
     void add(const std::string& part, const std::string& family, const Variant& variant, double nu, int size) {
         const double weight = 0.3 + (variant.name == "constant-bem" ? 8e-6 : 1e-6) * size * size * size * size * size;
-        add(part, family, variant.name, nu, size, variant.method.kind == kFem ? 0.5 : weight,
+        add(part, family, variant.name, nu, size, variant.method.kind->sparse ? 0.5 : weight,
             [method = variant.method, many = repeats_](const Problem& problem, Control& control) {
                 return measure(problem, method, many, control).set("method", text(method.kind));
             });
@@ -113,7 +117,8 @@ void add_ratios(CaseList& cases, bool quick) {
     for (const auto& [problem, size] : problems)
         for (const double nu : ratios)
             for (const Variant& variant : main_variants(quick))
-                if (nu < 0.5 || variant.method.kind != kFem) cases.add("poisson", problem, variant, nu, size);
+                if (nu < 0.5 || variant.method.kind->takes_incompressible)
+                    cases.add("poisson", problem, variant, nu, size);
 }
 
 /// Tetrahedra of other sizes and qualities; integrals of other tolerances.
@@ -131,7 +136,7 @@ void add_choices(CaseList& cases, bool quick) {
     const std::vector<double> tolerances =
         quick ? std::vector{1e-3, 1e-10} : std::vector{1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-13};
     for (const double tolerance : tolerances)
-        for (const MethodKind kind : {kLinearBem, kConstantBem}) {
+        for (const MethodKind kind : {kLinearBem, kConstantBem, kGalerkinBem}) {
             Method method;
             method.kind = kind;
             method.integral_tolerance = tolerance;
@@ -141,10 +146,12 @@ void add_choices(CaseList& cases, bool quick) {
         }
 }
 
-/// Organic bodies pulled at a small patch. In the quick run the smallest of them.
+/// Organic bodies pulled at a small patch, and turned there. In the quick run the smallest of them.
 void add_organic(CaseList& cases, bool quick) {
-    std::vector<std::pair<std::string, int>> bodies = {{"potato", 350}, {"rabbit", 600}, {"cactus", 850}};
-    if (quick) bodies = {{"potato", 150}};
+    std::vector<std::pair<std::string, int>> bodies = {{"potato", 350}, {"potato-turned", 350},
+                                                       {"rabbit", 600}, {"rabbit-turned", 600},
+                                                       {"cactus", 850}, {"cactus-turned", 850}};
+    if (quick) bodies = {{"potato", 150}, {"potato-turned", 150}};
     for (const auto& [body, size] : bodies)
         for (const double nu : {0.3, 0.45}) {
             if (quick && nu != 0.3) continue;
@@ -158,9 +165,11 @@ Study make_error_study(const StudyOptions& options) {
     Study study;
     study.name = "error";
     study.title = "Run time against error";
-    study.columns = {"part",     "problem",     "method",       "variant",      "nu",      "size",        "vertices",
-                     "unknowns", "constrained", "precompute_s", "set_change_s", "ready_s", "once_s",      "frame_s",
-                     "error",    "error_max",   "condition",    "residual",     "truth",   "truth_error", "warnings"};
+    study.columns = {
+        "part",        "problem",           "method",       "variant",        "nu",      "size",        "vertices",
+        "unknowns",    "constrained",       "precompute_s", "set_change_s",   "ready_s", "once_s",      "frame_s",
+        "error",       "error_max",         "condition",    "residual",       "truth",   "truth_error", "warnings",
+        "error_force", "truth_force_error", "estimate",     "estimate_force", "check_s"};
     CaseList cases(options.quick);
     add_refinements(cases, options.quick);
     add_reproduced(cases, options.quick);

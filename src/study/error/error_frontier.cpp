@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <utility>
 
+#include "methods/registry.hpp"
 #include "study/report/statistics.hpp"
 
 namespace elastolab {
@@ -27,7 +30,7 @@ const std::vector<double>& target_errors() {
     return targets;
 }
 
-std::vector<FrontierPoint> frontier(const Table& table, const std::string& time) {
+std::vector<FrontierPoint> frontier(const Table& table, const std::string& time, const std::string& error_column) {
     std::vector<FrontierPoint> points;
     const Table refinement = table.where({{"part", "refinement"}});
     for (const std::string& problem : refinement.values("problem"))
@@ -35,7 +38,7 @@ std::vector<FrontierPoint> frontier(const Table& table, const std::string& time)
             for (const double target : target_errors())
                 for (const std::string& variant : refinement.values("variant")) {
                     const Table rows = refinement.where({{"problem", problem}, {"nu", nu}, {"variant", variant}});
-                    const std::vector<double> error = rows.numbers("error");
+                    const std::vector<double> error = rows.numbers(error_column);
                     const double seconds = reach(error, rows.numbers(time), target);
                     const double vertices = reach(error, rows.numbers("vertices"), target);
                     if (std::isfinite(seconds)) points.push_back({problem, nu, variant, target, seconds, vertices});
@@ -57,25 +60,42 @@ std::vector<FrontierPoint> fastest(const std::vector<FrontierPoint>& points) {
     return best;
 }
 
+std::vector<FrontierPoint> defaults_of(const std::vector<FrontierPoint>& points) {
+    std::vector<FrontierPoint> found;
+    std::copy_if(points.begin(), points.end(), std::back_inserter(found),
+                 [](const FrontierPoint& point) { return parse_method_kind(point.variant).has_value(); });
+    return found;
+}
+
 Table frontier_table(const Table& table) {
-    Table result{{"problem", "nu", "time", "target", "variant", "seconds", "vertices", "fastest"}, {}};
-    for (const std::string time : {"ready_s", "once_s"}) {
-        const std::vector<FrontierPoint> points = frontier(table, time);
-        const std::vector<FrontierPoint> best = fastest(points);
+    Table result{
+        {"error", "problem", "nu", "time", "target", "variant", "seconds", "vertices", "fastest", "fastest_default"},
+        {}};
+    for (const auto& [error, time] : {std::pair{"error", "ready_s"}, {"error", "once_s"}, {"error_force", "ready_s"}}) {
+        const std::vector<FrontierPoint> points = frontier(table, time, error);
+        const std::vector<FrontierPoint> best = fastest(points), best_default = fastest(defaults_of(points));
         for (const FrontierPoint& point : points) {
-            const bool wins = std::any_of(best.begin(), best.end(), [&](const FrontierPoint& other) {
-                return other.problem == point.problem && other.nu == point.nu && other.target == point.target &&
-                       other.variant == point.variant;
-            });
+            const auto is_in = [&](const std::vector<FrontierPoint>& winners) {
+                return std::string(std::any_of(winners.begin(), winners.end(),
+                                               [&](const FrontierPoint& other) {
+                                                   return other.problem == point.problem && other.nu == point.nu &&
+                                                          other.target == point.target &&
+                                                          other.variant == point.variant;
+                                               })
+                                       ? "yes"
+                                       : "no");
+            };
             result.rows.push_back(Row()
+                                      .set("error", std::string(error))
                                       .set("problem", point.problem)
                                       .set("nu", point.nu)
-                                      .set("time", time)
+                                      .set("time", std::string(time))
                                       .set("target", point.target)
                                       .set("variant", point.variant)
                                       .set("seconds", point.seconds)
                                       .set("vertices", point.vertices)
-                                      .set("fastest", std::string(wins ? "yes" : "no")));
+                                      .set("fastest", is_in(best))
+                                      .set("fastest_default", is_in(best_default)));
         }
     }
     return result;

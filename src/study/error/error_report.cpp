@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <map>
 #include <sstream>
 
+#include "methods/registry.hpp"
 #include "study/error/error_frontier.hpp"
 #include "study/report/report.hpp"
 #include "study/report/statistics.hpp"
@@ -13,28 +14,24 @@ namespace elastolab {
 
 namespace {
 
-const std::vector<std::string> kVariants = {"linear-bem", "linear-bem restricted", "linear-bem continuous", "fem",
+const std::vector<std::string> kVariants = {"galerkin-bem",          "quadratic-fem",         "linear-bem",
+                                            "linear-bem restricted", "linear-bem continuous", "fem",
                                             "constant-bem"};
 
-int variant_color(const std::string& variant) {
-    if (variant == "linear-bem restricted") return 3;
-    if (variant == "linear-bem continuous") return 4;
-    return method_color(variant);
-}
-
 /// Order of the error on the finer half of the meshes.
-double observed_order(const Table& rows) {
+double observed_order(const Table& rows, const std::string& column) {
     std::vector<double> h, error;
     const std::size_t n = rows.rows.size();
     for (std::size_t i = n > 3 ? n - 3 : 0; i < n; ++i) {
         h.push_back(1.0 / rows.rows[i].number("size"));
-        error.push_back(rows.rows[i].number("error"));
+        error.push_back(rows.rows[i].number(column));
     }
     return fitted_exponent(h, error);
 }
 
 std::string theory(const std::string& variant) {
     if (variant == "constant-bem") return "1";
+    if (variant == "quadratic-fem") return "3 (2 on curved sides)";
     return variant == "linear-bem continuous" ? "1 to 2" : "2";
 }
 
@@ -47,65 +44,76 @@ std::string order_findings(const Table& table) {
                 const Table some = refinement.where({{"problem", problem}, {"nu", nu}, {"variant", variant}});
                 if (some.rows.empty()) continue;
                 const Row& finest = some.rows.back();
-                rows.push_back({problem, nu, variant, short_number(observed_order(some)), theory(variant),
+                rows.push_back({problem, nu, variant, short_number(observed_order(some, "error")), theory(variant),
                                 finest.text("vertices"), percent(finest.number("error")),
-                                duration(finest.number("ready_s"))});
+                                short_number(observed_order(some, "error_force")),
+                                percent(finest.number("error_force")), duration(finest.number("ready_s"))});
             }
     return "## Orders\n\nError against the exact solution, root mean square over the free vertices, relative; order "
-           "fitted over the three finest meshes. Nothing here is compared with a finer mesh of the same method.\n\n" +
+           "fitted over the three finest meshes. Forces: total force and moment of the worst constrained patch, over "
+           "the "
+           "largest (those of the hollow sphere add up to nothing). Nothing here is compared with a finer mesh of the "
+           "same method.\n\n" +
            markdown_table({"problem", "nu", "variant", "order", "theory", "vertices of the finest", "its error",
-                           "ready to drag after"},
+                           "order of forces", "error of forces", "ready to drag after"},
                           rows);
 }
 
 std::string target_text(double target) { return percent(target); }
 
-std::string frontier_findings(const Table& table) {
-    const std::vector<FrontierPoint> points = frontier(table, "ready_s");
-    const std::vector<FrontierPoint> once = fastest(frontier(table, "once_s"));
+std::string seconds_at(const std::vector<FrontierPoint>& points, const FrontierPoint& where,
+                       const std::string& variant) {
+    const auto found = std::find_if(points.begin(), points.end(), [&](const FrontierPoint& p) {
+        return p.problem == where.problem && p.nu == where.nu && p.target == where.target && p.variant == variant;
+    });
+    return found == points.end() ? "not reached" : duration(found->seconds);
+}
+
+/// The winner among these at a place, with its time; "-" where nobody gets there.
+std::string winner_at(const std::vector<FrontierPoint>& winners, const FrontierPoint& where) {
+    const auto found = std::find_if(winners.begin(), winners.end(), [&](const FrontierPoint& p) {
+        return p.problem == where.problem && p.nu == where.nu && p.target == where.target;
+    });
+    return found == winners.end() ? "-" : found->variant + ", " + duration(found->seconds);
+}
+
+std::string frontier_lines(const Table& table, const std::string& error) {
+    const std::vector<FrontierPoint> points = frontier(table, "ready_s", error);
+    const std::vector<FrontierPoint> best_default = fastest(defaults_of(points));
+    const std::vector<FrontierPoint> once = fastest(defaults_of(frontier(table, "once_s", error)));
     std::vector<std::vector<std::string>> rows;
     for (const FrontierPoint& best : fastest(points)) {
-        std::vector<std::string> others;
-        for (const std::string variant : {"linear-bem", "fem", "constant-bem"}) {
-            const auto found = std::find_if(points.begin(), points.end(), [&](const FrontierPoint& p) {
-                return p.problem == best.problem && p.nu == best.nu && p.target == best.target && p.variant == variant;
-            });
-            others.push_back(found == points.end() ? "not reached" : duration(found->seconds));
-        }
-        const auto single = std::find_if(once.begin(), once.end(), [&](const FrontierPoint& p) {
-            return p.problem == best.problem && p.nu == best.nu && p.target == best.target;
-        });
-        rows.push_back({best.problem, best.nu, target_text(best.target), best.variant, count(best.vertices),
-                        duration(best.seconds), others[0], others[1], others[2],
-                        single == once.end() ? "-" : single->variant + ", " + duration(single->seconds)});
+        std::vector<std::string> row = {best.problem, best.nu, target_text(best.target), winner_at(best_default, best),
+                                        best.variant + ", " + duration(best.seconds)};
+        for (const std::string& method : method_names()) row.push_back(seconds_at(points, best, method));
+        row.push_back(winner_at(once, best));
+        rows.push_back(row);
     }
+    std::vector<std::string> titles = {"problem", "nu", "error", "fastest default", "fastest variant"};
+    for (const std::string& method : method_names()) titles.push_back(method);
+    titles.push_back("fastest default for a single solve");
+    return markdown_table(titles, rows);
+}
+
+std::string frontier_findings(const Table& table) {
     return "## Who is fastest at a given error\n\nTime from the mesh until handles can be dragged, between the "
            "measured "
-           "sizes interpolated in logarithms.\n\n" +
-           markdown_table({"problem", "nu", "error", "fastest", "vertices", "ready after", "linear-bem", "fem",
-                           "constant-bem", "fastest for a single solve"},
-                          rows);
+           "sizes interpolated in logarithms. Defaults are the methods as the program takes them; variants are linear "
+           "BEM with other tractions as well.\n\nDisplacements:\n\n" +
+           frontier_lines(table, "error") + "\nForces of the worst patch:\n\n" + frontier_lines(table, "error_force");
 }
 
 std::string wins_finding(const Table& table) {
-    int fem = 0, linear = 0, constant = 0;
-    std::set<std::string> places;
-    for (const FrontierPoint& best : fastest(frontier(table, "ready_s"))) {
-        fem += best.variant == "fem" ? 1 : 0;
-        constant += best.variant == "constant-bem" ? 1 : 0;
-        linear += best.variant.starts_with("linear-bem") ? 1 : 0;
-        if (best.variant == "fem")
-            places.insert(best.problem + " (nu " + best.nu + ", " + target_text(best.target) + ")");
+    std::map<std::string, int> wins;
+    int all = 0;
+    for (const FrontierPoint& best : fastest(defaults_of(frontier(table, "ready_s")))) {
+        ++wins[best.variant];
+        ++all;
     }
-    std::string text = "Of the " + std::to_string(fem + linear + constant) +
-                       " combinations of problem, ratio and error, linear BEM is the fastest to be ready in " +
-                       std::to_string(linear) + ", FEM in " + std::to_string(fem) + ", constant BEM in " +
-                       std::to_string(constant) + ".";
-    if (!places.empty()) {
-        text += " FEM wins on";
-        for (const std::string& place : places) text += " " + place + ",";
-        text.back() = '.';
-    }
+    std::string text = "Of the " + std::to_string(all) +
+                       " combinations of problem, ratio and error that a default reaches, the fastest to be ready is";
+    for (const auto& [method, count_of] : wins) text += " " + method + " in " + std::to_string(count_of) + ",";
+    text.back() = '.';
     return text + "\n";
 }
 
@@ -121,6 +129,12 @@ std::string bar_finding(const Table& table) {
     return "The bending bar to 1 %: not reached by linear BEM with its default tractions at the sizes of this run.\n";
 }
 
+std::string organic_cell(const Row& row) {
+    return percent(row.number("error")) + " in " + duration(row.number("ready_s")) + "; worst vertex " +
+           percent(row.number("error_max")) + " (said " + percent(row.number("estimate")) + "); forces " +
+           percent(row.number("error_force")) + " (said " + percent(row.number("estimate_force")) + ")";
+}
+
 std::string organic_findings(const Table& table) {
     const Table organic = table.where({{"part", "organic"}});
     std::vector<std::vector<std::string>> rows;
@@ -133,15 +147,15 @@ std::string organic_findings(const Table& table) {
                     row[2] = some.rows.front().text("vertices");
                     row[3] = percent(some.rows.front().number("truth_error"));
                 }
-                row.push_back(some.rows.empty() ? "-"
-                                                : percent(some.rows.front().number("error")) + " in " +
-                                                      duration(some.rows.front().number("ready_s")));
+                row.push_back(some.rows.empty() ? "-" : organic_cell(some.rows.front()));
             }
             rows.push_back(row);
         }
     std::vector<std::string> titles = {"body", "nu", "vertices", "truth known to"};
     titles.insert(titles.end(), kVariants.begin(), kVariants.end());
-    return "## Organic bodies\n\nPulled at a small patch; error and time until ready. Truth: quadratic finite elements "
+    return "## Organic bodies\n\nMoved at a small patch; error (rms) and time until ready, the worst vertex and the "
+           "forces of "
+           "the worst patch with what the program says of them. Truth: quadratic finite elements "
            "on the same polyhedron, graded towards the rims of the patches and extrapolated.\n\n" +
            markdown_table(titles, rows);
 }
@@ -201,7 +215,7 @@ Plot error_plot(const std::string& problem, const std::string& nu) {
                                {{"part", "refinement"}, {"problem", problem}, {"nu", nu}, {"variant", variant}},
                                "ready_s",
                                "error",
-                               variant_color(variant),
+                               method_color(variant),
                                variant.find(' ') != std::string::npos});
     return plot;
 }
@@ -217,7 +231,7 @@ Plot ratio_plot(const std::string& problem) {
                                {{"part", "poisson"}, {"problem", problem}, {"variant", variant}},
                                "nu",
                                "error",
-                               variant_color(variant),
+                               method_color(variant),
                                variant.find(' ') != std::string::npos});
     return plot;
 }
@@ -231,12 +245,13 @@ Plot frontier_plot(const std::string& problem) {
     plot.log_x = plot.log_y = true;
     plot.extra = "set xrange [0.15:0.0007]";
     for (const std::string& variant : kVariants)
-        plot.series.push_back({variant,
-                               {{"problem", problem}, {"nu", "0.3"}, {"time", "ready_s"}, {"variant", variant}},
-                               "target",
-                               "seconds",
-                               variant_color(variant),
-                               variant.find(' ') != std::string::npos});
+        plot.series.push_back(
+            {variant,
+             {{"error", "error"}, {"problem", problem}, {"nu", "0.3"}, {"time", "ready_s"}, {"variant", variant}},
+             "target",
+             "seconds",
+             method_color(variant),
+             variant.find(' ') != std::string::npos});
     return plot;
 }
 
@@ -252,7 +267,7 @@ Conclusions conclude_error(const Table& table) {
     const Table times = frontier_table(table);
     write_csv(text, times);
     conclusions.files.push_back({"error-frontier.csv", text.str()});
-    for (const std::string& problem : times.where({{"nu", "0.3"}}).values("problem"))
+    for (const std::string& problem : times.where({{"error", "error"}, {"nu", "0.3"}}).values("problem"))
         conclusions.plots.push_back(frontier_plot(problem));
     const Table refinement = table.where({{"part", "refinement"}});
     for (const std::string& problem : refinement.values("problem"))

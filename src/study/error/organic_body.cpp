@@ -105,6 +105,15 @@ Positions OrganicBody::values(double distance) const {
     return values;
 }
 
+Positions OrganicBody::turned_values(double angle) const {
+    Positions values = Positions::Zero(3, std::ssize(base) + std::ssize(pull));
+    const Positions rest = surface.vertices(Eigen::all, pull);
+    const Eigen::Vector3d middle = rest.rowwise().mean();
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, pull_direction.unitOrthogonal()).toRotationMatrix();
+    values.rightCols(std::ssize(pull)) = (turn - Eigen::Matrix3d::Identity()) * (rest.colwise() - middle);
+    return values;
+}
+
 OrganicBody make_rabbit(int n_vertices) {
     const Eigen::Vector3d ear(0.45, 0.1, 1.0);
     const Shape shape{{{ear, 1.0, 0.03},

@@ -19,6 +19,9 @@ struct OrganicBody {
     /// Base, then pull; and their displacements: base at rest, pull moved by `distance` along its direction [L].
     std::vector<int> constrained() const;
     Positions values(double distance) const;
+    /// The same with the pull turned by an angle [rad] about an axis across its direction through its middle,
+    /// linearised in no way: what a wrist does to what it holds.
+    Positions turned_values(double angle) const;
 };
 
 /// The bodies, about 2 units high, vertices placed at random (seeded) at even distances, valences 4 to 9:

@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <Eigen/Geometry>
+#include <utility>
 #include <vector>
 
+#include "deform/patch_reactions.hpp"
 #include "fem/assembly.hpp"
 #include "fem/prescribed.hpp"
 #include "fem/quadratic/quadratic_mesh.hpp"
+#include "mesh/refine.hpp"
 #include "mesh/tets/tetrahedralize.hpp"
-#include "study/error/refine.hpp"
 
 namespace elastolab {
 
@@ -52,9 +55,23 @@ double mean_edge(const SurfaceMesh& mesh) {
 }
 
 struct Solution {
-    Positions u;  // of the coarse vertices
+    Positions u;                // of the coarse vertices
+    Positions forces, moments;  // likewise
     int n_nodes = 0;
 };
+
+/// Forces of the nodes of a quadratic mesh on the vertices of its surface; a midpoint's go by halves to its ends.
+Positions on_vertices(const QuadraticMesh& mesh, Positions at_nodes) {
+    std::vector<char> moved(static_cast<std::size_t>(mesh.n_nodes()), 0);
+    for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
+        for (int i = 0; i < 3; ++i) {
+            const int node = mesh.midpoints(i, t);
+            if (std::exchange(moved[static_cast<std::size_t>(node)], 1) != 0) continue;
+            at_nodes.col(mesh.triangles(i, t)) += 0.5 * at_nodes.col(node).eval();
+            at_nodes.col(mesh.triangles((i + 1) % 3, t)) += 0.5 * at_nodes.col(node).eval();
+        }
+    return at_nodes.leftCols(mesh.n_surface_vertices);
+}
 
 /// `inside`: bound on the volume of a tetrahedron, in units of the regular one over `edge`.
 TetMesh fill(const RefinedSurface& refined, double edge, double inside) {
@@ -90,9 +107,16 @@ Solution solve_on(const RefinedSurface& refined, const TetMesh& tetrahedra, cons
     Control control;
     const SparseMatrix K = stiffness(assemble_stiffness_parts(mesh, control), problem.material);
     const Positions values = at_nodes(Eigen::all, nodes);
-    const Eigen::VectorXd u = solve_prescribed(K, CholeskyAnalysis(K), nodes, values.reshaped(), control).displacements;
+    const PrescribedSolution solved = solve_prescribed(K, CholeskyAnalysis(K), nodes, values.reshaped(), control);
+    Positions forces = Positions::Zero(3, mesh.n_nodes()), moments = forces;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const Eigen::Vector3d force = solved.forces.col(0).segment<3>(3 * static_cast<Eigen::Index>(i));
+        forces.col(nodes[i]) = force;
+        moments.col(nodes[i]) = mesh.positions.col(nodes[i]).cross(force);
+    }
     const Eigen::Index n = problem.surface.n_vertices();
-    return {u.head(3 * n).reshaped(3, n), mesh.n_nodes()};
+    return {solved.displacements.col(0).head(3 * n).reshaped(3, n), refined.gather(on_vertices(mesh, forces)),
+            refined.gather(on_vertices(mesh, moments)), mesh.n_nodes()};
 }
 
 /// Root of the sum of squares over the free vertices.
@@ -112,7 +136,14 @@ Solution extrapolate(const RefinedSurface& refined, double edge, const TruthProb
     const RefinedSurface fine = refine_all(refined);
     const Solution before = solve_on(refined, mesh, problem);
     const Solution after = solve_on(fine, refine_tetrahedra(mesh, fine), problem);
-    return {2.0 * after.u - before.u, after.n_nodes};
+    return {2.0 * after.u - before.u, 2.0 * after.forces - before.forces, 2.0 * after.moments - before.moments,
+            after.n_nodes};
+}
+
+/// At the constrained vertices, in their order.
+Reactions reactions_of(const Solution& solution, std::span<const int> constrained) {
+    const std::vector<int> vertices(constrained.begin(), constrained.end());
+    return {solution.forces(Eigen::all, vertices), solution.moments(Eigen::all, vertices)};
 }
 
 }  // namespace
@@ -130,7 +161,12 @@ OrganicTruth compute_truth(const SurfaceMesh& surface, std::span<const int> cons
         before = std::move(last);
         last = extrapolate(refined, edge, problem);
     }
-    return {last.u, size_of(last.u - before.u, problem) / size_of(last.u, problem), last.n_nodes};
+    const ConstrainedPatches patches = constrained_patches(surface, {}, constrained);
+    const Reactions reactions = reactions_of(last, constrained), coarser = reactions_of(before, constrained);
+    const Reactions change{reactions.forces - coarser.forces, reactions.moments - coarser.moments};
+    return {last.u, reactions, size_of(last.u - before.u, problem) / size_of(last.u, problem),
+            largest_patch_reaction(surface, patches, change) / largest_patch_reaction(surface, patches, reactions),
+            last.n_nodes};
 }
 
 }  // namespace elastolab

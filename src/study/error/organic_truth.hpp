@@ -2,16 +2,20 @@
 
 #include <span>
 
+#include "deform/deformer.hpp"
 #include "elasticity/material.hpp"
 #include "mesh/surface_mesh.hpp"
 
 namespace elastolab {
 
-/// Displacements of the vertices of a surface, converged, and how far they may still be off.
+/// Displacements and reactions of the vertices of a surface, converged, and how far they may still be off.
 struct OrganicTruth {
     Positions displacements;      ///< 3 x n_vertices, extrapolated
+    Reactions reactions;          ///< at the constrained vertices, extrapolated
     double relative_error = 0.0;  ///< estimated, rms over the free vertices / rms of their displacements
-    int n_nodes = 0;              ///< of the finest quadratic mesh
+    /// Estimated, of the reactions of the worst patch, over the largest (deform/patch_reactions.hpp).
+    double relative_force_error = 0.0;
+    int n_nodes = 0;  ///< of the finest quadratic mesh
 };
 
 /// How fine the truth is computed: rounds of splitting the surface triangles that touch the rim of the constrained

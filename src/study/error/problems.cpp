@@ -7,8 +7,10 @@
 #include <random>
 #include <set>
 
+#include "deform/patch_reactions.hpp"
 #include "elasticity/exact_fields.hpp"
 #include "mesh/primitives.hpp"
+#include "study/error/exact_reactions.hpp"
 #include "study/error/organic_body.hpp"
 #include "study/error/organic_truth.hpp"
 #include "study/setups.hpp"
@@ -24,6 +26,8 @@ Problem exact_problem(SurfaceMesh mesh, const Field& field, const Material& mate
     Problem problem;
     problem.truth = displacements(field, mesh.vertices);
     problem.constrained = vertices_where(mesh, constrained);
+    problem.reactions =
+        exact_reactions(mesh, problem.constrained, [&](const Eigen::Vector3d& x) { return field.stress(x); });
     problem.body = study_body(std::move(mesh), material);
     return problem;
 }
@@ -78,17 +82,21 @@ Problem inflate(int cells, double nu) {
                          [](const auto& x) { return x.norm() < 0.75; });
 }
 
-Problem pull(const OrganicBody& organic, double nu) {
+Problem moved(const OrganicBody& organic, const Positions& values, double nu) {
     const Material material{1.0, nu};
-    const Positions values = organic.values(0.2);
     Problem problem;
     problem.constrained = organic.constrained();
     const OrganicTruth truth = compute_truth(organic.surface, problem.constrained, values, material, {1});
     problem.truth = truth.displacements.reshaped();
     problem.truth_error = truth.relative_error;
+    problem.reactions = truth.reactions;
+    problem.truth_force_error = truth.relative_force_error;
     problem.body = study_body(organic.surface, material, organic.name);
     return problem;
 }
+
+Problem pull(const OrganicBody& organic, double nu) { return moved(organic, organic.values(0.2), nu); }
+Problem turn(const OrganicBody& organic, double nu) { return moved(organic, organic.turned_values(0.35), nu); }
 
 constexpr const char* kExact = "exact solution";
 constexpr const char* kConverged = "quadratic finite elements graded towards the rims, extrapolated";
@@ -111,6 +119,18 @@ double Problem::error(const Eigen::VectorXd& u) const {
 
 double Problem::largest_error(const Eigen::VectorXd& u) const {
     return elastolab::largest_error(u / truth.cwiseAbs().maxCoeff(), truth / truth.cwiseAbs().maxCoeff());
+}
+
+std::optional<double> Problem::force_error(const Reactions& at_constrained) const {
+    if (!reactions) return {};
+    constexpr double kBalanced = 1e-9;
+    const ConstrainedPatches patches = constrained_patches(*body.surface, {}, constrained);
+    const double size = largest_patch_reaction(*body.surface, patches, *reactions);
+    if (size <= kBalanced * reactions->forces.colwise().norm().sum()) return {};
+    return largest_patch_reaction(
+               *body.surface, patches,
+               {at_constrained.forces - reactions->forces, at_constrained.moments - reactions->moments}) /
+           size;
 }
 
 const std::vector<ProblemFamily>& problem_families() {
@@ -137,6 +157,9 @@ const std::vector<ProblemFamily>& problem_families() {
         {"rabbit", kConverged, true, false, [](int size, double nu) { return pull(make_rabbit(size), nu); }},
         {"potato", kConverged, true, false, [](int size, double nu) { return pull(make_potato(size), nu); }},
         {"cactus", kConverged, true, false, [](int size, double nu) { return pull(make_cactus(size), nu); }},
+        {"rabbit-turned", kConverged, true, false, [](int size, double nu) { return turn(make_rabbit(size), nu); }},
+        {"potato-turned", kConverged, true, false, [](int size, double nu) { return turn(make_potato(size), nu); }},
+        {"cactus-turned", kConverged, true, false, [](int size, double nu) { return turn(make_cactus(size), nu); }},
     };
     return families;
 }

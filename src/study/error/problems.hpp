@@ -2,9 +2,11 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "deform/deformer.hpp"
 #include "deform/model.hpp"
 
 namespace elastolab {
@@ -13,14 +15,19 @@ namespace elastolab {
 struct Problem {
     Body body;
     std::vector<int> constrained;
-    Eigen::VectorXd truth;     ///< of all vertices, 3*n_vertices
-    double truth_error = 0.0;  ///< how far the truth itself may be off, relative; 0: exact
+    Eigen::VectorXd truth;                    ///< of all vertices, 3*n_vertices
+    double truth_error = 0.0;                 ///< how far the truth itself may be off, relative; 0: exact
+    std::optional<Reactions> reactions = {};  ///< true ones at the constrained vertices, where they are known
+    double truth_force_error = 0.0;           ///< how far those may be off, as force_error says it
 
     Eigen::VectorXd values() const;
     /// Root mean square error over the free vertices, relative to that of their true displacements.
     double error(const Eigen::VectorXd& u) const;
     /// Largest error of a vertex, relative to the largest true displacement.
     double largest_error(const Eigen::VectorXd& u) const;
+    /// Error of the reactions of the worst patch, over the largest (deform/patch_reactions.hpp), for those at the
+    /// constrained vertices. Nothing where the true ones are unknown, or add up to nothing on every patch.
+    std::optional<double> force_error(const Reactions& at_constrained) const;
 };
 
 /// Problems of one kind in all sizes. Their surface is free of traction except where it is constrained.
@@ -31,7 +38,8 @@ struct Problem {
 ///   torsion             circular cylinder twisted, both ends prescribed: a curved free side
 ///   torsion-irregular   the same, vertices moved at random on the surface
 ///   hollow-sphere       inner sphere displaced, outer free: curved everywhere, two surfaces
-///   rabbit, potato, cactus   organic bodies pulled at a small patch; truth by quadratic FEM graded towards the rims,
+///   rabbit, potato, cactus   organic bodies pulled at a small patch; ...-turned: the patch turned by 20 degrees. Truth
+///   by quadratic FEM graded towards the rims,
 ///                       refined and extrapolated, which shares no code with the three methods but the sparse solver
 struct ProblemFamily {
     std::string name;

@@ -1,4 +1,7 @@
 #include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
 
 #include "bem/constant_constraints.hpp"
 #include "deform/constraint_map.hpp"
@@ -46,7 +49,9 @@ std::vector<Row> measure_paper_procedure(MethodKind kind, int cells, unsigned se
     const Row sizes = Row().set("vertices", body.surface->n_vertices()).set("nodes", system.n_nodes());
     std::vector<Row> rows = {Row(sizes).set("part", "precompute").set("precompute_s", precompute)};
     for (const double share : kShares) {
-        const std::vector<int> known = choose_share(system.n_nodes(), share, seed);
+        // Nobody grabs a node inside: FEM's share is one of its surface vertices, which are its first nodes.
+        const int n = kind->has_inside ? body.surface->n_vertices() : system.n_nodes();
+        const std::vector<int> known = choose_share(n, share, seed);
         control.checkpoint();
         const std::vector<PaperUpdate> updates = paper_updates(system, known);
         for (const PaperUpdate& update : updates)
@@ -83,6 +88,20 @@ std::vector<int> choose_vertices(const SurfaceMesh& mesh, MethodKind kind, doubl
     return choose_numbers(n, low, seed);
 }
 
+/// A share of the vertices in two patches around opposite corners of the cube, as people hold and pull.
+std::vector<int> choose_patches(const SurfaceMesh& mesh, double share) {
+    std::vector<int> vertices(static_cast<std::size_t>(mesh.n_vertices()));
+    std::iota(vertices.begin(), vertices.end(), 0);
+    const Eigen::Vector3d low = mesh.vertices.rowwise().minCoeff(), high = mesh.vertices.rowwise().maxCoeff();
+    const auto from_corner = [&](int v) {
+        return std::min((mesh.vertices.col(v) - low).norm(), (mesh.vertices.col(v) - high).norm());
+    };
+    std::stable_sort(vertices.begin(), vertices.end(), [&](int a, int b) { return from_corner(a) < from_corner(b); });
+    vertices.resize(static_cast<std::size_t>(std::max(3L, std::lround(share * mesh.n_vertices()))));
+    std::sort(vertices.begin(), vertices.end());
+    return vertices;
+}
+
 /// On demand: BEM factorises ahead, FEM when a set is there; the columns of the known vertices when they are chosen;
 /// the drag response. Columns are kept whatever memory they take.
 std::vector<Row> measure_our_procedure(MethodKind kind, int cells, unsigned seed, Control& control) {
@@ -90,8 +109,11 @@ std::vector<Row> measure_our_procedure(MethodKind kind, int cells, unsigned seed
     const int n = body.surface->n_vertices();
     const Method method{.kind = kind, .column_memory = std::uint64_t{1} << 33};
     std::vector<Row> rows;
-    for (const double share : kShares) {
-        const std::vector<int> known = choose_vertices(*body.surface, kind, share, seed);
+    for (const auto& [share, choice] :
+         {std::pair{0.1, "random"}, {0.3, "random"}, {0.1, "patches"}, {0.3, "patches"}}) {
+        const bool random = choice == std::string("random");
+        const std::vector<int> known =
+            random ? choose_vertices(*body.surface, kind, share, seed) : choose_patches(*body.surface, share);
         std::vector<double> precomputed, first, again;
         std::unique_ptr<Deformer> deformer;
         median_seconds(
@@ -114,6 +136,7 @@ std::vector<Row> measure_our_procedure(MethodKind kind, int cells, unsigned seed
                               .set("vertices", n)
                               .set("nodes", deformer->model().facts().n_degrees_of_freedom / 3)
                               .add(share_cells(share))
+                              .set("choice", std::string(choice))
                               .set("known_nodes", n_constrained_nodes(*body.surface, kind, known));
         rows.push_back(Row(sizes).set("part", "precompute").set("precompute_s", median(precomputed)));
         rows.push_back(Row(sizes)
@@ -171,7 +194,7 @@ Study make_paper_study(const StudyOptions& options) {
     study.title = "The figures of the paper, measured again";
     study.columns = {"way",     "method",       "cells",      "part",         "vertices",     "nodes",
                      "share",   "known_nodes",  "update",     "precompute_s", "set_change_s", "ready_s",
-                     "frame_s", "disagreement", "edge_error", "face_error"};
+                     "frame_s", "disagreement", "edge_error", "face_error",   "choice"};
     for (const MethodKind kind : paper_methods()) {
         for (const int cells : sizes(kind, true, options.quick))
             add_case(study.cases, "paper", kind, cells, weight_of(kind, cells, true),

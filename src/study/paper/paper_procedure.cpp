@@ -1,6 +1,7 @@
 #include "study/paper/paper_procedure.hpp"
 
 #include <optional>
+#include <utility>
 
 #include "base/lapack.hpp"
 #include "methods/precompute.hpp"
@@ -74,6 +75,7 @@ PaperSystem paper_precomputation(const Body& body, MethodKind kind, Control& con
         if (matrix.name == "K") operators->K = matrix.values;
         if (matrix.name == "Khatinv") operators->Khatinv = matrix.values;
     });
+    system.symmetric = kind->sparse;
     system.operators = std::move(operators);
     return system;
 }
@@ -86,7 +88,9 @@ std::vector<PaperUpdate> paper_updates(const PaperSystem& system, const std::vec
     {
         Eigen::MatrixXd inverse;
         const auto invert = [&] {
-            inverse = LuFactorization(operators.K(partition.free, partition.free), "K00").inverse();
+            Eigen::MatrixXd K00 = operators.K(partition.free, partition.free);
+            inverse = system.symmetric ? spd_inverse(std::move(K00), "K00")
+                                       : LuFactorization(std::move(K00), "K00").inverse();
         };
         const double seconds = median_seconds(invert, kBudget, kMostRepeats);
         updates.push_back(with_matrices("inverse", seconds, inverse, operators, partition, U1));

@@ -14,14 +14,15 @@ namespace elastolab {
 /// continuous tractions, FEM its interior nodes.
 struct PaperSystem {
     std::shared_ptr<const DenseOperators> operators;
-    double seconds = 0.0;  ///< of the whole precomputation, beginning with the surface
+    bool symmetric = false;  ///< K is, but for rounding
+    double seconds = 0.0;    ///< of the whole precomputation, beginning with the surface
 
     int n_nodes() const { return static_cast<int>(operators->K.rows() / 3); }
 };
 PaperSystem paper_precomputation(const Body& body, MethodKind kind, Control& control);
 
 /// One way to get displacements after the set of known nodes has changed.
-///   inverse   without Eqn. 9: K00 inverted afresh
+///   inverse   without Eqn. 9: K00 inverted afresh, by Cholesky where it is symmetric
 ///   eqn9      K00^-1 by Eqn. 9 as it is written
 ///   direct    K00 factorised afresh, not inverted
 ///   reduced   the collapsed form (9')

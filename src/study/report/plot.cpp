@@ -4,10 +4,12 @@
 #include <array>
 #include <cstdlib>
 #include <fstream>
+#include <optional>
 #include <sstream>
 
 #include "base/error.hpp"
 #include "mesh/input/child_process.hpp"
+#include "methods/registry.hpp"
 
 namespace elastolab {
 
@@ -76,10 +78,10 @@ std::string drawing(const Plot& plot, const std::string& csv) {
 }  // namespace
 
 int method_color(const std::string& method) {
-    if (method == "fem") return 0;
-    if (method == "constant-bem") return 1;
-    if (method == "linear-bem") return 2;
-    return 6;
+    if (method == "linear-bem restricted") return 5;
+    if (method == "linear-bem continuous") return 6;
+    const std::optional<MethodKind> kind = parse_method_kind(method);
+    return kind ? (*kind)->colour : 7;
 }
 
 std::string gnuplot_script(const Plot& plot, const std::string& csv) {

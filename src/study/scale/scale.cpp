@@ -35,9 +35,15 @@ std::vector<Growth> growths(bool quick) {
             if (n <= (quick ? std::min(largest, 6) : largest)) all.push_back(n);
         return all;
     };
-    return {{method(kFem, Mode::on_demand), cells(36)},    {method(kFem, Mode::full), cells(16)},
-            {method(kFem, Mode::full_volume), cells(10)},  {method(kConstantBem, Mode::on_demand), cells(20)},
-            {method(kConstantBem, Mode::full), cells(10)}, {method(kLinearBem, Mode::on_demand), cells(30)},
+    return {{method(kGalerkinBem, Mode::on_demand), cells(30)},
+            {method(kGalerkinBem, Mode::full), cells(16)},
+            {method(kQuadraticFem, Mode::on_demand), cells(20)},
+            {method(kFem, Mode::on_demand), cells(36)},
+            {method(kFem, Mode::full), cells(16)},
+            {method(kFem, Mode::full_volume), cells(10)},
+            {method(kConstantBem, Mode::on_demand), cells(20)},
+            {method(kConstantBem, Mode::full), cells(10)},
+            {method(kLinearBem, Mode::on_demand), cells(30)},
             {method(kLinearBem, Mode::full), cells(16)}};
 }
 
@@ -100,7 +106,7 @@ Study make_scale_study(const StudyOptions& options) {
                                .set("method", text(growth.method.kind))
                                .set("mode", std::string(name(growth.method.mode)))
                                .set("cells", cells);
-            const double weight = 1.0 + 2e-6 * std::pow(cells, growth.method.kind == kFem ? 4 : 5.5);
+            const double weight = 1.0 + 2e-6 * std::pow(cells, growth.method.kind->sparse ? 4 : 5.5);
             study.cases.push_back({id, weight, [method = growth.method, cells](Control& control) {
                                        return measure_growth(method, cells, control);
                                    }});

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/text.hpp"
+#include "methods/registry.hpp"
 #include "study/report/report.hpp"
 #include "study/report/statistics.hpp"
 
@@ -41,7 +43,8 @@ std::string growth_table(const Table& table) {
 
 /// What is predicted. FEM on demand factorises when a set is known, and its prediction includes that.
 double measured(const Row& row, const std::string& of) {
-    const bool with_set = row.text("method") == "fem" && row.text("mode") == "on-demand";
+    const std::optional<MethodKind> kind = parse_method_kind(row.text("method"));
+    const bool with_set = kind && (*kind)->sparse && row.text("mode") == "on-demand";
     if (of == "bytes") return row.number(with_set ? "with_set_bytes" : "measured_bytes");
     return row.number("precompute_s") + (with_set ? row.number("set_change_s") : 0.0);
 }

@@ -41,7 +41,7 @@ Row or_failed(const std::function<Row()>& work, Control& control) {
     }
 }
 
-/// 100 000 edits over the five variants.
+/// 20 000 edits of each variant.
 void add_edits(std::vector<Case>& cases, const StudyOptions& options) {
     const int n_edits = options.quick ? 100 : 20000, n_checks = options.quick ? 10 : 200;
     const int most = options.quick ? 3 : 8;
@@ -68,8 +68,9 @@ Study make_stability_study(const StudyOptions& options) {
     Study study;
     study.name = "stability";
     study.title = "What breaks each method, and what the program says then";
-    study.columns = {"group",   "parameter", "level",     "variant",  "vertices", "constrained", "outcome", "error",
-                     "allowed", "error_max", "condition", "residual", "edits",    "checks",      "message"};
+    study.columns = {"group",    "parameter", "level",   "variant",   "vertices",    "constrained",
+                     "outcome",  "error",     "allowed", "error_max", "error_force", "condition",
+                     "residual", "edits",     "checks",  "message"};
     add_sweeps(study.cases, options.quick);
     add_edits(study.cases, options);
     study.conclude = [](const Table& table, Control&) { return conclude_stability(table); };

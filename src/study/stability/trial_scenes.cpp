@@ -7,6 +7,7 @@
 #include "elasticity/exact_fields.hpp"
 #include "elasticity/rigid_motion.hpp"
 #include "mesh/primitives.hpp"
+#include "study/error/exact_reactions.hpp"
 #include "study/setups.hpp"
 #include "study/stability/trials.hpp"
 
@@ -29,6 +30,8 @@ Problem ends_prescribed(SurfaceMesh mesh, const Field& field, double length) {
     Problem problem;
     problem.truth = displacements(field, mesh.vertices);
     problem.constrained = vertices_where(mesh, [=](const auto& x) { return at_end(x, length); });
+    problem.reactions =
+        exact_reactions(mesh, problem.constrained, [&](const Eigen::Vector3d& x) { return field.stress(x); });
     problem.body = study_body(std::move(mesh), field.material, "body on trial");
     return problem;
 }
@@ -101,6 +104,8 @@ Problem scaled(double scale) {
     SurfaceMesh mesh = *problem.body.surface;
     mesh.vertices *= scale;
     problem.truth *= scale;
+    problem.reactions->forces *= scale * scale;  // the strain stays
+    problem.reactions->moments *= scale * scale * scale;
     problem.body = study_body(std::move(mesh), kMaterial, problem.body.name);
     return problem;
 }
@@ -133,6 +138,9 @@ Problem close_handles(double distance) {
     mesh.vertices.col(b) = mesh.vertices.col(a) + Eigen::Vector3d(distance, 0, 0);
     problem.truth = displacements(UniaxialStretch{kMaterial, 1.0}, mesh.vertices);
     problem.constrained.insert(problem.constrained.end(), {a, b});
+    problem.reactions = exact_reactions(mesh, problem.constrained, [](const Eigen::Vector3d& x) {
+        return UniaxialStretch{kMaterial, 1.0}.stress(x);
+    });
     problem.body = study_body(std::move(mesh), kMaterial, "body on trial");
     return problem;
 }
@@ -227,6 +235,8 @@ Problem nested(double radius) {
 Problem large_values(double factor) {
     Problem problem = bending_bar(0.3);
     problem.truth *= factor;
+    problem.reactions->forces *= factor;
+    problem.reactions->moments *= factor;
     return problem;
 }
 

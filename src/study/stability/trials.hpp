@@ -30,14 +30,14 @@ struct TrialVariant {
 };
 std::vector<TrialVariant> trial_variants();
 
-/// Largest error of a vertex, over the largest displacement, up to which an answer counts as right: 10 %, and 25 % for
-/// constant BEM, whose elements are of first order. The eye would hardly notice less.
+/// Largest error of a vertex, over the largest displacement, and of the reactions of the worst patch, over the largest,
+/// up to which an answer counts as right: 10 %, and 25 % for constant BEM, whose elements are of first order.
 double allowed_error(MethodKind kind);
 
 /// Checks the mesh, precomputes, constrains, solves and collects whatever the program says, as `solve` does:
-/// outcome (right | told | refused | silent), error, error_max, allowed, condition, residual, message.
-///   right    the error is within `allowed`
-///   told     it is not, and a warning says so
+/// outcome (right | told | refused | silent), error, error_max, error_force, allowed, condition, residual, message.
+///   right    displacements are within `allowed`, and so are reactions where the true ones are known
+///   told     some are not, and a warning names what is wrong: displacements, forces, or a cause that spoils both
 ///   refused  an error message instead of a result
 ///   silent   wrong without a word: a defect of the program
 Row attempt(const Problem& problem, const Method& method, Control& control);

@@ -1,4 +1,4 @@
-#include "study/error/refine.hpp"
+#include "mesh/refine.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -29,6 +29,14 @@ std::vector<Eigen::Vector3i> parts(const Eigen::Vector3i& v, const Eigen::Vector
 }
 
 }  // namespace
+
+Eigen::Matrix3Xd RefinedSurface::gather(Eigen::Matrix3Xd loads) const {
+    const Eigen::Index n_coarse = mesh.n_vertices() - std::ssize(parents);
+    for (Eigen::Index v = loads.cols() - 1; v >= n_coarse; --v)
+        for (const int parent : parents[static_cast<std::size_t>(v - n_coarse)])
+            loads.col(parent) += 0.5 * loads.col(v).eval();
+    return loads.leftCols(n_coarse);
+}
 
 Eigen::Matrix3Xd RefinedSurface::interpolate(const Eigen::Matrix3Xd& coarse) const {
     const Eigen::Index n = mesh.n_vertices() - std::ssize(parents);

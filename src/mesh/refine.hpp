@@ -19,6 +19,9 @@ struct RefinedSurface {
 
     /// Extends values at the coarse vertices (3 x n_coarse) to all, linearly on every coarse triangle.
     Eigen::Matrix3Xd interpolate(const Eigen::Matrix3Xd& coarse) const;
+    /// The transpose: takes loads at all vertices (3 x n) to those at the coarse ones that do the same work, a
+    /// midpoint's by halves to its two vertices.
+    Eigen::Matrix3Xd gather(Eigen::Matrix3Xd loads) const;
 };
 
 /// The mesh itself, as the beginning of a chain of refinements.

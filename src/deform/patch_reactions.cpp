@@ -1,0 +1,64 @@
+#include "deform/patch_reactions.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <Eigen/Geometry>
+#include <numeric>
+
+namespace elastolab {
+
+namespace {
+
+int root_of(std::vector<int>& parent, int i) {
+    while (parent[static_cast<std::size_t>(i)] != i) {
+        int& up = parent[static_cast<std::size_t>(i)];
+        up = parent[static_cast<std::size_t>(up)];
+        i = up;
+    }
+    return i;
+}
+
+}  // namespace
+
+ConstrainedPatches constrained_patches(const SurfaceMesh& surface, std::span<const int> base,
+                                       std::span<const int> handles) {
+    const int n_base = static_cast<int>(base.size()), n = n_base + static_cast<int>(handles.size());
+    std::vector<int> place(static_cast<std::size_t>(surface.n_vertices()), -1), parent(static_cast<std::size_t>(n));
+    for (int i = 0; i < n; ++i)
+        place[static_cast<std::size_t>(i < n_base ? base[static_cast<std::size_t>(i)]
+                                                  : handles[static_cast<std::size_t>(i - n_base)])] = i;
+    std::iota(parent.begin(), parent.end(), 0);
+    for (const auto& triangle : surface.triangles.colwise())
+        for (int corner = 0; corner < 3; ++corner) {
+            const int a = place[static_cast<std::size_t>(triangle[corner])];
+            const int b = place[static_cast<std::size_t>(triangle[(corner + 1) % 3])];
+            if (a >= 0 && b >= 0 && (a < n_base) == (b < n_base))
+                parent[static_cast<std::size_t>(root_of(parent, a))] = root_of(parent, b);
+        }
+    ConstrainedPatches patches;
+    std::vector<int> patch_of(static_cast<std::size_t>(n), -1);
+    for (int i = 0; i < n; ++i) {
+        int& patch = patch_of[static_cast<std::size_t>(root_of(parent, i))];
+        if (patch < 0) {
+            patch = static_cast<int>(patches.size());
+            patches.emplace_back();
+        }
+        patches[static_cast<std::size_t>(patch)].push_back(i);
+    }
+    return patches;
+}
+
+double largest_patch_reaction(const SurfaceMesh& surface, const ConstrainedPatches& patches,
+                              const Reactions& reactions) {
+    const Eigen::Vector3d centre = surface.vertices.rowwise().mean();
+    const double radius = (surface.vertices.colwise() - centre).colwise().norm().maxCoeff();
+    double largest = 0.0;
+    for (const std::vector<int>& patch : patches) {
+        const Eigen::Vector3d force = reactions.forces(Eigen::all, patch).rowwise().sum();
+        const Eigen::Vector3d moment = reactions.moments(Eigen::all, patch).rowwise().sum();
+        largest = std::max({largest, force.stableNorm(), (moment - centre.cross(force)).stableNorm() / radius});
+    }
+    return largest;
+}
+
+}  // namespace elastolab

@@ -1,0 +1,182 @@
+#include "fem/error_estimate.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <Eigen/LU>
+#include <utility>
+#include <vector>
+
+#include "base/memory.hpp"
+#include "deform/holds.hpp"
+#include "fem/constrained_nodes.hpp"
+#include "fem/constraints.hpp"
+#include "fem/prescribed.hpp"
+
+namespace elastolab {
+
+namespace {
+
+/// Error that quadratic elements leave, over what they change. Along the rim of a constrained patch errors fall with
+/// the square of the degree, elsewhere faster; measured in tests/methods/discretisation_test.cpp.
+constexpr double kLeftByQuadratic = 0.45;
+/// Energy norm of the error of conjugate gradients over that of the first guess, estimated.
+constexpr double kEnoughReduction = 0.01;
+constexpr int kMostSteps = 150;
+/// Bytes of the stiffness and its parts for each quadratic node: some 30 blocks of 3 x 3 in each of three matrices.
+constexpr std::uint64_t kBytesOfNode = 12000;
+
+/// The nodes of quadratic elements out of the corners of their tetrahedra: corners are themselves, a midpoint is the
+/// mean of its ends.
+class CornerNodes {
+public:
+    /// elements: corners, then midpoints by kTetEdges.
+    CornerNodes(const Eigen::Matrix<int, 10, Eigen::Dynamic>& elements, int n_nodes)
+        : ends_(static_cast<std::size_t>(n_nodes), {-1, -1}), corner_(static_cast<std::size_t>(n_nodes), -1) {
+        for (const auto& element : elements.colwise())
+            for (int e = 0; e < 6; ++e)
+                ends_[static_cast<std::size_t>(element[4 + e])] = {element[kTetEdges[e][0]], element[kTetEdges[e][1]]};
+        for (int node = 0; node < n_nodes; ++node)
+            if (!is_midpoint(node)) corner_[static_cast<std::size_t>(node)] = n_corners_++;
+    }
+    int n_corners() const { return n_corners_; }
+    bool is_midpoint(int node) const { return ends_[static_cast<std::size_t>(node)][0] >= 0; }
+
+    /// 3*n_nodes x 3*n_corners; corners keep their order.
+    SparseMatrix prolongation() const {
+        std::vector<Eigen::Triplet<double>> entries;
+        for (int node = 0; node < static_cast<int>(ends_.size()); ++node)
+            for (int axis = 0; axis < 3; ++axis) {
+                const auto add = [&](int corner_node, double weight) {
+                    entries.emplace_back(3 * node + axis, 3 * corner_[static_cast<std::size_t>(corner_node)] + axis,
+                                         weight);
+                };
+                if (!is_midpoint(node)) add(node, 1.0);
+                for (const int end : ends_[static_cast<std::size_t>(node)])
+                    if (end >= 0) add(end, 0.5);
+            }
+        SparseMatrix P(3 * std::ssize(ends_), 3 * n_corners_);
+        P.setFromTriplets(entries.begin(), entries.end());
+        return P;
+    }
+
+private:
+    std::vector<std::array<int, 2>> ends_;
+    std::vector<int> corner_;
+    int n_corners_ = 0;
+};
+
+/// Corrects a vector of all nodes by both levels.
+class TwoLevelPreconditioner {
+public:
+    TwoLevelPreconditioner(const SparseMatrix& K, const CornerNodes& corners, const SparseMatrix& prolongation,
+                           const SparseCholesky& coarse, std::vector<char> is_prescribed)
+        : prolongation_(prolongation), coarse_(coarse), is_prescribed_(std::move(is_prescribed)) {
+        for (int node = 0; node < static_cast<int>(is_prescribed_.size()); ++node) {
+            Eigen::Matrix3d block = Eigen::Matrix3d::Zero();
+            if (corners.is_midpoint(node) && !is_prescribed_[static_cast<std::size_t>(node)])
+                block = Eigen::Matrix3d(K.block(3 * node, 3 * node, 3, 3)).inverse();
+            of_midpoints_.push_back(block);
+        }
+    }
+    Eigen::VectorXd operator()(const Eigen::VectorXd& residual) const {
+        const Eigen::VectorXd on_corners = prolongation_.transpose() * residual;
+        Eigen::VectorXd z = prolongation_ * coarse_.solve(on_corners);
+        for (std::size_t node = 0; node < of_midpoints_.size(); ++node)
+            z.segment<3>(3 * static_cast<Eigen::Index>(node)) +=
+                of_midpoints_[node] * residual.segment<3>(3 * static_cast<Eigen::Index>(node));
+        return without_prescribed(std::move(z));
+    }
+    Eigen::VectorXd without_prescribed(Eigen::VectorXd all) const {
+        for (std::size_t node = 0; node < is_prescribed_.size(); ++node)
+            if (is_prescribed_[node]) all.segment<3>(3 * static_cast<Eigen::Index>(node)).setZero();
+        return all;
+    }
+
+private:
+    const SparseMatrix& prolongation_;
+    const SparseCholesky& coarse_;
+    std::vector<char> is_prescribed_;
+    std::vector<Eigen::Matrix3d> of_midpoints_;
+};
+
+/// Conjugate gradients from the first guess x, which has the prescribed displacements.
+void improve(const SparseMatrix& K, const TwoLevelPreconditioner& precondition, Eigen::VectorXd& x, Control& control) {
+    Eigen::VectorXd r = precondition.without_prescribed(-(K * x)), z = precondition(r), p = z;
+    double rz = r.dot(z);
+    const double enough = kEnoughReduction * kEnoughReduction * rz;
+    for (int step = 0; step < kMostSteps && rz > enough; ++step) {
+        control.checkpoint();
+        const Eigen::VectorXd q = precondition.without_prescribed(K * p);
+        const double alpha = rz / p.dot(q);
+        x += alpha * p;
+        r -= alpha * q;
+        z = precondition(r);
+        const double before = std::exchange(rz, r.dot(z));
+        p = z + (rz / before) * p;
+    }
+}
+
+Reactions reactions_of(const SparseMatrix& K, const Eigen::VectorXd& u, const ConstrainedFemNodes& constrained,
+                       std::size_t n_vertices) {
+    return gathered_reactions(constrained.shares, static_cast<int>(n_vertices),
+                              nodal_forces(K, u, constrained.prescribed.nodes).col(0));
+}
+
+/// Corners and midpoints of the elements out of the eight that each was split into (QuadraticMesh::split).
+Eigen::Matrix<int, 10, Eigen::Dynamic> rejoined(const TetMesh& split) {
+    // Of the four at the corners: where the ten nodes are first seen.
+    constexpr std::array<std::array<int, 2>, 10> kSeen = {
+        {{0, 0}, {1, 1}, {2, 2}, {3, 3}, {0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+    Eigen::Matrix<int, 10, Eigen::Dynamic> elements(10, split.n_tetrahedra() / 8);
+    for (Eigen::Index t = 0; t < elements.cols(); ++t)
+        for (std::size_t i = 0; i < kSeen.size(); ++i)
+            elements(static_cast<Eigen::Index>(i), t) = split.tetrahedra(kSeen[i][1], 8 * t + kSeen[i][0]);
+    return elements;
+}
+
+}  // namespace
+
+std::optional<ReferenceAnswer> quadratic_reference(const FemSystem& linear, double poisson_ratio,
+                                                   std::span<const int> vertices, const Eigen::VectorXd& values,
+                                                   Control& control) {
+    if (!holds(linear.positions(), vertices)) return {};
+    const QuadraticMesh mesh(linear.mesh->tets);
+    if (kBytesOfNode * static_cast<std::uint64_t>(mesh.n_nodes()) > available_memory_bytes()) return {};
+    const SparseMatrix K = stiffness(assemble_stiffness_parts(mesh, control), Material{1.0, poisson_ratio});
+    const CornerNodes corners(mesh.elements, mesh.n_nodes());
+    const SparseMatrix prolongation = corners.prolongation();
+    const ConstrainedFemNodes constrained =
+        constrain_nodes(mesh.positions, {mesh.triangles, mesh.midpoints}, {}, vertices);
+    std::vector<char> is_prescribed(static_cast<std::size_t>(mesh.n_nodes()), 0);
+    for (const int node : constrained.prescribed.nodes) is_prescribed[static_cast<std::size_t>(node)] = 1;
+
+    const SparseCholesky coarse(*linear.mesh->analysis, eliminated(linear.K, vertices), "stiffness matrix");
+    Eigen::VectorXd u = Eigen::VectorXd::Zero(linear.K.rows());
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+        u.segment<3>(3 * vertices[i]) = values.segment<3>(3 * static_cast<Eigen::Index>(i));
+    Eigen::VectorXd load = -(linear.K * u);
+    for (const int v : vertices) load.segment<3>(3 * v).setZero();
+    u += coarse.solve(load).col(0);
+    u = (prolongation * u).eval();
+    improve(K, TwoLevelPreconditioner(K, corners, prolongation, coarse, std::move(is_prescribed)), u, control);
+    return ReferenceAnswer{u.head(3 * linear.n_vertices()), reactions_of(K, u, constrained, vertices.size()),
+                           1.0 + kLeftByQuadratic};
+}
+
+std::optional<ReferenceAnswer> linear_reference(const FemSystem& quadratic, std::span<const int> vertices,
+                                                const Eigen::VectorXd& values, Control& control) {
+    if (!holds(quadratic.positions(), vertices)) return {};
+    const CornerNodes corners(rejoined(quadratic.mesh->tets), quadratic.mesh->tets.n_vertices());
+    const SparseMatrix prolongation = corners.prolongation();
+    const SparseMatrix K = SparseMatrix(prolongation.transpose()) * (quadratic.K * prolongation);
+    control.checkpoint();
+    const PrescribedSolution solution = solve_prescribed(K, CholeskyAnalysis(K), vertices, values, control);
+    const std::vector<LoadShare> shares =
+        nodal_shares(quadratic.positions(), std::vector<int>(vertices.begin(), vertices.end()));
+    return ReferenceAnswer{solution.displacements.col(0).head(3 * quadratic.n_vertices()),
+                           gathered_reactions(shares, static_cast<int>(vertices.size()), solution.forces.col(0)),
+                           -kLeftByQuadratic};
+}
+
+}  // namespace elastolab

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <span>
+
+#include "base/control.hpp"
+#include "deform/solid_model.hpp"
+#include "fem/solvers.hpp"
+
+namespace elastolab {
+
+/// The answer that linear tetrahedra are judged by: quadratic elements on the same tetrahedra, solved by conjugate
+/// gradients to a few per cent in energy. Two levels precondition them: the factorised linear stiffness on the corners,
+/// and the diagonal blocks of the midpoints; their number of steps does not depend on the size of the mesh. Nothing
+/// where the constraints do not hold the body or memory does not suffice.
+/// vertices  constrained, all different
+/// values    their displacements, 3*vertices.size()
+/// Throws SolveError, Cancelled.
+std::optional<ReferenceAnswer> quadratic_reference(const FemSystem& linear, double poisson_ratio,
+                                                   std::span<const int> vertices, const Eigen::VectorXd& values,
+                                                   Control& control);
+
+/// What quadratic tetrahedra are judged by: linear ones, whose answer is in the same space. What the second degree
+/// changed tells what a third would.
+std::optional<ReferenceAnswer> linear_reference(const FemSystem& quadratic, std::span<const int> vertices,
+                                                const Eigen::VectorXd& values, Control& control);
+
+}  // namespace elastolab
