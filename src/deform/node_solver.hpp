@@ -37,6 +37,10 @@ public:
 
     /// prescribed  3*n_constrained_nodes x m, in the order of the constrained nodes
     virtual NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const = 0;
+    /// The same, told its progress and cancelled where it iterates. Throws SolveError, Cancelled.
+    virtual NodeSolution solve_watched(const Eigen::MatrixXd& prescribed, bool want_loads, Control&) const {
+        return solve(prescribed, want_loads);
+    }
 
     /// Displacements of all nodes, zero at the constrained ones, for which the boundary equation has this residual:
     /// H u - G q = residual at the nodes (3*n_nodes), zero at interior points. Empty where the solver cannot tell.
