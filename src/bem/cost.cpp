@@ -14,8 +14,10 @@ namespace {
 constexpr double kFlopsPerPair = 3000.0;
 
 /// Hierarchical matrices: vertices from which they are used, and what they take for each and each level of clusters.
-constexpr int kHierarchicalFrom = 4000;
-constexpr double kBytesPerVertexAndLevel = 9e3, kFlopsPerVertexAndLevel = 4e7;
+constexpr int kHierarchicalOnceFrom = 3000, kHierarchicalFrom = 5000;
+constexpr double kBytesPerVertexAndLevel = 9.1e3, kFlopsPerVertexAndLevel = 1.8e7;
+/// Points of rules and close pairs, which are dropped once the matrix is there.
+constexpr double kBytesPerVertex = 14e3;
 
 Cost predict(const SurfaceMesh& mesh, const Method& method, double nodes) {
     const double n = 3.0 * nodes, pairs = nodes * mesh.n_triangles();
@@ -43,12 +45,13 @@ Cost predict_linear_bem(const SurfaceMesh& mesh, const Method& method) {
 }
 
 bool is_hierarchical(const SurfaceMesh& surface, const Method& method) {
-    return method.mode == Mode::on_demand && surface.n_vertices() >= kHierarchicalFrom;
+    const bool once = !factorises_ahead(method);  // a factor serves many sets, and is dear for one
+    return method.mode == Mode::on_demand && surface.n_vertices() >= (once ? kHierarchicalOnceFrom : kHierarchicalFrom);
 }
 
 std::uint64_t hierarchical_set_memory(std::int64_t n_vertices, std::int64_t n_tractions) {
     const double n = static_cast<double>(n_vertices), m = static_cast<double>(n_tractions);
-    return static_cast<std::uint64_t>(12e3 * n + 20e3 * m + 8.0 * std::min(m * m, 64e6));
+    return static_cast<std::uint64_t>(16e3 * n + 40e3 * m + 16.0 * std::min(m * m, 36e6));
 }
 
 /// Half an LU, and half of the pairs of triangles: each once.
@@ -57,7 +60,8 @@ Cost predict_galerkin_bem(const SurfaceMesh& mesh, const Method& method) {
     Cost cost{static_cast<std::int64_t>(n), 192u << 20, 0.0};
     if (is_hierarchical(mesh, method)) {
         const double levels = std::log2(std::max(mesh.n_vertices() / 48.0, 2.0));
-        cost.memory_bytes += static_cast<std::uint64_t>(kBytesPerVertexAndLevel * mesh.n_vertices() * levels);
+        const double per_vertex = kBytesPerVertexAndLevel * levels + kBytesPerVertex;
+        cost.memory_bytes = (64u << 20) + static_cast<std::uint64_t>(per_vertex * mesh.n_vertices());
         cost.seconds = kFlopsPerVertexAndLevel * mesh.n_vertices() * levels / product_speed();
         return cost;
     }

@@ -15,20 +15,18 @@ using Far = Eigen::MatrixXf;
 /// result += A x, with A in single and all sums in double precision.
 void add_product(const Eigen::Ref<const Far>& A, const Eigen::Ref<const Eigen::MatrixXd>& x,
                  Eigen::Ref<Eigen::MatrixXd> result) {
-    Eigen::VectorXd column;
-    for (Eigen::Index k = 0; k < A.cols(); ++k) {
-        column = A.col(k).cast<double>();
-        for (Eigen::Index c = 0; c < x.cols(); ++c) result.col(c) += x(k, c) * column;
-    }
+    const Eigen::MatrixXd wide = A.cast<double>();
+    result.noalias() += wide * x;
 }
 
 /// A^T x, likewise.
 Eigen::MatrixXd transposed_product(const Far& A, const Eigen::Ref<const Eigen::MatrixXd>& x) {
-    Eigen::MatrixXd result(A.cols(), x.cols());
-    Eigen::VectorXd column;
-    for (Eigen::Index k = 0; k < A.cols(); ++k) {
-        column = A.col(k).cast<double>();
-        for (Eigen::Index c = 0; c < x.cols(); ++c) result(k, c) = column.dot(x.col(c));
+    constexpr Eigen::Index kRows = 512;  // some that stay in the cache
+    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(A.cols(), x.cols());
+    for (Eigen::Index first = 0; first < A.rows(); first += kRows) {
+        const Eigen::Index n = std::min(kRows, A.rows() - first);
+        const Eigen::MatrixXd wide = A.middleRows(first, n).cast<double>();
+        result.noalias() += wide.transpose() * x.middleRows(first, n);
     }
     return result;
 }
@@ -218,23 +216,37 @@ Eigen::MatrixXd project(const SparseColumns& Z, PositionRange range, const std::
 
 }  // namespace
 
-Eigen::MatrixXd HierarchicalMatrix::galerkin_product(const SparseColumns& Z) const {
+/// What each block gives is computed in parallel, some at a time, and added in the order of the blocks.
+Eigen::MatrixXd HierarchicalMatrix::galerkin_product(const SparseColumns& Z, Control& control) const {
+    struct Projected {
+        std::vector<int> rows, cols;
+        Eigen::MatrixXd values;
+    };
+    constexpr std::size_t kAtOnce = 256;
     Eigen::MatrixXd E = Eigen::MatrixXd::Zero(Z.cols(), Z.cols());
-    for (const Block& block : blocks_) {
-        const std::vector<int> left = columns_of(Z, block.rows), right = columns_of(Z, block.cols);
-        Eigen::MatrixXd own;
-        if (block.is_near()) {
-            const Eigen::MatrixXd half = project(Z, block.rows, left, block.near).transpose();
-            own = project(Z, block.cols, right, half).transpose();
-        } else {
-            own = project(Z, block.rows, left, block.U) * project(Z, block.cols, right, block.V).transpose();
-        }
-        for (std::size_t j = 0; j < right.size(); ++j)
-            for (std::size_t i = 0; i < left.size(); ++i) {
-                const double value = own(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
-                E(left[i], right[j]) += value;
-                if (block.mirrored) E(right[j], left[i]) += value;
+    const SerialBlas serial;
+    for (std::size_t first = 0; first < blocks_.size(); first += kAtOnce) {
+        std::vector<Projected> some(std::min(kAtOnce, blocks_.size() - first));
+        parallel_blocks(static_cast<int>(some.size()), 1, control, [&](int i, int) {
+            Projected& own = some[static_cast<std::size_t>(i)];
+            const Block& block = blocks_[first + static_cast<std::size_t>(i)];
+            own.rows = columns_of(Z, block.rows);
+            own.cols = columns_of(Z, block.cols);
+            if (block.is_near()) {
+                const Eigen::MatrixXd half = project(Z, block.rows, own.rows, block.near).transpose();
+                own.values = project(Z, block.cols, own.cols, half).transpose();
+            } else {
+                own.values =
+                    project(Z, block.rows, own.rows, block.U) * project(Z, block.cols, own.cols, block.V).transpose();
             }
+        });
+        for (std::size_t i = 0; i < some.size(); ++i)
+            for (std::size_t c = 0; c < some[i].cols.size(); ++c)
+                for (std::size_t r = 0; r < some[i].rows.size(); ++r) {
+                    const double value = some[i].values(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c));
+                    E(some[i].rows[r], some[i].cols[c]) += value;
+                    if (blocks_[first + i].mirrored) E(some[i].cols[c], some[i].rows[r]) += value;
+                }
     }
     return E;
 }

@@ -131,7 +131,7 @@ SchwarzPreconditioner::SchwarzPreconditioner(const HierarchicalMatrix& D, const 
         });
     }
     coarse_ = coarse_motions(boundary.mesh(), tree, cores, neighbours, is_free_);
-    Eigen::MatrixXd E = D.galerkin_product(coarse_);
+    Eigen::MatrixXd E = D.galerkin_product(coarse_, control);
     // Motions of patches that are constrained as a whole are zero; those of a body that is not held cost no energy.
     E.diagonal().array() += kCoarseShift * E.diagonal().maxCoeff();
     coarse_factor_.compute(E);

@@ -10,8 +10,8 @@ namespace elastolab {
 namespace {
 
 constexpr int kTrianglesOfALeaf = 48, kTrianglesOfAPatch = 256;
-/// Unknown tractions up to which V is factorised: 0.5 GB.
-constexpr Eigen::Index kMostFactorised = 8000;
+/// Unknown tractions up to which V is factorised: 0.3 GB.
+constexpr Eigen::Index kMostFactorised = 6000;
 
 }  // namespace
 
@@ -88,8 +88,7 @@ TractionLayers::TractionLayers(const std::shared_ptr<const BoundaryPairs>& pairs
     const SingleLayerEntries V(pairs, triangles, tree_, material);
     V_ = std::make_unique<const HierarchicalMatrix>(tree_, tree_, true, V, options, control);
     if (size_ <= kMostFactorised) {
-        Eigen::MatrixXd dense = single_layer(Eigen::MatrixXd::Identity(size_, size_));
-        factor_ = CholeskyFactorization(std::move(dense), "single-layer matrix", &control);
+        factor_ = CholeskyFactorization(dense_single_layer(), "single-layer matrix", &control);
     } else {
         operator_ = std::make_unique<const SingleLayer>(*this);
         patch_solves_ = std::make_unique<const PatchSolves>(*this);
@@ -97,6 +96,24 @@ TractionLayers::TractionLayers(const std::shared_ptr<const BoundaryPairs>& pairs
 }
 
 TractionLayers::~TractionLayers() = default;
+
+Eigen::MatrixXd TractionLayers::dense_single_layer() const {
+    std::vector<int> positions;
+    std::vector<Eigen::Index> rows;
+    for (int position = 0; position < tree_->size(); ++position)
+        if (const int item = tree_->order()[static_cast<std::size_t>(position)]; 3 * item < n_single_) {
+            positions.push_back(position);
+            for (int i = 0; i < 3; ++i) rows.push_back(3 * item + i);
+        }
+    Eigen::MatrixXd V(size_, size_);
+    V(rows, rows) = V_->submatrix(positions);
+    if (n_single_ == size_) return V;
+    Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(size_, size_ - n_single_);
+    unit.bottomRows(unit.cols()).setIdentity();
+    V.rightCols(unit.cols()) = single_layer(unit);
+    V.bottomRows(unit.cols()) = V.rightCols(unit.cols()).transpose();
+    return V;
+}
 
 Eigen::MatrixXd TractionLayers::spread(const Eigen::MatrixXd& t) const {
     Eigen::MatrixXd all(3 * tree_->size(), t.cols());

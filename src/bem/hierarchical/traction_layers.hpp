@@ -37,6 +37,7 @@ private:
     class SingleLayer;
     class PatchSolves;
 
+    Eigen::MatrixXd dense_single_layer() const;
     /// Tractions on each triangle of the tree's order from the unknowns, and the transposed of that.
     Eigen::MatrixXd spread(const Eigen::MatrixXd& t) const;
     Eigen::MatrixXd gather(const Eigen::MatrixXd& on_triangles) const;

@@ -174,7 +174,7 @@ TEST(HierarchicalMatrix, ActsAsTheDenseOperators) {
         for (int k = 0; k < 2; ++k) entries.emplace_back(i, (7 * (i / 60) + 3 * k + i % 3) % 29, 1.0 + 0.1 * (i % 13));
     Eigen::SparseMatrix<double, Eigen::RowMajor> Z(D.rows(), 29);
     Z.setFromTriplets(entries.begin(), entries.end());
-    EXPECT_LT(relative(D.galerkin_product(Z), Z.transpose() * (p.D * Z)), 1e-5);
+    EXPECT_LT(relative(D.galerkin_product(Z, control), Z.transpose() * (p.D * Z)), 1e-5);
 }
 
 TEST(HierarchicalMatrix, DoesNotDependOnTheNumberOfThreads) {

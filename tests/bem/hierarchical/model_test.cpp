@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <Eigen/Geometry>
 #include <utility>
 
+#include "bem/cost.hpp"
 #include "bem/galerkin/method.hpp"
 #include "bem/hierarchical/model.hpp"
 #include "deform/node_solver.hpp"
@@ -133,6 +135,23 @@ TEST(HierarchicalGalerkin, KeepsAnswersForCombinationsOfThem) {
     control.cancel();
     EXPECT_LT(off(deformer.displace(basis * pull, control), u), 1e-9);
     EXPECT_THROW(deformer.displace(Eigen::VectorXd::LinSpaced(3 * n, 0.0, 1.0), control), Cancelled);
+}
+
+TEST(HierarchicalGalerkin, IsChosenForLargeSurfacesOnDemand) {
+    // 1260, 3500 and about 5300 vertices.
+    const SurfaceMesh small = make_torus(15), middle = make_torus(25), large = make_torus(31);
+    const Method direct = dense(), reduced{.kind = kGalerkinBem}, full{.kind = kGalerkinBem, .mode = Mode::full};
+    EXPECT_FALSE(is_hierarchical(small, direct));
+    EXPECT_TRUE(is_hierarchical(middle, direct));
+    EXPECT_FALSE(is_hierarchical(middle, reduced));
+    EXPECT_TRUE(is_hierarchical(large, reduced));
+    EXPECT_FALSE(is_hierarchical(large, full));
+    // Less than the dense matrix alone, and growing as the surface does.
+    const std::uint64_t bytes = kGalerkinBem->predict(large, reduced).memory_bytes;
+    const auto n = static_cast<std::uint64_t>(large.n_vertices());
+    EXPECT_LT(bytes, 72 * n * n / 3);
+    EXPECT_LT(kGalerkinBem->predict(make_torus(62), reduced).memory_bytes, 6 * bytes);
+    EXPECT_GT(kGalerkinBem->predict(large, direct).seconds, 0.0);
 }
 
 TEST(HierarchicalGalerkin, TakesOverTheMatrixForAnotherUpdate) {
