@@ -38,6 +38,15 @@ std::pair<Eigen::Index, Eigen::Index> within(const std::vector<int>& positions, 
     return {first - positions.begin(), last - positions.begin()};
 }
 
+/// Rows, three a position, of some positions in a block that begins at `begin`.
+std::vector<Eigen::Index> scalar_rows(const std::vector<int>& positions, Eigen::Index first, Eigen::Index last,
+                                      int begin) {
+    std::vector<Eigen::Index> rows;
+    for (Eigen::Index i = first; i < last; ++i)
+        for (int k = 0; k < 3; ++k) rows.push_back(3 * (positions[static_cast<std::size_t>(i)] - begin) + k);
+    return rows;
+}
+
 }  // namespace
 
 struct HierarchicalMatrix::Block {
@@ -49,7 +58,7 @@ struct HierarchicalMatrix::Block {
     bool is_near() const { return near.size() > 0; }
 };
 
-/// Output rows [begin, end) of block `number` (transposed or not) that lie in one leaf.
+/// A block, or its transpose, as it adds to the rows of one leaf.
 struct HierarchicalMatrix::Side {
     int block = 0;
     bool transposed = false;
@@ -169,19 +178,19 @@ Eigen::MatrixXd HierarchicalMatrix::submatrix(const std::vector<int>& positions)
             const PositionRange other = side.transposed ? block.rows : block.cols;
             const auto [first_col, last_col] = within(positions, other);
             if (first_col == last_col) continue;
-            const Far &left = side.transposed ? block.V : block.U, &right = side.transposed ? block.U : block.V;
-            for (Eigen::Index i = first_row; i < last_row; ++i)
-                for (Eigen::Index j = first_col; j < last_col; ++j) {
-                    const Eigen::Index r = 3 * (positions[static_cast<std::size_t>(i)] - own.begin);
-                    const Eigen::Index c = 3 * (positions[static_cast<std::size_t>(j)] - other.begin);
-                    auto entry = A.block<3, 3>(3 * i, 3 * j);
-                    if (!block.is_near())
-                        entry = (left.middleRows<3>(r) * right.middleRows<3>(c).transpose()).cast<double>();
-                    else if (side.transposed)
-                        entry = block.near.block<3, 3>(c, r).transpose();
-                    else
-                        entry = block.near.block<3, 3>(r, c);
-                }
+            const auto of_rows = scalar_rows(positions, first_row, last_row, own.begin);
+            const auto of_cols = scalar_rows(positions, first_col, last_col, other.begin);
+            auto part = A.block(3 * first_row, 3 * first_col, std::ssize(of_rows), std::ssize(of_cols));
+            if (!block.is_near()) {
+                const Far &left = side.transposed ? block.V : block.U, &right = side.transposed ? block.U : block.V;
+                const Eigen::MatrixXd L = left(of_rows, Eigen::all).cast<double>();
+                const Eigen::MatrixXd R = right(of_cols, Eigen::all).cast<double>();
+                part.noalias() = L * R.transpose();
+            } else if (side.transposed) {
+                part = block.near(of_cols, of_rows).transpose();
+            } else {
+                part = block.near(of_rows, of_cols);
+            }
         }
     }
     return A;
