@@ -11,9 +11,9 @@ namespace {
 constexpr int kSampleVertices = 128, kSampleTriangles = 64;
 
 /// What is off in some equations, and the size of their terms.
-struct Balance {
+struct EquationBalance {
     Eigen::VectorXd off, size;
-    explicit Balance(int n) : off(Eigen::VectorXd::Zero(3 * n)), size(Eigen::VectorXd::Zero(3 * n)) {}
+    explicit EquationBalance(int n) : off(Eigen::VectorXd::Zero(3 * n)), size(Eigen::VectorXd::Zero(3 * n)) {}
     void add(int i, const Eigen::MatrixXd& row, const Eigen::VectorXd& x, double sign) {
         off.segment<3>(3 * i) += sign * (row * x);
         size.segment<3>(3 * i) += row.cwiseAbs() * x.cwiseAbs();
@@ -54,7 +54,7 @@ double hierarchical_residual(const HierarchicalSystem& system, const std::vector
     const SingleLayerEntries V(system.pairs(), triangles, triangle_tree, system.material());
 
     const int n_rows = std::min(n, kSampleVertices), n_loads = static_cast<int>(triangles.size());
-    Balance forces(n_rows);
+    EquationBalance forces(n_rows);
     parallel_blocks(n_rows, 1, control, [&](int i, int) {
         const int at = sample(i, n_rows, n);
         Eigen::MatrixXd row(3, system.size()), column(3 * n_loads, 3);
@@ -66,7 +66,7 @@ double hierarchical_residual(const HierarchicalSystem& system, const std::vector
         forces.add(i, column.transpose(), t, 1.0);
     });
     const int n_tests = std::min(n_triangles, kSampleTriangles);
-    Balance tests(n_tests);
+    EquationBalance tests(n_tests);
     parallel_blocks(n_tests, 1, control, [&](int i, int) {
         const int at = triangle_tree->positions()[static_cast<std::size_t>(sample(i, n_tests, n_triangles))];
         Eigen::MatrixXd of_u(3, system.size()), of_t(3, 3 * n_loads);

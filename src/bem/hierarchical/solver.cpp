@@ -9,7 +9,7 @@ namespace elastolab {
 namespace {
 
 /// Of the residual, relative; and of that of the tractions inside, of which some dozens add up to less.
-constexpr double kResidual = 1e-8, kInnerResidual = 1e-10;
+constexpr double kIterationResidual = 1e-8, kInnerResidual = 1e-10;
 /// A rigid motion counts as free when the constrained vertices see less than this part of what they see of another.
 constexpr double kUnseen = 1e-9;
 /// Columns of answers that are kept, and what a combination of them may miss.
@@ -114,7 +114,7 @@ Eigen::MatrixXd HierarchicalSolver::iterate(const Eigen::MatrixXd& prescribed, C
     orthogonalise(right, free_motions_);
     const FreeBlock free_block(*this, control);
     const Projected preconditioner(*preconditioner_, free_motions_);
-    u += conjugate_gradients(free_block, preconditioner, right, {.tolerance = kResidual},
+    u += conjugate_gradients(free_block, preconditioner, right, {.tolerance = kIterationResidual},
                              "Galerkin matrix of the free vertices", control);
     orthogonalise(u, free_motions_);
     return u;
