@@ -1,5 +1,8 @@
 #include "bem/cost.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "deform/machine_speed.hpp"
 #include "mesh/surface_mesh.hpp"
 
@@ -9,6 +12,12 @@ namespace {
 
 /// Arithmetic per pair of source and triangle, in flops at the speed of the matrix product: about 0.1 us on a core.
 constexpr double kFlopsPerPair = 3000.0;
+
+/// Hierarchical matrices: vertices from which they are used, and what they take for each and each level of clusters.
+constexpr int kHierarchicalOnceFrom = 3000, kHierarchicalFrom = 5000;
+constexpr double kBytesPerVertexAndLevel = 9.1e3, kFlopsPerVertexAndLevel = 1.8e7;
+/// Points of rules and close pairs, which are dropped once the matrix is there.
+constexpr double kBytesPerVertex = 14e3;
 
 Cost predict(const SurfaceMesh& mesh, const Method& method, double nodes) {
     const double n = 3.0 * nodes, pairs = nodes * mesh.n_triangles();
@@ -35,10 +44,27 @@ Cost predict_linear_bem(const SurfaceMesh& mesh, const Method& method) {
     return predict(mesh, method, mesh.n_vertices());
 }
 
+bool is_hierarchical(const SurfaceMesh& surface, const Method& method) {
+    const bool once = !factorises_ahead(method);  // a factor serves many sets, and is dear for one
+    return method.mode == Mode::on_demand && surface.n_vertices() >= (once ? kHierarchicalOnceFrom : kHierarchicalFrom);
+}
+
+std::uint64_t hierarchical_set_memory(std::int64_t n_vertices, std::int64_t n_tractions) {
+    const double n = static_cast<double>(n_vertices), m = static_cast<double>(n_tractions);
+    return static_cast<std::uint64_t>(16e3 * n + 40e3 * m + 16.0 * std::min(m * m, 36e6));
+}
+
 /// Half an LU, and half of the pairs of triangles: each once.
 Cost predict_galerkin_bem(const SurfaceMesh& mesh, const Method& method) {
     const double n = 3.0 * mesh.n_vertices(), triangles = mesh.n_triangles();
     Cost cost{static_cast<std::int64_t>(n), 192u << 20, 0.0};
+    if (is_hierarchical(mesh, method)) {
+        const double levels = std::log2(std::max(mesh.n_vertices() / 48.0, 2.0));
+        const double per_vertex = kBytesPerVertexAndLevel * levels + kBytesPerVertex;
+        cost.memory_bytes = (64u << 20) + static_cast<std::uint64_t>(per_vertex * mesh.n_vertices());
+        cost.seconds = kFlopsPerVertexAndLevel * mesh.n_vertices() * levels / product_speed();
+        return cost;
+    }
     if (!factorises_ahead(method)) return cost;
     cost.memory_bytes += square_bytes(n);
     double flops = n * n * n / 3.0 + 0.5 * kFlopsPerPair * triangles * triangles;

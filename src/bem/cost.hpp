@@ -8,4 +8,9 @@ Cost predict_constant_bem(const SurfaceMesh& surface, const Method& method);
 Cost predict_linear_bem(const SurfaceMesh& surface, const Method& method);
 Cost predict_galerkin_bem(const SurfaceMesh& surface, const Method& method);
 
+/// Whether Galerkin BEM keeps its operators as hierarchical matrices: on demand, on surfaces for which that is cheaper.
+bool is_hierarchical(const SurfaceMesh& surface, const Method& method);
+/// Bytes of a constrained set by iteration: its tractions, the preconditioner and vectors.
+std::uint64_t hierarchical_set_memory(std::int64_t n_vertices, std::int64_t n_tractions);
+
 }  // namespace elastolab

@@ -169,21 +169,36 @@ void Deformer::require_finite(const Eigen::MatrixXd& u) const {
 }
 
 Eigen::MatrixXd Deformer::displace_all(const Eigen::MatrixXd& values) const {
+    Control control;
+    return displace_all(values, control);
+}
+
+Eigen::MatrixXd Deformer::displace_all(const Eigen::MatrixXd& values, Control& control) const {
     assert(values.rows() == 3 * std::ssize(set_.handles));
     Eigen::MatrixXd u = Eigen::MatrixXd::Zero(3 * model_->facts().n_vertices, values.cols());
     for (std::size_t s = 0; s < solids_.size(); ++s)
         if (const ConstrainedSolid* solid = solids_[s].solid.get())
-            place(s, solid->displacements(solid->solve(solids_[s].values(values), false)), u);
+            place(s, solid->displacements(solid->solve(solids_[s].values(values), false, control)), u);
     require_finite(u);
     return u;
 }
 
 Eigen::VectorXd Deformer::displace(const Eigen::VectorXd& values) const { return displace_all(values); }
 
+Eigen::VectorXd Deformer::displace(const Eigen::VectorXd& values, Control& control) const {
+    return displace_all(values, control);
+}
+
 DragResponse Deformer::drag_response(const Eigen::VectorXd& values, const Eigen::MatrixXd& basis) const {
+    Control control;
+    return drag_response(values, basis, control);
+}
+
+DragResponse Deformer::drag_response(const Eigen::VectorXd& values, const Eigen::MatrixXd& basis,
+                                     Control& control) const {
     Eigen::MatrixXd all(values.size(), basis.cols() + 1);
     all << values, basis;
-    const Eigen::MatrixXd u = displace_all(all);
+    const Eigen::MatrixXd u = displace_all(all, control);
     return {u.col(0), u.rightCols(basis.cols())};
 }
 
@@ -254,7 +269,7 @@ Deformer::Answer Deformer::answer(const Eigen::VectorXd& values, Wanted wanted, 
     for (std::size_t s = 0; s < solids_.size(); ++s) {
         const ConstrainedSolid* solid = solids_[s].solid.get();
         if (solid == nullptr) continue;
-        NodeSolution solution = solid->solve(solids_[s].values(unit_values), true);
+        NodeSolution solution = solid->solve(solids_[s].values(unit_values), true, control);
         add_reactions(s, solid->reactions(solution), answer.reactions);
         if (wanted.residual) answer.residual = std::max(*answer.residual, solid->residual(solution, control));
         if (wanted.check) {

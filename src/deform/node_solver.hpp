@@ -37,6 +37,10 @@ public:
 
     /// prescribed  3*n_constrained_nodes x m, in the order of the constrained nodes
     virtual NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const = 0;
+    /// The same, told its progress and cancelled where it iterates. Throws SolveError, Cancelled.
+    virtual NodeSolution solve_watched(const Eigen::MatrixXd& prescribed, bool want_loads, Control&) const {
+        return solve(prescribed, want_loads);
+    }
 
     /// Condition number of the system that is solved, 1-norm, estimated.
     double condition() const { return condition_; }

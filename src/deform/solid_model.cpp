@@ -26,9 +26,14 @@ ConstrainedSolid::ConstrainedSolid(int n_vertices, ConstrainedNodes nodes, std::
       solver_(std::move(solver)),
       checks_(std::move(checks)) {}
 
-NodeSolution ConstrainedSolid::solve(const Eigen::MatrixXd& values, bool want_loads) const {
+NodeSolution ConstrainedSolid::solve(const Eigen::MatrixXd& values, bool want_loads, Control& control) const {
     assert(values.rows() == nodes_.prescribe.cols());
-    return solver_->solve(nodes_.prescribe * values, want_loads);
+    return solver_->solve_watched(nodes_.prescribe * values, want_loads, control);
+}
+
+NodeSolution ConstrainedSolid::solve(const Eigen::MatrixXd& values, bool want_loads) const {
+    Control control;
+    return solve(values, want_loads, control);
 }
 
 Eigen::MatrixXd ConstrainedSolid::displacements(NodeSolution&& solution) const {

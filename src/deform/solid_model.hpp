@@ -59,6 +59,7 @@ public:
                      SolutionChecks checks);
 
     /// values: 3*n_constrained x m, base (zero) first, then handles.
+    NodeSolution solve(const Eigen::MatrixXd& values, bool want_loads, Control& control) const;
     NodeSolution solve(const Eigen::MatrixXd& values, bool want_loads) const;
     /// Displacements of the vertices out of a solution, 3*n_vertices x m.
     Eigen::MatrixXd displacements(NodeSolution&& solution) const;

@@ -71,33 +71,70 @@ PairIntegrals::Pack PairIntegrals::pack(std::span<const int> tests) const {
     return pack;
 }
 
-const PairIntegrals::FarRule* PairIntegrals::far_rule(const Pack& pack, int field) const {
+double PairIntegrals::distance_square(const Pack& pack, int lane, int field) const {
     const TriangleGeometry& s = triangles_[static_cast<std::size_t>(field)];
-    double least = 1e300;
-    for (int lane = 0; lane < lanes(); ++lane) {
-        double square = 0.0;
-        for (int axis = 0; axis < 3; ++axis) {
-            const double d = pack.centroid[axis][lane] - s.centroid[axis];
-            square += d * d;
-        }
-        const double radii = pack.radius[lane] + radius_[static_cast<std::size_t>(field)];
-        least = std::min(least, square / (radii * radii));
+    double square = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double d = pack.centroid[axis][lane] - s.centroid[axis];
+        square += d * d;
     }
+    const double radii = pack.radius[lane] + radius_[static_cast<std::size_t>(field)];
+    return square / (radii * radii);
+}
+
+const PairIntegrals::FarRule* PairIntegrals::far_rule(const Pack& pack, int field) const {
+    double least = 1e300;
+    for (int lane = 0; lane < lanes(); ++lane) least = std::min(least, distance_square(pack, lane, field));
     for (const FarRule& far : far_rules_)
         if (least >= far.from * far.from) return &far;
     return nullptr;
 }
 
+bool PairIntegrals::is_close(int test, int field) const {
+    const TriangleGeometry &t = triangles_[static_cast<std::size_t>(test)],
+                           &s = triangles_[static_cast<std::size_t>(field)];
+    double square = 0.0;
+    for (int axis = 0; axis < 3; ++axis)
+        square += (t.centroid[axis] - s.centroid[axis]) * (t.centroid[axis] - s.centroid[axis]);
+    const double reach = close_distance() * (radius(test) + radius(field));
+    return square < reach * reach;
+}
+
+unsigned PairIntegrals::integrate_far(const Pack& pack, int field, bool all, double* out) const {
+    const double close = close_distance() * close_distance();
+    double least = 1e300;
+    unsigned others = 0;
+    for (int lane = 0; lane < lanes(); ++lane) {
+        const double square = distance_square(pack, lane, field);
+        if (square < close)
+            others |= 1u << lane;
+        else
+            least = std::min(least, square);
+    }
+    if (least == 1e300) return others;
+    for (const FarRule& far : far_rules_)
+        if (least >= far.from * far.from) {
+            integrate(far, pack, field, all, out);
+            break;
+        }
+    return others;
+}
+
 void PairIntegrals::integrate(const Pack& pack, int field, bool all, double* out) const {
+    if (const FarRule* far = far_rule(pack, field))
+        integrate(*far, pack, field, all, out);
+    else
+        integrate_close(pack, field, all, out);
+}
+
+void PairIntegrals::integrate(const FarRule& far, const Pack& pack, int field, bool all, double* out) const {
     const TriangleGeometry& s = triangles_[static_cast<std::size_t>(field)];
-    const FarRule* far = far_rule(pack, field);
-    if (far == nullptr) return integrate_close(pack, field, all, out);
-    const double* x = pack.points.data() + far->pack_offset;
-    const double* y = far->points.data() + static_cast<std::size_t>(field) * 3 * far->rule->points.size();
-    const auto& terms = far->rule->terms;
+    const double* x = pack.points.data() + far.pack_offset;
+    const double* y = far.points.data() + static_cast<std::size_t>(field) * 3 * far.rule->points.size();
+    const auto& terms = far.rule->terms;
     const int n_terms = static_cast<int>(terms.size()), n_numbers = all ? kPairNumbers : kPairTensorNumbers;
     if (all)
-        kernels_.all(x, y, far->phi.data(), s.n, terms.data(), n_terms, out);
+        kernels_.all(x, y, far.phi.data(), s.n, terms.data(), n_terms, out);
     else
         kernels_.tensor(x, y, terms.data(), n_terms, out);
     for (int lane = 0; lane < lanes(); ++lane) {

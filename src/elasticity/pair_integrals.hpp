@@ -35,6 +35,14 @@ public:
     /// out [kPairNumbers][lanes] <- the numbers of each test triangle of the pack with this field triangle; without
     /// `all` the normal numbers are not written. Lanes beyond the pack's triangles repeat its last one.
     void integrate(const Pack& pack, int field, bool all, double* out) const;
+    /// The same for the test triangles that are far enough for a PairRule, as cheaply as these allow; returns the
+    /// others, a bit a lane, whose numbers are not to be used. For callers that keep those of close pairs.
+    unsigned integrate_far(const Pack& pack, int field, bool all, double* out) const;
+    /// Whether a pair is too close for every PairRule.
+    bool is_close(int test, int field) const;
+    /// Largest distance of the centroids of close pairs, in units of the sum of both radii.
+    double close_distance() const { return far_rules_.back().from; }
+    double radius(int triangle) const { return radius_[static_cast<std::size_t>(triangle)]; }
 
 private:
     struct FarRule {
@@ -45,6 +53,9 @@ private:
         std::size_t pack_offset;     ///< of its points in Pack::points
     };
     const FarRule* far_rule(const Pack& pack, int field) const;
+    /// Squared distance of the centroids in units of the sum of both radii.
+    double distance_square(const Pack& pack, int lane, int field) const;
+    void integrate(const FarRule& far, const Pack& pack, int field, bool all, double* out) const;
     void integrate_close(const Pack& pack, int field, bool all, double* out) const;
     void add_medium(const Pack& pack, const TriangleGeometry& field, int n, bool all, double* out) const;
 

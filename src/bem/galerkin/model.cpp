@@ -13,7 +13,7 @@ std::vector<int> joined(std::span<const int> base, std::span<const int> handles)
     return vertices;
 }
 
-bool same_system(const Method& a, const Method& b) {
+bool same_galerkin_system(const Method& a, const Method& b) {
     return a.mode == b.mode && integral_tolerance(a) == integral_tolerance(b) && a.column_memory == b.column_memory &&
            factorises_ahead(a) == factorises_ahead(b);
 }
@@ -23,7 +23,7 @@ bool same_system(const Method& a, const Method& b) {
 GalerkinModel::GalerkinModel(const SurfaceMesh& surface, double poisson_ratio, const Method& method,
                              const GalerkinModel* before, Control& control)
     : method_(method), poisson_ratio_(poisson_ratio) {
-    if (before != nullptr && before->poisson_ratio_ == poisson_ratio && same_system(before->method_, method)) {
+    if (before != nullptr && before->poisson_ratio_ == poisson_ratio && same_galerkin_system(before->method_, method)) {
         system_ = before->system_;
     } else {
         const bool same_integrals =

@@ -28,7 +28,7 @@ Eigen::MatrixXd motion_shapes(const Positions& rest, bool affine) {
 DragSolver::DragSolver(std::shared_ptr<const Deformer> deformer, std::vector<int> handle_ends)
     : deformer_(std::move(deformer)), handle_ends_(std::move(handle_ends)) {}
 
-void DragSolver::prepare(const Eigen::VectorXd& values) {
+void DragSolver::prepare(const Eigen::VectorXd& values, Control& control) {
     int handle = kNone;
     bool affine = false;
     if (has_start(values)) {
@@ -40,8 +40,9 @@ void DragSolver::prepare(const Eigen::VectorXd& values) {
         }
     }
     if (handle < 0) handle = static_cast<int>(handle_ends_.size()) - 1;
-    start(values);
-    if (handle >= 0) grab(handle, affine);
+    if (handle < 0) return start(values, control);
+    start_values_ = values;
+    grab(handle, affine, control);
 }
 
 bool DragSolver::has(const Eigen::VectorXd& values) const {
@@ -52,19 +53,20 @@ bool DragSolver::has(const Eigen::VectorXd& values) const {
 }
 
 void DragSolver::displace(const Eigen::VectorXd& values, Eigen::VectorXd& u) {
-    if (!has_start(values)) start(values);
+    Control control;
+    if (!has_start(values)) start(values, control);
     const Eigen::VectorXd change = values - start_values_;
     const int handle = changed_handle(change);
     if (handle >= 0) {
         const Eigen::Matrix3Xd moved = part_of(handle, change);
         std::optional<Eigen::VectorXd> parameters = parameters_of(handle, moved);
         for (int affine = 0; affine <= 1 && !parameters; ++affine) {
-            grab(handle, affine == 1);
+            grab(handle, affine == 1, control);
             parameters = parameters_of(handle, moved);
         }
         if (parameters) return response_.displace(*parameters, u);
     }
-    if (handle != kNone) start(values);
+    if (handle != kNone) start(values, control);
     u = response_.rest;
 }
 
@@ -88,13 +90,13 @@ Eigen::Matrix3Xd DragSolver::part_of(int handle, const Eigen::VectorXd& change) 
         .middleCols(begin_of(handle), size_of(handle));
 }
 
-void DragSolver::start(const Eigen::VectorXd& values) {
+void DragSolver::start(const Eigen::VectorXd& values, Control& control) {
     start_values_ = values;
     handle_ = kNone;
-    response_ = {deformer_->displace(values), {}};
+    response_ = {deformer_->displace(values, control), {}};
 }
 
-void DragSolver::grab(int handle, bool affine) {
+void DragSolver::grab(int handle, bool affine, Control& control) {
     const Positions& all = deformer_->model().body().surface->vertices;
     Positions rest(3, size_of(handle));
     for (int i = 0; i < size_of(handle); ++i)
@@ -106,7 +108,7 @@ void DragSolver::grab(int handle, bool affine) {
         for (Eigen::Index axis = 0; axis < 3; ++axis)
             for (int i = 0; i < size_of(handle); ++i)
                 basis(3 * (begin_of(handle) + i) + axis, 3 * s + axis) = shapes_(s, i);
-    response_ = deformer_->drag_response(start_values_, basis);
+    response_ = deformer_->drag_response(start_values_, basis, control);
     handle_ = handle;
 }
 

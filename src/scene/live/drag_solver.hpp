@@ -18,8 +18,9 @@ public:
     DragSolver(std::shared_ptr<const Deformer> deformer, std::vector<int> handle_ends);
 
     /// Solves ahead for these values, and for more of the motion that led to them from those before; without any, for
-    /// translations of the last handle. displace() has them at once when this is what comes. Throws SolveError.
-    void prepare(const Eigen::VectorXd& values);
+    /// translations of the last handle. displace() has them at once when this is what comes. Throws SolveError,
+    /// Cancelled.
+    void prepare(const Eigen::VectorXd& values, Control& control);
     /// Whether displace(values) needs no solve but one pass over the columns at hand.
     bool has(const Eigen::VectorXd& values) const;
 
@@ -34,8 +35,8 @@ private:
     Eigen::Matrix3Xd part_of(int handle, const Eigen::VectorXd& change) const;
     int begin_of(int handle) const { return handle == 0 ? 0 : handle_ends_[static_cast<std::size_t>(handle) - 1]; }
     int size_of(int handle) const { return handle_ends_[static_cast<std::size_t>(handle)] - begin_of(handle); }
-    void start(const Eigen::VectorXd& values);
-    void grab(int handle, bool affine);
+    void start(const Eigen::VectorXd& values, Control& control);
+    void grab(int handle, bool affine, Control& control);
     double tolerance_of(int handle, const Eigen::Matrix3Xd& change) const;
     std::optional<Eigen::VectorXd> parameters_of(int handle, const Eigen::Matrix3Xd& change) const;
 

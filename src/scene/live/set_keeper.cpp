@@ -22,11 +22,11 @@ std::vector<int> ends_of_handles(const Constraints& constraints) {
 }
 
 /// Where no columns are kept, a grab would integrate and take seconds: the worker solves, not the watcher.
-void solve_ahead(PreparedSet& prepared, const std::vector<int>& ends, const Eigen::VectorXd& values) {
+void solve_ahead(PreparedSet& prepared, const std::vector<int>& ends, const Eigen::VectorXd& values, Control& control) {
     const Stopwatch watch;
     try {
         DragSolver drag(prepared.deformer, ends);
-        drag.prepare(values);
+        drag.prepare(values, control);
         prepared.drag = std::move(drag);
     } catch (const SolveError&) {
         // These values have no solution; the frame that asks for them says so, if they are still wanted then.
@@ -157,7 +157,7 @@ void SetKeeper::prepare(const ConstrainedSet& set, Eigen::VectorXd values, std::
         prepared.findings = findings_of_set(*prepared.deformer);
         if (!drags) return prepared;
         control.begin_stage("solve");
-        solve_ahead(prepared, ends, values);
+        solve_ahead(prepared, ends, values, control);
         return prepared;
     });
 }
@@ -173,7 +173,7 @@ void SetKeeper::solve_on_worker() {
         [deformer = current_.deformer, drag = std::move(drag), values = wanted_values_](Control& control) mutable {
             control.begin_stage("solve");
             const Stopwatch watch;
-            drag.prepare(values);
+            drag.prepare(values, control);
             return PreparedSet{.deformer = deformer, .drag = std::move(drag), .solve_seconds = watch.seconds()};
         });
 }

@@ -45,6 +45,9 @@ bool tells_of(const Finding& finding, Wrong what) {
         case FindingKind::contact:
         case FindingKind::nothing_constrained:
         case FindingKind::choice_left_aside:
+        case FindingKind::proxy:
+        case FindingKind::capped_holes:
+        case FindingKind::thin_sheets:
             return false;
     }
     return false;

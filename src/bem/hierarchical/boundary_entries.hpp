@@ -1,0 +1,99 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "bem/boundary.hpp"
+#include "bem/hierarchical/close_pairs_kept.hpp"
+#include "bem/hierarchical/cluster_tree.hpp"
+#include "bem/hierarchical/low_rank.hpp"
+#include "elasticity/material.hpp"
+#include "elasticity/pair_integrals.hpp"
+
+namespace elastolab {
+
+/// The pairs of triangles of one boundary, for the entries of all its Galerkin operators.
+class BoundaryPairs {
+public:
+    /// tolerance: relative, of the integrals of one pair (elasticity/pair_integrals.hpp).
+    BoundaryPairs(std::shared_ptr<const Boundary> boundary, double tolerance);
+
+    const Boundary& boundary() const { return *boundary_; }
+    const PairIntegrals& integrals() const { return integrals_; }
+    /// To a hundred times the tolerance, for far blocks, which are approximated less exactly than that.
+    const PairIntegrals& far_integrals() const { return far_integrals_; }
+    const TriangleGeometry& triangle(int t) const { return triangles_[static_cast<std::size_t>(t)]; }
+    const Eigen::Matrix3d& curls(int t) const { return curls_[static_cast<std::size_t>(t)]; }
+    const std::vector<int>& triangles_at(int vertex) const { return at_vertex_[static_cast<std::size_t>(vertex)]; }
+
+    /// Clusters of vertices (with the triangles around them) and of these triangles.
+    std::shared_ptr<const ClusterTree> cluster_vertices(int leaf_size) const;
+    std::shared_ptr<const ClusterTree> cluster_triangles(std::span<const int> triangles, int leaf_size) const;
+    /// Every close pair, integrated. Throws Cancelled.
+    std::shared_ptr<const KeptClosePairs> keep_close_pairs(Control& control) const;
+
+private:
+    std::shared_ptr<const Boundary> boundary_;
+    std::vector<TriangleGeometry> triangles_;
+    std::vector<Eigen::Matrix3d> curls_;
+    std::vector<std::vector<int>> at_vertex_;
+    PairIntegrals integrals_, far_integrals_;
+};
+
+/// The hypersingular operator D between vertices (bem/galerkin/hypersingular.hpp); rows and columns in the order of
+/// `tree`.
+class HypersingularEntries : public BlockEntries {
+public:
+    /// close: the close pairs, if they are kept, or null.
+    HypersingularEntries(std::shared_ptr<const BoundaryPairs> pairs, std::shared_ptr<const ClusterTree> tree,
+                         const Material& material, std::shared_ptr<const KeptClosePairs> close = nullptr);
+    void fill(PositionRange rows, PositionRange cols, Eigen::Ref<Eigen::MatrixXd> out) const override;
+    void fill_far(PositionRange rows, PositionRange cols, Eigen::Ref<Eigen::MatrixXd> out) const override;
+
+private:
+    void fill(const PairIntegrals& integrals, const KeptClosePairs* close, PositionRange rows, PositionRange cols,
+              Eigen::Ref<Eigen::MatrixXd> out) const;
+
+    std::shared_ptr<const BoundaryPairs> pairs_;
+    std::shared_ptr<const ClusterTree> tree_;
+    std::shared_ptr<const KeptClosePairs> close_;
+    double alpha_, beta_;
+};
+
+/// The single layer V between some triangles (bem/galerkin/traction_rows.hpp): item i of `tree` is triangles[i].
+class SingleLayerEntries : public BlockEntries {
+public:
+    SingleLayerEntries(std::shared_ptr<const BoundaryPairs> pairs, std::vector<int> triangles,
+                       std::shared_ptr<const ClusterTree> tree, const Material& material);
+    void fill(PositionRange rows, PositionRange cols, Eigen::Ref<Eigen::MatrixXd> out) const override;
+    void fill_far(PositionRange rows, PositionRange cols, Eigen::Ref<Eigen::MatrixXd> out) const override;
+
+private:
+    void fill(const PairIntegrals& integrals, PositionRange rows, PositionRange cols,
+              Eigen::Ref<Eigen::MatrixXd> out) const;
+
+    std::shared_ptr<const BoundaryPairs> pairs_;
+    std::vector<int> ordered_;  ///< triangle at each position
+    Material material_;
+};
+
+/// The double layer K with half the mass matrix: rows of some triangles, columns of all vertices.
+class DoubleLayerEntries : public BlockEntries {
+public:
+    DoubleLayerEntries(std::shared_ptr<const BoundaryPairs> pairs, std::vector<int> triangles,
+                       std::shared_ptr<const ClusterTree> triangle_tree, std::shared_ptr<const ClusterTree> vertex_tree,
+                       const Material& material);
+    void fill(PositionRange rows, PositionRange cols, Eigen::Ref<Eigen::MatrixXd> out) const override;
+    void fill_far(PositionRange rows, PositionRange cols, Eigen::Ref<Eigen::MatrixXd> out) const override;
+
+private:
+    void fill(const PairIntegrals& integrals, PositionRange rows, PositionRange cols,
+              Eigen::Ref<Eigen::MatrixXd> out) const;
+
+    std::shared_ptr<const BoundaryPairs> pairs_;
+    std::vector<int> ordered_;
+    std::shared_ptr<const ClusterTree> vertex_tree_;
+    double nu_;
+};
+
+}  // namespace elastolab

@@ -1,0 +1,271 @@
+#include "bem/hierarchical/hierarchical_matrix.hpp"
+
+#include <algorithm>
+#include <Eigen/SparseCore>
+
+#include "base/blas.hpp"
+#include "base/parallel.hpp"
+
+namespace elastolab {
+
+namespace {
+
+using Far = Eigen::MatrixXf;
+
+/// result += A x, with A in single and all sums in double precision.
+void add_product(const Eigen::Ref<const Far>& A, const Eigen::Ref<const Eigen::MatrixXd>& x,
+                 Eigen::Ref<Eigen::MatrixXd> result) {
+    const Eigen::MatrixXd wide = A.cast<double>();
+    result.noalias() += wide * x;
+}
+
+/// A^T x, likewise.
+Eigen::MatrixXd transposed_product(const Far& A, const Eigen::Ref<const Eigen::MatrixXd>& x) {
+    constexpr Eigen::Index kRows = 512;  // some that stay in the cache
+    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(A.cols(), x.cols());
+    for (Eigen::Index first = 0; first < A.rows(); first += kRows) {
+        const Eigen::Index n = std::min(kRows, A.rows() - first);
+        const Eigen::MatrixXd wide = A.middleRows(first, n).cast<double>();
+        result.noalias() += wide.transpose() * x.middleRows(first, n);
+    }
+    return result;
+}
+
+/// Of ascending numbers, those in a range: [first, last).
+std::pair<Eigen::Index, Eigen::Index> within(const std::vector<int>& positions, PositionRange range) {
+    const auto first = std::lower_bound(positions.begin(), positions.end(), range.begin);
+    const auto last = std::lower_bound(first, positions.end(), range.end);
+    return {first - positions.begin(), last - positions.begin()};
+}
+
+/// Rows, three a position, of some positions in a block that begins at `begin`.
+std::vector<Eigen::Index> scalar_rows(const std::vector<int>& positions, Eigen::Index first, Eigen::Index last,
+                                      int begin) {
+    std::vector<Eigen::Index> rows;
+    for (Eigen::Index i = first; i < last; ++i)
+        for (int k = 0; k < 3; ++k) rows.push_back(3 * (positions[static_cast<std::size_t>(i)] - begin) + k);
+    return rows;
+}
+
+}  // namespace
+
+struct HierarchicalMatrix::Block {
+    PositionRange rows, cols;
+    bool mirrored = false;  ///< of a symmetric matrix, off its diagonal: stands for its transpose too
+    Eigen::MatrixXd near;   ///< all entries, or empty
+    Far U, V;
+
+    bool is_near() const { return near.size() > 0; }
+};
+
+/// A block, or its transpose, as it adds to the rows of one leaf.
+struct HierarchicalMatrix::Side {
+    int block = 0;
+    bool transposed = false;
+};
+
+HierarchicalMatrix::~HierarchicalMatrix() = default;
+
+HierarchicalMatrix::HierarchicalMatrix(std::shared_ptr<const ClusterTree> rows, std::shared_ptr<const ClusterTree> cols,
+                                       bool symmetric, const BlockEntries& entries, const HierarchicalOptions& options,
+                                       Control& control)
+    : row_tree_(std::move(rows)), col_tree_(std::move(cols)), symmetric_(symmetric) {
+    std::vector<ClusterPair> pairs =
+        symmetric ? cover_symmetric_matrix(*row_tree_, options.eta) : cover_matrix(*row_tree_, *col_tree_, options.eta);
+    const auto size = [&](const ClusterPair& pair) {
+        return row_tree_->cluster(pair.row).range.size() + col_tree_->cluster(pair.col).range.size();
+    };
+    // The largest first, so that no thread is left with one of them at the end.
+    std::stable_sort(pairs.begin(), pairs.end(),
+                     [&](const ClusterPair& a, const ClusterPair& b) { return size(a) > size(b); });
+    blocks_.resize(pairs.size());
+    const SerialBlas serial;
+    parallel_blocks(static_cast<int>(pairs.size()), 1, control, [&](int b, int) {
+        const ClusterPair& pair = pairs[static_cast<std::size_t>(b)];
+        Block& block = blocks_[static_cast<std::size_t>(b)];
+        block.rows = row_tree_->cluster(pair.row).range;
+        block.cols = col_tree_->cluster(pair.col).range;
+        block.mirrored = symmetric_ && pair.row != pair.col;
+        if (pair.admissible) {
+            const LowRankMatrix cross = cross_approximation(entries, block.rows, block.cols, 0.5 * options.tolerance);
+            const LowRankMatrix least = recompressed(cross, 0.5 * options.tolerance);
+            block.U = least.U.cast<float>();
+            block.V = least.V.cast<float>();
+        } else {
+            block.near.resize(3 * block.rows.size(), 3 * block.cols.size());
+            entries.fill(block.rows, block.cols, block.near);
+            if (symmetric_ && pair.row == pair.col) block.near = (0.5 * (block.near + block.near.transpose())).eval();
+        }
+    });
+    list_sides();
+}
+
+void HierarchicalMatrix::list_sides() {
+    const auto list = [](const ClusterTree& tree, std::vector<std::vector<Side>>& sides, PositionRange range,
+                         Side side) {
+        const auto& leaves = tree.leaves();
+        const auto first = std::partition_point(leaves.begin(), leaves.end(),
+                                                [&](int leaf) { return tree.cluster(leaf).range.end <= range.begin; });
+        for (auto leaf = first; leaf != leaves.end() && tree.cluster(*leaf).range.begin < range.end; ++leaf)
+            sides[static_cast<std::size_t>(leaf - leaves.begin())].push_back(side);
+    };
+    row_sides_.resize(row_tree_->leaves().size());
+    col_sides_.resize(symmetric_ ? 0 : col_tree_->leaves().size());
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+        const Block& block = blocks_[b];
+        list(*row_tree_, row_sides_, block.rows, {static_cast<int>(b), false});
+        if (block.mirrored) list(*row_tree_, row_sides_, block.cols, {static_cast<int>(b), true});
+        if (!symmetric_) list(*col_tree_, col_sides_, block.cols, {static_cast<int>(b), true});
+    }
+}
+
+Eigen::MatrixXd HierarchicalMatrix::product(const Eigen::MatrixXd& X) const { return multiply(X, false); }
+
+Eigen::MatrixXd HierarchicalMatrix::transposed_product(const Eigen::MatrixXd& X) const {
+    return multiply(X, !symmetric_);
+}
+
+/// First what each far block makes of X, then each leaf's rows, from the blocks in their order: no sum depends on the
+/// number of threads.
+Eigen::MatrixXd HierarchicalMatrix::multiply(const Eigen::MatrixXd& X, bool transposed) const {
+    const ClusterTree& out_tree = transposed ? *col_tree_ : *row_tree_;
+    const auto& sides = transposed ? col_sides_ : row_sides_;
+    const auto rows_of = [&](PositionRange range) { return X.middleRows(3 * range.begin, 3 * range.size()); };
+    std::vector<Eigen::MatrixXd> straight(blocks_.size()), mirrored(blocks_.size());
+    Control control;
+    const SerialBlas serial;
+    parallel_blocks(static_cast<int>(blocks_.size()), 16, control, [&](int begin, int end) {
+        for (auto b = static_cast<std::size_t>(begin); b < static_cast<std::size_t>(end); ++b) {
+            const Block& block = blocks_[b];
+            if (block.is_near()) continue;
+            if (!transposed) straight[b] = elastolab::transposed_product(block.V, rows_of(block.cols));
+            if (transposed || block.mirrored) mirrored[b] = elastolab::transposed_product(block.U, rows_of(block.rows));
+        }
+    });
+    Eigen::MatrixXd Y = Eigen::MatrixXd::Zero(3 * out_tree.size(), X.cols());
+    parallel_blocks(static_cast<int>(sides.size()), 1, control, [&](int leaf, int) {
+        const PositionRange range = out_tree.cluster(out_tree.leaves()[static_cast<std::size_t>(leaf)]).range;
+        Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(3 * range.size(), X.cols());
+        for (const Side& side : sides[static_cast<std::size_t>(leaf)]) {
+            const Block& block = blocks_[static_cast<std::size_t>(side.block)];
+            const PositionRange own = side.transposed ? block.cols : block.rows;
+            if (!block.is_near()) {
+                const Far& factor = side.transposed ? block.V : block.U;
+                const auto& inner = (side.transposed ? mirrored : straight)[static_cast<std::size_t>(side.block)];
+                add_product(factor.middleRows(3 * (range.begin - own.begin), 3 * range.size()), inner, sum);
+            } else if (side.transposed) {
+                sum.noalias() += block.near.transpose() * rows_of(block.rows);
+            } else {
+                sum.noalias() += block.near * rows_of(block.cols);
+            }
+        }
+        Y.middleRows(3 * range.begin, 3 * range.size()) = sum;
+    });
+    return Y;
+}
+
+Eigen::MatrixXd HierarchicalMatrix::submatrix(const std::vector<int>& positions) const {
+    const auto n = 3 * std::ssize(positions);
+    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n, n);
+    const auto& leaves = row_tree_->leaves();
+    for (std::size_t leaf = 0; leaf < leaves.size(); ++leaf) {
+        const PositionRange range = row_tree_->cluster(leaves[leaf]).range;
+        const auto [first_row, last_row] = within(positions, range);
+        if (first_row == last_row) continue;
+        for (const Side& side : row_sides_[leaf]) {
+            const Block& block = blocks_[static_cast<std::size_t>(side.block)];
+            const PositionRange own = side.transposed ? block.cols : block.rows;
+            const PositionRange other = side.transposed ? block.rows : block.cols;
+            const auto [first_col, last_col] = within(positions, other);
+            if (first_col == last_col) continue;
+            const auto of_rows = scalar_rows(positions, first_row, last_row, own.begin);
+            const auto of_cols = scalar_rows(positions, first_col, last_col, other.begin);
+            auto part = A.block(3 * first_row, 3 * first_col, std::ssize(of_rows), std::ssize(of_cols));
+            if (!block.is_near()) {
+                const Far &left = side.transposed ? block.V : block.U, &right = side.transposed ? block.U : block.V;
+                const Eigen::MatrixXd L = left(of_rows, Eigen::all).cast<double>();
+                const Eigen::MatrixXd R = right(of_cols, Eigen::all).cast<double>();
+                part.noalias() = L * R.transpose();
+            } else if (side.transposed) {
+                part = block.near(of_cols, of_rows).transpose();
+            } else {
+                part = block.near(of_rows, of_cols);
+            }
+        }
+    }
+    return A;
+}
+
+namespace {
+
+using SparseColumns = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+/// Columns that Z has in the rows of a range, ascending.
+std::vector<int> columns_of(const SparseColumns& Z, PositionRange range) {
+    std::vector<int> columns;
+    for (int row = 3 * range.begin; row < 3 * range.end; ++row)
+        for (SparseColumns::InnerIterator entry(Z, row); entry; ++entry)
+            columns.push_back(static_cast<int>(entry.index()));
+    std::sort(columns.begin(), columns.end());
+    columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
+    return columns;
+}
+
+/// Z^T A of a range: columns of Z x columns of A.
+template <class Matrix>
+Eigen::MatrixXd project(const SparseColumns& Z, PositionRange range, const std::vector<int>& columns, const Matrix& A) {
+    Eigen::MatrixXd product = Eigen::MatrixXd::Zero(std::ssize(columns), A.cols());
+    for (int row = 0; row < 3 * range.size(); ++row)
+        for (SparseColumns::InnerIterator entry(Z, 3 * range.begin + row); entry; ++entry) {
+            const auto at = std::lower_bound(columns.begin(), columns.end(), entry.index());
+            product.row(at - columns.begin()) += entry.value() * A.row(row).template cast<double>();
+        }
+    return product;
+}
+
+}  // namespace
+
+/// What each block gives is computed in parallel, some at a time, and added in the order of the blocks.
+Eigen::MatrixXd HierarchicalMatrix::galerkin_product(const SparseColumns& Z, Control& control) const {
+    struct Projected {
+        std::vector<int> rows, cols;
+        Eigen::MatrixXd values;
+    };
+    constexpr std::size_t kAtOnce = 256;
+    Eigen::MatrixXd E = Eigen::MatrixXd::Zero(Z.cols(), Z.cols());
+    const SerialBlas serial;
+    for (std::size_t first = 0; first < blocks_.size(); first += kAtOnce) {
+        std::vector<Projected> some(std::min(kAtOnce, blocks_.size() - first));
+        parallel_blocks(static_cast<int>(some.size()), 1, control, [&](int i, int) {
+            Projected& own = some[static_cast<std::size_t>(i)];
+            const Block& block = blocks_[first + static_cast<std::size_t>(i)];
+            own.rows = columns_of(Z, block.rows);
+            own.cols = columns_of(Z, block.cols);
+            if (block.is_near()) {
+                const Eigen::MatrixXd half = project(Z, block.rows, own.rows, block.near).transpose();
+                own.values = project(Z, block.cols, own.cols, half).transpose();
+            } else {
+                own.values =
+                    project(Z, block.rows, own.rows, block.U) * project(Z, block.cols, own.cols, block.V).transpose();
+            }
+        });
+        for (std::size_t i = 0; i < some.size(); ++i)
+            for (std::size_t c = 0; c < some[i].cols.size(); ++c)
+                for (std::size_t r = 0; r < some[i].rows.size(); ++r) {
+                    const double value = some[i].values(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c));
+                    E(some[i].rows[r], some[i].cols[c]) += value;
+                    if (blocks_[first + i].mirrored) E(some[i].cols[c], some[i].rows[r]) += value;
+                }
+    }
+    return E;
+}
+
+std::uint64_t HierarchicalMatrix::memory_bytes() const {
+    std::uint64_t bytes = 0;
+    for (const Block& block : blocks_)
+        bytes += 8 * static_cast<std::uint64_t>(block.near.size()) +
+                 4 * static_cast<std::uint64_t>(block.U.size() + block.V.size());
+    return bytes;
+}
+
+}  // namespace elastolab

@@ -1,0 +1,197 @@
+#include "bem/hierarchical/low_rank.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <vector>
+
+namespace elastolab {
+
+namespace {
+
+/// A direction of a pivot row is used only if the pivot is at least this part of what the row has anywhere: smaller
+/// pivots would multiply errors.
+constexpr double kLeastPivot = 0.1;
+/// Crosses below the tolerance in turn, and rows looked at, before the approximation is believed.
+constexpr int kSmallCrosses = 2, kSamples = 3;
+
+class CrossApproximation {
+public:
+    CrossApproximation(const BlockEntries& entries, PositionRange rows, PositionRange cols, double tolerance)
+        : entries_(entries),
+          rows_(rows),
+          cols_(cols),
+          tolerance_(tolerance),
+          uses_(static_cast<std::size_t>(rows.size()), 0) {}
+
+    LowRankMatrix run() {
+        U_.resize(3 * rows_.size(), 0);
+        V_.resize(3 * cols_.size(), 0);
+        int n_small = 0;
+        for (int row = rows_.size() / 2; row >= 0 && rank_ < limit();) {
+            n_small = cross(row) > tolerance_ * std::sqrt(norm_square_) ? 0 : n_small + 1;
+            row = next_row();
+            if (n_small >= kSmallCrosses || row < 0) {
+                n_small = 0;
+                row = unconverged_sample();
+            }
+        }
+        return {U_.leftCols(rank_), V_.leftCols(rank_)};
+    }
+
+private:
+    static constexpr int kUses = 3;  ///< of one row: each takes at least one of its three directions
+
+    Eigen::Index limit() const { return 3 * std::min(rows_.size(), cols_.size()); }
+    int& uses(int row) { return uses_[static_cast<std::size_t>(row)]; }
+
+    Eigen::Matrix3Xd residual_row(int row) const {
+        Eigen::MatrixXd values(3, 3 * cols_.size());
+        const int at = rows_.begin + row;
+        entries_.fill_far({at, at + 1}, cols_, values);
+        values.noalias() -= U_.block(3 * row, 0, 3, rank_) * V_.leftCols(rank_).transpose();
+        return values;
+    }
+
+    Eigen::MatrixXd residual_column(int col) const {
+        Eigen::MatrixXd values(3 * rows_.size(), 3);
+        const int at = cols_.begin + col;
+        entries_.fill_far(rows_, {at, at + 1}, values);
+        values.noalias() -= U_.leftCols(rank_) * V_.block(3 * col, 0, 3, rank_).transpose();
+        return values;
+    }
+
+    /// Adds the cross through a row; returns the size of what it adds, in the Frobenius norm.
+    double cross(int row) {
+        const Eigen::Matrix3Xd R = residual_row(row);
+        int col = 0;
+        double largest = -1.0;
+        for (int j = 0; j < cols_.size(); ++j)
+            if (const double size = R.middleCols<3>(3 * j).squaredNorm(); size > largest) {
+                largest = size;
+                col = j;
+            }
+        last_column_ = {};
+        if (!(largest > 0.0)) {
+            uses(row) = kUses;
+            return 0.0;
+        }
+        const Eigen::JacobiSVD<Eigen::Matrix3d> pivot(R.middleCols<3>(3 * col),
+                                                      Eigen::ComputeFullU | Eigen::ComputeFullV);
+        const Eigen::Matrix3Xd along = pivot.matrixU().transpose() * R;
+        int used = 0;
+        for (; used < 3; ++used) {
+            double most = 0.0;
+            for (int j = 0; j < cols_.size(); ++j) most = std::max(most, along.row(used).segment<3>(3 * j).norm());
+            if (!(pivot.singularValues()[used] >= kLeastPivot * most) || most == 0.0) break;
+        }
+        uses(row) = used == 3 ? kUses : uses(row) + 1;
+        if (used == 0) used = 1;  // the pivot was the largest block: its first direction is sound
+        last_column_ = residual_column(col);
+        const Eigen::MatrixXd u = last_column_ * pivot.matrixV().leftCols(used) *
+                                  pivot.singularValues().head(used).cwiseInverse().asDiagonal();
+        return append(u, along.topRows(used).transpose());
+    }
+
+    Eigen::MatrixXd widened(const Eigen::MatrixXd& A, Eigen::Index n_rows, Eigen::Index n_columns) const {
+        Eigen::MatrixXd wide(n_rows, n_columns);
+        if (rank_ > 0) wide.leftCols(rank_) = A.leftCols(rank_);
+        return wide;
+    }
+
+    double append(const Eigen::MatrixXd& u, const Eigen::MatrixXd& v) {
+        if (rank_ + u.cols() > U_.cols()) {
+            const Eigen::Index room = std::max<Eigen::Index>(48, 2 * U_.cols());
+            U_ = widened(U_, 3 * rows_.size(), room);
+            V_ = widened(V_, 3 * cols_.size(), room);
+        }
+        const Eigen::MatrixXd u_u = u.transpose() * u, v_v = v.transpose() * v;
+        const double added = u_u.cwiseProduct(v_v).sum();
+        if (rank_ > 0) {
+            const Eigen::MatrixXd U_u = U_.leftCols(rank_).transpose() * u, V_v = V_.leftCols(rank_).transpose() * v;
+            norm_square_ += 2.0 * U_u.cwiseProduct(V_v).sum();
+        }
+        norm_square_ = std::max(norm_square_ + added, added);
+        U_.middleCols(rank_, u.cols()) = u;
+        V_.middleCols(rank_, v.cols()) = v;
+        rank_ += u.cols();
+        return std::sqrt(std::max(added, 0.0));
+    }
+
+    /// The row in which the last pivot column was largest, among those not used up; -1: none.
+    int next_row() {
+        int best = -1;
+        double largest = -1.0;
+        for (int i = 0; i < rows_.size(); ++i) {
+            if (uses(i) >= kUses) continue;
+            const double size = last_column_.size() > 0 ? last_column_.middleRows<3>(3 * i).squaredNorm() : 0.0;
+            if (size > largest) {
+                largest = size;
+                best = i;
+            }
+        }
+        return best;
+    }
+
+    /// A row that is not yet approximated, out of a few spread over the block; -1: all are.
+    int unconverged_sample() {
+        const double allowed = tolerance_ * std::sqrt(norm_square_ / rows_.size());
+        while (samples_ < kSamples) {
+            const int row = (2 * samples_ + 1) * rows_.size() / (2 * kSamples);
+            ++samples_;
+            if (uses(row) >= kUses) continue;
+            if (residual_row(row).norm() > 3.0 * allowed) {
+                samples_ = 0;
+                return row;
+            }
+        }
+        return -1;
+    }
+
+    const BlockEntries& entries_;
+    PositionRange rows_, cols_;
+    double tolerance_, norm_square_ = 0.0;
+    std::vector<int> uses_;
+    Eigen::MatrixXd U_, V_, last_column_;
+    Eigen::Index rank_ = 0;
+    int samples_ = 0;
+};
+
+Eigen::MatrixXd upper_factor(const Eigen::HouseholderQR<Eigen::MatrixXd>& qr, Eigen::Index n) {
+    return qr.matrixQR().topRows(n).triangularView<Eigen::Upper>();
+}
+
+/// Q times these columns.
+Eigen::MatrixXd times_Q(const Eigen::HouseholderQR<Eigen::MatrixXd>& qr, const Eigen::MatrixXd& B) {
+    Eigen::MatrixXd product = Eigen::MatrixXd::Zero(qr.rows(), B.cols());
+    product.topRows(B.rows()) = B;
+    product.applyOnTheLeft(qr.householderQ());
+    return product;
+}
+
+}  // namespace
+
+LowRankMatrix cross_approximation(const BlockEntries& entries, PositionRange rows, PositionRange cols,
+                                  double tolerance) {
+    return CrossApproximation(entries, rows, cols, tolerance).run();
+}
+
+LowRankMatrix recompressed(const LowRankMatrix& A, double tolerance) {
+    if (A.rank() == 0) return A;
+    const Eigen::HouseholderQR<Eigen::MatrixXd> left(A.U), right(A.V);
+    const Eigen::Index n_left = std::min(A.U.rows(), A.rank()), n_right = std::min(A.V.rows(), A.rank());
+    const Eigen::MatrixXd middle = upper_factor(left, n_left) * upper_factor(right, n_right).transpose();
+    const Eigen::BDCSVD<Eigen::MatrixXd> svd(middle, Eigen::ComputeThinU | Eigen::ComputeThinV);
+    const Eigen::VectorXd& sigma = svd.singularValues();
+    const double allowed = tolerance * tolerance * sigma.squaredNorm();
+    Eigen::Index rank = sigma.size();
+    for (double dropped = 0.0; rank > 0; --rank) {
+        dropped += sigma[rank - 1] * sigma[rank - 1];
+        if (dropped > allowed) break;
+    }
+    return {times_Q(left, svd.matrixU().leftCols(rank) * sigma.head(rank).asDiagonal()),
+            times_Q(right, svd.matrixV().leftCols(rank))};
+}
+
+}  // namespace elastolab

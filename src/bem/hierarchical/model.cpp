@@ -1,0 +1,54 @@
+#include "bem/hierarchical/model.hpp"
+
+#include "bem/cost.hpp"
+
+namespace elastolab {
+
+namespace {
+
+std::vector<int> all_of(std::span<const int> base, std::span<const int> handles) {
+    std::vector<int> vertices(base.begin(), base.end());
+    vertices.insert(vertices.end(), handles.begin(), handles.end());
+    return vertices;
+}
+
+}  // namespace
+
+HierarchicalGalerkinModel::HierarchicalGalerkinModel(const SurfaceMesh& surface, double poisson_ratio,
+                                                     const Method& method, const HierarchicalGalerkinModel* before,
+                                                     Control& control)
+    : method_(method) {
+    if (before != nullptr && before->system_->material().poisson_ratio == poisson_ratio &&
+        integral_tolerance(before->method_) == integral_tolerance(method))
+        system_ = before->system_;
+    else
+        system_ = std::make_shared<const HierarchicalSystem>(surface, poisson_ratio, method, facts_.stages, control);
+    facts_.n_vertices = surface.n_vertices();
+    facts_.n_triangles = surface.n_triangles();
+    facts_.n_degrees_of_freedom = static_cast<int>(system_->size());
+    facts_.memory_bytes = system_->memory_bytes();
+}
+
+std::unique_ptr<ConstrainedSolid> HierarchicalGalerkinModel::constrain(std::span<const int> base,
+                                                                       std::span<const int> handles,
+                                                                       Control& control) const {
+    const std::vector<int> vertices = all_of(base, handles);
+    const GalerkinTractions tractions(system_->boundary().mesh(), system_->surfaces(), vertices);
+    auto solver =
+        std::make_unique<HierarchicalSolver>(system_, vertices, tractions, method_.update == Update::direct, control);
+    const auto residual = [system = system_, vertices, tractions](const NodeSolution& solution, Control& its_control) {
+        return hierarchical_residual(*system, vertices, tractions, solution, its_control);
+    };
+    return std::make_unique<ConstrainedSolid>(facts_.n_vertices, constrain_vertices(vertices),
+                                              nodal_shares(system_->boundary().mesh().vertices, vertices), nullptr,
+                                              std::move(solver), SolutionChecks{residual, {}});
+}
+
+std::uint64_t HierarchicalGalerkinModel::constrain_memory(std::span<const int> base,
+                                                          std::span<const int> handles) const {
+    const std::vector<int> vertices = all_of(base, handles);
+    const GalerkinTractions tractions(system_->boundary().mesh(), system_->surfaces(), vertices);
+    return hierarchical_set_memory(facts_.n_vertices, tractions.size());
+}
+
+}  // namespace elastolab

@@ -1,0 +1,166 @@
+#include "bem/hierarchical/schwarz.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "base/blas.hpp"
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+
+namespace elastolab {
+
+namespace {
+
+constexpr int kCoreVertices = 96;  ///< at most, of a patch before it grows
+constexpr int kRings = 1;          ///< by how many it grows
+constexpr int kSmoothings = 2;     ///< of the weights of the rigid motions
+constexpr double kCoarseShift = 1e-9;
+
+/// Vertices with an edge in common with each, by position in the tree.
+std::vector<std::vector<int>> neighbours_of(const SurfaceMesh& mesh, const ClusterTree& tree) {
+    std::vector<std::vector<int>> neighbours(static_cast<std::size_t>(tree.size()));
+    for (int t = 0; t < mesh.n_triangles(); ++t)
+        for (int k = 0; k < 3; ++k) {
+            const int a = tree.positions()[static_cast<std::size_t>(mesh.triangles(k, t))];
+            const int b = tree.positions()[static_cast<std::size_t>(mesh.triangles((k + 1) % 3, t))];
+            neighbours[static_cast<std::size_t>(a)].push_back(b);  // each edge has two triangles, one for each end
+        }
+    return neighbours;
+}
+
+std::vector<int> grown(PositionRange core, const std::vector<std::vector<int>>& neighbours,
+                       const std::vector<char>& is_free) {
+    std::vector<int> all;
+    for (int position = core.begin; position < core.end; ++position) all.push_back(position);
+    for (int ring = 0; ring < kRings; ++ring) {
+        std::vector<int> more = all;
+        for (const int a : all)
+            for (const int b : neighbours[static_cast<std::size_t>(a)]) more.push_back(b);
+        std::sort(more.begin(), more.end());
+        more.erase(std::unique(more.begin(), more.end()), more.end());
+        all = std::move(more);
+    }
+    std::erase_if(all, [&](int position) { return !is_free[static_cast<std::size_t>(position)]; });
+    return all;
+}
+
+/// Weights of the cores at each vertex, that sum up to one: 1 in the core, smoothed.
+std::vector<std::vector<std::pair<int, double>>> weights_of(const std::vector<PositionRange>& cores,
+                                                            const std::vector<std::vector<int>>& neighbours) {
+    std::vector<std::vector<std::pair<int, double>>> weights(neighbours.size());
+    for (std::size_t p = 0; p < cores.size(); ++p)
+        for (int position = cores[p].begin; position < cores[p].end; ++position)
+            weights[static_cast<std::size_t>(position)] = {{static_cast<int>(p), 1.0}};
+    for (int pass = 0; pass < kSmoothings; ++pass) {
+        auto smooth = weights;
+        for (std::size_t a = 0; a < weights.size(); ++a) {
+            const double share = 0.5 / static_cast<double>(neighbours[a].size());
+            for (auto& [p, weight] : smooth[a]) weight *= 0.5;
+            const auto add = [&](int p, double weight) {
+                for (auto& entry : smooth[a])
+                    if (entry.first == p) {
+                        entry.second += weight;
+                        return;
+                    }
+                smooth[a].emplace_back(p, weight);
+            };
+            for (const int b : neighbours[a])
+                for (const auto& [p, weight] : weights[static_cast<std::size_t>(b)]) add(p, share * weight);
+        }
+        weights = std::move(smooth);
+    }
+    return weights;
+}
+
+/// The rigid motions of each core about its middle, times its weights: 6 columns a core.
+Eigen::SparseMatrix<double, Eigen::RowMajor> coarse_motions(const SurfaceMesh& mesh, const ClusterTree& tree,
+                                                            const std::vector<PositionRange>& cores,
+                                                            const std::vector<std::vector<int>>& neighbours,
+                                                            const std::vector<char>& is_free) {
+    const auto point = [&](int position) -> Eigen::Vector3d {
+        return mesh.vertices.col(tree.order()[static_cast<std::size_t>(position)]);
+    };
+    std::vector<Eigen::Vector3d> middles;
+    std::vector<double> scales;
+    for (const PositionRange& core : cores) {
+        Eigen::AlignedBox3d box;
+        for (int position = core.begin; position < core.end; ++position) box.extend(point(position));
+        middles.push_back(box.center());
+        scales.push_back(2.0 / std::max(box.diagonal().norm(), 1e-300));
+    }
+    const auto weights = weights_of(cores, neighbours);
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int position = 0; position < tree.size(); ++position) {
+        if (!is_free[static_cast<std::size_t>(position)]) continue;
+        for (const auto& [p, weight] : weights[static_cast<std::size_t>(position)]) {
+            const auto core = static_cast<std::size_t>(p);
+            const Eigen::Vector3d x = scales[core] * (point(position) - middles[core]);
+            for (int i = 0; i < 3; ++i) {
+                const int j = (i + 1) % 3, k = (i + 2) % 3;  // rotation about i: e_i x x
+                entries.emplace_back(3 * position + i, 6 * p + i, weight);
+                entries.emplace_back(3 * position + j, 6 * p + 3 + i, -weight * x[k]);
+                entries.emplace_back(3 * position + k, 6 * p + 3 + i, weight * x[j]);
+            }
+        }
+    }
+    Eigen::SparseMatrix<double, Eigen::RowMajor> Z(3 * tree.size(), 6 * std::ssize(cores));
+    Z.setFromTriplets(entries.begin(), entries.end());
+    return Z;
+}
+
+}  // namespace
+
+SchwarzPreconditioner::SchwarzPreconditioner(const HierarchicalMatrix& D, const Boundary& boundary,
+                                             std::vector<char> is_free, Control& control)
+    : is_free_(std::move(is_free)) {
+    const ClusterTree& tree = D.row_tree();
+    const std::vector<PositionRange> cores = clusters_up_to(tree, kCoreVertices);
+    const auto neighbours = neighbours_of(boundary.mesh(), tree);
+    patches_.resize(cores.size());
+    {
+        const SerialBlas serial;
+        parallel_blocks(static_cast<int>(cores.size()), 1, control, [&](int p, int) {
+            Patch& patch = patches_[static_cast<std::size_t>(p)];
+            patch.positions = grown(cores[static_cast<std::size_t>(p)], neighbours, is_free_);
+            if (patch.positions.empty()) return;
+            patch.factor.compute(D.submatrix(patch.positions).cast<float>());
+            if (patch.factor.info() != Eigen::Success)
+                throw SolveError(
+                    "hypersingular matrix: is not positive definite near a vertex. Check the mesh for slivers and thin "
+                    "walls.");
+        });
+    }
+    coarse_ = coarse_motions(boundary.mesh(), tree, cores, neighbours, is_free_);
+    Eigen::MatrixXd E = D.galerkin_product(coarse_, control);
+    // Motions of patches that are constrained as a whole are zero; those of a body that is not held cost no energy.
+    E.diagonal().array() += kCoarseShift * E.diagonal().maxCoeff();
+    coarse_factor_.compute(E);
+    if (coarse_factor_.info() != Eigen::Success)
+        throw SolveError("hypersingular matrix: is not positive definite. Check the mesh for slivers and thin walls.");
+}
+
+Eigen::MatrixXd SchwarzPreconditioner::product(const Eigen::MatrixXd& X) const {
+    Eigen::MatrixXd Y = coarse_ * coarse_factor_.solve(coarse_.transpose() * X);
+    std::vector<Eigen::MatrixXf> answers(patches_.size());
+    Control control;
+    {
+        const SerialBlas serial;
+        parallel_blocks(static_cast<int>(patches_.size()), 1, control, [&](int p, int) {
+            const Patch& patch = patches_[static_cast<std::size_t>(p)];
+            if (patch.positions.empty()) return;
+            Eigen::MatrixXf own(3 * std::ssize(patch.positions), X.cols());
+            for (Eigen::Index i = 0; i < std::ssize(patch.positions); ++i)
+                own.middleRows<3>(3 * i) =
+                    X.middleRows<3>(3 * patch.positions[static_cast<std::size_t>(i)]).cast<float>();
+            patch.factor.solveInPlace(own);
+            answers[static_cast<std::size_t>(p)] = std::move(own);
+        });
+    }
+    for (std::size_t p = 0; p < patches_.size(); ++p)
+        for (std::size_t i = 0; i < patches_[p].positions.size(); ++i)
+            Y.middleRows<3>(3 * patches_[p].positions[i]) +=
+                answers[p].middleRows<3>(3 * static_cast<Eigen::Index>(i)).cast<double>();
+    return Y;
+}
+
+}  // namespace elastolab

@@ -1,0 +1,165 @@
+#include "bem/hierarchical/traction_layers.hpp"
+
+#include <Eigen/Cholesky>
+
+#include "base/error.hpp"
+#include "deform/conjugate_gradients.hpp"
+
+namespace elastolab {
+
+namespace {
+
+constexpr int kTrianglesOfALeaf = 48, kTrianglesOfAPatch = 256;
+/// Unknown tractions up to which V is factorised: 0.3 GB.
+constexpr Eigen::Index kMostFactorised = 6000;
+
+}  // namespace
+
+/// V as an operator.
+class TractionLayers::SingleLayer : public LinearOperator {
+public:
+    explicit SingleLayer(const TractionLayers& layers) : layers_(layers) {}
+    Eigen::Index size() const override { return layers_.size_; }
+    Eigen::MatrixXd product(const Eigen::MatrixXd& X) const override { return layers_.single_layer(X); }
+
+private:
+    const TractionLayers& layers_;
+};
+
+/// The blocks of clusters of triangles, solved for each by itself (in single precision); rigid fields are only scaled.
+class TractionLayers::PatchSolves : public LinearOperator {
+public:
+    explicit PatchSolves(const TractionLayers& layers) : layers_(layers) {
+        const ClusterTree& tree = *layers.tree_;
+        for (const PositionRange& range : clusters_up_to(tree, kTrianglesOfAPatch)) {
+            Patch patch;
+            std::vector<int> positions;
+            for (int position = range.begin; position < range.end; ++position)
+                if (const int item = tree.order()[static_cast<std::size_t>(position)]; 3 * item < layers.n_single_) {
+                    positions.push_back(position);
+                    for (int i = 0; i < 3; ++i) patch.rows.push_back(3 * item + i);
+                }
+            if (positions.empty()) continue;
+            patch.factor.compute(layers.V_->submatrix(positions).cast<float>());
+            if (patch.factor.info() != Eigen::Success)
+                throw SolveError("single-layer matrix: is not positive definite. Check the mesh for slivers.");
+            patches_.push_back(std::move(patch));
+        }
+        Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(size(), size() - layers.n_single_);
+        unit.bottomRows(unit.cols()).setIdentity();
+        if (unit.cols() > 0) rigid_scale_ = layers.single_layer(unit).bottomRows(unit.cols()).diagonal().cwiseInverse();
+    }
+    Eigen::Index size() const override { return layers_.size_; }
+    Eigen::MatrixXd product(const Eigen::MatrixXd& X) const override {
+        Eigen::MatrixXd Y(X.rows(), X.cols());
+        for (const Patch& patch : patches_) {
+            Eigen::MatrixXf own = X(patch.rows, Eigen::all).cast<float>();
+            patch.factor.solveInPlace(own);
+            Y(patch.rows, Eigen::all) = own.cast<double>();
+        }
+        Y.bottomRows(rigid_scale_.size()) = rigid_scale_.asDiagonal() * X.bottomRows(rigid_scale_.size());
+        return Y;
+    }
+
+private:
+    struct Patch {
+        std::vector<Eigen::Index> rows;
+        Eigen::LLT<Eigen::MatrixXf> factor;
+    };
+    const TractionLayers& layers_;
+    std::vector<Patch> patches_;
+    Eigen::VectorXd rigid_scale_;
+};
+
+TractionLayers::TractionLayers(const std::shared_ptr<const BoundaryPairs>& pairs, const ClosedSurfaces& surfaces,
+                               const GalerkinTractions& tractions, std::shared_ptr<const ClusterTree> vertex_tree,
+                               const Material& material, const HierarchicalOptions& options, Control& control)
+    : size_(tractions.size()), n_single_(3 * std::ssize(tractions.triangles)) {
+    if (size_ == 0) return;
+    std::vector<int> triangles = tractions.triangles;
+    for (const int s : tractions.free_surfaces) {
+        const std::vector<int>& all = surfaces.triangles[static_cast<std::size_t>(s)];
+        rigid_.push_back(rigid_tractions(pairs->boundary(), all));
+        triangles.insert(triangles.end(), all.begin(), all.end());
+    }
+    tree_ = pairs->cluster_triangles(triangles, kTrianglesOfALeaf);
+    const DoubleLayerEntries K(pairs, triangles, tree_, vertex_tree, material);
+    K_ = std::make_unique<const HierarchicalMatrix>(tree_, vertex_tree, false, K, options, control);
+    const SingleLayerEntries V(pairs, triangles, tree_, material);
+    V_ = std::make_unique<const HierarchicalMatrix>(tree_, tree_, true, V, options, control);
+    if (size_ <= kMostFactorised) {
+        factor_ = CholeskyFactorization(dense_single_layer(), "single-layer matrix", &control);
+    } else {
+        operator_ = std::make_unique<const SingleLayer>(*this);
+        patch_solves_ = std::make_unique<const PatchSolves>(*this);
+    }
+}
+
+TractionLayers::~TractionLayers() = default;
+
+Eigen::MatrixXd TractionLayers::dense_single_layer() const {
+    std::vector<int> positions;
+    std::vector<Eigen::Index> rows;
+    for (int position = 0; position < tree_->size(); ++position)
+        if (const int item = tree_->order()[static_cast<std::size_t>(position)]; 3 * item < n_single_) {
+            positions.push_back(position);
+            for (int i = 0; i < 3; ++i) rows.push_back(3 * item + i);
+        }
+    Eigen::MatrixXd V(size_, size_);
+    V(rows, rows) = V_->submatrix(positions);
+    if (n_single_ == size_) return V;
+    Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(size_, size_ - n_single_);
+    unit.bottomRows(unit.cols()).setIdentity();
+    V.rightCols(unit.cols()) = single_layer(unit);
+    V.bottomRows(unit.cols()) = V.rightCols(unit.cols()).transpose();
+    return V;
+}
+
+Eigen::MatrixXd TractionLayers::spread(const Eigen::MatrixXd& t) const {
+    Eigen::MatrixXd all(3 * tree_->size(), t.cols());
+    all.topRows(n_single_) = t.topRows(n_single_);
+    Eigen::Index from = n_single_, to = n_single_;
+    for (const Eigen::MatrixXd& fields : rigid_) {
+        all.middleRows(to, fields.rows()) = fields * t.middleRows(from, fields.cols());
+        to += fields.rows();
+        from += fields.cols();
+    }
+    return to_tree_order(*tree_, all);
+}
+
+Eigen::MatrixXd TractionLayers::gather(const Eigen::MatrixXd& on_triangles) const {
+    const Eigen::MatrixXd all = to_item_order(*tree_, on_triangles);
+    Eigen::MatrixXd t(size_, all.cols());
+    t.topRows(n_single_) = all.topRows(n_single_);
+    Eigen::Index from = n_single_, to = n_single_;
+    for (const Eigen::MatrixXd& fields : rigid_) {
+        t.middleRows(to, fields.cols()) = fields.transpose() * all.middleRows(from, fields.rows());
+        from += fields.rows();
+        to += fields.cols();
+    }
+    return t;
+}
+
+Eigen::MatrixXd TractionLayers::double_layer(const Eigen::MatrixXd& u) const { return gather(K_->product(u)); }
+
+Eigen::MatrixXd TractionLayers::transposed_double_layer(const Eigen::MatrixXd& t) const {
+    return K_->transposed_product(spread(t));
+}
+
+Eigen::MatrixXd TractionLayers::single_layer(const Eigen::MatrixXd& t) const { return gather(V_->product(spread(t))); }
+
+Eigen::MatrixXd TractionLayers::solve_single_layer(const Eigen::MatrixXd& b, double tolerance, Control& control) const {
+    if (!operator_) {
+        Eigen::MatrixXd t = b;
+        factor_.solve_in_place(t);
+        return t;
+    }
+    return conjugate_gradients(*operator_, *patch_solves_, b, {.tolerance = tolerance}, "single-layer matrix", control);
+}
+
+std::uint64_t TractionLayers::memory_bytes() const {
+    if (size_ == 0) return 0;
+    return K_->memory_bytes() + V_->memory_bytes() + 8 * static_cast<std::uint64_t>(factor_.size() * factor_.size());
+}
+
+}  // namespace elastolab

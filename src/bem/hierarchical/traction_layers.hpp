@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "base/cholesky.hpp"
+#include "bem/galerkin/tractions.hpp"
+#include "bem/hierarchical/boundary_entries.hpp"
+#include "bem/hierarchical/hierarchical_matrix.hpp"
+#include "deform/linear_operator.hpp"
+
+namespace elastolab {
+
+/// V and K of the tractions of one constrained set (bem/galerkin/system.hpp), hierarchical. Tractions are in the order
+/// of GalerkinTractions, displacements in that of the vertices' cluster tree.
+class TractionLayers {
+public:
+    /// Throws SolveError, Cancelled.
+    TractionLayers(const std::shared_ptr<const BoundaryPairs>& pairs, const ClosedSurfaces& surfaces,
+                   const GalerkinTractions& tractions, std::shared_ptr<const ClusterTree> vertex_tree,
+                   const Material& material, const HierarchicalOptions& options, Control& control);
+    ~TractionLayers();
+
+    Eigen::Index size() const { return size_; }
+    /// K u, K^T t, V t
+    Eigen::MatrixXd double_layer(const Eigen::MatrixXd& u) const;
+    Eigen::MatrixXd transposed_double_layer(const Eigen::MatrixXd& t) const;
+    Eigen::MatrixXd single_layer(const Eigen::MatrixXd& t) const;
+    /// V^-1 b: by a factor where that is small, else by conjugate gradients to this residual. Throws SolveError,
+    /// Cancelled.
+    Eigen::MatrixXd solve_single_layer(const Eigen::MatrixXd& b, double tolerance, Control& control) const;
+
+    std::uint64_t memory_bytes() const;
+
+private:
+    class SingleLayer;
+    class PatchSolves;
+
+    Eigen::MatrixXd dense_single_layer() const;
+    /// Tractions on each triangle of the tree's order from the unknowns, and the transposed of that.
+    Eigen::MatrixXd spread(const Eigen::MatrixXd& t) const;
+    Eigen::MatrixXd gather(const Eigen::MatrixXd& on_triangles) const;
+
+    Eigen::Index size_ = 0, n_single_ = 0;
+    std::vector<Eigen::MatrixXd> rigid_;  ///< fields of the surfaces without constrained triangles
+    std::shared_ptr<const ClusterTree> tree_;
+    std::unique_ptr<const HierarchicalMatrix> K_, V_;
+    CholeskyFactorization factor_;
+    std::unique_ptr<const LinearOperator> operator_, patch_solves_;  ///< of V, where it is not factorised
+};
+
+}  // namespace elastolab

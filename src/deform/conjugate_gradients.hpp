@@ -1,0 +1,29 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "base/control.hpp"
+#include "deform/linear_operator.hpp"
+
+namespace elastolab {
+
+struct IterationOptions {
+    double tolerance = 1e-8;  ///< of the residual, relative to the right side, Euclidean, for each column
+    int max_iterations = 1000;
+};
+
+/// What an iterative solver did.
+struct IterationReport {
+    int iterations = 0;
+    double residual = 0.0;  ///< the largest of all columns
+};
+
+/// X with A X = B for A symmetric positive definite (or semidefinite, with B in its range), by conjugate gradients, all
+/// columns at once: each by itself, but for the products, which they share. `preconditioner`: symmetric positive
+/// definite, about A^-1. Starts at zero. Tells `control` its progress, and may be cancelled in every iteration. Throws
+/// SolveError naming `name` when the tolerance is not reached, Cancelled.
+Eigen::MatrixXd conjugate_gradients(const LinearOperator& A, const LinearOperator& preconditioner,
+                                    const Eigen::MatrixXd& B, const IterationOptions& options, const char* name,
+                                    Control& control, IterationReport* report = nullptr);
+
+}  // namespace elastolab

@@ -1,0 +1,167 @@
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <Eigen/Geometry>
+#include <utility>
+
+#include "bem/cost.hpp"
+#include "bem/galerkin/method.hpp"
+#include "bem/hierarchical/model.hpp"
+#include "deform/node_solver.hpp"
+#include "mesh/primitives.hpp"
+#include "methods/problem.hpp"
+#include "study/error/organic_body.hpp"
+
+namespace elastolab::test {
+namespace {
+
+std::shared_ptr<const SolidModel> precompute_hierarchical(const SurfaceMesh& surface, const std::string&,
+                                                          double poisson_ratio, const Method& method,
+                                                          const SolidModel* before, Control& control) {
+    return std::make_shared<HierarchicalGalerkinModel>(surface, poisson_ratio, method,
+                                                       dynamic_cast<const HierarchicalGalerkinModel*>(before), control);
+}
+
+/// Galerkin BEM that is hierarchical on surfaces of any size.
+const MethodTraits& always_hierarchical() {
+    static const MethodTraits traits = [] {
+        MethodTraits its = kGalerkinBemTraits;
+        its.precompute = precompute_hierarchical;
+        return its;
+    }();
+    return traits;
+}
+
+Method hierarchical(Update update = Update::reduced) { return {.kind = &always_hierarchical(), .update = update}; }
+Method dense() { return {.kind = kGalerkinBem, .update = Update::direct}; }
+
+double off(const Eigen::MatrixXd& a, const Eigen::MatrixXd& truth) {
+    return (a - truth).cwiseAbs().maxCoeff() / truth.cwiseAbs().maxCoeff();
+}
+
+TEST(HierarchicalGalerkin, AgreesWithTheDenseMatrixOnAnOrganicBody) {
+    const OrganicBody body = make_rabbit(800);
+    const ConstrainedSet set{body.base, body.pull};
+    const Positions moved = body.values(0.3).rightCols(std::ssize(body.pull));
+    const Eigen::VectorXd values = Eigen::Map<const Eigen::VectorXd>(moved.data(), moved.size());
+    Control control;
+    std::vector<Deformer::Answer> answers;
+    for (const Method& method : {dense(), hierarchical()}) {
+        Deformer deformer(precomputed(make_body(body.surface), method));
+        deformer.constrain(set, control);
+        answers.push_back(deformer.answer(values, {.residual = true}, control));
+    }
+    EXPECT_LT(off(answers[1].displacements, answers[0].displacements), 1e-6);
+    EXPECT_LT(off(answers[1].reactions.forces, answers[0].reactions.forces), 1e-4);
+    EXPECT_LT(answers[1].residual.value(), 1e-6);
+    const Reactions& reactions = answers[1].reactions;
+    EXPECT_LT(reactions.forces.rowwise().sum().norm(), 1e-6 * reactions.forces.colwise().norm().sum());
+    EXPECT_LT(reactions.moments.rowwise().sum().norm(), 1e-6 * reactions.moments.colwise().norm().sum());
+}
+
+TEST(HierarchicalGalerkin, IsExactForAStretchedBox) {
+    const SurfaceMesh mesh = make_box(6, {2.0, 1.0, 1.0});
+    const auto ends = vertices_where(mesh, [](const auto& x) { return x[0] < 1e-9 || x[0] > 2.0 - 1e-9; });
+    for (const auto& [nu, update] : {std::pair(0.3, Update::direct), std::pair(0.5, Update::reduced)}) {
+        Eigen::VectorXd exact(3 * mesh.n_vertices());
+        for (int v = 0; v < mesh.n_vertices(); ++v)
+            exact.segment<3>(3 * v) = mesh.vertices.col(v).cwiseProduct(Eigen::Vector3d(1.0, -nu, -nu));
+        EXPECT_LT(
+            off(displaced(precomputed(make_body(mesh, {1.0, nu}), hierarchical(update)), {{}, ends}, at(exact, ends)),
+                exact),
+            1e-6);
+    }
+}
+
+TEST(HierarchicalGalerkin, RigidMotionsCauseNoForceAndCavitiesFollow) {
+    for (const SurfaceMesh& mesh : {make_rabbit(500).surface, make_hollow_sphere(6)}) {
+        const double low = mesh.vertices.row(2).minCoeff();
+        const auto held = vertices_where(mesh, [&](const auto& x) { return x[2] < low + 0.3; });
+        Eigen::VectorXd exact(3 * mesh.n_vertices());
+        for (int v = 0; v < mesh.n_vertices(); ++v)
+            exact.segment<3>(3 * v) = Eigen::Vector3d(0.1, -0.2, 0.3) +
+                                      Eigen::Vector3d(0.3, 0.2, -0.1).cross(Eigen::Vector3d(mesh.vertices.col(v)));
+        Control control;
+        Deformer deformer(precomputed(make_body(mesh), hierarchical()));
+        deformer.constrain({{}, held}, control);
+        const Deformer::Answer answer = deformer.answer(at(exact, held), {.residual = true}, control);
+        EXPECT_LT(off(answer.displacements, exact), 1e-6);
+        EXPECT_LT(answer.reactions.forces.cwiseAbs().maxCoeff(), 1e-6);
+        EXPECT_LT(answer.residual.value(), 1e-6);
+    }
+}
+
+TEST(HierarchicalGalerkin, AHollowSphereIsPulledAsByTheDenseMatrix) {
+    const SurfaceMesh mesh = make_hollow_sphere(7);
+    ConstrainedSet set;
+    set.base = vertices_where(mesh, [](const auto& x) { return x[2] < -0.7; });
+    set.handles = vertices_where(mesh, [](const auto& x) { return x[2] > 0.8; });
+    const Eigen::VectorXd pull = Eigen::Vector3d(0.1, 0.05, 0.2).replicate(std::ssize(set.handles), 1);
+    const Eigen::VectorXd truth = displaced(precomputed(make_body(mesh), dense()), set, pull);
+    EXPECT_LT(off(displaced(precomputed(make_body(mesh), hierarchical()), set, pull), truth), 1e-6);
+}
+
+TEST(HierarchicalGalerkin, ABodyThatIsNotHeldMovesLeastOrIsRefused) {
+    const SurfaceMesh mesh = make_sphere(8);
+    const Eigen::Vector3d pull(1.0, 2.0, 3.0);
+    Control control;
+    Deformer direct(precomputed(make_body(mesh), hierarchical(Update::direct)));
+    EXPECT_THROW(direct.constrain({{}, {0}}, control), NotHeldError);
+    Deformer reduced(precomputed(make_body(mesh), hierarchical()));
+    reduced.constrain({{}, {0}}, control);
+    EXPECT_FALSE(reduced.quality().held);
+    const Eigen::VectorXd u = reduced.displace(pull);
+    EXPECT_LT((u.head<3>() - pull).norm(), 1e-9);
+    // It turns about the vertex rather than being carried along: no rotation makes the sum of squares smaller.
+    Eigen::Vector3d turn = Eigen::Vector3d::Zero();
+    for (int v = 0; v < mesh.n_vertices(); ++v)
+        turn +=
+            Eigen::Vector3d(mesh.vertices.col(v) - mesh.vertices.col(0)).cross(Eigen::Vector3d(u.segment<3>(3 * v)));
+    EXPECT_LT(turn.norm(), 1e-6 * u.norm() * mesh.vertices.norm());
+}
+
+TEST(HierarchicalGalerkin, KeepsAnswersForCombinationsOfThem) {
+    const OrganicBody body = make_rabbit(400);
+    Control control;
+    Deformer deformer(precomputed(make_body(body.surface), hierarchical()));
+    deformer.constrain({body.base, body.pull}, control);
+    const Eigen::Index n = std::ssize(body.pull);
+    const Eigen::MatrixXd basis = Eigen::Matrix3d::Identity().replicate(n, 1);
+    const DragResponse drag = deformer.drag_response(Eigen::VectorXd::Zero(3 * n), basis, control);
+    const Eigen::Vector3d pull(0.1, -0.3, 0.2);
+    Eigen::VectorXd u;
+    drag.displace(pull, u);
+    // A cancelled control stops every iteration: this answer needs none, another motion does.
+    control.cancel();
+    EXPECT_LT(off(deformer.displace(basis * pull, control), u), 1e-9);
+    EXPECT_THROW(deformer.displace(Eigen::VectorXd::LinSpaced(3 * n, 0.0, 1.0), control), Cancelled);
+}
+
+TEST(HierarchicalGalerkin, IsChosenForLargeSurfacesOnDemand) {
+    // 1260, 3500 and about 5300 vertices.
+    const SurfaceMesh small = make_torus(15), middle = make_torus(25), large = make_torus(31);
+    const Method direct = dense(), reduced{.kind = kGalerkinBem}, full{.kind = kGalerkinBem, .mode = Mode::full};
+    EXPECT_FALSE(is_hierarchical(small, direct));
+    EXPECT_TRUE(is_hierarchical(middle, direct));
+    EXPECT_FALSE(is_hierarchical(middle, reduced));
+    EXPECT_TRUE(is_hierarchical(large, reduced));
+    EXPECT_FALSE(is_hierarchical(large, full));
+    // Less than the dense matrix alone, and growing as the surface does.
+    const std::uint64_t bytes = kGalerkinBem->predict(large, reduced).memory_bytes;
+    const auto n = static_cast<std::uint64_t>(large.n_vertices());
+    EXPECT_LT(bytes, 72 * n * n / 3);
+    EXPECT_LT(kGalerkinBem->predict(make_torus(62), reduced).memory_bytes, 6 * bytes);
+    EXPECT_GT(kGalerkinBem->predict(large, direct).seconds, 0.0);
+}
+
+TEST(HierarchicalGalerkin, TakesOverTheMatrixForAnotherUpdate) {
+    const Body body = make_body(make_rabbit(300).surface);
+    Control control;
+    const auto first = precomputed(body, hierarchical(Update::direct));
+    const auto second = precompute_again(*first, body.material, hierarchical(), control);
+    EXPECT_TRUE(second->facts().stages.empty());
+    EXPECT_GT(second->facts().memory_bytes, 0u);
+}
+
+}  // namespace
+}  // namespace elastolab::test

@@ -1,0 +1,70 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <limits>
+
+#include "base/error.hpp"
+#include "deform/conjugate_gradients.hpp"
+
+namespace elastolab {
+namespace {
+
+class DenseOperator : public LinearOperator {
+public:
+    explicit DenseOperator(Eigen::MatrixXd A) : A_(std::move(A)) {}
+    Eigen::Index size() const override { return A_.rows(); }
+    Eigen::MatrixXd product(const Eigen::MatrixXd& X) const override { return A_ * X; }
+
+private:
+    Eigen::MatrixXd A_;
+};
+
+Eigen::MatrixXd positive_definite(Eigen::Index n) {
+    const Eigen::MatrixXd B = Eigen::MatrixXd::Random(n, n);
+    return B * B.transpose() + Eigen::MatrixXd::Identity(n, n);
+}
+
+TEST(ConjugateGradients, AgreeWithAFactorisationForColumnsOfAnySize) {
+    const Eigen::MatrixXd A = positive_definite(60);
+    Eigen::MatrixXd B = Eigen::MatrixXd::Random(60, 4);
+    B.col(1) *= 1e200;
+    B.col(2) *= 1e-200;
+    B.col(3).setZero();
+    const Eigen::MatrixXd truth = A.llt().solve(B);
+    Control control;
+    IterationReport report;
+    const DenseOperator scaled(A.diagonal().cwiseInverse().asDiagonal());
+    const Eigen::MatrixXd X =
+        conjugate_gradients(DenseOperator(A), scaled, B, {.tolerance = 1e-12}, "matrix", control, &report);
+    for (int c = 0; c < 3; ++c)
+        EXPECT_LT((X.col(c) - truth.col(c)).stableNorm(), 1e-9 * truth.col(c).stableNorm()) << c;
+    EXPECT_EQ(X.col(3), Eigen::VectorXd::Zero(60));
+    EXPECT_LE(report.residual, 1e-12);
+    EXPECT_GT(report.iterations, 1);
+    EXPECT_DOUBLE_EQ(control.progress(), 1.0);
+}
+
+TEST(ConjugateGradients, NeedOneIterationWithTheInverse) {
+    const Eigen::MatrixXd A = positive_definite(30);
+    Control control;
+    IterationReport report;
+    conjugate_gradients(DenseOperator(A), DenseOperator(A.inverse()), Eigen::MatrixXd::Random(30, 3), {}, "matrix",
+                        control, &report);
+    EXPECT_EQ(report.iterations, 1);
+}
+
+TEST(ConjugateGradients, SayWhenTheyDoNotConvergeAndStopWhenCancelled) {
+    const DenseOperator A(positive_definite(60)), one(Eigen::MatrixXd::Identity(60, 60));
+    const Eigen::MatrixXd B = Eigen::MatrixXd::Ones(60, 1);
+    Control control;
+    EXPECT_THROW(conjugate_gradients(A, one, B, {.tolerance = 1e-12, .max_iterations = 3}, "matrix", control),
+                 SolveError);
+    const DenseOperator not_finite(Eigen::MatrixXd::Constant(60, 60, std::numeric_limits<double>::quiet_NaN()));
+    EXPECT_THROW(conjugate_gradients(not_finite, one, B, {}, "matrix", control), SolveError);
+    control.cancel();
+    EXPECT_THROW(conjugate_gradients(A, one, B, {}, "matrix", control), Cancelled);
+}
+
+}  // namespace
+}  // namespace elastolab
