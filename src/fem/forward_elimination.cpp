@@ -147,14 +147,14 @@ void ForwardElimination::subtract_from(Eigen::MatrixXd& S, Control& control) {
 }
 
 /// How a supernode looks from outside.
-struct Shape {
+struct SupernodeShape {
     double columns = 0.0, rows = 0.0;  ///< rows: with those of its own columns
     int parent = -1;                   ///< the supernode of its first row below; none for a root
 };
 
-std::vector<Shape> shapes_of(const SupernodalView& L) {
+std::vector<SupernodeShape> shapes_of(const SupernodalView& L) {
     const std::vector<int> supernodes = supernodes_of_rows(L);
-    std::vector<Shape> shapes(static_cast<std::size_t>(L.n_supernodes()));
+    std::vector<SupernodeShape> shapes(static_cast<std::size_t>(L.n_supernodes()));
     for (std::size_t s = 0; s < shapes.size(); ++s) {
         const int columns = L.super[s + 1] - L.super[s], rows = L.first_row[s + 1] - L.first_row[s];
         shapes[s] = {static_cast<double>(columns), static_cast<double>(rows)};
@@ -173,7 +173,7 @@ void subtract_compressed_inverse(const SparseCholesky& factor, const SparseMatri
 }
 
 CompressedInverseCost compressed_inverse_cost(const SupernodalView& pattern, std::span<const int> nodes) {
-    const std::vector<Shape> shapes = shapes_of(pattern);
+    const std::vector<SupernodeShape> shapes = shapes_of(pattern);
     const std::vector<int> supernodes = supernodes_of_rows(pattern);
     std::vector<int> place(pattern.permutation.size());
     for (std::size_t i = 0; i < place.size(); ++i)
