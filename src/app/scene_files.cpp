@@ -59,6 +59,7 @@ void write_deformed_mesh(const fs::path& file, const LiveScene& scene, const Eig
 
 Document default_document() {
     Document document;
+    document.method = first_method();
     document.mesh = Primitive{.name = "cube", .resolution = 13, .size = {}};
     document.fixed = Selector{PlaneSelector{{0, 0, 0}, {1, 0, 0}, 1e-6}};
     return document;
@@ -66,6 +67,7 @@ Document default_document() {
 
 Document document_for_mesh(const fs::path& mesh) {
     Document document;
+    document.method = first_method();
     document.mesh = MeshFile{fs::absolute(mesh).string()};
     return document;
 }

@@ -22,6 +22,8 @@ std::vector<std::string> method_names();
 
 /// The one that is taken when nobody chooses.
 MethodKind default_method();
+/// The one that the viewer begins with: the most accurate, which is ready to be pulled hardly later than the default.
+MethodKind first_method();
 /// The one that answers on a coarse surface while others compute: few unknowns for its accuracy, whatever the triangles.
 MethodKind preview_method();
 

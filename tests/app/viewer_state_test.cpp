@@ -32,7 +32,7 @@ TEST(ViewerState, BeginsWithTheCubeOfThePaperHeldAtItsLeft) {
     ViewerState state([] {});
     EXPECT_EQ(state.scene().mesh().n_vertices(), 1016);
     for (const int v : state.scene().vertices(LiveScene::kFixed)) EXPECT_EQ(state.scene().mesh().vertices(0, v), 0.0);
-    EXPECT_EQ(state.method, kLinearBem);
+    EXPECT_EQ(state.method, first_method());
 }
 
 TEST(ViewerState, ABadFileIsTellingAndKeepsTheOldScene) {
