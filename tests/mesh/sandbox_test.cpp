@@ -105,7 +105,8 @@ TEST(ImportHelper, DoesNotWaitForPipes) {
 
 TEST(ImportHelper, QuotesLittleAndNoControlCodes) {
     const TemporaryFolder folder;
-    const std::string bell = "\x1b]0;title\x07\x1b[31m\xc2\x9b" + std::string(5000, 'x');
+    std::string bell(5000, 'x');
+    bell.insert(0, "\x1b]0;title\x07\x1b[31m\xc2\x9b");
     for (const std::string name : {"a.obj", "a.off", "a.ply", "a.stl", "a.gltf", "a.dae", "a.x"}) {
         const std::string text = finding(folder.write(name, bell + "\nply " + bell + "\nv " + bell + " 1 1\n"));
         EXPECT_LT(text.size(), 600u) << name;
