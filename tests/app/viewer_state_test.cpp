@@ -215,6 +215,7 @@ TEST(ViewerState, CancelledWorkersStop) {
     stage.settle();
     EXPECT_EQ(stage.scene().mesh().n_vertices(), 26);  // the old scene
     stage.open(test::cube_document(2));
+    stage.state.choices.preview = false;  // else the method has not begun yet
     stage.state.open_document(test::cube_document(10), "scene.json");
     stage.frame();
     stage.state.cancel_workers();

@@ -126,6 +126,7 @@ TEST_F(SolveTest, WritesAReportWithEveryKey) {
                                            "update",
                                            "vertices",
                                            "faces",
+                                           "proxy",
                                            "tetrahedra",
                                            "degrees_of_freedom",
                                            "constrained_vertices",
