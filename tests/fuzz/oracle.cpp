@@ -91,8 +91,9 @@ std::string odd_word_in_csv(const std::string& text) {
 }
 
 std::string null_in(const Json& json, const std::string& path) {
-    // Not all methods have a choice of tractions, or an estimate of their error.
-    if (json.is_null()) return path == "/tractions" || path.starts_with("/error_estimate/") ? "" : "null at " + path;
+    // Not all methods have a choice of tractions, or an estimate of their error; not all bodies a proxy.
+    const bool may_be_null = path == "/tractions" || path == "/proxy" || path.starts_with("/error_estimate/");
+    if (json.is_null()) return may_be_null ? "" : "null at " + path;
     if (!json.is_structured()) return "";
     for (const auto& [key, value] : json.items())
         if (std::string found = null_in(value, path + "/" + key); !found.empty()) return found;
