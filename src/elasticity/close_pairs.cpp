@@ -4,6 +4,7 @@
 #include <cmath>
 #include <Eigen/Geometry>
 
+#include "elasticity/outer_cells.hpp"
 #include "elasticity/pair_rules.hpp"
 
 namespace elastolab {
@@ -22,20 +23,6 @@ double distance_to_segment(const Vec& p, const Vec& a, const Vec& b) {
     const Vec ab = b - a;
     const double s = std::clamp((p - a).dot(ab) / ab.squaredNorm(), 0.0, 1.0);
     return (p - (a + s * ab)).norm();
-}
-
-/// Distance of the segments p-q and a-b.
-double segment_distance(const Vec& p, const Vec& q, const Vec& a, const Vec& b) {
-    const Vec d = q - p, e = b - a, w = p - a;
-    const double dd = d.squaredNorm(), ee = e.squaredNorm(), de = d.dot(e), dw = d.dot(w), ew = e.dot(w);
-    const double determinant = dd * ee - de * de;
-    double result = std::min({distance_to_segment(p, a, b), distance_to_segment(q, a, b), distance_to_segment(a, p, q),
-                              distance_to_segment(b, p, q)});
-    if (determinant > 1e-14 * dd * ee) {
-        const double s = (de * ew - ee * dw) / determinant, t = (dd * ew - de * dw) / determinant;
-        if (s > 0.0 && s < 1.0 && t > 0.0 && t < 1.0) result = std::min(result, (w + s * d - t * e).norm());
-    }
-    return result;
 }
 
 /// Collects weighted points, as many as a kernel takes at once, and sums potentials of one triangle over them.
@@ -120,7 +107,8 @@ public:
           i_a_((apex + 1) % 3),
           i_b_((apex + 2) % 3),
           other_(other),
-          rule_(legendre_rule(std::min(kMaxLegendre, 2 + static_cast<int>(std::ceil(-std::log(tolerance) / 1.76))))) {
+          tolerance_(tolerance),
+          max_points_(std::min(kMaxLegendre, 2 + static_cast<int>(std::ceil(-std::log(tolerance) / 1.76)))) {
         levels_ = 1 + static_cast<int>(std::ceil(std::log(tolerance) / std::log(kGrading) / (all ? 1.2 : 2.0)));
         levels_ = std::min(levels_, 14);
         for (int i = 0; i < 3; ++i) {
@@ -138,7 +126,7 @@ public:
             add_piece(sum, scale, kGrading * end, end, 0);
             end *= kGrading;
         }
-        add_gauss(sum, scale, 0.0, end);
+        add_gauss(sum, scale, 0.0, end, max_points_);
     }
 
 private:
@@ -146,38 +134,39 @@ private:
     Vec point(double u) const { return from_a_ ? Vec(a_ + u * (b_ - a_)) : Vec(b_ + u * (a_ - b_)); }
 
     void add_piece(PotentialSum& sum, double scale, double from, double to, int depth) {
-        if (depth > kMaxDepth || 0.5 * (to - from) * (b_ - a_).norm() <= clearance(point(from), point(to)))
-            return add_gauss(sum, scale, from, to);
+        const int n = gauss_points(ellipse(from, to), 0.1 * tolerance_);
+        if (n <= max_points_ || depth > kMaxDepth) return add_gauss(sum, scale, from, to, std::min(n, max_points_));
         const double middle = 0.5 * (from + to);
         add_piece(sum, scale, from, middle, depth + 1);
         add_piece(sum, scale, middle, to, depth + 1);
     }
 
-    void add_gauss(PotentialSum& sum, double scale, double from, double to) {
-        for (std::size_t q = 0; q < rule_.nodes.size(); ++q) {
-            const double u = from + rule_.nodes[q] * (to - from), at_b = from_a_ ? u : 1.0 - u;
+    void add_gauss(PotentialSum& sum, double scale, double from, double to, int n) {
+        const LineRule& rule = legendre_rule(n);
+        for (std::size_t q = 0; q < rule.nodes.size(); ++q) {
+            const double u = from + rule.nodes[q] * (to - from), at_b = from_a_ ? u : 1.0 - u;
             Vec phi = Vec::Zero();
             phi[i_a_] = 1.0 - at_b;
             phi[i_b_] = at_b;
-            sum.add(point(u), scale * (to - from) * rule_.weights[q], phi);
+            sum.add(point(u), scale * (to - from) * rule.weights[q], phi);
         }
     }
 
-    /// Distance from where the potential is not analytic. Along a ray from a corner it is A(u) + u log(u) B(u) with
-    /// A and B singular at the opposite edge only.
-    double clearance(const Vec& p, const Vec& q) const {
-        double result = 1e300;
-        for (int i = 0; i < 3; ++i)
-            if (singular_ < 0 || i == (singular_ + 1) % 3)
-                result = std::min(result, segment_distance(p, q, corner(other_, i), corner(other_, i + 1)));
-        return result;
+    /// In which the potential is analytic. Along a ray from a corner it is A(u) + u log(u) B(u) with A and B singular
+    /// at the opposite edge only.
+    double ellipse(double from, double to) const {
+        const Vec p = point(from), q = point(to);
+        if (singular_ < 0) return analytic_ellipse(p.data(), q.data(), other_);
+        const double to_end = (from + to) / (to - from);
+        return std::min(to_end + std::sqrt(to_end * to_end - 1.0),
+                        analytic_ellipse(p.data(), q.data(), other_, (singular_ + 1) % 3));
     }
 
     Vec a_, b_;
     int i_a_, i_b_;
     const TriangleGeometry& other_;
-    const LineRule& rule_;
-    int levels_ = 0, singular_ = -1;
+    double tolerance_;
+    int max_points_, levels_ = 0, singular_ = -1;
     bool from_a_ = true;
 };
 
@@ -259,31 +248,22 @@ PairNumbers touching_pair(const TriangleGeometry& t, int apex_t, const TriangleG
     return result;
 }
 
-struct Piece {
-    double corners[3][3];
-};
-
-void separate_pair(const Piece& piece, double area, const TriangleGeometry& s, double tolerance, int depth,
-                   PotentialSum& sum) {
-    const int n = outer_points(outer_ratio(piece.corners, s), tolerance);
-    const auto at = [&](int i) { return Vec(Eigen::Map<const Vec>(piece.corners[i % 3])); };
-    if (n <= max_outer_points(tolerance) || depth > kMaxDepth) {
-        const CollapsedRule& rule = collapsed_rule(std::min(n, max_outer_points(tolerance)));
-        for (std::size_t q = 0; q < rule.points.size(); ++q) {
-            const auto& b = rule.points[q];
-            sum.add(b[0] * at(0) + b[1] * at(1) + b[2] * at(2), area * rule.weights[q], Vec::Zero());
-        }
-        return;
-    }
-    int longest = 0;
-    for (int i = 1; i < 3; ++i)
-        if ((at(i + 1) - at(i)).squaredNorm() > (at(longest + 1) - at(longest)).squaredNorm()) longest = i;
-    const Vec middle = 0.5 * (at(longest) + at(longest + 1));
-    for (int half = 0; half < 2; ++half) {
-        Piece part = piece;
-        Eigen::Map<Vec>(part.corners[(longest + half) % 3]) = middle;
-        separate_pair(part, 0.5 * area, s, tolerance, depth + 1, sum);
-    }
+PairNumbers separate_pair(const TriangleGeometry& t, const TriangleGeometry& s, bool all, double tolerance) {
+    PairNumbers result{};
+    PotentialSum sum(s, all, nullptr, result);
+    const Vec a = corner(t, 0), ab = corner(t, 1) - a, bc = corner(t, 2) - corner(t, 1);
+    for_each_outer_cell(t, s, tolerance, max_outer_points(tolerance), [&](const OuterCell& cell) {
+        const LineRule &rule_u = legendre_rule(cell.n_u), &rule_v = legendre_rule(cell.n_v);
+        const double size_u = cell.u1 - cell.u0, size_v = cell.v1 - cell.v0;
+        for (std::size_t i = 0; i < rule_u.nodes.size(); ++i)
+            for (std::size_t j = 0; j < rule_v.nodes.size(); ++j) {
+                const double u = cell.u0 + size_u * rule_u.nodes[i], v = cell.v0 + size_v * rule_v.nodes[j];
+                const double weight = rule_u.weights[i] * rule_v.weights[j] * size_u * size_v;
+                sum.add(a + u * (ab + v * bc), t.double_area * u * weight, Vec::Zero());
+            }
+    });
+    sum.flush();
+    return result;
 }
 
 }  // namespace
@@ -314,13 +294,7 @@ PairNumbers close_pair(const TriangleGeometry& test, const TriangleGeometry& fie
             if (corner(test, i) == corner(field, j)) ++n_shared, apex_t = i, apex_s = j;
     if (n_shared == 3) return identical_pair(test);
     if (n_shared > 0) return touching_pair(test, apex_t, field, apex_s, all, tolerance);
-    Piece piece;
-    std::copy(&test.corner[0][0], &test.corner[0][0] + 9, &piece.corners[0][0]);
-    PairNumbers sum{};
-    PotentialSum potentials(field, all, nullptr, sum);
-    separate_pair(piece, 0.5 * test.double_area, field, tolerance, 0, potentials);
-    potentials.flush();
-    return sum;
+    return separate_pair(test, field, all, tolerance);
 }
 
 }  // namespace elastolab

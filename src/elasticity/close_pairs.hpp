@@ -14,8 +14,8 @@ namespace elastolab {
 /// Kelvin's iint U = [(3-4nu) trace I + tensor] / (16 pi mu (1-nu)).
 using PairNumbers = std::array<double, kPairNumbers>;
 
-/// Points per direction of the outer rule that keeps `tolerance` on a piece of radius R around a centre at the distance
-/// `ratio` * R from the nearest edge of the field triangle; more than max_outer_points: cut the piece.
+/// Points per direction of the outer rule that keeps `tolerance` on a triangle of radius R around a centre at the
+/// distance `ratio` * R from the nearest edge of the field triangle; more than max_outer_points: by close_pair.
 int outer_points(double ratio, double tolerance);
 int max_outer_points(double tolerance);
 
@@ -25,8 +25,8 @@ double outer_ratio(const double (&test_corners)[3][3], const TriangleGeometry& f
 /// The integrals of any two triangles that do not intersect: apart, or with one, two or three corners in common
 /// (recognised by equal coordinates). `all` false: the normal numbers stay zero.
 ///
-/// Apart, the inner integral is the closed form and the outer one a Gauss rule on pieces of the test triangle that are
-/// small beside their distance from the field triangle's edges, off which the closed form is analytic.
+/// Apart, the inner integral is the closed form and the outer one a Gauss rule on each cell of the test triangle
+/// (for_each_outer_cell), off the field triangle's edges, where the closed form is analytic.
 /// With a corner P in common, both planes hold P and the kernels k are homogeneous about it (degree -1, or -2 for the
 /// normal numbers without a hat). Euler's identity and the divergence theorem in the four coordinates then leave
 ///   iint k = 1/(4 + degree) [ h_t int_{edge of t opposite P} dx int_s k + h_s int_{edge of s opposite P} dy int_t k ]

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <random>
 
+#include "elasticity/outer_cells.hpp"
 #include "elasticity/triangle_geometry.hpp"
 #include "support/quadrature.hpp"
 
@@ -139,6 +140,48 @@ TEST(PairIntegrals, KeepATightTolerance) {
         for (std::size_t k = 0; k < 6; ++k)
             EXPECT_NEAR(exchanged[k], tight[k], 1e-11 * (tight[0] + tight[1] + tight[2]));
     }
+}
+
+/// Two triangles over one another, nearly touching, as on both sides of a plate: edges over edges, and across them.
+std::vector<Pair> over_one_another(double gap) {
+    const Vec up(0.0, 0.0, gap), aside(0.21, 0.13, 0.0);
+    return {{"edges over edges", triangle(P, Q, R), triangle(P + up, R + up, Q + up)},
+            {"beside one another", triangle(P, Q, R), triangle(Q + up, P + up, P + Q - R + up)},
+            {"edges across edges", triangle(P, Q, R), triangle(P + aside + up, R + aside + up, Q + aside + up)}};
+}
+
+TEST(PairIntegrals, OfTrianglesOverOneAnotherAreTheSumOfThoseOfTheParts) {
+    for (const double gap : {0.1, 0.003, 1e-4})
+        for (const Pair& pair : over_one_another(gap)) {
+            const PairNumbers whole = close_pair(pair.t, pair.s, true, 1e-8);
+            PairNumbers sum{};
+            const auto at = [&](int i) { return Vec(Eigen::Map<const Vec>(pair.t.corner[i])); };
+            const Vec inside = 0.2 * at(0) + 0.3 * at(1) + 0.5 * at(2);
+            for (int i = 0; i < 3; ++i) {
+                const PairNumbers part = close_pair(triangle(at(i), at((i + 1) % 3), inside), pair.s, true, 1e-10);
+                for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += part[k];
+            }
+            // Beside one another the normal numbers nearly cancel: they are relative to the area.
+            for (std::size_t k = 0; k < sum.size(); ++k)
+                EXPECT_NEAR(sum[k], whole[k], 1e-8 * (k < 6 ? whole[0] + whole[1] + whole[2] : pair.t.double_area))
+                    << pair.name << ", gap " << gap << ", number " << k;
+            // The other triangle's closed form, and this one's quadrature.
+            const PairNumbers exchanged = close_pair(pair.s, pair.t, false, 1e-8);
+            for (std::size_t k = 0; k < 6; ++k)
+                EXPECT_NEAR(exchanged[k], whole[k], 2e-8 * (whole[0] + whole[1] + whole[2])) << pair.name;
+        }
+}
+
+/// A plate a thousand times thinner costs a few times more, not a million times.
+TEST(PairIntegrals, OfTrianglesOverOneAnotherTakeFewPoints) {
+    const auto n_points = [](double gap) {
+        const Pair pair = over_one_another(gap).front();
+        int n = 0;
+        for_each_outer_cell(pair.t, pair.s, 1e-8, 8, [&](const OuterCell& cell) { n += cell.n_u * cell.n_v; });
+        return n;
+    };
+    EXPECT_LT(n_points(1e-1), 2000);
+    EXPECT_LT(n_points(1e-4), 16 * n_points(1e-1));
 }
 
 /// Packs at all distances, so that every far rule and the medium range are met.
