@@ -52,6 +52,8 @@ struct DisplaySettings {
     bool section_flip = false;
     bool dark = true;
     float ui_scale = 1.0f;
+    bool panel = true;         ///< the panel at the side is seen
+    double panel_width = 0.0;  ///< [logical pixels of scale 1]; 0: by the window's width
 
     bool operator==(const DisplaySettings&) const = default;
 };

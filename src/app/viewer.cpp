@@ -216,7 +216,7 @@ private:
         FrameTimes times;
         Stopwatch part;
         gui_.begin(events, now - std::exchange(last_frame_seconds_, now));
-        const Layout layout = layout_of(window_.size(), gui_.scale());
+        const Layout layout = layout_of(window_.size(), gui_.scale(), state_.display);
         arrange(layout);
         times.gui_ms = 1e3 * part.seconds();
 

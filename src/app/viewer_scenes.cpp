@@ -12,8 +12,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kPatchPart = 0.07;  ///< default radius of a patch: of the body's diagonal,
-constexpr double kPatchEdges = 1.6;  ///< but so many edges, so that it has whole triangles
+constexpr double kPatchPart = 0.07;   ///< default radius of a patch: of the body's diagonal,
+constexpr double kPatchEdges = 1.6;   ///< but so many edges, so that it has whole triangles
+constexpr int kDenseVertices = 2000;  ///< above, a wireframe hides more than it shows
 
 double diagonal(const MeshReport& report) { return (report.max_corner - report.min_corner).norm(); }
 
@@ -85,6 +86,7 @@ void ViewerState::take_scene(LoadedScene loaded) {
     method = std::exchange(first_method_, std::nullopt).value_or(scene_->document().method);
     tools.patch_radius = std::max(kPatchPart * diagonal(scene_->report()), kPatchEdges * scene_->report().mean_edge);
     shown.forget();
+    display.wireframe = scene_->mesh().n_vertices() <= kDenseVertices;
     camera.set_scene(frame_of(scene_->mesh().vertices));
     camera.set_up_axis(loaded.up_axis);
     camera.set_view(ViewDirection::isometric);

@@ -60,6 +60,8 @@ std::vector<Shortcut> make_shortcuts() {
          [](ViewerState& s, Panels&) { toggle_compare(s, CompareMode::ghosts); }},
         {GLFW_KEY_W, 0, "W", "wireframe on or off",
          [](ViewerState& s, Panels&) { s.display.wireframe = !s.display.wireframe; }},
+        {GLFW_KEY_P, 0, "P", "show or fold the panel",
+         [](ViewerState& s, Panels&) { s.display.panel = !s.display.panel; }},
         {GLFW_KEY_T, 0, "T", "light or dark theme", [](ViewerState& s, Panels&) { s.display.dark = !s.display.dark; }},
         {GLFW_KEY_O, GLFW_MOD_CONTROL, "Ctrl+O", "open a mesh or scene",
          [](ViewerState& s, Panels& p) { p.ask_open(s); }},

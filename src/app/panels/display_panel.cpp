@@ -77,12 +77,12 @@ void Panels::draw_display(const PanelContext& context) {
         {{"wireframe", &DisplaySettings::wireframe, "W"},
          {"flat", &DisplaySettings::flat, "One shade for each triangle."},
          {"creases", &DisplaySettings::feature_edges, "Sharp edges of the rest shape."},
-         {"rest shape", &DisplaySettings::rest_shape, "The body as it was, as a wireframe."},
+         {"rest shape", &DisplaySettings::rest_shape, "The body as it was, faint, where it was deformed."},
          {"held vertices", &DisplaySettings::constraints, "Fixed vertices and handles as points."},
          {"forces", &DisplaySettings::arrows, "What the fixed part and every handle exert on the body."},
          {"grid", &DisplaySettings::grid, ""}}};
     for (std::size_t i = 0; i < kSwitches.size(); ++i) {
-        if (i % 2 == 1) ImGui::SameLine(150.0f * scale);
+        if (i % 2 == 1) ImGui::SameLine(0.5f * ImGui::GetWindowContentRegionMax().x);
         ImGui::Checkbox(kSwitches[i].label, &(display.*kSwitches[i].value));
         tooltip(kSwitches[i].explanation);
     }

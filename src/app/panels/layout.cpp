@@ -2,21 +2,32 @@
 #include "methods/registry.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace elastolab {
 
 namespace {
 
-constexpr double kMenu = 23.0, kStatus = 27.0, kPanel = 320.0, kGap = 2.0;
+constexpr double kMenu = 23.0, kStatus = 27.0, kGap = 2.0;
+constexpr double kPanel = 320.0, kLeastPanel = 216.0, kPanelPart = 0.34;  ///< of the window
 constexpr double kLeastScene = 160.0;
+
+/// As wide as it was made, else by the window; 0 where it leaves no room for the scene.
+double panel_width(double window, double scale, const DisplaySettings& display) {
+    if (!display.panel) return 0.0;
+    const double most = window - kLeastScene * scale, least = kLeastPanel * scale;
+    if (most < least) return 0.0;
+    const double wanted =
+        display.panel_width > 0.0 ? display.panel_width * scale : std::min(kPanel * scale, kPanelPart * window);
+    return std::round(std::clamp(wanted, least, most));
+}
 
 }  // namespace
 
-Layout layout_of(const Eigen::Vector2i& window, float scale) {
+Layout layout_of(const Eigen::Vector2i& window, float scale, const DisplaySettings& display) {
     const double w = std::max(1, window.x()), h = std::max(1, window.y());
     const double menu = std::min(h, kMenu * scale), status = std::min(h - menu, kStatus * scale);
-    double panel = kPanel * scale;
-    if (w - panel < kLeastScene * scale) panel = 0.0;
+    const double panel = panel_width(w, scale, display);
     const double middle = std::max(1.0, h - menu - status);
     return {.menu = {0, 0, w, menu},
             .panel = {0, menu, panel, middle},

@@ -55,6 +55,7 @@ void draw_view(ViewerState& state) {
             state.camera.set_view(ViewDirection::isometric);
         }
     ImGui::Separator();
+    if (ImGui::MenuItem("Side panel", "P", state.display.panel)) state.display.panel = !state.display.panel;
     if (ImGui::MenuItem("Light theme", "T", !state.display.dark)) state.display.dark = !state.display.dark;
     for (const int percent : {80, 100, 125, 150, 200})
         if (const float scale = 0.01f * static_cast<float>(percent); ImGui::MenuItem(

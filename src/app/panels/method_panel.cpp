@@ -1,6 +1,9 @@
 #include <imgui.h>
 
+#include <algorithm>
 #include <array>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include "app/panels/panels.hpp"
@@ -15,8 +18,6 @@ namespace elastolab {
 namespace {
 
 using State = MethodRunner::State;
-
-constexpr float kStateLines = 5.2f;
 
 constexpr std::array<Choice<Mode>, 2> kModes = {
     {{Mode::on_demand, "on demand",
@@ -43,16 +44,25 @@ constexpr std::array<Choice<Tractions>, 3> kTractions = {
      {Tractions::restricted, "restricted", "Linear over a held patch, ending at its rim."},
      {Tractions::continuous, "continuous", "As in the paper: they leak one ring onto the free surface."}}};
 
-const char* state_word(const MethodRunner& runner) {
+/// What a person wants to know first: does the body answer, is that the method's own answer, and when will it be.
+std::string state_words(const ViewerState& state, const Cost& cost) {
+    const Simulation& simulation = state.simulation;
+    const MethodRunner& runner = simulation.runner(state.method);
+    const bool previewing = simulation.previewing(state.method);
     switch (runner.state()) {
         case State::idle:
+            if (simulation.making_proxy(state.method)) return "making a closed surface to simulate";
+            if (simulation.preparing_preview()) return "a first, coarse answer is on its way";
             return runner.has_answer() ? "stopped; the last answer stays" : "not computed";
-        case State::precomputing:
-            return "precomputing";
+        case State::precomputing: {
+            const JobStatus status = runner.status();
+            const std::string when = "in about " + readable_seconds(std::max(cost.seconds - status.seconds, 1.0));
+            return previewing ? "preview; exact " + when : "ready " + when;
+        }
         case State::preparing:
-            return "preparing what is held and pulled";
+            return previewing ? "preview; exact answer on its way" : "preparing what is held and pulled";
         case State::ready:
-            return "ready";
+            return "ready: pulls are instant";
         case State::failed:
             return "failed";
     }
@@ -72,19 +82,20 @@ const Colour& state_colour(const MethodRunner& runner, const Palette& palette) {
     }
 }
 
-/// Methods side by side in a row of buttons: as many as leave room for their names.
-constexpr int kButtonsPerRow = 3;
-
 /// A button for each method, underlined with how it is doing.
 void draw_buttons(const PanelContext& context) {
     ViewerState& state = context.state;
-    constexpr float n = kButtonsPerRow;
-    const float width = (ImGui::GetContentRegionAvail().x - (n - 1.0f) * ImGui::GetStyle().ItemSpacing.x) / n;
     const float scale = context.gui.scale();
+    float longest = 0.0f;
+    for (const MethodKind kind : all_methods()) longest = std::max(longest, ImGui::CalcTextSize(title(kind).c_str()).x);
+    const float room = ImGui::GetContentRegionAvail().x, gap = ImGui::GetStyle().ItemSpacing.x;
+    const int per_row = std::clamp(static_cast<int>((room + gap) / (longest + 6.0f * scale + gap)), 1, 3);
+    const auto n = static_cast<float>(per_row);
+    const float width = (room - (n - 1.0f) * gap) / n;
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {2.0f * scale, ImGui::GetStyle().FramePadding.y});  // long names
     int number = 0;
     for (const MethodKind kind : all_methods()) {
-        if (number++ % kButtonsPerRow > 0) ImGui::SameLine();
+        if (number++ % per_row > 0) ImGui::SameLine();
         const bool active = kind == state.method;
         const Colour& colour = context.palette.body(kind);
         if (active) {
@@ -103,27 +114,23 @@ void draw_buttons(const PanelContext& context) {
     ImGui::PopStyleVar();
 }
 
-/// A bar with `text` on it, and a button that stops what runs.
-void draw_bar(const PanelContext& context, MethodRunner& runner, const std::string& text) {
-    const float button = 60.0f * context.gui.scale();
-    ImGui::ProgressBar(static_cast<float>(runner.status().progress),
-                       {ImGui::GetContentRegionAvail().x - button - 8.0f, 0.0f}, text.c_str());
+/// How far a worker is with the model, or with a set of held vertices, and a button that stops it. The row is there
+/// when nothing works, too, so that nothing below moves.
+void draw_progress(const PanelContext& context, MethodRunner& runner) {
+    const float button = 60.0f * context.gui.scale(), height = ImGui::GetFrameHeight();
+    const bool works = runner.precomputing() || runner.completing() || runner.state() == State::preparing;
+    if (!works) {
+        const std::optional<double> error = context.state.simulation.preview_error(context.state.method);
+        const std::string text = error ? "the preview was " + readable_number(100.0 * *error) + " % off" : "";
+        ImGui::AlignTextToFramePadding();
+        return ImGui::TextColored(imgui_colour(context.palette.text_dim), "%s", text.c_str());
+    }
+    const JobStatus status = runner.status();
+    ImGui::ProgressBar(static_cast<float>(status.progress), {ImGui::GetContentRegionAvail().x - button - 8.0f, height},
+                       std::string(status.stage).c_str());
+    tooltip((std::string(status.stage) + "  " + readable_seconds(status.seconds)).c_str());
     ImGui::SameLine();
     if (ImGui::Button("Cancel", {button, 0.0f})) runner.cancel();
-}
-
-void draw_progress(const PanelContext& context, MethodRunner& runner, const Cost& cost) {
-    const JobStatus status = runner.status();
-    draw_bar(context, runner, "");
-    paragraph(std::string(status.stage) + "  " + readable_seconds(status.seconds) + " of about " +
-                  readable_seconds(std::max(cost.seconds, status.seconds)),
-              context.palette.text_dim);
-}
-
-/// Of what has no prediction: the completion, or a set of held vertices.
-void draw_stage(const PanelContext& context, MethodRunner& runner) {
-    const JobStatus status = runner.status();
-    draw_bar(context, runner, std::string(status.stage) + "  " + readable_seconds(status.seconds));
 }
 
 /// What is there of the model: unknowns, and whether K and its inverse are.
@@ -141,22 +148,6 @@ void draw_warnings(const PanelContext& context, const EmbeddedRunner& runner) {
     for (const std::string& text : words(runner.findings())) paragraph(text, context.palette.busy);
 }
 
-/// How the preview does while the method is not ready, and how far it was off.
-void draw_preview(const PanelContext& context) {
-    const Simulation& simulation = context.state.simulation;
-    const MethodKind kind = context.state.method;
-    if (simulation.making_proxy(kind)) {
-        const JobStatus status = simulation.proxies().status();
-        paragraph("making a closed surface to simulate  " + readable_seconds(status.seconds), context.palette.busy);
-    } else if (simulation.preparing_preview() && !simulation.embedded(kind).has_answer()) {
-        paragraph("a first, coarse answer is on its way", context.palette.busy);
-    } else if (simulation.previewing(kind)) {
-        paragraph("pulls move a preview meanwhile", context.palette.good);
-    } else if (const auto error = simulation.preview_error(kind)) {
-        paragraph("the preview was " + readable_number(100.0 * *error) + " % off", context.palette.text_dim);
-    }
-}
-
 }  // namespace
 
 void Panels::draw_method(const PanelContext& context) {
@@ -165,26 +156,18 @@ void Panels::draw_method(const PanelContext& context) {
     draw_buttons(context);
     MethodRunner& runner = state.simulation.runner(state.method);
     const Method method = state.choices.of(state.method);
-    // Of one height whatever there is to say, so that nothing below jumps away from the mouse.
-    ImGui::BeginChild("state", {0.0f, kStateLines * ImGui::GetTextLineHeightWithSpacing()}, false,
-                      ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
-    ImGui::TextColored(imgui_colour(state_colour(runner, palette)), "%s", state_word(runner));
-    if (runner.precomputing()) {
-        draw_progress(context, runner, cost(state, method));
-    } else {
-        if (const std::string text = readiness(runner); !text.empty()) paragraph(text, palette.text_dim);
-        if (runner.completing() || runner.state() == State::preparing) draw_stage(context, runner);
-    }
-    ImGui::EndChild();
+    const Colour& colour = state.simulation.previewing(state.method) ? palette.good : state_colour(runner, palette);
+    ImGui::TextColored(imgui_colour(colour), "%s", state_words(state, cost(state, method)).c_str());
+    draw_progress(context, runner);
     if (runner.state() == State::idle || runner.state() == State::failed) {
         const std::string problem = state.simulation.problem(state.method);
         if (!problem.empty()) paragraph(problem, palette.bad);
         if (ImGui::Button("Compute")) state.simulation.retry(state.method);
     }
-    draw_preview(context);
     draw_warnings(context, state.simulation.embedded(state.method));
 
     if (!ImGui::TreeNode("How it computes")) return;
+    if (const std::string text = readiness(runner); !text.empty()) paragraph(text, palette.text_dim);
     draw_mode(context);
     const float scale = context.gui.scale();
     set_item_width(scale);

@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cfloat>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
 #include "app/picture/scene_renderer.hpp"
 #include "base/text.hpp"
+#include "methods/registry.hpp"
 #include "render/drawing/legend.hpp"
 
 namespace elastolab {
@@ -18,12 +22,34 @@ constexpr float kMargin = 14.0f;
 
 ImVec2 point(double x, double y) { return {static_cast<float>(x), static_cast<float>(y)}; }
 
-/// Text with a soft shade around it, readable on any scene.
-void shaded_text(ImDrawList& list, ImFont* font, float size, ImVec2 place, const Colour& colour, const Colour& shade,
-                 const std::string& text) {
-    for (const ImVec2 d : {ImVec2{1, 1}, ImVec2{-1, 1}, ImVec2{1, -1}, ImVec2{-1, -1}})
-        list.AddText(font, size, {place.x + d.x, place.y + d.y}, imgui_packed(shade, 0.55f), text.c_str());
-    list.AddText(font, size, place, imgui_packed(colour), text.c_str());
+/// What lies behind words over the scene, so that they are readable on any body.
+void chip(const PanelContext& context, ImDrawList& list, ImVec2 low, ImVec2 high) {
+    const float pad = 7.0f * context.gui.scale();
+    list.AddRectFilled({low.x - pad, low.y - 0.6f * pad}, {high.x + pad, high.y + 0.6f * pad},
+                       imgui_packed(context.palette.panel, 0.72f), 0.8f * pad);
+}
+
+struct TitleLine {
+    ImFont* font;
+    float size;
+    Colour colour;
+    std::string text;
+};
+
+/// Lines under one another on a chip, broken where they are wider than `width`.
+void draw_lines(const PanelContext& context, ImDrawList& list, ImVec2 place, float width,
+                const std::vector<TitleLine>& lines) {
+    ImVec2 high = place;
+    std::vector<float> tops;
+    for (const TitleLine& line : lines) {
+        const ImVec2 extent = line.font->CalcTextSizeA(line.size, FLT_MAX, width, line.text.c_str());
+        tops.push_back(high.y);
+        high = {std::max(high.x, place.x + extent.x), high.y + extent.y + 0.15f * line.size};
+    }
+    chip(context, list, place, high);
+    for (std::size_t i = 0; i < lines.size(); ++i)
+        list.AddText(lines[i].font, lines[i].size, {place.x, tops[i]}, imgui_packed(lines[i].colour),
+                     lines[i].text.c_str(), nullptr, width);
 }
 
 constexpr const char* kDash = "  \u2013  ";
@@ -59,27 +85,23 @@ std::string source_words(const ViewerState& state, MethodKind kind) {
 void draw_title(const PanelContext& context, ImDrawList& list, const SceneViewport& viewport) {
     const ViewerState& state = context.state;
     const Palette& palette = context.palette;
-    const float size = ImGui::GetFontSize(), scale = context.gui.scale();
-    ImVec2 place = point(viewport.place.x + kMargin * scale, viewport.place.y + kMargin * scale);
-    bool first = true;
+    const float size = ImGui::GetFontSize(), margin = kMargin * context.gui.scale();
+    std::vector<TitleLine> lines;
     for (const MethodKind kind : viewport.kinds) {
-        ImFont* font = first ? context.gui.fonts().large : context.gui.fonts().regular;
-        const float height = first ? 1.35f * size : size;
-        const std::string text = title(kind) + source_words(state, kind);
-        const Colour& colour = palette.body(kind);
-        shaded_text(list, font, height, place, mix(colour, palette.text, 0.35), palette.background_bottom, text);
-        place.y += 1.25f * height;
+        const bool first = lines.empty();
+        lines.push_back({first ? context.gui.fonts().large : context.gui.fonts().regular, first ? 1.35f * size : size,
+                         mix(palette.body(kind), palette.text, state.display.dark ? 0.35 : 0.6),
+                         title(kind) + source_words(state, kind)});
         const ShownBody* shown = state.shown.body(kind);
-        if (state.comparing() && shown != nullptr) {
-            std::string note = kind == state.compare.reference ? "reference" : "";
-            if (shown->difference())
-                note = "rms " + number_text(100.0 * shown->difference()->relative_rms) + " %   largest " +
-                       number_text(100.0 * shown->difference()->relative_max) + " %";
-            shaded_text(list, context.gui.fonts().regular, size, place, palette.text, palette.background_bottom, note);
-            place.y += 1.3f * size;
-        }
-        first = false;
+        if (!state.comparing() || shown == nullptr) continue;
+        std::string note = kind == state.compare.reference ? "reference" : "";
+        if (shown->difference())
+            note = "rms " + number_text(100.0 * shown->difference()->relative_rms) + " %   largest " +
+                   number_text(100.0 * shown->difference()->relative_max) + " %";
+        if (!note.empty()) lines.push_back({context.gui.fonts().regular, size, palette.text, note});
     }
+    draw_lines(context, list, point(viewport.place.x + margin, viewport.place.y + margin),
+               std::max(40.0f, static_cast<float>(viewport.place.width) - 2.0f * margin), lines);
 }
 
 void draw_axes_letters(const PanelContext& context, ImDrawList& list, const SceneViewport& viewport) {
@@ -104,6 +126,11 @@ void draw_legend(const PanelContext& context, ImDrawList& list) {
     const float height = std::min(220.0f * scale, 0.5f * static_cast<float>(scene.height));
     const float x = static_cast<float>(scene.x + scene.width) - 84.0f * scale;
     const float y = static_cast<float>(scene.y + scene.height) - height - 28.0f * scale;
+    const std::string heading = field_title(state.display.field, state.compare.reference);
+    const float text_width = ImGui::CalcTextSize(heading.c_str()).x, size = ImGui::GetFontSize();
+    const float right = static_cast<float>(scene.x + scene.width) - kMargin * scale;
+    const float left = std::max(static_cast<float>(scene.x) + kMargin * scale, std::min(x, right - text_width));
+    chip(context, list, {left, y - 1.7f * size}, {right, y + height + 0.5f * size});
     const ColourMap& map = colour_map(state.display.colour_map);
     constexpr int kSteps = 64;
     for (int i = 0; i < kSteps; ++i) {
@@ -113,20 +140,14 @@ void draw_legend(const PanelContext& context, ImDrawList& list) {
     }
     list.AddRect({x, y}, {x + width, y + height}, imgui_packed(context.palette.border));
     const auto [low, high] = state.shown.field_range(state.display);
-    ImFont* font = context.gui.fonts().regular;
-    const float size = ImGui::GetFontSize();
     for (const LegendTick& tick : legend_ticks(low, high, 5)) {
         const double t = high > low ? (tick.value - low) / (high - low) : 0.5;
         const float ty = y + height * (1.0f - static_cast<float>(t));
         list.AddLine({x + width, ty}, {x + width + 4.0f * scale, ty}, imgui_packed(context.palette.text));
-        shaded_text(list, font, size, {x + width + 7.0f * scale, ty - 0.5f * size}, context.palette.text,
-                    context.palette.background_bottom, tick.text);
+        list.AddText({x + width + 7.0f * scale, ty - 0.5f * size}, imgui_packed(context.palette.text),
+                     tick.text.c_str());
     }
-    const std::string heading = field_title(state.display.field, state.compare.reference);
-    const float text_width = ImGui::CalcTextSize(heading.c_str()).x;
-    const float right = static_cast<float>(scene.x + scene.width) - kMargin * scale;
-    shaded_text(list, font, size, {std::min(x, right - text_width), y - 1.7f * size}, context.palette.text,
-                context.palette.background_bottom, heading);
+    list.AddText({left, y - 1.7f * size}, imgui_packed(context.palette.text), heading.c_str());
 }
 
 void draw_tools(const PanelContext& context, ImDrawList& list) {
@@ -148,6 +169,10 @@ void draw_tools(const PanelContext& context, ImDrawList& list) {
 std::string hint_text(const ViewerState& state) {
     if (!state.gestures.hint().empty()) return state.gestures.hint();
     if (state.scene().n_handles() > 0 || state.gestures.pulling()) return "";
+    const Simulation& simulation = state.simulation;
+    if (!simulation.problem(state.method).empty() && !simulation.previewing(state.method))
+        return title(state.method) + " cannot compute this body; choose another method with the keys 1 to " +
+               std::to_string(all_methods().size()) + ".";
     if (state.tools.tool == Tool::brush)
         return "Paint over the vertices that are to stay where they are; with Shift, free them.";
     if (state.tools.tool == Tool::box) return "Draw a box around the vertices that are to stay where they are.";

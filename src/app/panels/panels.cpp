@@ -9,6 +9,8 @@ namespace elastolab {
 
 namespace {
 
+constexpr double kTallPanel = 840.0;  ///< [logical pixels]
+
 const std::vector<std::string> kExportFiles = {".obj", ".ply", ".stl"};
 const std::vector<std::string> kMeshFiles = {".obj", ".ply", ".stl", ".off", ".gltf", ".glb"};
 
@@ -118,12 +120,14 @@ void Panels::draw_side(const PanelContext& context) {
         void (Panels::*draw)(const PanelContext&);
         bool open;
     };
-    constexpr Section kSections[] = {
-        {"Method", &Panels::draw_method, true}, {"Body", &Panels::draw_body, true},
-        {"Pull", &Panels::draw_pull, true},     {"Compare", &Panels::draw_compare, true},
-        {"Show", &Panels::draw_display, false}, {"Performance", &Panels::draw_performance, false},
+    // Those used most come first, and the others are open where there is room.
+    const bool tall = place.height >= kTallPanel * context.gui.scale();
+    const Section sections[] = {
+        {"Method", &Panels::draw_method, true},   {"Pull", &Panels::draw_pull, true},
+        {"Show", &Panels::draw_display, tall},    {"Body", &Panels::draw_body, tall},
+        {"Compare", &Panels::draw_compare, tall}, {"Performance", &Panels::draw_performance, false},
     };
-    for (const Section& section : kSections) {
+    for (const Section& section : sections) {
         ImGui::PushFont(context.gui.fonts().bold);
         ImGui::SetNextItemOpen(section.open, ImGuiCond_Once);
         const bool open = ImGui::CollapsingHeader(section.title);
@@ -135,6 +139,30 @@ void Panels::draw_side(const PanelContext& context) {
         ImGui::Dummy({0.0f, 4.0f * context.gui.scale()});
     }
     ImGui::End();
+    draw_splitter(context);
+}
+
+/// The panel's edge, which can be moved.
+void Panels::draw_splitter(const PanelContext& context) {
+    const Viewport& place = context.layout.panel;
+    const float scale = context.gui.scale(), half = 3.0f * scale;
+    ImGui::SetNextWindowPos({static_cast<float>(place.width) - half, static_cast<float>(place.y)});
+    ImGui::SetNextWindowSize({2.0f * half, static_cast<float>(place.height)});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1.0f, 1.0f});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0f, 0.0f});
+    ImGui::Begin("##splitter", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoBackground |
+                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing);
+    ImGui::InvisibleButton("edge", {2.0f * half, static_cast<float>(place.height)});
+    if (ImGui::IsItemActive()) context.state.display.panel_width = std::max(1.0f, ImGui::GetIO().MousePos.x / scale);
+    if (ImGui::IsItemActive() || ImGui::IsItemHovered()) {
+        const auto x = static_cast<float>(place.width);
+        ImGui::GetForegroundDrawList()->AddLine({x, static_cast<float>(place.y)},
+                                                {x, static_cast<float>(place.y + place.height)},
+                                                imgui_packed(context.palette.accent), 2.0f * scale);
+    }
+    ImGui::End();
+    ImGui::PopStyleVar(2);
 }
 
 }  // namespace elastolab

@@ -40,6 +40,7 @@ private:
     // One file each: menu_panel.cpp, method_panel.cpp, ...
     void draw_menu(const PanelContext& context);
     void draw_side(const PanelContext& context);
+    void draw_splitter(const PanelContext& context);
     void draw_method(const PanelContext& context);
     void draw_mode(const PanelContext& context);
     void draw_body(const PanelContext& context);

@@ -2,11 +2,18 @@
 
 #include <imgui.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/text.hpp"
 
 namespace elastolab {
+
+namespace {
+
+constexpr float kLabelRoom = 112.0f, kLeastItem = 84.0f, kMostItem = 220.0f;  ///< beside an item, and of it
+
+}  // namespace
 
 std::string count_text(long long count) {
     std::string digits = std::to_string(count);
@@ -47,7 +54,10 @@ void fact(const char* label, const std::string& value, const Colour& label_colou
     ImGui::TextUnformatted(value.c_str());
 }
 
-void set_item_width(float scale) { ImGui::SetNextItemWidth(165.0f * scale); }
+void set_item_width(float scale) {
+    const float room = ImGui::GetContentRegionAvail().x - kLabelRoom * scale;
+    ImGui::SetNextItemWidth(std::clamp(room, kLeastItem * scale, kMostItem * scale));
+}
 
 bool slider(const char* label, double& value, double low, double high, const char* format, float scale) {
     set_item_width(scale);

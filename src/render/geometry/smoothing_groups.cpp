@@ -10,6 +10,8 @@ namespace elastolab {
 
 namespace {
 
+constexpr double kLeastLine = 0.12;  ///< of the bounding box's diagonal
+
 /// One side of a triangle: from its corner `corner` (3 t + i) to the next.
 struct Side {
     int low, high;  ///< its vertices in ascending order
@@ -44,7 +46,7 @@ Eigen::Matrix3Xd unit_normals(const PositionsView& positions, const TrianglesVie
     return normals;
 }
 
-/// Sets of corners that are joined step by step.
+/// Sets of corners, or of vertices, that are joined step by step.
 class CornerSets {
 public:
     explicit CornerSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
@@ -72,6 +74,31 @@ void number_groups(CornerSets& sets, const TrianglesView& triangles, SmoothingGr
     }
 }
 
+double length(const PositionsView& positions, const Side& side) {
+    return (positions.col(side.low) - positions.col(side.high)).norm();
+}
+
+/// Those that belong to a line of at least this length: a few sharp edges at the web of a finger, or where a scan
+/// crosses itself, look like dirt.
+std::vector<const Side*> long_lines(const std::vector<const Side*>& creases, const PositionsView& positions,
+                                    double least) {
+    CornerSets lines(static_cast<std::size_t>(positions.cols()));
+    for (const Side* side : creases) lines.join(side->low, side->high);
+    std::vector<double> lengths(static_cast<std::size_t>(positions.cols()));
+    const auto length_of_line = [&](const Side* side) -> double& {
+        return lengths[static_cast<std::size_t>(lines.root(side->low))];
+    };
+    for (const Side* side : creases) length_of_line(side) += length(positions, *side);
+    std::vector<const Side*> kept;
+    for (const Side* side : creases)
+        if (length_of_line(side) >= least) kept.push_back(side);
+    return kept;
+}
+
+double diagonal(const PositionsView& positions) {
+    return positions.cols() == 0 ? 0.0 : (positions.rowwise().maxCoeff() - positions.rowwise().minCoeff()).norm();
+}
+
 }  // namespace
 
 SmoothingGroups smoothing_groups(const PositionsView& rest, const TrianglesView& triangles, double crease_angle) {
@@ -89,6 +116,7 @@ SmoothingGroups smoothing_groups(const PositionsView& rest, const TrianglesView&
         sets.join(side[0].corner_at_low(), side[1].corner_at_low());
         sets.join(side[0].corner_at_high(), side[1].corner_at_high());
     }
+    creases = long_lines(creases, rest, kLeastLine * diagonal(rest));
     SmoothingGroups groups;
     number_groups(sets, triangles, groups);
     groups.features.resize(2, static_cast<Eigen::Index>(creases.size()));

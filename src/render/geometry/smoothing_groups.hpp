@@ -12,7 +12,7 @@ namespace elastolab {
 struct SmoothingGroups {
     Eigen::Matrix3Xi corners;   ///< 3 x n_triangles: the drawn vertex of each corner
     std::vector<int> vertices;  ///< of each drawn vertex, the vertex it stands for
-    Edges features;             ///< creases and open borders, as drawn vertices
+    Edges features;             ///< creases and open borders that make lines of some length, as drawn vertices
 };
 
 /// A crease is an edge whose triangles turn by more than `crease_angle` [radians] at rest, or an edge of other than two

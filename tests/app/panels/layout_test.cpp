@@ -42,6 +42,19 @@ TEST(Layout, ThePanelGivesWayInANarrowWindow) {
     EXPECT_EQ(layout_of({900, 800}, 2.5f).panel.width, 0.0);
 }
 
+TEST(Layout, ThePanelIsNarrowerInASmallWindowAndAsWideAsItWasMade) {
+    EXPECT_EQ(layout_of({1600, 1000}, 1.0f).panel.width, 320.0);
+    EXPECT_LE(layout_of({700, 500}, 1.0f).panel.width, 0.35 * 700);
+    DisplaySettings display;
+    display.panel_width = 400.0;
+    EXPECT_EQ(layout_of({1600, 1000}, 1.0f, display).panel.width, 400.0);
+    EXPECT_EQ(layout_of({1600, 1000}, 1.5f, display).panel.width, 600.0);
+    display.panel_width = 5000.0;
+    EXPECT_GE(layout_of({1600, 1000}, 1.0f, display).scene.width, 160.0);
+    display.panel = false;
+    EXPECT_EQ(layout_of({1600, 1000}, 1.0f, display).scene.width, 1600.0);
+}
+
 TEST(Viewports, OneForTheActiveMethod) {
     test::Stage stage(2);
     const auto viewports = viewports_of(stage.state, {320, 27, 960, 746});

@@ -26,6 +26,15 @@ TEST(SurfaceGeometry, LeavesASphereWhole) {
         EXPECT_EQ(groups.vertices[static_cast<std::size_t>(groups.corners.data()[i])], mesh.triangles.data()[i]);
 }
 
+/// The edges around a dent are sharp, and too short to be a crease of the body; they still split the normals.
+TEST(SurfaceGeometry, DrawsNoLinesAroundASmallDent) {
+    SurfaceMesh mesh = make_sphere(8);
+    mesh.vertices.col(0) *= 0.7;
+    const SmoothingGroups groups = smoothing_groups(mesh.vertices, mesh.triangles);
+    EXPECT_EQ(groups.features.cols(), 0);
+    EXPECT_GT(static_cast<int>(groups.vertices.size()), mesh.n_vertices());
+}
+
 TEST(SurfaceGeometry, TakesOpenBordersAsFeatures) {
     Eigen::Matrix3Xi triangle(3, 1);
     triangle << 0, 1, 2;
