@@ -1,7 +1,8 @@
 #version 330 core
 uniform vec4 line;
 uniform vec2 phase;
-uniform float cells;
+uniform float cells, shadow_part, shadow_opacity;
+uniform sampler2D shadow;
 in vec2 place;
 out vec4 shown;
 
@@ -17,6 +18,11 @@ void main() {
     vec2 at = place * cells + phase;
     float fade = 1.0 - smoothstep(0.15, 1.0, length(place));
     float cover = max(0.45 * grid(at), grid(at / 5.0));
-    shown = vec4(line.rgb, line.a * cover * fade);
+    vec2 in_shadow = 0.5 + 0.5 * place / shadow_part;
+    float dark = 0.0;
+    if (shadow_opacity > 0.0 && in_shadow == clamp(in_shadow, 0.0, 1.0))
+        dark = shadow_opacity * texture(shadow, in_shadow).r;
+    float lines = line.a * cover * fade * (1.0 - dark), covered = dark + lines;
+    shown = vec4(line.rgb * lines / max(covered, 1e-4), covered);
     if (shown.a < 0.004) discard;
 }

@@ -4,7 +4,7 @@ layout(triangle_strip, max_vertices = 4) out;
 uniform vec2 picture_size;
 uniform float width;
 
-noperspective out vec2 place;  // along and across the line [pixels]
+noperspective out float across;  // the line [pixels]
 
 // The end of a segment, or where it passes the near plane.
 vec4 clipped(vec4 end, vec4 other) {
@@ -12,8 +12,8 @@ vec4 clipped(vec4 end, vec4 other) {
     return near >= 0.0 ? end : mix(end, other, near / (near - other_near));
 }
 
-void emit(vec4 end, vec2 offset, vec2 at) {
-    place = at;
+void emit(vec4 end, vec2 offset, float at) {
+    across = at;
     gl_Position = vec4(end.xy + 2.0 * offset / picture_size * end.w, end.zw);
     EmitVertex();
 }
@@ -27,9 +27,9 @@ void main() {
     if (len < 1e-4) return;
     vec2 side = vec2(-along.y, along.x) / len;
     float reach = 0.5 * width + 1.0;
-    emit(from, -reach * side, vec2(0.0, -reach));
-    emit(from, reach * side, vec2(0.0, reach));
-    emit(to, -reach * side, vec2(len, -reach));
-    emit(to, reach * side, vec2(len, reach));
+    emit(from, -reach * side, -reach);
+    emit(from, reach * side, reach);
+    emit(to, -reach * side, -reach);
+    emit(to, reach * side, reach);
     EndPrimitive();
 }

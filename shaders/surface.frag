@@ -1,7 +1,7 @@
 #version 330 core
 #include "colour.glsl"
 #include "lighting.glsl"
-uniform vec4 colour, inside;  // linear, as the colours of the map and the tint
+uniform vec4 colour, inside;  // linear, as the colours of the map
 uniform vec4 wire;
 uniform float opacity, light, wire_width;
 uniform int scalar_source;
@@ -11,7 +11,6 @@ uniform sampler2D colour_map;
 in Fragment {
     vec3 eye_position, normal, barycentric;
     float scalar;
-    vec4 tint;
 } fragment;
 
 out vec4 shown;
@@ -34,7 +33,7 @@ vec3 mapped(float t) {
 vec3 surface_colour() {
     float t = (fragment.scalar - scalar_low) * scalar_scale + scalar_offset;
     bool has_value = scalar_source != 0 && !isnan(t) && !isinf(t);
-    return mix(has_value ? mapped(t) : colour.rgb, fragment.tint.rgb, fragment.tint.a);
+    return has_value ? mapped(t) : colour.rgb;
 }
 
 // How much of this pixel the edges of the triangle cover. Fades where triangles are but a few pixels.

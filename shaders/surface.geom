@@ -8,13 +8,11 @@ uniform samplerBuffer triangle_scalars;
 in Vertex {
     vec3 eye_position, normal;
     float scalar;
-    vec4 tint;
 } corners[];
 
 out Fragment {
     vec3 eye_position, normal, barycentric;
     float scalar;
-    vec4 tint;
 } fragment;
 
 void main() {
@@ -27,7 +25,6 @@ void main() {
         fragment.normal = flat_normals || collapsed ? face_normal : corners[i].normal;
         fragment.barycentric = vec3(i == 0, i == 1, i == 2);
         fragment.scalar = scalar_source == 2 ? texelFetch(triangle_scalars, gl_PrimitiveIDIn).x : corners[i].scalar;
-        fragment.tint = corners[i].tint;
         gl_Position = gl_in[i].gl_Position;
         EmitVertex();
     }

@@ -41,10 +41,12 @@ struct DisplaySettings {
     bool flat = false;
     bool wireframe = true;
     bool feature_edges = true;
-    bool rest_shape = false;  ///< wireframe of the body at rest
+    bool rest_shape = true;   ///< a ghost of the body at rest, where it was deformed
     bool constraints = true;  ///< points at fixed vertices and handles
     bool arrows = false;      ///< reaction forces
     bool grid = true;
+    bool defects = true;       ///< where the surface is not closed
+    bool soft_shadows = true;  ///< ambient occlusion, and a shadow on the ground
     double deformation_scale = 1.0;
     bool section = false;
     int section_axis = 0;

@@ -11,6 +11,8 @@ namespace elastolab {
 
 namespace {
 
+constexpr double kFlightPart = 0.06;  ///< of the body's diagonal: what is seen around a defect
+
 /// Cells along an edge of the paper's cubes: 98, 218, 386, 602, 866 and 1016 vertices.
 constexpr std::array kPaperCubes = {4, 6, 8, 10, 12, 13};
 
@@ -37,6 +39,26 @@ void Panels::draw_young_modulus(ViewerState& state, float scale) {
     if (!active) typed_modulus_.reset();
 }
 
+/// What keeps the surface from being a solid, with a button that goes from one place of it to the next.
+void Panels::draw_defects(const PanelContext& context) {
+    ViewerState& state = context.state;
+    const MeshReport& report = state.scene().report();
+    for (std::size_t i = 0; i < report.defects.size(); ++i) {
+        const Defect& defect = report.defects[i];
+        if (!defect.fatal || defect.repaired) continue;
+        ImGui::PushID(static_cast<int>(i));
+        if (!defect.places.empty() && ImGui::SmallButton("show")) {
+            const Eigen::Vector3d& place = defect.places[n_flights_++ % defect.places.size()];
+            const double radius = kFlightPart * (report.max_corner - report.min_corner).norm();
+            state.camera.frame({place, radius}, context.layout.scene.aspect());
+        }
+        tooltip("Goes to one of its places after another; F shows the whole body again.");
+        if (!defect.places.empty()) ImGui::SameLine();
+        paragraph(defect.text, context.palette.bad);
+        ImGui::PopID();
+    }
+}
+
 void Panels::open_primitive(ViewerState& state) {
     state.open_primitive({.name = primitive_, .resolution = resolution_, .size = {}});
 }
@@ -45,10 +67,14 @@ void Panels::draw_body(const PanelContext& context) {
     ViewerState& state = context.state;
     const LiveScene& scene = state.scene();
     const float scale = context.gui.scale();
-    paragraph(std::filesystem::path(scene.name()).filename().string(), context.palette.text);
-    ImGui::SameLine();
-    ImGui::TextColored(imgui_colour(context.palette.text_dim), "%s vertices, %s triangles",
-                       count_text(scene.mesh().n_vertices()).c_str(), count_text(scene.mesh().n_triangles()).c_str());
+    const std::string file = std::filesystem::path(scene.name()).filename().string();
+    const std::string size =
+        count_text(scene.mesh().n_vertices()) + " vertices, " + count_text(scene.mesh().n_triangles()) + " triangles";
+    const float room = ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x;
+    paragraph(file, context.palette.text);
+    if (ImGui::CalcTextSize(file.c_str()).x + ImGui::CalcTextSize(size.c_str()).x < room) ImGui::SameLine();
+    paragraph(size, context.palette.text_dim);
+    draw_defects(context);
     draw_poisson_ratio(state, scale);
     draw_young_modulus(state, scale);
     if (!ImGui::TreeNode("New body")) return;

@@ -73,14 +73,17 @@ void Panels::draw_display(const PanelContext& context) {
         bool DisplaySettings::*value;
         const char* explanation;
     };
-    constexpr std::array<Switch, 7> kSwitches = {
+    constexpr std::array<Switch, 9> kSwitches = {
         {{"wireframe", &DisplaySettings::wireframe, "W"},
          {"flat", &DisplaySettings::flat, "One shade for each triangle."},
          {"creases", &DisplaySettings::feature_edges, "Sharp edges of the rest shape."},
          {"rest shape", &DisplaySettings::rest_shape, "The body as it was, faint, where it was deformed."},
          {"held vertices", &DisplaySettings::constraints, "Fixed vertices and handles as points."},
          {"forces", &DisplaySettings::arrows, "What the fixed part and every handle exert on the body."},
-         {"grid", &DisplaySettings::grid, ""}}};
+         {"grid", &DisplaySettings::grid, ""},
+         {"defects", &DisplaySettings::defects, "Rims of holes, and edges of more or fewer than two triangles."},
+         {"soft shadows", &DisplaySettings::soft_shadows,
+          "Hollows are darker, and the body throws a shadow on the ground."}}};
     for (std::size_t i = 0; i < kSwitches.size(); ++i) {
         if (i % 2 == 1) ImGui::SameLine(0.5f * ImGui::GetWindowContentRegionMax().x);
         ImGui::Checkbox(kSwitches[i].label, &(display.*kSwitches[i].value));

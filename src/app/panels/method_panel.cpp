@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -89,7 +90,7 @@ void draw_buttons(const PanelContext& context) {
     float longest = 0.0f;
     for (const MethodKind kind : all_methods()) longest = std::max(longest, ImGui::CalcTextSize(title(kind).c_str()).x);
     const float room = ImGui::GetContentRegionAvail().x, gap = ImGui::GetStyle().ItemSpacing.x;
-    const int per_row = std::clamp(static_cast<int>((room + gap) / (longest + 6.0f * scale + gap)), 1, 3);
+    const int per_row = std::clamp(static_cast<int>((room + gap) / (longest + 4.0f * scale + gap)), 1, 3);
     const auto n = static_cast<float>(per_row);
     const float width = (room - (n - 1.0f) * gap) / n;
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {2.0f * scale, ImGui::GetStyle().FramePadding.y});  // long names
@@ -145,7 +146,11 @@ std::string readiness(const MethodRunner& runner) {
 }
 
 void draw_warnings(const PanelContext& context, const EmbeddedRunner& runner) {
-    for (const std::string& text : words(runner.findings())) paragraph(text, context.palette.busy);
+    const std::string& name = context.state.scene().name();
+    for (std::string text : words(runner.findings())) {
+        if (text.starts_with(name)) text.replace(0, name.size(), std::filesystem::path(name).filename().string());
+        paragraph(text, context.palette.busy);
+    }
 }
 
 }  // namespace

@@ -53,6 +53,7 @@ private:
     void draw_help(const PanelContext& context);
     void draw_unsaved(const PanelContext& context);
     void ask_name_of_unsaved(ViewerState& state);
+    void draw_defects(const PanelContext& context);
     void draw_young_modulus(ViewerState& state, float scale);
     void open_primitive(ViewerState& state);
     const Cost& cost(const ViewerState& state, const Method& method);
@@ -64,6 +65,7 @@ private:
     std::optional<double> typed_modulus_;  ///< Young's modulus while it is typed
     bool side_fits_ = true;                ///< the side panel's content did, in the last frame
     std::uint64_t costs_of_scene_ = 0;
+    std::size_t n_flights_ = 0;  ///< to places of defects
     std::map<std::pair<MethodKind, Mode>, Cost> costs_;
 };
 

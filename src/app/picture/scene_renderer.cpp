@@ -16,10 +16,15 @@ constexpr double kArrowPart = 0.3;   ///< length of the longest reaction arrow, 
 constexpr double kGizmoSize = 72.0;  ///< [logical pixels]
 constexpr float kPointSize = 6.0f, kActivePointSize = 8.0f, kHoverPointSize = 7.0f;
 constexpr int kBands = 10;
+constexpr double kGroundPart = 3.0, kShadowPart = 1.4;  ///< radii of the ground and of the shadow, of the scene's
+constexpr double kLeastDeformation = 0.01;              ///< of the scene's radius, from which on there is a ghost
+constexpr int kMostHidden = 6000;    ///< vertices up to which points show through the body; more would cover it
 constexpr double kFullView = 800.0;  ///< width from which on points have their full size [logical pixels]
 
 /// Points grow smaller when a mesh is so fine that they would cover it.
-float crowd_factor(int n_vertices) { return n_vertices > 3000 ? 0.65f : n_vertices > 1500 ? 0.8f : 1.0f; }
+float crowd_factor(int n_vertices) {
+    return n_vertices > 30000 ? 0.4f : n_vertices > 3000 ? 0.65f : n_vertices > 1500 ? 0.8f : 1.0f;
+}
 
 /// And in small views.
 float view_factor(const ViewerState& state) {
@@ -43,7 +48,9 @@ SceneRenderer::SceneRenderer() = default;
 SceneRenderer::BodyDrawing& SceneRenderer::drawing(MethodKind kind) {
     const auto found = drawings_.find(kind);
     if (found != drawings_.end()) return found->second;
-    return drawings_.try_emplace(kind, *mesh_, edges_).first->second;
+    BodyDrawing& drawing = drawings_.try_emplace(kind, *mesh_).first->second;
+    if (rim_.cols() > 0) drawing.rim.emplace(rim_);
+    return drawing;
 }
 
 void SceneRenderer::upload(const ViewerState& state, const Palette& palette) {
@@ -51,9 +58,9 @@ void SceneRenderer::upload(const ViewerState& state, const Palette& palette) {
         scene_number_ = state.scene_number();
         mesh_ = &state.scene().mesh();
         drawings_.clear();
-        edges_ = edges_of(mesh_->triangles);
         frame_ = frame_of(mesh_->vertices);
-        rest_.emplace(edges_);
+        find_rim();
+        rest_.emplace(mesh_->vertices, mesh_->triangles);
         rest_->update(mesh_->vertices, frame_);
     }
     if (gizmo_palette_ != &palette) {
@@ -63,12 +70,24 @@ void SceneRenderer::upload(const ViewerState& state, const Palette& palette) {
     for (const ShownBody& body : state.shown.bodies()) upload_body(state, body, palette);
 }
 
+/// The edges at which the surface is not closed, by the numbers of the vertices that have any.
+void SceneRenderer::find_rim() {
+    rim_ = unpaired_edges(mesh_->triangles);
+    rim_vertices_.assign(rim_.data(), rim_.data() + rim_.size());
+    std::sort(rim_vertices_.begin(), rim_vertices_.end());
+    rim_vertices_.erase(std::unique(rim_vertices_.begin(), rim_vertices_.end()), rim_vertices_.end());
+    for (int& vertex : rim_.reshaped())
+        vertex = static_cast<int>(std::lower_bound(rim_vertices_.begin(), rim_vertices_.end(), vertex) -
+                                  rim_vertices_.begin());
+}
+
 void SceneRenderer::upload_body(const ViewerState& state, const ShownBody& body, const Palette& palette) {
     BodyDrawing& target = drawing(body.kind());
     const bool is_new = target.revision != body.revision();
     if (is_new) {
         target.revision = body.revision();
         target.surface.update(body.positions(), frame_);
+        if (rim_.cols() > 0) target.rim->update(Positions(body.positions()(Eigen::all, rim_vertices_)), frame_);
         if (body.values().empty())
             target.surface.clear_scalars();
         else
@@ -78,10 +97,6 @@ void SceneRenderer::upload_body(const ViewerState& state, const ShownBody& body,
     if (is_new || target.palette != &palette) {
         target.palette = &palette;
         upload_arrows(state, body, target, palette);
-    }
-    if (state.compare.mode == CompareMode::ghosts && target.ghost_revision != body.revision()) {
-        target.ghost_revision = body.revision();
-        target.ghost.update(body.positions(), frame_);
     }
     upload_points(state, body, target, palette);
 }
@@ -155,17 +170,52 @@ SurfaceStyle SceneRenderer::surface_style(const ViewerState& state, MethodKind k
     return style;
 }
 
-void SceneRenderer::draw_ground(const ViewerState& state, const SceneView& view, const Palette& palette) {
+void SceneRenderer::draw_ground(const ViewerState& state, const SceneView& view, const Palette& palette,
+                                const SurfaceDrawing& body, const Framebuffer& target) {
     const Eigen::Vector3d up = state.camera.up_axis();
     const double floor = (up.transpose() * mesh_->vertices).minCoeff();
     SceneFrame area = frame_;
     area.center += up * (floor - up.dot(frame_.center) - 1e-3 * frame_.radius);
-    area.radius *= 3.0;
-    ground_.draw(view, area, up, {palette.grid.with_opacity(0.30f), round_step(frame_.radius / 8.0)});
+    GroundStyle style{.line = palette.grid.with_opacity(state.display.grid ? 0.30f : 0.0f),
+                      .spacing = round_step(frame_.radius / 8.0)};
+    if (state.display.soft_shadows) {
+        area.radius *= kShadowPart;
+        shadow_.update(body, area, up);
+        target.bind();
+        area.radius /= kShadowPart;
+        style.shadow = shadow_.texture();
+        style.shadow_part = kShadowPart / kGroundPart;
+        style.shadow_opacity = state.display.dark ? 0.75 : 0.35;
+    }
+    area.radius *= kGroundPart;
+    ground_.draw(view, area, up, style);
+}
+
+/// The other methods of a comparison, and the body as it was: seen where they are apart from the solid one.
+void SceneRenderer::draw_ghosts(const ViewerState& state, const SceneView& view, const SceneViewport& viewport,
+                                const Palette& palette) {
+    SurfaceStyle style;
+    style.ghost = true;
+    style.feature_edges = state.display.feature_edges;
+    style.feature_width = 1.2f;
+    const ShownBody* shown = state.shown.body(viewport.kinds.front());
+    if (state.display.rest_shape && shown != nullptr &&
+        shown->max_displacement() * state.display.deformation_scale > kLeastDeformation * frame_.radius) {
+        style.colour = style.inside = style.feature = palette.text_dim;
+        style.opacity = 0.10f;
+        style.feature_opacity = 2.5f;
+        rest_->draw(view, style);
+    }
+    for (std::size_t i = 1; i < viewport.kinds.size(); ++i) {
+        style.colour = style.inside = style.feature = palette.body(viewport.kinds[i]);
+        style.opacity = 0.45f;
+        style.feature_opacity = 1.5f;
+        drawing(viewport.kinds[i]).surface.draw(view, style);
+    }
 }
 
 void SceneRenderer::draw_viewport(const ViewerState& state, const SceneViewport& viewport, const Palette& palette,
-                                  double pixel_ratio) {
+                                  double pixel_ratio, const Framebuffer& target) {
     const SceneView view(state.camera, viewport.place, pixel_ratio);
     const MethodKind solid = viewport.kinds.front();
     background_.draw(palette.background_top, palette.background_bottom);
@@ -179,15 +229,13 @@ void SceneRenderer::draw_viewport(const ViewerState& state, const SceneViewport&
     } else {
         main.surface.draw(view, style);
     }
-    if (state.display.grid) draw_ground(state, view, palette);
-    if (state.display.rest_shape)
-        rest_->draw(view, {.colour = palette.text_dim.with_opacity(0.5f), .width = 1.0f, .hidden_opacity = 0.4f});
-    for (std::size_t i = 1; i < viewport.kinds.size(); ++i)
-        drawing(viewport.kinds[i])
-            .ghost.draw(
-                view,
-                {.colour = palette.body(viewport.kinds[i]).with_opacity(0.9f), .width = 1.3f, .hidden_opacity = 0.25f});
-    main.points.draw(view, {.outline = palette.wire, .outline_width = 1.0f, .hidden_opacity = 0.12f});
+    if (state.display.soft_shadows) occlusion_.draw(view, target);
+    if (state.display.grid || state.display.soft_shadows) draw_ground(state, view, palette, main.surface, target);
+    draw_ghosts(state, view, viewport, palette);
+    if (state.display.defects && main.rim)
+        main.rim->draw(view, {.colour = palette.bad, .width = 1.8f, .hidden_opacity = 0.25f});
+    const float hidden = mesh_->n_vertices() > kMostHidden ? 0.0f : 0.12f;
+    main.points.draw(view, {.outline = palette.wire, .outline_width = 1.0f, .hidden_opacity = hidden});
     main.arrows.draw(view, {.width = 6.0f, .hidden_opacity = 0.5f});
     gizmo_->draw(state.camera, viewport.place, gizmo_place(viewport.place), pixel_ratio);
 }
@@ -232,7 +280,7 @@ int SceneRenderer::draw(const ViewerState& state, const Palette& palette, double
         if (!picture.framebuffer) picture.framebuffer = std::make_unique<Framebuffer>(width, height);
         picture.framebuffer->resize(width, height);
         picture.framebuffer->bind();
-        draw_viewport(state, viewport, palette, pixel_ratio);
+        draw_viewport(state, viewport, palette, pixel_ratio, *picture.framebuffer);
         ++n_drawn;
     }
     return n_drawn;

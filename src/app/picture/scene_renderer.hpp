@@ -13,7 +13,9 @@
 #include "render/drawing/background_drawing.hpp"
 #include "render/drawing/ground_drawing.hpp"
 #include "render/drawing/lines_drawing.hpp"
+#include "render/drawing/occlusion_drawing.hpp"
 #include "render/drawing/points_drawing.hpp"
+#include "render/drawing/shadow_drawing.hpp"
 #include "render/drawing/surface_drawing.hpp"
 #include "render/gl/framebuffer.hpp"
 
@@ -35,15 +37,14 @@ public:
 private:
     /// What belongs to one method's body. Revisions tell what of it is on the card.
     struct BodyDrawing {
-        BodyDrawing(const SurfaceMesh& mesh, const Edges& edges)
-            : surface(mesh.vertices, mesh.triangles), ghost(edges) {}
+        explicit BodyDrawing(const SurfaceMesh& mesh) : surface(mesh.vertices, mesh.triangles) {}
         SurfaceDrawing surface;
         std::optional<SurfaceDrawing> section;
+        std::optional<LinesDrawing> rim;  ///< where the surface is not closed
         SectionPlane section_plane;
-        LinesDrawing ghost;
         PointsDrawing points;
         ArrowsDrawing arrows;
-        std::uint64_t revision = 0, ghost_revision = 0;
+        std::uint64_t revision = 0;
         const Palette* palette = nullptr;  ///< of the arrows
     };
     /// All that the picture of a viewport depends on.
@@ -69,23 +70,30 @@ private:
     Look look_of(const ViewerState& state, const SceneViewport& viewport, const Palette& palette,
                  double pixel_ratio) const;
     BodyDrawing& drawing(MethodKind kind);
+    void find_rim();
     void upload_body(const ViewerState& state, const ShownBody& body, const Palette& palette);
     void upload_section(const ShownBody& body, BodyDrawing& target);
     void upload_points(const ViewerState& state, const ShownBody& body, BodyDrawing& target, const Palette& palette);
     void upload_arrows(const ViewerState& state, const ShownBody& body, BodyDrawing& target, const Palette& palette);
     void draw_viewport(const ViewerState& state, const SceneViewport& viewport, const Palette& palette,
-                       double pixel_ratio);
-    void draw_ground(const ViewerState& state, const SceneView& view, const Palette& palette);
+                       double pixel_ratio, const Framebuffer& target);
+    void draw_ground(const ViewerState& state, const SceneView& view, const Palette& palette,
+                     const SurfaceDrawing& body, const Framebuffer& target);
+    void draw_ghosts(const ViewerState& state, const SceneView& view, const SceneViewport& viewport,
+                     const Palette& palette);
     SurfaceStyle surface_style(const ViewerState& state, MethodKind kind, const Palette& palette) const;
 
     std::uint64_t scene_number_ = 0;
     SceneFrame frame_;
-    Edges edges_;
+    Edges rim_;                      ///< of the vertices in:
+    std::vector<int> rim_vertices_;  ///< those of the mesh at which it is not closed
     std::map<MethodKind, BodyDrawing> drawings_;
     std::vector<Picture> pictures_;  ///< of the viewports, in their order
-    std::optional<LinesDrawing> rest_;
+    std::optional<SurfaceDrawing> rest_;
     BackgroundDrawing background_;
     GroundDrawing ground_;
+    OcclusionDrawing occlusion_;
+    ShadowDrawing shadow_;
     std::optional<AxesGizmo> gizmo_;
     const Palette* gizmo_palette_ = nullptr;
     const SurfaceMesh* mesh_ = nullptr;

@@ -26,9 +26,17 @@ Eigen::Vector2f phase(const SceneFrame& area, const Eigen::Vector3d& u, const Ei
 GroundDrawing::GroundDrawing()
     : array_(make_gl_vertex_array()), shader_(shared_shader({"ground.vert", "ground.frag"})) {}
 
+Eigen::Matrix<double, 3, 2> GroundDrawing::axes(const Eigen::Vector3d& normal) {
+    Eigen::Matrix<double, 3, 2> axes;
+    axes << first_axis(normal), normal.cross(first_axis(normal));
+    return axes;
+}
+
 void GroundDrawing::draw(const SceneView& view, const SceneFrame& area, const Eigen::Vector3d& normal,
                          const GroundStyle& style) {
-    const Eigen::Vector3d u = first_axis(normal), v = normal.cross(u);
+    const Eigen::Vector3d u = axes(normal).col(0), v = axes(normal).col(1);
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, style.shadow);
     apply({.blend = true, .write_depth = false});
     shader_->use();
     view.set_uniforms(*shader_, area);
@@ -37,6 +45,9 @@ void GroundDrawing::draw(const SceneView& view, const SceneFrame& area, const Ei
     shader_->set("phase", phase(area, u, v, style.spacing));
     shader_->set("cells", static_cast<float>(area.radius / style.spacing));
     shader_->set("line", style.line);
+    shader_->set("shadow", 0);
+    shader_->set("shadow_part", static_cast<float>(style.shadow_part));
+    shader_->set("shadow_opacity", style.shadow == 0 ? 0.0f : static_cast<float>(style.shadow_opacity));
     glBindVertexArray(array_.id());
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
     glBindVertexArray(0);

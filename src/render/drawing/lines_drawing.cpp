@@ -19,7 +19,6 @@ void EdgeBatch::draw(const SceneView& view, const SceneFrame& frame, const LineS
     shader_->use();
     view.set_uniforms(*shader_, frame);
     shader_->set("width", style.width * view.pixel_ratio());
-    shader_->set("dash", style.dash * view.pixel_ratio());
     glBindVertexArray(array_.id());
     const auto pass = [&](GlState::Depth depth, float opacity) {
         apply({.blend = true, .depth = depth, .write_depth = false});

@@ -14,7 +14,6 @@ namespace elastolab {
 struct LineStyle {
     Colour colour{0.2f, 0.2f, 0.2f, 1.0f};
     float width = 1.5f;           ///< [logical pixels]
-    float dash = 0.0f;            ///< length of dashes and gaps [logical pixels]; 0: a full line
     float hidden_opacity = 0.0f;  ///< of parts behind surfaces, relative; 0: not drawn
 };
 
@@ -32,7 +31,7 @@ private:
     std::shared_ptr<ShaderProgram> shader_;
 };
 
-/// Antialiased lines, such as the ghost of a mesh: LinesDrawing(edges_of(triangles)). They are drawn a pixel or two
+/// Antialiased lines, such as the rims of holes. They are drawn a pixel or two
 /// nearer to the eye than they are, so that they show on a surface that they lie on. Draw them after the surfaces.
 class LinesDrawing {
 public:

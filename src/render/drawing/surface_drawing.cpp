@@ -6,14 +6,15 @@
 #include <cstddef>
 #include <vector>
 
-#include "render/packed_colour.hpp"
-
 namespace elastolab {
 
 namespace {
 
-constexpr unsigned kPosition = 0, kNormal = 1, kScalar = 2, kTint = 3;  // locations in surface.vert
-constexpr int kMapUnit = 0, kTriangleUnit = 1;                          // of textures
+constexpr unsigned kPosition = 0, kNormal = 1, kScalar = 2;  // locations in surface.vert
+constexpr int kMapUnit = 0, kTriangleUnit = 1;               // of textures
+
+/// How far a ghost is pushed away from the eye, of its distance: so that it does not flicker through what it touches.
+constexpr float kGhostPush = 0.004f;
 
 void upload_map(const GlTexture& texture, const ColourMap& map) {
     std::vector<Colour> texels;
@@ -35,7 +36,6 @@ SurfaceDrawing::SurfaceDrawing(const PositionsView& rest, const TrianglesView& t
       indices_(make_gl_buffer()),
       vertex_scalars_(make_gl_buffer()),
       triangle_scalars_(make_gl_buffer()),
-      tints_(make_gl_buffer()),
       map_texture_(make_gl_texture()),
       triangle_texture_(make_gl_texture()),
       array_(make_gl_vertex_array()),
@@ -45,7 +45,6 @@ SurfaceDrawing::SurfaceDrawing(const PositionsView& rest, const TrianglesView& t
     upload(indices_, std::span(corners.data(), static_cast<std::size_t>(corners.size())));
     attach_all();
     set_triangle_scalars({});
-    set_tints({});
     clear_scalars();
     update(rest, frame_of(rest));
 }
@@ -56,7 +55,6 @@ void SurfaceDrawing::attach_all() {
     attach(array_, vertices_, {.location = kPosition, .offset = offsetof(DrawnVertex, position), .stride = kStride});
     attach(array_, vertices_, {.location = kNormal, .offset = offsetof(DrawnVertex, normal), .stride = kStride});
     attach(array_, vertex_scalars_, {.location = kScalar, .components = 1, .stride = sizeof(float)});
-    attach(array_, tints_, {.location = kTint, .components = 4, .stride = sizeof(PackedColour), .bytes = true});
 }
 
 void SurfaceDrawing::update(const PositionsView& positions, const SceneFrame& frame) {
@@ -80,18 +78,12 @@ void SurfaceDrawing::set_triangle_scalars(std::span<const float> values) {
     scalars_ = Scalars::per_triangle;
 }
 
-void SurfaceDrawing::set_tints(std::span<const Colour> tints) {
-    std::vector<PackedColour> drawn;
-    for (const int vertex : geometry_.groups().vertices)
-        drawn.push_back(tints.empty() ? PackedColour{} : pack(tints[static_cast<std::size_t>(vertex)]));
-    upload(tints_, std::span<const PackedColour>(drawn));
-}
-
 void SurfaceDrawing::set_uniforms(const SceneView& view, const SurfaceStyle& style) {
     view.set_uniforms(*shader_, frame_);
     shader_->set("colour", linear(style.colour));
     shader_->set("inside", linear(style.inside));
     shader_->set("opacity", style.opacity);
+    shader_->set("push", style.ghost ? kGhostPush : 0.0f);
     shader_->set("light", style.light);
     shader_->set("flat_normals", style.flat ? 1 : 0);
     shader_->set("wire", style.wire.with_opacity(style.wireframe ? style.wire_opacity : 0.0f));
@@ -125,11 +117,21 @@ void SurfaceDrawing::draw_triangles(const GlState& state) const {
     glBindVertexArray(0);
 }
 
+void SurfaceDrawing::draw_shape() const {
+    apply({});
+    glBindVertexArray(array_.id());
+    glDrawElements(GL_TRIANGLES, n_indices_, GL_UNSIGNED_INT, nullptr);
+    glBindVertexArray(0);
+}
+
 void SurfaceDrawing::draw(const SceneView& view, const SurfaceStyle& style) {
     shader_->use();
     set_uniforms(view, style);
     bind_textures(style);
-    if (style.opacity < 1.0f) {
+    if (style.ghost) {
+        draw_triangles({.blend = true, .write_depth = false, .cull = GlState::Cull::front});
+        draw_triangles({.blend = true, .write_depth = false, .cull = GlState::Cull::back});
+    } else if (style.opacity < 1.0f) {
         draw_triangles({.blend = true, .write_depth = false, .cull = GlState::Cull::front});
         draw_triangles({.blend = true, .cull = GlState::Cull::back});
     } else {

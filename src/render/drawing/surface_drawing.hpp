@@ -4,15 +4,15 @@
 #include <optional>
 #include <span>
 
-#include "render/gl/arrays.hpp"
 #include "render/colour.hpp"
 #include "render/colour_map.hpp"
-#include "render/gl/gl_object.hpp"
 #include "render/drawing/lines_drawing.hpp"
+#include "render/geometry/surface_geometry.hpp"
+#include "render/gl/arrays.hpp"
+#include "render/gl/gl_object.hpp"
+#include "render/gl/shader.hpp"
 #include "render/scene_frame.hpp"
 #include "render/scene_view.hpp"
-#include "render/gl/shader.hpp"
-#include "render/geometry/surface_geometry.hpp"
 
 namespace elastolab {
 
@@ -22,6 +22,7 @@ struct SurfaceStyle {
     Colour inside{0.80f, 0.52f, 0.40f, 1.0f};  ///< mixed into what is seen from inside
     float opacity = 1.0f;                      ///< below 1: back faces show through front faces
     bool flat = false;                         ///< one normal a triangle
+    bool ghost = false;                        ///< translucent, seen where it is apart from what is drawn already
 
     bool wireframe = false;
     Colour wire{0.05f, 0.07f, 0.10f, 1.0f};
@@ -50,10 +51,11 @@ public:
     void set_vertex_scalars(std::span<const float> values);
     void set_triangle_scalars(std::span<const float> values);
     void clear_scalars() { scalars_ = Scalars::none; }
-    /// A colour for each vertex that covers the colours above by its opacity, say to mark a selection. Empty: none.
-    void set_tints(std::span<const Colour> tints);
 
     void draw(const SceneView& view, const SurfaceStyle& style);
+    /// The triangles alone, by the shader that is in use.
+    void draw_shape() const;
+    const SceneFrame& frame() const { return frame_; }
 
 private:
     enum class Scalars { none, per_vertex, per_triangle };
@@ -67,7 +69,7 @@ private:
     SceneFrame frame_;
     Scalars scalars_ = Scalars::none;
     const ColourMap* shown_map_ = nullptr;  // in map_texture_
-    GlBuffer vertices_, indices_, vertex_scalars_, triangle_scalars_, tints_;
+    GlBuffer vertices_, indices_, vertex_scalars_, triangle_scalars_;
     GlTexture map_texture_, triangle_texture_;
     GlVertexArray array_;
     EdgeBatch features_;

@@ -10,7 +10,7 @@ namespace elastolab {
 
 namespace {
 
-constexpr double kLeastLine = 0.12;  ///< of the bounding box's diagonal
+constexpr double kLeastLine = 0.2;  ///< of the bounding box's diagonal
 
 /// One side of a triangle: from its corner `corner` (3 t + i) to the next.
 struct Side {

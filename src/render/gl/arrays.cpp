@@ -1,22 +1,41 @@
 #include "render/gl/arrays.hpp"
 
 #include <algorithm>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 namespace elastolab {
 
-Edges edges_of(const TrianglesView& triangles) {
-    std::vector<std::pair<int, int>> edges;
-    edges.reserve(static_cast<std::size_t>(3 * triangles.cols()));
+namespace {
+
+struct Side {
+    int low, high;
+    bool ascending;
+    bool operator<(const Side& other) const {
+        return std::tie(low, high, ascending) < std::tie(other.low, other.high, other.ascending);
+    }
+};
+
+}  // namespace
+
+Edges unpaired_edges(const TrianglesView& triangles) {
+    std::vector<Side> sides;
+    sides.reserve(static_cast<std::size_t>(3 * triangles.cols()));
     for (Eigen::Index t = 0; t < triangles.cols(); ++t)
-        for (int i = 0; i < 3; ++i) edges.emplace_back(std::minmax({triangles(i, t), triangles((i + 1) % 3, t)}));
-    std::sort(edges.begin(), edges.end());
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-    Edges result(2, static_cast<Eigen::Index>(edges.size()));
+        for (int i = 0; i < 3; ++i) {
+            const int a = triangles(i, t), b = triangles((i + 1) % 3, t);
+            sides.push_back({std::min(a, b), std::max(a, b), a < b});
+        }
+    std::sort(sides.begin(), sides.end());
+    std::vector<Side> unpaired;
+    for (auto side = sides.begin(), next = side; side != sides.end(); side = next) {
+        while (next != sides.end() && next->low == side->low && next->high == side->high) ++next;
+        if (next - side != 2 || side[0].ascending == side[1].ascending) unpaired.push_back(*side);
+    }
+    Edges result(2, static_cast<Eigen::Index>(unpaired.size()));
     for (Eigen::Index i = 0; i < result.cols(); ++i) {
-        const auto& [first, second] = edges[static_cast<std::size_t>(i)];
-        result.col(i) << first, second;
+        const Side& side = unpaired[static_cast<std::size_t>(i)];
+        result.col(i) << side.low, side.high;
     }
     return result;
 }

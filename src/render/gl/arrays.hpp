@@ -11,7 +11,8 @@ using TrianglesView = Eigen::Ref<const Eigen::Matrix3Xi>;
 /// Line segments, one column each: 2 x n vertex numbers.
 using Edges = Eigen::Matrix2Xi;
 
-/// Every edge of these triangles once, the smaller vertex number first, in ascending order.
-Edges edges_of(const TrianglesView& triangles);
+/// The edges at which these triangles do not close a surface, each once, the smaller vertex number first, in ascending
+/// order: all that are not shared by just two triangles, which run through them in opposite directions.
+Edges unpaired_edges(const TrianglesView& triangles);
 
 }  // namespace elastolab

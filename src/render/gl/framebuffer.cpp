@@ -15,11 +15,20 @@ void require_complete() {
         throw Error("picture: the graphics driver has no room for it. Choose a smaller size.");
 }
 
-void allocate_texture(const GlTexture& texture, int width, int height) {
+struct TexelFormat {
+    GLint stored;
+    GLenum components, type;
+    GLint filter;
+};
+constexpr TexelFormat kColour{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, GL_LINEAR};
+constexpr TexelFormat kDepth{GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, GL_NEAREST};
+constexpr TexelFormat kMask{GL_R8, GL_RED, GL_UNSIGNED_BYTE, GL_LINEAR};
+
+void allocate_texture(const GlTexture& texture, const TexelFormat& format, int width, int height) {
     glBindTexture(GL_TEXTURE_2D, texture.id());
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexImage2D(GL_TEXTURE_2D, 0, format.stored, width, height, 0, format.components, format.type, nullptr);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, format.filter);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, format.filter);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 }
@@ -36,6 +45,7 @@ Framebuffer::Framebuffer(int width, int height, int samples)
       height_(height),
       samples_(samples),
       texture_(make_gl_texture()),
+      depth_texture_(make_gl_texture()),
       colour_(make_gl_renderbuffer()),
       depth_(make_gl_renderbuffer()),
       drawn_(make_gl_framebuffer()),
@@ -47,7 +57,8 @@ Framebuffer::Framebuffer(int width, int height, int samples)
 }
 
 void Framebuffer::allocate() {
-    allocate_texture(texture_, width_, height_);
+    allocate_texture(texture_, kColour, width_, height_);
+    allocate_texture(depth_texture_, kDepth, width_, height_);
     allocate_renderbuffer(colour_, samples_, GL_RGBA8, width_, height_);
     allocate_renderbuffer(depth_, samples_, GL_DEPTH_COMPONENT24, width_, height_);
     glBindFramebuffer(GL_FRAMEBUFFER, drawn_.id());
@@ -56,6 +67,7 @@ void Framebuffer::allocate() {
     require_complete();
     glBindFramebuffer(GL_FRAMEBUFFER, resolved_.id());
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture_.id(), 0);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth_texture_.id(), 0);
     require_complete();
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
@@ -80,6 +92,14 @@ void Framebuffer::resolve() const {
     glBindFramebuffer(GL_FRAMEBUFFER, drawn_.id());
 }
 
+void Framebuffer::resolve_depth() const {
+    glDisable(GL_SCISSOR_TEST);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, drawn_.id());
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_.id());
+    glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+    bind();
+}
+
 Image Framebuffer::read() const {
     resolve();
     const std::size_t row = 3 * static_cast<std::size_t>(width_), rows = static_cast<std::size_t>(height_);
@@ -99,6 +119,30 @@ void Framebuffer::copy_to_window(int x, int y) const {
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
     glBlitFramebuffer(0, 0, width_, height_, x, y, x + width_, y + height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+MaskBuffer::MaskBuffer(Depth depth) : texture_(make_gl_texture()), drawn_(make_gl_framebuffer()) {
+    if (depth == Depth::tested) depth_ = make_gl_renderbuffer();
+}
+
+void MaskBuffer::bind(int width, int height, float value) {
+    const bool is_new = width != width_ || height != height_;
+    width_ = width;
+    height_ = height;
+    if (is_new) allocate_texture(texture_, kMask, width, height);
+    glBindFramebuffer(GL_FRAMEBUFFER, drawn_.id());
+    if (is_new) {
+        glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture_.id(), 0);
+        if (depth_) {
+            allocate_renderbuffer(depth_, 1, GL_DEPTH_COMPONENT24, width, height);
+            glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_.id());
+        }
+        require_complete();
+    }
+    glViewport(0, 0, width, height);
+    apply({});
+    glClearColor(value, value, value, value);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
 void bind_window(int width, int height) {

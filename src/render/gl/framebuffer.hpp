@@ -23,6 +23,9 @@ public:
     void resolve() const;
     /// Colours after resolve(), the bottom row first (v upward).
     unsigned texture() const { return texture_.id(); }
+    /// The depths of what was drawn, of one sample a pixel, to depth_texture(). Draws go here again afterwards.
+    void resolve_depth() const;
+    unsigned depth_texture() const { return depth_texture_.id(); }
     /// resolve(), then a copy. Waits for the graphics card.
     Image read() const;
     /// resolve(), then to the window at (x, y) from its bottom left corner, pixel by pixel.
@@ -32,9 +35,25 @@ private:
     void allocate();
 
     int width_, height_, samples_;
-    GlTexture texture_;
+    GlTexture texture_, depth_texture_;
     GlRenderbuffer colour_, depth_;
     GlFramebuffer drawn_, resolved_;
+};
+
+/// A picture of one number a pixel, 0 to 1, drawn on the way to another.
+class MaskBuffer {
+public:
+    enum class Depth { none, tested };
+    explicit MaskBuffer(Depth depth);
+    /// Draws go here from now on, to all of it, which holds `value`. Sizes in pixels, >= 1.
+    void bind(int width, int height, float value);
+    unsigned texture() const { return texture_.id(); }
+
+private:
+    int width_ = 0, height_ = 0;
+    GlTexture texture_;
+    GlRenderbuffer depth_;
+    GlFramebuffer drawn_;
 };
 
 /// Draws go to the window from now on; its size in framebuffer pixels.

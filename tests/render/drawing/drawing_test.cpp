@@ -11,14 +11,16 @@
 #include "render/drawing/arrows_drawing.hpp"
 #include "render/drawing/axes_gizmo.hpp"
 #include "render/drawing/background_drawing.hpp"
-#include "render/gl/framebuffer.hpp"
-#include "render/gl/gl_window.hpp"
 #include "render/drawing/ground_drawing.hpp"
 #include "render/drawing/legend.hpp"
 #include "render/drawing/lines_drawing.hpp"
-#include "render/geometry/picking.hpp"
+#include "render/drawing/occlusion_drawing.hpp"
 #include "render/drawing/points_drawing.hpp"
+#include "render/drawing/shadow_drawing.hpp"
 #include "render/drawing/surface_drawing.hpp"
+#include "render/geometry/picking.hpp"
+#include "render/gl/framebuffer.hpp"
+#include "render/gl/gl_window.hpp"
 
 namespace elastolab {
 namespace {
@@ -233,10 +235,12 @@ protected:
         camera_.set_scene(frame);
         camera_.frame(frame, kViewport.aspect());
         SurfaceDrawing surface(mesh.vertices, mesh.triangles);
-        LinesDrawing ghost_lines(edges_of(mesh.triangles));
+        SurfaceDrawing rest(mesh.vertices, mesh.triangles);
+        LinesDrawing rim(unpaired_edges(mesh.triangles.leftCols(mesh.n_triangles() / 2)));
         surface.update(positions, frame);
         surface.set_vertex_scalars(heights(positions));
-        ghost_lines.update(mesh.vertices, frame);
+        rest.update(mesh.vertices, frame);
+        rim.update(positions, frame);
         picture_.bind();
         background_.draw(top, bottom);
         const SceneView view(camera_, kViewport);
@@ -244,9 +248,15 @@ protected:
         style.low = positions.row(2).minCoeff();
         style.high = positions.row(2).maxCoeff();
         surface.draw(view, style);
-        ground_.draw(view, {{frame.center.x(), frame.center.y(), -0.3}, 4.0 * frame.radius}, Eigen::Vector3d::UnitZ(),
-                     {.line = ghost.with_opacity(0.35f), .spacing = 0.5});
-        ghost_lines.draw(view, {.colour = ghost.with_opacity(0.25f), .width = 1.0f});
+        OcclusionDrawing().draw(view, picture_);
+        const SceneFrame ground{{frame.center.x(), frame.center.y(), -0.3}, 4.0 * frame.radius};
+        ShadowDrawing shadow;
+        shadow.update(surface, ground, Eigen::Vector3d::UnitZ());
+        picture_.bind();
+        ground_.draw(view, ground, Eigen::Vector3d::UnitZ(),
+                     {.line = ghost.with_opacity(0.35f), .spacing = 0.5, .shadow = shadow.texture()});
+        rest.draw(view, {.colour = ghost, .opacity = 0.1f, .ghost = true});
+        rim.draw(view, {.colour = ghost.with_opacity(0.25f), .width = 1.0f});
         draw_marks(view, frame, positions);
         gizmo_.draw(camera_, kViewport, {kWidth - 110.0, 10.0, 100.0, 100.0}, 1.0);
         finish();

@@ -28,8 +28,8 @@ TEST(SurfaceGeometry, LeavesASphereWhole) {
 
 /// The edges around a dent are sharp, and too short to be a crease of the body; they still split the normals.
 TEST(SurfaceGeometry, DrawsNoLinesAroundASmallDent) {
-    SurfaceMesh mesh = make_sphere(8);
-    mesh.vertices.col(0) *= 0.7;
+    SurfaceMesh mesh = make_sphere(30);
+    mesh.vertices.col(0) *= 0.9;
     const SmoothingGroups groups = smoothing_groups(mesh.vertices, mesh.triangles);
     EXPECT_EQ(groups.features.cols(), 0);
     EXPECT_GT(static_cast<int>(groups.vertices.size()), mesh.n_vertices());
@@ -75,11 +75,19 @@ TEST(SceneFrame, HoldsWhatItIsMadeOf) {
     EXPECT_EQ(frame_of(Eigen::Matrix3Xd::Zero(3, 1)).radius, 1.0);
 }
 
-TEST(Edges, AreListedOnce) {
-    const SurfaceMesh mesh = make_box(3);
-    const Edges edges = edges_of(mesh.triangles);
-    EXPECT_EQ(edges.cols(), mesh.n_triangles() * 3 / 2);
-    EXPECT_TRUE((edges.row(0).array() < edges.row(1).array()).all());
+TEST(UnpairedEdges, AreTheRimsAndTheFlippedOnes) {
+    SurfaceMesh mesh = make_box(3);
+    EXPECT_EQ(unpaired_edges(mesh.triangles).cols(), 0);
+    Eigen::Matrix3Xi triangles = mesh.triangles;
+    std::swap(triangles(0, 5), triangles(1, 5));
+    EXPECT_EQ(unpaired_edges(triangles).cols(), 3) << "flipped";
+    const Edges rim = unpaired_edges(mesh.triangles.rightCols(mesh.n_triangles() - 1));
+    ASSERT_EQ(rim.cols(), 3) << "a hole";
+    const Eigen::Vector3i hole = mesh.triangles.col(0);
+    for (Eigen::Index i = 0; i < 3; ++i) {
+        EXPECT_LT(rim(0, i), rim(1, i));
+        for (const int vertex : {rim(0, i), rim(1, i)}) EXPECT_TRUE((hole.array() == vertex).any());
+    }
 }
 
 }  // namespace

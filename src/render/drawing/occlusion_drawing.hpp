@@ -1,0 +1,30 @@
+#pragma once
+
+#include <memory>
+
+#include "render/gl/framebuffer.hpp"
+#include "render/gl/shader.hpp"
+#include "render/scene_view.hpp"
+
+namespace elastolab {
+
+struct OcclusionStyle {
+    double reach = 0.3;  ///< how far what covers a point may be, in scene radii
+    double strength = 0.7;
+};
+
+/// Ambient occlusion: darkens hollows and where surfaces meet, by the depths of the picture. Its cost depends on the
+/// picture's size alone: a quarter of the pixels that a surface covers are sampled 14 times.
+class OcclusionDrawing {
+public:
+    OcclusionDrawing();
+    /// Over what was drawn to `target`, to which draws go afterwards: after the opaque surfaces, before all else.
+    void draw(const SceneView& view, const Framebuffer& target, const OcclusionStyle& style = {});
+
+private:
+    MaskBuffer open_;
+    GlVertexArray array_;
+    std::shared_ptr<ShaderProgram> find_, blend_;
+};
+
+}  // namespace elastolab
