@@ -28,8 +28,8 @@ TEST(SurfaceGeometry, LeavesASphereWhole) {
 
 /// The edges around a dent are sharp, and too short to be a crease of the body; they still split the normals.
 TEST(SurfaceGeometry, DrawsNoLinesAroundASmallDent) {
-    SurfaceMesh mesh = make_sphere(30);
-    mesh.vertices.col(0) *= 0.9;
+    SurfaceMesh mesh = make_sphere(60);
+    mesh.vertices.col(0) *= 0.95;
     const SmoothingGroups groups = smoothing_groups(mesh.vertices, mesh.triangles);
     EXPECT_EQ(groups.features.cols(), 0);
     EXPECT_GT(static_cast<int>(groups.vertices.size()), mesh.n_vertices());
