@@ -11,7 +11,7 @@
 
 namespace elastolab {
 
-enum class Tool { pull, brush, box };
+enum class Tool { pull, brush, box, probe };
 enum class Release { pin, spring_back };
 
 struct ToolSettings {
@@ -38,6 +38,7 @@ struct DisplaySettings {
     bool auto_range = true;
     double range_low = 0.0, range_high = 1.0;  ///< when not automatic, in the unit of the field
     bool bands = false;
+    bool extremes = false;  ///< a mark where the field is largest
     bool flat = false;
     bool wireframe = true;
     bool feature_edges = true;

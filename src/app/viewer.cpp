@@ -203,6 +203,7 @@ private:
                 state_.gestures.handle(event, context);
         }
         if (state_.gestures.take_frame_request()) state_.frame_body();
+        if (const auto vertex = state_.gestures.take_probed()) state_.probes.toggle(*vertex);
         if (state_.gestures.animate(Window::seconds(), context)) pending_frames_ = kSettlingFrames;
     }
 
@@ -229,6 +230,8 @@ private:
 
         part = {};
         guarded([&] { state_.update_picture(); });
+        if (const ShownBody* body = state_.shown.body(state_.method))
+            state_.probes.record(now, state_.scene().mesh().vertices, *body, state_.display);
         renderer_.upload(state_, palette());
         times.upload_ms = 1e3 * part.seconds();
 

@@ -86,6 +86,7 @@ void ViewerState::take_scene(LoadedScene loaded) {
     method = std::exchange(first_method_, std::nullopt).value_or(scene_->document().method);
     tools.patch_radius = std::max(kPatchPart * diagonal(scene_->report()), kPatchEdges * scene_->report().mean_edge);
     shown.forget();
+    probes.clear();
     display.wireframe = scene_->mesh().n_vertices() <= kDenseVertices;
     camera.set_scene(frame_of(scene_->mesh().vertices));
     camera.set_up_axis(loaded.up_axis);
@@ -110,6 +111,13 @@ void ViewerState::export_mesh(const fs::path& file) {
     attempt([&] {
         write_deformed_mesh(file, *scene_, simulation.answer(method).displacement());
         messages.note("Exported " + file.string());
+    });
+}
+
+void ViewerState::save_probes(const fs::path& file) {
+    attempt([&] {
+        probes.write_csv(file);
+        messages.note(std::to_string(probes.n_samples()) + " states of the probes in " + file.string());
     });
 }
 

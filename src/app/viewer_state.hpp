@@ -10,6 +10,7 @@
 #include "app/measurements.hpp"
 #include "app/panels/messages.hpp"
 #include "app/picture/shown_scene.hpp"
+#include "app/probes.hpp"
 #include "app/scene_files.hpp"
 #include "app/settings.hpp"
 #include "app/unsaved_changes.hpp"
@@ -52,6 +53,7 @@ public:
     // What is seen.
     ShownScene shown;
     Messages messages;
+    Probes probes;
     bool show_help = false;
     bool comparing() const { return compare.mode != CompareMode::off; }
     /// Methods on the screen, the active one first; and those that must be computed for them.
@@ -88,6 +90,7 @@ public:
     bool owns_scene_file() const { return owns_scene_file_; }
     /// False when it could not be written.
     bool save_scene(const std::filesystem::path& file);
+    void save_probes(const std::filesystem::path& file);
     void export_mesh(const std::filesystem::path& file);
     const std::vector<std::filesystem::path>& recent_files() const { return recent_; }
     /// The method to begin with, for the scene that is there and the one that is being opened.

@@ -111,6 +111,10 @@ void Gestures::press_body(GestureContext& context, const PickHit& hit) {
         action_ = Action::paint;
         return;
     }
+    if (context.tools.tool == Tool::probe) {
+        action_ = Action::orbit;
+        return;
+    }
     const int owner = context.scene.owner(hit.vertex);
     if (owner == LiveScene::kFixed) {
         hint_ = "This vertex is fixed. Free it with the brush (B) and Shift.";
@@ -129,6 +133,8 @@ void Gestures::release(GestureContext& context) {
     button_ = -1;
     if (ended == Action::pull) end_pull(context);
     if (ended == Action::box) end_box(context);
+    if (ended == Action::orbit && context.tools.tool == Tool::probe && !dragged_ && hover_.vertex >= 0)
+        probed_ = hover_.vertex;
     if (ended == Action::paint) {
         if (!dragged_ && hover_.vertex >= 0) toggle_fixed(context, hover_.vertex);
         context.scene.commit();

@@ -51,6 +51,7 @@ enum class Hold { fix, free };
 ///   wheel    zoom to the cursor
 ///   brush    left fixes vertices under the brush, with Shift frees them; a click fixes or frees one vertex
 ///   box      left draws a box, likewise
+///   probe    a click chooses a vertex, a drag turns the view
 class Gestures {
 public:
     /// blocked: the button is down where it can do nothing, which hint() explains.
@@ -76,6 +77,8 @@ public:
     const Eigen::Vector2d& cursor() const { return cursor_; }
     /// What the person should know about the last press ("This vertex is fixed. ..."); empty mostly.
     const std::string& hint() const { return hint_; }
+    /// The vertex that was clicked with the probe, once.
+    std::optional<int> take_probed() { return std::exchange(probed_, std::nullopt); }
     /// True once after a double click.
     bool take_frame_request() { return std::exchange(frame_requested_, false); }
 
@@ -139,6 +142,7 @@ private:
     double last_press_seconds_ = -1.0;
     Eigen::Vector2d last_press_ = Eigen::Vector2d::Zero();
     bool frame_requested_ = false;
+    std::optional<int> probed_;
     std::string hint_;
 };
 

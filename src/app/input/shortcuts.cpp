@@ -43,6 +43,7 @@ std::vector<Shortcut> make_shortcuts() {
         {GLFW_KEY_V, 0, "V", "pull tool", [](ViewerState& s, Panels&) { s.tools.tool = Tool::pull; }},
         {GLFW_KEY_B, 0, "B", "brush: fix vertices", [](ViewerState& s, Panels&) { s.tools.tool = Tool::brush; }},
         {GLFW_KEY_N, 0, "N", "box: fix vertices", [](ViewerState& s, Panels&) { s.tools.tool = Tool::box; }},
+        {GLFW_KEY_I, 0, "I", "probe: values at a vertex", [](ViewerState& s, Panels&) { s.tools.tool = Tool::probe; }},
         {GLFW_KEY_LEFT_BRACKET, 0, "[", "smaller patch",
          [](ViewerState& s, Panels&) { change_radius(s, 1.0 / kRadiusStep); }},
         {GLFW_KEY_RIGHT_BRACKET, 0, "]", "larger patch",
@@ -89,7 +90,7 @@ const std::vector<Shortcut>& shortcuts() {
 }
 
 std::span<const GestureHelp> gesture_help() {
-    static constexpr std::array<GestureHelp, 12> all = {
+    static constexpr std::array<GestureHelp, 13> all = {
         {{"drag on the body", "pull the patch under the cursor, in the plane of the screen"},
          {"... with Shift", "along the surface normal"},
          {"... with X, Y or Z", "along an axis"},
@@ -100,6 +101,7 @@ std::span<const GestureHelp> gesture_help() {
          {"wheel", "zoom to the cursor"},
          {"double click", "frame the body"},
          {"brush: drag, click", "fix vertices; with Shift free them"},
+         {"probe: click", "keep or forget the values at a vertex"},
          {"box: drag", "fix the vertices in the box; with Shift free them"},
          {"drop a file", "open it"}}};
     return all;

@@ -40,6 +40,8 @@ void draw_range(ViewerState& state, float scale) {
         ImGui::SetNextItemWidth(80.0f * scale);
         ImGui::InputDouble("from, to", &display.range_high, 0.0, 0.0, "%.3g");
     }
+    ImGui::Checkbox("mark the largest", &display.extremes);
+    ImGui::SameLine();
     ImGui::Checkbox("bands", &display.bands);
     tooltip("Ten steps of colour with lines between them, as on a map.");
 }

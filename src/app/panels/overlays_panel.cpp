@@ -150,6 +150,71 @@ void draw_legend(const PanelContext& context, ImDrawList& list) {
     list.AddText({left, y - 1.7f * size}, imgui_packed(context.palette.text), heading.c_str());
 }
 
+std::string vector_text(const Eigen::Vector3d& v) {
+    return "(" + number_text(v.x()) + ", " + number_text(v.y()) + ", " + number_text(v.z()) + ")";
+}
+
+/// A ring at a vertex with words beside it, which turn to the left where there is no room.
+void draw_mark(const PanelContext& context, ImDrawList& list, const Viewport& viewport, const Eigen::Vector3d& place,
+               const Colour& colour, const std::string& text) {
+    const ProjectedPoint projected = context.state.camera.project(place, viewport);
+    if (projected.depth <= 0.0 || !viewport.contains(projected.pixel)) return;
+    const ImVec2 at = point(projected.pixel.x(), projected.pixel.y());
+    const float scale = context.gui.scale();
+    list.AddCircle(at, 5.0f * scale, imgui_packed(context.palette.panel, 0.8f), 24, 4.0f * scale);
+    list.AddCircle(at, 5.0f * scale, imgui_packed(colour), 24, 2.0f * scale);
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+    const float right = static_cast<float>(viewport.x + viewport.width) - 12.0f * scale;
+    const float x = at.x + 18.0f * scale + size.x < right ? at.x + 18.0f * scale : at.x - 18.0f * scale - size.x;
+    const ImVec2 low{x, at.y - 0.5f * size.y};
+    chip(context, list, low, {low.x + size.x, low.y + size.y});
+    list.AddText(low, imgui_packed(colour), text.c_str());
+}
+
+/// Where the shown field is largest.
+void draw_largest(const PanelContext& context, ImDrawList& list, const Viewport& viewport, const ShownBody& body) {
+    if (!body.is_coloured() || body.values().empty() || body.max_value() <= 0.0) return;
+    const auto place = std::max_element(body.values().begin(), body.values().end(), [](float a, float b) {
+        return std::isnan(a) || a < b;  // numbers that are missing count least
+    });
+    draw_mark(context, list, viewport, body.positions().col(place - body.values().begin()), context.palette.text,
+              "largest " + number_text(*place));
+}
+
+/// The kept probes, and a card of what is known at the vertex under the cursor.
+void draw_probe_marks(const PanelContext& context, ImDrawList& list, const SceneViewport& viewport) {
+    const ViewerState& state = context.state;
+    const ShownBody* body = state.shown.body(viewport.kinds.front());
+    if (body == nullptr) return;
+    if (state.display.extremes) draw_largest(context, list, viewport.place, *body);
+    const Positions& rest = state.scene().mesh().vertices;
+    const auto value_at = [&](int vertex) { return probe(vertex, rest, *body, state.display.deformation_scale); };
+    for (const int vertex : state.probes.vertices()) {
+        const ProbeValue value = value_at(vertex);
+        draw_mark(context, list, viewport.place, body->positions().col(vertex), context.palette.probe,
+                  std::to_string(vertex) + ": " + number_text(value.field.value_or(value.displacement.norm())));
+    }
+    const int hovered = state.gestures.hover().vertex;
+    if (state.tools.tool != Tool::probe || hovered < 0 || !viewport.place.contains(state.gestures.cursor())) return;
+    const ProbeValue value = value_at(hovered);
+    ImFont* const font = context.gui.fonts().regular;
+    const float size = ImGui::GetFontSize();
+    std::vector<TitleLine> lines = {
+        {context.gui.fonts().bold, size, context.palette.text, "vertex " + std::to_string(hovered)},
+        {font, size, context.palette.text, "at " + vector_text(value.position)},
+        {font, size, context.palette.text, "moved by " + vector_text(value.displacement)},
+        {font, size, context.palette.text, "which is " + number_text(value.displacement.norm())}};
+    if (value.field && state.display.field != Field::displacement)
+        lines.push_back({font, size, context.palette.text,
+                         field_title(state.display.field, state.compare.reference) + " " + number_text(*value.field)});
+    const float width = 300.0f * context.gui.scale(), step = 18.0f * context.gui.scale();
+    const Eigen::Vector2d& cursor = state.gestures.cursor();
+    const double right = viewport.place.x + viewport.place.width, bottom = viewport.place.y + viewport.place.height;
+    const double x = std::max(viewport.place.x + step, std::min(cursor.x() + step, right - width));
+    const double y = std::min(cursor.y() + step, bottom - 8.0 * size);
+    draw_lines(context, list, point(x, y), width, lines);
+}
+
 void draw_tools(const PanelContext& context, ImDrawList& list) {
     const ViewerState& state = context.state;
     const Palette& palette = context.palette;
@@ -175,6 +240,7 @@ std::string hint_text(const ViewerState& state) {
                std::to_string(all_methods().size()) + ".";
     if (state.tools.tool == Tool::brush)
         return "Paint over the vertices that are to stay where they are; with Shift, free them.";
+    if (state.tools.tool == Tool::probe) return "";
     if (state.tools.tool == Tool::box) return "Draw a box around the vertices that are to stay where they are.";
     if (state.scene().vertices(LiveScene::kFixed).empty())
         return "Nothing holds the body: fix some vertices with the brush (B), then pull.";
@@ -231,6 +297,7 @@ void Panels::draw_overlays(const PanelContext& context) {
         list.PushClipRect(point(v.x, v.y), point(v.x + v.width, v.y + v.height));
         draw_title(context, list, viewport);
         draw_axes_letters(context, list, viewport);
+        draw_probe_marks(context, list, viewport);
         list.PopClipRect();
     }
     draw_legend(context, list);

@@ -69,6 +69,12 @@ void Panels::ask_screenshot(ViewerState& state) {
                  }});
 }
 
+void Panels::ask_probes(ViewerState& state) {
+    files_.open({"Save the probes", {".csv"}, suggested_name(state, "-probes.csv"), [&](const auto& file) {
+                     state.save_probes(file);
+                 }});
+}
+
 void Panels::ask_timings(ViewerState& state) {
     files_.open({"Record frame timings", {".csv"}, suggested_name(state, "-timings.csv"), [&](const auto& file) {
                      state.record_timings(file);
@@ -123,9 +129,13 @@ void Panels::draw_side(const PanelContext& context) {
     // Those used most come first, and the others are open where there is room.
     const bool tall = place.height >= kTallPanel * context.gui.scale();
     const Section sections[] = {
-        {"Method", &Panels::draw_method, true},   {"Pull", &Panels::draw_pull, true},
-        {"Show", &Panels::draw_display, tall},    {"Body", &Panels::draw_body, tall},
-        {"Compare", &Panels::draw_compare, tall}, {"Performance", &Panels::draw_performance, false},
+        {"Method", &Panels::draw_method, true},
+        {"Pull", &Panels::draw_pull, true},
+        {"Show", &Panels::draw_display, tall},
+        {"Body", &Panels::draw_body, tall},
+        {"Compare", &Panels::draw_compare, tall},
+        {"Probes", &Panels::draw_probes, false},
+        {"Performance", &Panels::draw_performance, false},
     };
     for (const Section& section : sections) {
         ImGui::PushFont(context.gui.fonts().bold);

@@ -34,6 +34,7 @@ public:
     void save_as(ViewerState& state);
     void ask_export(ViewerState& state);
     void ask_screenshot(ViewerState& state);
+    void ask_probes(ViewerState& state);
     void ask_timings(ViewerState& state);
 
 private:
@@ -45,6 +46,7 @@ private:
     void draw_mode(const PanelContext& context);
     void draw_body(const PanelContext& context);
     void draw_pull(const PanelContext& context);
+    void draw_probes(const PanelContext& context);
     void draw_compare(const PanelContext& context);
     void draw_display(const PanelContext& context);
     void draw_performance(const PanelContext& context);

@@ -20,6 +20,10 @@ void draw_tools(ViewerState& state, float scale) {
          "B: hold vertices where they are; with Shift, let them go. A click takes one vertex.");
     ImGui::SameLine();
     tool("fix: box", Tool::box, "N: the same for all vertices in a box on the screen.");
+    ImGui::SameLine();
+    if (ImGui::GetContentRegionAvail().x < ImGui::CalcTextSize("probe").x + 2.0f * ImGui::GetFrameHeight())
+        ImGui::NewLine();
+    tool("probe", Tool::probe, "I: shows the values at the vertex under the cursor; a click keeps it (see Probes).");
     if (state.tools.tool == Tool::brush) {
         slider("brush", state.tools.brush_pixels, 4.0, 120.0, "%.0f pixels", scale);
     } else if (state.tools.tool == Tool::box) {

@@ -1,0 +1,51 @@
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "app/panels/panels.hpp"
+#include "app/panels/widgets.hpp"
+
+namespace elastolab {
+
+namespace {
+
+void draw_series(const PanelContext& context, std::size_t probe) {
+    const Probes& probes = context.state.probes;
+    const std::vector<float> series = probes.series(probe);
+    if (series.size() < 2) return;
+    const auto [low, high] = std::minmax_element(series.begin(), series.end());
+    const std::string range = number_text(*low) + " to " + number_text(*high);
+    ImGui::PlotLines("##series", series.data(), static_cast<int>(series.size()), 0, range.c_str(), std::min(0.0f, *low),
+                     *high, {ImGui::GetContentRegionAvail().x, 40.0f * context.gui.scale()});
+}
+
+}  // namespace
+
+/// The kept probes: value now, and over what happened since they were set.
+void Panels::draw_probes(const PanelContext& context) {
+    ViewerState& state = context.state;
+    bool probing = state.tools.tool == Tool::probe;
+    if (ImGui::Checkbox("point at the body", &probing)) state.tools.tool = probing ? Tool::probe : Tool::pull;
+    tooltip("I: shows the values at the vertex under the cursor; a click keeps it.");
+    const ShownBody* body = state.shown.body(state.method);
+    int forgotten = -1;
+    for (std::size_t i = 0; body != nullptr && i < state.probes.vertices().size(); ++i) {
+        const int vertex = state.probes.vertices()[i];
+        const ProbeValue value = probe(vertex, state.scene().mesh().vertices, *body, state.display.deformation_scale);
+        ImGui::PushID(vertex);
+        fact(("vertex " + std::to_string(vertex)).c_str(), number_text(value.field.value_or(value.displacement.norm())),
+             context.palette.probe);
+        draw_series(context, i);
+        if (ImGui::SmallButton("forget")) forgotten = vertex;
+        ImGui::PopID();
+    }
+    if (forgotten >= 0) state.probes.toggle(forgotten);
+    if (state.probes.vertices().empty())
+        return paragraph("None is kept: press I and click on the body.", context.palette.text_dim);
+    if (ImGui::Button("Save CSV...")) ask_probes(state);
+    tooltip("Every change since the probes were set: time, position, displacement and the shown value.");
+    ImGui::SameLine();
+    if (ImGui::Button("Forget all")) state.probes.clear();
+}
+
+}  // namespace elastolab

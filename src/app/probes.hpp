@@ -1,0 +1,49 @@
+#pragma once
+
+#include <deque>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/picture/shown_body.hpp"
+
+namespace elastolab {
+
+/// What is shown at one vertex.
+struct ProbeValue {
+    Eigen::Vector3d position, displacement;  ///< true to scale, whatever the picture's [L]
+    std::optional<double> field;             ///< of the colours, where there is one
+};
+ProbeValue probe(int vertex, const Positions& rest, const ShownBody& body, double deformation_scale);
+
+/// Vertices whose values a person keeps an eye on, and what these were over the last changes. Owned by one thread.
+class Probes {
+public:
+    static constexpr std::size_t kMostSamples = 100000;
+
+    /// Keeps the vertex, or forgets it.
+    void toggle(int vertex);
+    void clear();
+    const std::vector<int>& vertices() const { return vertices_; }
+
+    /// Adds what is shown now, when that is not what was added last. `seconds`: of the clock of frames.
+    void record(double seconds, const Positions& rest, const ShownBody& body, const DisplaySettings& display);
+    std::size_t n_samples() const { return samples_.size(); }
+    /// Of one kept probe, oldest first: the shown field where there is one, else how far the vertex has moved [L].
+    std::vector<float> series(std::size_t probe) const;
+    /// Rows of time_s,field,vertex,x,y,z,ux,uy,uz,value. Throws Error when it cannot be written.
+    void write_csv(const std::filesystem::path& file) const;
+
+private:
+    struct Sample {
+        double seconds;
+        std::string field;
+        std::vector<ProbeValue> values;  ///< one a kept vertex
+    };
+    std::vector<int> vertices_;
+    std::deque<Sample> samples_;
+    std::uint64_t recorded_ = 0;  ///< revision of the body
+};
+
+}  // namespace elastolab

@@ -1,0 +1,78 @@
+#include "app/probes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "app/stage.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace elastolab {
+namespace {
+
+class Probing : public ::testing::Test {
+protected:
+    Probing() {
+        stage.settle();
+        stage.state.tools.tool = Tool::probe;
+        vertex = stage.vertex_near({1.0, 0.5, 1.0});
+    }
+    const ShownBody& body() { return *stage.state.shown.body(stage.state.method); }
+    void record(double seconds) {
+        stage.state.probes.record(seconds, stage.scene().mesh().vertices, body(), stage.state.display);
+    }
+
+    test::Stage stage;
+    int vertex;
+};
+
+TEST_F(Probing, AClickChoosesTheVertexAndADragTurnsTheView) {
+    stage.click(stage.pixel(vertex));
+    EXPECT_EQ(stage.state.gestures.take_probed(), vertex);
+    EXPECT_EQ(stage.scene().n_handles(), 0);
+    const Eigen::Vector3d before = stage.state.camera.eye();
+    stage.drag(stage.pixel(vertex), stage.pixel(vertex) + Eigen::Vector2d(60, 0));
+    EXPECT_FALSE(stage.state.gestures.take_probed());
+    EXPECT_FALSE(stage.state.camera.eye().isApprox(before));
+}
+
+TEST_F(Probing, TellsTrueDisplacementsWhateverThePictureScales) {
+    const int handle = stage.scene().add_handle(std::vector{vertex});
+    stage.scene().set_motion(handle, AffineMotion{.translate = {0.1, 0.2, -0.3}});
+    stage.state.display.field = Field::displacement;
+    for (const double scale : {1.0, 3.0}) {
+        stage.state.display.deformation_scale = scale;
+        stage.settle();
+        const ProbeValue value = probe(vertex, stage.scene().mesh().vertices, body(), scale);
+        EXPECT_TRUE(value.displacement.isApprox(Eigen::Vector3d(0.1, 0.2, -0.3), 1e-12));
+        ASSERT_TRUE(value.field);
+        EXPECT_NEAR(*value.field, std::sqrt(0.14), 1e-6);
+    }
+}
+
+TEST_F(Probing, KeepsARowForEachChange) {
+    stage.state.probes.toggle(vertex);
+    record(0.0);
+    record(1.0);  // nothing changed
+    EXPECT_EQ(stage.state.probes.n_samples(), 1u);
+    const int handle = stage.scene().add_handle(std::vector{vertex});
+    stage.scene().set_motion(handle, AffineMotion{.translate = {0.25, 0.0, 0.0}});
+    stage.settle();
+    record(2.0);
+    EXPECT_EQ(stage.state.probes.series(0), (std::vector{0.0f, 0.25f}));
+    const test::TemporaryFolder folder;
+    stage.state.save_probes(folder.path() / "probes.csv");
+    std::ifstream file(folder.path() / "probes.csv");
+    std::string head, first, second, more;
+    std::getline(file, head), std::getline(file, first), std::getline(file, second);
+    EXPECT_EQ(head, "time_s,field,vertex,x,y,z,ux,uy,uz,value");
+    EXPECT_TRUE(first.starts_with("0,," + std::to_string(vertex) + ",1,"));
+    EXPECT_TRUE(second.ends_with(",0.25,0,0,"));
+    EXPECT_FALSE(std::getline(file, more));
+    stage.state.probes.toggle(vertex);
+    EXPECT_TRUE(stage.state.probes.vertices().empty());
+}
+
+}  // namespace
+}  // namespace elastolab
