@@ -141,6 +141,9 @@ void Gui::feed(const InputEvent& event) {
             break;
         case InputEvent::Kind::key:
             if (code < std::size(io.KeysDown)) io.KeysDown[code] = event.pressed;
+            // Dear ImGui chooses an entry of a menu by Space alone.
+            if (event.code == GLFW_KEY_ENTER && (!event.pressed || (popup_was_open_ && !wants_text())))
+                io.KeysDown[GLFW_KEY_SPACE] = event.pressed;
             break;
         case InputEvent::Kind::text:
             io.AddInputCharacter(static_cast<unsigned>(event.code));
