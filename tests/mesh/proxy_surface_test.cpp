@@ -147,6 +147,17 @@ TEST(ProxySurface, ASmallHoleIsClosedAndASheetGetsAThickness) {
     EXPECT_LT(wall.thickness, 0.2);
 }
 
+/// A search among thousands of triangles in one place takes minutes.
+TEST(ProxySurface, TrianglesThatRepeatOthersChangeNothing) {
+    const SurfaceMesh once = sheet(3);
+    SurfaceMesh often = once;
+    constexpr int kTimes = 2000;
+    often.triangles = once.triangles.replicate(1, kTimes);
+    for (int t = once.n_triangles(); t < often.n_triangles(); t += 2)
+        std::swap(often.triangles(0, t), often.triangles(1, t));
+    EXPECT_EQ(proxy_of(often, 200).surface.vertices, proxy_of(once, 200).surface.vertices);
+}
+
 TEST(ProxySurface, SeveralSizesAtOnceAreOfOneBody) {
     const CheckedMesh checked = check_and_repair(sphere_with_hole(16));
     Control control;

@@ -1,8 +1,10 @@
 #include "mesh/wrap/proxy_surface.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <Eigen/Geometry>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -34,15 +36,44 @@ struct Frame {
     double scale;
 };
 
-/// The triangles that can be wrapped: of finite corners, with some area.
+using Corners = std::array<std::array<double, 3>, 3>;
+
+/// The corners of a triangle in an order that does not depend on where it begins and which side it shows.
+Corners sorted_corners(const TrianglePoints& p) {
+    Corners corners;
+    const Eigen::Vector3d* points[3] = {&p.a, &p.b, &p.c};
+    for (std::size_t i = 0; i < 3; ++i) corners[i] = {points[i]->x(), points[i]->y(), points[i]->z()};
+    std::sort(corners.begin(), corners.end());
+    return corners;
+}
+
+std::size_t hash_of(const Corners& corners) {
+    std::size_t hash = 0;
+    for (const auto& corner : corners)
+        for (const double x : corner) hash = 31 * hash + std::hash<double>()(x);
+    return hash;
+}
+
+bool is_finite(const TrianglePoints& p) {
+    return ((p.a.cwiseAbs().cwiseMax(p.b.cwiseAbs()).cwiseMax(p.c.cwiseAbs())).array() <= kLargestCoordinate).all();
+}
+
+/// The triangles that can be wrapped: of finite corners, and each once, since a search tree finds no way among
+/// thousands in one place.
 SurfaceMesh solid_triangles(const SurfaceMesh& shown) {
+    std::vector<std::pair<std::size_t, int>> by_hash;
+    for (int t = 0; t < shown.n_triangles(); ++t)
+        if (const TrianglePoints p = triangle_points(shown, t); is_finite(p))
+            by_hash.emplace_back(hash_of(sorted_corners(p)), t);
+    std::sort(by_hash.begin(), by_hash.end());
     std::vector<int> kept;
-    for (int t = 0; t < shown.n_triangles(); ++t) {
-        const TrianglePoints p = triangle_points(shown, t);
-        const bool finite =
-            ((p.a.cwiseAbs().cwiseMax(p.b.cwiseAbs()).cwiseMax(p.c.cwiseAbs())).array() <= kLargestCoordinate).all();
-        if (finite) kept.push_back(t);
+    for (std::size_t i = 0; i < by_hash.size(); ++i) {
+        const bool repeats = i > 0 && by_hash[i].first == by_hash[i - 1].first &&
+                             sorted_corners(triangle_points(shown, by_hash[i].second)) ==
+                                 sorted_corners(triangle_points(shown, by_hash[i - 1].second));
+        if (!repeats) kept.push_back(by_hash[i].second);
     }
+    std::sort(kept.begin(), kept.end());
     SurfaceMesh mesh{shown.vertices, shown.triangles(Eigen::all, kept)};
     for (int v = 0; v < mesh.n_vertices(); ++v)
         if (!(mesh.vertices.col(v).array().abs() <= kLargestCoordinate).all()) mesh.vertices.col(v).setZero();
@@ -98,7 +129,8 @@ private:
                 damaged.push_back(t);
         }
         if (damaged.empty())
-            for (const auto& [a, b] : find_crossing_pairs(moved_, CrossingSearch::all, control_).pairs) damaged.insert(damaged.end(), {a, b});
+            for (const auto& [a, b] : find_crossing_pairs(moved_, CrossingSearch::all, control_).pairs)
+                damaged.insert(damaged.end(), {a, b});
         for (const int t : damaged)
             for (const int v : wrap_.triangles.col(t)) moved_.vertices.col(v) = wrap_.vertices.col(v);
         return !damaged.empty();
@@ -192,7 +224,8 @@ std::vector<ProxySurface> make_proxy_surfaces(const SurfaceMesh& shown, const Me
     const Frame frame = to_unit_size(triangles);
     const HoleCaps capped = cap_holes(triangles);
     std::vector<ProxySurface> proxies;
-    if (const auto sound = sound_surface(capped.closed, report, control)) proxies = collapsed_to(*sound, sizes, control);
+    if (const auto sound = sound_surface(capped.closed, report, control))
+        proxies = collapsed_to(*sound, sizes, control);
     if (proxies.empty()) proxies = wrapped(capped.closed, sizes, control);
     for (ProxySurface& proxy : proxies) {
         proxy.n_capped_holes = capped.n_holes;
