@@ -107,8 +107,8 @@ Outcome Subject::solve(const std::string& scene, std::size_t variant) {
     const std::string mesh = kMeshes[variant % kMeshes.size()];
     const std::vector<std::string> outputs = {"displacements.csv", "forces.csv", "report.json", mesh};
     for (const std::string& output : outputs) fs::remove(folder_ / output);
-    std::vector<std::string> arguments = {"solve",           scene,        "--proxy",  "never",    "--quiet",
-                                          "--displacements", outputs[0],   "--forces", outputs[1], "--report",
+    std::vector<std::string> arguments = {"solve",           scene,        "--proxy-vertices", "100",      "--quiet",
+                                          "--displacements", outputs[0],   "--forces",         outputs[1], "--report",
                                           outputs[2],        "--mesh-out", outputs[3]};
     arguments.insert(arguments.end(), variants()[variant].begin(), variants()[variant].end());
     Outcome outcome = execute(arguments);
