@@ -14,8 +14,12 @@ namespace elastolab {
 enum class Tool { pull, brush, box, probe };
 enum class Release { pin, spring_back };
 
+/// How the cursor moves what is pulled: in the plane of the screen, along a direction, or otherwise.
+enum class PullMode { plane, normal, axis_x, axis_y, axis_z, turn, scale };
+
 struct ToolSettings {
     Tool tool = Tool::pull;
+    PullMode pull_mode = PullMode::plane;  ///< where no key asks for another
     Release release = Release::pin;
     double patch_radius = 0.0;   ///< [L]; 0: a single vertex
     double brush_pixels = 24.0;  ///< radius on the screen

@@ -87,7 +87,6 @@ private:
 
     /// Whether the press made the handle, so that a mere click takes it away again.
     enum class Grabbed { present_handle, new_handle };
-    enum class PullMode { plane, normal, axis_x, axis_y, axis_z, turn, scale };
     struct Pull {
         int handle = -1;
         Grabbed grabbed = Grabbed::present_handle;
@@ -116,7 +115,7 @@ private:
     void remove_pulled(GestureContext& context);
     void set_baseline(GestureContext& context);
     void pull(GestureContext& context);
-    PullMode pull_mode() const;
+    PullMode pull_mode(const ToolSettings& tools) const;
     Eigen::Vector3d pull_shift(const GestureContext& context) const;
     void end_pull(GestureContext& context);
     void paint(GestureContext& context);

@@ -47,7 +47,7 @@ void Gestures::begin_pull(GestureContext& context, int handle, Grabbed grabbed, 
 
 /// What is shown may lag behind while a new handle is prepared: the place follows from the motion since the last one.
 void Gestures::set_baseline(GestureContext& context) {
-    pull_.mode = pull_mode();
+    pull_.mode = pull_mode(context.tools);
     pull_.cursor = cursor_;
     const Eigen::Vector3d x = context.scene.mesh().vertices.col(pull_.vertex);
     const Motion& motion = context.scene.document().handles[static_cast<std::size_t>(pull_.handle)].motion;
@@ -55,7 +55,7 @@ void Gestures::set_baseline(GestureContext& context) {
     pull_.motion = motion;
 }
 
-Gestures::PullMode Gestures::pull_mode() const {
+PullMode Gestures::pull_mode(const ToolSettings& tools) const {
     const auto held = [&](int key) { return std::find(held_keys_.begin(), held_keys_.end(), key) != held_keys_.end(); };
     if (held(GLFW_KEY_X)) return PullMode::axis_x;
     if (held(GLFW_KEY_Y)) return PullMode::axis_y;
@@ -63,7 +63,7 @@ Gestures::PullMode Gestures::pull_mode() const {
     if (held(GLFW_KEY_R) || (modifiers_ & GLFW_MOD_CONTROL) != 0) return PullMode::turn;
     if (held(GLFW_KEY_S) || (modifiers_ & GLFW_MOD_ALT) != 0) return PullMode::scale;
     if ((modifiers_ & GLFW_MOD_SHIFT) != 0) return PullMode::normal;
-    return PullMode::plane;
+    return tools.pull_mode;
 }
 
 /// How far the vertex is to go, as shown.
@@ -79,7 +79,7 @@ Eigen::Vector3d Gestures::pull_shift(const GestureContext& context) const {
 }
 
 void Gestures::pull(GestureContext& context) {
-    if (pull_mode() != pull_.mode) set_baseline(context);
+    if (pull_mode(context.tools) != pull_.mode) set_baseline(context);
     if (!pull_.moved && (cursor_ - press_cursor_).norm() < kClickPixels) return;
     pull_.moved = true;
     const std::span<const int> vertices = context.scene.vertices(pull_.handle);

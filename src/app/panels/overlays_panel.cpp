@@ -186,6 +186,11 @@ void draw_probe_marks(const PanelContext& context, ImDrawList& list, const Scene
     const ViewerState& state = context.state;
     const ShownBody* body = state.shown.body(viewport.kinds.front());
     if (body == nullptr) return;
+    if (state.display.arrows)
+        for (const ShownReaction& reaction : body->reactions())
+            draw_mark(context, list, viewport.place, reaction.place,
+                      reaction.name == "fixed" ? context.palette.fixed : context.palette.handle,
+                      reaction.name + ": force " + number_text(reaction.force.norm()));
     if (state.display.extremes) draw_largest(context, list, viewport.place, *body);
     const Positions& rest = state.scene().mesh().vertices;
     const auto value_at = [&](int vertex) { return probe(vertex, rest, *body, state.display.deformation_scale); };

@@ -9,6 +9,15 @@ namespace elastolab {
 
 namespace {
 
+constexpr std::array<Choice<PullMode>, 7> kPullModes = {
+    {{PullMode::plane, "in the screen", "Follows the cursor in the plane of the screen."},
+     {PullMode::normal, "along the normal", "Along the normal of the surface; also with Shift."},
+     {PullMode::axis_x, "along x", "Also with X held down."},
+     {PullMode::axis_y, "along y", "Also with Y held down."},
+     {PullMode::axis_z, "along z", "Also with Z held down."},
+     {PullMode::turn, "turn", "Turns what is pulled about its middle; also with Ctrl or R."},
+     {PullMode::scale, "scale", "Up larger, down smaller; also with Alt or S."}}};
+
 void draw_tools(ViewerState& state, float scale) {
     const auto tool = [&](const char* label, Tool value, const char* explanation) {
         if (ImGui::RadioButton(label, state.tools.tool == value)) state.tools.tool = value;
@@ -24,7 +33,10 @@ void draw_tools(ViewerState& state, float scale) {
     if (ImGui::GetContentRegionAvail().x < ImGui::CalcTextSize("probe").x + 2.0f * ImGui::GetFrameHeight())
         ImGui::NewLine();
     tool("probe", Tool::probe, "I: shows the values at the vertex under the cursor; a click keeps it (see Probes).");
-    if (state.tools.tool == Tool::brush) {
+    if (state.tools.tool == Tool::pull) {
+        set_item_width(scale);
+        choose<PullMode>("movement", state.tools.pull_mode, kPullModes);
+    } else if (state.tools.tool == Tool::brush) {
         slider("brush", state.tools.brush_pixels, 4.0, 120.0, "%.0f pixels", scale);
     } else if (state.tools.tool == Tool::box) {
         bool through = state.tools.box_reach == Reach::through;

@@ -73,6 +73,20 @@ TEST(Pull, WithAnAxisKeyGoesAlongThatAxis) {
     }
 }
 
+/// As chosen in the panel, for those who have no key at hand; a key still asks for another.
+TEST(Pull, GoesTheWayThatIsChosenInThePanel) {
+    Stage stage;
+    stage.state.tools.pull_mode = PullMode::axis_x;
+    const int v = top_vertex(stage);
+    const Eigen::Vector3d along_x(0.2, 0, 0), along_y(0, 0.1, 0);
+    stage.drag(stage.pixel(v), stage.pixel(stage.place(v) + along_x));
+    EXPECT_LT((stage.motion(0).translate - along_x).norm(), 1e-9);
+    stage.settle();
+    stage.key(GLFW_KEY_Y, true);
+    stage.drag(stage.pixel(v), stage.pixel(stage.place(v) + along_y));
+    EXPECT_LT((stage.motion(0).translate - along_x - along_y).norm(), 1e-9);
+}
+
 TEST(Pull, ForgetsAKeyThatWasLetGoOrLostWithTheFocus) {
     for (const bool focus : {false, true}) {
         Stage stage;
