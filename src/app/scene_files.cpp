@@ -39,9 +39,10 @@ LoadedScene load_scene_or_mesh(const fs::path& file, Control& control) {
     return {std::move(scene), up, {}};
 }
 
-void write_scene(const fs::path& file, const LiveScene& scene, MethodKind method) {
+void write_scene(const fs::path& file, const LiveScene& scene, MethodKind method, const ViewPoint& camera) {
     Document document = scene.document();
     document.method = method;
+    document.camera = camera;
     if (auto* mesh = std::get_if<MeshFile>(&document.mesh)) {
         const fs::path absolute = fs::absolute(scene.file().parent_path() / mesh->file).lexically_normal();
         const fs::path relative = absolute.lexically_relative(fs::absolute(file).parent_path());

@@ -19,8 +19,8 @@ struct LoadedScene {
 /// SceneError, MeshError, Cancelled.
 LoadedScene load_scene_or_mesh(const std::filesystem::path& file, Control& control);
 
-/// Writes the scene, with this method, in such a way that it finds its mesh from there. Throws Error.
-void write_scene(const std::filesystem::path& file, const LiveScene& scene, MethodKind method);
+/// Writes the scene, with this method and seen from there, in such a way that it finds its mesh. Throws Error.
+void write_scene(const std::filesystem::path& file, const LiveScene& scene, MethodKind method, const ViewPoint& camera);
 
 /// Writes the mesh of the scene, moved by `displacement` (3*n_vertices [L]; empty: at rest). Throws Error.
 void write_deformed_mesh(const std::filesystem::path& file, const LiveScene& scene,

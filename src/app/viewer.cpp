@@ -252,7 +252,7 @@ private:
     void arrange(const Layout& layout) {
         const std::size_t before = state_.shown.viewports.size();
         state_.shown.viewports = viewports_of(state_, layout.scene);
-        if (state_.shown.viewports.size() != before) state_.frame_body();
+        if (state_.shown.viewports.size() != before) state_.frame_in_viewports(before == 0);
     }
 
     void prepare_look() {

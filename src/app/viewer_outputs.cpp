@@ -2,6 +2,7 @@
 
 #include <exception>
 
+#include "app/picture/view_point.hpp"
 #include "base/error.hpp"
 
 namespace elastolab {
@@ -16,7 +17,8 @@ void write_outputs(const ViewerOptions& options, ViewerState& state, const std::
         }
     };
     const Eigen::VectorXd& displacement = state.simulation.answer(state.method).displacement();
-    if (!options.scene_out.empty()) attempt([&] { write_scene(options.scene_out, state.scene(), state.method); });
+    if (!options.scene_out.empty())
+        attempt([&] { write_scene(options.scene_out, state.scene(), state.method, view_point_of(state.camera)); });
     if (!options.mesh_out.empty()) attempt([&] { write_deformed_mesh(options.mesh_out, state.scene(), displacement); });
     if (state.measurements.timings) attempt([&] { state.measurements.timings->finish(); });
     if (state.measurements.recorder) attempt([&] { state.measurements.recorder->finish(); });

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "app/input/default_support.hpp"
+#include "app/picture/view_point.hpp"
 #include "app/viewer_state.hpp"
 #include "app/window/recent_files.hpp"
 
@@ -39,6 +40,7 @@ void ViewerState::open_now(const fs::path& file, Control& control) {
 void ViewerState::start_with(MethodKind kind) {
     method = kind;
     if (loading()) first_method_ = kind;
+    scene_->start_with(method, choices.settings());
 }
 
 void ViewerState::open_document(Document document, const fs::path& scene_file) {
@@ -83,19 +85,26 @@ void ViewerState::take_scene(LoadedScene loaded) {
     graph_ = std::make_unique<VertexGraph>(scene_->mesh());
     ++scene_number_;
     method = std::exchange(first_method_, std::nullopt).value_or(scene_->document().method);
+    scene_->start_with(method, choices.settings());
     tools.patch_radius = std::max(kPatchPart * diagonal(scene_->report()), kPatchEdges * scene_->report().mean_edge);
     shown.forget();
     camera.set_scene(frame_of(scene_->mesh().vertices));
-    camera.set_up_axis(loaded.up_axis);
-    camera.set_view(ViewDirection::isometric);
-    frame_body();
+    const std::optional<ViewPoint>& saved = scene_->document().camera;
+    has_saved_view_ = saved && can_see(*saved, camera.scene());
+    if (has_saved_view_) {
+        look_from(*saved, camera);
+    } else {
+        camera.set_up_axis(loaded.up_axis);
+        camera.set_view(ViewDirection::isometric);
+        frame_body();
+    }
     for (const Defect& defect : scene_->report().defects) messages.note(scene_->name() + ": " + defect.text);
 }
 
 bool ViewerState::save_scene(const fs::path& file) {
     finish_gesture();
     return attempt([&] {
-        write_scene(file, *scene_, method);
+        write_scene(file, *scene_, method, view_point_of(camera));
         scene_->mark_saved();
         scene_file_ = fs::absolute(file);
         owns_scene_file_ = true;

@@ -99,8 +99,11 @@ public:
     void remove_handle(int handle);
     void clear_handles();
     void set_young_modulus(double value);
-    void select_method(MethodKind kind) { method = kind; }
+    void select_method(MethodKind kind);
     void frame_body();
+    /// The number of viewports has changed: frames the body, but for the first time a scene is seen that was saved
+    /// with its camera.
+    void frame_in_viewports(bool first_time);
     /// Ends a gesture, so that an edit from elsewhere finds no half-done one.
     void finish_gesture();
     GestureContext gesture_context();
@@ -124,6 +127,8 @@ private:
     void begin_loading(const std::filesystem::path& file);
     void make_primitive_scene(const Primitive& primitive);
     void poll_loading();
+    void keep_method();
+    void take_method();
     void add_recent(const std::filesystem::path& file);
     /// False when it failed, which becomes a message.
     template <class Action>
@@ -134,7 +139,8 @@ private:
     std::uint64_t scene_number_ = 0;
     std::filesystem::path scene_file_;
     bool owns_scene_file_ = false;
-    bool simulated_ = false;  ///< something was computed already
+    bool has_saved_view_ = false;  ///< the scene was saved with its camera
+    bool simulated_ = false;       ///< something was computed already
     std::vector<std::filesystem::path> recent_;
     std::vector<int> prefetched_;
     std::filesystem::path pending_file_;  ///< that is being loaded, since the scene had this revision:
