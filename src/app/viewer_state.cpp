@@ -30,7 +30,7 @@ std::string recorded_name(MethodRunner::State state) {
 }  // namespace
 
 ViewerState::ViewerState(const std::function<void()>& wake)
-    : simulation(wake), shown(wake), recent_(load_recent_files()), load_job_(wake) {
+    : simulation(wake), shown(wake), recent_(load_recent_files()), load_job_(wake), export_job_(wake) {
     take_scene({.scene = std::make_unique<LiveScene>(default_document(), fs::path("cube.json")), .file = {}});
 }
 
@@ -76,6 +76,7 @@ void ViewerState::frame_in_viewports(bool first_time) {
 
 void ViewerState::cancel_workers() {
     load_job_.cancel();
+    export_job_.cancel();
     shown.cancel();
     simulation.cancel();
 }
@@ -196,12 +197,12 @@ void ViewerState::set_young_modulus(double value) {
 
 bool ViewerState::update_displacements() {
     poll_loading();
-    const bool has_new_volume = shown.poll_volume();
+    const bool has_exported = poll_export(), has_new_volume = shown.poll_volume();
     if (has_new_volume && !shown.volume_failure().empty()) messages.error(shown.volume_failure());
     keep_method();
-    if (loading() && !simulated_) return false;  // the default scene would be computed for nothing
+    if (loading() && !simulated_) return has_exported;  // the default scene would be computed for nothing
     simulated_ = true;
-    const bool changed = simulation.update(*scene_, needed_kinds(), choices) || has_new_volume;
+    const bool changed = simulation.update(*scene_, needed_kinds(), choices) || has_new_volume || has_exported;
     const std::vector<int>& patch = gestures.hover().patch;
     if (gestures.action() == Gestures::Action::none && !patch.empty() && patch != prefetched_)
         simulation.prefetch(scene_->constraints_with_handle(patch));

@@ -165,7 +165,7 @@ void SceneRenderer::draw_ground(const ViewerState& state, const SceneView& view,
 }
 
 void SceneRenderer::draw_viewport(const ViewerState& state, const SceneViewport& viewport, const Palette& palette,
-                                  double pixel_ratio) {
+                                  double pixel_ratio, bool with_axes) {
     const SceneView view(state.camera, viewport.place, pixel_ratio);
     const MethodKind solid = viewport.kinds.front();
     background_.draw(palette.background_top, palette.background_bottom);
@@ -189,7 +189,7 @@ void SceneRenderer::draw_viewport(const ViewerState& state, const SceneViewport&
                 {.colour = palette.body(viewport.kinds[i]).with_opacity(0.9f), .width = 1.3f, .hidden_opacity = 0.25f});
     main.points.draw(view, {.outline = palette.wire, .outline_width = 1.0f, .hidden_opacity = 0.12f});
     main.arrows.draw(view, {.width = 6.0f, .hidden_opacity = 0.5f});
-    gizmo_->draw(state.camera, viewport.place, gizmo_place(viewport.place), pixel_ratio);
+    if (with_axes) gizmo_->draw(state.camera, viewport.place, gizmo_place(viewport.place), pixel_ratio);
 }
 
 SceneRenderer::Look SceneRenderer::look_of(const ViewerState& state, const SceneViewport& viewport,

@@ -32,6 +32,12 @@ public:
     /// Copies the drawn viewports to the window of this size [framebuffer pixels].
     void show(const ViewerState& state, double pixel_ratio, const Eigen::Vector2i& framebuffer);
 
+    /// Draws one viewport without the axes to the framebuffer that is bound, to where glViewport() was set.
+    void draw_plain(const ViewerState& state, const SceneViewport& viewport, const Palette& palette,
+                    double pixel_ratio) {
+        draw_viewport(state, viewport, palette, pixel_ratio, false);
+    }
+
 private:
     /// What belongs to one method's body. Revisions tell what of it is on the card.
     struct BodyDrawing {
@@ -74,7 +80,7 @@ private:
     void upload_points(const ViewerState& state, const ShownBody& body, BodyDrawing& target, const Palette& palette);
     void upload_arrows(const ViewerState& state, const ShownBody& body, BodyDrawing& target, const Palette& palette);
     void draw_viewport(const ViewerState& state, const SceneViewport& viewport, const Palette& palette,
-                       double pixel_ratio);
+                       double pixel_ratio, bool with_axes = true);
     void draw_ground(const ViewerState& state, const SceneView& view, const Palette& palette);
     SurfaceStyle surface_style(const ViewerState& state, MethodKind kind, const Palette& palette) const;
 
