@@ -3,7 +3,9 @@
 #include <utility>
 #include <vector>
 
+#include "base/error.hpp"
 #include "mesh/input/export.hpp"
+#include "scene/field_export.hpp"
 #include "scene/file/scene_file.hpp"
 
 namespace elastolab {
@@ -39,22 +41,77 @@ LoadedScene load_scene_or_mesh(const fs::path& file, Control& control) {
     return {std::move(scene), up, {}};
 }
 
-void write_scene(const fs::path& file, const LiveScene& scene, MethodKind method) {
+LoadedScene load_autosaved(const fs::path& file, const fs::path& origin, Control& control) {
+    LoadedScene loaded;
+    loaded.scene = std::make_unique<LiveScene>(load_scene(file), origin.empty() ? "recovered.json" : origin, control);
+    loaded.file = origin;
+    loaded.recovered = true;
+    return loaded;
+}
+
+Document movable_document(const LiveScene& scene, MethodKind method, const ViewPoint& camera) {
     Document document = scene.document();
     document.method = method;
+    document.camera = camera;
+    if (auto* mesh = std::get_if<MeshFile>(&document.mesh))
+        mesh->file = fs::absolute(scene.file().parent_path() / mesh->file).lexically_normal().string();
+    return document;
+}
+
+void write_scene(const fs::path& file, const LiveScene& scene, MethodKind method, const ViewPoint& camera) {
+    Document document = movable_document(scene, method, camera);
     if (auto* mesh = std::get_if<MeshFile>(&document.mesh)) {
-        const fs::path absolute = fs::absolute(scene.file().parent_path() / mesh->file).lexically_normal();
-        const fs::path relative = absolute.lexically_relative(fs::absolute(file).parent_path());
-        mesh->file = relative.empty() ? absolute.string() : relative.string();
+        const fs::path relative = fs::path(mesh->file).lexically_relative(fs::absolute(file).parent_path());
+        if (!relative.empty()) mesh->file = relative.string();
     }
     save_scene(file, document);
 }
 
-void write_deformed_mesh(const fs::path& file, const LiveScene& scene, const Eigen::VectorXd& displacement) {
-    SurfaceMesh mesh = scene.mesh();
-    if (displacement.size() == mesh.vertices.size())
-        mesh.vertices += Eigen::Map<const Eigen::Matrix3Xd>(displacement.data(), 3, displacement.size() / 3);
+ExportSource export_source(const LiveScene& scene, const EmbeddedRunner& answer) {
+    ExportSource source{.shown = scene.surface(),
+                        .proxy = nullptr,
+                        .deformer = nullptr,
+                        .values = {},
+                        .displacement = answer.displacement(),
+                        .simulated_displacement = {}};
+    const MethodRunner& runner = answer.runner();
+    if (!answer.has_answer() || !answer.shows(scene.mesh()) || !runner.solved()) return source;
+    if (answer.proxy() != nullptr) source.proxy = std::make_shared<const Proxy>(*answer.proxy());
+    source.deformer = runner.deformer();
+    source.values = runner.values();
+    source.simulated_displacement = runner.displacement();
+    return source;
+}
+
+namespace {
+
+void write_moved_mesh(const fs::path& file, const ExportSource& source) {
+    SurfaceMesh mesh = *source.shown;
+    if (source.displacement.size() == mesh.vertices.size())
+        mesh.vertices += Eigen::Map<const Eigen::Matrix3Xd>(source.displacement.data(), 3, mesh.vertices.cols());
     save_surface(file, mesh);
+}
+
+SolvedBody solved_body(const ExportSource& source) {
+    const ConstrainedSet& set = source.deformer->set();
+    SolvedBody solved{.shown = source.shown,
+                      .proxy = source.proxy,
+                      .model = std::shared_ptr<const Model>(source.deformer, &source.deformer->model()),
+                      .displacement = source.displacement,
+                      .simulated_displacement = source.simulated_displacement,
+                      .constrained = set.base,
+                      .forces = source.deformer->reactions(source.values).forces};
+    solved.constrained.insert(solved.constrained.end(), set.handles.begin(), set.handles.end());
+    return solved;
+}
+
+}  // namespace
+
+void write_export(const fs::path& file, const ExportSource& source, Control& control) {
+    if (source.deformer && is_field_file(file)) return save_field_file(file, solved_body(source), control);
+    if (is_field_file(file) && !(file.extension() == ".ply"))
+        throw Error(file.string() + ": there is no answer to write yet. Wait until the method is ready.");
+    write_moved_mesh(file, source);
 }
 
 Document default_document() {

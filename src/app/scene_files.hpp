@@ -4,6 +4,9 @@
 #include <filesystem>
 #include <memory>
 
+#include "base/control.hpp"
+#include "deform/deformer.hpp"
+#include "scene/live/embedded_runner.hpp"
 #include "scene/live/live_scene.hpp"
 
 namespace elastolab {
@@ -13,18 +16,34 @@ struct LoadedScene {
     std::unique_ptr<LiveScene> scene;
     Eigen::Vector3d up_axis = Eigen::Vector3d::UnitZ();  ///< which axis it has upward
     std::filesystem::path file;                          ///< that it can be saved over; empty for a bare mesh
+    bool recovered = false;                              ///< from a viewer that was killed: its changes are unsaved
 };
 
 /// Reads a scene file (.json), or a mesh, whose lowest part is held. Takes as long as the mesh is large. Throws
 /// SceneError, MeshError, Cancelled.
 LoadedScene load_scene_or_mesh(const std::filesystem::path& file, Control& control);
 
-/// Writes the scene, with this method, in such a way that it finds its mesh from there. Throws Error.
-void write_scene(const std::filesystem::path& file, const LiveScene& scene, MethodKind method);
+/// Reads a scene that was kept for a viewer which did not end as it should; `origin`: the file that it belongs to.
+LoadedScene load_autosaved(const std::filesystem::path& file, const std::filesystem::path& origin, Control& control);
 
-/// Writes the mesh of the scene, moved by `displacement` (3*n_vertices [L]; empty: at rest). Throws Error.
-void write_deformed_mesh(const std::filesystem::path& file, const LiveScene& scene,
-                         const Eigen::VectorXd& displacement);
+/// The scene as it is to be kept, whatever folder it is read from: the name of its mesh is absolute.
+Document movable_document(const LiveScene& scene, MethodKind method, const ViewPoint& camera);
+
+/// Writes the scene, with this method and seen from there, in such a way that it finds its mesh. Throws Error.
+void write_scene(const std::filesystem::path& file, const LiveScene& scene, MethodKind method, const ViewPoint& camera);
+
+/// The answer of a method as it is now, to be written while the scene goes on.
+struct ExportSource {
+    std::shared_ptr<const SurfaceMesh> shown;
+    std::shared_ptr<const Proxy> proxy;        ///< null: shown itself is simulated
+    std::shared_ptr<const Deformer> deformer;  ///< null: there is no answer yet
+    Eigen::VectorXd values, displacement, simulated_displacement;
+};
+ExportSource export_source(const LiveScene& scene, const EmbeddedRunner& answer);
+
+/// Writes the moved mesh or what else the ending of `file` stands for (scene/field_export.hpp); solves for the
+/// reactions where fields need them. A mesh is written at rest where there is no answer. Throws Error, Cancelled.
+void write_export(const std::filesystem::path& file, const ExportSource& source, Control& control);
 
 /// The scene that the viewer begins with: the paper's cube of about 1000 vertices, its left face fixed.
 Document default_document();

@@ -1,17 +1,22 @@
 #include "app/viewer.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <memory>
 #include <thread>
 #include <utility>
 
+#include "app/autosave.hpp"
 #include "app/input/interaction_log.hpp"
 #include "app/input/shortcuts.hpp"
 #include "app/panels/gui.hpp"
 #include "app/panels/layout.hpp"
 #include "app/panels/panels.hpp"
 #include "app/picture/palette.hpp"
+#include "app/picture/scene_picture.hpp"
 #include "app/picture/scene_renderer.hpp"
+#include "app/picture/turntable.hpp"
+#include "app/picture/view_point.hpp"
 #include "app/viewer_outputs.hpp"
 #include "app/viewer_state.hpp"
 #include "app/window/window.hpp"
@@ -50,15 +55,18 @@ public:
                    .height = window_size().y(),
                    .visible = !options.hidden}),
           gui_(window_),
-          state_([] { Window::wake(); }) {
+          state_([] { Window::wake(); }),
+          turntable_([] { Window::wake(); }),
+          autosave_([] { Window::wake(); }) {
         if (options.n_frames > 0 || options.hidden) window_.disable_vsync();
         if (nobody_watches() || !options.scene_out.empty()) state_.unsaved.never_ask();  // that keeps the changes
         if (!options.timings.empty()) state_.measurements.timings = std::make_unique<TimingsRecorder>(options.timings);
         if (!options.record.empty())
             state_.measurements.recorder = std::make_unique<InteractionRecorder>(options.record, window_.size());
-        for (const std::filesystem::path& file : {options.screenshot, options.scene_out, options.mesh_out})
+        for (const std::filesystem::path& file : {options.screenshot, options.picture, options.scene_out, options.mesh_out})
             if (!file.empty()) AtomicFile::require_writable(file);
         open_input();
+        if (!nobody_watches()) state_.recoverable = find_autosaved();
     }
 
     void run() {
@@ -66,9 +74,12 @@ public:
             window_.wait(timeout());
             control_.checkpoint();
             if (must_draw()) draw_frame();
+            keep_scene();
         }
         draw_last_picture();
+        write_pictures();
         write_outputs(options_, state_, picture_);
+        autosave_.clear();
         end_workers();
     }
 
@@ -110,13 +121,30 @@ private:
     }
 
     double timeout() const {
+        if (turntable_.running()) return 0.0;
         if (held_back()) return kProgressSeconds;
         if (options_.n_frames > 0 || pending_frames_ > 0 || !queue_.empty()) return 0.0;
         if (replay_ && !replay_->done() && !state_.simulation.busy()) return 0.0;
         if (computing() || state_.simulation.busy()) return kProgressSeconds;
         if (state_.simulation.checking()) return kCheckSeconds;
         if (message_seconds_ >= 0.0) return std::max(message_seconds_, 0.01);
-        return gui_.wants_text() ? kCaretSeconds : -1.0;
+        const double keeping = autosave_.due_in(Window::seconds());
+        if (!gui_.wants_text()) return keeping;
+        return keeping < 0.0 ? kCaretSeconds : std::min(kCaretSeconds, keeping);
+    }
+
+    /// A copy of what is not saved, for the case that this process is killed.
+    void keep_scene() {
+        if (nobody_watches()) return;
+        if (std::optional<AutosavedScene> recovered = state_.take_recovered()) autosave_.adopt(std::move(*recovered));
+        autosave_.update({.revision = state_.scene().revision() + (state_.scene_number() << 32),
+                          .modified = state_.scene().modified(),
+                          .origin = state_.scene_file(),
+                          .document =
+                              [this] {
+                                  return movable_document(state_.scene(), state_.method, view_point_of(state_.camera));
+                              }},
+                         Window::seconds());
     }
 
     bool must_draw() {
@@ -126,6 +154,7 @@ private:
             state_.open(file);
             pending_frames_ = kSettlingFrames;  // for the question that it may raise
         }
+        if (turntable_.poll(state_) || turntable_.running()) pending_frames_ = kSettlingFrames;
         const bool damaged = window_.take_damage();
         if (!queue_.empty() || damaged || state_.simulation.busy() || computing()) pending_frames_ = kSettlingFrames;
         if (message_seconds_ >= 0.0 || gui_.wants_text()) pending_frames_ = std::max(pending_frames_, 1);
@@ -246,6 +275,7 @@ private:
         gui_.end();
         times.gui_ms += 1e3 * part.seconds();
         take_screenshots();
+        take_pictures();
         window_.swap_buffers();
         times.frame_ms = 1e3 * whole.seconds();
         end_frame(times, now);
@@ -255,7 +285,7 @@ private:
     void arrange(const Layout& layout) {
         const std::size_t before = state_.shown.viewports.size();
         state_.shown.viewports = viewports_of(state_, layout.scene);
-        if (state_.shown.viewports.size() != before) state_.frame_body();
+        if (state_.shown.viewports.size() != before) state_.frame_in_viewports(before == 0);
     }
 
     void prepare_look() {
@@ -286,6 +316,38 @@ private:
         }
     }
 
+    /// What was asked for, and one frame of a turntable.
+    void take_pictures() {
+        if (std::exchange(state_.requests.stop_pictures, false)) {
+            turntable_.stop();
+            state_.pictures_under_way.reset();
+        }
+        try {
+            if (const auto request = std::exchange(state_.requests.picture, std::nullopt)) take_picture(*request);
+            if (turntable_.running()) turntable_.step(renderer_, state_, palette());
+        } catch (const Error& error) {
+            state_.messages.error(error.what());
+        }
+        bind_window(window_.framebuffer_size().x(), window_.framebuffer_size().y());
+    }
+
+    void take_picture(const PictureRequest& request) {
+        if (request.n_frames > 0) return turntable_.start(request);
+        write_picture(request.file, renderer_, state_, palette(), request.size, request.transparent);
+        state_.messages.note("Saved " + request.file.string());
+    }
+
+    /// Those of the command line, at the end.
+    void write_pictures() {
+        if (options_.picture.empty()) return;
+        const PictureRequest request{.file = options_.picture,
+                                     .size = options_.picture_size,
+                                     .transparent = options_.transparent,
+                                     .n_frames = options_.turntable_frames};
+        take_picture(request);
+        while (turntable_.running()) turntable_.step(renderer_, state_, palette());
+    }
+
     void end_frame(const FrameTimes& times, double now) {
         state_.measurements.last_frame = times;
         state_.measurements.history.add(times);
@@ -314,10 +376,11 @@ private:
     /// A worker inside a library call that cannot be interrupted must not keep a closed window's process alive:
     /// everything that was to be written is.
     void end_workers() {
+        turntable_.stop();
         state_.cancel_workers();
         window_.hide();
         const Stopwatch waiting;
-        while (state_.stopping() && waiting.seconds() < kPatienceSeconds)
+        while ((state_.stopping() || turntable_.working()) && waiting.seconds() < kPatienceSeconds)
             std::this_thread::sleep_for(std::chrono::milliseconds(5));
         if (state_.stopping()) std::_Exit(EXIT_SUCCESS);
     }
@@ -330,6 +393,8 @@ private:
     ViewerState state_;
     SceneRenderer renderer_;
     Panels panels_;
+    Turntable turntable_;
+    Autosave autosave_;
     std::vector<InputEvent> queue_;
     int pending_frames_ = kSettlingFrames;
     double last_frame_seconds_ = 0.0, message_seconds_ = -1.0;

@@ -2,6 +2,7 @@
 
 #include <exception>
 
+#include "app/picture/view_point.hpp"
 #include "base/error.hpp"
 
 namespace elastolab {
@@ -15,9 +16,14 @@ void write_outputs(const ViewerOptions& options, ViewerState& state, const std::
             if (!failure) failure = std::current_exception();
         }
     };
-    const Eigen::VectorXd& displacement = state.simulation.answer(state.method).displacement();
-    if (!options.scene_out.empty()) attempt([&] { write_scene(options.scene_out, state.scene(), state.method); });
-    if (!options.mesh_out.empty()) attempt([&] { write_deformed_mesh(options.mesh_out, state.scene(), displacement); });
+    Control never_cancelled;
+    if (!options.scene_out.empty())
+        attempt([&] { write_scene(options.scene_out, state.scene(), state.method, view_point_of(state.camera)); });
+    if (!options.mesh_out.empty())
+        attempt([&] {
+            write_export(options.mesh_out, export_source(state.scene(), state.simulation.answer(state.method)),
+                         never_cancelled);
+        });
     if (state.measurements.timings) attempt([&] { state.measurements.timings->finish(); });
     if (state.measurements.recorder) attempt([&] { state.measurements.recorder->finish(); });
     if (!options.screenshot.empty())

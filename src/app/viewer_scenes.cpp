@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "app/input/default_support.hpp"
+#include "app/picture/view_point.hpp"
 #include "app/viewer_state.hpp"
 #include "app/window/recent_files.hpp"
 
@@ -25,7 +26,25 @@ void ViewerState::open(const fs::path& file) {
     unsaved.guard(scene_->modified(), [this, file] { begin_loading(file); });
 }
 
+void ViewerState::recover() {
+    if (recoverable.empty()) return;
+    recovering_ = std::move(recoverable.front());
+    recoverable.erase(recoverable.begin());
+    load_job_.start([file = recovering_->file, origin = recovering_->origin](Control& control) {
+        return std::make_shared<LoadedScene>(load_autosaved(file, origin, control));
+    });
+    pending_file_ = recovering_->origin;
+    revision_at_open_ = scene_->revision();
+}
+
+void ViewerState::discard_recoverable() {
+    if (recoverable.empty()) return;
+    recoverable.front().remove();
+    recoverable.erase(recoverable.begin());
+}
+
 void ViewerState::begin_loading(const fs::path& file) {
+    recovering_.reset();  // another one is wanted now; it is offered again at the next start
     load_job_.start(
         [file](Control& control) { return std::make_shared<LoadedScene>(load_scene_or_mesh(file, control)); });
     pending_file_ = file;
@@ -40,6 +59,7 @@ void ViewerState::open_now(const fs::path& file, Control& control) {
 void ViewerState::start_with(MethodKind kind) {
     method = kind;
     if (loading()) first_method_ = kind;
+    scene_->start_with(method, choices.settings());
 }
 
 void ViewerState::open_document(Document document, const fs::path& scene_file) {
@@ -84,33 +104,40 @@ void ViewerState::take_scene(LoadedScene loaded) {
     graph_ = std::make_unique<VertexGraph>(scene_->mesh());
     ++scene_number_;
     method = std::exchange(first_method_, std::nullopt).value_or(scene_->document().method);
+    scene_->start_with(method, choices.settings());
     tools.patch_radius = std::max(kPatchPart * diagonal(scene_->report()), kPatchEdges * scene_->report().mean_edge);
     shown.forget();
     probes.clear();
     display.wireframe = scene_->mesh().n_vertices() <= kDenseVertices;
     camera.set_scene(frame_of(scene_->mesh().vertices));
-    camera.set_up_axis(loaded.up_axis);
-    camera.set_view(ViewDirection::isometric);
-    frame_body();
+    const std::optional<ViewPoint>& saved = scene_->document().camera;
+    has_saved_view_ = saved && can_see(*saved, camera.scene());
+    if (loaded.recovered) scene_->mark_unsaved();
+    if (has_saved_view_) {
+        look_from(*saved, camera);
+    } else {
+        camera.set_up_axis(loaded.up_axis);
+        camera.set_view(ViewDirection::isometric);
+        frame_body();
+    }
     for (const Defect& defect : scene_->report().defects) messages.note(scene_->name() + ": " + defect.text);
+}
+
+void ViewerState::take_loaded(LoadedScene loaded, const fs::path& file) {
+    if (loaded.recovered) recovered_ = std::exchange(recovering_, std::nullopt);
+    take_scene(std::move(loaded));
+    add_recent(file);
 }
 
 bool ViewerState::save_scene(const fs::path& file) {
     finish_gesture();
     return attempt([&] {
-        write_scene(file, *scene_, method);
+        write_scene(file, *scene_, method, view_point_of(camera));
         scene_->mark_saved();
         scene_file_ = fs::absolute(file);
         owns_scene_file_ = true;
         add_recent(file);
         messages.note("Saved " + file.string());
-    });
-}
-
-void ViewerState::export_mesh(const fs::path& file) {
-    attempt([&] {
-        write_deformed_mesh(file, *scene_, simulation.answer(method).displacement());
-        messages.note("Exported " + file.string());
     });
 }
 
@@ -133,13 +160,13 @@ void ViewerState::poll_loading() {
             // What was changed while it was being loaded counts, too.
             unsaved.guard(scene_->modified() && scene_->revision() != revision_at_open_,
                           [this, loaded = load_job_.take(), file = pending_file_] {
-                              take_scene(std::move(*loaded));
-                              add_recent(file);
+                              take_loaded(std::move(*loaded), file);
                           });
             break;
         case JobEvent::failed:
             messages.error(load_job_.failure());
             first_method_.reset();
+            recovering_.reset();
             break;
         case JobEvent::cancelled:
             first_method_.reset();

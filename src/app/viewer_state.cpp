@@ -30,7 +30,7 @@ std::string recorded_name(MethodRunner::State state) {
 }  // namespace
 
 ViewerState::ViewerState(const std::function<void()>& wake)
-    : simulation(wake), shown(wake), recent_(load_recent_files()), load_job_(wake) {
+    : simulation(wake), shown(wake), recent_(load_recent_files()), load_job_(wake), export_job_(wake) {
     take_scene({.scene = std::make_unique<LiveScene>(default_document(), fs::path("cube.json")), .file = {}});
 }
 
@@ -70,8 +70,13 @@ void ViewerState::frame_body() {
     camera.fit(points, shown.viewports.empty() ? 1.3 : shown.viewports.front().place.aspect());
 }
 
+void ViewerState::frame_in_viewports(bool first_time) {
+    if (!first_time || !has_saved_view_) frame_body();
+}
+
 void ViewerState::cancel_workers() {
     load_job_.cancel();
+    export_job_.cancel();
     shown.cancel();
     simulation.cancel();
 }
@@ -115,15 +120,37 @@ void ViewerState::finish_gesture() {
     gestures.finish(context);
 }
 
+/// What was chosen of the method becomes a step of the scene's history, wherever it was chosen.
+void ViewerState::keep_method() {
+    const Document& document = scene_->document();
+    if (document.method == method && document.settings == choices.settings()) return;
+    scene_->set_method(method, choices.settings());
+    if (gestures.action() == Gestures::Action::none) scene_->commit();  // else the gesture's own step has it
+}
+
+void ViewerState::select_method(MethodKind kind) {
+    method = kind;
+    keep_method();
+}
+
+void ViewerState::take_method() {
+    method = scene_->document().method;
+    choices.set(scene_->document().settings);
+}
+
 void ViewerState::undo() {
     finish_gesture();
+    keep_method();
     if (scene_->can_undo()) scene_->undo();
+    take_method();
     gestures.select_handle(-1);
 }
 
 void ViewerState::redo() {
     finish_gesture();
+    keep_method();
     if (scene_->can_redo()) scene_->redo();
+    take_method();
     gestures.select_handle(-1);
 }
 
@@ -170,11 +197,12 @@ void ViewerState::set_young_modulus(double value) {
 
 bool ViewerState::update_displacements() {
     poll_loading();
-    const bool has_new_volume = shown.poll_volume();
+    const bool has_exported = poll_export(), has_new_volume = shown.poll_volume();
     if (has_new_volume && !shown.volume_failure().empty()) messages.error(shown.volume_failure());
-    if (loading() && !simulated_) return false;  // the default scene would be computed for nothing
+    keep_method();
+    if (loading() && !simulated_) return has_exported;  // the default scene would be computed for nothing
     simulated_ = true;
-    const bool changed = simulation.update(*scene_, needed_kinds(), choices) || has_new_volume;
+    const bool changed = simulation.update(*scene_, needed_kinds(), choices) || has_new_volume || has_exported;
     const std::vector<int>& patch = gestures.hover().patch;
     if (gestures.action() == Gestures::Action::none && !patch.empty() && patch != prefetched_)
         simulation.prefetch(scene_->constraints_with_handle(patch));

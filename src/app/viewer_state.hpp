@@ -4,8 +4,11 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "app/autosave.hpp"
 #include "app/input/gestures.hpp"
 #include "app/measurements.hpp"
 #include "app/panels/messages.hpp"
@@ -23,9 +26,23 @@
 
 namespace elastolab {
 
+/// A picture of the scene alone, or the frames of one turn around it.
+struct PictureRequest {
+    std::filesystem::path file = {};
+    Eigen::Vector2i size{1920, 1080};  ///< [pixels]
+    bool transparent = false;
+    int n_frames = 0;  ///< of a turntable; 0: a single picture
+    bool video = false;
+};
+struct PictureProgress {
+    int done = 0, wanted = 0;  ///< frames
+};
+
 /// What the window and the dialogs are asked to do.
 struct ViewerRequests {
     std::optional<std::filesystem::path> screenshot;
+    std::optional<PictureRequest> picture;
+    bool stop_pictures = false;
     bool quit = false;
     bool scene_name = false;  ///< the scene has no file yet: a name, then answer_unsaved(save)
 };
@@ -91,8 +108,15 @@ public:
     /// False when it could not be written.
     bool save_scene(const std::filesystem::path& file);
     void save_probes(const std::filesystem::path& file);
+    /// Writes a mesh, or fields, on a worker (write_export).
     void export_mesh(const std::filesystem::path& file);
     const std::vector<std::filesystem::path>& recent_files() const { return recent_; }
+    /// Scenes that viewers which were killed have left; recover() opens the first, unsaved as it was.
+    std::vector<AutosavedScene> recoverable;
+    void recover();
+    void discard_recoverable();
+    /// What was recovered, once it is open: the place that it is kept at goes to the one who keeps it from then on.
+    std::optional<AutosavedScene> take_recovered() { return std::exchange(recovered_, std::nullopt); }
     /// The method to begin with, for the scene that is there and the one that is being opened.
     void start_with(MethodKind kind);
 
@@ -102,13 +126,17 @@ public:
     void remove_handle(int handle);
     void clear_handles();
     void set_young_modulus(double value);
-    void select_method(MethodKind kind) { method = kind; }
+    void select_method(MethodKind kind);
     void frame_body();
+    /// The number of viewports has changed: frames the body, but for the first time a scene is seen that was saved
+    /// with its camera.
+    void frame_in_viewports(bool first_time);
     /// Ends a gesture, so that an edit from elsewhere finds no half-done one.
     void finish_gesture();
     GestureContext gesture_context();
 
     ViewerRequests requests;
+    std::optional<PictureProgress> pictures_under_way;
 
     // Frames.
     /// Takes over what workers finished and brings displacements, and then what is shown of them, up to date.
@@ -117,16 +145,20 @@ public:
     bool update_picture();
     bool loading() const { return load_job_.running(); }
     /// A worker will bring something for the picture.
-    bool waiting() const { return loading() || shown.cutting() || shown.solving() || simulation.waiting(); }
+    bool waiting() const { return loading() || export_job_.running() || shown.cutting() || shown.solving() || simulation.waiting(); }
     /// Stops all workers at their next checkpoints; stopping(): some have not stopped yet.
     void cancel_workers();
-    bool stopping() const { return load_job_.working() || shown.working() || simulation.stopping(); }
+    bool stopping() const { return load_job_.working() || export_job_.working() || shown.working() || simulation.stopping(); }
 
 private:
     void take_scene(LoadedScene loaded);
     void begin_loading(const std::filesystem::path& file);
+    void take_loaded(LoadedScene loaded, const std::filesystem::path& file);
     void make_primitive_scene(const Primitive& primitive);
     void poll_loading();
+    bool poll_export();
+    void keep_method();
+    void take_method();
     void add_recent(const std::filesystem::path& file);
     /// False when it failed, which becomes a message.
     template <class Action>
@@ -137,13 +169,17 @@ private:
     std::uint64_t scene_number_ = 0;
     std::filesystem::path scene_file_;
     bool owns_scene_file_ = false;
-    bool simulated_ = false;  ///< something was computed already
+    bool has_saved_view_ = false;  ///< the scene was saved with its camera
+    bool simulated_ = false;       ///< something was computed already
     std::vector<std::filesystem::path> recent_;
     std::vector<int> prefetched_;
     std::filesystem::path pending_file_;  ///< that is being loaded, since the scene had this revision:
     std::uint64_t revision_at_open_ = 0;
     std::optional<MethodKind> first_method_;
+    std::optional<AutosavedScene> recovering_, recovered_;
+    std::string export_note_;
     BackgroundJob<std::shared_ptr<LoadedScene>> load_job_;
+    BackgroundJob<bool> export_job_;
 };
 
 template <class Action>

@@ -24,13 +24,13 @@ namespace fs = std::filesystem;
 /// What the command line says, word for word.
 struct SolveOptions {
     std::string scene, method, mode, tractions, update;
-    std::string displacements, mesh_out, forces, report, matrices;
+    std::string displacements, fields, mesh_out, forces, report, matrices;
     std::string proxy;
     int proxy_vertices = 0;
     int threads = 0;
     bool quiet = false;
 
-    OutputPaths outputs() const { return {displacements, mesh_out, forces, report, matrices}; }
+    OutputPaths outputs() const { return {displacements, fields, mesh_out, forces, report, matrices}; }
 };
 
 void add_options(CLI::App& parser, SolveOptions& options) {
@@ -49,7 +49,12 @@ void add_options(CLI::App& parser, SolveOptions& options) {
                     "Eqn. 7 afresh, Eqn. 9, or its collapsed form (default: reduced; on-demand: direct)")
         ->check(updates);
     parser.add_option("--displacements", options.displacements, "CSV: rest positions and displacements")->check(path);
-    parser.add_option("--mesh-out", options.mesh_out, "deformed mesh: .obj, .ply or .stl")->check(path);
+    parser
+        .add_option("--mesh-out", options.mesh_out,
+                    "deformed mesh: .obj or .stl; with fields .ply, .vtp or .vtu (inside)")
+        ->check(path);
+    parser.add_option("--fields", options.fields, "CSV: displacement, stress and traction of every vertex")
+        ->check(path);
     parser.add_option("--forces", options.forces, "CSV: force and moment of every handle and the fixed part")
         ->check(path);
     parser.add_option("--report", options.report, "JSON: sizes, times, memory, accuracy, warnings")->check(path);
@@ -123,6 +128,7 @@ void run_solve(const SolveOptions& options) {
     request.solve_once = options.update.empty() && request.method.mode == Mode::on_demand;
     request.with_checks = !options.quiet || !options.report.empty();
     require_writable(options.outputs(), input_files(request));
+    require_inside(request.method.kind, options.mesh_out);
 
     Solution solution = solve_with_progress(request, control, !options.quiet);
     if (!options.tractions.empty() && !request.method.kind->chooses_tractions)

@@ -13,6 +13,8 @@
 #include "cli/npy.hpp"
 #include "cli/report.hpp"
 #include "mesh/input/export.hpp"
+#include "mesh/output/field_files.hpp"
+#include "scene/field_export.hpp"
 
 namespace elastolab {
 
@@ -22,9 +24,16 @@ namespace {
 
 std::vector<fs::path> files(const OutputPaths& paths) {
     std::vector<fs::path> result;
-    for (const fs::path& path : {paths.displacements, paths.mesh, paths.forces, paths.report})
+    for (const fs::path& path : {paths.displacements, paths.fields, paths.mesh, paths.forces, paths.report})
         if (!path.empty()) result.push_back(path);
     return result;
+}
+
+std::string lower_extension(const fs::path& file) {
+    std::string extension = file.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return std::tolower(c); });
+    return extension;
 }
 
 fs::path resolved(const fs::path& path) {
@@ -62,6 +71,8 @@ private:
 };
 
 void write_deformed_mesh(std::ostream& out, const fs::path& name, const Solution& solution) {
+    Control never_cancelled;
+    if (is_field_file(name)) return write_field_file(out, name, solved_body(solution), never_cancelled);
     SurfaceMesh mesh = *solution.surface;
     mesh.vertices += solution.displacement;
     write_surface(out, mesh, name);
@@ -118,11 +129,16 @@ void require_distinct(const std::vector<fs::path>& outputs, const std::vector<fs
 }
 
 void require_mesh_extension(const fs::path& mesh) {
-    std::string extension = mesh.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return std::tolower(c); });
-    if (extension != ".obj" && extension != ".ply" && extension != ".stl")
-        throw UsageError(mesh.string() + ": a mesh is written as .obj, .ply or .stl. Choose one of these extensions.");
+    const std::string extension = lower_extension(mesh);
+    if (extension != ".obj" && extension != ".stl" && (extension == ".csv" || !is_field_file(mesh)))
+        throw UsageError(mesh.string() +
+                         ": a mesh is written as .obj, .ply, .stl, .vtp or .vtu. Choose one of these extensions.");
+}
+
+void require_inside(MethodKind method, const fs::path& mesh) {
+    if (lower_extension(mesh) == ".vtu" && !method->has_inside)
+        throw UsageError(mesh.string() + ": " + std::string(name(method)) +
+                         " has no tetrahedra inside. Choose .vtp, or a method of finite elements.");
 }
 
 void require_writable(const OutputPaths& paths, const std::vector<fs::path>& inputs) {
@@ -138,6 +154,9 @@ void write_outputs(const OutputPaths& paths, const Solution& solution) {
     if (!paths.displacements.empty())
         write_displacements(outputs.add(paths.displacements).stream(), *solution.surface,
                             solution.displacement);
+    if (!paths.fields.empty())
+        write_field_csv(outputs.add(paths.fields).stream(), solution.surface->vertices,
+                        surface_fields(solved_body(solution)));
     if (!paths.mesh.empty()) write_deformed_mesh(outputs.add(paths.mesh).stream(), paths.mesh, solution);
     if (!paths.forces.empty()) write_forces(outputs.add(paths.forces).stream(), solution.reactions);
     if (!paths.matrices.empty()) write_matrices(outputs, paths.matrices, *solution.model);

@@ -10,7 +10,7 @@ namespace elastolab {
 
 /// Where solve writes; an empty path is an output that is not wanted.
 struct OutputPaths {
-    std::filesystem::path displacements, mesh, forces, report;
+    std::filesystem::path displacements, fields, mesh, forces, report;
     std::filesystem::path matrices;  ///< a folder, made when it is missing
 
     bool any() const;
@@ -26,6 +26,9 @@ void require_distinct(const std::vector<std::filesystem::path>& outputs,
 
 /// Throws UsageError when meshes are not written under this extension.
 void require_mesh_extension(const std::filesystem::path& mesh);
+
+/// Throws UsageError when this is a file of tetrahedra (.vtu) and the method has none.
+void require_inside(MethodKind method, const std::filesystem::path& mesh);
 
 /// Writes all outputs, then puts them in their places together: when one fails, none is there.
 void write_outputs(const OutputPaths& paths, const Solution& solution);

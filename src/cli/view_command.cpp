@@ -19,12 +19,12 @@ constexpr const char* kInterrupted = "Interrupted; no picture, scene or mesh was
 
 /// What the command line says, word for word.
 struct ViewWords {
-    std::string input, method, screenshot, timings, replay, record, scene_out, mesh_out, size;
-    int frames = 0, threads = 0;
-    bool hidden = false;
+    std::string input, method, screenshot, timings, replay, record, scene_out, mesh_out, size, picture, picture_size;
+    int frames = 0, threads = 0, turntable = 0;
+    bool hidden = false, transparent = false;
 };
 
-Eigen::Vector2i parse_size(const std::string& text) {
+Eigen::Vector2i parse_size(const std::string& option, const std::string& text) {
     Eigen::Vector2i size;
     const char* end = text.data() + text.size();
     const auto [cross, first] = std::from_chars(text.data(), end, size.x());
@@ -32,13 +32,14 @@ Eigen::Vector2i parse_size(const std::string& text) {
         const auto [last, second] = std::from_chars(cross + 1, end, size.y());
         if (second == std::errc() && last == end && size.minCoeff() >= 1 && size.maxCoeff() <= kMaxWindow) return size;
     }
-    throw UsageError("--size " + text + ": give width and height in pixels, as in 1280x800.");
+    throw UsageError(option + " " + text + ": give width and height in pixels, as in 1280x800.");
 }
 
 /// A scene may be written back to where it was read.
 void require_distinct_files(const ViewWords& words) {
-    require_distinct({words.screenshot, words.timings, words.record, words.scene_out, words.mesh_out}, {words.replay});
-    require_distinct({words.screenshot, words.timings, words.record, words.mesh_out}, {words.input});
+    require_distinct({words.screenshot, words.picture, words.timings, words.record, words.scene_out, words.mesh_out},
+                     {words.replay});
+    require_distinct({words.screenshot, words.picture, words.timings, words.record, words.mesh_out}, {words.input});
 }
 
 ViewerOptions options_of(const ViewWords& words) {
@@ -55,7 +56,11 @@ ViewerOptions options_of(const ViewWords& words) {
     options.hidden = words.hidden;
     require_distinct_files(words);
     if (!words.mesh_out.empty()) require_mesh_extension(words.mesh_out);
-    if (!words.size.empty()) options.size = parse_size(words.size);
+    if (!words.size.empty()) options.size = parse_size("--size", words.size);
+    options.picture = words.picture;
+    options.transparent = words.transparent;
+    options.turntable_frames = words.turntable;
+    if (!words.picture_size.empty()) options.picture_size = parse_size("--picture-size", words.picture_size);
     if (options.hidden && options.n_frames == 0 && options.replay.empty())
         throw UsageError("--hidden: nobody could close that window. Add --frames N or --replay FILE.");
     return options;
@@ -76,8 +81,19 @@ Command add_view_command(CLI::App& program) {
     parser->add_option("--replay", words->replay, "repeats a recorded interaction")->check(path);
     parser->add_option("--record", words->record, "records the interaction")->check(path);
     parser->add_option("--scene-out", words->scene_out, "JSON: the scene as it is at the end")->check(path);
-    parser->add_option("--mesh-out", words->mesh_out, "OBJ, PLY or STL: the deformed mesh as it is at the end")
+    parser
+        ->add_option("--mesh-out", words->mesh_out,
+                     "OBJ or STL, or with fields PLY, VTP or VTU: the deformed mesh at the end")
         ->check(path);
+    CLI::Option* const picture =
+        parser->add_option("--picture", words->picture, "PNG of the scene alone, as it is at the end")->check(path);
+    parser->add_option("--picture-size", words->picture_size, "in pixels (default 1920x1080)")->needs(picture);
+    parser->add_flag("--transparent", words->transparent, "that picture without background")->needs(picture);
+    parser
+        ->add_option("--turntable", words->turntable,
+                     "instead of one picture so many of one turn, FILE-0001.png and on")
+        ->needs(picture)
+        ->check(CLI::Range(2, 3600));
     parser->add_option("--size", words->size, "of the window in pixels, as in 1280x800");
     add_threads_option(*parser, words->threads);
     parser->add_flag("--hidden", words->hidden, "no visible window; still real OpenGL");

@@ -56,6 +56,30 @@ Eigen::Matrix3d stress(const Material& material, const Eigen::Matrix2d& strain, 
     return sigma;
 }
 
+/// each(corners, area, axes, stress in these axes) for every triangle.
+template <class Each>
+void for_triangle_stresses(const SurfaceMesh& surface, const Material& material, const Eigen::VectorXd& u,
+                           const Eigen::Matrix3Xd& tractions, const Each& each) {
+    const Eigen::Map<const Eigen::Matrix3Xd> moved(u.data(), 3, u.size() / 3);
+    for (Eigen::Index k = 0; k < surface.triangles.cols(); ++k) {
+        const Eigen::Vector3i t = surface.triangles.col(k);
+        const Eigen::Vector3d a = surface.vertices.col(t[1]) - surface.vertices.col(t[0]);
+        const Eigen::Vector3d b = surface.vertices.col(t[2]) - surface.vertices.col(t[0]);
+        const Eigen::Matrix3d axes = triangle_axes(a, b);
+        Eigen::Matrix<double, 3, 2> edges, changes;
+        edges << a, b;
+        changes << moved.col(t[1]) - moved.col(t[0]), moved.col(t[2]) - moved.col(t[0]);
+        const Eigen::Matrix<double, 3, 2> plane = axes.leftCols<2>();
+        const Eigen::Matrix2d gradient = (plane.transpose() * changes) * (plane.transpose() * edges).inverse();
+        const Eigen::Matrix3d at_corners = tractions(Eigen::all, t);
+        const bool loaded = (at_corners.colwise().squaredNorm().array() > 0.0).all();
+        const Eigen::Vector3d traction =
+            loaded ? Eigen::Vector3d(axes.transpose() * at_corners.rowwise().mean()) : Eigen::Vector3d(0, 0, 0);
+        const Eigen::Matrix2d strain = 0.5 * (gradient + gradient.transpose());
+        each(t, 0.5 * a.cross(b).norm(), axes, stress(material, strain, traction));
+    }
+}
+
 }  // namespace
 
 Eigen::Matrix3Xd vertex_tractions(const SurfaceMesh& surface, std::span<const int> constrained,
@@ -78,28 +102,32 @@ Eigen::Matrix3Xd vertex_tractions(const SurfaceMesh& surface, std::span<const in
 
 Eigen::VectorXd surface_von_mises(const SurfaceMesh& surface, const Material& material, const Eigen::VectorXd& u,
                                   const Eigen::Matrix3Xd& tractions) {
-    const Eigen::Map<const Eigen::Matrix3Xd> moved(u.data(), 3, u.size() / 3);
     Eigen::VectorXd sums = Eigen::VectorXd::Zero(surface.n_vertices()), areas = sums;
-    for (Eigen::Index k = 0; k < surface.triangles.cols(); ++k) {
-        const Eigen::Vector3i t = surface.triangles.col(k);
-        const Eigen::Vector3d a = surface.vertices.col(t[1]) - surface.vertices.col(t[0]);
-        const Eigen::Vector3d b = surface.vertices.col(t[2]) - surface.vertices.col(t[0]);
-        const Eigen::Matrix3d axes = triangle_axes(a, b);
-        Eigen::Matrix<double, 3, 2> edges, changes;
-        edges << a, b;
-        changes << moved.col(t[1]) - moved.col(t[0]), moved.col(t[2]) - moved.col(t[0]);
-        const Eigen::Matrix<double, 3, 2> plane = axes.leftCols<2>();
-        const Eigen::Matrix2d gradient = (plane.transpose() * changes) * (plane.transpose() * edges).inverse();
-        const Eigen::Matrix3d at_corners = tractions(Eigen::all, t);
-        const bool loaded = (at_corners.colwise().squaredNorm().array() > 0.0).all();
-        const Eigen::Vector3d traction =
-            loaded ? Eigen::Vector3d(axes.transpose() * at_corners.rowwise().mean()) : Eigen::Vector3d(0, 0, 0);
-        const Eigen::Matrix2d strain = 0.5 * (gradient + gradient.transpose());
-        const double weight = 0.5 * a.cross(b).norm();
-        sums(t).array() += weight * von_mises(stress(material, strain, traction));
-        areas(t).array() += weight;
-    }
+    for_triangle_stresses(
+        surface, material, u, tractions,
+        [&](const Eigen::Vector3i& t, double weight, const Eigen::Matrix3d&, const Eigen::Matrix3d& sigma) {
+            sums(t).array() += weight * von_mises(sigma);
+            areas(t).array() += weight;
+        });
     return sums.cwiseQuotient(areas);
+}
+
+Eigen::MatrixXd surface_stress(const SurfaceMesh& surface, const Material& material, const Eigen::VectorXd& u,
+                               const Eigen::Matrix3Xd& tractions) {
+    Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(6, surface.n_vertices());
+    Eigen::RowVectorXd areas = Eigen::RowVectorXd::Zero(surface.n_vertices());
+    for_triangle_stresses(
+        surface, material, u, tractions,
+        [&](const Eigen::Vector3i& t, double weight, const Eigen::Matrix3d& axes, const Eigen::Matrix3d& local) {
+            const Eigen::Matrix3d sigma = axes * local * axes.transpose();
+            Eigen::Matrix<double, 6, 1> entries;
+            entries << sigma(0, 0), sigma(1, 1), sigma(2, 2), sigma(0, 1), sigma(1, 2), sigma(0, 2);
+            for (const int v : t) {
+                sums.col(v) += weight * entries;
+                areas[v] += weight;
+            }
+        });
+    return sums.array().rowwise() / areas.array();
 }
 
 }  // namespace elastolab

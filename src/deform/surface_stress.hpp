@@ -21,4 +21,8 @@ Eigen::Matrix3Xd vertex_tractions(const SurfaceMesh& surface, std::span<const in
 Eigen::VectorXd surface_von_mises(const SurfaceMesh& surface, const Material& material, const Eigen::VectorXd& u,
                                   const Eigen::Matrix3Xd& tractions);
 
+/// The same stress itself, in world axes: 6 x n_vertices [force / L^2], a column xx yy zz xy yz xz for each vertex.
+Eigen::MatrixXd surface_stress(const SurfaceMesh& surface, const Material& material, const Eigen::VectorXd& u,
+                               const Eigen::Matrix3Xd& tractions);
+
 }  // namespace elastolab

@@ -27,7 +27,7 @@ std::optional<ProxyUse> parse_proxy_use(std::string_view text) {
 bool operator==(const Document& a, const Document& b) {
     return a.mesh == b.mesh && a.material.young_modulus == b.material.young_modulus &&
            a.material.poisson_ratio == b.material.poisson_ratio && a.method == b.method && a.fixed == b.fixed &&
-           a.handles == b.handles && a.proxy == b.proxy;
+           a.handles == b.handles && a.proxy == b.proxy && a.settings == b.settings;
 }
 
 }  // namespace elastolab

@@ -98,6 +98,23 @@ inline constexpr int kFewestProxyVertices = 20, kMostProxyVertices = 100000;
 std::string_view name(ProxyUse use);
 std::optional<ProxyUse> parse_proxy_use(std::string_view text);
 
+/// Where a scene is looked at from.
+struct ViewPoint {
+    Eigen::Vector3d eye, target;                          ///< [L]; they differ
+    Eigen::Vector3d up = Eigen::Vector3d::UnitZ();        ///< of the picture; not along the viewing direction
+    Eigen::Vector3d vertical = Eigen::Vector3d::UnitZ();  ///< axis of the world that the view is turned about
+    bool operator==(const ViewPoint&) const = default;
+};
+
+/// How the chosen method is carried out. Part of undo, not of scene files: what to compute ahead is a matter of the
+/// machine.
+struct MethodSettings {
+    Mode mode = Mode::on_demand;
+    Tractions tractions = Tractions::discontinuous;
+    Update update = Update::reduced;
+    bool operator==(const MethodSettings&) const = default;
+};
+
 /// A scene as plain values: what a scene file says, before any mesh is loaded.
 struct Document {
     MeshSource mesh;
@@ -106,8 +123,11 @@ struct Document {
     std::optional<Selector> fixed;
     std::vector<Handle> handles;
     ProxyChoice proxy = {};
+    MethodSettings settings = {};
+    std::optional<ViewPoint> camera = {};  ///< none: the whole body is to be seen
 };
 
+/// Whether they state the same problem in the same way; where it is looked at from makes no difference.
 bool operator==(const Document& a, const Document& b);
 
 }  // namespace elastolab

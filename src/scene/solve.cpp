@@ -94,6 +94,11 @@ void apply(const Constraints& constraints, bool with_checks, Solution& solution,
         const Deformer::Answer answer = deformer.answer(constraints.values, {.residual = with_checks}, control);
         solution.displacement =
             Eigen::Map<const Eigen::Matrix3Xd>(answer.displacements.data(), 3, answer.displacements.size() / 3);
+        solution.simulated_displacement = answer.displacements;
+        solution.constrained = constraints.set.base;
+        solution.constrained.insert(solution.constrained.end(), constraints.set.handles.begin(),
+                                    constraints.set.handles.end());
+        solution.forces = answer.reactions.forces;
         solution.reactions = totals(constraints.groups, answer.reactions);
         solution.residual = answer.residual;
         solution.imbalance = imbalance_of(solution.reactions, *solution.model->body().surface);
@@ -143,6 +148,16 @@ std::vector<std::string> Solution::warnings() const {
     for (const Defect& defect : defects) texts.push_back(mesh_name + ": " + defect.text);
     for (const Finding& finding : findings) texts.push_back(words(finding));
     return texts;
+}
+
+SolvedBody solved_body(const Solution& solution) {
+    return {.shown = solution.surface,
+            .proxy = solution.proxy,
+            .model = solution.model,
+            .displacement = solution.displacement.reshaped(),
+            .simulated_displacement = solution.simulated_displacement,
+            .constrained = solution.constrained,
+            .forces = solution.forces};
 }
 
 Solution solve(const SolveRequest& request, Control& control) {

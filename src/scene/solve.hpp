@@ -11,6 +11,7 @@
 #include "deform/deformer.hpp"
 #include "deform/finding.hpp"
 #include "scene/document.hpp"
+#include "scene/field_export.hpp"
 #include "scene/proxy/proxy.hpp"
 #include "scene/setup.hpp"
 
@@ -51,6 +52,10 @@ struct Solution {
     std::string mesh_name;
     int n_constrained = 0;
     Eigen::Matrix3Xd displacement;  ///< 3 x n_vertices [L]
+    /// Of the vertices of the model's surface, and reactions at those of them that are constrained: for fields.
+    Eigen::VectorXd simulated_displacement;
+    std::vector<int> constrained;
+    Eigen::Matrix3Xd forces;
     std::vector<GroupReaction> reactions;
     Imbalance imbalance;
     std::optional<double> error_estimate;        ///< of the displacement of the worst vertex, over the largest
@@ -64,6 +69,9 @@ struct Solution {
     /// Everything that the user should know, in words.
     std::vector<std::string> warnings() const;
 };
+
+/// What its files of fields are written from.
+SolvedBody solved_body(const Solution& solution);
 
 /// Loads the mesh, precomputes, constrains and displaces. Throws Error or Cancelled.
 Solution solve(const SolveRequest& request, Control& control);

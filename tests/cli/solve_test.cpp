@@ -115,6 +115,22 @@ TEST_F(SolveTest, WritesTheDeformedMesh) {
     }
 }
 
+TEST_F(SolveTest, WritesFieldsAsTableAndForParaView) {
+    solve(test::cube_scene("fem", 2),
+          {"--fields", "f.csv", "--mesh-out", "m.vtu", "--displacements", "u.csv", "--quiet"});
+    const test::Table fields = test::read_csv(file("f.csv")), moved = test::read_csv(file("u.csv"));
+    ASSERT_EQ(fields.rows.size(), moved.rows.size());
+    for (std::size_t v = 0; v < fields.rows.size(); ++v) {
+        ASSERT_EQ(fields.rows[v].size(), moved.rows[v].size() + 10);
+        EXPECT_TRUE(std::equal(moved.rows[v].begin(), moved.rows[v].end(), fields.rows[v].begin()));
+    }
+    EXPECT_THAT(test::read_text(file("m.vtu")), HasSubstr("<VTKFile type=\"UnstructuredGrid\""));
+    const ProgramRun refused =
+        run_program({"solve", "scene.json", "--method", "linear-bem", "--mesh-out", "n.vtu"}, folder_.path());
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_THAT(refused.err, HasSubstr("no tetrahedra inside"));
+}
+
 TEST_F(SolveTest, WritesAReportWithEveryKey) {
     const std::vector<std::string> keys = {"version",
                                            "machine",

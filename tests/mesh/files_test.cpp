@@ -149,5 +149,15 @@ TEST(Export, RefusesOtherFormatsAndLeavesNothingBehind) {
     EXPECT_THAT(read_text(folder.path() / "old.obj"), testing::StartsWith("v 0 0 0"));
 }
 
+TEST(Files, StlRefusesWhatSinglePrecisionCannotHold) {
+    const test::TemporaryFolder folder;
+    SurfaceMesh mesh = make_box(1);
+    mesh.vertices *= 1e39;
+    EXPECT_THROW(save_surface(folder.path() / "large.stl", mesh), MeshError);
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "large.stl"));
+    save_surface(folder.path() / "large.ply", mesh);
+    EXPECT_EQ(load_surface(folder.path() / "large.ply").vertices, mesh.vertices);
+}
+
 }  // namespace
 }  // namespace elastolab

@@ -77,6 +77,14 @@ INSTANTIATE_TEST_SUITE_P(
                     BadScene{"KeyWithLineBreak", ROOT(R"("a\nb": [])"), "/a b", "Known ones"},
                     BadScene{"UnknownMethod", ROOT(R"("method": "bem")"), "/method", "Known ones: fem"},
                     BadScene{"MethodNumber", ROOT(R"("method": 1)"), "/method", "must be a string"},
+                    BadScene{"NoEye", ROOT(R"("camera": {"target": [0, 0, 0]})"), "/camera/eye", "is missing"},
+                    BadScene{"EyeAtTarget", ROOT(R"("camera": {"eye": [1, 2, 3], "target": [1, 2, 3]})"), "/camera",
+                             "the same point"},
+                    BadScene{"UpAlongTheView", ROOT(R"("camera": {"eye": [0, 0, 3], "target": [0, 0, 1]})"), "/camera",
+                             "along the viewing direction"},
+                    BadScene{"NoVertical",
+                             ROOT(R"("camera": {"eye": [0, 3, 0], "target": [0, 0, 0], "vertical": [0, 0, 0]})"),
+                             "/camera/vertical", "no direction"},
                     BadScene{"HandlesObject", ROOT(R"("handles": {})"), "/handles", "must be an array"}),
     case_name);
 

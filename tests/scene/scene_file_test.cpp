@@ -38,6 +38,16 @@ TEST(SceneFile, IsReadBackExactly) {
     EXPECT_TRUE(parse_scene(print_scene(document), "test") == document) << print_scene(document);
 }
 
+TEST(SceneFile, KeepsTheCameraExactlyAndApartFromTheProblem) {
+    Document document = everything();
+    document.camera = ViewPoint{
+        .eye = {1.0 / 3.0, -2e-300, 7}, .target = {0.1, 0.2, 0.3}, .up = {0, 1, 1.0 / 7.0}, .vertical = {0, 1, 0}};
+    const Document read = parse_scene(print_scene(document), "test");
+    EXPECT_EQ(read.camera, document.camera);
+    EXPECT_EQ(read, everything()) << "where it is looked at from is no part of the problem";
+    EXPECT_FALSE(parse_scene(print_scene(everything()), "test").camera) << "files without one stay without";
+}
+
 TEST(SceneFile, IsWrittenTheSameAfterReading) {
     const std::string text = print_scene(everything());
     EXPECT_EQ(print_scene(parse_scene(text, "test")), text);

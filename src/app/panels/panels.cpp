@@ -11,7 +11,6 @@ namespace {
 
 constexpr double kTallPanel = 840.0;  ///< [logical pixels]
 
-const std::vector<std::string> kExportFiles = {".obj", ".ply", ".stl"};
 const std::vector<std::string> kMeshFiles = {".obj", ".ply", ".stl", ".off", ".gltf", ".glb"};
 
 std::vector<std::string> with_scenes(std::vector<std::string> extensions) {
@@ -58,11 +57,6 @@ void Panels::ask_name_of_unsaved(ViewerState& state) {
                  .cancelled = [&] { state.unsaved.cancel(); }});
 }
 
-void Panels::ask_export(ViewerState& state) {
-    files_.open({"Export the deformed mesh (.obj, .ply, .stl)", kExportFiles, suggested_name(state, "-deformed.obj"),
-                 [&](const auto& file) { state.export_mesh(file); }});
-}
-
 void Panels::ask_screenshot(ViewerState& state) {
     files_.open({"Save a screenshot", {".png"}, suggested_name(state, ".png"), [&](const auto& file) {
                      state.requests.screenshot = file;
@@ -102,7 +96,10 @@ void Panels::draw(const PanelContext& context) {
     draw_overlays(context);
     if (context.state.show_help) draw_help(context);
     if (std::exchange(context.state.requests.scene_name, false)) ask_name_of_unsaved(context.state);
+    draw_picture(context);
+    draw_picture_progress(context);
     files_.draw(context.gui.scale());
+    draw_recovery(context);
     draw_unsaved(context);
 }
 

@@ -32,7 +32,7 @@ public:
     /// Over the scene's own file when it was written here already, else as save_as().
     void save(ViewerState& state);
     void save_as(ViewerState& state);
-    void ask_export(ViewerState& state);
+    void ask_export(ViewerState& state, const std::string& ending);
     void ask_screenshot(ViewerState& state);
     void ask_probes(ViewerState& state);
     void ask_timings(ViewerState& state);
@@ -53,6 +53,10 @@ private:
     void draw_status(const PanelContext& context);
     void draw_overlays(const PanelContext& context);
     void draw_help(const PanelContext& context);
+    void draw_export_menu(ViewerState& state);
+    void draw_picture(const PanelContext& context);
+    void draw_picture_progress(const PanelContext& context);
+    void draw_recovery(const PanelContext& context);
     void draw_unsaved(const PanelContext& context);
     void ask_name_of_unsaved(ViewerState& state);
     void draw_defects(const PanelContext& context);
@@ -61,6 +65,10 @@ private:
     const Cost& cost(const ViewerState& state, const Method& method);
 
     FileDialog files_;
+    PictureRequest picture_;
+    bool asks_picture_ = false;
+    std::string video_obstacle_;  ///< why there can be no video
+    int recovery_choice_ = 0;
     int unsaved_choice_ = 0;  ///< which button of the question Enter presses
     std::string primitive_ = "cube";
     int resolution_ = 13;

@@ -215,7 +215,7 @@ void SceneRenderer::draw_ghosts(const ViewerState& state, const SceneView& view,
 }
 
 void SceneRenderer::draw_viewport(const ViewerState& state, const SceneViewport& viewport, const Palette& palette,
-                                  double pixel_ratio, const Framebuffer& target) {
+                                  double pixel_ratio, const Framebuffer& target, bool with_axes) {
     const SceneView view(state.camera, viewport.place, pixel_ratio);
     const MethodKind solid = viewport.kinds.front();
     background_.draw(palette.background_top, palette.background_bottom);
@@ -229,7 +229,7 @@ void SceneRenderer::draw_viewport(const ViewerState& state, const SceneViewport&
     } else {
         main.surface.draw(view, style);
     }
-    if (state.display.soft_shadows) occlusion_.draw(view, target);
+    if (state.display.soft_shadows && !target.is_tile()) occlusion_.draw(view, target);
     if (state.display.grid || state.display.soft_shadows) draw_ground(state, view, palette, main.surface, target);
     draw_ghosts(state, view, viewport, palette);
     if (state.display.defects && main.rim)
@@ -237,7 +237,7 @@ void SceneRenderer::draw_viewport(const ViewerState& state, const SceneViewport&
     const float hidden = mesh_->n_vertices() > kMostHidden ? 0.0f : 0.12f;
     main.points.draw(view, {.outline = palette.wire, .outline_width = 1.0f, .hidden_opacity = hidden});
     main.arrows.draw(view, {.width = 6.0f, .hidden_opacity = 0.5f});
-    gizmo_->draw(state.camera, viewport.place, gizmo_place(viewport.place), pixel_ratio);
+    if (with_axes) gizmo_->draw(state.camera, viewport.place, gizmo_place(viewport.place), pixel_ratio);
 }
 
 SceneRenderer::Look SceneRenderer::look_of(const ViewerState& state, const SceneViewport& viewport,

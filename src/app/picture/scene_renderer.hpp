@@ -34,6 +34,13 @@ public:
     /// Copies the drawn viewports to the window of this size [framebuffer pixels].
     void show(const ViewerState& state, double pixel_ratio, const Eigen::Vector2i& framebuffer);
 
+    /// Draws one viewport without the axes to `target`, which is bound. On a tile without ambient occlusion, which
+    /// would have to see the tiles beside it.
+    void draw_plain(const ViewerState& state, const SceneViewport& viewport, const Palette& palette, double pixel_ratio,
+                    const Framebuffer& target) {
+        draw_viewport(state, viewport, palette, pixel_ratio, target, false);
+    }
+
 private:
     /// What belongs to one method's body. Revisions tell what of it is on the card.
     struct BodyDrawing {
@@ -76,7 +83,7 @@ private:
     void upload_points(const ViewerState& state, const ShownBody& body, BodyDrawing& target, const Palette& palette);
     void upload_arrows(const ViewerState& state, const ShownBody& body, BodyDrawing& target, const Palette& palette);
     void draw_viewport(const ViewerState& state, const SceneViewport& viewport, const Palette& palette,
-                       double pixel_ratio, const Framebuffer& target);
+                       double pixel_ratio, const Framebuffer& target, bool with_axes = true);
     void draw_ground(const ViewerState& state, const SceneView& view, const Palette& palette,
                      const SurfaceDrawing& body, const Framebuffer& target);
     void draw_ghosts(const ViewerState& state, const SceneView& view, const SceneViewport& viewport,

@@ -9,6 +9,8 @@
 #include <system_error>
 #include <utility>
 
+#include "app/window/recent_files.hpp"
+
 namespace elastolab {
 
 namespace fs = std::filesystem;
@@ -41,6 +43,7 @@ void FileDialog::open(Purpose purpose) {
     to_replace_.clear();
     std::error_code error;
     if (!purpose_.folder.empty()) folder_ = purpose_.folder;
+    if (folder_.empty()) folder_ = load_last_folder();
     if (folder_.empty()) folder_ = fs::current_path(error);
     list_folder();
     open_ = opening_ = true;
@@ -84,6 +87,7 @@ void FileDialog::accept(const fs::path& typed) {
     }
     open_ = false;
     ImGui::CloseCurrentPopup();
+    save_last_folder(fs::absolute(file, error).parent_path());
     purpose_.done(file);
 }
 

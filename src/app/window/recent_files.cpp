@@ -1,9 +1,10 @@
 #include "app/window/recent_files.hpp"
 
-#include <cstdlib>
 #include <fstream>
 #include <string>
+#include <system_error>
 
+#include "app/window/state_folder.hpp"
 #include "base/atomic_file.hpp"
 
 namespace elastolab {
@@ -15,35 +16,43 @@ namespace {
 constexpr std::size_t kMaxFiles = 10;
 
 /// Empty when there is no home folder.
-fs::path list_file() {
-    if (const char* state = std::getenv("XDG_STATE_HOME"); state != nullptr && *state != '\0')
-        return fs::path(state) / "elastolab" / "recent";
-    if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0')
-        return fs::path(home) / ".local" / "state" / "elastolab" / "recent";
-    return {};
+fs::path remembered(const char* name) {
+    const fs::path folder = state_folder();
+    return folder.empty() ? folder : folder / name;
 }
 
-}  // namespace
-
-std::vector<fs::path> load_recent_files() {
-    std::vector<fs::path> files;
-    std::ifstream in(list_file());
-    for (std::string line; files.size() < kMaxFiles && std::getline(in, line);)
-        if (!line.empty()) files.emplace_back(line);
-    return files;
+std::vector<fs::path> load_lines(const char* name) {
+    std::vector<fs::path> lines;
+    std::ifstream in(remembered(name));
+    for (std::string line; lines.size() < kMaxFiles && std::getline(in, line);)
+        if (!line.empty()) lines.emplace_back(line);
+    return lines;
 }
 
-void save_recent_files(const std::vector<fs::path>& files) {
-    const fs::path path = list_file();
+void save_lines(const char* name, const std::vector<fs::path>& lines) {
+    const fs::path path = remembered(name);
     if (path.empty()) return;
     try {
         fs::create_directories(path.parent_path());
         AtomicFile file(path);
-        for (const fs::path& entry : files) file.stream() << entry.string() << '\n';
+        for (const fs::path& entry : lines) file.stream() << entry.string() << '\n';
         file.commit();
     } catch (const std::exception&) {  // a convenience: nothing is lost without it
     }
 }
+
+}  // namespace
+
+std::vector<fs::path> load_recent_files() { return load_lines("recent"); }
+void save_recent_files(const std::vector<fs::path>& files) { save_lines("recent", files); }
+
+fs::path load_last_folder() {
+    const std::vector<fs::path> lines = load_lines("folder");
+    std::error_code error;
+    return lines.empty() || !fs::is_directory(lines.front(), error) ? fs::path() : lines.front();
+}
+
+void save_last_folder(const fs::path& folder) { save_lines("folder", {folder}); }
 
 std::vector<fs::path> with_recent_file(std::vector<fs::path> files, const fs::path& file) {
     std::erase(files, file);

@@ -5,10 +5,14 @@
 
 namespace elastolab {
 
-/// The files opened last, newest first, kept in $XDG_STATE_HOME/elastolab/recent (or ~/.local/state). Reading and
-/// writing never fails loudly: the list is a convenience.
+/// The files opened last, newest first, kept in state_folder(). Reading and writing never fails loudly: the list is a
+/// convenience.
 std::vector<std::filesystem::path> load_recent_files();
 void save_recent_files(const std::vector<std::filesystem::path>& files);
+
+/// The folder last used in a file dialog; empty when there is none, or none any more.
+std::filesystem::path load_last_folder();
+void save_last_folder(const std::filesystem::path& folder);
 
 /// The list with `file` in front, each name once, at most ten.
 std::vector<std::filesystem::path> with_recent_file(std::vector<std::filesystem::path> files,

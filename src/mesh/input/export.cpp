@@ -5,6 +5,7 @@
 #include <bit>
 #include <cctype>
 #include <cstdint>
+#include <limits>
 #include <string>
 
 #include "base/atomic_file.hpp"
@@ -45,6 +46,9 @@ void write_ply(std::ostream& out, const SurfaceMesh& mesh) {
 }
 
 void write_stl(std::ostream& out, const SurfaceMesh& mesh) {
+    if (mesh.n_vertices() > 0 && mesh.vertices.cwiseAbs().maxCoeff() > std::numeric_limits<float>::max())
+        throw MeshError("STL stores coordinates in single precision, up to 3.4e38, and these are larger. Choose .obj or "
+                        ".ply.");
     std::string header = "binary STL";  // must not begin with "solid", as text files do
     header.resize(80);
     out << header;
@@ -54,7 +58,7 @@ void write_stl(std::ostream& out, const SurfaceMesh& mesh) {
     };
     for (int t = 0; t < mesh.n_triangles(); ++t) {
         const TrianglePoints p = triangle_points(mesh, t);
-        put_vector(area_vector(p).normalized());
+        put_vector(area_vector(p).stableNormalized());
         put_vector(p.a);
         put_vector(p.b);
         put_vector(p.c);

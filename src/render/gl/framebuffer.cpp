@@ -81,7 +81,10 @@ void Framebuffer::resize(int width, int height) {
 
 void Framebuffer::bind() const {
     glBindFramebuffer(GL_FRAMEBUFFER, drawn_.id());
-    glViewport(0, 0, width_, height_);
+    if (is_tile())
+        glViewport(-whole_.x, -whole_.y, whole_.width, whole_.height);
+    else
+        glViewport(0, 0, width_, height_);
 }
 
 void Framebuffer::resolve() const {

@@ -17,7 +17,10 @@ public:
     /// New storage when the size differs; the picture is then undefined.
     void resize(int width, int height);
 
-    /// Draws go here from now on, to all of it.
+    /// This is a tile of a larger picture of that size, of which its bottom left corner is at (x, y).
+    void be_tile_of(int width, int height, int x, int y) { whole_ = {x, y, width, height}; }
+    bool is_tile() const { return whole_.width > 0; }
+    /// Draws go here from now on: to all of it, or of what it is a tile of.
     void bind() const;
     /// What was drawn, to texture().
     void resolve() const;
@@ -34,7 +37,11 @@ public:
 private:
     void allocate();
 
+    struct Whole {
+        int x = 0, y = 0, width = 0, height = 0;
+    };
     int width_, height_, samples_;
+    Whole whole_;
     GlTexture texture_, depth_texture_;
     GlRenderbuffer colour_, depth_;
     GlFramebuffer drawn_, resolved_;

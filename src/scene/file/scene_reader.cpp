@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <Eigen/Geometry>
 
 #include "base/text.hpp"
 #include "mesh/primitives.hpp"
@@ -13,6 +14,7 @@ namespace {
 constexpr int kLargestVertex = 2'000'000'000;
 /// A cube of this resolution has six million vertices, far beyond what any method can take.
 constexpr int kLargestResolution = 1000;
+constexpr double kLeastTurn = 1e-6;  ///< sine of the angle between a camera's upward and viewing directions
 
 std::string listed(const std::vector<std::string>& names) {
     std::string text;
@@ -181,6 +183,20 @@ ProxyChoice read_proxy(const JsonNode& node) {
     return proxy;
 }
 
+ViewPoint read_camera(const JsonNode& node) {
+    node.require_keys({"eye", "target", "up", "vertical"});
+    ViewPoint view{.eye = node.at("eye", "Say where the eye is.").vector3(),
+                   .target = node.at("target", "Give the point that is looked at.").vector3()};
+    if (const auto up = node.find("up")) view.up = up->vector3();
+    if (const auto vertical = node.find("vertical")) view.vertical = vertical->vector3();
+    const Eigen::Vector3d direction = (view.target - view.eye).stableNormalized();
+    if (!(direction.norm() > 0.5)) node.fail("eye and target are the same point. Move one of them.");
+    if (view.vertical.isZero(0.0)) node.at("vertical", "").fail("is zero, so it has no direction. Give an axis.");
+    if (!(direction.cross(view.up.stableNormalized()).norm() > kLeastTurn))
+        node.fail("up is along the viewing direction, or zero. Give another direction.");
+    return view;
+}
+
 /// The last of `handles`, which `node` holds, has a name that none before it has.
 void require_new_name(const JsonNode& node, const std::vector<Handle>& handles) {
     const auto last = std::prev(handles.end());
@@ -207,7 +223,7 @@ std::vector<Handle> read_handles(const JsonNode& node) {
 Document parse_scene(std::string_view text, const std::string& name) {
     const Json json = parse_json(text, name);
     const JsonNode root(json, "", name);
-    root.require_keys({"elastolab", "mesh", "material", "method", "fixed", "handles", "proxy"});
+    root.require_keys({"elastolab", "mesh", "material", "method", "fixed", "handles", "proxy", "camera"});
     read_version(root);
     Document document;
     document.mesh = read_mesh(root.at("mesh", "Give a mesh file or a primitive."));
@@ -216,6 +232,7 @@ Document parse_scene(std::string_view text, const std::string& name) {
     if (const auto fixed = root.find("fixed")) document.fixed = read_selector(*fixed);
     if (const auto handles = root.find("handles")) document.handles = read_handles(*handles);
     if (const auto proxy = root.find("proxy")) document.proxy = read_proxy(*proxy);
+    if (const auto camera = root.find("camera")) document.camera = read_camera(*camera);
     return document;
 }
 

@@ -67,6 +67,13 @@ Json to_json(const Handle& handle) {
     return json;
 }
 
+Json to_json(const ViewPoint& view) {
+    return {{"eye", to_json(view.eye)},
+            {"target", to_json(view.target)},
+            {"up", to_json(view.up)},
+            {"vertical", to_json(view.vertical)}};
+}
+
 Json to_json(const Document& document) {
     Json json{
         {"elastolab", kSceneVersion},
@@ -79,6 +86,7 @@ Json to_json(const Document& document) {
     for (const Handle& handle : document.handles) json["handles"].push_back(to_json(handle));
     if (document.proxy != ProxyChoice{})
         json["proxy"] = {{"use", std::string(name(document.proxy.use))}, {"vertices", document.proxy.n_vertices}};
+    if (document.camera) json["camera"] = to_json(*document.camera);
     return json;
 }
 

@@ -145,6 +145,28 @@ void LiveScene::set_material(const Material& material) {
     ++revision_;
 }
 
+void LiveScene::set_method(MethodKind kind, const MethodSettings& settings) {
+    document_.method = kind;
+    document_.settings = settings;
+    ++revision_;
+}
+
+void LiveScene::start_with(MethodKind kind, const MethodSettings& settings) {
+    const bool was_modified = modified();
+    set_method(kind, settings);
+    history_ = History(document_);
+    if (!was_modified) mark_saved();
+}
+
+/// Settings are not written, so that there is nothing to save when only they differ.
+bool LiveScene::modified() const {
+    if (!saved_) return true;
+    if (saved_->settings == document_.settings) return !(document_ == *saved_);
+    Document as_saved = *saved_;
+    as_saved.settings = document_.settings;
+    return !(document_ == as_saved);
+}
+
 void LiveScene::undo() { become(history_.undo()); }
 
 void LiveScene::redo() { become(history_.redo()); }

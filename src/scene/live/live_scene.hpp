@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -50,8 +51,10 @@ public:
     /// Grows with every edit.
     std::uint64_t revision() const { return revision_; }
     /// Whether something changed since the document was loaded or marked as saved.
-    bool modified() const { return !(document_ == saved_); }
+    bool modified() const;
     void mark_saved() { saved_ = document_; }
+    /// Nothing that is there was ever saved by the person: it comes from a session that was cut short.
+    void mark_unsaved() { saved_.reset(); }
 
     // Edits of the constrained set. Vertices that belong to others are left to them.
     /// Returns the new handle's number, or kNobody when no vertex of the list is free.
@@ -65,6 +68,9 @@ public:
     /// A motion that is not finite at every vertex of the handle is ignored.
     void set_motion(int handle, const Motion& motion);
     void set_material(const Material& material);
+    void set_method(MethodKind kind, const MethodSettings& settings);
+    /// The scene begins with this method: no step of undo, and nothing that would have to be saved.
+    void start_with(MethodKind kind, const MethodSettings& settings);
 
     /// Ends a step; does nothing when it changed nothing.
     void commit() { history_.commit(document_); }
@@ -82,7 +88,8 @@ private:
     void replace_fixed(std::vector<int> vertices);
     void become(Document document);
 
-    Document document_, saved_;
+    Document document_;
+    std::optional<Document> saved_;  ///< as it was loaded or saved
     std::filesystem::path file_;
     SceneMesh mesh_;  ///< its surface has moved to surface_
     std::shared_ptr<const SurfaceMesh> surface_;

@@ -25,6 +25,13 @@ struct MethodChoices {
     /// While a method is being prepared, a coarse preview answers.
     bool preview = true;
 
+    /// Those of them that a scene remembers.
+    MethodSettings settings() const { return {mode, tractions, update}; }
+    void set(const MethodSettings& settings) {
+        mode = settings.mode;
+        tractions = settings.tractions;
+        update = settings.update;
+    }
     /// The whole method of a kind under these choices.
     Method of(MethodKind kind) const;
 };

@@ -1,0 +1,136 @@
+#include "app/autosave.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <string>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include "app/window/state_folder.hpp"
+#include "scene/file/scene_file.hpp"
+
+namespace elastolab {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double kEverySeconds = 2.0;
+constexpr int kMostNames = 1000;
+
+fs::path autosave_folder() {
+    const fs::path folder = state_folder();
+    return folder.empty() ? folder : folder / "autosave";
+}
+
+FileDescriptor open_locked(const fs::path& file, int flags) {
+    FileDescriptor descriptor(open(file.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | flags, 0600));
+    if (descriptor && flock(descriptor.get(), LOCK_EX | LOCK_NB) != 0) descriptor.reset();
+    return descriptor;
+}
+
+void write_origin(const FileDescriptor& lock, const fs::path& origin) {
+    const std::string text = origin.string();
+    if (ftruncate(lock.get(), 0) != 0) return;
+    [[maybe_unused]] const ssize_t n = pwrite(lock.get(), text.data(), text.size(), 0);  // a convenience
+}
+
+fs::path read_origin(const FileDescriptor& lock) {
+    std::array<char, 4096> text{};
+    const ssize_t n = pread(lock.get(), text.data(), text.size(), 0);
+    return std::string(text.data(), n > 0 ? static_cast<std::size_t>(n) : 0);
+}
+
+}  // namespace
+
+void AutosavedScene::remove() {
+    std::error_code ignored;
+    fs::remove(file, ignored);
+    fs::remove(lock, ignored);
+    locked.reset();
+}
+
+std::vector<AutosavedScene> find_autosaved() {
+    std::vector<AutosavedScene> found;
+    std::error_code error;
+    const fs::path folder = autosave_folder();
+    if (folder.empty()) return found;
+    for (fs::directory_iterator i(folder, error), end; !error && i != end; i.increment(error)) {
+        const fs::path lock = i->path();
+        if (lock.extension() != ".lock") continue;
+        FileDescriptor locked = open_locked(lock, 0);
+        if (!locked) continue;  // its viewer runs
+        const fs::path file = fs::path(lock).replace_extension(".json");
+        std::error_code missing;
+        const fs::file_time_type time = fs::last_write_time(file, missing);
+        if (missing) continue;
+        fs::path origin = read_origin(locked);
+        found.push_back({file, lock, std::move(origin), time, std::move(locked)});
+    }
+    std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.time > b.time; });
+    return found;
+}
+
+bool Autosave::make_place() {
+    const fs::path folder = autosave_folder();
+    std::error_code error;
+    if (folder.empty()) return false;
+    fs::create_directories(folder, error);
+    for (int i = 0; i < kMostNames && !error; ++i) {
+        const std::string name = std::to_string(getpid()) + "-" + std::to_string(i);
+        const fs::path lock = folder / (name + ".lock");
+        if (FileDescriptor locked = open_locked(lock, O_CREAT | O_EXCL)) {
+            place_ = AutosavedScene{folder / (name + ".json"), lock, {}, {}, std::move(locked)};
+            return true;
+        }
+    }
+    return false;
+}
+
+void Autosave::update(const Scene& scene, double now) {
+    job_.poll();
+    wanted_ = scene.modified && scene.revision != written_;
+    if (!scene.modified && place_) {
+        clear();
+        return;
+    }
+    if (!wanted_ || due_in(now) > 0.0 || job_.working()) return;
+    last_ = now;
+    wanted_ = false;
+    written_ = scene.revision;
+    if (!place_ && !make_place()) return;
+    if (place_->origin != scene.origin || scene.origin.empty()) {
+        place_->origin = scene.origin;
+        write_origin(place_->locked, scene.origin);
+    }
+    auto document = std::make_shared<const Document>(scene.document());
+    job_.start([document, file = place_->file](Control&) {
+        save_scene(file, *document);
+        return true;
+    });
+}
+
+double Autosave::due_in(double now) const { return wanted_ ? std::max(0.0, last_ + kEverySeconds - now) : -1.0; }
+
+void Autosave::adopt(AutosavedScene scene) {
+    clear();
+    place_ = std::move(scene);
+}
+
+void Autosave::clear() {
+    job_.cancel();
+    while (job_.working()) std::this_thread::sleep_for(std::chrono::milliseconds(1));  // it only writes a file
+    job_.poll();
+    if (place_) place_->remove();
+    place_.reset();
+    written_.reset();
+    wanted_ = false;
+}
+
+}  // namespace elastolab

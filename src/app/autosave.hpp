@@ -1,0 +1,68 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/file_descriptor.hpp"
+#include "scene/document.hpp"
+#include "scene/live/background_job.hpp"
+
+namespace elastolab {
+
+/// A scene that a viewer was editing, kept while its lock is held. The lock is a file beside it, locked (flock) by the
+/// viewer that edits it: the system lets go of it however that viewer ends.
+struct AutosavedScene {
+    std::filesystem::path file;    ///< the scene, complete, with the absolute name of its mesh
+    std::filesystem::path lock;    ///< names the scene file that it belongs to
+    std::filesystem::path origin;  ///< that file; empty when it was never saved
+    std::filesystem::file_time_type time;
+    FileDescriptor locked;
+
+    /// Not wanted any more.
+    void remove();
+};
+
+/// The scenes that viewers which were killed have left, the newest first. Each is locked, so that no other viewer finds
+/// it; those of viewers that run are not among them. Never throws: without them nothing can be recovered, that is all.
+std::vector<AutosavedScene> find_autosaved();
+
+/// Writes the scene that is edited, on a worker, whenever it has changed and is not saved: at most every two seconds.
+/// All members are for one thread. Failures are silent but for failure().
+class Autosave {
+public:
+    /// `wake` is called by the worker when it has ended.
+    explicit Autosave(std::function<void()> wake) : job_(std::move(wake)) {}
+
+    /// What there is to keep.
+    struct Scene {
+        std::uint64_t revision = 0;  ///< differs for whatever differs
+        bool modified = false;
+        std::filesystem::path origin;        ///< its file; may be empty
+        std::function<Document()> document;  ///< with absolute names; called when it is written
+    };
+    /// Once a frame. A scene that is not modified needs no copy: what was written is removed.
+    void update(const Scene& scene, double now);
+    /// Seconds until update() has something to do; negative when it has not.
+    double due_in(double now) const;
+    /// The next scene was recovered from this one: it is written over when that changes.
+    void adopt(AutosavedScene scene);
+    /// The session has ended as it should: nothing is left behind.
+    void clear();
+    const std::string& failure() const { return job_.failure(); }
+
+private:
+    bool make_place();
+
+    std::optional<AutosavedScene> place_;
+    std::optional<std::uint64_t> written_;  ///< revision
+    bool wanted_ = false;
+    double last_ = -1e9;
+    BackgroundJob<bool> job_;
+};
+
+}  // namespace elastolab

@@ -1,0 +1,122 @@
+// What leaves the program: meshes with their fields, tables, pictures.
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+
+#include "app/panels/panels.hpp"
+#include "app/panels/widgets.hpp"
+#include "app/picture/turntable.hpp"
+
+namespace elastolab {
+
+namespace {
+
+constexpr const char* kPictureTitle = "Picture";
+constexpr int kLargestPicture = 32768, kMostFrames = 3600;
+
+struct ExportKind {
+    const char* label;
+    const char* ending;
+    const char* explanation;
+};
+constexpr std::array<ExportKind, 6> kExports = {
+    {{"Deformed mesh (OBJ)...", ".obj", "Vertices and triangles as text, all digits."},
+     {"Deformed mesh (STL)...", ".stl", "Triangles in single precision."},
+     {"With fields (PLY)...", ".ply",
+      "Double precision; displacement, traction, stress and von Mises at the vertices."},
+     {"For ParaView: surface (VTP)...", ".vtp", "The moved surface with displacement, traction and stress."},
+     {"For ParaView: inside (VTU)...", ".vtu", "The moved tetrahedra with displacement and stress."},
+     {"Table of vertices (CSV)...", ".csv", "Rest positions, displacements, tractions and stresses."}}};
+
+std::string file_name(const ViewerState& state, const std::string& ending) {
+    return std::filesystem::path(state.scene().name()).stem().string() + ending;
+}
+
+void draw_number(const char* label, int& value, int low, int high, float scale) {
+    ImGui::SetNextItemWidth(110.0f * scale);
+    ImGui::InputInt(label, &value, 0, 0);
+    value = std::clamp(value, low, high);
+}
+
+}  // namespace
+
+void Panels::ask_export(ViewerState& state, const std::string& ending) {
+    files_.open({.title = "Export (" + ending + ")",
+                 .extensions = {ending},
+                 .suggestion = file_name(state, "-deformed" + ending),
+                 .done = [&](const auto& file) { state.export_mesh(file); }});
+}
+
+void Panels::draw_export_menu(ViewerState& state) {
+    if (!ImGui::BeginMenu("Export")) return;
+    for (const ExportKind& kind : kExports) {
+        const bool possible = std::string(kind.ending) != ".vtu" || state.method->has_inside;
+        if (ImGui::MenuItem(kind.label, nullptr, false, possible)) ask_export(state, kind.ending);
+        tooltip(possible ? kind.explanation : "This method has no tetrahedra: choose one of finite elements.");
+    }
+    ImGui::EndMenu();
+}
+
+/// Size and kind of a picture, before its name is asked for.
+void Panels::draw_picture(const PanelContext& context) {
+    ViewerState& state = context.state;
+    if (std::exchange(asks_picture_, false)) {
+        ImGui::OpenPopup(kPictureTitle);
+        video_obstacle_ = video_obstacle();
+    }
+    const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    const float scale = context.gui.scale();
+    ImGui::SetNextWindowPos({0.5f * screen.x, 0.5f * screen.y}, ImGuiCond_Always, {0.5f, 0.5f});
+    if (!ImGui::BeginPopupModal(kPictureTitle, nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove))
+        return;
+    draw_number("##width", picture_.size.x(), 16, kLargestPicture, scale);
+    ImGui::SameLine();
+    ImGui::TextUnformatted("x");
+    ImGui::SameLine();
+    draw_number("pixels", picture_.size.y(), 16, kLargestPicture, scale);
+    ImGui::Checkbox("transparent background", &picture_.transparent);
+    bool turns = picture_.n_frames > 0;
+    if (ImGui::Checkbox("turntable: one turn as numbered frames", &turns)) picture_.n_frames = turns ? 120 : 0;
+    if (turns) {
+        draw_number("frames", picture_.n_frames, 2, kMostFrames, scale);
+        if (video_obstacle_.empty())
+            ImGui::Checkbox("and as a video (MP4, 30 frames a second)", &picture_.video);
+        else
+            ImGui::TextDisabled("No video: %s", video_obstacle_.c_str());
+    }
+    const bool enter = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false) && !ImGui::IsWindowAppearing();
+    if (ImGui::Button("Save as...") || enter) {
+        picture_.video = picture_.video && turns && video_obstacle_.empty();
+        ImGui::CloseCurrentPopup();
+        files_.open({.title = turns ? "Save the frames of a turntable" : "Save a picture",
+                     .extensions = {".png"},
+                     .suggestion = file_name(state, turns ? "-turn.png" : ".png"),
+                     .done = [&state, picture = picture_](const auto& file) mutable {
+                         picture.file = file;
+                         state.requests.picture = picture;
+                     }});
+    }
+    ImGui::SameLine();
+    if (ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false))
+        ImGui::CloseCurrentPopup();
+    ImGui::EndPopup();
+}
+
+/// While the frames of a turntable are drawn.
+void Panels::draw_picture_progress(const PanelContext& context) {
+    ViewerState& state = context.state;
+    if (!state.pictures_under_way) return;
+    const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({0.5f * screen.x, 0.5f * screen.y}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::Begin("##pictures", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove);
+    const auto [done, wanted] = *state.pictures_under_way;
+    ImGui::Text("Frame %d of %d", done, wanted);
+    ImGui::ProgressBar(static_cast<float>(done) / static_cast<float>(wanted), {260.0f * context.gui.scale(), 0.0f});
+    if (ImGui::Button("Stop")) state.requests.stop_pictures = true;
+    ImGui::End();
+}
+
+}  // namespace elastolab

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "app/panels/panels.hpp"
+
+namespace elastolab {
+
+/// A button that answers a question.
+struct QuestionAnswer {
+    const char* label;
+    const char* explanation;
+};
+
+/// The buttons in a row within a dialog, that of `choice` standing out. Left, right and Tab change the choice, Enter
+/// and Space take it, Esc takes `escape`. The number of the answer, when one was given.
+std::optional<int> draw_answers(const PanelContext& context, std::span<const QuestionAnswer> answers, int& choice,
+                                int escape);
+
+/// Begins a dialog of this title in the middle of the window, opening it when it is not open. True when it is drawn:
+/// then ImGui::EndPopup() must follow.
+bool begin_question(const char* title);
+
+}  // namespace elastolab

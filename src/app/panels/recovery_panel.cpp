@@ -1,0 +1,51 @@
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "app/panels/question.hpp"
+#include "base/text.hpp"
+
+namespace elastolab {
+
+namespace {
+
+constexpr const char* kRecoveryTitle = "Recover a scene";
+
+enum Recovery { recover, discard, later };
+constexpr std::array<QuestionAnswer, 3> kRecoveryAnswers = {
+    {{"Recover", "Enter: opens the scene as it was, unsaved."},
+     {"Discard", "It is not wanted any more."},
+     {"Later", "Esc: asks again when the viewer is started the next time."}}};
+
+double seconds_since(std::filesystem::file_time_type time) {
+    return std::chrono::duration<double>(std::filesystem::file_time_type::clock::now() - time).count();
+}
+
+}  // namespace
+
+/// What a viewer that was killed has left.
+void Panels::draw_recovery(const PanelContext& context) {
+    ViewerState& state = context.state;
+    if (state.recoverable.empty()) return;
+    if (!ImGui::IsPopupOpen(kRecoveryTitle)) recovery_choice_ = 0;
+    if (!begin_question(kRecoveryTitle)) return;
+    const AutosavedScene& left = state.recoverable.front();
+    const std::string name = left.origin.empty() ? "a scene that was not saved yet" : left.origin.string();
+    ImGui::TextUnformatted("A viewer has ended without closing. It had unsaved changes of");
+    ImGui::TextUnformatted(name.c_str());
+    ImGui::Text("as of %s ago.", readable_seconds(std::max(0.0, seconds_since(left.time))).c_str());
+    ImGui::Spacing();
+    const std::optional<int> answer = draw_answers(context, kRecoveryAnswers, recovery_choice_, later);
+    if (answer) ImGui::CloseCurrentPopup();
+    ImGui::EndPopup();
+    if (answer == recover) state.recover();
+    if (answer == discard) state.discard_recoverable();
+    if (answer == later) state.recoverable.clear();
+}
+
+}  // namespace elastolab

@@ -1,0 +1,111 @@
+#include "app/picture/turntable.hpp"
+
+#include <system_error>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/program.hpp"
+#include "base/text.hpp"
+
+namespace elastolab {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int kFramesPerSecond = 30;
+
+/// ffmpeg counts where it reads '%'.
+std::string frame_pattern(const fs::path& file) {
+    std::string text;
+    for (const char c : fs::path(file).replace_extension().string()) text += c == '%' ? "%%" : std::string(1, c);
+    return text + "-%04d" + file.extension().string();
+}
+
+std::string last_line(std::string text) {
+    while (!text.empty() && text.back() == '\n') text.pop_back();
+    return one_line(text.substr(text.rfind('\n') + 1));
+}
+
+}  // namespace
+
+fs::path frame_file(const fs::path& file, int frame) {
+    fs::path numbered = file;
+    numbered.replace_filename(file.stem().string() + formatted("-%04d", frame) + file.extension().string());
+    return numbered;
+}
+
+std::string video_obstacle() {
+    return find_program("ffmpeg") ? "" : "ffmpeg is not installed, which makes the video. The frames are written.";
+}
+
+fs::path make_video(const fs::path& file, Control& control) {
+    const std::optional<fs::path> ffmpeg = find_program("ffmpeg");
+    const fs::path video = fs::path(file).replace_extension(".mp4");
+    if (!ffmpeg) throw Error(video.string() + ": ffmpeg is not installed. Install it; the frames are there.");
+    const fs::path partial = fs::path(file).replace_extension(".partial.mp4");
+    std::string log;
+    std::error_code error;
+    int code = 1;
+    try {
+        code = run_program(*ffmpeg,
+                           {"-nostdin", "-loglevel", "error", "-y", "-framerate", std::to_string(kFramesPerSecond),
+                            "-start_number", "1", "-i", "file:" + frame_pattern(file), "-vf",
+                            "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p", "file:" + partial.string()},
+                           log, control);
+    } catch (...) {
+        fs::remove(partial, error);
+        throw;
+    }
+    if (code == 0) fs::rename(partial, video, error);
+    if (code == 0 && !error) return video;
+    if (error) log = error.message();
+    fs::remove(partial, error);
+    throw Error(video.string() + ": ffmpeg could not make it (" + last_line(log) + "). The frames are there.");
+}
+
+void Turntable::step(SceneRenderer& renderer, ViewerState& state, const Palette& palette) {
+    const CameraPose pose = state.camera.pose();
+    const int frame = std::exchange(next_, 0);  // an exception ends it
+    try {
+        state.camera.set_pose(turned(state.camera, pose, static_cast<double>(frame - 1) / request_.n_frames));
+        write_picture(frame_file(request_.file, frame), renderer, state, palette, request_.size, request_.transparent);
+        state.camera.set_pose(pose);
+    } catch (...) {
+        state.camera.set_pose(pose);
+        state.pictures_under_way.reset();
+        throw;
+    }
+    state.pictures_under_way = PictureProgress{frame, request_.n_frames};
+    if (frame == request_.n_frames) return finish(state);
+    next_ = frame + 1;
+}
+
+void Turntable::finish(ViewerState& state) {
+    state.pictures_under_way.reset();
+    state.messages.note("Saved " + std::to_string(request_.n_frames) + " frames, " +
+                        frame_file(request_.file, 1).string() + " and on");
+    if (request_.video) video_.start([file = request_.file](Control& control) { return make_video(file, control); });
+}
+
+void Turntable::stop() {
+    next_ = 0;
+    video_.cancel();
+}
+
+bool Turntable::poll(ViewerState& state) {
+    switch (video_.poll()) {
+        case JobEvent::finished:
+            state.messages.note("Saved " + video_.take().string());
+            return true;
+        case JobEvent::failed:
+            state.messages.error(video_.failure());
+            return true;
+        case JobEvent::cancelled:
+        case JobEvent::none:
+            return false;
+    }
+    return false;
+}
+
+}  // namespace elastolab

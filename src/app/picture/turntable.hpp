@@ -1,0 +1,49 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+
+#include "app/picture/scene_picture.hpp"
+#include "scene/live/background_job.hpp"
+
+namespace elastolab {
+
+/// "name.png" -> "name-0007.png": the frames count from 1.
+std::filesystem::path frame_file(const std::filesystem::path& file, int frame);
+
+/// Frames of one turn as numbered pictures, one for each call of step() so that the window stays alive, and then, when
+/// it is wanted, a video of them made by ffmpeg on a worker. All members are for the thread of the window.
+class Turntable {
+public:
+    /// `wake` is called by the worker when poll() will find something.
+    explicit Turntable(const std::function<void()>& wake) : video_(wake) {}
+
+    void start(const PictureRequest& request) {
+        request_ = request;
+        next_ = 1;
+    }
+    /// Frames are still to be drawn.
+    bool running() const { return next_ > 0; }
+    /// Draws and writes the next frame. Throws Error when that fails, which ends it.
+    void step(SceneRenderer& renderer, ViewerState& state, const Palette& palette);
+    void stop();
+    /// Takes over what the worker finished. Whether there is something new to see.
+    bool poll(ViewerState& state);
+    bool making_video() const { return video_.running(); }
+    bool working() const { return video_.working(); }
+
+private:
+    void finish(ViewerState& state);
+
+    PictureRequest request_;
+    int next_ = 0;  ///< frame, counted from 1; 0: none
+    BackgroundJob<std::filesystem::path> video_;
+};
+
+/// The video of a turntable: "name.png" -> "name.mp4", 30 frames a second, made by the ffmpeg that is installed. It
+/// takes its place once it is complete. Throws Error where there is no ffmpeg or it fails, Cancelled.
+std::filesystem::path make_video(const std::filesystem::path& file, Control& control);
+/// Why there is no video; empty where there is one.
+std::string video_obstacle();
+
+}  // namespace elastolab

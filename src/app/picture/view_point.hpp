@@ -1,0 +1,14 @@
+#pragma once
+
+#include "render/camera.hpp"
+#include "scene/document.hpp"
+
+namespace elastolab {
+
+/// The camera as a scene file has it, and back. There and back again changes it by rounding only.
+ViewPoint view_point_of(const Camera& camera);
+void look_from(const ViewPoint& view, Camera& camera);
+/// Whether a camera there is as near to this ball as cameras come and go (Camera::zoom_to).
+bool can_see(const ViewPoint& view, const SceneFrame& scene);
+
+}  // namespace elastolab

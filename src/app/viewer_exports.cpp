@@ -1,0 +1,45 @@
+// What a ViewerState writes for other programs.
+#include <utility>
+
+#include "app/viewer_state.hpp"
+#include "scene/field_export.hpp"
+
+namespace elastolab {
+
+namespace fs = std::filesystem;
+
+void ViewerState::export_mesh(const fs::path& file) {
+    const bool is_preview = simulation.previewing(method);
+    ExportSource source = export_source(*scene_, simulation.answer(method));
+    if (!is_field_file(file)) {  // the work of a frame
+        attempt([&] {
+            Control never_cancelled;
+            write_export(file, source, never_cancelled);
+            messages.note("Exported " + file.string());
+        });
+        return;
+    }
+    export_note_ = "Exported " + file.string() + (is_preview ? ", the preview: the method is not ready yet" : "");
+    export_job_.start([file, source = std::make_shared<const ExportSource>(std::move(source))](Control& control) {
+        write_export(file, *source, control);
+        return true;
+    });
+}
+
+bool ViewerState::poll_export() {
+    switch (export_job_.poll()) {
+        case JobEvent::finished:
+            export_job_.take();
+            messages.note(export_note_);
+            return true;
+        case JobEvent::failed:
+            messages.error(export_job_.failure());
+            return true;
+        case JobEvent::cancelled:
+        case JobEvent::none:
+            return false;
+    }
+    return false;
+}
+
+}  // namespace elastolab

@@ -1,0 +1,42 @@
+#include "render/gl/matte.hpp"
+
+#include <stb_image_write.h>
+
+#include <algorithm>
+#include <cassert>
+
+#include "base/atomic_file.hpp"
+#include "base/error.hpp"
+
+namespace elastolab {
+
+TransparentImage matte(const Image& on_black, const Image& on_white) {
+    assert(on_black.pixels.size() == on_white.pixels.size());
+    TransparentImage image{on_black.width, on_black.height, {}};
+    image.pixels.reserve(on_black.pixels.size() / 3 * 4);
+    for (std::size_t i = 0; i + 2 < on_black.pixels.size(); i += 3) {
+        int seen_through = 255;  // the channel that tells most: light that is added hides nothing
+        for (std::size_t c = 0; c < 3; ++c)
+            seen_through = std::min(seen_through, on_white.pixels[i + c] - on_black.pixels[i + c]);
+        const int opacity = 255 - std::clamp(seen_through, 0, 255);
+        for (std::size_t c = 0; c < 3; ++c) {
+            const int colour = opacity > 0 ? (255 * on_black.pixels[i + c] + opacity / 2) / opacity : 0;
+            image.pixels.push_back(static_cast<std::uint8_t>(std::min(colour, 255)));
+        }
+        image.pixels.push_back(static_cast<std::uint8_t>(opacity));
+    }
+    return image;
+}
+
+void write_png(const std::filesystem::path& path, const TransparentImage& image) {
+    AtomicFile file(path);
+    const auto append = [](void* stream, void* data, int size) {
+        static_cast<std::ostream*>(stream)->write(static_cast<const char*>(data), size);
+    };
+    const int ok = stbi_write_png_to_func(append, static_cast<std::ostream*>(&file.stream()), image.width, image.height,
+                                          4, image.pixels.data(), 4 * image.width);
+    if (ok == 0) throw Error(path.string() + ": the picture is too large for memory. Choose a smaller size.");
+    file.commit();
+}
+
+}  // namespace elastolab

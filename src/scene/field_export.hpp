@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/control.hpp"
+#include "deform/deformer.hpp"
+#include "mesh/output/mesh_field.hpp"
+#include "scene/proxy/proxy.hpp"
+
+namespace elastolab {
+
+/// A solution of which the fields are known at every vertex: what is written to files.
+struct SolvedBody {
+    std::shared_ptr<const SurfaceMesh> shown;  ///< of the scene, whose vertices the results speak of
+    std::shared_ptr<const Proxy> proxy;        ///< that was simulated in its place; null: shown itself was
+    std::shared_ptr<const Model> model;
+    Eigen::VectorXd displacement;            ///< of the shown vertices, 3*n [L]
+    Eigen::VectorXd simulated_displacement;  ///< of those of the model's surface, 3*n [L]
+    std::vector<int> constrained;            ///< vertices of the model's surface
+    Eigen::Matrix3Xd forces;                 ///< reactions at these, 3 x n [force]
+};
+
+/// At the shown vertices: displacement [L], traction, stress (six components) and von Mises stress [force / L^2], as
+/// deform/surface_stress.hpp has them.
+std::vector<MeshField> surface_fields(const SolvedBody& solved);
+
+/// The endings of files of fields: a moved surface with them (.ply, .vtp), a moved body with its inside (.vtu), or a
+/// table of the vertices at rest (.csv). Small letters.
+const std::vector<std::string>& field_endings();
+bool is_field_file(const std::filesystem::path& file);
+
+/// Writes a file of fields, by the ending of `name`. .vtu: of the simulated body, with its displacements, and stress
+/// and von Mises stress in each tetrahedron, where the displacement is taken as linear. Throws Error where the method
+/// has no inside, or for another ending; Cancelled.
+void write_field_file(std::ostream& out, const std::filesystem::path& name, const SolvedBody& solved, Control& control);
+
+/// The same to a file, which is replaced once the new one is complete. Throws Error.
+void save_field_file(const std::filesystem::path& file, const SolvedBody& solved, Control& control);
+
+}  // namespace elastolab

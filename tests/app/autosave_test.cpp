@@ -1,0 +1,148 @@
+// What a viewer that is killed leaves behind, and who finds it.
+#include "app/autosave.hpp"
+
+#include <gmock/gmock.h>
+
+#include <chrono>
+#include <memory>
+#include <thread>
+
+#include "app/stage.hpp"
+#include "app/window/state_folder.hpp"
+#include "scene/file/scene_file.hpp"
+
+namespace elastolab {
+namespace {
+
+using testing::IsEmpty;
+using testing::SizeIs;
+
+using test::Stage;
+
+/// A viewer that keeps a scene, without a window. Its end is that of a killed one, but for clear().
+class Keeper {
+public:
+    void update(std::uint64_t revision, bool modified, double now, int cells = 2) {
+        autosave.update({.revision = revision,
+                         .modified = modified,
+                         .origin = "/somewhere/cube.json",
+                         .document = [=] { return test::cube_document(cells); }},
+                        now);
+    }
+    Autosave autosave{[] {}};
+};
+
+std::vector<std::filesystem::path> files() {
+    std::vector<std::filesystem::path> found;
+    std::error_code none;
+    for (const auto& entry : std::filesystem::directory_iterator(state_folder() / "autosave", none))
+        found.push_back(entry.path());
+    return found;
+}
+
+/// Until the worker has written.
+void wait_for_file() {
+    for (int i = 0; i < 2000; ++i) {
+        for (const auto& file : files())
+            if (file.extension() == ".json") return;
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    FAIL() << "nothing is written";
+}
+
+TEST(Autosave, OfAKilledViewerIsFoundWithItsFileAndOnlyOnce) {
+    {
+        Keeper keeper;
+        keeper.update(1, true, 0.0);
+        wait_for_file();
+        EXPECT_THAT(find_autosaved(), IsEmpty()) << "that viewer still runs";
+    }
+    const std::vector<AutosavedScene> found = find_autosaved();
+    ASSERT_THAT(found, SizeIs(1));
+    EXPECT_EQ(found[0].origin, "/somewhere/cube.json");
+    EXPECT_EQ(load_scene(found[0].file), test::cube_document(2));
+    EXPECT_THAT(find_autosaved(), IsEmpty()) << "another viewer has it";
+}
+
+TEST(Autosave, IsGoneAfterACleanEndAndOnceEverythingIsSaved) {
+    Keeper keeper;
+    keeper.update(1, true, 0.0);
+    wait_for_file();
+    keeper.update(2, false, 0.1);
+    EXPECT_THAT(files(), IsEmpty());
+    keeper.update(3, true, 10.0);
+    wait_for_file();
+    keeper.autosave.clear();
+    EXPECT_THAT(files(), IsEmpty());
+}
+
+TEST(Autosave, WaitsBetweenWritesAndNotWhenThereIsNothingNew) {
+    Keeper keeper;
+    keeper.update(1, false, 0.0);
+    EXPECT_LT(keeper.autosave.due_in(0.0), 0.0);
+    keeper.update(2, true, 1.0);
+    wait_for_file();
+    EXPECT_LT(keeper.autosave.due_in(1.0), 0.0) << "it is written";
+    keeper.update(3, true, 1.5, 3);
+    EXPECT_NEAR(keeper.autosave.due_in(1.5), 1.5, 1e-9);
+    EXPECT_EQ(load_scene(files().front().replace_extension(".json")), test::cube_document(2));
+}
+
+TEST(Autosave, OfTwoViewersAreTwo) {
+    {
+        Keeper one, other;
+        one.update(1, true, 0.0);
+        other.update(1, true, 0.0, 3);
+        for (int i = 0; i < 2000 && files().size() < 4; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        other.autosave.clear();
+    }
+    const std::vector<AutosavedScene> found = find_autosaved();
+    ASSERT_THAT(found, SizeIs(1));
+    EXPECT_EQ(load_scene(found[0].file), test::cube_document(2));
+}
+
+TEST(Autosave, IsRecoveredUnsavedAndKeptFromThenOn) {
+    {
+        Keeper keeper;
+        keeper.update(1, true, 0.0);
+        wait_for_file();
+    }
+    Stage stage(3);
+    stage.state.recoverable = find_autosaved();
+    ASSERT_THAT(stage.state.recoverable, SizeIs(1));
+    stage.state.recover();
+    stage.settle();
+    EXPECT_EQ(stage.scene().mesh().n_vertices(), 26);
+    EXPECT_TRUE(stage.scene().modified());
+    EXPECT_EQ(stage.state.scene_file(), "/somewhere/cube.json");
+    EXPECT_FALSE(stage.state.owns_scene_file());
+    std::optional<AutosavedScene> recovered = stage.state.take_recovered();
+    ASSERT_TRUE(recovered);
+    EXPECT_THAT(files(), SizeIs(2)) << "it stays until the session ends";
+    Keeper next;
+    next.autosave.adopt(std::move(*recovered));
+    next.update(1, true, 0.0);
+    next.autosave.clear();
+    EXPECT_THAT(files(), IsEmpty());
+}
+
+TEST(Autosave, ThatCannotBeReadStays) {
+    {
+        Keeper keeper;
+        keeper.update(1, true, 0.0);
+        wait_for_file();
+    }
+    Stage stage(3);
+    stage.state.recoverable = find_autosaved();
+    ASSERT_THAT(stage.state.recoverable, SizeIs(1));
+    std::filesystem::resize_file(stage.state.recoverable[0].file, 10);
+    stage.state.recover();
+    stage.settle();
+    EXPECT_EQ(stage.scene().mesh().n_vertices(), 56);
+    EXPECT_THAT(stage.state.messages.all(), SizeIs(1));
+    EXPECT_THAT(files(), SizeIs(2));
+    EXPECT_THAT(find_autosaved(), SizeIs(1)) << "for another try";
+}
+
+}  // namespace
+}  // namespace elastolab

@@ -1,0 +1,101 @@
+// What a scene keeps between sessions and between steps of undo: the camera, the method.
+#include <gmock/gmock.h>
+
+#include "app/picture/view_point.hpp"
+#include "app/stage.hpp"
+#include "mesh/input/export.hpp"
+#include "mesh/primitives.hpp"
+#include "scene/file/scene_file.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace elastolab {
+namespace {
+
+using test::Stage;
+using test::TemporaryFolder;
+
+constexpr double kRounding = 1e-12;
+
+TEST(KeptCamera, ComesBackWithItsSceneAndIsNoChangeOfIt) {
+    const TemporaryFolder folder;
+    const auto file = folder.path() / "scene.json";
+    Stage stage(2);
+    stage.state.camera.set_up_axis(Eigen::Vector3d::UnitY());
+    stage.state.camera.orbit(123.0, -45.0, stage.state.shown.viewports[0].place);
+    stage.state.camera.zoom_to({500.0, 300.0}, 1.7, {0.5, 0.5, 0.5}, stage.state.shown.viewports[0].place);
+    EXPECT_FALSE(stage.scene().modified());
+    ASSERT_TRUE(stage.state.save_scene(file));
+    const CameraPose saved = stage.state.camera.pose();
+
+    Stage other(3);
+    other.state.open_now(file);
+    other.state.frame_in_viewports(true);
+    const CameraPose& pose = other.state.camera.pose();
+    EXPECT_LT((pose.target - saved.target).norm(), kRounding);
+    EXPECT_LT(pose.orientation.angularDistance(saved.orientation), 1e-7);  // of a cosine near 1
+    EXPECT_NEAR(pose.distance, saved.distance, kRounding);
+    EXPECT_EQ(other.state.camera.up_axis(), Eigen::Vector3d::UnitY());
+    EXPECT_FALSE(other.scene().modified());
+}
+
+TEST(KeptCamera, OfNoUseIsLeftAside) {
+    const TemporaryFolder folder;
+    Document document = test::cube_document(2);
+    document.camera = ViewPoint{.eye = {1e9, 0, 0}, .target = {0, 0, 0}};
+    save_scene(folder.path() / "far.json", document);
+    Stage stage(2);
+    const CameraPose framed = stage.state.camera.pose();
+    stage.state.open_now(folder.path() / "far.json");
+    stage.state.frame_in_viewports(true);
+    EXPECT_NEAR(stage.state.camera.pose().distance, framed.distance, 1e-9);
+}
+
+TEST(KeptMethod, IsAStepOfUndo) {
+    Stage stage(2);
+    stage.state.method = kFem;
+    stage.settle();
+    stage.state.select_method(kConstantBem);
+    stage.settle();
+    stage.state.choices.tractions = Tractions::continuous;
+    stage.settle();
+    EXPECT_TRUE(stage.scene().modified());
+    stage.state.undo();
+    EXPECT_EQ(stage.state.choices.tractions, Tractions::discontinuous);
+    EXPECT_EQ(stage.state.method, kConstantBem);
+    stage.state.undo();
+    EXPECT_EQ(stage.state.method, kFem);
+    stage.state.redo();
+    stage.state.redo();
+    EXPECT_EQ(stage.state.choices.tractions, Tractions::continuous);
+    EXPECT_EQ(stage.state.method, kConstantBem);
+    EXPECT_FALSE(stage.scene().can_redo());
+}
+
+TEST(KeptMethod, AndAnEditInItAreTakenBackOneByOne) {
+    Stage stage(2);
+    const MethodKind first = stage.state.method;
+    stage.state.select_method(first == kFem ? kLinearBem : kFem);
+    stage.drag(stage.pixel(stage.vertex_near({1, 0, 1})), stage.empty_place());
+    stage.settle();
+    ASSERT_EQ(stage.scene().n_handles(), 1);
+    stage.state.undo();
+    EXPECT_EQ(stage.scene().n_handles(), 0);
+    stage.state.undo();
+    EXPECT_EQ(stage.state.method, first);
+}
+
+TEST(KeptMethod, ABodyJustOpenedIsNotChangedWhateverMethodItBeginsWith) {
+    const TemporaryFolder folder;
+    save_surface(folder.path() / "box.obj", make_box(3));
+    Stage stage(2);
+    for (const MethodKind kind : all_methods()) {
+        stage.state.open_now(folder.path() / "box.obj");
+        stage.state.start_with(kind);
+        stage.frame();
+        EXPECT_FALSE(stage.scene().modified()) << name(kind);
+        EXPECT_FALSE(stage.scene().can_undo()) << name(kind);
+    }
+}
+
+}  // namespace
+}  // namespace elastolab

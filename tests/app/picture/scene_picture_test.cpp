@@ -1,0 +1,92 @@
+// Pictures of the scene at any size, drawn off the screen.
+#include "app/picture/scene_picture.hpp"
+
+#include <gmock/gmock.h>
+#include <stb_image.h>
+
+#include <cstdlib>
+#include <memory>
+
+#include "app/panels/layout.hpp"
+#include "app/stage.hpp"
+#include "app/window/window.hpp"
+#include "base/error.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace elastolab {
+namespace {
+
+using test::Stage;
+
+class ScenePicture : public testing::Test {
+protected:
+    ScenePicture() {
+        stage.state.frame_body();
+        stage.settle();
+        renderer.upload(stage.state, palette);
+    }
+    Window window{{.title = "test", .width = 320, .height = 200, .visible = false}};
+    Stage stage{3};
+    const Palette& palette = dark_palette();
+    SceneRenderer renderer;
+};
+
+int largest_difference(const Image& a, const Image& b) {
+    int largest = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i)
+        largest = std::max(largest, std::abs(int{a.pixels[i]} - int{b.pixels[i]}));
+    return largest;
+}
+
+TEST_F(ScenePicture, IsTheSameInTilesAndWhole) {
+    stage.state.display.soft_shadows = false;  // tiles have no ambient occlusion
+    const Eigen::Vector2i size(501, 333);
+    const Image whole = scene_picture(renderer, stage.state, palette, size);
+    const Image tiles = scene_picture(renderer, stage.state, palette, size, 64);
+    EXPECT_EQ(whole.width, 501);
+    EXPECT_EQ(whole.height, 333);
+    EXPECT_GT(largest_difference(whole, Image{501, 333, std::vector<std::uint8_t>(whole.pixels.size(), 20)}), 50);
+    EXPECT_LE(largest_difference(whole, tiles), 2) << "noise that hides the steps of the background";
+}
+
+TEST_F(ScenePicture, ShowsAllOfTheBodyInANarrowOneAndLeavesTheCameraAlone) {
+    stage.state.display.grid = false;
+    const CameraPose pose = stage.state.camera.pose();
+    Palette plain = palette;
+    plain.background_top = plain.background_bottom = {0.0f, 0.0f, 0.0f, 1.0f};
+    const Image picture = scene_picture(renderer, stage.state, plain, {120, 600});
+    int lit = 0;
+    for (int y = 0; y < picture.height; ++y)
+        for (const int x : {0, 1, picture.width - 2, picture.width - 1}) {
+            const auto [r, g, b] = picture.at(x, y);
+            lit += r + g + b > 30 ? 1 : 0;
+        }
+    EXPECT_EQ(lit, 0) << "the body ends before the sides";
+    const auto [r, g, b] = picture.at(60, 300);
+    EXPECT_GT(r + g + b, 60);
+    EXPECT_EQ(stage.state.camera.pose().distance, pose.distance);
+}
+
+TEST_F(ScenePicture, WithoutBackgroundIsOpaqueOnTheBodyAndClearBesideIt) {
+    const test::TemporaryFolder folder;
+    const auto file = folder.path() / "clear.png";
+    write_picture(file, renderer, stage.state, palette, {400, 300}, true);
+    int width = 0, height = 0, channels = 0;
+    const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(stbi_load(file.c_str(), &width, &height, &channels, 0),
+                                                           stbi_image_free);
+    ASSERT_NE(pixels, nullptr);
+    ASSERT_EQ(channels, 4);
+    ASSERT_EQ(width, 400);
+    const auto at = [&](int x, int y) { return pixels.get() + 4 * (y * width + x); };
+    EXPECT_EQ(at(200, 150)[3], 255);
+    EXPECT_GT(at(200, 150)[0] + at(200, 150)[1] + at(200, 150)[2], 60);
+    for (const auto& [x, y] : {std::pair(2, 2), std::pair(397, 2), std::pair(2, 297), std::pair(397, 297)})
+        EXPECT_EQ(at(x, y)[3], 0);
+}
+
+TEST_F(ScenePicture, OfASizeBeyondTheDriverIsRefused) {
+    EXPECT_THROW(scene_picture(renderer, stage.state, palette, {100, 1 << 30}), Error);
+}
+
+}  // namespace
+}  // namespace elastolab
