@@ -63,7 +63,8 @@ public:
         if (!options.timings.empty()) state_.measurements.timings = std::make_unique<TimingsRecorder>(options.timings);
         if (!options.record.empty())
             state_.measurements.recorder = std::make_unique<InteractionRecorder>(options.record, window_.size());
-        for (const std::filesystem::path& file : {options.screenshot, options.picture, options.scene_out, options.mesh_out})
+        for (const std::filesystem::path& file :
+             {options.screenshot, options.picture, options.scene_out, options.mesh_out})
             if (!file.empty()) AtomicFile::require_writable(file);
         open_input();
         if (!nobody_watches()) state_.recoverable = find_autosaved();
@@ -137,14 +138,13 @@ private:
     void keep_scene() {
         if (nobody_watches()) return;
         if (std::optional<AutosavedScene> recovered = state_.take_recovered()) autosave_.adopt(std::move(*recovered));
-        autosave_.update({.revision = state_.scene().revision() + (state_.scene_number() << 32),
-                          .modified = state_.scene().modified(),
-                          .origin = state_.scene_file(),
-                          .document =
-                              [this] {
-                                  return movable_document(state_.scene(), state_.method, view_point_of(state_.camera));
-                              }},
-                         Window::seconds());
+        autosave_.update(
+            {.revision = state_.scene().revision() + (state_.scene_number() << 32),
+             .modified = state_.scene().modified(),
+             .origin = state_.scene_file(),
+             .document =
+                 [this] { return movable_document(state_.scene(), state_.method, view_point_of(state_.camera)); }},
+            Window::seconds());
     }
 
     bool must_draw() {
@@ -340,6 +340,7 @@ private:
     /// Those of the command line, at the end.
     void write_pictures() {
         if (options_.picture.empty()) return;
+        if (nobody_watches() && !replay_) state_.frame_in_viewports(true);  // as it is deformed by now
         const PictureRequest request{.file = options_.picture,
                                      .size = options_.picture_size,
                                      .transparent = options_.transparent,

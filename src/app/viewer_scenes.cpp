@@ -158,10 +158,9 @@ void ViewerState::poll_loading() {
     switch (load_job_.poll()) {
         case JobEvent::finished:
             // What was changed while it was being loaded counts, too.
-            unsaved.guard(scene_->modified() && scene_->revision() != revision_at_open_,
-                          [this, loaded = load_job_.take(), file = pending_file_] {
-                              take_loaded(std::move(*loaded), file);
-                          });
+            unsaved.guard(
+                scene_->modified() && scene_->revision() != revision_at_open_,
+                [this, loaded = load_job_.take(), file = pending_file_] { take_loaded(std::move(*loaded), file); });
             break;
         case JobEvent::failed:
             messages.error(load_job_.failure());

@@ -145,10 +145,14 @@ public:
     bool update_picture();
     bool loading() const { return load_job_.running(); }
     /// A worker will bring something for the picture.
-    bool waiting() const { return loading() || export_job_.running() || shown.cutting() || shown.solving() || simulation.waiting(); }
+    bool waiting() const {
+        return loading() || export_job_.running() || shown.cutting() || shown.solving() || simulation.waiting();
+    }
     /// Stops all workers at their next checkpoints; stopping(): some have not stopped yet.
     void cancel_workers();
-    bool stopping() const { return load_job_.working() || export_job_.working() || shown.working() || simulation.stopping(); }
+    bool stopping() const {
+        return load_job_.working() || export_job_.working() || shown.working() || simulation.stopping();
+    }
 
 private:
     void take_scene(LoadedScene loaded);

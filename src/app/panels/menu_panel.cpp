@@ -72,6 +72,7 @@ void Panels::draw_menu(const PanelContext& context) {
     if (ImGui::BeginMenu("File")) {
         if (ImGui::MenuItem("Open...", "Ctrl+O")) ask_open(state);
         draw_recent(state);
+        draw_examples(state, context.gui.scale());
         if (ImGui::BeginMenu("New body")) {
             for (const std::string& name : primitive_names())
                 if (ImGui::MenuItem(name.c_str())) {

@@ -1,16 +1,20 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "app/examples.hpp"
 #include "app/panels/gui.hpp"
 #include "app/panels/layout.hpp"
 #include "app/picture/palette.hpp"
 #include "app/viewer_state.hpp"
 #include "app/window/file_dialog.hpp"
 #include "findings/cost.hpp"
+#include "render/gl/picture_texture.hpp"
 
 namespace elastolab {
 
@@ -53,6 +57,8 @@ private:
     void draw_status(const PanelContext& context);
     void draw_overlays(const PanelContext& context);
     void draw_help(const PanelContext& context);
+    void draw_examples(ViewerState& state, float scale);
+    void load_examples();
     void draw_export_menu(ViewerState& state);
     void draw_picture(const PanelContext& context);
     void draw_picture_progress(const PanelContext& context);
@@ -65,6 +71,12 @@ private:
     const Cost& cost(const ViewerState& state, const Method& method);
 
     FileDialog files_;
+    struct ShownExample {
+        Example example;
+        std::unique_ptr<PictureTexture> picture;  ///< null when there is none
+    };
+    std::vector<ShownExample> examples_;
+    bool examples_loaded_ = false;
     PictureRequest picture_;
     bool asks_picture_ = false;
     std::string video_obstacle_;  ///< why there can be no video

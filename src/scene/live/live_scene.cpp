@@ -158,12 +158,13 @@ void LiveScene::start_with(MethodKind kind, const MethodSettings& settings) {
     if (!was_modified) mark_saved();
 }
 
-/// Settings are not written, so that there is nothing to save when only they differ.
+/// Another method is another look at the same scene, which nobody wants to be asked about.
 bool LiveScene::modified() const {
     if (!saved_) return true;
-    if (saved_->settings == document_.settings) return !(document_ == *saved_);
+    if (saved_->settings == document_.settings && saved_->method == document_.method) return !(document_ == *saved_);
     Document as_saved = *saved_;
     as_saved.settings = document_.settings;
+    as_saved.method = document_.method;
     return !(document_ == as_saved);
 }
 

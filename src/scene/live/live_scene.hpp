@@ -50,7 +50,7 @@ public:
 
     /// Grows with every edit.
     std::uint64_t revision() const { return revision_; }
-    /// Whether something changed since the document was loaded or marked as saved.
+    /// Whether something but the method and its settings changed since the document was loaded or marked as saved.
     bool modified() const;
     void mark_saved() { saved_ = document_; }
     /// Nothing that is there was ever saved by the person: it comes from a session that was cut short.

@@ -49,7 +49,8 @@ std::set<std::string> methods_in(const std::filesystem::path& file) {
 }
 
 TEST_F(RealProgram, MethodsSwitchWhileTheyArePrecomputed) {
-    RealWindow window({save_cube(8), "--method", "linear-bem", "--timings", "t.csv"}, folder.path());
+    RealWindow window({save_cube(8), "--method", "linear-bem", "--timings", "t.csv", "--scene-out", "out.json"},
+                      folder.path());
     for (const char* key : {"2", "1", "3", "2", "1"}) {
         window.key(key);
         std::this_thread::sleep_for(50ms);

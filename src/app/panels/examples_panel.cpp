@@ -1,0 +1,54 @@
+// The scenes that come with the program, as pictures in a menu.
+#include <imgui.h>
+
+#include <cstdint>
+#include <exception>
+
+#include "app/panels/panels.hpp"
+
+namespace elastolab {
+
+namespace {
+
+constexpr int kColumns = 4;
+constexpr float kPictureWidth = 150.0f, kPictureHeight = 100.0f, kPictureGap = 6.0f;
+
+}  // namespace
+
+/// Read when the menu is opened for the first time. One that cannot be read is shown by its name alone.
+void Panels::load_examples() {
+    if (examples_loaded_) return;
+    examples_loaded_ = true;
+    for (Example& example : examples()) {
+        std::unique_ptr<PictureTexture> picture;
+        try {
+            if (!example.picture.empty()) picture = std::make_unique<PictureTexture>(example.picture);
+        } catch (const std::exception&) {
+        }
+        examples_.push_back({std::move(example), std::move(picture)});
+    }
+}
+
+void Panels::draw_examples(ViewerState& state, float scale) {
+    if (!ImGui::BeginMenu("Examples")) return;
+    load_examples();
+    if (examples_.empty()) ImGui::TextDisabled("They are not installed.");
+    const ImVec2 picture{kPictureWidth * scale, kPictureHeight * scale};
+    const ImVec2 size{picture.x, picture.y + ImGui::GetTextLineHeightWithSpacing()};
+    for (std::size_t i = 0; i < examples_.size(); ++i) {
+        const auto& [example, texture] = examples_[i];
+        if (i % kColumns > 0) ImGui::SameLine(0.0f, kPictureGap * scale);
+        const ImVec2 at = ImGui::GetCursorScreenPos();
+        if (ImGui::Selectable(("##" + example.name).c_str(), false, 0, size)) state.open(example.scene);
+        ImDrawList& list = *ImGui::GetWindowDrawList();
+        if (texture)
+            list.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(texture->id())), at,
+                          {at.x + picture.x, at.y + picture.y});
+        const float width = ImGui::CalcTextSize(example.name.c_str()).x;
+        list.AddText({at.x + 0.5f * (picture.x - width), at.y + picture.y}, ImGui::GetColorU32(ImGuiCol_Text),
+                     example.name.c_str());
+    }
+    ImGui::EndMenu();
+}
+
+}  // namespace elastolab
