@@ -1,6 +1,7 @@
 #include "bem/model.hpp"
 
 #include "base/error.hpp"
+#include "bem/boundary_field.hpp"
 #include "bem/error_estimate.hpp"
 #include "bem/mixed_solver.hpp"
 #include "bem/responses.hpp"
@@ -98,6 +99,14 @@ SolutionChecks BemModel::checks(const TractionSpace& space, std::vector<int> ver
     SolutionChecks checks;
     checks.residual = [system = system_, space](const NodeSolution& solution, Control& control) {
         return boundary_residual(*system, space, solution, control);
+    };
+    checks.inside = [boundary = system_->shared_boundary(), display = display_, nu = poisson_ratio_,
+                     elements = space.elements](NodeSolution&& solution, Control&) {
+        SurfaceTractions tractions(solution.displacements.cols());
+        tractions.add(elements, solution.loads.topRows(3 * elements.n_slots));
+        Eigen::MatrixXd u =
+            display ? Eigen::MatrixXd(*display * solution.displacements) : std::move(solution.displacements);
+        return std::make_shared<const BoundaryField>(boundary, nu, std::move(u), std::move(tractions));
     };
     checks.reference = [boundary = system_->shared_boundary(), nu = poisson_ratio_, vertices = std::move(vertices)](
                            const Eigen::VectorXd& values, Control& control) {

@@ -234,6 +234,24 @@ std::optional<DiscretisationCheck> Deformer::discretisation_check(const Eigen::V
     return answer(values, {.check = true}, control).check;
 }
 
+std::shared_ptr<const InteriorField> Deformer::inside(const Eigen::MatrixXd& values, Control& control) const {
+    std::vector<int> part_of_vertex(static_cast<std::size_t>(model_->facts().n_vertices), 0);
+    std::vector<BodyField::Part> parts;
+    for (std::size_t s = 0; s < solids_.size(); ++s) {
+        const Model::Part& part = model_->parts()[s];
+        for (const int v : part.vertices) part_of_vertex[static_cast<std::size_t>(v)] = static_cast<int>(s);
+        parts.push_back({nullptr, part.origin, part.scale});
+        if (const ConstrainedSolid* solid = solids_[s].solid.get())
+            parts.back().field = solid->inside(solid->solve(solids_[s].values(values), true, control), control);
+    }
+    const Body& body = model_->body();
+    std::vector<int> part_of_triangle;
+    for (const auto& triangle : body.surface->triangles.colwise())
+        part_of_triangle.push_back(part_of_vertex[static_cast<std::size_t>(triangle[0])]);
+    return std::make_shared<const BodyField>(body.surface, std::move(part_of_triangle), std::move(parts),
+                                             body.material.young_modulus, values.cols());
+}
+
 std::optional<DiscretisationCheck> Deformer::check_of(const Answer& answer, const SolutionError& error) const {
     const SurfaceMesh& surface = *model_->body().surface;
     Eigen::Index moving_most = 0, worst = 0;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/control.hpp"
+#include "deform/interior_field.hpp"
 #include "deform/model.hpp"
 
 namespace elastolab {
@@ -121,6 +122,11 @@ public:
     /// not tell the error of the discretisation. BEM: over a sample of the equations, at least 128 nodes and 128
     /// interior points, evenly spread.
     double residual(const Eigen::VectorXd& values, Control& control) const;
+
+    /// Displacements and stresses inside for these columns of values, as many solutions as columns. What it returns
+    /// does not need this any more. Takes a solve of all columns, FEM keeps the displacements of all nodes.
+    /// Throws SolveError, Cancelled.
+    std::shared_ptr<const InteriorField> inside(const Eigen::MatrixXd& values, Control& control) const;
 
     const SolutionQuality& quality() const { return quality_; }
     const Model& model() const { return *model_; }

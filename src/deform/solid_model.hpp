@@ -13,6 +13,7 @@
 #include "deform/constraint_map.hpp"
 #include "deform/deformer.hpp"
 #include "deform/interior.hpp"
+#include "deform/interior_field.hpp"
 #include "deform/load_share.hpp"
 #include "deform/model.hpp"
 #include "deform/node_solver.hpp"
@@ -35,6 +36,8 @@ struct SolutionChecks {
     /// The second answer for these displacements of the constrained vertices; nothing where it would not fit into
     /// memory. Null where there is none.
     std::function<std::optional<ReferenceAnswer>(const Eigen::VectorXd& values, Control&)> reference;
+    /// What these solutions are inside.
+    std::function<std::shared_ptr<const InteriorField>(NodeSolution&&, Control&)> inside = {};
 };
 
 /// What a solution lacks, estimated.
@@ -69,6 +72,9 @@ public:
     /// Estimated error of a solution for these values; nothing where the method has no estimate.
     std::optional<SolutionError> error(const Eigen::VectorXd& values, const NodeSolution& solution,
                                        Control& control) const;
+
+    /// The inside for solutions with loads. Throws SolveError, Cancelled.
+    std::shared_ptr<const InteriorField> inside(NodeSolution&& solution, Control& control) const;
 
     double condition() const { return solver_->condition(); }
     bool held() const { return solver_->held(); }

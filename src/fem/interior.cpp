@@ -24,19 +24,19 @@ SparseCholesky factorised(const SparseMatrix& K_ii, Control& control) {
 
 }  // namespace
 
-FemInterior::FemInterior(std::shared_ptr<const TetMesh> tets, const SparseMatrix& K, Control& control)
+FemInterior::FemInterior(std::shared_ptr<const TetMesh> tets, const SparseMatrix& K, int n_given, Control& control)
     : tets_(std::move(tets)),
       n_all_(K.rows()),
-      n_surface_(3 * tets_->n_surface_vertices),
+      n_surface_(3 * n_given),
       to_surface_(block(K, 0, n_surface_, n_surface_)) {
     if (n_all_ > n_surface_) factor_ = factorised(block(K, n_surface_, n_all_ - n_surface_, n_surface_), control);
 }
 
-Eigen::VectorXd FemInterior::extend(const Eigen::VectorXd& surface) const {
-    assert(surface.size() == n_surface_);
-    Eigen::VectorXd all(n_all_);
-    all.head(n_surface_) = surface;
-    if (factor_) all.tail(n_all_ - n_surface_) = factor_->solve(-(to_surface_ * surface));
+Eigen::MatrixXd FemInterior::extend_all(const Eigen::MatrixXd& surface) const {
+    assert(surface.rows() == n_surface_);
+    Eigen::MatrixXd all(n_all_, surface.cols());
+    all.topRows(n_surface_) = surface;
+    if (factor_) all.bottomRows(n_all_ - n_surface_) = factor_->solve(-(to_surface_ * surface));
     return all;
 }
 

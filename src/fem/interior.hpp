@@ -15,9 +15,13 @@ namespace elastolab {
 class FemInterior : public Interior {
 public:
     /// K: 3n x 3n over the nodes of `tets`, both triangles. Throws SolveError, Cancelled.
-    FemInterior(std::shared_ptr<const TetMesh> tets, const SparseMatrix& K, Control& control);
+    FemInterior(std::shared_ptr<const TetMesh> tets, const SparseMatrix& K, Control& control)
+        : FemInterior(tets, K, tets->n_surface_vertices, control) {}
+    /// The same where the first n_given nodes are given.
+    FemInterior(std::shared_ptr<const TetMesh> tets, const SparseMatrix& K, int n_given, Control& control);
     const TetMesh& tetrahedra() const override { return *tets_; }
-    Eigen::VectorXd extend(const Eigen::VectorXd& surface) const override;
+    Eigen::VectorXd extend(const Eigen::VectorXd& surface) const override { return extend_all(surface); }
+    Eigen::MatrixXd extend_all(const Eigen::MatrixXd& surface) const;
 
 private:
     std::shared_ptr<const TetMesh> tets_;

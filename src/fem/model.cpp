@@ -10,6 +10,7 @@
 #include "fem/constraints.hpp"
 #include "fem/error_estimate.hpp"
 #include "fem/interior.hpp"
+#include "fem/nodal_field.hpp"
 #include "mesh/tets/tetrahedralize.hpp"
 
 namespace elastolab {
@@ -42,6 +43,11 @@ ReducedSystem reduced_from(const DenseOperators& operators, const std::vector<in
     reduced.nodes = nodes;
     reduced.n_loads = 3 * std::ssize(nodes);
     return reduced;
+}
+
+std::shared_ptr<const InteriorField> field_of(const FemSystem& system, double poisson_ratio, Eigen::MatrixXd u) {
+    return std::make_shared<const NodalField>(std::shared_ptr<const TetMesh>(system.mesh, &system.mesh->tets),
+                                              poisson_ratio, std::move(u));
 }
 
 /// Part by which a set may be dearer than the cheapest, where later ones gain by it.
@@ -202,6 +208,9 @@ std::unique_ptr<ConstrainedSolid> FemModel::constrain_direct(ConstrainedFemNodes
         return stiffness_residual(system->K, solution.displacements, nodes, solution.loads);
     };
     SolutionChecks checks{residual, reference_for(constrained)};
+    checks.inside = [system = system_, nu = poisson_ratio_](NodeSolution&& solution, Control&) {
+        return field_of(*system, nu, std::move(solution.displacements));
+    };
     return make_solid(std::move(constrained), std::move(solver), std::move(checks));
 }
 
@@ -227,6 +236,14 @@ std::unique_ptr<ConstrainedSolid> FemModel::constrain_dense(ConstrainedFemNodes 
         return size > 0.0 ? (operators->K * u - f).norm() / size : 0.0;
     };
     SolutionChecks checks{residual, reference_for(constrained)};
+    checks.inside = [system = system_, nu = poisson_ratio_](NodeSolution&& solution, Control& its_control) {
+        Eigen::MatrixXd& u = solution.displacements;
+        if (u.rows() < system->K.rows()) {
+            const std::shared_ptr<const TetMesh> tets(system->mesh, &system->mesh->tets);
+            u = FemInterior(tets, system->K, system->n_surface(), its_control).extend_all(u);
+        }
+        return field_of(*system, nu, std::move(u));
+    };
     return make_solid(std::move(constrained), std::move(solver), std::move(checks));
 }
 
@@ -243,6 +260,11 @@ std::unique_ptr<ConstrainedSolid> FemModel::constrain_reduced(ConstrainedFemNode
         return stiffness_residual(body->system().K, u, nodes, solution.loads);
     };
     SolutionChecks checks{residual, reference_for(constrained)};
+    checks.inside = [body, nodes, nu = poisson_ratio_](const NodeSolution& solution, Control&) {
+        Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(solution.displacements.rows(), solution.displacements.cols());
+        set_prescribed(nodes, solution.loads, loads);
+        return field_of(body->system(), nu, body->volume_displacements(solution.displacements, loads));
+    };
     return make_solid(std::move(constrained), std::move(solver), std::move(checks));
 }
 

@@ -1,6 +1,7 @@
 #include "bem/galerkin/model.hpp"
 
 #include "bem/error_estimate.hpp"
+#include "bem/galerkin/field.hpp"
 #include "bem/galerkin/solvers.hpp"
 
 namespace elastolab {
@@ -58,9 +59,13 @@ std::unique_ptr<ConstrainedSolid> GalerkinModel::constrain(std::span<const int> 
                                                                              Control& its_control) {
         return galerkin_self_reference(system->boundary().mesh(), nu, vertices, values, its_control);
     };
+    const auto inside = [boundary = std::shared_ptr<const Boundary>(system_, &system_->boundary()), vertices, tractions,
+                         nu = poisson_ratio_](NodeSolution&& solution, Control&) {
+        return galerkin_field(boundary, nu, vertices, tractions, std::move(solution));
+    };
     return std::make_unique<ConstrainedSolid>(facts_.n_vertices, constrain_vertices(vertices),
                                               nodal_shares(system_->boundary().mesh().vertices, vertices), nullptr,
-                                              std::move(solver), SolutionChecks{residual, reference});
+                                              std::move(solver), SolutionChecks{residual, reference, inside});
 }
 
 std::uint64_t GalerkinModel::constrain_memory(std::span<const int> base, std::span<const int> handles) const {

@@ -1,6 +1,7 @@
 #include "bem/hierarchical/model.hpp"
 
 #include "bem/cost.hpp"
+#include "bem/galerkin/field.hpp"
 
 namespace elastolab {
 
@@ -39,9 +40,13 @@ std::unique_ptr<ConstrainedSolid> HierarchicalGalerkinModel::constrain(std::span
     const auto residual = [system = system_, vertices, tractions](const NodeSolution& solution, Control& its_control) {
         return hierarchical_residual(*system, vertices, tractions, solution, its_control);
     };
+    const auto inside = [boundary = std::shared_ptr<const Boundary>(system_, &system_->boundary()), vertices, tractions,
+                         nu = system_->material().poisson_ratio](NodeSolution&& solution, Control&) {
+        return galerkin_field(boundary, nu, vertices, tractions, std::move(solution));
+    };
     return std::make_unique<ConstrainedSolid>(facts_.n_vertices, constrain_vertices(vertices),
                                               nodal_shares(system_->boundary().mesh().vertices, vertices), nullptr,
-                                              std::move(solver), SolutionChecks{residual, {}});
+                                              std::move(solver), SolutionChecks{residual, {}, inside});
 }
 
 std::uint64_t HierarchicalGalerkinModel::constrain_memory(std::span<const int> base,

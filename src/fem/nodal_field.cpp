@@ -1,0 +1,169 @@
+#include "fem/nodal_field.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+#include "base/parallel.hpp"
+#include "elasticity/material.hpp"
+
+namespace elastolab {
+
+namespace {
+
+/// Weights of the corners, as far below zero as this, are rounding.
+constexpr double kOnFace = 1e-9;
+/// Least eigenvalue of the moments of a patch, scaled to a diagonal of ones.
+constexpr double kTellsSlope = 0.02;
+
+Eigen::Matrix3d edges_of(const TetMesh& tets, Eigen::Index t) {
+    const Eigen::Matrix<double, 3, 4> x = tets.vertices(Eigen::all, tets.tetrahedra.col(t));
+    return x.rightCols<3>().colwise() - x.col(0);
+}
+
+/// A tree of boxes knows triangles: for each tetrahedron one that has its box.
+SurfaceMesh diagonals_of_boxes(const TetMesh& tets) {
+    SurfaceMesh mesh{Positions(3, 2 * tets.n_tetrahedra()), Triangles(3, tets.n_tetrahedra())};
+    for (int t = 0; t < tets.n_tetrahedra(); ++t) {
+        const Eigen::Matrix<double, 3, 4> x = tets.vertices(Eigen::all, tets.tetrahedra.col(t));
+        mesh.vertices.col(2 * t) = x.rowwise().minCoeff();
+        mesh.vertices.col(2 * t + 1) = x.rowwise().maxCoeff();
+        mesh.triangles.col(t) = Eigen::Vector3i(2 * t, 2 * t + 1, 2 * t + 1);
+    }
+    return mesh;
+}
+
+std::vector<int> all_tetrahedra(const TetMesh& tets) {
+    std::vector<int> all(static_cast<std::size_t>(tets.n_tetrahedra()));
+    std::iota(all.begin(), all.end(), 0);
+    return all;
+}
+
+/// For each node, what takes (1, place) of the middle of a tetrahedron around it, places from the node in units of
+/// `edge`, to the weight of its stress: those of a linear fit by least squares over all of them, weighted by volume.
+class PatchFits {
+public:
+    PatchFits(const TetMesh& tets, double edge) : tets_(tets), edge_(edge) {
+        std::vector<Eigen::Matrix4d> sums(static_cast<std::size_t>(tets.n_vertices()), Eigen::Matrix4d::Zero());
+        for (Eigen::Index t = 0; t < tets.tetrahedra.cols(); ++t) {
+            const double volume = edges_of(tets, t).determinant();
+            for (const int corner : tets.tetrahedra.col(t)) {
+                const Eigen::Vector4d p = place(t, corner);
+                sums[static_cast<std::size_t>(corner)] += volume * p * p.transpose();
+            }
+        }
+        for (const Eigen::Matrix4d& sum : sums) rows_.push_back(first_row_of_inverse(sum));
+    }
+    double weight(Eigen::Index tetrahedron, int corner, double volume) const {
+        return volume * rows_[static_cast<std::size_t>(corner)].dot(place(tetrahedron, corner));
+    }
+
+private:
+    Eigen::Vector4d place(Eigen::Index t, int corner) const {
+        const Eigen::Vector3d middle = tets_.vertices(Eigen::all, tets_.tetrahedra.col(t)).rowwise().mean();
+        Eigen::Vector4d p;
+        p << 1.0, (middle - tets_.vertices.col(corner)) / edge_;
+        return p;
+    }
+    /// Few tetrahedra, or some in a plane, do not tell a slope: then their mean.
+    static Eigen::Vector4d first_row_of_inverse(const Eigen::Matrix4d& sum) {
+        const Eigen::Vector4d scale = sum.diagonal().cwiseSqrt().cwiseMax(1e-300);
+        const Eigen::Matrix4d unit = scale.cwiseInverse().asDiagonal() * sum * scale.cwiseInverse().asDiagonal();
+        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> solver(unit);
+        if (!(solver.eigenvalues()[0] > kTellsSlope)) return Eigen::Vector4d::UnitX() / std::max(sum(0, 0), 1e-300);
+        const Eigen::Vector4d column = solver.eigenvectors() * solver.eigenvalues().cwiseInverse().asDiagonal() *
+                                       solver.eigenvectors().row(0).transpose();
+        return column.cwiseQuotient(scale) / scale[0];
+    }
+
+    const TetMesh& tets_;
+    double edge_;
+    std::vector<Eigen::Vector4d> rows_;
+};
+
+/// At every node: 6*n_nodes x m.
+Eigen::MatrixXd recovered_stresses(const TetMesh& tets, double edge, double poisson_ratio, const Eigen::MatrixXd& u) {
+    const Material material{1.0, poisson_ratio};
+    const double mu = material.shear_modulus(), lambda = material.lame_lambda();
+    const PatchFits fits(tets, edge);
+    Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(2 * u.rows(), u.cols());
+    for (Eigen::Index t = 0; t < tets.tetrahedra.cols(); ++t) {
+        const Eigen::Vector4i corners = tets.tetrahedra.col(t);
+        const Eigen::Matrix3d edges = edges_of(tets, t), inverse = edges.inverse();
+        Eigen::Vector4d weights;
+        for (int i = 0; i < 4; ++i) weights[i] = fits.weight(t, corners[i], edges.determinant());
+        for (Eigen::Index c = 0; c < u.cols(); ++c) {
+            Eigen::Matrix3d changes;
+            for (int i = 0; i < 3; ++i)
+                changes.col(i) = u.col(c).segment<3>(3 * corners[i + 1]) - u.col(c).segment<3>(3 * corners[0]);
+            const Eigen::Matrix3d g = changes * inverse;
+            const double pressed = lambda * g.trace();
+            Eigen::Matrix<double, 6, 1> s;
+            s << pressed + 2.0 * mu * g(0, 0), pressed + 2.0 * mu * g(1, 1), pressed + 2.0 * mu * g(2, 2),
+                mu * (g(0, 1) + g(1, 0)), mu * (g(0, 2) + g(2, 0)), mu * (g(1, 2) + g(2, 1));
+            for (int i = 0; i < 4; ++i) sums.col(c).segment<6>(6 * corners[i]) += weights[i] * s;
+        }
+    }
+    return sums;
+}
+
+double typical_edge(const TetMesh& tets) {
+    const Eigen::Vector3d size = tets.vertices.rowwise().maxCoeff() - tets.vertices.rowwise().minCoeff();
+    return size.norm() / std::cbrt(static_cast<double>(tets.n_tetrahedra()));
+}
+
+}  // namespace
+
+NodalField::NodalField(std::shared_ptr<const TetMesh> tets, double poisson_ratio, Eigen::MatrixXd displacements)
+    : tets_(std::move(tets)),
+      displacements_(std::move(displacements)),
+      edge_(typical_edge(*tets_)),
+      stresses_(recovered_stresses(*tets_, edge_, poisson_ratio, displacements_)),
+      boxes_(diagonals_of_boxes(*tets_), all_tetrahedra(*tets_)) {
+    assert(displacements_.rows() == 3 * tets_->vertices.cols());
+}
+
+NodalField::Place NodalField::place_of(const Eigen::Vector3d& point) const {
+    Place best;
+    double least = -std::numeric_limits<double>::infinity();
+    // Between the rounded faces of two tetrahedra, or outside: the one that it is least outside of.
+    for (double reach = 1e-6 * edge_; std::isinf(least); reach *= 8.0)
+        boxes_.for_each_near(
+            point, [&](double) { return least >= -kOnFace ? -1.0 : reach; },
+            [&](int t) {
+                Eigen::Vector4d weights;
+                weights.tail<3>() =
+                    edges_of(*tets_, t).inverse() * (point - tets_->vertices.col(tets_->tetrahedra(0, t)));
+                weights[0] = 1.0 - weights.tail<3>().sum();
+                if (weights.minCoeff() <= least) return;
+                least = weights.minCoeff();
+                best = {t, weights};
+            });
+    best.weights = best.weights.cwiseMax(0.0);
+    best.weights /= best.weights.sum();
+    return best;
+}
+
+InteriorValues NodalField::at(const Positions& points, Control& control) const {
+    const Eigen::Index m = displacements_.cols();
+    InteriorValues values{Eigen::MatrixXd::Zero(3 * points.cols(), m), Eigen::MatrixXd::Zero(6 * points.cols(), m)};
+    parallel_blocks(static_cast<int>(points.cols()), 64, control, [&](int begin, int end) {
+        for (int i = begin; i < end; ++i) {
+            const Place place = place_of(points.col(i));
+            for (int corner = 0; corner < 4; ++corner) {
+                const int node = tets_->tetrahedra(corner, place.tetrahedron);
+                values.displacements.middleRows<3>(3 * i) +=
+                    place.weights[corner] * displacements_.middleRows<3>(3 * node);
+                values.stresses.middleRows<6>(6 * i) += place.weights[corner] * stresses_.middleRows<6>(6 * node);
+            }
+        }
+    });
+    return values;
+}
+
+}  // namespace elastolab

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "mesh/section/opened_surface.hpp"
+
+namespace elastolab {
+
+/// The plane part of an opened body's surface.
+struct Cap {
+    Anchors rim;          ///< its vertices on the surface
+    Positions inside;     ///< its other vertices, which come after those
+    Triangles triangles;  ///< counter-clockwise seen against the plane's normal
+};
+
+/// Fills the outline of an opened surface: what is inside it by the parity of crossings, holes and pieces included.
+/// Triangles are Delaunay; `edge` [L] is about as long as their edges are wanted. At least so many edges go into the
+/// width of the cap, and there are about max_inside points inside at most. Of a surface that is not closed, some cap
+/// or none.
+inline constexpr double kEdgesAcrossCap = 16.0;
+Cap make_cap(const SurfaceMesh& surface, const OpenedSurface& opened, const Plane& plane, double edge,
+             int max_inside = 3000);
+
+}  // namespace elastolab
