@@ -92,9 +92,9 @@ void SceneRenderer::upload_section(const ShownBody& body, BodyDrawing& target) {
         return;
     }
     const ShownSection& section = *body.section();
-    if (!target.section || target.section_plane != section.plane) {
-        target.section.emplace(section.rest, section.triangles);
-        target.section_plane = section.plane;
+    if (!target.section || target.section_shape != section.shape) {
+        target.section.emplace(section.shape->rest(), section.shape->triangles());
+        target.section_shape = section.shape;
     }
     target.section->update(section.positions, frame_);
     if (section.values.empty())
@@ -170,15 +170,8 @@ void SceneRenderer::draw_viewport(const ViewerState& state, const SceneViewport&
     const MethodKind solid = viewport.kinds.front();
     background_.draw(palette.background_top, palette.background_bottom);
     BodyDrawing& main = drawing(solid);
-    SurfaceStyle style = surface_style(state, solid, palette);
-    if (main.section) {
-        style.feature_edges = false;  // every tetrahedron at the cut would have them
-        style.flat = true;
-        style.wireframe = true;
-        main.section->draw(view, style);
-    } else {
-        main.surface.draw(view, style);
-    }
+    const SurfaceStyle style = surface_style(state, solid, palette);
+    (main.section ? *main.section : main.surface).draw(view, style);
     if (state.display.grid) draw_ground(state, view, palette);
     if (state.display.rest_shape)
         rest_->draw(view, {.colour = palette.text_dim.with_opacity(0.5f), .width = 1.0f, .hidden_opacity = 0.4f});

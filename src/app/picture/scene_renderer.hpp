@@ -39,7 +39,7 @@ private:
             : surface(mesh.vertices, mesh.triangles), ghost(edges) {}
         SurfaceDrawing surface;
         std::optional<SurfaceDrawing> section;
-        SectionPlane section_plane;
+        std::shared_ptr<const SectionShape> section_shape;
         LinesDrawing ghost;
         PointsDrawing points;
         ArrowsDrawing arrows;
