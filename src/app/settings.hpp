@@ -31,7 +31,7 @@ enum class CompareMode { off, side_by_side, ghosts };
 struct CompareSettings {
     CompareMode mode = CompareMode::off;
     std::vector<MethodKind> kinds{kFem, kConstantBem, kLinearBem};  ///< shown when comparing
-    MethodKind reference = default_method();                                    ///< differences are to this one
+    MethodKind reference = default_method();                        ///< differences are to this one
 };
 
 enum class Field { none, displacement, difference, traction, von_mises };
@@ -55,7 +55,8 @@ struct DisplaySettings {
     double deformation_scale = 1.0;
     bool section = false;
     int section_axis = 0;
-    double section_place = 0.5;  ///< 0 to 1 along the axis, through the body
+    double section_turn = 0.0, section_tilt = 0.0;  ///< of the plane, from the axis [degree]
+    double section_place = 0.5;                     ///< 0 to 1 along its normal, through the body
     bool section_flip = false;
     bool dark = true;
     float ui_scale = 1.0f;

@@ -108,7 +108,7 @@ GestureContext ViewerState::gesture_context() {
         const ShownBody* body = shown.body(viewport.kinds.front());
         if (body == nullptr) continue;
         if (const auto& section = body->section())
-            context.targets.push_back({viewport.place, &section->positions, &section->triangles});
+            context.targets.push_back({viewport.place, &section->positions, &section->shape->triangles()});
         else
             context.targets.push_back({viewport.place, &body->positions(), &scene_->mesh().triangles});
     }
@@ -197,12 +197,11 @@ void ViewerState::set_young_modulus(double value) {
 
 bool ViewerState::update_displacements() {
     poll_loading();
-    const bool has_exported = poll_export(), has_new_volume = shown.poll_volume();
-    if (has_new_volume && !shown.volume_failure().empty()) messages.error(shown.volume_failure());
+    const bool has_exported = poll_export();
     keep_method();
     if (loading() && !simulated_) return has_exported;  // the default scene would be computed for nothing
     simulated_ = true;
-    const bool changed = simulation.update(*scene_, needed_kinds(), choices) || has_new_volume || has_exported;
+    const bool changed = simulation.update(*scene_, needed_kinds(), choices) || has_exported;
     const std::vector<int>& patch = gestures.hover().patch;
     if (gestures.action() == Gestures::Action::none && !patch.empty() && patch != prefetched_)
         simulation.prefetch(scene_->constraints_with_handle(patch));

@@ -1,6 +1,7 @@
 #include <imgui.h>
 
 #include <array>
+#include <string>
 
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
@@ -48,7 +49,8 @@ void draw_range(ViewerState& state, float scale) {
 
 void draw_section(DisplaySettings& display, float scale) {
     ImGui::Checkbox("cut open", &display.section);
-    tooltip("A plane through the tetrahedra of FEM, moved as the body is.");
+    tooltip(
+        "A plane through the body at rest, which moves as the body does. Displacement and von Mises stress colour it.");
     if (!display.section) return;
     for (int axis = 0; axis < 3; ++axis) {
         ImGui::SameLine();
@@ -57,6 +59,8 @@ void draw_section(DisplaySettings& display, float scale) {
             display.section_axis = axis;
     }
     slider("place", display.section_place, 0.0, 1.0, "%.2f", scale);
+    slider("turn", display.section_turn, -90.0, 90.0, "%.0f\u00b0", scale);
+    slider("tilt", display.section_tilt, -90.0, 90.0, "%.0f\u00b0", scale);
     ImGui::Checkbox("keep the other side", &display.section_flip);
 }
 
@@ -92,6 +96,8 @@ void Panels::draw_display(const PanelContext& context) {
         tooltip(kSwitches[i].explanation);
     }
     draw_section(display, scale);
+    if (const std::string& problem = context.state.shown.section_failure(context.state.method); !problem.empty())
+        ImGui::TextWrapped("%s", problem.c_str());
     bool light = !display.dark;
     if (ImGui::Checkbox("light theme", &light)) display.dark = !light;
 }

@@ -167,7 +167,8 @@ void Panels::draw_method(const PanelContext& context) {
     if (runner.state() == State::idle || runner.state() == State::failed) {
         const std::string problem = state.simulation.problem(state.method);
         if (!problem.empty()) paragraph(problem, palette.bad);
-        if (ImGui::Button("Compute")) state.simulation.retry(state.method);
+        const bool will_begin = runner.state() == State::idle && problem.empty() && state.simulation.waiting();
+        if (!will_begin && ImGui::Button("Compute")) state.simulation.retry(state.method);
     }
     draw_warnings(context, state.simulation.embedded(state.method));
 

@@ -1,6 +1,8 @@
 #include <imgui.h>
 
 #include <array>
+#include <optional>
+#include <string>
 
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
@@ -64,6 +66,18 @@ void draw_stages(const PanelContext& context) {
          context.palette.text_dim);
 }
 
+void draw_section_cost(const PanelContext& context) {
+    const std::optional<ShownScene::SectionCost>& cost = context.state.shown.section_cost();
+    if (!cost) return;
+    fact("cut, each update", readable_seconds(cost->update_seconds), context.palette.text_dim);
+    const std::string points =
+        cost->inside.evaluated < cost->inside.points
+            ? std::to_string(cost->inside.evaluated) + " of " + std::to_string(cost->inside.points)
+            : std::to_string(cost->inside.points);
+    fact(("cut, " + points + " points inside").c_str(), readable_seconds(cost->inside.worker_seconds),
+         context.palette.text_dim);
+}
+
 }  // namespace
 
 void Panels::draw_performance(const PanelContext& context) {
@@ -82,6 +96,7 @@ void Panels::draw_performance(const PanelContext& context) {
     }
     tooltip("A CSV file with one row for every frame.");
     draw_stages(context);
+    draw_section_cost(context);
 }
 
 }  // namespace elastolab

@@ -32,9 +32,13 @@ float view_factor(const ViewerState& state) {
     return static_cast<float>(std::clamp(width / kFullView, 0.6, 1.0));
 }
 
-void add_points(std::span<const int> vertices, const Positions& x, const Colour& colour, float size,
-                std::vector<PointSprite>& points) {
-    for (const int v : vertices) points.push_back({x.col(v), colour, size});
+/// Whether each vertex is seen: where the body is cut open, those of what is left.
+std::vector<char> seen_vertices(const ShownBody& body) {
+    std::vector<char> seen(static_cast<std::size_t>(body.positions().cols()), body.section() ? 0 : 1);
+    if (!body.section()) return seen;
+    for (const int v : body.section()->shape->triangles().reshaped())
+        if (static_cast<std::size_t>(v) < seen.size()) seen[static_cast<std::size_t>(v)] = 1;
+    return seen;
 }
 
 }  // namespace
@@ -107,9 +111,9 @@ void SceneRenderer::upload_section(const ShownBody& body, BodyDrawing& target) {
         return;
     }
     const ShownSection& section = *body.section();
-    if (!target.section || target.section_plane != section.plane) {
-        target.section.emplace(section.rest, section.triangles);
-        target.section_plane = section.plane;
+    if (!target.section || target.section_shape != section.shape) {
+        target.section.emplace(section.shape->rest(), section.shape->triangles());
+        target.section_shape = section.shape;
     }
     target.section->update(section.positions, frame_);
     if (section.values.empty())
@@ -122,18 +126,23 @@ void SceneRenderer::upload_points(const ViewerState& state, const ShownBody& bod
                                   const Palette& palette) {
     const LiveScene& scene = state.scene();
     const float crowd = crowd_factor(scene.mesh().n_vertices()) * view_factor(state);
+    const std::vector<char> seen = seen_vertices(body);
     std::vector<PointSprite> points;
+    const auto add_points = [&](std::span<const int> vertices, const Colour& colour, float size) {
+        for (const int v : vertices)
+            if (seen[static_cast<std::size_t>(v)] != 0) points.push_back({body.positions().col(v), colour, size});
+    };
     if (state.display.constraints) {
-        add_points(scene.vertices(LiveScene::kFixed), body.positions(), palette.fixed, crowd * kPointSize, points);
+        add_points(scene.vertices(LiveScene::kFixed), palette.fixed, crowd * kPointSize);
         for (int h = 0; h < scene.n_handles(); ++h) {
             const bool active = h == state.gestures.selected_handle();
-            add_points(scene.vertices(h), body.positions(), active ? palette.active : palette.handle,
-                       crowd * (active ? kActivePointSize : kPointSize), points);
+            add_points(scene.vertices(h), active ? palette.active : palette.handle,
+                       crowd * (active ? kActivePointSize : kPointSize));
         }
     }
     const Hover& hover = state.gestures.hover();
     if (!state.gestures.pulling()) {
-        add_points(hover.patch, body.positions(), palette.hover, crowd * kHoverPointSize, points);
+        add_points(hover.patch, palette.hover, crowd * kHoverPointSize);
         if (hover.vertex >= 0)
             points.push_back({body.positions().col(hover.vertex), palette.hover, kHoverPointSize + 3.0f});
     }
@@ -199,7 +208,7 @@ void SceneRenderer::draw_ghosts(const ViewerState& state, const SceneView& view,
     style.feature_edges = state.display.feature_edges;
     style.feature_width = 1.2f;
     const ShownBody* shown = state.shown.body(viewport.kinds.front());
-    if (state.display.rest_shape && shown != nullptr &&
+    if (state.display.rest_shape && shown != nullptr && !shown->section() &&
         shown->max_displacement() * state.display.deformation_scale > kLeastDeformation * frame_.radius) {
         style.colour = style.inside = style.feature = palette.text_dim;
         style.opacity = 0.10f;
@@ -220,17 +229,11 @@ void SceneRenderer::draw_viewport(const ViewerState& state, const SceneViewport&
     const MethodKind solid = viewport.kinds.front();
     background_.draw(palette.background_top, palette.background_bottom);
     BodyDrawing& main = drawing(solid);
-    SurfaceStyle style = surface_style(state, solid, palette);
-    if (main.section) {
-        style.feature_edges = false;  // every tetrahedron at the cut would have them
-        style.flat = true;
-        style.wireframe = true;
-        main.section->draw(view, style);
-    } else {
-        main.surface.draw(view, style);
-    }
+    const SurfaceStyle style = surface_style(state, solid, palette);
+    SurfaceDrawing& body = main.section ? *main.section : main.surface;
+    body.draw(view, style);
     if (state.display.soft_shadows && !target.is_tile()) occlusion_.draw(view, target);
-    if (state.display.grid || state.display.soft_shadows) draw_ground(state, view, palette, main.surface, target);
+    if (state.display.grid || state.display.soft_shadows) draw_ground(state, view, palette, body, target);
     draw_ghosts(state, view, viewport, palette);
     if (state.display.defects && main.rim)
         main.rim->draw(view, {.colour = palette.bad, .width = 1.8f, .hidden_opacity = 0.25f});

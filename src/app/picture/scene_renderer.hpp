@@ -48,7 +48,7 @@ private:
         SurfaceDrawing surface;
         std::optional<SurfaceDrawing> section;
         std::optional<LinesDrawing> rim;  ///< where the surface is not closed
-        SectionPlane section_plane;
+        std::shared_ptr<const SectionShape> section_shape;
         PointsDrawing points;
         ArrowsDrawing arrows;
         std::uint64_t revision = 0;

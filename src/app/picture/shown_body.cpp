@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "app/names.hpp"
+#include "base/timer.hpp"
 #include "deform/surface_stress.hpp"
 
 namespace elastolab {
@@ -55,11 +57,6 @@ std::vector<int> joined(const std::vector<int>& a, const std::vector<int>& b) {
     return all;
 }
 
-SectionPlane plane_of(const MeshReport& report, const DisplaySettings& display) {
-    const double low = report.min_corner[display.section_axis], high = report.max_corner[display.section_axis];
-    return {display.section_axis, low + display.section_place * (high - low), display.section_flip};
-}
-
 }  // namespace
 
 ShownBody::Key ShownBody::key_of(const Sources& sources, const DisplaySettings& display) {
@@ -74,8 +71,8 @@ ShownBody::Key ShownBody::key_of(const Sources& sources, const DisplaySettings& 
             .reactions = sources.reactions,
             .reaction_revision = sources.reactions ? sources.reactions->revision() : 0,
             .scene_revision = sources.reactions ? sources.scene.revision() : 0,
-            .volume = sources.volume,
-            .plane = plane_of(sources.scene.report(), display)};
+            .section = sources.section,
+            .inside_revision = sources.inside ? sources.inside->revision() : 0};
 }
 
 bool ShownBody::update(const Sources& sources, const DisplaySettings& display) {
@@ -88,7 +85,9 @@ bool ShownBody::update(const Sources& sources, const DisplaySettings& display) {
     update_reactions(sources);
     update_difference(sources);
     update_values(sources, display.field);
+    const Stopwatch watch;
     update_section(sources, display);
+    section_seconds_ = watch.seconds();
     return true;
 }
 
@@ -131,22 +130,31 @@ void ShownBody::update_difference(const Sources& sources) {
 }
 
 void ShownBody::update_section(const Sources& sources, const DisplaySettings& display) {
-    const Eigen::VectorXd& of_surface = sources.answer.runner().displacement();
-    if (sources.volume == nullptr || of_surface.size() != 3 * sources.volume->mesh().n_surface_vertices) {
-        section_.reset();
-        return;
+    section_.reset();
+    if (!sources.section || sources.section->is_empty()) return;  // all cut away: the whole body says more
+    const SectionShape& shape = *sources.section;
+    const SectionRunner* inside = sources.inside && sources.inside->ready() ? sources.inside : nullptr;
+    Positions within = shape.inside();
+    if (inside)
+        within += display.deformation_scale * inside->displacements();
+    else
+        within += shape.spread_from_rim(positions_ - shape.surface()->vertices);
+    section_ = ShownSection{sources.section, shape.joined(positions_, within), {}};
+    if (!values_.empty()) colour_section(inside, display.field);
+}
+
+void ShownBody::colour_section(const SectionRunner* inside, Field field) {
+    const SectionShape& shape = *section_->shape;
+    const Eigen::MatrixXd surface =
+        Eigen::Map<const Eigen::RowVectorXf>(values_.data(), std::ssize(values_)).cast<double>();
+    Eigen::MatrixXd within = Eigen::MatrixXd::Constant(1, shape.n_inside(), std::numeric_limits<double>::quiet_NaN());
+    if (max_value_ == 0.0) within.setZero();  // at rest
+    if (inside && field == Field::displacement) within = inside->displacements().colwise().norm();
+    if (inside && field == Field::von_mises) {
+        const Eigen::Matrix<double, 6, -1> stresses = inside->stresses();
+        for (Eigen::Index i = 0; i < within.cols(); ++i) within(0, i) = von_mises(stresses.col(i));
     }
-    const TetMesh& mesh = sources.volume->mesh();
-    if (!section_ || section_->plane != key_.plane || section_->rest.cols() != mesh.vertices.cols())
-        section_ = ShownSection{key_.plane, cut_faces(mesh, key_.plane), mesh.vertices, {}, {}};
-    if (section_->triangles.cols() == 0) {  // all cut away: the whole body says more
-        section_.reset();
-        return;
-    }
-    const Eigen::VectorXd u = sources.volume->displace(of_surface);
-    section_->positions = mesh.vertices + display.deformation_scale * columns(u);
-    section_->values.clear();
-    if (display.field == Field::displacement) section_->values = magnitudes(columns(u));
+    section_->values = as_floats(shape.joined(surface, within).row(0).transpose());
 }
 
 void ShownBody::update_values(const Sources& sources, Field field) {

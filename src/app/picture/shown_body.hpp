@@ -2,14 +2,15 @@
 
 #include <cstdint>
 #include <Eigen/Core>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "app/picture/reaction_runner.hpp"
-#include "app/picture/section.hpp"
+#include "app/picture/section_runner.hpp"
+#include "app/picture/section_shape.hpp"
 #include "app/settings.hpp"
-#include "deform/volume.hpp"
 #include "scene/live/live_scene.hpp"
 #include "scene/live/simulation.hpp"
 
@@ -28,12 +29,11 @@ struct Difference {
     int worst_vertex = -1;
 };
 
-/// The body cut open: whole tetrahedra on one side of a plane, deformed.
+/// The body cut open by a plane through its rest shape, deformed.
 struct ShownSection {
-    SectionPlane plane;
-    Triangles triangles;        ///< of the volume's vertices
-    Positions rest, positions;  ///< of all vertices of the volume
-    std::vector<float> values;  ///< displacements, when these are shown; else empty
+    std::shared_ptr<const SectionShape> shape;
+    Positions positions;        ///< of all vertices of the shape
+    std::vector<float> values;  ///< of the chosen field, NaN inside where it is known on the surface only; or empty
 };
 
 /// What is seen of one method's answer; made anew only when the answer or the settings have changed.
@@ -45,9 +45,10 @@ public:
     struct Sources {
         const LiveScene& scene;
         const EmbeddedRunner& answer;
-        const EmbeddedRunner* reference = nullptr;  ///< what differences are to; null when there is none
-        const ReactionRunner* reactions = nullptr;  ///< null when nothing is shown that needs them
-        const Volume* volume = nullptr;             ///< its inside, when it has one and is to be cut open
+        const EmbeddedRunner* reference = nullptr;         ///< what differences are to; null when there is none
+        const ReactionRunner* reactions = nullptr;         ///< null when nothing is shown that needs them
+        std::shared_ptr<const SectionShape> section = {};  ///< when it is to be cut open
+        const SectionRunner* inside = nullptr;             ///< what is known there; null when it is not cut open
     };
     /// Brings everything up to date. Returns whether positions or values changed.
     bool update(const Sources& sources, const DisplaySettings& display);
@@ -58,12 +59,12 @@ public:
     /// One value a vertex for the chosen field; empty when there is none, or when it is not known yet.
     const std::vector<float>& values() const { return values_; }
     double max_value() const { return max_value_; }
-    /// Whether what is seen has these values: inside the body only displacements are known.
-    bool is_coloured() const { return section_ ? !section_->values.empty() : !values_.empty(); }
+    bool is_coloured() const { return !values_.empty(); }
     double max_displacement() const { return max_displacement_; }
     const std::optional<Difference>& difference() const { return difference_; }
     const std::vector<ShownReaction>& reactions() const { return reactions_; }
     const std::optional<ShownSection>& section() const { return section_; }
+    double section_seconds() const { return section_seconds_; }  ///< that its last update took
 
 private:
     /// Everything that positions, values and reactions are made from: equal keys, equal picture.
@@ -75,8 +76,8 @@ private:
         double scale = 1.0;
         const ReactionRunner* reactions = nullptr;
         std::uint64_t reaction_revision = 0, scene_revision = 0;
-        const Volume* volume = nullptr;
-        SectionPlane plane;
+        std::shared_ptr<const SectionShape> section;
+        std::uint64_t inside_revision = 0;
         bool operator==(const Key&) const = default;
     };
     static Key key_of(const Sources& sources, const DisplaySettings& display);
@@ -84,6 +85,7 @@ private:
     void update_reactions(const Sources& sources);
     void update_difference(const Sources& sources);
     void update_section(const Sources& sources, const DisplaySettings& display);
+    void colour_section(const SectionRunner* inside, Field field);
     void update_values(const Sources& sources, Field field);
 
     MethodKind kind_;
@@ -95,6 +97,7 @@ private:
     std::optional<Difference> difference_;
     std::vector<ShownReaction> reactions_;
     std::optional<ShownSection> section_;
+    double section_seconds_ = 0.0;
     Eigen::Matrix3Xd tractions_;  ///< 3 x n_vertices [force / L^2]; no columns when not known
 };
 

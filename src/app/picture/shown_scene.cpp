@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/timer.hpp"
+
 namespace elastolab {
 
 namespace {
@@ -42,7 +44,8 @@ std::pair<double, double> ShownScene::field_range(const DisplaySettings& display
 
 void ShownScene::forget() {
     bodies_.clear();
-    volume_.forget();
+    section_.reset();
+    for (const auto& [kind, runner] : insides_) runner->rest();
     for (const auto& [kind, runner] : reactions_) runner->rest();
 }
 
@@ -58,31 +61,81 @@ const ReactionRunner* ShownScene::reactions(const ShownAnswers& answers, MethodK
     return runner.get();
 }
 
-/// The inside of a method's body, when it is to be cut open.
-const Volume* ShownScene::volume(const ShownAnswers& answers, MethodKind kind) {
-    const EmbeddedRunner& answer = answers.simulation.embedded(kind);
-    const bool answers_now = &answer == &answers.simulation.answer(kind) && answer.shows(answers.scene.mesh());
-    return answers.display.section && answers_now ? volume_.of(answer.runner()) : nullptr;
+/// The body cut open at rest; made anew only for another plane or body.
+std::shared_ptr<const SectionShape> ShownScene::section(const ShownAnswers& answers) {
+    if (!answers.display.section) return nullptr;
+    const std::shared_ptr<const SurfaceMesh>& surface = answers.scene.shared_mesh();
+    const Plane plane = section_plane(surface->vertices, answers.display);
+    if (!section_ || section_->surface() != surface || section_->plane() != plane)
+        section_ = std::make_shared<const SectionShape>(surface, plane);
+    return section_;
+}
+
+const SectionRunner* ShownScene::inside(const ShownAnswers& answers, MethodKind kind) {
+    std::unique_ptr<SectionRunner>& runner = insides_[kind];
+    if (!runner) runner = std::make_unique<SectionRunner>(wake_);
+    const EmbeddedRunner& answer = answers.simulation.answer(kind);
+    if (section_ && answer.shows(answers.scene.mesh()))
+        runner->update(answer, section_);
+    else
+        runner->rest();
+    return runner.get();
 }
 
 bool ShownScene::update(const ShownAnswers& answers) {
-    if (!answers.display.section) volume_.forget();
+    const Stopwatch watch;
+    section_ = section(answers);
+    const double cutting_seconds = watch.seconds();
     const auto is_shown = [&](MethodKind kind) {
         return std::find(answers.kinds.begin(), answers.kinds.end(), kind) != answers.kinds.end();
     };
     std::erase_if(bodies_, [&](const ShownBody& body) { return !is_shown(body.kind()); });
     for (const auto& [kind, runner] : reactions_)
         if (!is_shown(kind)) runner->rest();
+    for (const auto& [kind, runner] : insides_)
+        if (!is_shown(kind)) runner->rest();
     bool changed = false;
+    double seconds = cutting_seconds;
     for (const MethodKind kind : answers.kinds) {
+        const Stopwatch of_inside;
+        const SectionRunner* known = inside(answers, kind);
+        seconds += of_inside.seconds();
         const ShownBody::Sources sources{.scene = answers.scene,
                                          .answer = answers.simulation.answer(kind),
                                          .reference = answers.simulation.previewing(kind) ? nullptr : answers.reference,
                                          .reactions = reactions(answers, kind),
-                                         .volume = volume(answers, kind)};
-        changed = body_of(kind).update(sources, answers.display) || changed;
+                                         .section = section_,
+                                         .inside = known};
+        ShownBody& body = body_of(kind);
+        if (!body.update(sources, answers.display)) continue;
+        seconds += body.section_seconds();
+        changed = true;
     }
+    if (!section_)
+        section_cost_.reset();
+    else if (changed)
+        sum_costs(seconds);
     return changed;
+}
+
+void ShownScene::sum_costs(double update_seconds) {
+    section_cost_ = SectionCost{{}, update_seconds};
+    for (const auto& [kind, runner] : insides_) {
+        const SectionRunner::Cost cost = runner->cost();
+        section_cost_->inside.points += cost.points;
+        section_cost_->inside.evaluated += cost.evaluated;
+        section_cost_->inside.worker_seconds += cost.worker_seconds;
+    }
+}
+
+const std::string& ShownScene::section_failure(MethodKind kind) const {
+    static const std::string none;
+    const auto found = insides_.find(kind);
+    return found == insides_.end() ? none : found->second->failure();
+}
+
+bool ShownScene::cutting() const {
+    return std::any_of(insides_.begin(), insides_.end(), [](const auto& entry) { return entry.second->running(); });
 }
 
 bool ShownScene::solving() const {
@@ -90,13 +143,14 @@ bool ShownScene::solving() const {
 }
 
 void ShownScene::cancel() {
-    volume_.cancel();
+    for (const auto& [kind, runner] : insides_) runner->cancel();
     for (const auto& [kind, runner] : reactions_) runner->cancel();
 }
 
 bool ShownScene::working() const {
-    return volume_.working() ||
-           std::any_of(reactions_.begin(), reactions_.end(), [](const auto& entry) { return entry.second->working(); });
+    const auto works = [](const auto& entry) { return entry.second->working(); };
+    return std::any_of(insides_.begin(), insides_.end(), works) ||
+           std::any_of(reactions_.begin(), reactions_.end(), works);
 }
 
 }  // namespace elastolab

@@ -3,12 +3,13 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "app/picture/reaction_runner.hpp"
-#include "app/picture/section_volume.hpp"
+#include "app/picture/section_runner.hpp"
 #include "app/picture/shown_body.hpp"
 #include "app/settings.hpp"
 #include "render/viewport.hpp"
@@ -37,7 +38,7 @@ struct ShownAnswers {
 class ShownScene {
 public:
     /// `wake` is called by workers when poll() or update() will find something.
-    explicit ShownScene(const std::function<void()>& wake) : wake_(wake), volume_(wake) {}
+    explicit ShownScene(const std::function<void()>& wake) : wake_(wake) {}
 
     std::vector<SceneViewport> viewports;  ///< where the scene is in this frame
     const std::vector<ShownBody>& bodies() const { return bodies_; }
@@ -49,15 +50,19 @@ public:
 
     /// The scene was replaced.
     void forget();
-    /// Takes over the inside of a body that is to be cut open. True when there is something new to see;
-    /// volume_failure() when it is that.
-    bool poll_volume() { return volume_.poll(); }
-    const std::string& volume_failure() const { return volume_.failure(); }
+    /// Why what is inside the body by this method is not known; empty when it is or will be.
+    const std::string& section_failure(MethodKind kind) const;
+    /// What the cut costs, of all methods; nothing when no body is cut open.
+    struct SectionCost {
+        SectionRunner::Cost inside;   ///< sums
+        double update_seconds = 0.0;  ///< of the last update that changed something, for cutting and for following
+    };
+    const std::optional<SectionCost>& section_cost() const { return section_cost_; }
     /// Brings all that is shown up to date; returns whether something changed.
     bool update(const ShownAnswers& answers);
 
-    bool cutting() const { return volume_.running(); }  ///< the inside of the body is being made
-    bool solving() const;                               ///< reactions are being computed
+    bool cutting() const;  ///< what is inside the body is being evaluated
+    bool solving() const;  ///< reactions are being computed
     /// Stops all workers at their next checkpoints; working(): some have not stopped yet.
     void cancel();
     bool working() const;
@@ -65,12 +70,16 @@ public:
 private:
     ShownBody& body_of(MethodKind kind);
     const ReactionRunner* reactions(const ShownAnswers& answers, MethodKind kind);
-    const Volume* volume(const ShownAnswers& answers, MethodKind kind);
+    std::shared_ptr<const SectionShape> section(const ShownAnswers& answers);
+    const SectionRunner* inside(const ShownAnswers& answers, MethodKind kind);
+    void sum_costs(double update_seconds);
 
     std::vector<ShownBody> bodies_;  ///< of every method on the screen
     std::function<void()> wake_;
     std::map<MethodKind, std::unique_ptr<ReactionRunner>> reactions_;
-    SectionVolume volume_;
+    std::shared_ptr<const SectionShape> section_;
+    std::map<MethodKind, std::unique_ptr<SectionRunner>> insides_;
+    std::optional<SectionCost> section_cost_;
 };
 
 }  // namespace elastolab

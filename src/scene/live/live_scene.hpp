@@ -32,6 +32,7 @@ public:
     const std::filesystem::path& file() const { return file_; }  ///< where relative names of the document start
     const std::string& name() const { return mesh_.name; }       ///< of the mesh
     const SurfaceMesh& mesh() const { return *surface_; }
+    const std::shared_ptr<const SurfaceMesh>& shared_mesh() const { return surface_; }
     const std::shared_ptr<const SurfaceMesh>& surface() const { return surface_; }
     const MeshReport& report() const { return mesh_.checked.report; }
     /// Whether a method of this kind simulates a proxy of the surface.
