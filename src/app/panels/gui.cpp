@@ -142,7 +142,7 @@ void Gui::feed(const InputEvent& event) {
         case InputEvent::Kind::key:
             if (code < std::size(io.KeysDown)) io.KeysDown[code] = event.pressed;
             // Dear ImGui chooses an entry of a menu by Space alone.
-            if (event.code == GLFW_KEY_ENTER && (!event.pressed || (popup_was_open_ && !wants_text())))
+            if (event.code == GLFW_KEY_ENTER && (!event.pressed || menu_is_open()))
                 io.KeysDown[GLFW_KEY_SPACE] = event.pressed;
             break;
         case InputEvent::Kind::text:
@@ -172,12 +172,18 @@ void Gui::begin(std::span<const InputEvent> events, double dt) {
     close_menus_on_escape();
 }
 
+/// A menu or a list, no question.
+bool Gui::menu_is_open() const {
+    const ImVector<ImGuiPopupData>& open = ImGui::GetCurrentContext()->OpenPopupStack;
+    if (open.empty() || wants_text()) return false;
+    const ImGuiWindow* top = open.back().Window;
+    return top == nullptr || (top->Flags & ImGuiWindowFlags_Modal) == 0;
+}
+
 /// Dear ImGui itself closes them only once the keys have moved about in them.
 void Gui::close_menus_on_escape() {
-    const ImVector<ImGuiPopupData>& open = ImGui::GetCurrentContext()->OpenPopupStack;
-    if (open.empty() || wants_text() || !ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false)) return;
-    const ImGuiWindow* top = open.back().Window;
-    if (top == nullptr || (top->Flags & ImGuiWindowFlags_Modal) == 0) ImGui::ClosePopupToLevel(open.size() - 1, true);
+    if (!menu_is_open() || !ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false)) return;
+    ImGui::ClosePopupToLevel(ImGui::GetCurrentContext()->OpenPopupStack.size() - 1, true);
 }
 
 void Gui::end() {

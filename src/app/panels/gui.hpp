@@ -48,6 +48,7 @@ public:
 
 private:
     void feed(const InputEvent& event);
+    bool menu_is_open() const;
     void close_menus_on_escape();
     void update_cursor_shape();
 
