@@ -167,7 +167,10 @@ void Panels::draw_method(const PanelContext& context) {
     if (runner.state() == State::idle || runner.state() == State::failed) {
         const std::string problem = state.simulation.problem(state.method);
         if (!problem.empty()) paragraph(problem, palette.bad);
-        const bool will_begin = runner.state() == State::idle && problem.empty() && state.simulation.waiting();
+        const Simulation& simulation = state.simulation;
+        const bool will_begin =
+            runner.state() == State::idle && problem.empty() &&
+            (simulation.waiting() || simulation.preparing_preview() || simulation.making_proxy(state.method));
         if (!will_begin && ImGui::Button("Compute")) state.simulation.retry(state.method);
     }
     draw_warnings(context, state.simulation.embedded(state.method));

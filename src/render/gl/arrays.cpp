@@ -8,10 +8,10 @@ namespace elastolab {
 
 namespace {
 
-struct Side {
+struct EdgeUse {
     int low, high;
     bool ascending;
-    bool operator<(const Side& other) const {
+    bool operator<(const EdgeUse& other) const {
         return std::tie(low, high, ascending) < std::tie(other.low, other.high, other.ascending);
     }
 };
@@ -19,7 +19,7 @@ struct Side {
 }  // namespace
 
 Edges unpaired_edges(const TrianglesView& triangles) {
-    std::vector<Side> sides;
+    std::vector<EdgeUse> sides;
     sides.reserve(static_cast<std::size_t>(3 * triangles.cols()));
     for (Eigen::Index t = 0; t < triangles.cols(); ++t)
         for (int i = 0; i < 3; ++i) {
@@ -27,14 +27,14 @@ Edges unpaired_edges(const TrianglesView& triangles) {
             sides.push_back({std::min(a, b), std::max(a, b), a < b});
         }
     std::sort(sides.begin(), sides.end());
-    std::vector<Side> unpaired;
+    std::vector<EdgeUse> unpaired;
     for (auto side = sides.begin(), next = side; side != sides.end(); side = next) {
         while (next != sides.end() && next->low == side->low && next->high == side->high) ++next;
         if (next - side != 2 || side[0].ascending == side[1].ascending) unpaired.push_back(*side);
     }
     Edges result(2, static_cast<Eigen::Index>(unpaired.size()));
     for (Eigen::Index i = 0; i < result.cols(); ++i) {
-        const Side& side = unpaired[static_cast<std::size_t>(i)];
+        const EdgeUse& side = unpaired[static_cast<std::size_t>(i)];
         result.col(i) << side.low, side.high;
     }
     return result;
