@@ -36,18 +36,18 @@ struct Frame {
     double scale;
 };
 
-using Corners = std::array<std::array<double, 3>, 3>;
+using CornerKey = std::array<std::array<double, 3>, 3>;
 
 /// The corners of a triangle in an order that does not depend on where it begins and which side it shows.
-Corners sorted_corners(const TrianglePoints& p) {
-    Corners corners;
+CornerKey sorted_corners(const TrianglePoints& p) {
+    CornerKey corners;
     const Eigen::Vector3d* points[3] = {&p.a, &p.b, &p.c};
     for (std::size_t i = 0; i < 3; ++i) corners[i] = {points[i]->x(), points[i]->y(), points[i]->z()};
     std::sort(corners.begin(), corners.end());
     return corners;
 }
 
-std::size_t hash_of(const Corners& corners) {
+std::size_t hash_of(const CornerKey& corners) {
     std::size_t hash = 0;
     for (const auto& corner : corners)
         for (const double x : corner) hash = 31 * hash + std::hash<double>()(x);
