@@ -242,6 +242,9 @@ Problem large_values(double factor) {
 
 Problem stiff(double young_modulus) {
     Problem problem = bending_bar(0.3);
+    const double factor = young_modulus / problem.body.material.young_modulus;
+    problem.reactions->forces *= factor;
+    problem.reactions->moments *= factor;
     problem.body.material.young_modulus = young_modulus;
     return problem;
 }
