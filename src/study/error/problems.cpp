@@ -126,7 +126,7 @@ std::optional<double> Problem::force_error(const Reactions& at_constrained) cons
     constexpr double kBalanced = 1e-9;
     const ConstrainedPatches patches = constrained_patches(*body.surface, {}, constrained);
     const double size = largest_patch_reaction(*body.surface, patches, *reactions);
-    if (size <= kBalanced * reactions->forces.colwise().norm().sum()) return {};
+    if (size <= kBalanced * reactions->forces.colwise().stableNorm().sum()) return {};
     return largest_patch_reaction(
                *body.surface, patches,
                {at_constrained.forces - reactions->forces, at_constrained.moments - reactions->moments}) /
