@@ -1,12 +1,7 @@
 #include "render/gl/matte.hpp"
 
-#include <stb_image_write.h>
-
 #include <algorithm>
 #include <cassert>
-
-#include "base/atomic_file.hpp"
-#include "base/error.hpp"
 
 namespace elastolab {
 
@@ -29,14 +24,7 @@ TransparentImage matte(const Image& on_black, const Image& on_white) {
 }
 
 void write_png(const std::filesystem::path& path, const TransparentImage& image) {
-    AtomicFile file(path);
-    const auto append = [](void* stream, void* data, int size) {
-        static_cast<std::ostream*>(stream)->write(static_cast<const char*>(data), size);
-    };
-    const int ok = stbi_write_png_to_func(append, static_cast<std::ostream*>(&file.stream()), image.width, image.height,
-                                          4, image.pixels.data(), 4 * image.width);
-    if (ok == 0) throw Error(path.string() + ": the picture is too large for memory. Choose a smaller size.");
-    file.commit();
+    write_png_channels(path, image.width, image.height, 4, image.pixels.data());
 }
 
 }  // namespace elastolab
