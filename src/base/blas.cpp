@@ -14,8 +14,6 @@ namespace elastolab {
 
 namespace {
 
-constexpr const char* kCoreTypeVariable = "OPENBLAS_CORETYPE";
-
 std::atomic<int>& threads() {
     static std::atomic<int> n{std::max(1, static_cast<int>(std::thread::hardware_concurrency()))};
     return n;
@@ -42,11 +40,14 @@ const char* fitting_kernels() {
 
 }  // namespace
 
-void select_blas_kernels(char** argv) {
-    if (std::getenv(kCoreTypeVariable) != nullptr || !is_outdated(blas_kernels())) return;
-    const char* kernels = fitting_kernels();
-    if (kernels == nullptr || setenv(kCoreTypeVariable, kernels, 0) != 0) return;
-    execv("/proc/self/exe", argv);  // on failure the program goes on with the slow kernels, and its report says so
+void prepare_parallel_libraries(char** argv) {
+    bool changed = false;
+    const auto set_where_unset = [&](const char* variable, const char* value) {
+        if (value != nullptr && std::getenv(variable) == nullptr) changed |= setenv(variable, value, 0) == 0;
+    };
+    if (is_outdated(blas_kernels())) set_where_unset("OPENBLAS_CORETYPE", fitting_kernels());
+    set_where_unset("OMP_WAIT_POLICY", "passive");
+    if (changed) execv("/proc/self/exe", argv);  // on failure all is slower, and reports say which kernels run
 }
 
 std::string blas_kernels() { return openblas_get_corename(); }

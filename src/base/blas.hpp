@@ -4,10 +4,15 @@
 
 namespace elastolab {
 
-/// Makes OpenBLAS use kernels that fit this CPU. OpenBLAS 0.3.21 does not know recent CPUs and falls back to SSE3
-/// kernels, several times slower; the choice can only be made before the library loads, so this re-executes the
-/// program once with OPENBLAS_CORETYPE set. Call it first thing in main. A value that the user has set is respected.
-void select_blas_kernels(char** argv);
+/// Makes two choices that can only be made before libraries load, so this re-executes the program once with them in its
+/// environment. Call it first thing in main. What the user has set is respected.
+///   OPENBLAS_CORETYPE  kernels that fit this CPU: OpenBLAS 0.3.21 does not know recent ones and falls back to SSE3
+///                      kernels, several times slower
+///   OMP_WAIT_POLICY    passive: OpenMP's threads sleep when they have nothing to do. They spin otherwise, on cores
+///   that
+///                      OpenBLAS's threads and other workers want: whole precomputations of small bodies took 2 to 10
+///                      times as long, in steps of the scheduler's 4 ms
+void prepare_parallel_libraries(char** argv);
 
 /// Name of the kernels that run, as OpenBLAS calls them (e.g. "Zen", "SkylakeX", "Haswell").
 std::string blas_kernels();

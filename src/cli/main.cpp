@@ -57,7 +57,7 @@ int main(int argc, char** argv) {
         return complain(error.what(), kFailure);
     }
     elastolab::start_blas_within_limits(argv);
-    elastolab::select_blas_kernels(argv);
+    elastolab::prepare_parallel_libraries(argv);
     std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow any more is an error of writing, not the end
     try {
         elastolab::reserve_blas_buffers();

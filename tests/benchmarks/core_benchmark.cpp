@@ -453,7 +453,7 @@ BENCHMARK(drag_frame_beside_a_copy_of_its_columns)
 }  // namespace elastolab::test
 
 int main(int argc, char** argv) {
-    elastolab::select_blas_kernels(argv);
+    elastolab::prepare_parallel_libraries(argv);
     benchmark::Initialize(&argc, argv);
     benchmark::AddCustomContext("blas_kernels", elastolab::blas_kernels());
     benchmark::AddCustomContext("threads", std::to_string(elastolab::thread_count()));

@@ -3,7 +3,7 @@
 #include "base/blas.hpp"
 
 int main(int argc, char** argv) {
-    elastolab::select_blas_kernels(argv);
+    elastolab::prepare_parallel_libraries(argv);
     ::testing::InitGoogleTest(&argc, argv);
     return RUN_ALL_TESTS();
 }
