@@ -52,6 +52,12 @@ int exponent_of(const Eigen::VectorXd& values) {
     return std::isnormal(largest) ? std::clamp(std::ilogb(largest), -1000, 1000) : 0;
 }
 
+/// Next to nu = -1 a body resists shear 1 / (1 + nu) times more than stretch. Displacements that shear by mistake, by
+/// parts of what they are off, take forces as much too large; those of the better answer do, too, and their difference
+/// shows nothing. The smallest part that was measured (Galerkin BEM, bending).
+constexpr double kShearForces = 0.1;
+double shear_over_stretch(const Body& body) { return 1.0 / (1.0 + body.material.poisson_ratio); }
+
 /// Forces below this part of Young's modulus times displacement times length are rounding.
 constexpr double kNoForce = 1e-9;
 
@@ -266,8 +272,10 @@ std::optional<DiscretisationCheck> Deformer::check_of(const Answer& answer, cons
     const double force = std::max(largest_patch_reaction(surface, patches, better),
                                   kNoForce * model_->body().material.young_modulus * size * length);
     const double force_off = largest_patch_reaction(surface, patches, error.reactions);
-    return DiscretisationCheck{size > 0.0 ? off / size : 0.0, static_cast<int>(worst),
-                               force > 0.0 ? force_off / force : 0.0};
+    const double u_error = size > 0.0 ? off / size : 0.0;
+    return DiscretisationCheck{
+        u_error, static_cast<int>(worst),
+        std::max(force > 0.0 ? force_off / force : 0.0, kShearForces * u_error * shear_over_stretch(model_->body()))};
 }
 
 Deformer::Answer Deformer::answer(const Eigen::VectorXd& values, Wanted wanted, Control& control) const {
