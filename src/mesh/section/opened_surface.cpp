@@ -1,6 +1,8 @@
 #include "mesh/section/opened_surface.hpp"
 
+#include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <cstdint>
 #include <unordered_map>
 
@@ -8,12 +10,17 @@ namespace elastolab {
 
 namespace {
 
+constexpr double kOnPlane = 1e-12;  ///< height over the body's extent: rounding
+
 class Opening {
 public:
     Opening(const SurfaceMesh& surface, const Plane& plane)
         : surface_(surface),
           height_((plane.normal.transpose() * surface.vertices).array() - plane.offset),
-          kept_(static_cast<std::size_t>(surface.n_vertices()), -1) {}
+          kept_(static_cast<std::size_t>(surface.n_vertices()), -1) {
+        const double rounding = kOnPlane * std::max(height_.maxCoeff() - height_.minCoeff(), std::abs(plane.offset));
+        height_ = (height_.array().abs() <= rounding).select(0.0, height_);
+    }
 
     OpenedSurface run() {
         for (int t = 0; t < surface_.n_triangles(); ++t) add(t);
@@ -48,6 +55,7 @@ private:
     }
     /// On the edge between a vertex below and one above.
     int crossing(int low, int high) {
+        if (height_[high] == 0.0) return whole(high);
         const auto key = static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint32_t>(high);
         const auto [place, is_new] = crossings_.try_emplace(key, 0);
         if (is_new) {
@@ -75,6 +83,7 @@ private:
         } else {
             const int ba = crossing(b, a), ca = crossing(c, a);
             triangles_.emplace_back(whole(b), whole(c), ca);
+            if (ba == ca) return;  // the plane touches a corner
             triangles_.emplace_back(whole(b), ca, ba);
             outline_.push_back({ba, ca, t});
         }
