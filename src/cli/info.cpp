@@ -1,9 +1,13 @@
 #include "cli/info.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/error.hpp"
 #include "base/text.hpp"
+#include "cli/proxy_json.hpp"
 #include "findings/cost.hpp"
 #include "methods/registry.hpp"
 
@@ -54,10 +58,6 @@ const char* consequence(const Defect& defect) {
     return defect.fatal_for_fem ? "error for fem" : "warning";
 }
 
-bool usable(const MeshReport& report, MethodKind kind) {
-    return kind->has_inside ? report.usable_for_fem() : report.usable();
-}
-
 std::string corner(const Eigen::Vector3d& x) { return formatted("(%.6g, %.6g, %.6g)", x.x(), x.y(), x.z()); }
 
 void print_row(std::ostream& out, const char* label, const std::string& value) {
@@ -65,16 +65,17 @@ void print_row(std::ostream& out, const char* label, const std::string& value) {
 }
 
 void print_costs(std::ostream& out, const std::vector<MethodCost>& costs) {
-    out << formatted("  %-12s  %-12s  %12s  %12s  %10s\n", "method", "mode", "unknowns", "memory", "time");
+    out << formatted("  %-13s  %-12s  %12s  %12s  %10s\n", "method", "mode", "unknowns", "memory", "time");
     for (const MethodCost& row : costs) {
-        out << formatted("  %-12s  %-12s  ", std::string(name(row.method.kind)).c_str(),
+        out << formatted("  %-13s  %-12s  ", std::string(name(row.method.kind)).c_str(),
                          std::string(name(row.method.mode)).c_str());
         if (row.cost)
-            out << formatted("%12lld  %12s  %10s\n", static_cast<long long>(row.cost->degrees_of_freedom),
+            out << formatted("%12lld  %12s  %10s", static_cast<long long>(row.cost->degrees_of_freedom),
                              readable_bytes(static_cast<double>(row.cost->memory_bytes)).c_str(),
-                             readable_seconds(row.cost->seconds).c_str());
+                             readable_seconds(row.cost->seconds).c_str())
+                << (row.on_proxy ? "  on the proxy\n" : "\n");
         else
-            out << "not usable: see the errors above\n";
+            out << "cannot: see the errors above\n";
     }
 }
 
@@ -96,7 +97,8 @@ Json to_json(const Defect& defect) {
 
 Json to_json(const MethodCost& row) {
     Json json = {{"method", std::string(name(row.method.kind))}, {"mode", std::string(name(row.method.mode))}};
-    json["usable"] = row.cost.has_value();
+    json["usable"] = row.cost.has_value() && !row.on_proxy;
+    json["simulates"] = row.cost ? Json(row.on_proxy ? "proxy" : "surface") : Json(nullptr);
     json["degrees_of_freedom"] = row.cost ? Json(row.cost->degrees_of_freedom) : Json(nullptr);
     json["memory_bytes"] = row.cost ? Json(row.cost->memory_bytes) : Json(nullptr);
     json["seconds"] = row.cost ? number(row.cost->seconds) : Json(nullptr);
@@ -110,14 +112,39 @@ Json list(const Items& items) {
     return json;
 }
 
+void make_proxy(MeshInfo& info, const ProxyChoice& choice, Control& control) {
+    const auto shown = std::make_shared<const SurfaceMesh>(info.mesh.checked.mesh);
+    const std::array sizes = {choice.n_vertices};
+    try {
+        require_shape(info.mesh.checked.report, info.mesh.name);
+        info.proxy = make_proxies(info.mesh.name, shown, info.mesh.checked.report, sizes, control).front();
+    } catch (const MeshError& error) {
+        info.proxy_problem = error.what();
+    }
+}
+
+/// Whether a method can simulate the surface itself.
+bool usable(const MeshReport& report, MethodKind kind) {
+    return kind->has_inside ? report.usable_for_fem() : report.usable();
+}
+
+std::string proxy_words(const Proxy& proxy) {
+    return formatted("%d vertices, %d faces, at most %.3g from the surface", proxy.surface->n_vertices(),
+                     proxy.surface->n_triangles(), proxy.places.distance.maxCoeff());
+}
+
 }  // namespace
 
-MeshInfo inspect(SceneMesh mesh) {
-    MeshInfo info{.mesh = std::move(mesh), .costs = {}};
+MeshInfo inspect(SceneMesh mesh, const ProxyChoice& choice, Control& control) {
+    MeshInfo info{.mesh = std::move(mesh), .proxy = {}, .proxy_problem = {}, .costs = {}};
+    const MeshReport& report = info.mesh.checked.report;
+    const auto on_proxy = [&](MethodKind kind) { return needs_proxy(choice, report, kind); };
+    if (std::any_of(all_methods().begin(), all_methods().end(), on_proxy)) make_proxy(info, choice, control);
     for (const MethodKind kind : all_methods())
         for (const Mode mode : kind->modes) {
-            MethodCost row{.method = {.kind = kind, .mode = mode}, .cost = {}};
-            if (usable(info.mesh.checked.report, kind)) row.cost = predict_cost(info.mesh.checked.mesh, row.method);
+            MethodCost row{.method = {.kind = kind, .mode = mode}, .on_proxy = on_proxy(kind), .cost = {}};
+            if (row.on_proxy && info.proxy) row.cost = predict_cost(*info.proxy->surface, row.method);
+            if (!row.on_proxy && usable(report, kind)) row.cost = predict_cost(info.mesh.checked.mesh, row.method);
             info.costs.push_back(row);
         }
     return info;
@@ -140,6 +167,8 @@ void print_info(std::ostream& out, const MeshInfo& info) {
     print_row(out, "thinnest", formatted("altitude / edge %.3g", report.smallest_altitude_ratio));
     if (report.defects.empty()) print_row(out, "defects", "none");
     for (const Defect& defect : report.defects) print_row(out, consequence(defect), one_line(defect.text));
+    if (info.proxy) print_row(out, "proxy", proxy_words(*info.proxy));
+    if (!info.proxy_problem.empty()) print_row(out, "no proxy", one_line(info.proxy_problem));
     print_costs(out, info.costs);
 }
 
@@ -163,6 +192,7 @@ void write_info(std::ostream& out, const MeshInfo& info) {
         {"defects", list(report.defects)},
         {"usable", report.usable()},
         {"usable_for_fem", report.usable_for_fem()},
+        {"proxy", proxy_json(info.proxy.get())},
         {"methods", list(info.costs)},
     };
     out << json.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";

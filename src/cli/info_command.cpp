@@ -5,6 +5,8 @@
 #include "cli/command.hpp"
 #include "cli/info.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/progress.hpp"
+#include "cli/proxy_options.hpp"
 #include "scene/file/scene_file.hpp"
 
 namespace elastolab {
@@ -13,18 +15,24 @@ namespace {
 
 struct InfoOptions {
     std::string file;
+    ProxyOptions proxy;
     bool json = false;
 };
 
-SceneMesh load(const std::filesystem::path& file, Control& control) {
-    if (is_scene_file(file)) return load_scene_mesh(load_scene(file).mesh, file, control);
-    return load_scene_mesh(MeshFile{file.string()}, {}, control);
+MeshInfo inspect_file(const InfoOptions& options, Control& control) {
+    const bool is_scene = is_scene_file(options.file);
+    const Document document = is_scene ? load_scene(options.file) : Document{.mesh = MeshFile{options.file}};
+    ProxyChoice choice = document.proxy;
+    options.proxy.apply(choice);
+    SceneMesh mesh = load_scene_mesh(document.mesh, is_scene ? options.file : "", control);
+    return inspect(std::move(mesh), choice, control);
 }
 
 void run_info(const InfoOptions& options) {
     Control control;
     const InterruptGuard interrupt(control);
-    const MeshInfo info = inspect(load(options.file, control));
+    const ProgressBar progress(control, true);
+    const MeshInfo info = inspect_file(options, control);
     if (options.json)
         write_info(std::cout, info);
     else
@@ -37,6 +45,7 @@ Command add_info_command(CLI::App& program) {
     const auto options = std::make_shared<InfoOptions>();
     CLI::App* parser = program.add_subcommand("info", "what a mesh is, its defects, and what each method would cost");
     parser->add_option("file", options->file, "mesh file, or a scene file (.json) for its mesh")->required();
+    options->proxy.add_to(*parser);
     parser->add_flag("--json", options->json, "as JSON");
     return {parser, [options] { run_info(*options); }};
 }

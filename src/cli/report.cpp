@@ -8,6 +8,7 @@
 #include "base/machine.hpp"
 #include "base/memory.hpp"
 #include "base/text.hpp"
+#include "cli/proxy_json.hpp"
 
 namespace elastolab {
 
@@ -43,13 +44,6 @@ Json seconds(const StageTimes& stages) {
 Json machine() {
     const Machine machine = this_machine();
     return {{"cpu", machine.cpu}, {"cores", machine.cores}, {"memory_bytes", machine.memory_bytes}};
-}
-
-Json proxy(const Proxy* proxy) {
-    if (proxy == nullptr) return nullptr;
-    return {{"vertices", proxy->surface->n_vertices()},
-            {"faces", proxy->surface->n_triangles()},
-            {"largest_distance", proxy->places.distance.maxCoeff()}};
 }
 
 Json tractions(const Method& method) {
@@ -123,7 +117,7 @@ void write_report(std::ostream& out, const Solution& solution) {
         {"update", std::string(name(method.update))},
         {"vertices", solution.surface->n_vertices()},
         {"faces", solution.surface->n_triangles()},
-        {"proxy", proxy(solution.proxy.get())},
+        {"proxy", proxy_json(solution.proxy.get())},
         {"tetrahedra", facts.n_tetrahedra},
         {"degrees_of_freedom", facts.n_degrees_of_freedom},
         {"constrained_vertices", solution.n_constrained},

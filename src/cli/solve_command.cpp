@@ -8,6 +8,7 @@
 #include "cli/command.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
+#include "cli/proxy_options.hpp"
 #include "cli/report.hpp"
 #include "cli/solve_outputs.hpp"
 #include "cli/threads.hpp"
@@ -25,8 +26,7 @@ namespace fs = std::filesystem;
 struct SolveOptions {
     std::string scene, method, mode, tractions, update;
     std::string displacements, fields, mesh_out, forces, report, matrices;
-    std::string proxy;
-    int proxy_vertices = 0;
+    ProxyOptions proxy;
     int threads = 0;
     bool quiet = false;
 
@@ -60,13 +60,7 @@ void add_options(CLI::App& parser, SolveOptions& options) {
     parser.add_option("--report", options.report, "JSON: sizes, times, memory, accuracy, warnings")->check(path);
     parser.add_option("--matrices", options.matrices, "folder for the matrices that the mode keeps (.npy, .mtx)")
         ->check(path);
-    parser
-        .add_option("--proxy", options.proxy,
-                    "simulate a closed surface around the scene's own (default: the scene's choice, else auto: where "
-                    "the method cannot use it)")
-        ->check(CLI::IsMember({"never", "auto", "always"}));
-    parser.add_option("--proxy-vertices", options.proxy_vertices, "about so many vertices of it (default 1500)")
-        ->check(CLI::Range(kFewestProxyVertices, kMostProxyVertices));
+    options.proxy.add_to(parser);
     add_threads_option(parser, options.threads);
     parser.add_flag("--quiet", options.quiet, "no summary and no progress bar");
 }
@@ -122,8 +116,7 @@ void run_solve(const SolveOptions& options) {
     SolveRequest request;
     request.scene_file = options.scene;
     request.document = load_scene(request.scene_file);
-    choose(request.document.proxy.use, options.proxy, parse_proxy_use);
-    if (options.proxy_vertices > 0) request.document.proxy.n_vertices = options.proxy_vertices;
+    options.proxy.apply(request.document.proxy);
     request.method = choose_method(options, request.document);
     request.solve_once = options.update.empty() && request.method.mode == Mode::on_demand;
     request.with_checks = !options.quiet || !options.report.empty();

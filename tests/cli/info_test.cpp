@@ -68,8 +68,40 @@ TEST(Info, ListsTheDefectsOfAMeshThatNoMethodCanUse) {
     EXPECT_FALSE(json["usable"].get<bool>());
     EXPECT_EQ(json["defects"][0]["kind"], "open-edges");
     EXPECT_EQ(json["defects"][0]["count"], 3);
-    for (const auto& row : json["methods"]) EXPECT_FALSE(row["usable"].get<bool>());
-    EXPECT_EQ(run_program({"info", "open.obj"}, folder.path()).exit_code, 0);
+    for (const auto& row : json["methods"]) {
+        EXPECT_FALSE(row["usable"].get<bool>());
+        EXPECT_EQ(row["simulates"], "proxy");
+        EXPECT_GT(row["memory_bytes"].get<double>(), 0.0);
+    }
+    EXPECT_GT(json["proxy"]["vertices"].get<int>(), 100);
+    EXPECT_THAT(run_program({"info", "open.obj"}, folder.path()).out, HasSubstr("on the proxy"));
+}
+
+TEST(Info, SimulatesAProxyAsTheOptionsSay) {
+    const test::TemporaryFolder folder;
+    save_surface(folder.path() / "cube.ply", make_box(8));
+    const auto json_with = [&](const std::vector<std::string>& options) {
+        std::vector<std::string> arguments = {"info", "--json", "cube.ply"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        return nlohmann::json::parse(run_program(arguments, folder.path()).out);
+    };
+    EXPECT_TRUE(json_with({})["proxy"].is_null());
+    EXPECT_EQ(json_with({})["methods"][0]["simulates"], "surface");
+    const nlohmann::json always = json_with({"--proxy", "always", "--proxy-vertices", "100"});
+    EXPECT_EQ(always["methods"][0]["simulates"], "proxy");
+    EXPECT_NEAR(always["proxy"]["vertices"].get<double>(), 100.0, 50.0);
+    folder.write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    EXPECT_EQ(run_program({"info", "--proxy", "sometimes", "open.obj"}, folder.path()).exit_code, 2);
+    const ProgramRun never = run_program({"info", "--proxy", "never", "open.obj"}, folder.path());
+    EXPECT_THAT(never.out, HasSubstr("cannot"));
+}
+
+TEST(Info, TellsWhyThereIsNoProxy) {
+    const test::TemporaryFolder folder;
+    folder.write("line.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
+    const nlohmann::json json = info("line.obj", folder.path());
+    EXPECT_TRUE(json["proxy"].is_null());
+    EXPECT_TRUE(json["methods"][0]["simulates"].is_null());
 }
 
 }  // namespace

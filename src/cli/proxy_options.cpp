@@ -1,0 +1,22 @@
+#include "cli/proxy_options.hpp"
+
+#include <CLI/CLI.hpp>
+
+namespace elastolab {
+
+void ProxyOptions::add_to(CLI::App& parser) {
+    parser
+        .add_option("--proxy", use,
+                    "simulate a closed surface around the mesh (default: the scene's choice, else auto: where the "
+                    "method cannot use it)")
+        ->check(CLI::IsMember({"never", "auto", "always"}));
+    parser.add_option("--proxy-vertices", n_vertices, "about so many vertices of it (default 1500)")
+        ->check(CLI::Range(kFewestProxyVertices, kMostProxyVertices));
+}
+
+void ProxyOptions::apply(ProxyChoice& choice) const {
+    if (!use.empty()) choice.use = parse_proxy_use(use).value();  // the parser has checked it
+    if (n_vertices > 0) choice.n_vertices = n_vertices;
+}
+
+}  // namespace elastolab

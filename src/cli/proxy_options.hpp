@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+#include "scene/document.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace elastolab {
+
+/// --proxy and --proxy-vertices, where they were given.
+struct ProxyOptions {
+    std::string use;
+    int n_vertices = 0;
+
+    void add_to(CLI::App& parser);
+    void apply(ProxyChoice& choice) const;
+};
+
+}  // namespace elastolab
