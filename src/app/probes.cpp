@@ -7,6 +7,17 @@
 
 namespace elastolab {
 
+namespace {
+
+/// One more column of a row: a number of what may not be known.
+template <class Numbers>
+void write_optional(std::ostream& out, const std::optional<Numbers>& numbers, int i) {
+    out << ',';
+    if (numbers) out << (*numbers)[i];
+}
+
+}  // namespace
+
 ProbeValue probe(int vertex, const Positions& rest, const ShownBody& body, double deformation_scale) {
     ProbeValue value;
     value.displacement = (body.positions().col(vertex) - rest.col(vertex)) / deformation_scale;
@@ -14,6 +25,10 @@ ProbeValue probe(int vertex, const Positions& rest, const ShownBody& body, doubl
     const std::vector<float>& values = body.values();
     const auto place = static_cast<std::size_t>(vertex);
     if (place < values.size() && std::isfinite(values[place])) value.field = values[place];
+    if (vertex < body.tractions().cols()) {
+        value.traction = body.tractions().col(vertex);
+        value.stress = body.stresses().col(vertex);
+    }
     return value;
 }
 
@@ -45,7 +60,8 @@ std::vector<float> Probes::series(std::size_t probe) const {
 
 void Probes::write_csv(const std::filesystem::path& file) const {
     AtomicFile out(file);
-    out.stream() << "time_s,field,vertex,x,y,z,ux,uy,uz,value\n" << std::setprecision(17);
+    out.stream() << "time_s,field,vertex,x,y,z,ux,uy,uz,value,tx,ty,tz,sxx,syy,szz,sxy,syz,sxz\n"
+                 << std::setprecision(17);
     for (const Sample& sample : samples_)
         for (std::size_t i = 0; i < vertices_.size(); ++i) {
             const ProbeValue& value = sample.values[i];
@@ -54,6 +70,8 @@ void Probes::write_csv(const std::filesystem::path& file) const {
                 for (int axis = 0; axis < 3; ++axis) out.stream() << ',' << vector[axis];
             out.stream() << ',';
             if (value.field) out.stream() << *value.field;
+            for (int axis = 0; axis < 3; ++axis) write_optional(out.stream(), value.traction, axis);
+            for (int number = 0; number < 6; ++number) write_optional(out.stream(), value.stress, number);
             out.stream() << '\n';
         }
     out.commit();

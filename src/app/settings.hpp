@@ -1,11 +1,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "deform/method.hpp"
+#include "elasticity/stress.hpp"
 #include "methods/registry.hpp"
+#include "render/colour_map.hpp"
 #include "render/geometry/picking.hpp"
 #include "scene/live/simulation.hpp"
 
@@ -17,14 +20,24 @@ enum class Release { pin, spring_back };
 /// How the cursor moves what is pulled: in the plane of the screen, along a direction, or otherwise.
 enum class PullMode { plane, normal, axis_x, axis_y, axis_z, turn, scale };
 
+/// Along what the gizmo of a handle moves and turns: the axes of the world, those of the surface there (the third is
+/// its normal), or the world's turned as the handle was.
+enum class GizmoAxes { world, surface, own };
+
 struct ToolSettings {
     Tool tool = Tool::pull;
     PullMode pull_mode = PullMode::plane;  ///< where no key asks for another
+    bool gizmo = true;                     ///< arrows and rings at the selected handle
+    GizmoAxes gizmo_axes = GizmoAxes::world;
+    bool snap = false;  ///< pulls go in round steps
     Release release = Release::pin;
     double patch_radius = 0.0;   ///< [L]; 0: a single vertex
     double brush_pixels = 24.0;  ///< radius on the screen
     Reach box_reach = Reach::visible;
 };
+
+/// What a film shows: one turn around the body, or the pull, from rest to where it is and back.
+enum class FilmKind { turn, pull };
 
 enum class CompareMode { off, side_by_side, ghosts };
 
@@ -34,15 +47,34 @@ struct CompareSettings {
     MethodKind reference = default_method();                        ///< differences are to this one
 };
 
-enum class Field { none, displacement, difference, traction, von_mises };
+/// What colours the body: lengths and measures, which are not negative, or a stress of either sign.
+enum class Field {
+    none,
+    displacement,
+    difference,
+    traction,
+    von_mises,
+    first_principal,
+    third_principal,
+    stress_xx,
+    stress_yy,
+    stress_zz,
+    stress_xy,
+    stress_yz,
+    stress_xz
+};
+/// The stress that a field is; nothing for the others.
+std::optional<StressMeasure> stress_of(Field field);
+/// Whether it has values of either sign, so that zero is in the middle of the colours.
+bool is_signed(Field field);
 
 struct DisplaySettings {
     Field field = Field::none;
-    std::string colour_map = "lagoon";
+    std::string colour_map = "lagoon", signed_colour_map = "balance";  ///< the second where is_signed(field)
     bool auto_range = true;
     double range_low = 0.0, range_high = 1.0;  ///< when not automatic, in the unit of the field
     bool bands = false;
-    bool extremes = false;  ///< a mark where the field is largest
+    bool extremes = false;  ///< marks where the field is largest and, of either sign, smallest
     bool flat = false;
     bool wireframe = true;
     bool feature_edges = true;
@@ -58,6 +90,7 @@ struct DisplaySettings {
     double section_turn = 0.0, section_tilt = 0.0;  ///< of the plane, from the axis [degree]
     double section_place = 0.5;                     ///< 0 to 1 along its normal, through the body
     bool section_flip = false;
+    bool section_gizmo = true;  ///< the plane can be moved and turned with the mouse
     bool dark = true;
     float ui_scale = 1.0f;
     bool panel = true;         ///< the panel at the side is seen
@@ -65,5 +98,8 @@ struct DisplaySettings {
 
     bool operator==(const DisplaySettings&) const = default;
 };
+
+/// The colours of the field that is shown.
+const ColourMap& shown_colour_map(const DisplaySettings& display);
 
 }  // namespace elastolab

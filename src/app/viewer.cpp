@@ -12,10 +12,10 @@
 #include "app/panels/gui.hpp"
 #include "app/panels/layout.hpp"
 #include "app/panels/panels.hpp"
+#include "app/picture/film.hpp"
 #include "app/picture/palette.hpp"
 #include "app/picture/scene_picture.hpp"
 #include "app/picture/scene_renderer.hpp"
-#include "app/picture/turntable.hpp"
 #include "app/picture/view_point.hpp"
 #include "app/viewer_outputs.hpp"
 #include "app/viewer_state.hpp"
@@ -56,7 +56,7 @@ public:
                    .visible = !options.hidden}),
           gui_(window_),
           state_([] { Window::wake(); }),
-          turntable_([] { Window::wake(); }),
+          film_([] { Window::wake(); }),
           autosave_([] { Window::wake(); }) {
         if (options.n_frames > 0 || options.hidden) window_.disable_vsync();
         if (nobody_watches() || !options.scene_out.empty()) state_.unsaved.never_ask();  // that keeps the changes
@@ -122,7 +122,7 @@ private:
     }
 
     double timeout() const {
-        if (turntable_.running()) return 0.0;
+        if (film_.running()) return 0.0;
         if (held_back()) return kProgressSeconds;
         if (options_.n_frames > 0 || pending_frames_ > 0 || !queue_.empty()) return 0.0;
         if (replay_ && !replay_->done() && !state_.simulation.busy()) return 0.0;
@@ -154,7 +154,7 @@ private:
             state_.open(file);
             pending_frames_ = kSettlingFrames;  // for the question that it may raise
         }
-        if (turntable_.poll(state_) || turntable_.running()) pending_frames_ = kSettlingFrames;
+        if (film_.poll(state_) || film_.running()) pending_frames_ = kSettlingFrames;
         const bool damaged = window_.take_damage();
         if (!queue_.empty() || damaged || state_.simulation.busy() || computing()) pending_frames_ = kSettlingFrames;
         if (message_seconds_ >= 0.0 || gui_.wants_text()) pending_frames_ = std::max(pending_frames_, 1);
@@ -316,15 +316,15 @@ private:
         }
     }
 
-    /// What was asked for, and one frame of a turntable.
+    /// What was asked for, and one frame of a film.
     void take_pictures() {
         if (std::exchange(state_.requests.stop_pictures, false)) {
-            turntable_.stop();
+            film_.stop();
             state_.pictures_under_way.reset();
         }
         try {
             if (const auto request = std::exchange(state_.requests.picture, std::nullopt)) take_picture(*request);
-            if (turntable_.running()) turntable_.step(renderer_, state_, palette());
+            if (film_.running()) film_.step(renderer_, state_, palette());
         } catch (const Error& error) {
             state_.messages.error(error.what());
         }
@@ -332,7 +332,7 @@ private:
     }
 
     void take_picture(const PictureRequest& request) {
-        if (request.n_frames > 0) return turntable_.start(request);
+        if (request.n_frames > 0) return film_.start(request);
         write_picture(request.file, renderer_, state_, palette(), request.size, request.transparent);
         state_.messages.note("Saved " + request.file.string());
     }
@@ -344,9 +344,10 @@ private:
         const PictureRequest request{.file = options_.picture,
                                      .size = options_.picture_size,
                                      .transparent = options_.transparent,
-                                     .n_frames = options_.turntable_frames};
+                                     .n_frames = options_.film_frames,
+                                     .kind = options_.film};
         take_picture(request);
-        while (turntable_.running()) turntable_.step(renderer_, state_, palette());
+        while (film_.running()) film_.step(renderer_, state_, palette());
     }
 
     void end_frame(const FrameTimes& times, double now) {
@@ -377,11 +378,11 @@ private:
     /// A worker inside a library call that cannot be interrupted must not keep a closed window's process alive:
     /// everything that was to be written is.
     void end_workers() {
-        turntable_.stop();
+        film_.stop();
         state_.cancel_workers();
         window_.hide();
         const Stopwatch waiting;
-        while ((state_.stopping() || turntable_.working()) && waiting.seconds() < kPatienceSeconds)
+        while ((state_.stopping() || film_.working()) && waiting.seconds() < kPatienceSeconds)
             std::this_thread::sleep_for(std::chrono::milliseconds(5));
         if (state_.stopping()) std::_Exit(EXIT_SUCCESS);
     }
@@ -394,7 +395,7 @@ private:
     ViewerState state_;
     SceneRenderer renderer_;
     Panels panels_;
-    Turntable turntable_;
+    Film film_;
     Autosave autosave_;
     std::vector<InputEvent> queue_;
     int pending_frames_ = kSettlingFrames;

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "app/settings.hpp"
 #include "base/control.hpp"
 #include "deform/method.hpp"
 
@@ -17,10 +18,11 @@ struct ViewerOptions {
     std::filesystem::path screenshot;               ///< of the last frame; empty: none
     std::filesystem::path timings, replay, record;  ///< likewise
     std::filesystem::path scene_out, mesh_out;  ///< likewise: the scene and the deformed mesh as they are at the end
-    std::filesystem::path picture;              ///< likewise: of the scene alone, or the frames of a turntable
+    std::filesystem::path picture;              ///< likewise: of the scene alone, or the frames of a film
     Eigen::Vector2i picture_size{1920, 1080};
     bool transparent = false;
-    int turntable_frames = 0;             ///< 0: a single picture
+    int film_frames = 0;  ///< 0: a single picture
+    FilmKind film = FilmKind::turn;
     std::optional<Eigen::Vector2i> size;  ///< of the window [logical pixels]
     bool hidden = false;
 };

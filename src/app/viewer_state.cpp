@@ -102,8 +102,9 @@ GestureContext ViewerState::gesture_context() {
                            .camera = camera,
                            .graph = *graph_,
                            .tools = tools,
-                           .deformation_scale = display.deformation_scale,
-                           .targets = {}};
+                           .display = display,
+                           .targets = {},
+                           .gizmos = gizmos()};
     for (const SceneViewport& viewport : shown.viewports) {
         const ShownBody* body = shown.body(viewport.kinds.front());
         if (body == nullptr) continue;
@@ -113,6 +114,19 @@ GestureContext ViewerState::gesture_context() {
             context.targets.push_back({viewport.place, &body->positions(), &scene_->mesh().triangles});
     }
     return context;
+}
+
+std::vector<Gizmo> ViewerState::gizmos() const {
+    std::vector<Gizmo> all;
+    const int handle = gestures.selected_handle();
+    const ShownBody* body = shown.body(method);
+    if (tools.gizmo && tools.tool == Tool::pull && body != nullptr && handle >= 0 && handle < scene_->n_handles() &&
+        body->positions().cols() == scene_->mesh().n_vertices())
+        all.push_back(handle_gizmo(*scene_, handle, body->positions(), tools.gizmo_axes));
+    if (display.section && display.section_gizmo && (tools.tool == Tool::pull || tools.tool == Tool::probe))
+        all.push_back(plane_gizmo(scene_->mesh().vertices, display));
+    for (Gizmo& gizmo : all) gizmo.pixels *= display.ui_scale;
+    return all;
 }
 
 void ViewerState::finish_gesture() {
@@ -214,7 +228,8 @@ bool ViewerState::update_picture() {
                          .simulation = simulation,
                          .kinds = shown_kinds(),
                          .reference = reference(),
-                         .display = display});
+                         .display = display,
+                         .probed = tools.tool == Tool::probe || !probes.vertices().empty()});
 }
 
 }  // namespace elastolab

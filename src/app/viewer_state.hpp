@@ -26,12 +26,13 @@
 
 namespace elastolab {
 
-/// A picture of the scene alone, or the frames of one turn around it.
+/// A picture of the scene alone, or the frames of a film of it.
 struct PictureRequest {
     std::filesystem::path file = {};
     Eigen::Vector2i size{1920, 1080};  ///< [pixels]
     bool transparent = false;
-    int n_frames = 0;  ///< of a turntable; 0: a single picture
+    int n_frames = 0;  ///< of a film; 0: a single picture
+    FilmKind kind = FilmKind::turn;
     bool video = false;
 };
 struct PictureProgress {
@@ -134,6 +135,8 @@ public:
     /// Ends a gesture, so that an edit from elsewhere finds no half-done one.
     void finish_gesture();
     GestureContext gesture_context();
+    /// What stands in the scene to be taken hold of.
+    std::vector<Gizmo> gizmos() const;
 
     ViewerRequests requests;
     std::optional<PictureProgress> pictures_under_way;

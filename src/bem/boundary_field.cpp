@@ -8,7 +8,7 @@
 
 #include "base/parallel.hpp"
 #include "elasticity/far_field.hpp"
-#include "elasticity/material.hpp"
+#include "elasticity/stress.hpp"
 
 namespace elastolab {
 
@@ -200,19 +200,6 @@ std::array<Eigen::Vector3d, kStencil> stencil(const Eigen::Vector3d& x, double s
     return points;
 }
 
-/// Hooke's law for unit Young's modulus. At nu = 1/2 the strain does not tell the pressure, and the
-/// deviator is given.
-Eigen::Matrix<double, 6, 1> hooke(const Eigen::Matrix3d& gradient, double nu) {
-    const double mu = Material{1.0, nu}.shear_modulus(), trace = gradient.trace();
-    const double volumetric = nu < 0.5 ? 2.0 * mu * nu / (1.0 - 2.0 * nu) * trace : 0.0;
-    Eigen::Matrix<double, 6, 1> s;
-    for (int axis = 0; axis < 3; ++axis) s[axis] = 2.0 * mu * gradient(axis, axis) + volumetric;
-    s[3] = mu * (gradient(0, 1) + gradient(1, 0));
-    s[4] = mu * (gradient(0, 2) + gradient(2, 0));
-    s[5] = mu * (gradient(1, 2) + gradient(2, 1));
-    return s;
-}
-
 }  // namespace
 
 InteriorValues BoundaryField::at(const Positions& points, Control& control) const {
@@ -232,7 +219,7 @@ InteriorValues BoundaryField::at(const Positions& points, Control& control) cons
                         (u[1 + 2 * axis].col(c) - u[2 + 2 * axis].col(c)) / (2.0 * step);
                 values.displacements.col(c).segment<3>(3 * i) = displacements_.col(c).segment<3>(3 * place.vertex) +
                                                                 u[0].col(c) + gradient * (points.col(i) - place.x);
-                values.stresses.col(c).segment<6>(6 * i) = hooke(gradient, poisson_ratio_);
+                values.stresses.col(c).segment<6>(6 * i) = hooke(gradient, Material{1.0, poisson_ratio_});
             }
         }
     });

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <charconv>
 #include <CLI/CLI.hpp>
 #include <memory>
@@ -20,7 +21,7 @@ constexpr const char* kInterrupted = "Interrupted; no picture, scene or mesh was
 /// What the command line says, word for word.
 struct ViewWords {
     std::string input, method, screenshot, timings, replay, record, scene_out, mesh_out, size, picture, picture_size;
-    int frames = 0, threads = 0, turntable = 0;
+    int frames = 0, threads = 0, turntable = 0, pull_film = 0;
     bool hidden = false, transparent = false;
 };
 
@@ -59,7 +60,8 @@ ViewerOptions options_of(const ViewWords& words) {
     if (!words.size.empty()) options.size = parse_size("--size", words.size);
     options.picture = words.picture;
     options.transparent = words.transparent;
-    options.turntable_frames = words.turntable;
+    options.film_frames = std::max(words.turntable, words.pull_film);
+    options.film = words.pull_film > 0 ? FilmKind::pull : FilmKind::turn;
     if (!words.picture_size.empty()) options.picture_size = parse_size("--picture-size", words.picture_size);
     if (options.hidden && options.n_frames == 0 && options.replay.empty())
         throw UsageError("--hidden: nobody could close that window. Add --frames N or --replay FILE.");
@@ -89,10 +91,14 @@ Command add_view_command(CLI::App& program) {
         parser->add_option("--picture", words->picture, "PNG of the scene alone, as it is at the end")->check(path);
     parser->add_option("--picture-size", words->picture_size, "in pixels (default 1920x1080)")->needs(picture);
     parser->add_flag("--transparent", words->transparent, "that picture without background")->needs(picture);
-    parser
-        ->add_option("--turntable", words->turntable,
-                     "instead of one picture so many of one turn, FILE-0001.png and on")
+    CLI::Option* const turntable = parser
+                                       ->add_option("--turntable", words->turntable,
+                                                    "instead of one picture so many of one turn, FILE-0001.png and on")
+                                       ->needs(picture)
+                                       ->check(CLI::Range(2, 3600));
+    parser->add_option("--pull-film", words->pull_film, "the same of the pull, from rest to where it is and back")
         ->needs(picture)
+        ->excludes(turntable)
         ->check(CLI::Range(2, 3600));
     parser->add_option("--size", words->size, "of the window in pixels, as in 1280x800");
     add_threads_option(*parser, words->threads);

@@ -1,7 +1,5 @@
 #include "deform/interior_field.hpp"
 
-#include <cmath>
-
 #include "base/parallel.hpp"
 
 namespace elastolab {
@@ -48,11 +46,6 @@ InteriorValues BodyField::at(const Positions& points, Control& control) const {
         }
     }
     return all;
-}
-
-double von_mises(const Eigen::Ref<const Eigen::Matrix<double, 6, 1>>& s) {
-    const double axial = std::pow(s[0] - s[1], 2) + std::pow(s[1] - s[2], 2) + std::pow(s[2] - s[0], 2);
-    return std::sqrt(0.5 * axial + 3.0 * s.tail<3>().squaredNorm());
 }
 
 }  // namespace elastolab

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/control.hpp"
+#include "elasticity/stress.hpp"
 #include "mesh/closest_point.hpp"
 #include "mesh/surface_mesh.hpp"
 
@@ -13,7 +14,7 @@ namespace elastolab {
 /// Displacements and stresses at n points, for m solutions.
 struct InteriorValues {
     Eigen::MatrixXd displacements;  ///< 3n x m [L]
-    Eigen::MatrixXd stresses;       ///< 6n x m [force / L^2]: xx, yy, zz, xy, xz, yz of a point one below the other
+    Eigen::MatrixXd stresses;       ///< 6n x m [force / L^2]: StressNumbers of the points one below the other
 };
 
 /// Displacements and stresses inside a body, for m solutions at once: linear in the prescribed values, so that those of
@@ -51,8 +52,5 @@ private:
     double young_modulus_;
     Eigen::Index n_solutions_;
 };
-
-/// Of a symmetric stress, six numbers in the order above.
-double von_mises(const Eigen::Ref<const Eigen::Matrix<double, 6, 1>>& stress);
 
 }  // namespace elastolab

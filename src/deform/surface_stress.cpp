@@ -1,6 +1,5 @@
 #include "deform/surface_stress.hpp"
 
-#include <cmath>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <vector>
@@ -33,13 +32,6 @@ Eigen::Matrix3d triangle_axes(const Eigen::Vector3d& a, const Eigen::Vector3d& b
     axes.col(2) = a.cross(b).normalized();
     axes.col(1) = axes.col(2).cross(axes.col(0));
     return axes;
-}
-
-double von_mises(const Eigen::Matrix3d& s) {
-    const double axial =
-        std::pow(s(0, 0) - s(1, 1), 2) + std::pow(s(1, 1) - s(2, 2), 2) + std::pow(s(2, 2) - s(0, 0), 2);
-    const double shear = std::pow(s(0, 1), 2) + std::pow(s(1, 2), 2) + std::pow(s(0, 2), 2);
-    return std::sqrt(0.5 * axial + 3.0 * shear);
 }
 
 /// Stress from the strain within a plane and the traction on it (in axes whose third is the normal). Finite at nu =
@@ -100,13 +92,13 @@ Eigen::Matrix3Xd vertex_tractions(const SurfaceMesh& surface, std::span<const in
     return tractions;
 }
 
-Eigen::VectorXd surface_von_mises(const SurfaceMesh& surface, const Material& material, const Eigen::VectorXd& u,
-                                  const Eigen::Matrix3Xd& tractions) {
+Eigen::VectorXd surface_stress_measure(StressMeasure which, const SurfaceMesh& surface, const Material& material,
+                                       const Eigen::VectorXd& u, const Eigen::Matrix3Xd& tractions) {
     Eigen::VectorXd sums = Eigen::VectorXd::Zero(surface.n_vertices()), areas = sums;
     for_triangle_stresses(
         surface, material, u, tractions,
-        [&](const Eigen::Vector3i& t, double weight, const Eigen::Matrix3d&, const Eigen::Matrix3d& sigma) {
-            sums(t).array() += weight * von_mises(sigma);
+        [&](const Eigen::Vector3i& t, double weight, const Eigen::Matrix3d& axes, const Eigen::Matrix3d& local) {
+            sums(t).array() += weight * measure(which, axes * local * axes.transpose());
             areas(t).array() += weight;
         });
     return sums.cwiseQuotient(areas);
@@ -120,10 +112,8 @@ Eigen::MatrixXd surface_stress(const SurfaceMesh& surface, const Material& mater
         surface, material, u, tractions,
         [&](const Eigen::Vector3i& t, double weight, const Eigen::Matrix3d& axes, const Eigen::Matrix3d& local) {
             const Eigen::Matrix3d sigma = axes * local * axes.transpose();
-            Eigen::Matrix<double, 6, 1> entries;
-            entries << sigma(0, 0), sigma(1, 1), sigma(2, 2), sigma(0, 1), sigma(1, 2), sigma(0, 2);
             for (const int v : t) {
-                sums.col(v) += weight * entries;
+                sums.col(v) += weight * stress_numbers(sigma);
                 areas[v] += weight;
             }
         });

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "elasticity/material.hpp"
+#include "elasticity/stress.hpp"
 #include "mesh/surface_mesh.hpp"
 
 namespace elastolab {
@@ -14,14 +15,14 @@ namespace elastolab {
 Eigen::Matrix3Xd vertex_tractions(const SurfaceMesh& surface, std::span<const int> constrained,
                                   const Eigen::Matrix3Xd& forces);
 
-/// Von Mises stress on the surface, at every vertex the mean over its triangles by area [force / L^2]. In a triangle
-/// the strain within its plane comes from the displacements u (3*n_vertices [L]) of its corners, the stress on its
-/// plane from the mean traction where all corners have one (it is zero on the free surface), and Hooke's law gives the
-/// rest; so it means the same for all methods. First order in the mesh size.
-Eigen::VectorXd surface_von_mises(const SurfaceMesh& surface, const Material& material, const Eigen::VectorXd& u,
-                                  const Eigen::Matrix3Xd& tractions);
+/// A measure of the stress on the surface, at every vertex the mean over its triangles by area [force / L^2]. In a
+/// triangle the strain within its plane comes from the displacements u (3*n_vertices [L]) of its corners, the stress on
+/// its plane from the mean traction where all corners have one (it is zero on the free surface), and Hooke's law gives
+/// the rest; so it means the same for all methods. First order in the mesh size.
+Eigen::VectorXd surface_stress_measure(StressMeasure which, const SurfaceMesh& surface, const Material& material,
+                                       const Eigen::VectorXd& u, const Eigen::Matrix3Xd& tractions);
 
-/// The same stress itself, in world axes: 6 x n_vertices [force / L^2], a column xx yy zz xy yz xz for each vertex.
+/// The same stress itself, in world axes: 6 x n_vertices [force / L^2], a column of StressNumbers for each vertex.
 Eigen::MatrixXd surface_stress(const SurfaceMesh& surface, const Material& material, const Eigen::VectorXd& u,
                                const Eigen::Matrix3Xd& tractions);
 

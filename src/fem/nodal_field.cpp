@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/parallel.hpp"
-#include "elasticity/material.hpp"
+#include "elasticity/stress.hpp"
 
 namespace elastolab {
 
@@ -89,7 +89,6 @@ private:
 /// At every node: 6*n_nodes x m.
 Eigen::MatrixXd recovered_stresses(const TetMesh& tets, double edge, double poisson_ratio, const Eigen::MatrixXd& u) {
     const Material material{1.0, poisson_ratio};
-    const double mu = material.shear_modulus(), lambda = material.lame_lambda();
     const PatchFits fits(tets, edge);
     Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(2 * u.rows(), u.cols());
     for (Eigen::Index t = 0; t < tets.tetrahedra.cols(); ++t) {
@@ -101,11 +100,7 @@ Eigen::MatrixXd recovered_stresses(const TetMesh& tets, double edge, double pois
             Eigen::Matrix3d changes;
             for (int i = 0; i < 3; ++i)
                 changes.col(i) = u.col(c).segment<3>(3 * corners[i + 1]) - u.col(c).segment<3>(3 * corners[0]);
-            const Eigen::Matrix3d g = changes * inverse;
-            const double pressed = lambda * g.trace();
-            Eigen::Matrix<double, 6, 1> s;
-            s << pressed + 2.0 * mu * g(0, 0), pressed + 2.0 * mu * g(1, 1), pressed + 2.0 * mu * g(2, 2),
-                mu * (g(0, 1) + g(1, 0)), mu * (g(0, 2) + g(2, 0)), mu * (g(1, 2) + g(2, 1));
+            const StressNumbers s = hooke(changes * inverse, material);
             for (int i = 0; i < 4; ++i) sums.col(c).segment<6>(6 * corners[i]) += weights[i] * s;
         }
     }

@@ -10,6 +10,7 @@
 #include "base/text.hpp"
 #include "deform/surface_stress.hpp"
 #include "deform/volume.hpp"
+#include "elasticity/stress.hpp"
 #include "mesh/output/field_files.hpp"
 #include "scene/proxy/carried_constraints.hpp"
 
@@ -45,21 +46,6 @@ SurfaceMesh moved_surface(const SolvedBody& solved) {
     return mesh;
 }
 
-using Entries = Eigen::Matrix<double, 6, 1>;  ///< xx yy zz xy yz xz
-
-/// Stress of an affine displacement, from its gradient.
-Entries hooke(const Material& material, const Eigen::Matrix3d& gradient) {
-    const Eigen::Matrix3d strain = 0.5 * (gradient + gradient.transpose());
-    const Eigen::Matrix3d s =
-        2.0 * material.shear_modulus() * strain + material.lame_lambda() * strain.trace() * Eigen::Matrix3d::Identity();
-    return (Entries() << s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2)).finished();
-}
-
-double von_mises_of(const Entries& s) {
-    const double axial = std::pow(s[0] - s[1], 2) + std::pow(s[1] - s[2], 2) + std::pow(s[2] - s[0], 2);
-    return std::sqrt(0.5 * axial + 3.0 * s.tail<3>().squaredNorm());
-}
-
 Eigen::Matrix3d corner_differences(const Eigen::Ref<const Eigen::Matrix3Xd>& at, const Eigen::Vector4i& corners) {
     Eigen::Matrix3d differences;
     for (int i = 0; i < 3; ++i) differences.col(i) = at.col(corners[i + 1]) - at.col(corners[0]);
@@ -73,8 +59,8 @@ std::vector<MeshField> cell_stresses(const TetMesh& rest, const Eigen::Ref<const
         const Eigen::Vector4i corners = rest.tetrahedra.col(t);
         const Eigen::Matrix3d gradient =
             corner_differences(u, corners) * corner_differences(rest.vertices, corners).inverse();
-        stress.col(t) = hooke(material, gradient);
-        size(0, t) = von_mises_of(stress.col(t));
+        stress.col(t) = hooke(gradient, material);
+        size(0, t) = measure(StressMeasure::von_mises, stress_tensor(stress.col(t)));
     }
     return {{"stress", std::move(stress)}, {"von_mises", std::move(size)}};
 }
@@ -107,7 +93,8 @@ std::vector<MeshField> surface_fields(const SolvedBody& solved) {
     const Body& body = solved.model->body();
     const Eigen::Matrix3Xd tractions = vertex_tractions(*body.surface, solved.constrained, solved.forces);
     const Eigen::VectorXd& u = solved.simulated_displacement;
-    const Eigen::VectorXd size = surface_von_mises(*body.surface, body.material, u, tractions);
+    const Eigen::VectorXd size =
+        surface_stress_measure(StressMeasure::von_mises, *body.surface, body.material, u, tractions);
     return {{"displacement", as_columns(solved.displacement)},
             {"von_mises", as_shown(solved, size.transpose())},
             {"traction", as_shown(solved, tractions)},

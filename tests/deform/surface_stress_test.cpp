@@ -26,14 +26,15 @@ TEST(SurfaceStress, StretchedBarHasTheStressOfItsStretchEverywhere) {
     const double nu = kRubber.poisson_ratio;
     const Eigen::Matrix3Xd u = Eigen::Vector3d(1, -nu, -nu).asDiagonal() * bar->vertices;
     Control control;
-    Deformer deformer(precompute({"bar", bar, kRubber}, Method{.kind = kLinearBem, .tractions = Tractions::restricted}, control));
+    Deformer deformer(
+        precompute({"bar", bar, kRubber}, Method{.kind = kLinearBem, .tractions = Tractions::restricted}, control));
     deformer.constrain({{}, ends(*bar)}, control);
     const Eigen::Matrix3Xd values = u(Eigen::all, ends(*bar));
     const Reactions reactions = deformer.reactions(Eigen::Map<const Eigen::VectorXd>(values.data(), values.size()));
 
     const Eigen::Matrix3Xd tractions = vertex_tractions(*bar, ends(*bar), reactions.forces);
-    const Eigen::VectorXd stress =
-        surface_von_mises(*bar, kRubber, Eigen::Map<const Eigen::VectorXd>(u.data(), u.size()), tractions);
+    const Eigen::VectorXd stress = surface_stress_measure(
+        StressMeasure::von_mises, *bar, kRubber, Eigen::Map<const Eigen::VectorXd>(u.data(), u.size()), tractions);
     // The sides have no traction; on the ends the nodal forces are those of hats, which a third of the area is not.
     for (int v = 0; v < bar->n_vertices(); ++v)
         if (bar->vertices(0, v) > 0.1 && bar->vertices(0, v) < 1.9) {
@@ -55,8 +56,8 @@ TEST(SurfaceStress, PressureOnEverySideMakesNoVonMisesStress) {
     face.triangles = cube.triangles(Eigen::all, top).eval();
     Eigen::Matrix3Xd tractions = Eigen::Matrix3Xd::Zero(3, cube.n_vertices());
     tractions.row(2).setConstant(-pressure);
-    const Eigen::VectorXd stress =
-        surface_von_mises(face, kRubber, Eigen::Map<const Eigen::VectorXd>(u.data(), u.size()), tractions);
+    const Eigen::VectorXd stress = surface_stress_measure(
+        StressMeasure::von_mises, face, kRubber, Eigen::Map<const Eigen::VectorXd>(u.data(), u.size()), tractions);
     for (const int t : top)
         for (const int v : face.triangles.col(0)) EXPECT_NEAR(stress[v], 0.0, 1e-9 * pressure) << t;
 }
@@ -65,9 +66,9 @@ TEST(SurfaceStress, ARotationMakesNone) {
     const SurfaceMesh sphere = make_sphere(4);
     const Eigen::Matrix3d spin = (Eigen::Matrix3d() << 0, -0.3, 0.2, 0.3, 0, -0.1, -0.2, 0.1, 0).finished();
     const Eigen::Matrix3Xd u = spin * sphere.vertices;
-    const Eigen::VectorXd stress =
-        surface_von_mises(sphere, kRubber, Eigen::Map<const Eigen::VectorXd>(u.data(), u.size()),
-                          Eigen::Matrix3Xd::Zero(3, sphere.n_vertices()));
+    const Eigen::VectorXd stress = surface_stress_measure(StressMeasure::von_mises, sphere, kRubber,
+                                                          Eigen::Map<const Eigen::VectorXd>(u.data(), u.size()),
+                                                          Eigen::Matrix3Xd::Zero(3, sphere.n_vertices()));
     EXPECT_LT(stress.maxCoeff(), 1e-12 * kRubber.young_modulus);
 }
 

@@ -10,6 +10,7 @@
 
 #include "elasticity/exact_fields.hpp"
 #include "elasticity/rigid_motion.hpp"
+#include "elasticity/stress.hpp"
 #include "mesh/measures.hpp"
 #include "mesh/primitives.hpp"
 #include "methods/problem.hpp"
@@ -82,10 +83,6 @@ Problem hollow_sphere() {
         [](const Eigen::Vector3d& x) { return x.norm() < 0.75; }, 0.75 * shell.leftCols(40), spread);
 }
 
-Eigen::Matrix<double, 6, 1> six_of(const Eigen::Matrix3d& s) {
-    return (Eigen::Matrix<double, 6, 1>() << s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(0, 2), s(1, 2)).finished();
-}
-
 struct Errors {
     double displacement, stress;  ///< relative, L2 over the points
     double worst_stress;          ///< over the largest of them
@@ -108,7 +105,7 @@ Errors errors_of(const Problem& problem, const InteriorValues& values, const Pos
     double u_size = 0.0, s_size = 0.0, s_largest = 0.0;
     for (Eigen::Index i = 0; i < points.cols(); ++i) {
         const Eigen::Vector3d u = problem.displacement(points.col(i));
-        const Eigen::Matrix<double, 6, 1> s = six_of(problem.stress(points.col(i)));
+        const StressNumbers s = stress_numbers(problem.stress(points.col(i)));
         const double off = (values.stresses.col(0).segment<6>(6 * i) - s).norm();
         errors.displacement += (values.displacements.col(0).segment<3>(3 * i) - u).squaredNorm();
         errors.stress += off * off;
@@ -236,7 +233,8 @@ TEST(InteriorField, FollowsEachSolidByItself) {
         EXPECT_EQ(inside.stresses.topRows(6).norm(), 0.0);
         const Eigen::Vector3d u = stretch.displacement(points.col(1) - place - unit * gap);
         EXPECT_LT((inside.displacements.bottomRows(3) - u).norm(), 1e-5 * u.norm()) << name(kind);
-        EXPECT_LT((inside.stresses.bottomRows(6) - six_of(stretch.stress(u))).norm(), 2e-5 * 0.02) << name(kind);
+        EXPECT_LT((inside.stresses.bottomRows(6) - stress_numbers(stretch.stress(u))).norm(), 2e-5 * 0.02)
+            << name(kind);
     }
 }
 

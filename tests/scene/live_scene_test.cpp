@@ -49,6 +49,23 @@ TEST(LiveScene, NoVertexIsTakenTwice) {
     EXPECT_EQ(scene.vertices(LiveScene::kFixed).size(), 9u);
 }
 
+TEST(LiveScene, HandlesAreRenamedButNotLikeOthers) {
+    LiveScene scene = cube();
+    const std::vector<int> face = right_face(scene);
+    scene.add_handle(std::vector<int>{face[0]});
+    scene.add_handle(std::vector<int>{face[1]});
+    scene.commit();
+    EXPECT_TRUE(scene.rename_handle(0, "ear"));
+    EXPECT_EQ(scene.handle_name(0), "ear");
+    EXPECT_EQ(scene.constraints().groups[1].name, "ear");
+    EXPECT_TRUE(scene.modified());
+    for (const char* name : {"", "fixed", "handle-1", "ear"}) EXPECT_FALSE(scene.rename_handle(0, name)) << name;
+    EXPECT_EQ(scene.handle_name(0), "ear");
+    scene.commit();
+    scene.undo();
+    EXPECT_EQ(scene.handle_name(0), "handle-0");
+}
+
 TEST(LiveScene, AMotionReachesTheValuesOfItsHandleOnly) {
     LiveScene scene = cube();
     const std::vector<int> face = right_face(scene);

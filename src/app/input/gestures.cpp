@@ -25,6 +25,12 @@ void fix_or_free(const GestureContext& context, std::vector<int> vertices, Hold 
         context.scene.fix(vertices);
 }
 
+/// What a press at this free vertex takes hold of.
+std::vector<int> free_patch(const GestureContext& context, int vertex) {
+    return patch_around(context.scene.mesh(), context.graph, vertex, context.tools.patch_radius,
+                        [&](int v) { return context.scene.owner(v) == LiveScene::kNobody; });
+}
+
 }  // namespace
 
 void Gestures::handle(const InputEvent& event, GestureContext& context) {
@@ -99,6 +105,7 @@ void Gestures::press(const InputEvent& event, GestureContext& context) {
         action_ = Action::box;
         return;
     }
+    if (press_gizmo(context, *target)) return;
     const std::optional<PickHit> hit = hit_in(context, *target);
     if (hit && is_on_surface(context, hit->vertex))
         press_body(context, *hit);
@@ -122,8 +129,7 @@ void Gestures::press_body(GestureContext& context, const PickHit& hit) {
     } else if (owner != LiveScene::kNobody) {
         begin_pull(context, owner, Grabbed::present_handle, hit);
     } else {
-        const std::vector<int> patch =
-            patch_around(context.scene.mesh(), context.graph, hit.vertex, context.tools.patch_radius);
+        const std::vector<int> patch = free_patch(context, hit.vertex);
         begin_pull(context, context.scene.add_handle(patch), Grabbed::new_handle, hit);
     }
 }
@@ -132,6 +138,7 @@ void Gestures::release(GestureContext& context) {
     const Action ended = std::exchange(action_, Action::none);
     button_ = -1;
     if (ended == Action::pull) end_pull(context);
+    gizmo_drag_.reset();
     if (ended == Action::box) end_box(context);
     if (ended == Action::orbit && context.tools.tool == Tool::probe && !dragged_ && hover_.vertex >= 0)
         probed_ = hover_.vertex;
@@ -155,6 +162,7 @@ void Gestures::move(GestureContext& context) {
     if (action_ == Action::orbit) context.camera.orbit(d.x(), d.y(), viewport);
     if (action_ == Action::pan) context.camera.pan(before, cursor_, viewport);
     if (action_ == Action::pull) pull(context);
+    if (action_ == Action::plane) drag_gizmo(context);
     if (action_ == Action::paint && dragged_) paint(context);
 }
 
@@ -162,6 +170,12 @@ void Gestures::point(GestureContext& context) {
     hover_ = {};
     const PointingTarget* target = target_at(context);
     if (target == nullptr) return;
+    for (const Gizmo& gizmo : context.gizmos) {
+        if (const auto part = part_at(gizmo, context.camera, target->viewport, cursor_)) {
+            hover_.part = {gizmo.handle, *part};
+            return;
+        }
+    }
     const std::optional<PickHit> hit = hit_in(context, *target);
     if (!hit || !is_on_surface(context, hit->vertex)) return;
     hover_.vertex = hit->vertex;
@@ -171,8 +185,7 @@ void Gestures::point(GestureContext& context) {
         const std::span<const int> vertices = context.scene.vertices(owner);
         hover_.patch.assign(vertices.begin(), vertices.end());
     } else if (owner == LiveScene::kNobody) {
-        hover_.patch = patch_around(context.scene.mesh(), context.graph, hit->vertex, context.tools.patch_radius);
-        std::erase_if(hover_.patch, [&](int v) { return context.scene.owner(v) != LiveScene::kNobody; });
+        hover_.patch = free_patch(context, hit->vertex);
     }
 }
 
@@ -234,6 +247,7 @@ void Gestures::end_spring(GestureContext& context) {
 void Gestures::finish(GestureContext& context) {
     if (action_ == Action::pull) end_pull(context);
     if (action_ == Action::paint) context.scene.commit();
+    gizmo_drag_.reset();
     action_ = Action::none;
     button_ = -1;
     end_spring(context);

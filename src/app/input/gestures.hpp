@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/input/gizmo.hpp"
 #include "app/input/input_event.hpp"
 #include "app/input/patch.hpp"
 #include "app/settings.hpp"
@@ -29,14 +30,16 @@ struct GestureContext {
     Camera& camera;
     const VertexGraph& graph;
     const ToolSettings& tools;
-    double deformation_scale = 1.0;
+    DisplaySettings& display;  ///< the plane of the cut is moved
     std::vector<PointingTarget> targets;
+    std::vector<Gizmo> gizmos = {};  ///< that can be taken hold of
 };
 
 /// What the cursor points at when no button is down.
 struct Hover {
     int vertex = -1;
-    std::vector<int> patch;  ///< that a press would grab: of the handle it belongs to, or a new one
+    std::vector<int> patch = {};  ///< that a press would grab: of the handle it belongs to, or a new one
+    std::optional<std::pair<int, GizmoPart>> part = {};  ///< of a gizmo, by the gizmo's handle
 
     bool operator==(const Hover&) const = default;
 };
@@ -48,6 +51,7 @@ enum class Hold { fix, free };
 ///   body     left: grab a handle or make one, and pull it. While pulling: Shift along the normal, X/Y/Z along an axis,
 ///            Ctrl (or R) turns the patch, Alt (or S) scales it, Delete removes it. A fixed vertex cannot be pulled
 ///   empty    left: orbit; right, middle or Shift + left: pan; double click: frame the body
+///   gizmo    left: an arrow moves the handle (or the plane of the cut), a ring turns it; Ctrl snaps
 ///   wheel    zoom to the cursor
 ///   brush    left fixes vertices under the brush, with Shift frees them; a click fixes or frees one vertex
 ///   box      left draws a box, likewise
@@ -55,7 +59,7 @@ enum class Hold { fix, free };
 class Gestures {
 public:
     /// blocked: the button is down where it can do nothing, which hint() explains.
-    enum class Action { none, orbit, pan, pull, paint, box, blocked };
+    enum class Action { none, orbit, pan, pull, plane, paint, box, blocked };
 
     void handle(const InputEvent& event, GestureContext& context);
     /// Moves what springs back; true while something does.
@@ -79,6 +83,13 @@ public:
     const std::string& hint() const { return hint_; }
     /// The vertex that was clicked with the probe, once.
     std::optional<int> take_probed() { return std::exchange(probed_, std::nullopt); }
+    /// A part of a gizmo while it is dragged.
+    struct GizmoDrag {
+        Gizmo gizmo;  ///< as it was taken hold of
+        GizmoPart part;
+        double amount = 0.0;  ///< as dragged() gives it, in steps where they are asked for
+    };
+    const std::optional<GizmoDrag>& gizmo_drag() const { return gizmo_drag_; }
     /// True once after a double click.
     bool take_frame_request() { return std::exchange(frame_requested_, false); }
 
@@ -111,12 +122,18 @@ private:
     void move(GestureContext& context);
     void scroll(const InputEvent& event, GestureContext& context);
     void point(GestureContext& context);
+    bool press_gizmo(GestureContext& context, const PointingTarget& target);
+    void drag_gizmo(GestureContext& context);
+    double gizmo_amount(const GestureContext& context) const;
+    bool snaps(const ToolSettings& tools) const;
     void begin_pull(GestureContext& context, int handle, Grabbed grabbed, const PickHit& hit);
     void remove_pulled(GestureContext& context);
     void set_baseline(GestureContext& context);
     void pull(GestureContext& context);
     PullMode pull_mode(const ToolSettings& tools) const;
     Eigen::Vector3d pull_shift(const GestureContext& context) const;
+    void pull_by_gizmo(GestureContext& context);
+    void transform_pulled(GestureContext& context, const Eigen::Matrix3d& map);
     void end_pull(GestureContext& context);
     void paint(GestureContext& context);
     void end_box(GestureContext& context);
@@ -137,6 +154,8 @@ private:
     Hover hover_;
     Pull pull_;
     std::optional<Spring> spring_;
+    std::optional<GizmoDrag> gizmo_drag_;
+    DisplaySettings plane_before_;  ///< as it was taken hold of
     int selected_ = -1;
     double last_press_seconds_ = -1.0;
     Eigen::Vector2d last_press_ = Eigen::Vector2d::Zero();

@@ -1,5 +1,9 @@
 #include "app/input/patch.hpp"
 
+#include <algorithm>
+#include <map>
+#include <utility>
+
 #include "mesh/topology.hpp"
 
 namespace elastolab {
@@ -23,7 +27,49 @@ std::span<const int> VertexGraph::operator[](int vertex) const {
     return {neighbours_.data() + offsets_[v], neighbours_.data() + offsets_[v + 1]};
 }
 
-std::vector<int> patch_around(const SurfaceMesh& mesh, const VertexGraph& graph, int center, double radius) {
+namespace {
+
+double circumference(const SurfaceMesh& mesh, const Eigen::Vector3i& t) {
+    const Positions& x = mesh.vertices;
+    return (x.col(t[0]) - x.col(t[1])).norm() + (x.col(t[1]) - x.col(t[2])).norm() + (x.col(t[2]) - x.col(t[0])).norm();
+}
+
+/// A connected patch made of whole triangles: vertices that have none within it take along the smallest free one that
+/// has another corner in it, or are dropped where there is none. The first vertex always stays first.
+std::vector<int> with_whole_triangles(const SurfaceMesh& mesh, const std::vector<int>& patch,
+                                      const std::function<bool(int)>& is_free) {
+    enum State : char { outside, alone, whole };
+    std::vector<State> states(static_cast<std::size_t>(mesh.n_vertices()), outside);
+    const auto state = [&](int v) -> State& { return states[static_cast<std::size_t>(v)]; };
+    for (const int v : patch) state(v) = alone;
+    for (const auto& t : mesh.triangles.colwise())
+        if (state(t[0]) != outside && state(t[1]) != outside && state(t[2]) != outside)
+            for (const int v : t) state(v) = whole;
+    std::map<int, std::pair<double, Eigen::Vector3i>> smallest;  // of vertices alone
+    const std::ptrdiff_t n_inside = std::min<std::ptrdiff_t>(2, std::ssize(patch));
+    for (const auto& t : mesh.triangles.colwise()) {
+        if (std::count_if(t.begin(), t.end(), [&](int v) { return state(v) != outside; }) < n_inside) continue;
+        if (!std::all_of(t.begin(), t.end(), is_free)) continue;
+        for (const int v : t) {
+            if (state(v) != alone) continue;
+            const auto [found, is_new] = smallest.try_emplace(v, circumference(mesh, t), t);
+            if (!is_new && circumference(mesh, t) < found->second.first) found->second = {circumference(mesh, t), t};
+        }
+    }
+    std::vector<int> result = patch;
+    for (const auto& [lone, found] : smallest)
+        for (const int v : found.second) {
+            if (state(v) == outside) result.push_back(v);
+            state(v) = whole;
+        }
+    if (state(patch.front()) == whole) std::erase_if(result, [&](int v) { return state(v) != whole; });
+    return state(patch.front()) == whole ? result : std::vector<int>{patch.front()};
+}
+
+}  // namespace
+
+std::vector<int> patch_around(const SurfaceMesh& mesh, const VertexGraph& graph, int center, double radius,
+                              const std::function<bool(int)>& is_free) {
     std::vector<int> patch = {center};
     std::vector<char> seen(static_cast<std::size_t>(mesh.n_vertices()), 0);
     seen[static_cast<std::size_t>(center)] = 1;
@@ -33,7 +79,8 @@ std::vector<int> patch_around(const SurfaceMesh& mesh, const VertexGraph& graph,
             seen[static_cast<std::size_t>(v)] = 1;
             if ((mesh.vertices.col(v) - mesh.vertices.col(center)).norm() <= radius) patch.push_back(v);
         }
-    return patch;
+    std::erase_if(patch, [&](int v) { return !is_free(v); });
+    return radius > 0.0 ? with_whole_triangles(mesh, patch, is_free) : patch;
 }
 
 }  // namespace elastolab

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -18,7 +19,11 @@ private:
 };
 
 /// Vertices around `center` (first in the list): those within `radius` [L] of it that can be reached over others of
-/// them, so that a patch does not jump to the other side of a thin part. Rest positions.
-std::vector<int> patch_around(const SurfaceMesh& mesh, const VertexGraph& graph, int center, double radius);
+/// them, so that a patch does not jump to the other side of a thin part. Of these the free ones, and where the radius
+/// is not 0 corners of whole triangles only: a vertex that has none within its patch is a point load, whose answer
+/// depends on the mesh. It takes along a triangle that it shares with the patch, which reaches beyond the radius, or is
+/// left out where none is free. `center` must be free. Rest positions.
+std::vector<int> patch_around(const SurfaceMesh& mesh, const VertexGraph& graph, int center, double radius,
+                              const std::function<bool(int)>& is_free);
 
 }  // namespace elastolab

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <Eigen/Geometry>
+#include <numbers>
 
 #include "app/input/gestures.hpp"
 
@@ -13,21 +14,19 @@ namespace {
 
 constexpr double kTurnPerPixel = 0.01;    ///< [radians]
 constexpr double kScalePerPixel = 0.005;  ///< of the logarithm
-
-/// How far along the line (point, direction) the cursor has dragged a point of it: where the line comes nearest to the
-/// ray of the cursor. Directions that point at the eye give nothing to hold on to: 0.
-double along_line(const Ray& ray, const Eigen::Vector3d& point, const Eigen::Vector3d& direction) {
-    const double cosine = ray.direction.dot(direction);
-    const double denominator = 1.0 - cosine * cosine;
-    if (denominator < 1e-4) return 0.0;
-    const Eigen::Vector3d to_point = point - ray.origin;
-    return (cosine * ray.direction.dot(to_point) - direction.dot(to_point)) / denominator;
-}
+constexpr double kSnapScale = 0.1;        ///< likewise
 
 Eigen::Vector3d triangle_normal(const PointingTarget& target, int triangle) {
     const Positions& x = *target.positions;
     const Eigen::Vector3i t = target.triangles->col(triangle);
     return (x.col(t[1]) - x.col(t[0])).cross(x.col(t[2]) - x.col(t[0])).stableNormalized();
+}
+
+/// A shift in round steps: along its line, or along each axis of the world where it has none.
+Eigen::Vector3d in_steps(const Eigen::Vector3d& shift, bool along_a_line, double step) {
+    if (!along_a_line) return shift.unaryExpr([&](double x) { return snapped(x, step); });
+    const double length = shift.stableNorm();
+    return length > 0.0 ? Eigen::Vector3d(shift * (snapped(length, step) / length)) : shift;
 }
 
 }  // namespace
@@ -49,9 +48,12 @@ void Gestures::begin_pull(GestureContext& context, int handle, Grabbed grabbed, 
 void Gestures::set_baseline(GestureContext& context) {
     pull_.mode = pull_mode(context.tools);
     pull_.cursor = cursor_;
+    for (const Gizmo& gizmo : context.gizmos)
+        if (gizmo_drag_ && gizmo.handle == pull_.handle) gizmo_drag_->gizmo = gizmo;
     const Eigen::Vector3d x = context.scene.mesh().vertices.col(pull_.vertex);
     const Motion& motion = context.scene.document().handles[static_cast<std::size_t>(pull_.handle)].motion;
-    pull_.place += context.deformation_scale * (mean_displacement(motion, x) - mean_displacement(pull_.motion, x));
+    pull_.place +=
+        context.display.deformation_scale * (mean_displacement(motion, x) - mean_displacement(pull_.motion, x));
     pull_.motion = motion;
 }
 
@@ -74,30 +76,97 @@ Eigen::Vector3d Gestures::pull_shift(const GestureContext& context) const {
     Eigen::Vector3d direction = pull_.normal;
     if (pull_.mode != PullMode::normal)
         direction = Eigen::Vector3d::Unit(static_cast<int>(pull_.mode) - static_cast<int>(PullMode::axis_x));
-    return direction * (along_line(context.camera.ray(cursor_, viewport), pull_.place, direction) -
-                        along_line(context.camera.ray(pull_.cursor, viewport), pull_.place, direction));
+    return direction * dragged_along(context.camera, viewport, pull_.place, direction, pull_.cursor, cursor_);
 }
 
 void Gestures::pull(GestureContext& context) {
-    if (pull_mode(context.tools) != pull_.mode) set_baseline(context);
+    if (!gizmo_drag_ && pull_mode(context.tools) != pull_.mode) set_baseline(context);
     if (!pull_.moved && (cursor_ - press_cursor_).norm() < kClickPixels) return;
     pull_.moved = true;
+    if (gizmo_drag_) return pull_by_gizmo(context);
     const std::span<const int> vertices = context.scene.vertices(pull_.handle);
     if (pull_.mode != PullMode::turn && pull_.mode != PullMode::scale) {
-        const Eigen::Vector3d shift = pull_shift(context) / context.deformation_scale;
+        Eigen::Vector3d shift = pull_shift(context) / context.display.deformation_scale;
+        if (context.tools.snap) shift = in_steps(shift, pull_.mode != PullMode::plane, snap_length(context.scene));
         context.scene.set_motion(pull_.handle, translated(pull_.motion, shift));
         return;
     }
-    const Eigen::Vector2d d = cursor_ - pull_.cursor;
+    Eigen::Vector2d d = cursor_ - pull_.cursor;
+    if (context.tools.snap)
+        d = d.unaryExpr([&](double pixels) {
+            return snapped(pixels,
+                           pull_.mode == PullMode::turn ? kSnapAngle / kTurnPerPixel : kSnapScale / kScalePerPixel);
+        });
     Eigen::Matrix3d map = std::exp(-kScalePerPixel * d.y()) * Eigen::Matrix3d::Identity();
     if (pull_.mode == PullMode::turn)
         map = (Eigen::AngleAxisd(kTurnPerPixel * d.x(), context.camera.up()) *
                Eigen::AngleAxisd(kTurnPerPixel * d.y(), context.camera.right()))
                   .toRotationMatrix();
+    transform_pulled(context, map);
+}
+
+/// By a linear map about the middle of the handle.
+void Gestures::transform_pulled(GestureContext& context, const Eigen::Matrix3d& map) {
+    const std::span<const int> vertices = context.scene.vertices(pull_.handle);
     const Positions rest =
         context.scene.mesh().vertices(Eigen::all, std::vector<int>(vertices.begin(), vertices.end()));
     const Eigen::Vector3d center = rest.rowwise().mean() + mean_displacement(pull_.motion, rest);
     context.scene.set_motion(pull_.handle, transformed(pull_.motion, map, center, rest));
+}
+
+bool Gestures::press_gizmo(GestureContext& context, const PointingTarget& target) {
+    for (const Gizmo& gizmo : context.gizmos) {
+        const std::optional<GizmoPart> part = part_at(gizmo, context.camera, target.viewport, cursor_);
+        if (!part) continue;
+        if (gizmo.handle == Gizmo::kPlane) {
+            plane_before_ = context.display;
+            action_ = Action::plane;
+        } else {
+            begin_pull(context, gizmo.handle, Grabbed::present_handle,
+                       {.vertex = context.scene.vertices(gizmo.handle).front()});
+        }
+        gizmo_drag_ = GizmoDrag{gizmo, *part};
+        hover_ = {.part = {{gizmo.handle, *part}}};
+        return true;
+    }
+    return false;
+}
+
+bool Gestures::snaps(const ToolSettings& tools) const { return tools.snap || (modifiers_ & GLFW_MOD_CONTROL) != 0; }
+
+double Gestures::gizmo_amount(const GestureContext& context) const {
+    const Viewport& viewport = context.targets[target_].viewport;
+    const bool moves = gizmo_drag_->part.kind == GizmoPart::Kind::arrow;
+    const Eigen::Vector2d& from = action_ == Action::pull ? pull_.cursor : press_cursor_;
+    double amount = dragged(gizmo_drag_->gizmo, gizmo_drag_->part, context.camera, viewport, from, cursor_);
+    if (moves && action_ == Action::pull) amount /= context.display.deformation_scale;
+    if (!snaps(context.tools)) return amount;
+    return snapped(amount, moves ? snap_length(context.scene) : kSnapAngle);
+}
+
+void Gestures::pull_by_gizmo(GestureContext& context) {
+    const double amount = gizmo_drag_->amount = gizmo_amount(context);
+    const Eigen::Vector3d axis = gizmo_drag_->gizmo.axes.col(gizmo_drag_->part.axis);
+    if (gizmo_drag_->part.kind == GizmoPart::Kind::arrow)
+        context.scene.set_motion(pull_.handle, translated(pull_.motion, amount * axis));
+    else
+        transform_pulled(context, Eigen::AngleAxisd(amount, axis).toRotationMatrix());
+}
+
+/// The plane of the cut: its place by the arrow, turn and tilt by the rings about their axes.
+void Gestures::drag_gizmo(GestureContext& context) {
+    const double amount = gizmo_drag_->amount = gizmo_amount(context);
+    DisplaySettings& display = context.display;
+    if (gizmo_drag_->part.kind == GizmoPart::Kind::arrow) {
+        const Eigen::RowVectorXd along = gizmo_drag_->gizmo.axes.col(0).transpose() * context.scene.mesh().vertices;
+        const double extent = along.maxCoeff() - along.minCoeff();
+        display.section_place = std::clamp(plane_before_.section_place + amount / extent, 0.0, 1.0);
+        return;
+    }
+    const bool turns = gizmo_drag_->part.axis == 1;
+    double& angle = turns ? display.section_turn : display.section_tilt;
+    const double before = turns ? plane_before_.section_turn : plane_before_.section_tilt;
+    angle = std::clamp(before + amount * 180.0 / std::numbers::pi, -90.0, 90.0);
 }
 
 void Gestures::end_pull(GestureContext& context) {
@@ -106,7 +175,7 @@ void Gestures::end_pull(GestureContext& context) {
             context.scene.remove_handle(pull_.handle);  // a click pulls nothing
             selected_ = -1;
         }
-    } else if (context.tools.release == Release::spring_back) {
+    } else if (context.tools.release == Release::spring_back && !gizmo_drag_) {
         spring_ = Spring{pull_.handle, context.scene.document().handles[static_cast<std::size_t>(pull_.handle)].motion};
         selected_ = -1;
     } else {

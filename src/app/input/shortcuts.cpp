@@ -90,12 +90,13 @@ const std::vector<Shortcut>& shortcuts() {
 }
 
 std::span<const GestureHelp> gesture_help() {
-    static constexpr std::array<GestureHelp, 13> all = {
+    static constexpr std::array<GestureHelp, 14> all = {
         {{"drag on the body", "pull the patch under the cursor, in the plane of the screen"},
          {"... with Shift", "along the surface normal"},
          {"... with X, Y or Z", "along an axis"},
          {"... with Ctrl or R", "turn the patch"},
          {"... with Alt or S", "scale the patch: up larger, down smaller"},
+         {"arrow or ring", "move or turn the selected handle, or the plane of the cut; with Ctrl in steps"},
          {"drag beside it", "turn the view"},
          {"right or Shift + drag", "move the view"},
          {"wheel", "zoom to the cursor"},

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <string>
+#include <tuple>
 
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
@@ -11,29 +12,35 @@ namespace elastolab {
 
 namespace {
 
-constexpr std::array<Choice<Field>, 5> kFields = {
+constexpr std::array<Choice<Field>, 13> kFields = {
     {{Field::none, "plain", "One colour for each method."},
      {Field::displacement, "displacement", "How far every vertex has moved."},
      {Field::difference, "difference", "How far from where the reference method puts it (see Compare)."},
      {Field::traction, "traction", "Force per area that holds or pulls the constrained vertices; zero elsewhere."},
      {Field::von_mises, "von Mises stress",
       "How near the material at the surface is to yielding: from the stretch of "
-      "each triangle and, where it is held, the traction."}}};
+      "each triangle and, where it is held, the traction."},
+     {Field::first_principal, "first principal stress", "The largest tension in any direction; negative: pressure."},
+     {Field::third_principal, "third principal stress", "The largest pressure in any direction, negative."},
+     {Field::stress_xx, "stress xx", "Force along x per area across x; tension is positive."},
+     {Field::stress_yy, "stress yy", "Force along y per area across y; tension is positive."},
+     {Field::stress_zz, "stress zz", "Force along z per area across z; tension is positive."},
+     {Field::stress_xy, "stress xy", "Shear: force along x per area across y."},
+     {Field::stress_yz, "stress yz", "Shear: force along y per area across z."},
+     {Field::stress_xz, "stress xz", "Shear: force along x per area across z."}}};
 
 void draw_range(ViewerState& state, float scale) {
     DisplaySettings& display = state.display;
     set_item_width(scale);
-    if (begin_choice("colours", display.colour_map.c_str())) {
+    std::string& chosen = is_signed(display.field) ? display.signed_colour_map : display.colour_map;
+    if (begin_choice("colours", chosen.c_str())) {
         for (const ColourMap& map : colour_maps())
-            if (choice_entry(map.name().c_str(), "", map.name() == display.colour_map)) display.colour_map = map.name();
+            if (choice_entry(map.name().c_str(), "", map.name() == chosen)) chosen = map.name();
         end_choice();
     }
+    const auto range = state.shown.field_range(display);
     if (ImGui::Checkbox("range from the data", &display.auto_range) && !display.auto_range)
-        display.range_high = std::max(display.range_low, [&] {
-            double high = 0.0;
-            for (const ShownBody& body : state.shown.bodies()) high = std::max(high, body.max_value());
-            return high;
-        }());
+        std::tie(display.range_low, display.range_high) = range;
     if (!display.auto_range) {
         ImGui::SetNextItemWidth(80.0f * scale);
         ImGui::InputDouble("##low", &display.range_low, 0.0, 0.0, "%.3g");
@@ -41,7 +48,8 @@ void draw_range(ViewerState& state, float scale) {
         ImGui::SetNextItemWidth(80.0f * scale);
         ImGui::InputDouble("from, to", &display.range_high, 0.0, 0.0, "%.3g");
     }
-    ImGui::Checkbox("mark the largest", &display.extremes);
+    ImGui::Checkbox("mark extremes", &display.extremes);
+    tooltip("Where the field is largest and, if it has a sign, smallest; also beside the colours.");
     ImGui::SameLine();
     ImGui::Checkbox("bands", &display.bands);
     tooltip("Ten steps of colour with lines between them, as on a map.");
@@ -49,8 +57,7 @@ void draw_range(ViewerState& state, float scale) {
 
 void draw_section(DisplaySettings& display, float scale) {
     ImGui::Checkbox("cut open", &display.section);
-    tooltip(
-        "A plane through the body at rest, which moves as the body does. Displacement and von Mises stress colour it.");
+    tooltip("A plane through the body at rest, which moves as the body does. Displacement and stresses colour it.");
     if (!display.section) return;
     for (int axis = 0; axis < 3; ++axis) {
         ImGui::SameLine();
@@ -62,6 +69,8 @@ void draw_section(DisplaySettings& display, float scale) {
     slider("turn", display.section_turn, -90.0, 90.0, "%.0f\u00b0", scale);
     slider("tilt", display.section_tilt, -90.0, 90.0, "%.0f\u00b0", scale);
     ImGui::Checkbox("keep the other side", &display.section_flip);
+    ImGui::Checkbox("gizmo at the plane", &display.section_gizmo);
+    tooltip("Drag its arrow to move the plane, its rings to turn and tilt it; with Ctrl in steps.");
 }
 
 }  // namespace

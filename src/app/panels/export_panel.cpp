@@ -7,7 +7,7 @@
 
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
-#include "app/picture/turntable.hpp"
+#include "app/picture/film.hpp"
 
 namespace elastolab {
 
@@ -38,6 +38,23 @@ void draw_number(const char* label, int& value, int low, int high, float scale) 
     ImGui::SetNextItemWidth(110.0f * scale);
     ImGui::InputInt(label, &value, 0, 0);
     value = std::clamp(value, low, high);
+}
+
+/// A single picture, or what film; whether it is one.
+bool draw_film_choice(PictureRequest& picture) {
+    int chosen = picture.n_frames == 0 ? 0 : picture.kind == FilmKind::turn ? 1 : 2;
+    const int before = chosen;
+    ImGui::RadioButton("one picture", &chosen, 0);
+    ImGui::RadioButton("turntable: one turn as numbered frames", &chosen, 1);
+    ImGui::RadioButton("pull: from rest to here and back, as numbered frames", &chosen, 2);
+    if (chosen != before) picture.n_frames = chosen == 0 ? 0 : std::max(picture.n_frames, 120);
+    if (chosen != 0) picture.kind = chosen == 1 ? FilmKind::turn : FilmKind::pull;
+    return chosen != 0;
+}
+
+const char* film_ending(const PictureRequest& picture) {
+    if (picture.n_frames == 0) return ".png";
+    return picture.kind == FilmKind::turn ? "-turn.png" : "-pull.png";
 }
 
 }  // namespace
@@ -77,9 +94,8 @@ void Panels::draw_picture(const PanelContext& context) {
     ImGui::SameLine();
     draw_number("pixels", picture_.size.y(), 16, kLargestPicture, scale);
     ImGui::Checkbox("transparent background", &picture_.transparent);
-    bool turns = picture_.n_frames > 0;
-    if (ImGui::Checkbox("turntable: one turn as numbered frames", &turns)) picture_.n_frames = turns ? 120 : 0;
-    if (turns) {
+    const bool is_film = draw_film_choice(picture_);
+    if (is_film) {
         draw_number("frames", picture_.n_frames, 2, kMostFrames, scale);
         if (video_obstacle_.empty())
             ImGui::Checkbox("and as a video (MP4, 30 frames a second)", &picture_.video);
@@ -88,11 +104,11 @@ void Panels::draw_picture(const PanelContext& context) {
     }
     const bool enter = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false) && !ImGui::IsWindowAppearing();
     if (ImGui::Button("Save as...") || enter) {
-        picture_.video = picture_.video && turns && video_obstacle_.empty();
+        picture_.video = picture_.video && is_film && video_obstacle_.empty();
         ImGui::CloseCurrentPopup();
-        files_.open({.title = turns ? "Save the frames of a turntable" : "Save a picture",
+        files_.open({.title = is_film ? "Save the frames of a film" : "Save a picture",
                      .extensions = {".png"},
-                     .suggestion = file_name(state, turns ? "-turn.png" : ".png"),
+                     .suggestion = file_name(state, film_ending(picture_)),
                      .done = [&state, picture = picture_](const auto& file) mutable {
                          picture.file = file;
                          state.requests.picture = picture;
@@ -104,7 +120,7 @@ void Panels::draw_picture(const PanelContext& context) {
     ImGui::EndPopup();
 }
 
-/// While the frames of a turntable are drawn.
+/// While the frames of a film are drawn.
 void Panels::draw_picture_progress(const PanelContext& context) {
     ViewerState& state = context.state;
     if (!state.pictures_under_way) return;

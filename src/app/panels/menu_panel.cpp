@@ -85,7 +85,7 @@ void Panels::draw_menu(const PanelContext& context) {
         if (ImGui::MenuItem("Save scene", "Ctrl+S")) save(state);
         if (ImGui::MenuItem("Save scene as...", "Ctrl+Shift+S")) save_as(state);
         draw_export_menu(state);
-        if (ImGui::MenuItem("Picture or turntable...")) asks_picture_ = true;
+        if (ImGui::MenuItem("Picture or film...")) asks_picture_ = true;
         if (ImGui::MenuItem("Screenshot of the window...")) ask_screenshot(state);
         ImGui::Separator();
         if (ImGui::MenuItem("Quit", "Ctrl+Q")) state.quit();

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/panels/overlays.hpp"
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
 #include "app/picture/scene_renderer.hpp"
@@ -19,38 +20,6 @@ namespace elastolab {
 namespace {
 
 constexpr float kMargin = 14.0f;
-
-ImVec2 point(double x, double y) { return {static_cast<float>(x), static_cast<float>(y)}; }
-
-/// What lies behind words over the scene, so that they are readable on any body.
-void chip(const PanelContext& context, ImDrawList& list, ImVec2 low, ImVec2 high) {
-    const float pad = 7.0f * context.gui.scale();
-    list.AddRectFilled({low.x - pad, low.y - 0.6f * pad}, {high.x + pad, high.y + 0.6f * pad},
-                       imgui_packed(context.palette.panel, 0.72f), 0.8f * pad);
-}
-
-struct TitleLine {
-    ImFont* font;
-    float size;
-    Colour colour;
-    std::string text;
-};
-
-/// Lines under one another on a chip, broken where they are wider than `width`.
-void draw_lines(const PanelContext& context, ImDrawList& list, ImVec2 place, float width,
-                const std::vector<TitleLine>& lines) {
-    ImVec2 high = place;
-    std::vector<float> tops;
-    for (const TitleLine& line : lines) {
-        const ImVec2 extent = line.font->CalcTextSizeA(line.size, FLT_MAX, width, line.text.c_str());
-        tops.push_back(high.y);
-        high = {std::max(high.x, place.x + extent.x), high.y + extent.y + 0.15f * line.size};
-    }
-    chip(context, list, place, high);
-    for (std::size_t i = 0; i < lines.size(); ++i)
-        list.AddText(lines[i].font, lines[i].size, {place.x, tops[i]}, imgui_packed(lines[i].colour),
-                     lines[i].text.c_str(), nullptr, width);
-}
 
 constexpr const char* kDash = "  \u2013  ";
 
@@ -86,7 +55,7 @@ void draw_title(const PanelContext& context, ImDrawList& list, const SceneViewpo
     const ViewerState& state = context.state;
     const Palette& palette = context.palette;
     const float size = ImGui::GetFontSize(), margin = kMargin * context.gui.scale();
-    std::vector<TitleLine> lines;
+    std::vector<OverlayLine> lines;
     for (const MethodKind kind : viewport.kinds) {
         const bool first = lines.empty();
         lines.push_back({first ? context.gui.fonts().large : context.gui.fonts().regular, first ? 1.35f * size : size,
@@ -100,7 +69,7 @@ void draw_title(const PanelContext& context, ImDrawList& list, const SceneViewpo
                    number_text(100.0 * shown->difference()->relative_max) + " %";
         if (!note.empty()) lines.push_back({context.gui.fonts().regular, size, palette.text, note});
     }
-    draw_lines(context, list, point(viewport.place.x + margin, viewport.place.y + margin),
+    draw_lines(context, list, im_point(viewport.place.x + margin, viewport.place.y + margin),
                std::max(40.0f, static_cast<float>(viewport.place.width) - 2.0f * margin), lines);
 }
 
@@ -109,7 +78,7 @@ void draw_axes_letters(const PanelContext& context, ImDrawList& list, const Scen
     constexpr std::array<const char*, 3> kLetters = {"x", "y", "z"};
     for (std::size_t i = 0; i < 3; ++i) {
         const ImVec2 size = ImGui::CalcTextSize(kLetters[i]);
-        list.AddText(point(labels.pixel[i].x() - 0.5 * size.x, labels.pixel[i].y() - 0.5 * size.y),
+        list.AddText(im_point(labels.pixel[i].x() - 0.5 * size.x, labels.pixel[i].y() - 0.5 * size.y),
                      imgui_packed(context.palette.text), kLetters[i]);
     }
 }
@@ -131,7 +100,7 @@ void draw_legend(const PanelContext& context, ImDrawList& list) {
     const float right = static_cast<float>(scene.x + scene.width) - kMargin * scale;
     const float left = std::max(static_cast<float>(scene.x) + kMargin * scale, std::min(x, right - text_width));
     chip(context, list, {left, y - 1.7f * size}, {right, y + height + 0.5f * size});
-    const ColourMap& map = colour_map(state.display.colour_map);
+    const ColourMap& map = shown_colour_map(state.display);
     constexpr int kSteps = 64;
     for (int i = 0; i < kSteps; ++i) {
         const float top = y + height * (1.0f - static_cast<float>(i + 1) / kSteps);
@@ -140,9 +109,19 @@ void draw_legend(const PanelContext& context, ImDrawList& list) {
     }
     list.AddRect({x, y}, {x + width, y + height}, imgui_packed(context.palette.border));
     const auto [low, high] = state.shown.field_range(state.display);
+    const auto place_of = [&](double value) {
+        const double t = high > low ? std::clamp((value - low) / (high - low), 0.0, 1.0) : 0.5;
+        return y + height * (1.0f - static_cast<float>(t));
+    };
+    if (const ShownBody* body = state.shown.body(state.method); body && state.display.extremes)
+        for (const Eigen::Index v : {extremes_of(body->values()).smallest, extremes_of(body->values()).largest}) {
+            if (v < 0) continue;
+            const float ty = place_of(body->values()[static_cast<std::size_t>(v)]), s = 6.0f * scale;
+            list.AddTriangleFilled({x - 1.0f, ty}, {x - s - 1.0f, ty - 0.6f * s}, {x - s - 1.0f, ty + 0.6f * s},
+                                   imgui_packed(context.palette.text));
+        }
     for (const LegendTick& tick : legend_ticks(low, high, 5)) {
-        const double t = high > low ? (tick.value - low) / (high - low) : 0.5;
-        const float ty = y + height * (1.0f - static_cast<float>(t));
+        const float ty = place_of(tick.value);
         list.AddLine({x + width, ty}, {x + width + 4.0f * scale, ty}, imgui_packed(context.palette.text));
         list.AddText({x + width + 7.0f * scale, ty - 0.5f * size}, imgui_packed(context.palette.text),
                      tick.text.c_str());
@@ -150,88 +129,18 @@ void draw_legend(const PanelContext& context, ImDrawList& list) {
     list.AddText({left, y - 1.7f * size}, imgui_packed(context.palette.text), heading.c_str());
 }
 
-std::string vector_text(const Eigen::Vector3d& v) {
-    return "(" + number_text(v.x()) + ", " + number_text(v.y()) + ", " + number_text(v.z()) + ")";
-}
-
-/// A ring at a vertex with words beside it, which turn to the left where there is no room.
-void draw_mark(const PanelContext& context, ImDrawList& list, const Viewport& viewport, const Eigen::Vector3d& place,
-               const Colour& colour, const std::string& text) {
-    const ProjectedPoint projected = context.state.camera.project(place, viewport);
-    if (projected.depth <= 0.0 || !viewport.contains(projected.pixel)) return;
-    const ImVec2 at = point(projected.pixel.x(), projected.pixel.y());
-    const float scale = context.gui.scale();
-    list.AddCircle(at, 5.0f * scale, imgui_packed(context.palette.panel, 0.8f), 24, 4.0f * scale);
-    list.AddCircle(at, 5.0f * scale, imgui_packed(colour), 24, 2.0f * scale);
-    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-    const float right = static_cast<float>(viewport.x + viewport.width) - 12.0f * scale;
-    const float x = at.x + 18.0f * scale + size.x < right ? at.x + 18.0f * scale : at.x - 18.0f * scale - size.x;
-    const ImVec2 low{x, at.y - 0.5f * size.y};
-    chip(context, list, low, {low.x + size.x, low.y + size.y});
-    list.AddText(low, imgui_packed(colour), text.c_str());
-}
-
-/// Where the shown field is largest.
-void draw_largest(const PanelContext& context, ImDrawList& list, const Viewport& viewport, const ShownBody& body) {
-    if (!body.is_coloured() || body.values().empty() || body.max_value() <= 0.0) return;
-    const auto place = std::max_element(body.values().begin(), body.values().end(), [](float a, float b) {
-        return std::isnan(a) || a < b;  // numbers that are missing count least
-    });
-    draw_mark(context, list, viewport, body.positions().col(place - body.values().begin()), context.palette.text,
-              "largest " + number_text(*place));
-}
-
-/// The kept probes, and a card of what is known at the vertex under the cursor.
-void draw_probe_marks(const PanelContext& context, ImDrawList& list, const SceneViewport& viewport) {
-    const ViewerState& state = context.state;
-    const ShownBody* body = state.shown.body(viewport.kinds.front());
-    if (body == nullptr) return;
-    if (state.display.arrows)
-        for (const ShownReaction& reaction : body->reactions())
-            draw_mark(context, list, viewport.place, reaction.place,
-                      reaction.name == "fixed" ? context.palette.fixed : context.palette.handle,
-                      reaction.name + ": force " + number_text(reaction.force.norm()));
-    if (state.display.extremes) draw_largest(context, list, viewport.place, *body);
-    const Positions& rest = state.scene().mesh().vertices;
-    const auto value_at = [&](int vertex) { return probe(vertex, rest, *body, state.display.deformation_scale); };
-    for (const int vertex : state.probes.vertices()) {
-        const ProbeValue value = value_at(vertex);
-        draw_mark(context, list, viewport.place, body->positions().col(vertex), context.palette.probe,
-                  std::to_string(vertex) + ": " + number_text(value.field.value_or(value.displacement.norm())));
-    }
-    const int hovered = state.gestures.hover().vertex;
-    if (state.tools.tool != Tool::probe || hovered < 0 || !viewport.place.contains(state.gestures.cursor())) return;
-    const ProbeValue value = value_at(hovered);
-    ImFont* const font = context.gui.fonts().regular;
-    const float size = ImGui::GetFontSize();
-    std::vector<TitleLine> lines = {
-        {context.gui.fonts().bold, size, context.palette.text, "vertex " + std::to_string(hovered)},
-        {font, size, context.palette.text, "at " + vector_text(value.position)},
-        {font, size, context.palette.text, "moved by " + vector_text(value.displacement)},
-        {font, size, context.palette.text, "which is " + number_text(value.displacement.norm())}};
-    if (value.field && state.display.field != Field::displacement)
-        lines.push_back({font, size, context.palette.text,
-                         field_title(state.display.field, state.compare.reference) + " " + number_text(*value.field)});
-    const float width = 300.0f * context.gui.scale(), step = 18.0f * context.gui.scale();
-    const Eigen::Vector2d& cursor = state.gestures.cursor();
-    const double right = viewport.place.x + viewport.place.width, bottom = viewport.place.y + viewport.place.height;
-    const double x = std::max(viewport.place.x + step, std::min(cursor.x() + step, right - width));
-    const double y = std::min(cursor.y() + step, bottom - 8.0 * size);
-    draw_lines(context, list, point(x, y), width, lines);
-}
-
 void draw_tools(const PanelContext& context, ImDrawList& list) {
     const ViewerState& state = context.state;
     const Palette& palette = context.palette;
     if (const auto box = state.gestures.box()) {
-        const ImVec2 a = point(box->first.x(), box->first.y()), b = point(box->second.x(), box->second.y());
+        const ImVec2 a = im_point(box->first.x(), box->first.y()), b = im_point(box->second.x(), box->second.y());
         const ImVec2 low{std::min(a.x, b.x), std::min(a.y, b.y)}, high{std::max(a.x, b.x), std::max(a.y, b.y)};
         list.AddRectFilled(low, high, imgui_packed(palette.fixed, 0.15f));
         list.AddRect(low, high, imgui_packed(palette.fixed), 0.0f, 0, 1.5f);
     }
     const Eigen::Vector2d& cursor = state.gestures.cursor();
     if (state.tools.tool == Tool::brush && context.layout.scene.contains(cursor) && !context.gui.wants_mouse())
-        list.AddCircle(point(cursor.x(), cursor.y()), static_cast<float>(state.tools.brush_pixels),
+        list.AddCircle(im_point(cursor.x(), cursor.y()), static_cast<float>(state.tools.brush_pixels),
                        imgui_packed(palette.fixed), 48, 1.5f);
 }
 
@@ -259,7 +168,8 @@ void draw_hint(const PanelContext& context, ImDrawList& list) {
     const float scale = context.gui.scale();
     const float width = static_cast<float>(scene.width) - 40.0f * scale;
     const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, width);
-    const ImVec2 place = point(scene.x + 0.5 * (scene.width - size.x), scene.y + scene.height - size.y - 26.0 * scale);
+    const ImVec2 place =
+        im_point(scene.x + 0.5 * (scene.width - size.x), scene.y + scene.height - size.y - 26.0 * scale);
     const float pad = 8.0f * scale;
     list.AddRectFilled({place.x - 1.5f * pad, place.y - pad}, {place.x + size.x + 1.5f * pad, place.y + size.y + pad},
                        imgui_packed(context.palette.panel, 0.85f), 6.0f * scale);
@@ -299,10 +209,10 @@ void Panels::draw_overlays(const PanelContext& context) {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     for (const SceneViewport& viewport : context.state.shown.viewports) {
         const Viewport& v = viewport.place;
-        list.PushClipRect(point(v.x, v.y), point(v.x + v.width, v.y + v.height));
+        list.PushClipRect(im_point(v.x, v.y), im_point(v.x + v.width, v.y + v.height));
         draw_title(context, list, viewport);
         draw_axes_letters(context, list, viewport);
-        draw_probe_marks(context, list, viewport);
+        draw_marks(context, list, viewport);
         list.PopClipRect();
     }
     draw_legend(context, list);

@@ -50,6 +50,7 @@ private:
     void draw_mode(const PanelContext& context);
     void draw_body(const PanelContext& context);
     void draw_pull(const PanelContext& context);
+    void draw_handle(const PanelContext& context, int handle);
     void draw_probes(const PanelContext& context);
     void draw_compare(const PanelContext& context);
     void draw_display(const PanelContext& context);
@@ -84,8 +85,9 @@ private:
     int unsaved_choice_ = 0;  ///< which button of the question Enter presses
     std::string primitive_ = "cube";
     int resolution_ = 13;
-    std::optional<double> typed_modulus_;  ///< Young's modulus while it is typed
-    bool side_fits_ = true;                ///< the side panel's content did, in the last frame
+    std::optional<double> typed_modulus_;             ///< Young's modulus while it is typed
+    std::pair<int, std::string> typed_name_{-1, ""};  ///< of a handle, while it is typed
+    bool side_fits_ = true;                           ///< the side panel's content did, in the last frame
     std::uint64_t costs_of_scene_ = 0;
     std::size_t n_flights_ = 0;  ///< to places of defects
     std::map<std::pair<MethodKind, Mode>, Cost> costs_;

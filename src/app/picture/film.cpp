@@ -1,5 +1,8 @@
-#include "app/picture/turntable.hpp"
+#include "app/picture/film.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <system_error>
 #include <utility>
 
@@ -14,6 +17,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kFramesPerSecond = 30;
+constexpr double kNearRest = 1e-6;  ///< of the deformation: a range of colours is divided by it
 
 /// ffmpeg counts where it reads '%'.
 std::string frame_pattern(const fs::path& file) {
@@ -64,15 +68,46 @@ fs::path make_video(const fs::path& file, Control& control) {
     throw Error(video.string() + ": ffmpeg could not make it (" + last_line(log) + "). The frames are there.");
 }
 
-void Turntable::step(SceneRenderer& renderer, ViewerState& state, const Palette& palette) {
+double pulled_part(int frame, int n_frames) {
+    return 0.5 * (1.0 - std::cos(2.0 * std::numbers::pi * (frame - 1) / n_frames));
+}
+
+/// Elasticity is linear: a part of the pull moves everything by that part, and its colours are the same part of theirs.
+void Film::draw(SceneRenderer& renderer, ViewerState& state, const Palette& palette, int frame) const {
     const CameraPose pose = state.camera.pose();
+    const DisplaySettings display = state.display;
+    const auto restore = [&] {
+        state.camera.set_pose(pose);
+        state.display = display;
+        state.update_picture();
+        renderer.upload(state, palette);
+    };
+    try {
+        if (request_.kind == FilmKind::turn) {
+            state.camera.set_pose(turned(state.camera, pose, static_cast<double>(frame - 1) / request_.n_frames));
+        } else {
+            const double part = std::max(kNearRest, pulled_part(frame, request_.n_frames));
+            const auto [low, high] = state.shown.field_range(display);
+            state.display.deformation_scale *= part;
+            state.display.auto_range = false;
+            state.display.range_low = low / part;
+            state.display.range_high = high / part;
+            state.update_picture();
+            renderer.upload(state, palette);
+        }
+        write_picture(frame_file(request_.file, frame), renderer, state, palette, request_.size, request_.transparent);
+    } catch (...) {
+        restore();
+        throw;
+    }
+    restore();
+}
+
+void Film::step(SceneRenderer& renderer, ViewerState& state, const Palette& palette) {
     const int frame = std::exchange(next_, 0);  // an exception ends it
     try {
-        state.camera.set_pose(turned(state.camera, pose, static_cast<double>(frame - 1) / request_.n_frames));
-        write_picture(frame_file(request_.file, frame), renderer, state, palette, request_.size, request_.transparent);
-        state.camera.set_pose(pose);
+        draw(renderer, state, palette, frame);
     } catch (...) {
-        state.camera.set_pose(pose);
         state.pictures_under_way.reset();
         throw;
     }
@@ -81,19 +116,19 @@ void Turntable::step(SceneRenderer& renderer, ViewerState& state, const Palette&
     next_ = frame + 1;
 }
 
-void Turntable::finish(ViewerState& state) {
+void Film::finish(ViewerState& state) {
     state.pictures_under_way.reset();
     state.messages.note("Saved " + std::to_string(request_.n_frames) + " frames, " +
                         frame_file(request_.file, 1).string() + " and on");
     if (request_.video) video_.start([file = request_.file](Control& control) { return make_video(file, control); });
 }
 
-void Turntable::stop() {
+void Film::stop() {
     next_ = 0;
     video_.cancel();
 }
 
-bool Turntable::poll(ViewerState& state) {
+bool Film::poll(ViewerState& state) {
     switch (video_.poll()) {
         case JobEvent::finished:
             state.messages.note("Saved " + video_.take().string());

@@ -11,12 +11,16 @@ namespace elastolab {
 /// "name.png" -> "name-0007.png": the frames count from 1.
 std::filesystem::path frame_file(const std::filesystem::path& file, int frame);
 
-/// Frames of one turn as numbered pictures, one for each call of step() so that the window stays alive, and then, when
-/// it is wanted, a video of them made by ffmpeg on a worker. All members are for the thread of the window.
-class Turntable {
+/// How far the body is deformed in a frame of a film of the pull, 0 (at rest) to 1 (as it is): there and back,
+/// smoothly, so that the film can be repeated without a jump.
+double pulled_part(int frame, int n_frames);
+
+/// Frames of a film as numbered pictures, one for each call of step() so that the window stays alive, and then, when it
+/// is wanted, a video of them made by ffmpeg on a worker. All members are for the thread of the window.
+class Film {
 public:
     /// `wake` is called by the worker when poll() will find something.
-    explicit Turntable(const std::function<void()>& wake) : video_(wake) {}
+    explicit Film(const std::function<void()>& wake) : video_(wake) {}
 
     void start(const PictureRequest& request) {
         request_ = request;
@@ -33,6 +37,7 @@ public:
     bool working() const { return video_.working(); }
 
 private:
+    void draw(SceneRenderer& renderer, ViewerState& state, const Palette& palette, int frame) const;
     void finish(ViewerState& state);
 
     PictureRequest request_;
@@ -40,7 +45,7 @@ private:
     BackgroundJob<std::filesystem::path> video_;
 };
 
-/// The video of a turntable: "name.png" -> "name.mp4", 30 frames a second, made by the ffmpeg that is installed. It
+/// The video of a film: "name.png" -> "name.mp4", 30 frames a second, made by the ffmpeg that is installed. It
 /// takes its place once it is complete. Throws Error where there is no ffmpeg or it fails, Cancelled.
 std::filesystem::path make_video(const std::filesystem::path& file, Control& control);
 /// Why there is no video; empty where there is one.

@@ -172,7 +172,7 @@ SurfaceStyle SceneRenderer::surface_style(const ViewerState& state, MethodKind k
     style.wire_opacity = 0.28f;
     style.feature_edges = display.feature_edges;
     style.feature_opacity = 0.55f;
-    style.colour_map = &colour_map(display.colour_map);
+    style.colour_map = &shown_colour_map(display);
     std::tie(style.low, style.high) = state.shown.field_range(state.display);
     style.contour_bands = display.bands ? kBands : 0;
     if (display.field != Field::none) style.light = 0.75f;

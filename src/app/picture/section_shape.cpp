@@ -10,6 +10,16 @@ namespace elastolab {
 namespace {
 
 constexpr int kSweeps = 20;
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+/// The axis that the plane is across before it is turned, and those that follow.
+Eigen::Vector3d section_axis(const DisplaySettings& display, int steps) {
+    return Eigen::Vector3d::Unit((display.section_axis + steps) % 3);
+}
+
+Eigen::AngleAxisd section_turn(const DisplaySettings& display) {
+    return Eigen::AngleAxisd(kDegree * display.section_turn, section_axis(display, 1));
+}
 
 double mean_edge(const SurfaceMesh& mesh) {
     double sum = 0.0;
@@ -20,11 +30,16 @@ double mean_edge(const SurfaceMesh& mesh) {
 
 }  // namespace
 
+Eigen::Matrix<double, 3, 2> section_hinges(const DisplaySettings& display) {
+    Eigen::Matrix<double, 3, 2> hinges;
+    hinges << section_axis(display, 1), section_turn(display) * section_axis(display, 2);
+    return hinges;
+}
+
 Plane section_plane(const Positions& rest, const DisplaySettings& display) {
-    const auto axis = [&](int steps) { return Eigen::Vector3d::Unit((display.section_axis + steps) % 3); };
-    const double degree = std::numbers::pi / 180.0;
-    const Eigen::Vector3d normal = Eigen::AngleAxisd(degree * display.section_turn, axis(1)) *
-                                   Eigen::AngleAxisd(degree * display.section_tilt, axis(2)) * axis(0);
+    const Eigen::Vector3d normal =
+        section_turn(display) *
+        (Eigen::AngleAxisd(kDegree * display.section_tilt, section_axis(display, 2)) * section_axis(display, 0));
     const Eigen::RowVectorXd along = normal.transpose() * rest;
     const double low = along.minCoeff(), high = along.maxCoeff();
     const Plane plane{normal, low + display.section_place * (high - low)};

@@ -12,6 +12,8 @@ namespace elastolab {
 
 /// The plane by which the body is to be cut open; what its normal points away from is kept.
 Plane section_plane(const Positions& rest, const DisplaySettings& display);
+/// The axes, of unit length, that its turn and its tilt go about.
+Eigen::Matrix<double, 3, 2> section_hinges(const DisplaySettings& display);
 
 /// A body at rest, cut open and closed by a cap. Vertices are, in this order: those of the whole surface (some of no
 /// triangle any more), those on cut edges and on the cap's rim, and those inside the body. Skin and cap share none.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "app/names.hpp"
 #include "base/timer.hpp"
@@ -36,6 +37,19 @@ std::vector<float> magnitudes(const Eigen::Matrix3Xd& vectors) {
 std::vector<float> as_floats(const Eigen::VectorXd& numbers) {
     const Eigen::VectorXf floats = numbers.cast<float>();
     return {floats.begin(), floats.end()};
+}
+
+/// Rows of values at the simulated vertices, as the shown ones have them.
+Eigen::MatrixXd shown_rows(const EmbeddedRunner& answer, const Eigen::MatrixXd& rows) {
+    Eigen::MatrixXd shown(rows.rows(), answer.displacement().size() / 3);
+    for (Eigen::Index i = 0; i < rows.rows(); ++i)
+        shown.row(i) = answer.shown_values(rows.row(i).transpose()).transpose();
+    return shown;
+}
+
+/// Of the model that answered: the material of the scene may be newer than its displacements.
+const Material& material_of(const EmbeddedRunner& answer) {
+    return answer.runner().deformer()->model().body().material;
 }
 
 double ratio(double value, double to) { return to > 0.0 ? value / to : 0.0; }
@@ -72,7 +86,8 @@ ShownBody::Key ShownBody::key_of(const Sources& sources, const DisplaySettings& 
             .reaction_revision = sources.reactions ? sources.reactions->revision() : 0,
             .scene_revision = sources.reactions ? sources.scene.revision() : 0,
             .section = sources.section,
-            .inside_revision = sources.inside ? sources.inside->revision() : 0};
+            .inside_revision = sources.inside ? sources.inside->revision() : 0,
+            .probed = sources.probed};
 }
 
 bool ShownBody::update(const Sources& sources, const DisplaySettings& display) {
@@ -85,6 +100,7 @@ bool ShownBody::update(const Sources& sources, const DisplaySettings& display) {
     update_reactions(sources);
     update_difference(sources);
     update_values(sources, display.field);
+    update_probed(sources);
     const Stopwatch watch;
     update_section(sources, display);
     section_seconds_ = watch.seconds();
@@ -119,7 +135,8 @@ void ShownBody::update_reactions(const Sources& sources) {
         reactions_.push_back({.name = group.name,
                               .force = reactions.forces.middleCols(group.begin, n).rowwise().sum(),
                               .moment = reactions.moments.middleCols(group.begin, n).rowwise().sum(),
-                              .place = positions_(Eigen::all, vertices).rowwise().mean()});
+                              .place = positions_(Eigen::all, vertices).rowwise().mean(),
+                              .rest_place = sources.scene.mesh().vertices(Eigen::all, vertices).rowwise().mean()});
     }
 }
 
@@ -148,18 +165,18 @@ void ShownBody::colour_section(const SectionRunner* inside, Field field) {
     const Eigen::MatrixXd surface =
         Eigen::Map<const Eigen::RowVectorXf>(values_.data(), std::ssize(values_)).cast<double>();
     Eigen::MatrixXd within = Eigen::MatrixXd::Constant(1, shape.n_inside(), std::numeric_limits<double>::quiet_NaN());
-    if (max_value_ == 0.0) within.setZero();  // at rest
+    if (largest_magnitude_ == 0.0) within.setZero();  // at rest
     if (inside && field == Field::displacement) within = inside->displacements().colwise().norm();
-    if (inside && field == Field::von_mises) {
+    if (const auto which = stress_of(field); inside && which) {
         const Eigen::Matrix<double, 6, -1> stresses = inside->stresses();
-        for (Eigen::Index i = 0; i < within.cols(); ++i) within(0, i) = von_mises(stresses.col(i));
+        for (Eigen::Index i = 0; i < within.cols(); ++i) within(0, i) = measure(*which, stress_tensor(stresses.col(i)));
     }
     section_->values = as_floats(shape.joined(surface, within).row(0).transpose());
 }
 
 void ShownBody::update_values(const Sources& sources, Field field) {
     values_.clear();
-    max_value_ = 0.0;
+    largest_magnitude_ = 0.0;
     const EmbeddedRunner& answer = sources.answer;
     if (field == Field::none || answer.displacement().size() != positions_.size()) return;
     const Eigen::VectorXd& u = answer.displacement();
@@ -172,29 +189,40 @@ void ShownBody::update_values(const Sources& sources, Field field) {
         else
             values_.assign(static_cast<std::size_t>(positions_.cols()), 0.0f);
     }
-    if (field == Field::von_mises && tractions_.cols() > 0) {
-        // Of the model that answered: the material of the scene may be newer than its displacements.
-        const Material& material = answer.runner().deformer()->model().body().material;
-        values_ = as_floats(answer.shown_values(
-            surface_von_mises(*answer.surface(), material, answer.runner().displacement(), tractions_)));
-    }
-    for (const float value : values_) max_value_ = std::max(max_value_, static_cast<double>(value));
+    if (const auto which = stress_of(field); which && tractions_.cols() > 0)
+        values_ = as_floats(answer.shown_values(surface_stress_measure(*which, *answer.surface(), material_of(answer),
+                                                                       answer.runner().displacement(), tractions_)));
+    for (const float value : values_)
+        largest_magnitude_ = std::max(largest_magnitude_, std::abs(static_cast<double>(value)));
+}
+
+void ShownBody::update_probed(const Sources& sources) {
+    shown_tractions_.resize(3, 0);
+    shown_stresses_.resize(6, 0);
+    const EmbeddedRunner& answer = sources.answer;
+    // While the next reactions are computed the last ones are not of this answer.
+    if (!sources.probed || sources.reactions == nullptr || sources.reactions->running()) return;
+    if (tractions_.cols() == 0 || answer.displacement().size() != positions_.size()) return;
+    shown_tractions_ = shown_rows(answer, tractions_);
+    shown_stresses_ = shown_rows(
+        answer, surface_stress(*answer.surface(), material_of(answer), answer.runner().displacement(), tractions_));
 }
 
 std::string field_title(Field field, MethodKind reference) {
-    switch (field) {
-        case Field::none:
-            return "";
-        case Field::displacement:
-            return "displacement [mesh units]";
-        case Field::difference:
-            return "difference to " + std::string(title(reference)) + " [mesh units]";
-        case Field::traction:
-            return "traction [force / unit\u00b2]";
-        case Field::von_mises:
-            return "von Mises stress [force / unit\u00b2]";
-    }
-    return "";
+    static const std::map<Field, std::string> stresses = {{Field::von_mises, "von Mises stress"},
+                                                          {Field::first_principal, "first principal stress"},
+                                                          {Field::third_principal, "third principal stress"},
+                                                          {Field::stress_xx, "stress xx"},
+                                                          {Field::stress_yy, "stress yy"},
+                                                          {Field::stress_zz, "stress zz"},
+                                                          {Field::stress_xy, "stress xy"},
+                                                          {Field::stress_yz, "stress yz"},
+                                                          {Field::stress_xz, "stress xz"}};
+    if (const auto found = stresses.find(field); found != stresses.end())
+        return found->second + " [force / unit\u00b2]";
+    if (field == Field::displacement) return "displacement [mesh units]";
+    if (field == Field::difference) return "difference to " + std::string(title(reference)) + " [mesh units]";
+    return field == Field::traction ? "traction [force / unit\u00b2]" : "";
 }
 
 }  // namespace elastolab

@@ -20,6 +20,8 @@ namespace elastolab {
 struct ShownReaction {
     std::string name;
     Eigen::Vector3d force, moment, place;  ///< [force], [force * L] about the origin, mean position as shown [L]
+    Eigen::Vector3d rest_place;            ///< mean position at rest [L]
+    Eigen::Vector3d moment_about_place() const { return moment - rest_place.cross(force); }
 };
 
 /// How far one answer is from the reference, over all vertices.
@@ -49,6 +51,7 @@ public:
         const ReactionRunner* reactions = nullptr;         ///< null when nothing is shown that needs them
         std::shared_ptr<const SectionShape> section = {};  ///< when it is to be cut open
         const SectionRunner* inside = nullptr;             ///< what is known there; null when it is not cut open
+        bool probed = false;                               ///< tractions and stresses of every vertex are asked for
     };
     /// Brings everything up to date. Returns whether positions or values changed.
     bool update(const Sources& sources, const DisplaySettings& display);
@@ -58,7 +61,10 @@ public:
     const Positions& positions() const { return positions_; }  ///< rest + scale * displacement
     /// One value a vertex for the chosen field; empty when there is none, or when it is not known yet.
     const std::vector<float>& values() const { return values_; }
-    double max_value() const { return max_value_; }
+    double largest_magnitude() const { return largest_magnitude_; }
+    /// Of every vertex, 3 x n and 6 x n [force / L^2]; without columns when not asked for, or not known yet.
+    const Eigen::MatrixXd& tractions() const { return shown_tractions_; }
+    const Eigen::MatrixXd& stresses() const { return shown_stresses_; }
     bool is_coloured() const { return !values_.empty(); }
     double max_displacement() const { return max_displacement_; }
     const std::optional<Difference>& difference() const { return difference_; }
@@ -78,6 +84,7 @@ private:
         std::uint64_t reaction_revision = 0, scene_revision = 0;
         std::shared_ptr<const SectionShape> section;
         std::uint64_t inside_revision = 0;
+        bool probed = false;
         bool operator==(const Key&) const = default;
     };
     static Key key_of(const Sources& sources, const DisplaySettings& display);
@@ -87,18 +94,20 @@ private:
     void update_section(const Sources& sources, const DisplaySettings& display);
     void colour_section(const SectionRunner* inside, Field field);
     void update_values(const Sources& sources, Field field);
+    void update_probed(const Sources& sources);
 
     MethodKind kind_;
     Key key_;
     std::uint64_t revision_ = 0;
     Positions positions_;
     std::vector<float> values_;
-    double max_value_ = 0.0, max_displacement_ = 0.0;
+    double largest_magnitude_ = 0.0, max_displacement_ = 0.0;
     std::optional<Difference> difference_;
     std::vector<ShownReaction> reactions_;
     std::optional<ShownSection> section_;
     double section_seconds_ = 0.0;
-    Eigen::Matrix3Xd tractions_;  ///< 3 x n_vertices [force / L^2]; no columns when not known
+    Eigen::Matrix3Xd tractions_;  ///< of the simulated vertices [force / L^2]; no columns when not known
+    Eigen::MatrixXd shown_tractions_, shown_stresses_;
 };
 
 /// "displacement", "difference to linear-bem", ... and its unit in words.

@@ -13,8 +13,9 @@ auto find_body(Bodies& bodies, MethodKind kind) {
     return std::find_if(bodies.begin(), bodies.end(), [&](const ShownBody& body) { return body.kind() == kind; });
 }
 
-bool needs_reactions(const DisplaySettings& display) {
-    return display.arrows || display.field == Field::traction || display.field == Field::von_mises;
+bool needs_reactions(const ShownAnswers& answers) {
+    const Field field = answers.display.field;
+    return answers.display.arrows || answers.probed || field == Field::traction || stress_of(field).has_value();
 }
 
 }  // namespace
@@ -38,8 +39,9 @@ const std::string& ShownScene::reaction_failure(MethodKind kind) const {
 std::pair<double, double> ShownScene::field_range(const DisplaySettings& display) const {
     if (!display.auto_range) return {display.range_low, display.range_high};
     double high = 0.0;
-    for (const ShownBody& shown : bodies_) high = std::max(high, shown.max_value());
-    return {0.0, high > 0.0 ? high : 1.0};
+    for (const ShownBody& shown : bodies_) high = std::max(high, shown.largest_magnitude());
+    if (high == 0.0) high = 1.0;
+    return {is_signed(display.field) ? -high : 0.0, high};
 }
 
 void ShownScene::forget() {
@@ -53,7 +55,7 @@ void ShownScene::forget() {
 const ReactionRunner* ShownScene::reactions(const ShownAnswers& answers, MethodKind kind) {
     std::unique_ptr<ReactionRunner>& runner = reactions_[kind];
     if (!runner) runner = std::make_unique<ReactionRunner>(wake_);
-    if (!needs_reactions(answers.display)) {
+    if (!needs_reactions(answers)) {
         runner->rest();
         return nullptr;
     }
@@ -105,7 +107,8 @@ bool ShownScene::update(const ShownAnswers& answers) {
                                          .reference = answers.simulation.previewing(kind) ? nullptr : answers.reference,
                                          .reactions = reactions(answers, kind),
                                          .section = section_,
-                                         .inside = known};
+                                         .inside = known,
+                                         .probed = answers.probed};
         ShownBody& body = body_of(kind);
         if (!body.update(sources, answers.display)) continue;
         seconds += body.section_seconds();

@@ -31,6 +31,7 @@ struct ShownAnswers {
     std::vector<MethodKind> kinds;              ///< of the methods on the screen
     const EmbeddedRunner* reference = nullptr;  ///< of differences; null when nothing needs one
     const DisplaySettings& display;
+    bool probed = false;  ///< a person looks at tractions and stresses of vertices
 };
 
 /// What is on the screen: the bodies as the methods' answers have them, and what only the picture needs of the answers

@@ -96,6 +96,16 @@ void LiveScene::clear_handles() {
     become(std::move(changed));
 }
 
+bool LiveScene::rename_handle(int handle, const std::string& name) {
+    const std::vector<Handle>& all = document_.handles;
+    const bool taken = std::any_of(all.begin(), all.end(), [&](const Handle& h) { return h.name == name; });
+    if (name.empty() || name == "fixed" || taken) return false;
+    Document changed = document_;
+    changed.handles[static_cast<std::size_t>(handle)].name = name;
+    become(std::move(changed));
+    return true;
+}
+
 void LiveScene::fix(std::span<const int> vertices) {
     const std::span<const int> present = this->vertices(kFixed);
     std::vector<int> all(present.begin(), present.end());

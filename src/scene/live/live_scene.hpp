@@ -62,6 +62,8 @@ public:
     int add_handle(std::span<const int> vertices);
     void remove_handle(int handle);
     void clear_handles();
+    /// False when the name is empty, "fixed", or that of a handle: then nothing changes.
+    bool rename_handle(int handle, const std::string& name);
     void fix(std::span<const int> vertices);
     void unfix(std::span<const int> vertices);
 

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <set>
+
 #include "mesh/primitives.hpp"
 
 namespace elastolab {
@@ -9,9 +11,11 @@ namespace {
 
 using testing::ElementsAre;
 
+bool all_free(int) { return true; }
+
 TEST(Patch, OfNoRadiusIsTheVertexItself) {
     const SurfaceMesh mesh = make_box(2);
-    EXPECT_THAT(patch_around(mesh, VertexGraph(mesh), 5, 0.0), ElementsAre(5));
+    EXPECT_THAT(patch_around(mesh, VertexGraph(mesh), 5, 0.0, all_free), ElementsAre(5));
 }
 
 TEST(Patch, HoldsAllWithinReachAndBeginsWithItsMiddle) {
@@ -19,12 +23,14 @@ TEST(Patch, HoldsAllWithinReachAndBeginsWithItsMiddle) {
     const VertexGraph graph(mesh);
     constexpr double radius = 0.4;
     for (int center = 0; center < mesh.n_vertices(); ++center) {
-        const std::vector<int> patch = patch_around(mesh, graph, center, radius);
+        const std::vector<int> patch = patch_around(mesh, graph, center, radius, all_free);
         EXPECT_EQ(patch.front(), center);
-        std::ptrdiff_t n_near = 0;
-        for (int v = 0; v < mesh.n_vertices(); ++v)
-            if ((mesh.vertices.col(v) - mesh.vertices.col(center)).norm() <= radius) ++n_near;
-        EXPECT_EQ(std::ssize(patch), n_near);  // a cube has no thin parts
+        const std::set<int> in(patch.begin(), patch.end());
+        double reach = 0.0;
+        for (const int v : patch) reach = std::max(reach, (mesh.vertices.col(v) - mesh.vertices.col(center)).norm());
+        for (int v = 0; v < mesh.n_vertices(); ++v)  // a cube has no thin parts
+            EXPECT_TRUE((mesh.vertices.col(v) - mesh.vertices.col(center)).norm() > radius || in.contains(v));
+        EXPECT_LT(reach, radius + 0.36);  // by at most an edge
     }
 }
 
@@ -33,7 +39,36 @@ TEST(Patch, DoesNotJumpToTheOtherSideOfAThinPlate) {
     const VertexGraph graph(plate);
     int top = 0;
     (plate.vertices.colwise() - Eigen::Vector3d(0.5, 0.5, 0.05)).colwise().squaredNorm().minCoeff(&top);
-    for (const int v : patch_around(plate, graph, top, 0.3)) EXPECT_GT(plate.vertices(2, v), 0.04);
+    for (const int v : patch_around(plate, graph, top, 0.3, all_free)) EXPECT_GT(plate.vertices(2, v), 0.04);
+}
+
+/// Vertices of a patch that are corners of no triangle with all corners in it.
+int n_alone(const SurfaceMesh& mesh, const std::vector<int>& patch) {
+    const std::set<int> in(patch.begin(), patch.end());
+    std::set<int> alone = in;
+    for (const auto& t : mesh.triangles.colwise())
+        if (in.contains(t[0]) && in.contains(t[1]) && in.contains(t[2]))
+            for (const int v : t) alone.erase(v);
+    return static_cast<int>(alone.size());
+}
+
+TEST(Patch, LeavesNoVertexAlone) {
+    const SurfaceMesh mesh = make_cylinder(5);
+    const VertexGraph graph(mesh);
+    for (const double radius : {1e-6, 0.1, 0.2, 0.3, 0.45, 0.7})
+        for (int center = 0; center < mesh.n_vertices(); ++center) {
+            const auto is_free = [&](int v) { return v == center || v % 5 != 0; };
+            const std::vector<int> patch = patch_around(mesh, graph, center, radius, is_free);
+            EXPECT_EQ(patch.front(), center);
+            for (const int v : patch) EXPECT_TRUE(is_free(v));
+            EXPECT_TRUE(patch.size() == 1 || n_alone(mesh, patch) == 0) << radius << " at " << center;
+            EXPECT_GE(patch_around(mesh, graph, center, radius, all_free).size(), 3u);
+        }
+}
+
+TEST(Patch, BetweenOthersIsThePointItself) {
+    const SurfaceMesh mesh = make_box(4);
+    EXPECT_THAT(patch_around(mesh, VertexGraph(mesh), 7, 0.4, [](int v) { return v == 7; }), ElementsAre(7));
 }
 
 TEST(VertexGraph, KnowsTheNeighboursOnBothSides) {

@@ -1,7 +1,8 @@
-#include "app/picture/turntable.hpp"
+#include "app/picture/film.hpp"
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -36,12 +37,12 @@ void make_ffmpeg(const TemporaryFolder& folder, const std::string& script) {
     std::filesystem::permissions(file, std::filesystem::perms::owner_all);
 }
 
-TEST(Turntable, NumbersItsFramesFromOne) {
+TEST(Film, NumbersItsFramesFromOne) {
     EXPECT_EQ(frame_file("a/b.turn.png", 1), "a/b.turn-0001.png");
     EXPECT_EQ(frame_file("x.png", 120), "x-0120.png");
 }
 
-TEST(Turntable, TurnsOnceAboutTheUpAxisAndKeepsWhatItLooksAt) {
+TEST(Film, TurnsOnceAboutTheUpAxisAndKeepsWhatItLooksAt) {
     Camera camera;
     camera.set_up_axis(Eigen::Vector3d::UnitY());
     camera.set_view(ViewDirection::isometric);
@@ -53,7 +54,16 @@ TEST(Turntable, TurnsOnceAboutTheUpAxisAndKeepsWhatItLooksAt) {
     EXPECT_LT((after - Eigen::Vector3d(-before.x(), before.y(), -before.z())).norm(), 1e-12);
 }
 
-TEST(Turntable, AVideoIsMadeOfItsFramesAndTakesItsPlaceWhole) {
+TEST(Film, OfAPullGoesThereAndBack) {
+    EXPECT_EQ(pulled_part(1, 60), 0.0);
+    EXPECT_EQ(pulled_part(31, 60), 1.0);
+    for (int frame = 2; frame <= 60; ++frame) {
+        EXPECT_NEAR(pulled_part(frame, 60), pulled_part(62 - frame, 60), 1e-12);
+        EXPECT_LT(std::abs(pulled_part(frame, 60) - pulled_part(frame - 1, 60)), 0.06);  // no jump, also at its end
+    }
+}
+
+TEST(Film, AVideoIsMadeOfItsFramesAndTakesItsPlaceWhole) {
     const TemporaryFolder folder;
     make_ffmpeg(folder, "echo \"$@\" > " + (folder.path() / "said").string() + "; for last; do :; done\n" +
                             "echo video > \"${last#file:}\"\n");
@@ -68,7 +78,7 @@ TEST(Turntable, AVideoIsMadeOfItsFramesAndTakesItsPlaceWhole) {
     EXPECT_THAT(folder.listing(), ElementsAre("50%.mp4", "ffmpeg", "said"));
 }
 
-TEST(Turntable, AFailedVideoTellsWhyAndLeavesNothing) {
+TEST(Film, AFailedVideoTellsWhyAndLeavesNothing) {
     const TemporaryFolder folder;
     make_ffmpeg(folder, "echo begun; echo 'Unknown encoder' >&2; exit 3\n");
     const SearchPath path(folder.path().string() + ":/usr/bin:/bin");
@@ -82,7 +92,7 @@ TEST(Turntable, AFailedVideoTellsWhyAndLeavesNothing) {
     EXPECT_THAT(folder.listing(), ElementsAre("ffmpeg"));
 }
 
-TEST(Turntable, WithoutFfmpegSaysSo) {
+TEST(Film, WithoutFfmpegSaysSo) {
     const TemporaryFolder folder;
     const SearchPath path(folder.path().string());
     EXPECT_THAT(video_obstacle(), HasSubstr("ffmpeg is not installed"));
@@ -90,7 +100,7 @@ TEST(Turntable, WithoutFfmpegSaysSo) {
     EXPECT_THROW(make_video(folder.path() / "turn.png", control), Error);
 }
 
-TEST(Turntable, ACancelEndsAVideoThatHangs) {
+TEST(Film, ACancelEndsAVideoThatHangs) {
     const TemporaryFolder folder;
     make_ffmpeg(folder, "exec sleep 600\n");
     const SearchPath path(folder.path().string() + ":/usr/bin:/bin");

@@ -1,0 +1,166 @@
+// What is drawn at points of the body.
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "app/panels/overlays.hpp"
+#include "app/panels/widgets.hpp"
+
+namespace elastolab {
+
+namespace {
+
+constexpr double kRadians = std::numbers::pi / 180.0;  ///< of a degree
+
+std::string vector_text(const Eigen::Vector3d& v) {
+    return "(" + number_text(v.x()) + ", " + number_text(v.y()) + ", " + number_text(v.z()) + ")";
+}
+
+/// A ring at a vertex with words beside it, which turn to the left where there is no room.
+void draw_mark(const PanelContext& context, ImDrawList& list, const Viewport& viewport, const Eigen::Vector3d& place,
+               const Colour& colour, const std::string& text) {
+    const ProjectedPoint projected = context.state.camera.project(place, viewport);
+    if (projected.depth <= 0.0 || !viewport.contains(projected.pixel)) return;
+    const ImVec2 at = im_point(projected.pixel.x(), projected.pixel.y());
+    const float scale = context.gui.scale();
+    list.AddCircle(at, 5.0f * scale, imgui_packed(context.palette.panel, 0.8f), 24, 4.0f * scale);
+    list.AddCircle(at, 5.0f * scale, imgui_packed(colour), 24, 2.0f * scale);
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+    const float right = static_cast<float>(viewport.x + viewport.width) - 12.0f * scale;
+    const float x = at.x + 18.0f * scale + size.x < right ? at.x + 18.0f * scale : at.x - 18.0f * scale - size.x;
+    const ImVec2 low{x, at.y - 0.5f * size.y};
+    chip(context, list, low, {low.x + size.x, low.y + size.y});
+    list.AddText(low, imgui_packed(colour), text.c_str());
+}
+
+void draw_extremes(const PanelContext& context, ImDrawList& list, const Viewport& viewport, const ShownBody& body) {
+    if (!body.is_coloured() || body.largest_magnitude() <= 0.0) return;
+    const Extremes extremes = extremes_of(body.values());
+    const auto mark = [&](Eigen::Index v, const char* name) {
+        if (v >= 0)
+            draw_mark(context, list, viewport, body.positions().col(v), context.palette.text,
+                      name + number_text(body.values()[static_cast<std::size_t>(v)]));
+    };
+    mark(extremes.largest, "largest ");
+    if (is_signed(context.state.display.field)) mark(extremes.smallest, "smallest ");
+}
+
+void draw_arrow_head(ImDrawList& list, ImVec2 from, ImVec2 tip, float size, unsigned colour) {
+    const Eigen::Vector2f along = Eigen::Vector2f(tip.x - from.x, tip.y - from.y).normalized() * size;
+    const Eigen::Vector2f side(-along.y(), along.x());
+    const auto corner = [&](float forward, float aside) {
+        return ImVec2(tip.x + forward * along.x() + aside * side.x(), tip.y + forward * along.y() + aside * side.y());
+    };
+    list.AddTriangleFilled(corner(0.9f, 0.0f), corner(-0.7f, 0.7f), corner(-0.7f, -0.7f), colour);
+}
+
+/// A gizmo's lines, the part under the cursor and the one that is dragged thicker, with how far it was dragged.
+void draw_gizmo(const PanelContext& context, ImDrawList& list, const Viewport& viewport, const Gizmo& gizmo) {
+    const ViewerState& state = context.state;
+    const float scale = context.gui.scale();
+    const Gestures& gestures = state.gestures;
+    const auto& drag = gestures.gizmo_drag();
+    for (const GizmoPart& part : gizmo.parts) {
+        if (drag && (drag->gizmo.handle != gizmo.handle || drag->part != part)) continue;
+        const bool active = drag || gestures.hover().part == std::pair(gizmo.handle, part);
+        const Colour& colour = context.palette.axes[static_cast<std::size_t>(part.axis)];
+        const float width = (active ? 4.0f : 2.2f) * scale;
+        std::vector<ImVec2> line;
+        for (const Eigen::Vector2d& pixel : outline(gizmo, part, state.camera, viewport))
+            line.push_back(im_point(pixel.x(), pixel.y()));
+        if (line.size() < 2) continue;
+        const auto n = static_cast<int>(line.size());
+        list.AddPolyline(line.data(), n, imgui_packed(context.palette.panel, 0.55f), 0, width + 2.0f * scale);
+        list.AddPolyline(line.data(), n, imgui_packed(colour), 0, width);
+        if (part.kind == GizmoPart::Kind::arrow)
+            draw_arrow_head(list, line[0], line[1], (active ? 9.0f : 7.0f) * scale, imgui_packed(colour));
+    }
+    if (!drag || drag->gizmo.handle != gizmo.handle) return;
+    const bool moves = drag->part.kind == GizmoPart::Kind::arrow;
+    const std::string amount = moves ? number_text(drag->amount) : number_text(drag->amount / kRadians) + "\u00b0";
+    draw_mark(context, list, viewport, gizmo.center, context.palette.text,
+              (moves ? "moved by " : "turned by ") + amount);
+}
+
+/// All that is known at a vertex.
+std::vector<OverlayLine> card(const PanelContext& context, int vertex, const ProbeValue& value) {
+    const ViewerState& state = context.state;
+    const float size = ImGui::GetFontSize();
+    std::vector<OverlayLine> lines = {
+        {context.gui.fonts().bold, size, context.palette.text, "vertex " + std::to_string(vertex)}};
+    const auto add = [&](const std::string& text) {
+        lines.push_back({context.gui.fonts().regular, size, context.palette.text, text});
+    };
+    add("at " + vector_text(value.position));
+    add("moved by " + vector_text(value.displacement));
+    add("which is " + number_text(value.displacement.norm()));
+    const Field field = state.display.field;
+    if (value.field && field != Field::displacement)
+        add(field_title(field, state.compare.reference) + " " + number_text(*value.field));
+    if (value.traction && value.traction->squaredNorm() > 0.0) add("traction " + vector_text(*value.traction));
+    if (!value.stress) return lines;
+    const Eigen::Matrix3d stress = stress_tensor(*value.stress);
+    const auto number = [&](StressMeasure which) { return number_text(measure(which, stress)); };
+    add("stress xx yy zz " + vector_text(value.stress->head<3>()));
+    add("stress xy yz xz " + vector_text(value.stress->tail<3>()));
+    add("principal " + number(StressMeasure::third_principal) + " to " + number(StressMeasure::first_principal));
+    if (field != Field::von_mises) add("von Mises " + number(StressMeasure::von_mises));
+    return lines;
+}
+
+/// The kept probes, and a card of what is known at the vertex under the cursor.
+void draw_probes(const PanelContext& context, ImDrawList& list, const Viewport& viewport, const ShownBody& body) {
+    const ViewerState& state = context.state;
+    const Positions& rest = state.scene().mesh().vertices;
+    const auto value_at = [&](int vertex) { return probe(vertex, rest, body, state.display.deformation_scale); };
+    for (const int vertex : state.probes.vertices()) {
+        const ProbeValue value = value_at(vertex);
+        draw_mark(context, list, viewport, body.positions().col(vertex), context.palette.probe,
+                  std::to_string(vertex) + ": " + number_text(value.field.value_or(value.displacement.norm())));
+    }
+    const int hovered = state.gestures.hover().vertex;
+    const Eigen::Vector2d& cursor = state.gestures.cursor();
+    if (state.tools.tool != Tool::probe || hovered < 0 || !viewport.contains(cursor)) return;
+    const std::vector<OverlayLine> lines = card(context, hovered, value_at(hovered));
+    const float width = 320.0f * context.gui.scale(), step = 18.0f * context.gui.scale();
+    const double height = (1.15 * static_cast<double>(lines.size()) + 1.0) * ImGui::GetFontSize();
+    const double right = viewport.x + viewport.width, bottom = viewport.y + viewport.height;
+    const double x = std::max(viewport.x + step, std::min(cursor.x() + step, right - width));
+    const double y = std::max(viewport.y + step, std::min(cursor.y() + step, bottom - height));
+    draw_lines(context, list, im_point(x, y), width, lines);
+}
+
+void draw_forces(const PanelContext& context, ImDrawList& list, const Viewport& viewport, const ShownBody& body) {
+    for (const ShownReaction& reaction : body.reactions())
+        draw_mark(context, list, viewport, reaction.place,
+                  reaction.name == "fixed" ? context.palette.fixed : context.palette.handle,
+                  reaction.name + ": force " + number_text(reaction.force.norm()) + ", moment " +
+                      number_text(reaction.moment_about_place().norm()));
+}
+
+}  // namespace
+
+Extremes extremes_of(const std::vector<float>& values) {
+    Extremes result;
+    for (Eigen::Index v = 0; v < std::ssize(values); ++v) {
+        const auto value = [&](Eigen::Index at) { return values[static_cast<std::size_t>(at)]; };
+        if (!std::isfinite(value(v))) continue;
+        if (result.largest < 0 || value(v) > value(result.largest)) result.largest = v;
+        if (result.smallest < 0 || value(v) < value(result.smallest)) result.smallest = v;
+    }
+    return result;
+}
+
+void draw_marks(const PanelContext& context, ImDrawList& list, const SceneViewport& viewport) {
+    const ViewerState& state = context.state;
+    const ShownBody* body = state.shown.body(viewport.kinds.front());
+    if (body == nullptr) return;
+    if (state.display.arrows) draw_forces(context, list, viewport.place, *body);
+    if (state.display.extremes) draw_extremes(context, list, viewport.place, *body);
+    draw_probes(context, list, viewport.place, *body);
+    for (const Gizmo& gizmo : state.gizmos()) draw_gizmo(context, list, viewport.place, gizmo);
+}
+
+}  // namespace elastolab

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "app/panels/panels.hpp"
+
+struct ImDrawList;
+struct ImFont;
+struct ImVec2;
+
+namespace elastolab {
+
+/// What is written and drawn over the scene, in logical pixels of the window.
+ImVec2 im_point(double x, double y);
+
+/// What lies behind words over the scene, so that they are readable on any body.
+void chip(const PanelContext& context, ImDrawList& list, ImVec2 low, ImVec2 high);
+
+struct OverlayLine {
+    ImFont* font;
+    float size;
+    Colour colour;
+    std::string text;
+};
+/// Lines under one another on a chip, broken where they are wider than `width`.
+void draw_lines(const PanelContext& context, ImDrawList& list, ImVec2 place, float width,
+                const std::vector<OverlayLine>& lines);
+
+/// The least and the largest of the finite values, by their places; -1 when there are none.
+struct Extremes {
+    Eigen::Index largest = -1, smallest = -1;
+};
+Extremes extremes_of(const std::vector<float>& values);
+
+/// At points of the body: forces, extremes, probes, gizmos.
+void draw_marks(const PanelContext& context, ImDrawList& list, const SceneViewport& viewport);
+
+}  // namespace elastolab
