@@ -1,7 +1,24 @@
 #include "app/names.hpp"
 
+#include <map>
+
 namespace elastolab {
 
 std::string title(MethodKind kind) { return std::string(kind->label); }
+
+std::string stage_words(std::string_view stage) {
+    static const std::map<std::string_view, std::string> words = {{"proxy", "wrapping the surface"},
+                                                                  {"tetrahedralize", "making tetrahedra"},
+                                                                  {"integrate", "integrating"},
+                                                                  {"integrate tractions", "integrating tractions"},
+                                                                  {"analyse", "ordering the equations"},
+                                                                  {"factorise", "factorising"},
+                                                                  {"precondition", "preconditioning"},
+                                                                  {"constrain", "preparing what is held"},
+                                                                  {"solve", "solving"},
+                                                                  {"check", "checking"}};
+    const auto found = words.find(stage);
+    return found != words.end() ? found->second : "computing " + std::string(stage);
+}
 
 }  // namespace elastolab

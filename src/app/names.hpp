@@ -2,6 +2,7 @@
 
 #include <array>
 #include <string>
+#include <string_view>
 
 #include "app/settings.hpp"
 
@@ -9,6 +10,9 @@ namespace elastolab {
 
 /// For headings: the name of a method with a capital ("Linear BEM"), made from its name in scene files.
 std::string title(MethodKind kind);
+
+/// What a worker is doing, for people, from the name of the stage in reports ("tetrahedralize": "making tetrahedra").
+std::string stage_words(std::string_view stage);
 
 /// An entry of a list of choices: its label, and what choosing it means, in physical terms.
 template <class Value>

@@ -19,27 +19,12 @@ void ViewerState::export_mesh(const fs::path& file) {
         });
         return;
     }
-    export_note_ = "Exported " + file.string() + (is_preview ? ", the preview: the method is not ready yet" : "");
-    export_job_.start([file, source = std::make_shared<const ExportSource>(std::move(source))](Control& control) {
+    const std::string note =
+        "Exported " + file.string() + (is_preview ? ", the preview: the method is not ready yet" : "");
+    export_job_.start([file, note, source = std::make_shared<const ExportSource>(std::move(source))](Control& control) {
         write_export(file, *source, control);
-        return true;
+        return note;
     });
-}
-
-bool ViewerState::poll_export() {
-    switch (export_job_.poll()) {
-        case JobEvent::finished:
-            export_job_.take();
-            messages.note(export_note_);
-            return true;
-        case JobEvent::failed:
-            messages.error(export_job_.failure());
-            return true;
-        case JobEvent::cancelled:
-        case JobEvent::none:
-            return false;
-    }
-    return false;
 }
 
 }  // namespace elastolab

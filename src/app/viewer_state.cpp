@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "app/job_notes.hpp"
 #include "app/window/recent_files.hpp"
 
 namespace elastolab {
@@ -211,7 +212,7 @@ void ViewerState::set_young_modulus(double value) {
 
 bool ViewerState::update_displacements() {
     poll_loading();
-    const bool has_exported = poll_export();
+    const bool has_exported = tell_end(export_job_, messages);
     keep_method();
     if (loading() && !simulated_) return has_exported;  // the default scene would be computed for nothing
     simulated_ = true;

@@ -163,7 +163,6 @@ private:
     void take_loaded(LoadedScene loaded, const std::filesystem::path& file);
     void make_primitive_scene(const Primitive& primitive);
     void poll_loading();
-    bool poll_export();
     void keep_method();
     void take_method();
     void add_recent(const std::filesystem::path& file);
@@ -184,9 +183,8 @@ private:
     std::uint64_t revision_at_open_ = 0;
     std::optional<MethodKind> first_method_;
     std::optional<AutosavedScene> recovering_, recovered_;
-    std::string export_note_;
     BackgroundJob<std::shared_ptr<LoadedScene>> load_job_;
-    BackgroundJob<bool> export_job_;
+    BackgroundJob<std::string> export_job_;  ///< with its note
 };
 
 template <class Action>

@@ -123,18 +123,6 @@ Reactions reactions_of(const SparseMatrix& K, const Eigen::VectorXd& u, const Co
                               nodal_forces(K, u, constrained.prescribed.nodes).col(0));
 }
 
-/// Corners and midpoints of the elements out of the eight that each was split into (QuadraticMesh::split).
-Eigen::Matrix<int, 10, Eigen::Dynamic> rejoined(const TetMesh& split) {
-    // Of the four at the corners: where the ten nodes are first seen.
-    constexpr std::array<std::array<int, 2>, 10> kSeen = {
-        {{0, 0}, {1, 1}, {2, 2}, {3, 3}, {0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
-    Eigen::Matrix<int, 10, Eigen::Dynamic> elements(10, split.n_tetrahedra() / 8);
-    for (Eigen::Index t = 0; t < elements.cols(); ++t)
-        for (std::size_t i = 0; i < kSeen.size(); ++i)
-            elements(static_cast<Eigen::Index>(i), t) = split.tetrahedra(kSeen[i][1], 8 * t + kSeen[i][0]);
-    return elements;
-}
-
 }  // namespace
 
 std::optional<ReferenceAnswer> quadratic_reference(const FemSystem& linear, double poisson_ratio,

@@ -47,7 +47,7 @@ ReducedSystem reduced_from(const DenseOperators& operators, const std::vector<in
 
 std::shared_ptr<const InteriorField> field_of(const FemSystem& system, double poisson_ratio, Eigen::MatrixXd u) {
     return std::make_shared<const NodalField>(std::shared_ptr<const TetMesh>(system.mesh, &system.mesh->tets),
-                                              poisson_ratio, std::move(u));
+                                              system.mesh->degree(), poisson_ratio, std::move(u));
 }
 
 /// Part by which a set may be dearer than the cheapest, where later ones gain by it.

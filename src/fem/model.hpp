@@ -29,9 +29,7 @@ public:
     const SparseStiffness* sparse_stiffness() const override { return &system_->K; }
     std::shared_ptr<const Interior> interior(Control& control) const override;
 
-    ElementDegree degree() const {
-        return mesh_->midpoints.midpoints.cols() > 0 ? ElementDegree::quadratic : ElementDegree::linear;
-    }
+    ElementDegree degree() const { return mesh_->degree(); }
 
 private:
     /// How the update `reduced` treats a set on demand.

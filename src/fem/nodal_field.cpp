@@ -11,6 +11,7 @@
 
 #include "base/parallel.hpp"
 #include "elasticity/stress.hpp"
+#include "fem/quadratic/quadratic_mesh.hpp"
 
 namespace elastolab {
 
@@ -107,6 +108,32 @@ Eigen::MatrixXd recovered_stresses(const TetMesh& tets, double edge, double pois
     return sums;
 }
 
+/// At every node the mean over the ten-node elements around it, by volume: 6*n_nodes x m.
+Eigen::MatrixXd averaged_stresses(const Eigen::Matrix<int, 10, Eigen::Dynamic>& elements, const Positions& x,
+                                  double poisson_ratio, const Eigen::MatrixXd& u) {
+    const Material material{1.0, poisson_ratio};
+    Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(2 * u.rows(), u.cols());
+    Eigen::VectorXd volumes = Eigen::VectorXd::Zero(x.cols());
+    for (const auto& element : elements.colwise()) {
+        const Eigen::Matrix3d edges = x(Eigen::all, element.segment<3>(1)).colwise() - x.col(element[0]);
+        Eigen::Matrix<double, 4, 3> of_coordinates;  // gradients of the barycentric coordinates
+        of_coordinates.bottomRows<3>() = edges.inverse();
+        of_coordinates.row(0) = -of_coordinates.bottomRows<3>().colwise().sum();
+        const double volume = edges.determinant();
+        for (int node = 0; node < 10; ++node) {
+            const Eigen::Matrix<double, 10, 3> of_shapes = quadratic_slopes(node_coordinates(node)) * of_coordinates;
+            volumes[element[node]] += volume;
+            for (Eigen::Index c = 0; c < u.cols(); ++c) {
+                Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();
+                for (int i = 0; i < 10; ++i) gradient += u.col(c).segment<3>(3 * element[i]) * of_shapes.row(i);
+                sums.col(c).segment<6>(6 * element[node]) += volume * hooke(gradient, material);
+            }
+        }
+    }
+    for (Eigen::Index node = 0; node < x.cols(); ++node) sums.middleRows<6>(6 * node) /= volumes[node];
+    return sums;
+}
+
 double typical_edge(const TetMesh& tets) {
     const Eigen::Vector3d size = tets.vertices.rowwise().maxCoeff() - tets.vertices.rowwise().minCoeff();
     return size.norm() / std::cbrt(static_cast<double>(tets.n_tetrahedra()));
@@ -114,13 +141,29 @@ double typical_edge(const TetMesh& tets) {
 
 }  // namespace
 
-NodalField::NodalField(std::shared_ptr<const TetMesh> tets, double poisson_ratio, Eigen::MatrixXd displacements)
+NodalField::NodalField(std::shared_ptr<const TetMesh> tets, ElementDegree degree, double poisson_ratio,
+                       Eigen::MatrixXd displacements)
     : tets_(std::move(tets)),
+      elements_(10, 0),
       displacements_(std::move(displacements)),
       edge_(typical_edge(*tets_)),
-      stresses_(recovered_stresses(*tets_, edge_, poisson_ratio, displacements_)),
       boxes_(diagonals_of_boxes(*tets_), all_tetrahedra(*tets_)) {
     assert(displacements_.rows() == 3 * tets_->vertices.cols());
+    if (degree == ElementDegree::quadratic) elements_ = rejoined(*tets_);
+    stresses_ = degree == ElementDegree::quadratic
+                    ? averaged_stresses(elements_, tets_->vertices, poisson_ratio, displacements_)
+                    : recovered_stresses(*tets_, edge_, poisson_ratio, displacements_);
+}
+
+template <class Each>
+void NodalField::for_each_node(const Place& place, const Each& each) const {
+    if (elements_.cols() == 0) {
+        for (int corner = 0; corner < 4; ++corner)
+            each(tets_->tetrahedra(corner, place.tetrahedron), place.weights[corner]);
+        return;
+    }
+    const Eigen::Matrix<double, 10, 1> shapes = quadratic_shapes(in_whole(place.tetrahedron % 8, place.weights));
+    for (int i = 0; i < 10; ++i) each(elements_(i, place.tetrahedron / 8), shapes[i]);
 }
 
 NodalField::Place NodalField::place_of(const Eigen::Vector3d& point) const {
@@ -149,13 +192,10 @@ InteriorValues NodalField::at(const Positions& points, Control& control) const {
     InteriorValues values{Eigen::MatrixXd::Zero(3 * points.cols(), m), Eigen::MatrixXd::Zero(6 * points.cols(), m)};
     parallel_blocks(static_cast<int>(points.cols()), 64, control, [&](int begin, int end) {
         for (int i = begin; i < end; ++i) {
-            const Place place = place_of(points.col(i));
-            for (int corner = 0; corner < 4; ++corner) {
-                const int node = tets_->tetrahedra(corner, place.tetrahedron);
-                values.displacements.middleRows<3>(3 * i) +=
-                    place.weights[corner] * displacements_.middleRows<3>(3 * node);
-                values.stresses.middleRows<6>(6 * i) += place.weights[corner] * stresses_.middleRows<6>(6 * node);
-            }
+            for_each_node(place_of(points.col(i)), [&](int node, double weight) {
+                values.displacements.middleRows<3>(3 * i) += weight * displacements_.middleRows<3>(3 * node);
+                values.stresses.middleRows<6>(6 * i) += weight * stresses_.middleRows<6>(6 * node);
+            });
         }
     });
     return values;

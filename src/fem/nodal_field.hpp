@@ -4,19 +4,22 @@
 #include <memory>
 
 #include "deform/interior_field.hpp"
+#include "fem/element_degree.hpp"
 #include "mesh/box_tree.hpp"
 #include "mesh/surface_mesh.hpp"
 
 namespace elastolab {
 
-/// The inside of a solid of unit Young's modulus out of the displacements of all nodes. Both displacements and stresses
-/// are linear in each tetrahedron; a node's stress is that of a linear fit to the tetrahedra around it (patch recovery,
-/// O. C. Zienkiewicz, J. Z. Zhu, Int. J. Numer. Methods Eng. 33, 1992), so that it is continuous and better than that
-/// of a tetrahedron. Quadratic elements are taken as split in eight on their nodes.
+/// The inside of a solid of unit Young's modulus out of the displacements of all nodes. Displacements and stresses are
+/// of the elements' degree in each, between values at the nodes, and so continuous. A node's stress is, with linear
+/// elements, that of a linear fit to the tetrahedra around it (patch recovery, O. C. Zienkiewicz, J. Z. Zhu, Int. J.
+/// Numer. Methods Eng. 33, 1992); with quadratic ones the mean of what the elements around it have there, by volume.
 class NodalField : public InteriorField {
 public:
-    /// displacements: 3*n_nodes x m [L], nodes are the vertices of `tets`;  poisson_ratio < 1/2
-    NodalField(std::shared_ptr<const TetMesh> tets, double poisson_ratio, Eigen::MatrixXd displacements);
+    /// tets           their vertices are the nodes; quadratic elements are split in eight (QuadraticMesh::split)
+    /// displacements  3*n_nodes x m [L];  poisson_ratio < 1/2
+    NodalField(std::shared_ptr<const TetMesh> tets, ElementDegree degree, double poisson_ratio,
+               Eigen::MatrixXd displacements);
 
     InteriorValues at(const Positions& points, Control& control) const override;
 
@@ -27,10 +30,15 @@ private:
     };
     Place place_of(const Eigen::Vector3d& point) const;
 
+    /// each(node, weight) for what a value at the place is made of.
+    template <class Each>
+    void for_each_node(const Place& place, const Each& each) const;
+
     std::shared_ptr<const TetMesh> tets_;
-    Eigen::MatrixXd displacements_;  ///< 3*n_nodes x m
-    double edge_;                    ///< a typical one [L]
-    Eigen::MatrixXd stresses_;       ///< 6*n_nodes x m
+    Eigen::Matrix<int, 10, Eigen::Dynamic> elements_;  ///< of second degree, eight tetrahedra each; else none
+    Eigen::MatrixXd displacements_;                    ///< 3*n_nodes x m
+    double edge_;                                      ///< a typical one [L]
+    Eigen::MatrixXd stresses_;                         ///< 6*n_nodes x m
     BoxTree boxes_;
 };
 

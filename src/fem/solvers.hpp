@@ -12,13 +12,11 @@
 #include "fem/assembly.hpp"
 #include "fem/compliance.hpp"
 #include "fem/constrained_nodes.hpp"
+#include "fem/element_degree.hpp"
 #include "fem/prices.hpp"
 #include "fem/sparse_cholesky.hpp"
 
 namespace elastolab {
-
-/// Degree of the displacements within a tetrahedron.
-enum class ElementDegree { linear = 1, quadratic = 2 };
 
 /// What does not depend on the material: the elements, their integrals and the ordering of the factorisation.
 struct FemMesh {
@@ -30,6 +28,10 @@ struct FemMesh {
     StiffnessParts parts;
     std::unique_ptr<const CholeskyAnalysis> analysis;
     FemPrices prices;
+
+    ElementDegree degree() const {
+        return midpoints.midpoints.cols() > 0 ? ElementDegree::quadratic : ElementDegree::linear;
+    }
 };
 
 /// Takes the tetrahedra as elements of a degree and integrates them; `analysis` and `prices` are left to be made.

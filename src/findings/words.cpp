@@ -81,7 +81,7 @@ std::string coarse_mesh(const Finding& finding) {
 }
 
 std::string proxy(const Finding& finding) {
-    return finding.object + ": is simulated through a proxy, a closed surface of " + std::to_string(finding.first) +
+    return finding.object + ": simulated through a proxy, a closed surface of " + std::to_string(finding.first) +
            " vertices around it; no vertex is farther from it than " + readable_number(finding.value) +
            " mesh units. Displacements are those of that body. Mend the surface to have its own.";
 }

@@ -54,6 +54,40 @@ inline SurfaceMesh without_last(const SurfaceMesh& mesh, int n) {
     return {mesh.vertices, mesh.triangles.leftCols(mesh.n_triangles() - n)};
 }
 
+/// Without the triangles whose middles lie beyond a plane (x . direction > offset).
+inline SurfaceMesh with_hole(const SurfaceMesh& mesh, const Eigen::Vector3d& direction, double offset) {
+    std::vector<int> kept;
+    for (int t = 0; t < mesh.n_triangles(); ++t)
+        if (mesh.vertices(Eigen::all, mesh.triangles.col(t)).rowwise().mean().dot(direction) <= offset)
+            kept.push_back(t);
+    return {mesh.vertices, mesh.triangles(Eigen::all, kept)};
+}
+
+/// Every third triangle faces the other way, every fifth is there twice.
+inline SurfaceMesh carelessly_exported(const SurfaceMesh& mesh) {
+    SurfaceMesh careless = mesh;
+    for (int t = 0; t < mesh.n_triangles(); t += 3) careless.triangles.col(t).reverseInPlace();
+    std::vector<int> all(static_cast<std::size_t>(mesh.n_triangles()));
+    std::iota(all.begin(), all.end(), 0);
+    for (int t = 0; t < mesh.n_triangles(); t += 5) all.push_back(t);
+    careless.triangles = careless.triangles(Eigen::all, all).eval();
+    return careless;
+}
+
+/// Every triangle has vertices of its own, moved by at most `gap` along each axis: nothing hangs together.
+inline SurfaceMesh torn(const SurfaceMesh& mesh, double gap) {
+    SurfaceMesh pieces{Positions(3, 3 * mesh.n_triangles()), Triangles(3, mesh.n_triangles())};
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> shift(-gap, gap);
+    for (int t = 0; t < mesh.n_triangles(); ++t)
+        for (int i = 0; i < 3; ++i) {
+            const Eigen::Vector3d by(shift(random), shift(random), shift(random));
+            pieces.vertices.col(3 * t + i) = mesh.vertices.col(mesh.triangles(i, t)) + by;
+            pieces.triangles(i, t) = 3 * t + i;
+        }
+    return pieces;
+}
+
 /// A ball with smooth lumps, like no mirror image or turn of itself.
 inline SurfaceMesh make_lumpy_ball(int cells) {
     SurfaceMesh mesh = make_sphere(cells);

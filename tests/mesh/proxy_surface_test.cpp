@@ -27,36 +27,7 @@ double largest_distance(const Positions& points, const SurfaceMesh& from) {
 
 SurfaceMesh single_triangle() { return without_last(make_box(1), 11); }
 
-SurfaceMesh sphere_with_hole(int cells) {
-    const SurfaceMesh sphere = make_sphere(cells);
-    std::vector<int> kept;
-    for (int t = 0; t < sphere.n_triangles(); ++t)
-        if (centroid(sphere, t).z() < 0.93) kept.push_back(t);
-    return {sphere.vertices, sphere.triangles(Eigen::all, kept)};
-}
-
-/// Every third triangle faces the other way, every fifth is there twice.
-SurfaceMesh carelessly_exported(SurfaceMesh mesh) {
-    for (int t = 0; t < mesh.n_triangles(); t += 3) mesh.triangles.col(t).reverseInPlace();
-    const SurfaceMesh before = mesh;
-    for (int t = 0; t < before.n_triangles(); t += 5)
-        mesh = with_triangle(mesh, before.triangles(0, t), before.triangles(1, t), before.triangles(2, t));
-    return mesh;
-}
-
-/// Every triangle has vertices of its own, moved a little: nothing hangs together.
-SurfaceMesh torn(const SurfaceMesh& mesh, double gap) {
-    SurfaceMesh pieces{Positions(3, 3 * mesh.n_triangles()), Triangles(3, mesh.n_triangles())};
-    std::mt19937 random(3);
-    std::uniform_real_distribution<double> shift(-gap, gap);
-    for (int t = 0; t < mesh.n_triangles(); ++t)
-        for (int i = 0; i < 3; ++i) {
-            const Eigen::Vector3d by(shift(random), shift(random), shift(random));
-            pieces.vertices.col(3 * t + i) = mesh.vertices.col(mesh.triangles(i, t)) + by;
-            pieces.triangles(i, t) = 3 * t + i;
-        }
-    return pieces;
-}
+SurfaceMesh sphere_with_hole(int cells) { return with_hole(make_sphere(cells), {0, 0, 1}, 0.93); }
 
 SurfaceMesh sheet(int cells) {
     const SurfaceMesh box = make_box(cells);

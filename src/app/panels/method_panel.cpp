@@ -83,8 +83,37 @@ const Colour& state_colour(const MethodRunner& runner, const Palette& palette) {
     }
 }
 
+/// Which method would be ready far sooner than one that takes long; empty when none.
+template <class CostOf>
+std::string sooner_words(const ViewerState& state, const CostOf& cost_of) {
+    constexpr double kLong = 4.0, kFarSooner = 3.0;  // seconds; times
+    const double own = cost_of(state.method).seconds;
+    if (state.simulation.runner(state.method).state() != State::precomputing || own < kLong) return "";
+    const auto seconds = [&](MethodKind kind) {
+        const double predicted = cost_of(kind).seconds;
+        return predicted > 0.0 && state.simulation.problem(kind).empty() ? predicted : own;
+    };
+    const std::span<const MethodKind> all = all_methods();
+    const MethodKind best =
+        *std::min_element(all.begin(), all.end(), [&](MethodKind a, MethodKind b) { return seconds(a) < seconds(b); });
+    if (kFarSooner * seconds(best) > own) return "";
+    return title(best) + " would be ready in about " + readable_seconds(seconds(best));
+}
+
+/// What choosing a method would mean now, before a slow one is begun.
+std::string button_words(const ViewerState& state, MethodKind kind, const Cost& cost) {
+    const MethodRunner& runner = state.simulation.runner(kind);
+    if (runner.state() == State::ready) return "ready";
+    if (cost.seconds <= 0.0) return "not begun";
+    const std::string price =
+        readable_seconds(cost.seconds) + ", " + readable_bytes(static_cast<double>(cost.memory_bytes));
+    if (cost.memory_bytes > available_memory_bytes()) return "takes " + price + ": does not fit into memory";
+    return runner.precomputing() ? "takes " + price : "ready after about " + price;
+}
+
 /// A button for each method, underlined with how it is doing.
-void draw_buttons(const PanelContext& context) {
+template <class CostOf>
+void draw_buttons(const PanelContext& context, const CostOf& cost_of) {
     ViewerState& state = context.state;
     const float scale = context.gui.scale();
     float longest = 0.0f;
@@ -106,7 +135,8 @@ void draw_buttons(const PanelContext& context) {
         }
         if (ImGui::Button(title(kind).c_str(), {width, 1.45f * ImGui::GetFrameHeight()})) state.select_method(kind);
         if (active) ImGui::PopStyleColor(3);
-        tooltip(("Key " + std::to_string(number)).c_str());
+        if (ImGui::IsItemHovered())
+            tooltip(("Key " + std::to_string(number) + ": " + button_words(state, kind, cost_of(kind))).c_str());
         const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
         ImGui::GetWindowDrawList()->AddRectFilled(
             {low.x + 8.0f * scale, high.y - 5.0f * scale}, {high.x - 8.0f * scale, high.y - 2.5f * scale},
@@ -128,8 +158,8 @@ void draw_progress(const PanelContext& context, MethodRunner& runner) {
     }
     const JobStatus status = runner.status();
     ImGui::ProgressBar(static_cast<float>(status.progress), {ImGui::GetContentRegionAvail().x - button - 8.0f, height},
-                       std::string(status.stage).c_str());
-    tooltip((std::string(status.stage) + "  " + readable_seconds(status.seconds)).c_str());
+                       stage_words(status.stage).c_str());
+    tooltip((stage_words(status.stage) + "  " + readable_seconds(status.seconds)).c_str());
     ImGui::SameLine();
     if (ImGui::Button("Cancel", {button, 0.0f})) runner.cancel();
 }
@@ -158,11 +188,12 @@ void draw_warnings(const PanelContext& context, const EmbeddedRunner& runner) {
 void Panels::draw_method(const PanelContext& context) {
     ViewerState& state = context.state;
     const Palette& palette = context.palette;
-    draw_buttons(context);
+    const auto cost_of = [&](MethodKind kind) -> const Cost& { return cost(state, state.choices.of(kind)); };
+    draw_buttons(context, cost_of);
     MethodRunner& runner = state.simulation.runner(state.method);
-    const Method method = state.choices.of(state.method);
     const Colour& colour = state.simulation.previewing(state.method) ? palette.good : state_colour(runner, palette);
-    ImGui::TextColored(imgui_colour(colour), "%s", state_words(state, cost(state, method)).c_str());
+    ImGui::TextColored(imgui_colour(colour), "%s", state_words(state, cost_of(state.method)).c_str());
+    if (const std::string text = sooner_words(state, cost_of); !text.empty()) paragraph(text, palette.text_dim);
     draw_progress(context, runner);
     if (runner.state() == State::idle || runner.state() == State::failed) {
         const std::string problem = state.simulation.problem(state.method);

@@ -6,6 +6,7 @@
 #include <system_error>
 #include <utility>
 
+#include "app/job_notes.hpp"
 #include "base/error.hpp"
 #include "base/program.hpp"
 #include "base/text.hpp"
@@ -120,7 +121,9 @@ void Film::finish(ViewerState& state) {
     state.pictures_under_way.reset();
     state.messages.note("Saved " + std::to_string(request_.n_frames) + " frames, " +
                         frame_file(request_.file, 1).string() + " and on");
-    if (request_.video) video_.start([file = request_.file](Control& control) { return make_video(file, control); });
+    if (request_.video)
+        video_.start(
+            [file = request_.file](Control& control) { return "Saved " + make_video(file, control).string(); });
 }
 
 void Film::stop() {
@@ -128,19 +131,6 @@ void Film::stop() {
     video_.cancel();
 }
 
-bool Film::poll(ViewerState& state) {
-    switch (video_.poll()) {
-        case JobEvent::finished:
-            state.messages.note("Saved " + video_.take().string());
-            return true;
-        case JobEvent::failed:
-            state.messages.error(video_.failure());
-            return true;
-        case JobEvent::cancelled:
-        case JobEvent::none:
-            return false;
-    }
-    return false;
-}
+bool Film::poll(ViewerState& state) { return tell_end(video_, state.messages); }
 
 }  // namespace elastolab

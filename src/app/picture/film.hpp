@@ -41,8 +41,8 @@ private:
     void finish(ViewerState& state);
 
     PictureRequest request_;
-    int next_ = 0;  ///< frame, counted from 1; 0: none
-    BackgroundJob<std::filesystem::path> video_;
+    int next_ = 0;                      ///< frame, counted from 1; 0: none
+    BackgroundJob<std::string> video_;  ///< with its note
 };
 
 /// The video of a film: "name.png" -> "name.mp4", 30 frames a second, made by the ffmpeg that is installed. It

@@ -1,6 +1,7 @@
 #include "fem/quadratic/quadratic_mesh.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 
 #include "mesh/tets/boundary.hpp"
@@ -8,6 +9,10 @@
 namespace elastolab {
 
 namespace {
+
+/// The nodes of an element's parts: one at each corner, and the octahedron between cut along the line from node 5 to 8.
+constexpr int kParts[8][4] = {{0, 4, 5, 6}, {4, 1, 7, 8}, {5, 7, 2, 9}, {6, 8, 9, 3},
+                              {4, 5, 6, 8}, {4, 7, 5, 8}, {5, 9, 6, 8}, {5, 7, 9, 8}};
 
 std::uint64_t key(int a, int b) {
     return (static_cast<std::uint64_t>(std::min(a, b)) << 32) | static_cast<std::uint64_t>(std::max(a, b));
@@ -73,14 +78,51 @@ int QuadraticMesh::midpoint(int a, int b) const {
 }
 
 TetMesh QuadraticMesh::split() const {
-    // One at each corner, and the octahedron between cut along the line from node 5 to node 8.
-    constexpr int kParts[8][4] = {{0, 4, 5, 6}, {4, 1, 7, 8}, {5, 7, 2, 9}, {6, 8, 9, 3},
-                                  {4, 5, 6, 8}, {4, 7, 5, 8}, {5, 9, 6, 8}, {5, 7, 9, 8}};
     TetMesh mesh{positions, Tetrahedra(4, 8 * elements.cols()), n_surface_vertices};
     for (Eigen::Index t = 0; t < elements.cols(); ++t)
         for (int part = 0; part < 8; ++part)
             for (int c = 0; c < 4; ++c) mesh.tetrahedra(c, 8 * t + part) = elements(kParts[part][c], t);
     return mesh;
+}
+
+Eigen::Matrix<int, 10, Eigen::Dynamic> rejoined(const TetMesh& split) {
+    // Of the four at the corners: where the ten nodes are first seen.
+    constexpr std::array<std::array<int, 2>, 10> kSeen = {
+        {{0, 0}, {1, 1}, {2, 2}, {3, 3}, {0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+    Eigen::Matrix<int, 10, Eigen::Dynamic> elements(10, split.n_tetrahedra() / 8);
+    for (Eigen::Index t = 0; t < elements.cols(); ++t)
+        for (std::size_t i = 0; i < kSeen.size(); ++i)
+            elements(static_cast<Eigen::Index>(i), t) = split.tetrahedra(kSeen[i][1], 8 * t + kSeen[i][0]);
+    return elements;
+}
+
+Eigen::Vector4d in_whole(int part, const Eigen::Vector4d& weights) {
+    Eigen::Vector4d L = Eigen::Vector4d::Zero();
+    for (int c = 0; c < 4; ++c) L += weights[c] * node_coordinates(kParts[part][c]);
+    return L;
+}
+
+Eigen::Matrix<double, 10, 1> quadratic_shapes(const Eigen::Vector4d& L) {
+    Eigen::Matrix<double, 10, 1> N;
+    for (int c = 0; c < 4; ++c) N[c] = L[c] * (2.0 * L[c] - 1.0);
+    for (int e = 0; e < 6; ++e) N[4 + e] = 4.0 * L[kTetEdges[e][0]] * L[kTetEdges[e][1]];
+    return N;
+}
+
+Eigen::Matrix<double, 10, 4> quadratic_slopes(const Eigen::Vector4d& L) {
+    Eigen::Matrix<double, 10, 4> slopes = Eigen::Matrix<double, 10, 4>::Zero();
+    for (int c = 0; c < 4; ++c) slopes(c, c) = 4.0 * L[c] - 1.0;
+    for (int e = 0; e < 6; ++e) {
+        const auto [a, b] = kTetEdges[e];
+        slopes(4 + e, a) = 4.0 * L[b];
+        slopes(4 + e, b) = 4.0 * L[a];
+    }
+    return slopes;
+}
+
+Eigen::Vector4d node_coordinates(int node) {
+    if (node < 4) return Eigen::Vector4d::Unit(node);
+    return 0.5 * (Eigen::Vector4d::Unit(kTetEdges[node - 4][0]) + Eigen::Vector4d::Unit(kTetEdges[node - 4][1]));
 }
 
 }  // namespace elastolab

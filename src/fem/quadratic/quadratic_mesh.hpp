@@ -37,4 +37,17 @@ private:
     std::vector<int> nodes_;            ///< midpoint of each
 };
 
+/// The ten nodes of the elements out of the eight parts that each was split into.
+Eigen::Matrix<int, 10, Eigen::Dynamic> rejoined(const TetMesh& split);
+
+/// Barycentric coordinates in an element of a point that has `weights` in one of its eight parts.
+Eigen::Vector4d in_whole(int part, const Eigen::Vector4d& weights);
+
+/// The shape functions of the ten nodes at barycentric coordinates, and their derivatives by each of these (10 x 4).
+Eigen::Matrix<double, 10, 1> quadratic_shapes(const Eigen::Vector4d& L);
+Eigen::Matrix<double, 10, 4> quadratic_slopes(const Eigen::Vector4d& L);
+
+/// Barycentric coordinates of a node, 0 to 9.
+Eigen::Vector4d node_coordinates(int node);
+
 }  // namespace elastolab

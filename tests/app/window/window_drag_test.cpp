@@ -5,6 +5,7 @@
 #include <fstream>
 #include <thread>
 
+#include "app/input/gizmo.hpp"
 #include "app/panels/layout.hpp"
 #include "app/real_window.hpp"
 #include "app/stage.hpp"
@@ -30,6 +31,11 @@ public:
     }
     const SurfaceMesh& mesh() const { return state_.scene().mesh(); }
     Eigen::Vector2d pixel(const Eigen::Vector3d& point) const { return state_.camera.project(point, place_).pixel; }
+
+    Gizmo gizmo(int handle) const { return handle_gizmo(state_.scene(), handle, mesh().vertices, GizmoAxes::world); }
+    std::vector<Eigen::Vector2d> outline(const Gizmo& gizmo, const GizmoPart& part) const {
+        return elastolab::outline(gizmo, part, state_.camera, place_);
+    }
 
 private:
     ViewerState state_{[] {}};
@@ -98,8 +104,40 @@ TEST_P(RealDrag, KeepsTheVertexUnderTheCursorAndTheBodyIsThatOfSolve) {
     EXPECT_LT((solved - shown).colwise().norm().maxCoeff(), kSameAsSolve * size);
 }
 
-/// A ball without its cap, in triangles that do not hang together, as careless scans come: pressed as soon as the window
-/// is there, before anything is computed.
+/// A press on a handle chooses it; then its arrow moves it along one axis and its ring turns it about one.
+TEST(RealGizmo, MovesAndTurnsTheChosenHandle) {
+    const TemporaryFolder folder;
+    Document document = cube_document(4);
+    document.handles.push_back(
+        {.name = "end", .select = {PlaneSelector{{1, 0, 0}, {1, 0, 0}, 1e-9}}, .motion = AffineMotion{}});
+    save_scene(folder.path() / "cube.json", document);
+    const Screen screen(folder.path() / "cube.json");
+    RealWindow window({"cube.json", "--size", "1000x700", "--scene-out", "out.json"}, folder.path());
+    window.settle();
+    window.click(screen.pixel({1, 0.5, 0.5}));
+    window.settle();
+    const Gizmo gizmo = screen.gizmo(0);  // of the world: it stays as it is while the handle turns about its middle
+    const std::vector<Eigen::Vector2d> ring = screen.outline(gizmo, {GizmoPart::Kind::ring, 0});
+    window.drag(ring[3 * ring.size() / 4], ring[9 * ring.size() / 10]);
+    window.settle();
+    const Eigen::Vector2d arrow = screen.outline(gizmo, {GizmoPart::Kind::arrow, 2}).back();
+    window.drag(arrow, arrow + screen.pixel({1, 0.5, 0.7}) - screen.pixel({1, 0.5, 0.5}));
+    window.settle();
+    ASSERT_EQ(window.quit().exit_code, 0);
+
+    const Document left = load_scene(folder.path() / "out.json");
+    ASSERT_EQ(left.handles.size(), 1u);
+    EXPECT_EQ(left.handles[0].name, "end");
+    const auto& motion = std::get<AffineMotion>(left.handles[0].motion);
+    const Eigen::Vector3d moved = motion.matrix * Eigen::Vector3d(1, 0.5, 0.5) + motion.translate;
+    EXPECT_NEAR(moved.z(), 0.2, 0.04);
+    EXPECT_LT(moved.head<2>().norm(), 1e-9);
+    EXPECT_GT(motion.matrix.norm(), 0.1);
+    EXPECT_LT(motion.matrix.row(0).norm() + motion.matrix.col(0).norm(), 1e-9);  // about x
+}
+
+/// A ball without its cap, in triangles that do not hang together, as careless scans come: pressed as soon as the
+/// window is there, before anything is computed.
 TEST(RealDragOfAScan, MovesWithTheMouseAtOnceAndIsWhatSolveComputes) {
     const TemporaryFolder folder;
     std::ofstream scan(folder.path() / "scan.obj");
@@ -118,7 +156,8 @@ TEST(RealDragOfAScan, MovesWithTheMouseAtOnceAndIsWhatSolveComputes) {
                       folder.path());
     const Screen screen(folder.path() / "scan.obj");
     const Eigen::Vector2d from = screen.pixel(Eigen::Vector3d(0.4, 0.4, 0.75)), to = from + Eigen::Vector2d(60, -40);
-    // The first may come while the file is still being read; whichever finds the body pulls it, without waiting for more.
+    // The first may come while the file is still being read; whichever finds the body pulls it, without waiting for
+    // more.
     for (int i = 0; i < 4; ++i) {
         window.drag(from, to);
         std::this_thread::sleep_for(std::chrono::milliseconds(300));

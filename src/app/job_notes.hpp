@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "app/panels/messages.hpp"
+#include "scene/live/background_job.hpp"
+
+namespace elastolab {
+
+/// Tells the note that a job ended with, or why it failed. Whether there is something new to see. Once per frame.
+bool tell_end(BackgroundJob<std::string>& job, Messages& messages);
+
+}  // namespace elastolab
