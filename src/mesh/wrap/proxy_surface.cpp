@@ -168,6 +168,9 @@ std::optional<SurfaceMesh> collapsed(const SurfaceMesh& sound, int n_vertices, C
 /// times the vertices, with its edges collapsed, is far closer to the body and takes hardly longer.
 constexpr int kFinerWrap = 4;
 
+/// Surfaces of more vertices are wrapped even where they are sound: to collapse their edges takes several times longer.
+constexpr int kMostCollapsed = 100000;
+
 /// The settled wrap, or the wrap itself where settling did not keep it sound.
 ProxySurface wrapped_once(const SurfaceMesh& closed, int n_vertices, Control& control) {
     WrapResult wrap = alpha_wrap(closed, n_vertices, control);
@@ -224,8 +227,9 @@ std::vector<ProxySurface> make_proxy_surfaces(const SurfaceMesh& shown, const Me
     const Frame frame = to_unit_size(triangles);
     const HoleCaps capped = cap_holes(triangles);
     std::vector<ProxySurface> proxies;
-    if (const auto sound = sound_surface(capped.closed, report, control))
-        proxies = collapsed_to(*sound, sizes, control);
+    if (shown.n_vertices() <= kMostCollapsed)
+        if (const auto sound = sound_surface(capped.closed, report, control))
+            proxies = collapsed_to(*sound, sizes, control);
     if (proxies.empty()) proxies = wrapped(capped.closed, sizes, control);
     for (ProxySurface& proxy : proxies) {
         proxy.n_capped_holes = capped.n_holes;
