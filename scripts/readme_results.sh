@@ -12,8 +12,8 @@ opening() { awk '/^```/ { ++fences; next } fences > 1 && /^##/ { exit } fences >
 section() { awk -v heading="## $2" '$0 == heading { on = 1; next } on && /^##/ { exit } on' "$results/$1/README.md"; }
 # machine STUDY: where it was measured.
 machine() { sed -n 3p "$results/$1/README.md"; }
-# first_table: of the text that comes in.
-first_table() { awk '/^\|/ { print; on = 1; next } on { exit }'; }
+# table N: of the text that comes in.
+table() { awk -v wanted="$1" '/^\|/ { if (!on) ++n; on = 1; if (n == wanted) print; next } { on = 0 }'; }
 # columns LIST: these columns of the table that comes in, as cut numbers them.
 columns() { sed 's/^| *//; s/ *|$//; s/ | /\t/g' | cut -f "$1" | sed 's/\t/ | /g; s/^/| /; s/$/ |/'; }
 # table_rows PATTERN: the head of the table that comes in, and its rows that match.
@@ -52,12 +52,15 @@ write_results() {
 
 write_readme() {
   heading '###' paper 'Do the claims of the paper hold?' "$results"
-  section paper "Does the paper's claim hold?" | first_table | columns 1-3
+  section paper "Does the paper's claim hold?" | table 1 | columns 1-3
   heading '###' error 'Who is fastest to an error of 1 %?' "$results"
-  section error 'Who is fastest at a given error' | first_table | table_rows '^[|] [a-z-]+ [|] 0[.]3 [|] 1 % ' |
-    columns 1,4-9
+  for quantity in 1 2; do
+    [[ $quantity == 1 ]] && printf 'Displacements, at a ratio of 0.3:\n\n' || printf '\nForces of the worst patch:\n\n'
+    section error 'Who is fastest at a given error' | table "$quantity" | table_rows '^[|] [a-z-]+ [|] 0[.]3 [|] 1 % ' |
+      columns 1,4-10
+  done
   heading '###' scale 'How cost grows' "$results"
-  opening scale | first_table
+  opening scale | table 1
   printf '\nExponents are those of the growth with the number of surface vertices; memory is the peak beyond what the program held before.\n\n'
 }
 
