@@ -21,7 +21,11 @@ struct InfoOptions {
 
 MeshInfo inspect_file(const InfoOptions& options, Control& control) {
     const bool is_scene = is_scene_file(options.file);
-    const Document document = is_scene ? load_scene(options.file) : Document{.mesh = MeshFile{options.file}};
+    Document document;
+    if (is_scene)
+        document = load_scene(options.file);
+    else
+        document.mesh = MeshFile{options.file};
     ProxyChoice choice = document.proxy;
     options.proxy.apply(choice);
     SceneMesh mesh = load_scene_mesh(document.mesh, is_scene ? options.file : "", control);
