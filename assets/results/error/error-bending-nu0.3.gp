@@ -21,9 +21,11 @@ set format x '%g'
 set logscale y
 set format y '%g'
 plot \
+  'error.csv' using ((strcol('part') eq 'refinement' && strcol('problem') eq 'bending' && strcol('nu') eq '0.3' && strcol('variant') eq 'galerkin-bem' ? column('ready_s') : NaN)):(column('error')) with linespoints lc rgb '#cc79a7' lw 2 pt 13 ps 0.8 dt 1 title 'galerkin-bem', \
+  'error.csv' using ((strcol('part') eq 'refinement' && strcol('problem') eq 'bending' && strcol('nu') eq '0.3' && strcol('variant') eq 'quadratic-fem' ? column('ready_s') : NaN)):(column('error')) with linespoints lc rgb '#e69f00' lw 2 pt 11 ps 0.8 dt 1 title 'quadratic-fem', \
   'error.csv' using ((strcol('part') eq 'refinement' && strcol('problem') eq 'bending' && strcol('nu') eq '0.3' && strcol('variant') eq 'linear-bem' ? column('ready_s') : NaN)):(column('error')) with linespoints lc rgb '#009e73' lw 2 pt 9 ps 0.8 dt 1 title 'linear-bem', \
-  'error.csv' using ((strcol('part') eq 'refinement' && strcol('problem') eq 'bending' && strcol('nu') eq '0.3' && strcol('variant') eq 'linear-bem restricted' ? column('ready_s') : NaN)):(column('error')) with linespoints lc rgb '#cc79a7' lw 2 pt 13 ps 0.8 dt 2 title 'linear-bem restricted', \
-  'error.csv' using ((strcol('part') eq 'refinement' && strcol('problem') eq 'bending' && strcol('nu') eq '0.3' && strcol('variant') eq 'linear-bem continuous' ? column('ready_s') : NaN)):(column('error')) with linespoints lc rgb '#e69f00' lw 2 pt 11 ps 0.8 dt 2 title 'linear-bem continuous', \
+  'error.csv' using ((strcol('part') eq 'refinement' && strcol('problem') eq 'bending' && strcol('nu') eq '0.3' && strcol('variant') eq 'linear-bem restricted' ? column('ready_s') : NaN)):(column('error')) with linespoints lc rgb '#56b4e9' lw 2 pt 6 ps 0.8 dt 2 title 'linear-bem restricted', \
+  'error.csv' using ((strcol('part') eq 'refinement' && strcol('problem') eq 'bending' && strcol('nu') eq '0.3' && strcol('variant') eq 'linear-bem continuous' ? column('ready_s') : NaN)):(column('error')) with linespoints lc rgb '#666666' lw 2 pt 4 ps 0.8 dt 2 title 'linear-bem continuous', \
   'error.csv' using ((strcol('part') eq 'refinement' && strcol('problem') eq 'bending' && strcol('nu') eq '0.3' && strcol('variant') eq 'fem' ? column('ready_s') : NaN)):(column('error')) with linespoints lc rgb '#0072b2' lw 2 pt 7 ps 0.8 dt 1 title 'fem', \
   'error.csv' using ((strcol('part') eq 'refinement' && strcol('problem') eq 'bending' && strcol('nu') eq '0.3' && strcol('variant') eq 'constant-bem' ? column('ready_s') : NaN)):(column('error')) with linespoints lc rgb '#d55e00' lw 2 pt 5 ps 0.8 dt 1 title 'constant-bem'
 unset output
