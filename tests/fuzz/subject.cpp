@@ -117,7 +117,7 @@ Outcome Subject::solve(const std::string& scene, std::size_t variant) {
 }
 
 Outcome Subject::try_body(const Input& input, std::size_t variant) {
-    Outcome outcome = execute({"info", "--json", input.name});
+    Outcome outcome = execute({"info", "--json", "--proxy-vertices", "100", input.name});
     const bool is_scene = kind_of(input.name) == Kind::scene;
     if (!outcome.complaint.empty() || (!outcome.accepted && !is_scene)) return outcome;
     if (outcome.accepted) {

@@ -28,7 +28,7 @@ std::string source_words(const ViewerState& state, MethodKind kind) {
     const Simulation& simulation = state.simulation;
     const MethodRunner& runner = simulation.runner(kind);
     const auto progress = [](const JobStatus& status) {
-        return stage_words(status.stage) + formatted(" %.0f %%", std::floor(100.0 * status.progress));
+        return stage_words(status.stage) + formatted(" %.0f\u00a0%%", std::floor(100.0 * status.progress));
     };
     std::string text;
     if (simulation.previewing(kind)) {

@@ -117,7 +117,7 @@ std::shared_ptr<const KeptClosePairs> BoundaryPairs::keep_close_pairs(Control& c
 HypersingularEntries::HypersingularEntries(std::shared_ptr<const BoundaryPairs> pairs,
                                            std::shared_ptr<const ClusterTree> tree, const Material& material,
                                            std::shared_ptr<const KeptClosePairs> close)
-    : pairs_(std::move(pairs)), tree_(std::move(tree)), close_(std::move(close)) {
+    : PairEntries(std::move(pairs)), tree_(std::move(tree)), close_(std::move(close)) {
     alpha_ = 0.25 * std::numbers::inv_pi * material.shear_modulus();
     beta_ = alpha_ / (1.0 - material.poisson_ratio);
 }
@@ -140,27 +140,20 @@ void integrate_tensor(const PairIntegrals& integrals, const KeptClosePairs* clos
 
 }  // namespace
 
-void HypersingularEntries::fill(PositionRange rows, PositionRange cols, Eigen::Ref<Eigen::MatrixXd> out) const {
-    fill(pairs_->integrals(), close_.get(), rows, cols, out);
-}
-
-void HypersingularEntries::fill_far(PositionRange rows, PositionRange cols, Eigen::Ref<Eigen::MatrixXd> out) const {
-    fill(pairs_->far_integrals(), nullptr, rows, cols, out);
-}
-
-void HypersingularEntries::fill(const PairIntegrals& integrals, const KeptClosePairs* close, PositionRange rows,
-                                PositionRange cols, Eigen::Ref<Eigen::MatrixXd> out) const {
+void HypersingularEntries::fill_with(const PairIntegrals& integrals, PositionRange rows, PositionRange cols,
+                                     Eigen::Ref<Eigen::MatrixXd> out) const {
     if (rows.size() > 4 * cols.size()) {  // test triangles are integrated several at once: let them be the fewer
         Eigen::MatrixXd transposed(out.cols(), out.rows());
-        fill(integrals, close, cols, rows, transposed);
+        fill_with(integrals, cols, rows, transposed);
         out = transposed.transpose();
         return;
     }
     out.setZero();
+    const KeptClosePairs* close = &integrals == &pairs().integrals() ? close_.get() : nullptr;  // far blocks have none
     const PairKernels& kernels = best_pair_kernels();
     const int lanes = integrals.lanes();
     const auto n_lanes = static_cast<std::size_t>(lanes);
-    const Star tests(*pairs_, *tree_, rows), fields(*pairs_, *tree_, cols);
+    const Star tests(pairs(), *tree_, rows), fields(pairs(), *tree_, cols);
     CurlSums sums(cols.size(), lanes);
     for (int first = 0; first < tests.size(); first += lanes) {
         const int count = std::min(lanes, tests.size() - first);
@@ -175,7 +168,7 @@ void HypersingularEntries::fill(const PairIntegrals& integrals, const KeptCloseP
                 for (int k = 0; k < kPairTensorNumbers; ++k)
                     Q[k * lanes + lane] = (k < 3 ? P[lane] : 0.0) - Q[k * lanes + lane];
             }
-            const CurlRows curls(pairs_->curls(fields.triangles[f]));
+            const CurlRows curls(pairs().curls(fields.triangles[f]));
             const auto& corner = fields.corners[f];
             double* const into[3] = {sums.at(corner[0]), sums.at(corner[1]), sums.at(corner[2])};
             kernels.add_curls(P, Q, curls.values, into);
@@ -185,7 +178,7 @@ void HypersingularEntries::fill(const PairIntegrals& integrals, const KeptCloseP
             for (std::size_t k = 0; k < 3; ++k)
                 for (std::size_t i = 0; i < 3; ++i)
                     curls[(3 * k + i) * n_lanes + lane] =
-                        pairs_->curls(pack.triangles[lane])(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
+                        pairs().curls(pack.triangles[lane])(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
         double blocks[27 * kMaxLanes];
         for (int b = 0; b < cols.size(); ++b) {
             kernels.contract_curls(alpha_, beta_, curls, sums.at(b), blocks);
@@ -203,18 +196,10 @@ void HypersingularEntries::fill(const PairIntegrals& integrals, const KeptCloseP
 
 SingleLayerEntries::SingleLayerEntries(std::shared_ptr<const BoundaryPairs> pairs, std::vector<int> triangles,
                                        std::shared_ptr<const ClusterTree> tree, const Material& material)
-    : pairs_(std::move(pairs)), ordered_(in_order(triangles, *tree)), material_(material) {}
+    : PairEntries(std::move(pairs)), ordered_(in_order(triangles, *tree)), material_(material) {}
 
-void SingleLayerEntries::fill(PositionRange rows, PositionRange cols, Eigen::Ref<Eigen::MatrixXd> out) const {
-    fill(pairs_->integrals(), rows, cols, out);
-}
-
-void SingleLayerEntries::fill_far(PositionRange rows, PositionRange cols, Eigen::Ref<Eigen::MatrixXd> out) const {
-    fill(pairs_->far_integrals(), rows, cols, out);
-}
-
-void SingleLayerEntries::fill(const PairIntegrals& integrals, PositionRange rows, PositionRange cols,
-                              Eigen::Ref<Eigen::MatrixXd> out) const {
+void SingleLayerEntries::fill_with(const PairIntegrals& integrals, PositionRange rows, PositionRange cols,
+                                   Eigen::Ref<Eigen::MatrixXd> out) const {
     const bool swap = rows.size() < cols.size();  // the longer side fills the lanes; a pair is symmetric
     const PositionRange tests = swap ? cols : rows, fields = swap ? rows : cols;
     const int lanes = integrals.lanes();
@@ -241,24 +226,16 @@ void SingleLayerEntries::fill(const PairIntegrals& integrals, PositionRange rows
 DoubleLayerEntries::DoubleLayerEntries(std::shared_ptr<const BoundaryPairs> pairs, std::vector<int> triangles,
                                        std::shared_ptr<const ClusterTree> triangle_tree,
                                        std::shared_ptr<const ClusterTree> vertex_tree, const Material& material)
-    : pairs_(std::move(pairs)),
+    : PairEntries(std::move(pairs)),
       ordered_(in_order(triangles, *triangle_tree)),
       vertex_tree_(std::move(vertex_tree)),
       nu_(material.poisson_ratio) {}
 
-void DoubleLayerEntries::fill(PositionRange rows, PositionRange cols, Eigen::Ref<Eigen::MatrixXd> out) const {
-    fill(pairs_->integrals(), rows, cols, out);
-}
-
-void DoubleLayerEntries::fill_far(PositionRange rows, PositionRange cols, Eigen::Ref<Eigen::MatrixXd> out) const {
-    fill(pairs_->far_integrals(), rows, cols, out);
-}
-
-void DoubleLayerEntries::fill(const PairIntegrals& integrals, PositionRange rows, PositionRange cols,
-                              Eigen::Ref<Eigen::MatrixXd> out) const {
+void DoubleLayerEntries::fill_with(const PairIntegrals& integrals, PositionRange rows, PositionRange cols,
+                                   Eigen::Ref<Eigen::MatrixXd> out) const {
     const PairKernels& kernels = best_pair_kernels();
     const int lanes = integrals.lanes();
-    const Star fields(*pairs_, *vertex_tree_, cols);
+    const Star fields(pairs(), *vertex_tree_, cols);
     CurlSums sums(cols.size(), lanes);
     std::vector<double> normals(static_cast<std::size_t>(lanes * (cols.size() + 1)));
     const auto normals_at = [&](int v) { return normals.data() + lanes * (v < 0 ? cols.size() : v); };
@@ -282,7 +259,7 @@ void DoubleLayerEntries::fill(const PairIntegrals& integrals, PositionRange rows
                 const double scalar = (1.0 - 2.0 * nu_) * (q[0] + q[lanes] + q[2 * lanes]);
                 for (int k = 0; k < 3; ++k) q[k * lanes] += scalar;
             }
-            const CurlRows curls(pairs_->curls(fields.triangles[f]));
+            const CurlRows curls(pairs().curls(fields.triangles[f]));
             double* const into[3] = {sums.at(corner[0]), sums.at(corner[1]), sums.at(corner[2])};
             kernels.add_curls(zero, numbers, curls.values, into);
         }
@@ -296,11 +273,11 @@ void DoubleLayerEntries::fill(const PairIntegrals& integrals, PositionRange rows
                 block.diagonal().array() -= normals_at(b)[lane] / (4.0 * std::numbers::pi);
             }
             const int t = ordered_[static_cast<std::size_t>(test)];
-            for (const int v : pairs_->boundary().mesh().triangles.col(t)) {
+            for (const int v : pairs().boundary().mesh().triangles.col(t)) {
                 const int at = vertex_tree_->positions()[static_cast<std::size_t>(v)];
                 if (cols.contains(at))
                     out.block<3, 3>(3 * (test - rows.begin), 3 * (at - cols.begin)).diagonal().array() +=
-                        pairs_->boundary().area(t) / 6.0;
+                        pairs().boundary().area(t) / 6.0;
             }
         }
     }

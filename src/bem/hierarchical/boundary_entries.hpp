@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "bem/boundary.hpp"
@@ -40,57 +41,69 @@ private:
     PairIntegrals integrals_, far_integrals_;
 };
 
+/// Entries made of integrals over pairs: the same ones for close blocks and, less exactly, for far ones.
+class PairEntries : public BlockEntries {
+public:
+    void fill(PositionRange rows, PositionRange cols, Eigen::Ref<Eigen::MatrixXd> out) const final {
+        fill_with(pairs_->integrals(), rows, cols, out);
+    }
+    void fill_far(PositionRange rows, PositionRange cols, Eigen::Ref<Eigen::MatrixXd> out) const final {
+        fill_with(pairs_->far_integrals(), rows, cols, out);
+    }
+
+protected:
+    explicit PairEntries(std::shared_ptr<const BoundaryPairs> pairs) : pairs_(std::move(pairs)) {}
+    const BoundaryPairs& pairs() const { return *pairs_; }
+
+private:
+    virtual void fill_with(const PairIntegrals& integrals, PositionRange rows, PositionRange cols,
+                           Eigen::Ref<Eigen::MatrixXd> out) const = 0;
+
+    std::shared_ptr<const BoundaryPairs> pairs_;
+};
+
 /// The hypersingular operator D between vertices (bem/galerkin/hypersingular.hpp); rows and columns in the order of
 /// `tree`.
-class HypersingularEntries : public BlockEntries {
+class HypersingularEntries : public PairEntries {
 public:
     /// close: the close pairs, if they are kept, or null.
     HypersingularEntries(std::shared_ptr<const BoundaryPairs> pairs, std::shared_ptr<const ClusterTree> tree,
                          const Material& material, std::shared_ptr<const KeptClosePairs> close = nullptr);
-    void fill(PositionRange rows, PositionRange cols, Eigen::Ref<Eigen::MatrixXd> out) const override;
-    void fill_far(PositionRange rows, PositionRange cols, Eigen::Ref<Eigen::MatrixXd> out) const override;
 
 private:
-    void fill(const PairIntegrals& integrals, const KeptClosePairs* close, PositionRange rows, PositionRange cols,
-              Eigen::Ref<Eigen::MatrixXd> out) const;
+    void fill_with(const PairIntegrals& integrals, PositionRange rows, PositionRange cols,
+                   Eigen::Ref<Eigen::MatrixXd> out) const override;
 
-    std::shared_ptr<const BoundaryPairs> pairs_;
     std::shared_ptr<const ClusterTree> tree_;
     std::shared_ptr<const KeptClosePairs> close_;
     double alpha_, beta_;
 };
 
 /// The single layer V between some triangles (bem/galerkin/traction_rows.hpp): item i of `tree` is triangles[i].
-class SingleLayerEntries : public BlockEntries {
+class SingleLayerEntries : public PairEntries {
 public:
     SingleLayerEntries(std::shared_ptr<const BoundaryPairs> pairs, std::vector<int> triangles,
                        std::shared_ptr<const ClusterTree> tree, const Material& material);
-    void fill(PositionRange rows, PositionRange cols, Eigen::Ref<Eigen::MatrixXd> out) const override;
-    void fill_far(PositionRange rows, PositionRange cols, Eigen::Ref<Eigen::MatrixXd> out) const override;
 
 private:
-    void fill(const PairIntegrals& integrals, PositionRange rows, PositionRange cols,
-              Eigen::Ref<Eigen::MatrixXd> out) const;
+    void fill_with(const PairIntegrals& integrals, PositionRange rows, PositionRange cols,
+                   Eigen::Ref<Eigen::MatrixXd> out) const override;
 
-    std::shared_ptr<const BoundaryPairs> pairs_;
     std::vector<int> ordered_;  ///< triangle at each position
     Material material_;
 };
 
 /// The double layer K with half the mass matrix: rows of some triangles, columns of all vertices.
-class DoubleLayerEntries : public BlockEntries {
+class DoubleLayerEntries : public PairEntries {
 public:
     DoubleLayerEntries(std::shared_ptr<const BoundaryPairs> pairs, std::vector<int> triangles,
                        std::shared_ptr<const ClusterTree> triangle_tree, std::shared_ptr<const ClusterTree> vertex_tree,
                        const Material& material);
-    void fill(PositionRange rows, PositionRange cols, Eigen::Ref<Eigen::MatrixXd> out) const override;
-    void fill_far(PositionRange rows, PositionRange cols, Eigen::Ref<Eigen::MatrixXd> out) const override;
 
 private:
-    void fill(const PairIntegrals& integrals, PositionRange rows, PositionRange cols,
-              Eigen::Ref<Eigen::MatrixXd> out) const;
+    void fill_with(const PairIntegrals& integrals, PositionRange rows, PositionRange cols,
+                   Eigen::Ref<Eigen::MatrixXd> out) const override;
 
-    std::shared_ptr<const BoundaryPairs> pairs_;
     std::vector<int> ordered_;
     std::shared_ptr<const ClusterTree> vertex_tree_;
     double nu_;
