@@ -162,7 +162,7 @@ void Gestures::move(GestureContext& context) {
     if (action_ == Action::orbit) context.camera.orbit(d.x(), d.y(), viewport);
     if (action_ == Action::pan) context.camera.pan(before, cursor_, viewport);
     if (action_ == Action::pull) pull(context);
-    if (action_ == Action::plane) drag_gizmo(context);
+    if (action_ == Action::plane) move_plane(context);
     if (action_ == Action::paint && dragged_) paint(context);
 }
 

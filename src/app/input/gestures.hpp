@@ -123,7 +123,7 @@ private:
     void scroll(const InputEvent& event, GestureContext& context);
     void point(GestureContext& context);
     bool press_gizmo(GestureContext& context, const PointingTarget& target);
-    void drag_gizmo(GestureContext& context);
+    void move_plane(GestureContext& context);
     double gizmo_amount(const GestureContext& context) const;
     bool snaps(const ToolSettings& tools) const;
     void begin_pull(GestureContext& context, int handle, Grabbed grabbed, const PickHit& hit);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <vector>
@@ -53,7 +54,7 @@ double dragged_along(const Camera& camera, const Viewport& viewport, const Eigen
 
 /// Steps of snapping: a round length near a hundredth of the body's diagonal [L], and an angle [radians].
 double snap_length(const LiveScene& scene);
-constexpr double kSnapAngle = 0.26179938779914943654;  // 15 degrees
+constexpr double kSnapAngle = std::numbers::pi / 12.0;
 double snapped(double value, double step);
 
 }  // namespace elastolab

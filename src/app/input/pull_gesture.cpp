@@ -154,7 +154,7 @@ void Gestures::pull_by_gizmo(GestureContext& context) {
 }
 
 /// The plane of the cut: its place by the arrow, turn and tilt by the rings about their axes.
-void Gestures::drag_gizmo(GestureContext& context) {
+void Gestures::move_plane(GestureContext& context) {
     const double amount = gizmo_drag_->amount = gizmo_amount(context);
     DisplaySettings& display = context.display;
     if (gizmo_drag_->part.kind == GizmoPart::Kind::arrow) {
