@@ -10,6 +10,8 @@
 #include <mutex>
 #include <thread>
 
+#include "base/instruction_set.hpp"
+
 namespace elastolab {
 
 namespace {
@@ -28,13 +30,9 @@ bool is_outdated(const std::string& kernels) {
 
 /// The best kernels that this CPU can run; null where the library's own choice is to stay.
 const char* fitting_kernels() {
-#if defined(__x86_64__)
-    __builtin_cpu_init();
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
-        __builtin_cpu_supports("avx512vl"))
-        return "SkylakeX";
-    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return "Haswell";
-#endif
+    const InstructionSet set = best_instruction_set();
+    if (set == InstructionSet::avx512) return "SkylakeX";
+    if (set == InstructionSet::avx2) return "Haswell";
     return nullptr;
 }
 

@@ -21,8 +21,7 @@ public:
 
     BemConstraints constrain(const Boundary& boundary, const VertexTriangles& triangles_of_vertex, Tractions,
                              std::span<const int> base, std::span<const int> handles) const override {
-        std::vector<int> vertices(base.begin(), base.end());
-        vertices.insert(vertices.end(), handles.begin(), handles.end());
+        const std::vector<int> vertices = joined(base, handles);
         ConstrainedNodes nodes = constrain_triangles(boundary.mesh(), triangles_of_vertex, vertices);
         TractionSpace space = constant_traction_space(boundary, nodes.nodes, nodes.prescribe);
         // Triangles may have corners of the base and of a handle; none of them counts as resting then.

@@ -51,7 +51,8 @@ bool is_hierarchical(const SurfaceMesh& surface, const Method& method) {
 
 std::uint64_t hierarchical_set_memory(std::int64_t n_vertices, std::int64_t n_tractions) {
     const double n = static_cast<double>(n_vertices), m = static_cast<double>(n_tractions);
-    return static_cast<std::uint64_t>(16e3 * n + 40e3 * m + 16.0 * std::min(m * m, 36e6));
+    const double factorised = m <= static_cast<double>(kMostFactorisedTractions) ? m * m : 0.0;
+    return static_cast<std::uint64_t>(16e3 * n + 15e3 * m + 16.0 * factorised);
 }
 
 /// Half an LU, and half of the pairs of triangles: each once.

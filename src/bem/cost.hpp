@@ -10,6 +10,8 @@ Cost predict_galerkin_bem(const SurfaceMesh& surface, const Method& method);
 
 /// Whether Galerkin BEM keeps its operators as hierarchical matrices: on demand, on surfaces for which that is cheaper.
 bool is_hierarchical(const SurfaceMesh& surface, const Method& method);
+/// Scalar tractions of a constrained set up to which the single layer is factorised then: 0.3 GB.
+constexpr std::int64_t kMostFactorisedTractions = 6000;
 /// Bytes of a constrained set by iteration: its tractions, the preconditioner and vectors.
 std::uint64_t hierarchical_set_memory(std::int64_t n_vertices, std::int64_t n_tractions);
 

@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "base/memory.hpp"
+#include "bem/cost.hpp"
 #include "bem/galerkin/method.hpp"
 #include "bem/galerkin/solvers.hpp"
+#include "bem/hierarchical/system.hpp"
 #include "mesh/refine.hpp"
 
 namespace elastolab {
@@ -16,9 +18,9 @@ namespace elastolab {
 namespace {
 
 /// Of the integrals: far below what an estimate needs.
-constexpr double kReferenceTolerance = 1e-5;
-/// Scalar unknowns above which the reference would take minutes.
-constexpr Eigen::Index kMostUnknowns = 20000;
+constexpr double kReferenceTolerance = 1e-6;
+/// Vertices above which the reference would take many minutes.
+constexpr int kMostVertices = 20000;
 /// Error of Galerkin BEM over what halving the rims changes. The first order alone would make it 2; what other
 /// triangles contribute is partly of the other sign. tests/methods/discretisation_test.cpp measures it.
 constexpr double kShareOfRims = 1.4;
@@ -28,6 +30,7 @@ struct RimProblem {
     RefinedSurface surface;
     std::vector<int> vertices;  ///< constrained
     Eigen::VectorXd values;
+    std::int64_t n_constrained_triangles = 0;
 };
 
 std::vector<char> constrained_triangles(const SurfaceMesh& surface, const std::vector<int>& place) {
@@ -66,8 +69,10 @@ RimProblem with_finer_rims(const SurfaceMesh& surface, std::span<const int> vert
     std::vector<char> is_constrained(static_cast<std::size_t>(fine.mesh.n_vertices()), 0);
     for (const int v : vertices) is_constrained[static_cast<std::size_t>(v)] = 1;
     for (int t = 0; t < fine.mesh.n_triangles(); ++t)
-        if (inside[static_cast<std::size_t>(fine.coarse_triangle[static_cast<std::size_t>(t)])])
+        if (inside[static_cast<std::size_t>(fine.coarse_triangle[static_cast<std::size_t>(t)])]) {
+            ++problem.n_constrained_triangles;
             for (const int v : fine.mesh.triangles.col(t)) is_constrained[static_cast<std::size_t>(v)] = 1;
+        }
     for (int v = 0; v < fine.mesh.n_vertices(); ++v)
         if (is_constrained[static_cast<std::size_t>(v)]) problem.vertices.push_back(v);
     problem.values = fine.interpolate(field)(Eigen::all, problem.vertices).reshaped();
@@ -87,9 +92,36 @@ Reactions on_coarse_vertices(const RimProblem& problem, const Eigen::VectorXd& l
     return {problem.surface.gather(forces)(Eigen::all, wanted), problem.surface.gather(moments)(Eigen::all, wanted)};
 }
 
-bool affordable(Eigen::Index n_unknowns, Eigen::Index n_tractions) {
-    const auto n = static_cast<std::uint64_t>(n_unknowns), m = static_cast<std::uint64_t>(n_tractions);
-    return n_unknowns <= kMostUnknowns && 8 * (2 * n * n + 3 * n * m + m * m) < available_memory_bytes();
+Method reference_method() {
+    return {.kind = kGalerkinBem, .update = Update::direct, .integral_tolerance = kReferenceTolerance};
+}
+
+/// Nothing where it would take too long or more memory than there is.
+std::uint64_t affordable_memory(const RimProblem& problem) {
+    const SurfaceMesh& fine = problem.surface.mesh;
+    const std::int64_t n_tractions = 3 * problem.n_constrained_triangles;
+    const std::uint64_t bytes = is_hierarchical(fine, reference_method())
+                                    ? predict_galerkin_bem(fine, reference_method()).memory_bytes +
+                                          hierarchical_set_memory(fine.n_vertices(), n_tractions)
+                                    : galerkin_direct_memory(3 * fine.n_vertices(), n_tractions);
+    return fine.n_vertices() <= kMostVertices && bytes < available_memory_bytes() ? bytes : 0;
+}
+
+/// Throws NotHeldError, SolveError, Cancelled.
+NodeSolution solve_by_galerkin(const RimProblem& problem, double poisson_ratio, Control& control) {
+    const SurfaceMesh& fine = problem.surface.mesh;
+    StageTimes stages;
+    if (is_hierarchical(fine, reference_method())) {
+        const auto system =
+            std::make_shared<const HierarchicalSystem>(fine, poisson_ratio, reference_method(), stages, control);
+        const GalerkinTractions tractions(fine, system->surfaces(), problem.vertices);
+        return HierarchicalSolver(system, problem.vertices, tractions, true, control)
+            .solve_watched(problem.values, true, control);
+    }
+    const GalerkinSystem system(std::make_shared<const Boundary>(fine), poisson_ratio, reference_method(), nullptr,
+                                stages, control);
+    const GalerkinTractions tractions(fine, system.surfaces(), problem.vertices);
+    return GalerkinDirectSolver(system, problem.vertices, tractions, control).solve(problem.values, true);
 }
 
 }  // namespace
@@ -98,20 +130,18 @@ std::optional<ReferenceAnswer> galerkin_reference(const SurfaceMesh& surface, do
                                                   std::span<const int> vertices, const Eigen::VectorXd& values,
                                                   Control& control) {
     const RimProblem problem = with_finer_rims(surface, vertices, values);
-    StageTimes stages;
-    const Method method{.kind = kGalerkinBem, .update = Update::direct, .integral_tolerance = kReferenceTolerance};
-    const GalerkinSystem system(std::make_shared<const Boundary>(problem.surface.mesh), poisson_ratio, method, nullptr,
-                                stages, control);
-    const GalerkinTractions tractions(problem.surface.mesh, system.surfaces(), problem.vertices);
-    if (!affordable(system.size(), tractions.size())) return {};
+    if (affordable_memory(problem) == 0) return {};
     try {
-        const GalerkinDirectSolver solver(system, problem.vertices, tractions, control);
-        const NodeSolution solution = solver.solve(problem.values, true);
+        const NodeSolution solution = solve_by_galerkin(problem, poisson_ratio, control);
         return ReferenceAnswer{solution.displacements.col(0).head(3 * surface.n_vertices()),
                                on_coarse_vertices(problem, solution.loads.col(0), vertices)};
     } catch (const NotHeldError&) {
         return {};
     }
+}
+
+std::uint64_t galerkin_reference_memory(const SurfaceMesh& surface, std::span<const int> vertices) {
+    return affordable_memory(with_finer_rims(surface, vertices, Eigen::VectorXd::Zero(3 * std::ssize(vertices))));
 }
 
 std::optional<ReferenceAnswer> galerkin_self_reference(const SurfaceMesh& surface, double poisson_ratio,

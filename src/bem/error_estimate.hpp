@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <Eigen/Core>
 #include <optional>
 #include <span>
@@ -13,14 +14,17 @@ namespace elastolab {
 /// The answer that boundary elements are judged by: symmetric Galerkin on the same surface, with the triangles along
 /// the rims of the constrained patches (and around lone constrained vertices) halved. Galerkin itself is 2 to 14 times
 /// more accurate than collocation on organic bodies, and most of what is left comes from the rims, where tractions are
-/// singular: halving there does nearly what halving everywhere does. Factorised afresh each time: about the time and
-/// twice the memory of linear BEM. Nothing where the body is not held, or where memory or patience would not suffice.
+/// singular: halving there does nearly what halving everywhere does. Solved afresh each time, large surfaces by
+/// hierarchical matrices. Nothing where the body is not held, or where memory or patience would not suffice.
 /// vertices  constrained, all different
 /// values    their displacements, 3*vertices.size()
 /// Throws SolveError, Cancelled.
 std::optional<ReferenceAnswer> galerkin_reference(const SurfaceMesh& surface, double poisson_ratio,
                                                   std::span<const int> vertices, const Eigen::VectorXd& values,
                                                   Control& control);
+
+/// Bytes that it takes; nothing where it would not be computed. Milliseconds.
+std::uint64_t galerkin_reference_memory(const SurfaceMesh& surface, std::span<const int> vertices);
 
 /// The same for an answer by Galerkin on the surface as it is: errors at a rim fall with the first power of the size of
 /// its triangles, so that halving them shows a part of the error only.

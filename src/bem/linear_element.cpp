@@ -12,8 +12,7 @@ public:
 
     BemConstraints constrain(const Boundary& boundary, const VertexTriangles& triangles_of_vertex, Tractions tractions,
                              std::span<const int> base, std::span<const int> handles) const override {
-        std::vector<int> vertices(base.begin(), base.end());
-        vertices.insert(vertices.end(), handles.begin(), handles.end());
+        const std::vector<int> vertices = joined(base, handles);
         return {constrain_vertices(vertices), linear_traction_space(boundary, triangles_of_vertex, tractions, vertices),
                 static_cast<int>(base.size())};
     }

@@ -88,9 +88,7 @@ std::unique_ptr<ConstrainedSolid> BemModel::constrain(std::span<const int> base,
     BemConstraints setting = constraints_of(base, handles);
     const TractionSpace& space = setting.space;
     std::unique_ptr<NodeSolver> solver = make_solver(space, setting.nodes.nodes, setting.n_base, control);
-    std::vector<int> vertices(base.begin(), base.end());
-    vertices.insert(vertices.end(), handles.begin(), handles.end());
-    SolutionChecks its_checks = checks(space, std::move(vertices));
+    SolutionChecks its_checks = checks(space, joined(base, handles));
     return std::make_unique<ConstrainedSolid>(facts_.n_vertices, std::move(setting.nodes), space.shares, display_,
                                               std::move(solver), std::move(its_checks));
 }
@@ -113,6 +111,10 @@ SolutionChecks BemModel::checks(const TractionSpace& space, std::vector<int> ver
         return galerkin_reference(boundary->mesh(), nu, vertices, values, control);
     };
     return checks;
+}
+
+std::uint64_t BemModel::check_memory(std::span<const int> base, std::span<const int> handles) const {
+    return galerkin_reference_memory(system_->shared_boundary()->mesh(), joined(base, handles));
 }
 
 void BemModel::visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const {

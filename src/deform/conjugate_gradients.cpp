@@ -56,14 +56,15 @@ Eigen::MatrixXd conjugate_gradients(const LinearOperator& A, const LinearOperato
     };
     Eigen::MatrixXd Z = preconditioner.product(R), P = Z;
     Eigen::RowVectorXd rz = column_products(R, Z);
-    int iterations = 0;
-    for (; std::find(done.begin(), done.end(), 0) != done.end(); ++iterations) {
+    if (report != nullptr) *report = {0, worst()};
+    for (int iterations = 0; std::find(done.begin(), done.end(), 0) != done.end(); ++iterations) {
         control.checkpoint();
         const Eigen::MatrixXd AP = A.product(P);
         const Eigen::RowVectorXd alpha = ratio(rz, column_products(P, AP), done);
         X += P * alpha.asDiagonal();
         R -= AP * alpha.asDiagonal();
         const double residual = worst();
+        if (report != nullptr) *report = {iterations + 1, residual};
         if (!std::isfinite(residual) || iterations >= options.max_iterations) give_up(name, residual);
         control.set_progress(std::clamp(std::log(std::max(residual, 1e-300)) / std::log(options.tolerance), 0.0, 1.0));
         Z = preconditioner.product(R);
@@ -71,7 +72,6 @@ Eigen::MatrixXd conjugate_gradients(const LinearOperator& A, const LinearOperato
         P = Z + P * ratio(next, rz, done).asDiagonal();
         rz = next;
     }
-    if (report != nullptr) *report = {iterations, worst()};
     return X * size.asDiagonal();
 }
 

@@ -12,7 +12,7 @@ struct IterationOptions {
     int max_iterations = 1000;
 };
 
-/// What an iterative solver did.
+/// What an iterative solver has done so far.
 struct IterationReport {
     int iterations = 0;
     double residual = 0.0;  ///< the largest of all columns
@@ -20,7 +20,8 @@ struct IterationReport {
 
 /// X with A X = B for A symmetric positive definite (or semidefinite, with B in its range), by conjugate gradients, all
 /// columns at once: each by itself, but for the products, which they share. `preconditioner`: symmetric positive
-/// definite, about A^-1. Starts at zero. Tells `control` its progress, and may be cancelled in every iteration. Throws
+/// definite, about A^-1. Starts at zero. `report` is kept up to date: an operator may look there how exact a product must
+/// be, since errors of late ones matter less (Simoncini and Szyld 2003, van den Eshof and Sleijpen 2004). Tells `control` its progress, and may be cancelled in every iteration. Throws
 /// SolveError naming `name` when the tolerance is not reached, Cancelled.
 Eigen::MatrixXd conjugate_gradients(const LinearOperator& A, const LinearOperator& preconditioner,
                                     const Eigen::MatrixXd& B, const IterationOptions& options, const char* name,

@@ -8,6 +8,12 @@ SparseRows BlockWeights::build(Eigen::Index n_rows, Eigen::Index n_columns) cons
     return matrix;
 }
 
+std::vector<int> joined(std::span<const int> base, std::span<const int> handles) {
+    std::vector<int> vertices(base.begin(), base.end());
+    vertices.insert(vertices.end(), handles.begin(), handles.end());
+    return vertices;
+}
+
 ConstrainedNodes constrain_vertices(std::span<const int> vertices) {
     ConstrainedNodes constrained{{vertices.begin(), vertices.end()}, {}};
     BlockWeights weights;

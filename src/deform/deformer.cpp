@@ -16,14 +16,9 @@ namespace elastolab {
 
 namespace {
 
-std::vector<int> all_of(const ConstrainedSet& set) {
-    std::vector<int> vertices = set.base;
-    vertices.insert(vertices.end(), set.handles.begin(), set.handles.end());
-    return vertices;
-}
 
 [[maybe_unused]] bool all_differ(const ConstrainedSet& set, int n_vertices) {
-    std::vector<int> vertices = all_of(set);
+    std::vector<int> vertices = joined(set.base, set.handles);
     std::sort(vertices.begin(), vertices.end());
     return std::adjacent_find(vertices.begin(), vertices.end()) == vertices.end() &&
            (vertices.empty() || (vertices.front() >= 0 && vertices.back() < n_vertices));
@@ -71,12 +66,6 @@ struct Deformer::SolidState {
     std::vector<int> base, handles;           ///< vertices of the solid
     std::vector<int> base_rows, handle_rows;  ///< their positions in the lists of the whole set
 
-    /// As vertices of the solid.
-    std::vector<int> constrained() const {
-        std::vector<int> vertices = base;
-        vertices.insert(vertices.end(), handles.begin(), handles.end());
-        return vertices;
-    }
     bool is_constrained() const { return !base.empty() || !handles.empty(); }
 
     /// Values of the base (zero) and the handles of this solid, out of those of the whole body.
@@ -126,6 +115,15 @@ std::uint64_t Deformer::predict_memory(const ConstrainedSet& set) const {
     return sum;
 }
 
+/// Solids are checked one after the other.
+std::uint64_t Deformer::predict_check_memory(const ConstrainedSet& set) const {
+    std::uint64_t most = 0;
+    for (const Model::Part& part : model_->parts())
+        if (const SolidState state = split(set, part); state.is_constrained())
+            most = std::max(most, part.solid->check_memory(state.base, state.handles));
+    return most;
+}
+
 void Deformer::require_memory(const ConstrainedSet& set) const {
     const std::uint64_t needed = predict_memory(set), available = available_memory_bytes();
     if (needed <= available) return;
@@ -146,7 +144,7 @@ void Deformer::constrain(ConstrainedSet set, Control& control) {
             // Constant elements hold the triangles around a lone vertex, and may not see that a body is held too
             // little.
             const Positions& all = model_->body().surface->vertices;
-            const bool holds_it = holds(all(Eigen::all, part.vertices), state.constrained());
+            const bool holds_it = holds(all(Eigen::all, part.vertices), joined(state.base, state.handles));
             state.solid = constrained(*part.solid, state.base, state.handles, holds_it, control);
             quality.condition_estimate = std::max(quality.condition_estimate, state.solid->condition());
             quality.held = quality.held && state.solid->held() && holds_it;

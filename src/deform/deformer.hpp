@@ -74,6 +74,8 @@ public:
     /// Bytes that constrain(set) would take beyond what is held now, at its peak; tens of microseconds. An upper
     /// estimate: columns that are known already are counted as new.
     std::uint64_t predict_memory(const ConstrainedSet& set) const;
+    /// Bytes that discretisation_check of such a set takes while it is made, beyond what is held for it. Milliseconds.
+    std::uint64_t predict_check_memory(const ConstrainedSet& set) const;
 
     /// Displacements of all vertices, 3*n_vertices [L], for those prescribed at the handles: values is
     /// 3*set().handles.size(), node-major, in the order of set().handles. A solid with no constrained vertex rests.

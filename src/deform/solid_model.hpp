@@ -101,6 +101,8 @@ public:
     /// Bytes that constrain() takes beyond what is held, at its peak. An upper estimate from the arrays it makes:
     /// columns that are known already are counted as new.
     virtual std::uint64_t constrain_memory(std::span<const int> base, std::span<const int> handles) const = 0;
+    /// Bytes that SolutionChecks::reference of such a set takes while it is made, beyond what is held for the set.
+    virtual std::uint64_t check_memory(std::span<const int> base, std::span<const int> handles) const = 0;
     /// The matrices that the mode keeps, for unit Young's modulus.
     virtual void visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const = 0;
     /// The sparse stiffness of all nodes, or null.

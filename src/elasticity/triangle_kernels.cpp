@@ -1,5 +1,6 @@
 #include "elasticity/triangle_kernels.hpp"
 
+#include "base/instruction_set.hpp"
 #include "elasticity/triangle_kernels_impl.hpp"
 
 namespace elastolab {
@@ -16,11 +17,9 @@ const TriangleKernels& plain_triangle_kernels() {
 
 const TriangleKernels& best_triangle_kernels() {
 #if defined(__x86_64__)
-    __builtin_cpu_init();
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512cd") &&
-        __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl"))
-        return kAvx512Kernels;
-    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return kAvx2Kernels;
+    const InstructionSet set = best_instruction_set();
+    if (set == InstructionSet::avx512) return kAvx512Kernels;
+    if (set == InstructionSet::avx2) return kAvx2Kernels;
 #endif
     return plain_triangle_kernels();
 }

@@ -23,8 +23,9 @@ constexpr double kLeftByQuadratic = 0.45;
 /// Energy norm of the error of conjugate gradients over that of the first guess, estimated.
 constexpr double kEnoughReduction = 0.01;
 constexpr int kMostSteps = 150;
-/// Bytes of the stiffness and its parts for each quadratic node: some 30 blocks of 3 x 3 in each of three matrices.
-constexpr std::uint64_t kBytesOfNode = 12000;
+/// Bytes of the stiffness and its parts for each quadratic node, some 30 blocks of 3 x 3 in each of three matrices; and
+/// of the linear stiffness and its factor for each node of quadratic elements that have it.
+constexpr std::uint64_t kBytesOfQuadraticNode = 9000, kBytesOfLinearPart = 3000;
 
 /// The nodes of quadratic elements out of the corners of their tetrahedra: corners are themselves, a midpoint is the
 /// mean of its ends.
@@ -125,12 +126,23 @@ Reactions reactions_of(const SparseMatrix& K, const Eigen::VectorXd& u, const Co
 
 }  // namespace
 
+/// Nodes of quadratic elements by Euler's formula: vertices - edges + faces - tetrahedra = 1 for a ball.
+std::uint64_t quadratic_reference_memory(const FemSystem& linear) {
+    const TetMesh& tets = linear.mesh->tets;
+    const std::int64_t n_edges = tets.n_vertices() + tets.n_tetrahedra() + tets.n_surface_vertices;
+    return kBytesOfQuadraticNode * static_cast<std::uint64_t>(tets.n_vertices() + n_edges);
+}
+
+std::uint64_t linear_reference_memory(const FemSystem& quadratic) {
+    return kBytesOfLinearPart * static_cast<std::uint64_t>(quadratic.mesh->tets.n_vertices());
+}
+
 std::optional<ReferenceAnswer> quadratic_reference(const FemSystem& linear, double poisson_ratio,
                                                    std::span<const int> vertices, const Eigen::VectorXd& values,
                                                    Control& control) {
     if (!holds(linear.positions(), vertices)) return {};
     const QuadraticMesh mesh(linear.mesh->tets);
-    if (kBytesOfNode * static_cast<std::uint64_t>(mesh.n_nodes()) > available_memory_bytes()) return {};
+    if (quadratic_reference_memory(linear) > available_memory_bytes()) return {};
     const SparseMatrix K = stiffness(assemble_stiffness_parts(mesh, control), Material{1.0, poisson_ratio});
     const CornerNodes corners(mesh.elements, mesh.n_nodes());
     const SparseMatrix prolongation = corners.prolongation();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <Eigen/Core>
 #include <optional>
 #include <span>
@@ -20,6 +21,10 @@ namespace elastolab {
 std::optional<ReferenceAnswer> quadratic_reference(const FemSystem& linear, double poisson_ratio,
                                                    std::span<const int> vertices, const Eigen::VectorXd& values,
                                                    Control& control);
+
+/// Bytes that they take.
+std::uint64_t quadratic_reference_memory(const FemSystem& linear);
+std::uint64_t linear_reference_memory(const FemSystem& quadratic);
 
 /// What quadratic tetrahedra are judged by: linear ones, whose answer is in the same space. What the second degree
 /// changed tells what a third would.

@@ -181,6 +181,10 @@ std::uint64_t FemModel::constrain_memory(std::span<const int> base, std::span<co
                                                                : block_price(mesh_->analysis->view(), others).bytes);
 }
 
+std::uint64_t FemModel::check_memory(std::span<const int>, std::span<const int>) const {
+    return degree() == ElementDegree::linear ? quadratic_reference_memory(*system_) : linear_reference_memory(*system_);
+}
+
 ConstrainedFemNodes FemModel::nodes_of(std::span<const int> base, std::span<const int> handles) const {
     return constrain_nodes(system_->positions(), mesh_->midpoints, base, handles);
 }

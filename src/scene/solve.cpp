@@ -106,7 +106,7 @@ void apply(const Constraints& constraints, bool with_checks, Solution& solution,
     }
     if (with_checks) {
         const Stage stage("check", control, solution.stages);
-        solution.predicted.memory_bytes += predict_check_memory(*solution.model, constraints.set);
+        solution.predicted.memory_bytes += deformer.predict_check_memory(constraints.set);
         Deformer::Answer answer;
         answer.check = deformer.discretisation_check(constraints.values, control);
         if (answer.check) {

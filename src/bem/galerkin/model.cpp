@@ -8,12 +8,6 @@ namespace elastolab {
 
 namespace {
 
-std::vector<int> joined(std::span<const int> base, std::span<const int> handles) {
-    std::vector<int> vertices(base.begin(), base.end());
-    vertices.insert(vertices.end(), handles.begin(), handles.end());
-    return vertices;
-}
-
 bool same_galerkin_system(const Method& a, const Method& b) {
     return a.mode == b.mode && integral_tolerance(a) == integral_tolerance(b) && a.column_memory == b.column_memory &&
            factorises_ahead(a) == factorises_ahead(b);
@@ -73,8 +67,11 @@ std::uint64_t GalerkinModel::constrain_memory(std::span<const int> base, std::sp
     const GalerkinTractions tractions(system_->boundary().mesh(), system_->surfaces(), vertices);
     const Eigen::Index n_loads = 3 * std::ssize(vertices);
     if (method_.update == Update::reduced) return half_response_memory(*system_, n_loads + tractions.size());
-    const auto n = static_cast<std::uint64_t>(system_->size()), m = static_cast<std::uint64_t>(tractions.size());
-    return 8 * (2 * n * n + 3 * n * m + m * m);
+    return galerkin_direct_memory(system_->size(), tractions.size());
+}
+
+std::uint64_t GalerkinModel::check_memory(std::span<const int> base, std::span<const int> handles) const {
+    return galerkin_reference_memory(system_->boundary().mesh(), joined(base, handles));
 }
 
 void GalerkinModel::visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const {

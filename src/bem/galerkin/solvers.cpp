@@ -62,6 +62,12 @@ ReducedSystem galerkin_reduced_system(const std::shared_ptr<const GalerkinSystem
     return reduced;
 }
 
+/// The hypersingular matrix and that of the free vertices, both layers.
+std::uint64_t galerkin_direct_memory(std::int64_t n_unknowns, std::int64_t n_tractions) {
+    const auto n = static_cast<std::uint64_t>(n_unknowns), m = static_cast<std::uint64_t>(n_tractions);
+    return 8 * (2 * n * n + 3 * n * m + m * m);
+}
+
 GalerkinDirectSolver::GalerkinDirectSolver(const GalerkinSystem& system, const std::vector<int>& vertices,
                                            const GalerkinTractions& tractions, Control& control)
     : partition_(system.size(), vertices) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -46,6 +47,9 @@ private:
     Eigen::MatrixXd Y_;              ///< L_V^-1 K
     Eigen::MatrixXd D_constrained_;  ///< rows of D at the constrained vertices
 };
+
+/// Bytes that it takes at its peak: scalar unknowns of the body, and tractions.
+std::uint64_t galerkin_direct_memory(std::int64_t n_unknowns, std::int64_t n_tractions);
 
 /// The small system of a constrained set, its responses kept.
 ReducedSystem galerkin_reduced_system(const std::shared_ptr<const GalerkinSystem>& system,

@@ -4,6 +4,7 @@
 #include <Eigen/SparseCore>
 
 #include "base/blas.hpp"
+#include "base/mixed_product.hpp"
 #include "base/parallel.hpp"
 
 namespace elastolab {
@@ -11,25 +12,6 @@ namespace elastolab {
 namespace {
 
 using Far = Eigen::MatrixXf;
-
-/// result += A x, with A in single and all sums in double precision.
-void add_product(const Eigen::Ref<const Far>& A, const Eigen::Ref<const Eigen::MatrixXd>& x,
-                 Eigen::Ref<Eigen::MatrixXd> result) {
-    const Eigen::MatrixXd wide = A.cast<double>();
-    result.noalias() += wide * x;
-}
-
-/// A^T x, likewise.
-Eigen::MatrixXd transposed_product(const Far& A, const Eigen::Ref<const Eigen::MatrixXd>& x) {
-    constexpr Eigen::Index kRows = 512;  // some that stay in the cache
-    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(A.cols(), x.cols());
-    for (Eigen::Index first = 0; first < A.rows(); first += kRows) {
-        const Eigen::Index n = std::min(kRows, A.rows() - first);
-        const Eigen::MatrixXd wide = A.middleRows(first, n).cast<double>();
-        result.noalias() += wide.transpose() * x.middleRows(first, n);
-    }
-    return result;
-}
 
 /// Of ascending numbers, those in a range: [first, last).
 std::pair<Eigen::Index, Eigen::Index> within(const std::vector<int>& positions, PositionRange range) {
@@ -56,9 +38,26 @@ struct HierarchicalMatrix::Block {
     Far U, V;
 
     bool is_near() const { return near.size() > 0; }
+    /// To Y what the block, or its transpose, makes of X.
+    void add_product(const Eigen::MatrixXd& X, Eigen::MatrixXd& Y) const {
+        const auto x = X.middleRows(3 * cols.begin, 3 * cols.size());
+        auto y = Y.middleRows(3 * rows.begin, 3 * rows.size());
+        if (is_near())
+            y.noalias() += near * x;
+        else
+            add_mixed_product(U, transposed_mixed_product(V, x), y);
+    }
+    void add_transposed_product(const Eigen::MatrixXd& X, Eigen::MatrixXd& Y) const {
+        const auto x = X.middleRows(3 * rows.begin, 3 * rows.size());
+        auto y = Y.middleRows(3 * cols.begin, 3 * cols.size());
+        if (is_near())
+            y.noalias() += near.transpose() * x;
+        else
+            add_mixed_product(V, transposed_mixed_product(U, x), y);
+    }
 };
 
-/// A block, or its transpose, as it adds to the rows of one leaf.
+/// A block, or its transpose, as a part of the rows of one leaf.
 struct HierarchicalMatrix::Side {
     int block = 0;
     bool transposed = false;
@@ -101,21 +100,19 @@ HierarchicalMatrix::HierarchicalMatrix(std::shared_ptr<const ClusterTree> rows, 
 }
 
 void HierarchicalMatrix::list_sides() {
-    const auto list = [](const ClusterTree& tree, std::vector<std::vector<Side>>& sides, PositionRange range,
-                         Side side) {
-        const auto& leaves = tree.leaves();
-        const auto first = std::partition_point(leaves.begin(), leaves.end(),
-                                                [&](int leaf) { return tree.cluster(leaf).range.end <= range.begin; });
-        for (auto leaf = first; leaf != leaves.end() && tree.cluster(*leaf).range.begin < range.end; ++leaf)
-            sides[static_cast<std::size_t>(leaf - leaves.begin())].push_back(side);
+    const auto& leaves = row_tree_->leaves();
+    row_sides_.resize(leaves.size());
+    const auto list = [&](PositionRange range, Side side) {
+        const auto first = std::partition_point(
+            leaves.begin(), leaves.end(), [&](int leaf) { return row_tree_->cluster(leaf).range.end <= range.begin; });
+        for (auto leaf = first; leaf != leaves.end() && row_tree_->cluster(*leaf).range.begin < range.end; ++leaf)
+            row_sides_[static_cast<std::size_t>(leaf - leaves.begin())].push_back(side);
     };
-    row_sides_.resize(row_tree_->leaves().size());
-    col_sides_.resize(symmetric_ ? 0 : col_tree_->leaves().size());
+    if (!symmetric_) return;
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
         const Block& block = blocks_[b];
-        list(*row_tree_, row_sides_, block.rows, {static_cast<int>(b), false});
-        if (block.mirrored) list(*row_tree_, row_sides_, block.cols, {static_cast<int>(b), true});
-        if (!symmetric_) list(*col_tree_, col_sides_, block.cols, {static_cast<int>(b), true});
+        list(block.rows, {static_cast<int>(b), false});
+        if (block.mirrored) list(block.cols, {static_cast<int>(b), true});
     }
 }
 
@@ -125,43 +122,24 @@ Eigen::MatrixXd HierarchicalMatrix::transposed_product(const Eigen::MatrixXd& X)
     return multiply(X, !symmetric_);
 }
 
-/// First what each far block makes of X, then each leaf's rows, from the blocks in their order: no sum depends on the
-/// number of threads.
+/// Each block is read from memory once, for both of its sides. The blocks add up in groups that are the same for any
+/// number of threads, and so is the result.
 Eigen::MatrixXd HierarchicalMatrix::multiply(const Eigen::MatrixXd& X, bool transposed) const {
-    const ClusterTree& out_tree = transposed ? *col_tree_ : *row_tree_;
-    const auto& sides = transposed ? col_sides_ : row_sides_;
-    const auto rows_of = [&](PositionRange range) { return X.middleRows(3 * range.begin, 3 * range.size()); };
-    std::vector<Eigen::MatrixXd> straight(blocks_.size()), mirrored(blocks_.size());
+    constexpr std::size_t kGroups = 16;
+    const Eigen::Index n_rows = 3 * (transposed ? *col_tree_ : *row_tree_).size();
+    std::vector<Eigen::MatrixXd> sums(kGroups);
     Control control;
     const SerialBlas serial;
-    parallel_blocks(static_cast<int>(blocks_.size()), 16, control, [&](int begin, int end) {
-        for (auto b = static_cast<std::size_t>(begin); b < static_cast<std::size_t>(end); ++b) {
-            const Block& block = blocks_[b];
-            if (block.is_near()) continue;
-            if (!transposed) straight[b] = elastolab::transposed_product(block.V, rows_of(block.cols));
-            if (transposed || block.mirrored) mirrored[b] = elastolab::transposed_product(block.U, rows_of(block.rows));
+    parallel_blocks(kGroups, 1, control, [&](int group, int) {
+        Eigen::MatrixXd& Y = sums[static_cast<std::size_t>(group)];
+        Y.setZero(n_rows, X.cols());
+        for (std::size_t b = static_cast<std::size_t>(group); b < blocks_.size(); b += kGroups) {
+            if (!transposed) blocks_[b].add_product(X, Y);
+            if (transposed || blocks_[b].mirrored) blocks_[b].add_transposed_product(X, Y);
         }
     });
-    Eigen::MatrixXd Y = Eigen::MatrixXd::Zero(3 * out_tree.size(), X.cols());
-    parallel_blocks(static_cast<int>(sides.size()), 1, control, [&](int leaf, int) {
-        const PositionRange range = out_tree.cluster(out_tree.leaves()[static_cast<std::size_t>(leaf)]).range;
-        Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(3 * range.size(), X.cols());
-        for (const Side& side : sides[static_cast<std::size_t>(leaf)]) {
-            const Block& block = blocks_[static_cast<std::size_t>(side.block)];
-            const PositionRange own = side.transposed ? block.cols : block.rows;
-            if (!block.is_near()) {
-                const Far& factor = side.transposed ? block.V : block.U;
-                const auto& inner = (side.transposed ? mirrored : straight)[static_cast<std::size_t>(side.block)];
-                add_product(factor.middleRows(3 * (range.begin - own.begin), 3 * range.size()), inner, sum);
-            } else if (side.transposed) {
-                sum.noalias() += block.near.transpose() * rows_of(block.rows);
-            } else {
-                sum.noalias() += block.near * rows_of(block.cols);
-            }
-        }
-        Y.middleRows(3 * range.begin, 3 * range.size()) = sum;
-    });
-    return Y;
+    for (std::size_t group = 1; group < kGroups; ++group) sums[0] += sums[group];
+    return std::move(sums[0]);
 }
 
 Eigen::MatrixXd HierarchicalMatrix::submatrix(const std::vector<int>& positions) const {

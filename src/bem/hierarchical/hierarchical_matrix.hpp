@@ -48,7 +48,7 @@ public:
 
 private:
     struct Block;
-    struct Side;  ///< a block as it acts on a range of outputs
+    struct Side;  ///< a block as a part of some rows
 
     Eigen::MatrixXd multiply(const Eigen::MatrixXd& X, bool transposed) const;
     void list_sides();
@@ -56,7 +56,7 @@ private:
     std::shared_ptr<const ClusterTree> row_tree_, col_tree_;
     bool symmetric_;
     std::vector<Block> blocks_;
-    std::vector<std::vector<Side>> row_sides_, col_sides_;  ///< of each leaf of either tree, in the order of the blocks
+    std::vector<std::vector<Side>> row_sides_;  ///< of each leaf, in the order of the blocks; of symmetric matrices
 };
 
 }  // namespace elastolab

@@ -1,19 +1,10 @@
 #include "bem/hierarchical/model.hpp"
 
 #include "bem/cost.hpp"
+#include "bem/error_estimate.hpp"
 #include "bem/galerkin/field.hpp"
 
 namespace elastolab {
-
-namespace {
-
-std::vector<int> all_of(std::span<const int> base, std::span<const int> handles) {
-    std::vector<int> vertices(base.begin(), base.end());
-    vertices.insert(vertices.end(), handles.begin(), handles.end());
-    return vertices;
-}
-
-}  // namespace
 
 HierarchicalGalerkinModel::HierarchicalGalerkinModel(const SurfaceMesh& surface, double poisson_ratio,
                                                      const Method& method, const HierarchicalGalerkinModel* before,
@@ -33,12 +24,16 @@ HierarchicalGalerkinModel::HierarchicalGalerkinModel(const SurfaceMesh& surface,
 std::unique_ptr<ConstrainedSolid> HierarchicalGalerkinModel::constrain(std::span<const int> base,
                                                                        std::span<const int> handles,
                                                                        Control& control) const {
-    const std::vector<int> vertices = all_of(base, handles);
+    const std::vector<int> vertices = joined(base, handles);
     const GalerkinTractions tractions(system_->boundary().mesh(), system_->surfaces(), vertices);
     auto solver =
         std::make_unique<HierarchicalSolver>(system_, vertices, tractions, method_.update == Update::direct, control);
     const auto residual = [system = system_, vertices, tractions](const NodeSolution& solution, Control& its_control) {
         return hierarchical_residual(*system, vertices, tractions, solution, its_control);
+    };
+    const auto reference = [system = system_, vertices](const Eigen::VectorXd& values, Control& its_control) {
+        return galerkin_self_reference(system->boundary().mesh(), system->material().poisson_ratio, vertices, values,
+                                       its_control);
     };
     const auto inside = [boundary = std::shared_ptr<const Boundary>(system_, &system_->boundary()), vertices, tractions,
                          nu = system_->material().poisson_ratio](NodeSolution&& solution, Control&) {
@@ -46,14 +41,18 @@ std::unique_ptr<ConstrainedSolid> HierarchicalGalerkinModel::constrain(std::span
     };
     return std::make_unique<ConstrainedSolid>(facts_.n_vertices, constrain_vertices(vertices),
                                               nodal_shares(system_->boundary().mesh().vertices, vertices), nullptr,
-                                              std::move(solver), SolutionChecks{residual, {}, inside});
+                                              std::move(solver), SolutionChecks{residual, reference, inside});
 }
 
 std::uint64_t HierarchicalGalerkinModel::constrain_memory(std::span<const int> base,
                                                           std::span<const int> handles) const {
-    const std::vector<int> vertices = all_of(base, handles);
+    const std::vector<int> vertices = joined(base, handles);
     const GalerkinTractions tractions(system_->boundary().mesh(), system_->surfaces(), vertices);
     return hierarchical_set_memory(facts_.n_vertices, tractions.size());
+}
+
+std::uint64_t HierarchicalGalerkinModel::check_memory(std::span<const int> base, std::span<const int> handles) const {
+    return galerkin_reference_memory(system_->boundary().mesh(), joined(base, handles));
 }
 
 }  // namespace elastolab

@@ -140,22 +140,19 @@ SchwarzPreconditioner::SchwarzPreconditioner(const HierarchicalMatrix& D, const 
 }
 
 Eigen::MatrixXd SchwarzPreconditioner::product(const Eigen::MatrixXd& X) const {
+    const SerialBlas serial;
     Eigen::MatrixXd Y = coarse_ * coarse_factor_.solve(coarse_.transpose() * X);
     std::vector<Eigen::MatrixXf> answers(patches_.size());
     Control control;
-    {
-        const SerialBlas serial;
-        parallel_blocks(static_cast<int>(patches_.size()), 1, control, [&](int p, int) {
-            const Patch& patch = patches_[static_cast<std::size_t>(p)];
-            if (patch.positions.empty()) return;
-            Eigen::MatrixXf own(3 * std::ssize(patch.positions), X.cols());
-            for (Eigen::Index i = 0; i < std::ssize(patch.positions); ++i)
-                own.middleRows<3>(3 * i) =
-                    X.middleRows<3>(3 * patch.positions[static_cast<std::size_t>(i)]).cast<float>();
-            patch.factor.solveInPlace(own);
-            answers[static_cast<std::size_t>(p)] = std::move(own);
-        });
-    }
+    parallel_blocks(static_cast<int>(patches_.size()), 1, control, [&](int p, int) {
+        const Patch& patch = patches_[static_cast<std::size_t>(p)];
+        if (patch.positions.empty()) return;
+        Eigen::MatrixXf own(3 * std::ssize(patch.positions), X.cols());
+        for (Eigen::Index i = 0; i < std::ssize(patch.positions); ++i)
+            own.middleRows<3>(3 * i) = X.middleRows<3>(3 * patch.positions[static_cast<std::size_t>(i)]).cast<float>();
+        patch.factor.solveInPlace(own);
+        answers[static_cast<std::size_t>(p)] = std::move(own);
+    });
     for (std::size_t p = 0; p < patches_.size(); ++p)
         for (std::size_t i = 0; i < patches_[p].positions.size(); ++i)
             Y.middleRows<3>(3 * patches_[p].positions[i]) +=

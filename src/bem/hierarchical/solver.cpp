@@ -8,8 +8,9 @@ namespace elastolab {
 
 namespace {
 
-/// Of the residual, relative; and of that of the tractions inside, of which some dozens add up to less.
-constexpr double kIterationResidual = 1e-8, kInnerResidual = 1e-10;
+/// Of the residual, relative: prescribed displacements end at the rims in a jump, beside which a bend is small. And of
+/// that of the tractions inside, of which some dozens add up to less, at first and at most.
+constexpr double kIterationResidual = 1e-8, kInnerResidual = 1e-10, kMostInnerResidual = 1e-3;
 /// A rigid motion counts as free when the constrained vertices see less than this part of what they see of another.
 constexpr double kUnseen = 1e-9;
 /// Columns of answers that are kept, and what a combination of them may miss.
@@ -57,16 +58,20 @@ private:
 
 class HierarchicalSolver::FreeBlock : public LinearOperator {
 public:
-    FreeBlock(const HierarchicalSolver& solver, Control& control) : solver_(solver), control_(control) {}
+    /// progress: of the iteration that this is the matrix of.
+    FreeBlock(const HierarchicalSolver& solver, const IterationReport& progress, Control& control)
+        : solver_(solver), progress_(progress), control_(control) {}
     Eigen::Index size() const override { return solver_.system_->size(); }
     Eigen::MatrixXd product(const Eigen::MatrixXd& X) const override {
-        Eigen::MatrixXd Y = solver_.operate(X, control_);
+        const double inner = kInnerResidual / std::clamp(progress_.residual, kInnerResidual / kMostInnerResidual, 1.0);
+        Eigen::MatrixXd Y = solver_.operate(X, inner, control_);
         solver_.zero_constrained(Y);
         return Y;
     }
 
 private:
     const HierarchicalSolver& solver_;
+    const IterationReport& progress_;
     Control& control_;
 };
 
@@ -93,29 +98,41 @@ void HierarchicalSolver::zero_constrained(Eigen::MatrixXd& rows) const {
     for (const int position : positions_) rows.middleRows<3>(3 * position).setZero();
 }
 
-/// (P D P + K^T V^-1 K) u, with K freed of the rigid motions of the body.
-Eigen::MatrixXd HierarchicalSolver::operate(const Eigen::MatrixXd& u, Control& control) const {
+/// K freed of the rigid motions of the body.
+Eigen::MatrixXd HierarchicalSolver::double_layer(Eigen::MatrixXd u) const {
+    orthogonalise(u, system_->body_motions());
+    return layers_->double_layer(u);
+}
+
+Eigen::MatrixXd HierarchicalSolver::transposed_double_layer(const Eigen::MatrixXd& t) const {
+    Eigen::MatrixXd f = layers_->transposed_double_layer(t);
+    orthogonalise(f, system_->body_motions());
+    return f;
+}
+
+Eigen::MatrixXd HierarchicalSolver::tractions_of(const Eigen::MatrixXd& u, double tolerance, Control& control) const {
+    return layers_->solve_single_layer(double_layer(u), tolerance, control);
+}
+
+/// (P D P + K^T V^-1 K) u
+Eigen::MatrixXd HierarchicalSolver::operate(const Eigen::MatrixXd& u, double inner, Control& control) const {
     Eigen::MatrixXd f = system_->hypersingular(u);
-    if (layers_->size() == 0) return f;
-    Eigen::MatrixXd deformed = u;
-    orthogonalise(deformed, system_->body_motions());
-    Eigen::MatrixXd of_tractions = layers_->transposed_double_layer(
-        layers_->solve_single_layer(layers_->double_layer(deformed), kInnerResidual, control));
-    orthogonalise(of_tractions, system_->body_motions());
-    return f + of_tractions;
+    if (layers_->size() > 0) f += transposed_double_layer(tractions_of(u, inner, control));
+    return f;
 }
 
 Eigen::MatrixXd HierarchicalSolver::iterate(const Eigen::MatrixXd& prescribed, Control& control) const {
     Eigen::MatrixXd u = Eigen::MatrixXd::Zero(system_->size(), prescribed.cols());
     for (std::size_t i = 0; i < positions_.size(); ++i)
         u.middleRows<3>(3 * positions_[i]) = prescribed.middleRows<3>(3 * static_cast<Eigen::Index>(i));
-    Eigen::MatrixXd right = -operate(u, control);
+    Eigen::MatrixXd right = -operate(u, kInnerResidual, control);
     zero_constrained(right);
     orthogonalise(right, free_motions_);
-    const FreeBlock free_block(*this, control);
+    IterationReport progress;
+    const FreeBlock free_block(*this, progress, control);
     const Projected preconditioner(*preconditioner_, free_motions_);
     u += conjugate_gradients(free_block, preconditioner, right, {.tolerance = kIterationResidual},
-                             "Galerkin matrix of the free vertices", control);
+                             "Galerkin matrix of the free vertices", control, &progress);
     orthogonalise(u, free_motions_);
     return u;
 }
@@ -173,14 +190,10 @@ NodeSolution HierarchicalSolver::solve_watched(const Eigen::MatrixXd& prescribed
         solution.displacements.middleRows<3>(3 * vertices_[i]) =
             prescribed.middleRows<3>(3 * static_cast<Eigen::Index>(i));
     if (!want_loads) return solution;
-    Eigen::MatrixXd deformed = u, t = Eigen::MatrixXd::Zero(layers_->size(), u.cols());
-    Eigen::MatrixXd f = system_->hypersingular(u);
+    Eigen::MatrixXd f = system_->hypersingular(u), t(layers_->size(), u.cols());
     if (layers_->size() > 0) {
-        orthogonalise(deformed, system_->body_motions());
-        t = layers_->solve_single_layer(layers_->double_layer(deformed), kInnerResidual, control);
-        Eigen::MatrixXd of_tractions = layers_->transposed_double_layer(t);
-        orthogonalise(of_tractions, system_->body_motions());
-        f += of_tractions;
+        t = tractions_of(u, kInnerResidual, control);
+        f += transposed_double_layer(t);
     }
     const Eigen::MatrixXd reactions = rows_of(f, positions_);
     solution.loads.resize(reactions.rows() + t.rows(), u.cols());

@@ -75,7 +75,10 @@ private:
     Eigen::MatrixXd displacements(const Eigen::MatrixXd& prescribed, Control& control) const;
     Eigen::MatrixXd iterate(const Eigen::MatrixXd& prescribed, Control& control) const;
     std::vector<Eigen::Index> combine(const Eigen::MatrixXd& prescribed, Eigen::MatrixXd& u) const;
-    Eigen::MatrixXd operate(const Eigen::MatrixXd& u, Control& control) const;
+    Eigen::MatrixXd operate(const Eigen::MatrixXd& u, double inner, Control& control) const;
+    Eigen::MatrixXd double_layer(Eigen::MatrixXd u) const;
+    Eigen::MatrixXd transposed_double_layer(const Eigen::MatrixXd& t) const;
+    Eigen::MatrixXd tractions_of(const Eigen::MatrixXd& u, double tolerance, Control& control) const;
     void zero_constrained(Eigen::MatrixXd& rows) const;
 
     std::shared_ptr<const HierarchicalSystem> system_;

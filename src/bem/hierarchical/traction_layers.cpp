@@ -2,16 +2,17 @@
 
 #include <Eigen/Cholesky>
 
+#include "base/blas.hpp"
 #include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "bem/cost.hpp"
 #include "deform/conjugate_gradients.hpp"
 
 namespace elastolab {
 
 namespace {
 
-constexpr int kTrianglesOfALeaf = 48, kTrianglesOfAPatch = 256;
-/// Unknown tractions up to which V is factorised: 0.3 GB.
-constexpr Eigen::Index kMostFactorised = 6000;
+constexpr int kTrianglesOfALeaf = 48, kTrianglesOfAPatch = 128;
 
 }  // namespace
 
@@ -26,48 +27,78 @@ private:
     const TractionLayers& layers_;
 };
 
-/// The blocks of clusters of triangles, solved for each by itself (in single precision); rigid fields are only scaled.
+/// Two levels: the blocks of clusters of triangles, each solved for by itself (in single precision), and tractions that
+/// are constant on each of them; rigid fields are only scaled.
 class TractionLayers::PatchSolves : public LinearOperator {
 public:
-    explicit PatchSolves(const TractionLayers& layers) : layers_(layers) {
+    explicit PatchSolves(const TractionLayers& layers, Control& control) : layers_(layers) {
         const ClusterTree& tree = *layers.tree_;
+        std::vector<Eigen::Triplet<double>> constants;
         for (const PositionRange& range : clusters_up_to(tree, kTrianglesOfAPatch)) {
             Patch patch;
-            std::vector<int> positions;
             for (int position = range.begin; position < range.end; ++position)
                 if (const int item = tree.order()[static_cast<std::size_t>(position)]; 3 * item < layers.n_single_) {
-                    positions.push_back(position);
-                    for (int i = 0; i < 3; ++i) patch.rows.push_back(3 * item + i);
+                    patch.positions.push_back(position);
+                    for (int i = 0; i < 3; ++i) {
+                        patch.rows.push_back(3 * item + i);
+                        constants.emplace_back(3 * position + i, 3 * static_cast<int>(patches_.size()) + i, 1.0);
+                    }
                 }
-            if (positions.empty()) continue;
-            patch.factor.compute(layers.V_->submatrix(positions).cast<float>());
-            if (patch.factor.info() != Eigen::Success)
-                throw SolveError("single-layer matrix: is not positive definite. Check the mesh for slivers.");
-            patches_.push_back(std::move(patch));
+            if (!patch.positions.empty()) patches_.push_back(std::move(patch));
         }
+        factors_.resize(patches_.size());
+        {
+            const SerialBlas serial;
+            parallel_blocks(static_cast<int>(patches_.size()), 1, control, [&](int p, int) {
+                auto& factor = factors_[static_cast<std::size_t>(p)];
+                factor.compute(layers.V_->submatrix(patches_[static_cast<std::size_t>(p)].positions).cast<float>());
+                if (factor.info() != Eigen::Success)
+                    throw SolveError("single-layer matrix: is not positive definite. Check the mesh for slivers.");
+            });
+        }
+        Eigen::SparseMatrix<double, Eigen::RowMajor> Z(3 * tree.size(), 3 * std::ssize(patches_));
+        Z.setFromTriplets(constants.begin(), constants.end());
+        coarse_factor_.compute(layers.V_->galerkin_product(Z, control));
         Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(size(), size() - layers.n_single_);
         unit.bottomRows(unit.cols()).setIdentity();
         if (unit.cols() > 0) rigid_scale_ = layers.single_layer(unit).bottomRows(unit.cols()).diagonal().cwiseInverse();
     }
     Eigen::Index size() const override { return layers_.size_; }
     Eigen::MatrixXd product(const Eigen::MatrixXd& X) const override {
-        Eigen::MatrixXd Y(X.rows(), X.cols());
-        for (const Patch& patch : patches_) {
-            Eigen::MatrixXf own = X(patch.rows, Eigen::all).cast<float>();
-            patch.factor.solveInPlace(own);
-            Y(patch.rows, Eigen::all) = own.cast<double>();
-        }
+        Eigen::MatrixXd Y(X.rows(), X.cols()), coarse(3 * std::ssize(patches_), X.cols());
+        Control control;
+        const SerialBlas serial;
+        parallel_blocks(static_cast<int>(patches_.size()), 1, control, [&](int p, int) {
+            const Patch& patch = patches_[static_cast<std::size_t>(p)];
+            const Eigen::MatrixXd own = X(patch.rows, Eigen::all);
+            coarse.middleRows<3>(3 * p) = sums_of_blocks(own);
+            Eigen::MatrixXf answer = own.cast<float>();
+            factors_[static_cast<std::size_t>(p)].solveInPlace(answer);
+            Y(patch.rows, Eigen::all) = answer.cast<double>();
+        });
+        coarse_factor_.solveInPlace(coarse);
+        for (std::size_t p = 0; p < patches_.size(); ++p)
+            Y(patches_[p].rows, Eigen::all) +=
+                coarse.middleRows<3>(3 * static_cast<Eigen::Index>(p)).replicate(std::ssize(patches_[p].positions), 1);
         Y.bottomRows(rigid_scale_.size()) = rigid_scale_.asDiagonal() * X.bottomRows(rigid_scale_.size());
         return Y;
     }
 
 private:
     struct Patch {
+        std::vector<int> positions;
         std::vector<Eigen::Index> rows;
-        Eigen::LLT<Eigen::MatrixXf> factor;
     };
+    static Eigen::MatrixXd sums_of_blocks(const Eigen::MatrixXd& rows) {
+        Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(3, rows.cols());
+        for (Eigen::Index i = 0; i < rows.rows(); i += 3) sum += rows.middleRows<3>(i);
+        return sum;
+    }
+
     const TractionLayers& layers_;
     std::vector<Patch> patches_;
+    std::vector<Eigen::LLT<Eigen::MatrixXf>> factors_;
+    Eigen::LLT<Eigen::MatrixXd> coarse_factor_;
     Eigen::VectorXd rigid_scale_;
 };
 
@@ -87,11 +118,11 @@ TractionLayers::TractionLayers(const std::shared_ptr<const BoundaryPairs>& pairs
     K_ = std::make_unique<const HierarchicalMatrix>(tree_, vertex_tree, false, K, options, control);
     const SingleLayerEntries V(pairs, triangles, tree_, material);
     V_ = std::make_unique<const HierarchicalMatrix>(tree_, tree_, true, V, options, control);
-    if (size_ <= kMostFactorised) {
+    if (size_ <= kMostFactorisedTractions) {
         factor_ = CholeskyFactorization(dense_single_layer(), "single-layer matrix", &control);
     } else {
         operator_ = std::make_unique<const SingleLayer>(*this);
-        patch_solves_ = std::make_unique<const PatchSolves>(*this);
+        patch_solves_ = std::make_unique<const PatchSolves>(*this, control);
     }
 }
 

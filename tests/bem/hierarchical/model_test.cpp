@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "bem/cost.hpp"
+#include "bem/error_estimate.hpp"
 #include "bem/galerkin/method.hpp"
 #include "bem/hierarchical/model.hpp"
 #include "deform/node_solver.hpp"
@@ -57,6 +58,39 @@ TEST(HierarchicalGalerkin, AgreesWithTheDenseMatrixOnAnOrganicBody) {
     const Reactions& reactions = answers[1].reactions;
     EXPECT_LT(reactions.forces.rowwise().sum().norm(), 1e-6 * reactions.forces.colwise().norm().sum());
     EXPECT_LT(reactions.moments.rowwise().sum().norm(), 1e-6 * reactions.moments.colwise().norm().sum());
+}
+
+TEST(HierarchicalGalerkin, AgreesWithTheDenseMatrixWhereTractionsAreIteratedToo) {
+    const SurfaceMesh mesh = make_box(15);
+    const auto held = vertices_where(mesh, [](const auto& x) { return x[0] < 0.9; });
+    const auto pulled = vertices_where(mesh, [](const auto& x) { return x[0] > 1.0 - 1e-9 && x[1] > 0.6; });
+    const GalerkinTractions tractions(mesh, ClosedSurfaces(mesh), held);
+    ASSERT_GT(tractions.size(), 6000);  // above, V is not factorised
+    const Eigen::VectorXd values = Eigen::Vector3d(0.2, 0.1, -0.1).replicate(std::ssize(pulled), 1);
+    Control control;
+    std::vector<Deformer::Answer> answers;
+    for (const Method& method : {dense(), hierarchical(Update::direct)}) {
+        Deformer deformer(precomputed(make_body(mesh), method));
+        deformer.constrain({held, pulled}, control);
+        answers.push_back(deformer.answer(values, {.residual = true}, control));
+    }
+    EXPECT_LT(off(answers[1].displacements, answers[0].displacements), 1e-6);
+    EXPECT_LT(off(answers[1].reactions.forces, answers[0].reactions.forces), 1e-4);
+    EXPECT_LT(answers[1].residual.value(), 1e-6);
+}
+
+/// On a surface that is above the size of dense matrices when its rims are halved.
+TEST(HierarchicalGalerkin, GivesTheSecondAnswerThatEstimatesAreMadeOf) {
+    const SurfaceMesh mesh = make_box(22);
+    const auto ends = vertices_where(mesh, [](const auto& x) { return x[0] < 1e-9 || x[0] > 1.0 - 1e-9; });
+    const Positions stretched = Eigen::Vector3d(1.0, -0.3, -0.3).asDiagonal() * mesh.vertices;
+    const Eigen::VectorXd values = stretched(Eigen::all, ends).reshaped();
+    EXPECT_GT(galerkin_reference_memory(mesh, ends), 0u);
+    Control control;
+    const auto answer = galerkin_reference(mesh, 0.3, ends, values, control);
+    ASSERT_TRUE(answer);
+    EXPECT_LT(off(answer->displacements, stretched.reshaped()), 1e-5);
+    EXPECT_NEAR(answer->reactions.forces.rowwise().sum().norm(), 0.0, 1e-4);
 }
 
 TEST(HierarchicalGalerkin, IsExactForAStretchedBox) {

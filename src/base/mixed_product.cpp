@@ -1,0 +1,48 @@
+#include "base/mixed_product.hpp"
+
+#include <algorithm>
+
+#include "base/instruction_set.hpp"
+#include "base/mixed_product_kernels.hpp"
+
+namespace elastolab {
+
+#if defined(__x86_64__)
+extern const MixedProductKernels kAvx2MixedProductKernels;
+extern const MixedProductKernels kAvx512MixedProductKernels;
+#endif
+
+namespace {
+
+constexpr Eigen::Index kRowsAtOnce = 1024;  ///< some whose part of X or Y stays in the first cache
+
+const MixedProductKernels& mixed_kernels() {
+#if defined(__x86_64__)
+    static const InstructionSet set = best_instruction_set();
+    if (set == InstructionSet::avx512) return kAvx512MixedProductKernels;
+    if (set == InstructionSet::avx2) return kAvx2MixedProductKernels;
+#endif
+    return kMixedProductKernels;
+}
+
+}  // namespace
+
+void add_mixed_product(const Eigen::Ref<const Eigen::MatrixXf>& A, const Eigen::Ref<const Eigen::MatrixXd>& X,
+                       Eigen::Ref<Eigen::MatrixXd> Y) {
+    for (Eigen::Index first = 0; first < A.rows(); first += kRowsAtOnce)
+        for (Eigen::Index c = 0; c < X.cols(); ++c)
+            mixed_kernels().add(A.data() + first, A.outerStride(), std::min(kRowsAtOnce, A.rows() - first), A.cols(),
+                                X.col(c).data(), Y.col(c).data() + first);
+}
+
+Eigen::MatrixXd transposed_mixed_product(const Eigen::Ref<const Eigen::MatrixXf>& A,
+                                         const Eigen::Ref<const Eigen::MatrixXd>& X) {
+    Eigen::MatrixXd Y = Eigen::MatrixXd::Zero(A.cols(), X.cols());
+    for (Eigen::Index first = 0; first < A.rows(); first += kRowsAtOnce)
+        for (Eigen::Index c = 0; c < X.cols(); ++c)
+            mixed_kernels().add_transposed(A.data() + first, A.outerStride(), std::min(kRowsAtOnce, A.rows() - first),
+                                           A.cols(), X.col(c).data() + first, Y.col(c).data());
+    return Y;
+}
+
+}  // namespace elastolab
