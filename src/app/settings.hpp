@@ -10,6 +10,7 @@
 #include "methods/registry.hpp"
 #include "render/colour_map.hpp"
 #include "render/geometry/picking.hpp"
+#include "render/surface_material.hpp"
 #include "scene/live/simulation.hpp"
 
 namespace elastolab {
@@ -76,6 +77,7 @@ struct DisplaySettings {
     bool bands = false;
     bool extremes = false;  ///< marks where the field is largest and, of either sign, smallest
     bool flat = false;
+    SurfaceMaterial material = SurfaceMaterial::studio;
     bool wireframe = true;
     bool feature_edges = true;
     bool rest_shape = true;   ///< a ghost of the body at rest, where it was deformed

@@ -245,6 +245,7 @@ private:
         const std::vector<InputEvent> events = take_events();
         FrameTimes times;
         Stopwatch part;
+        panels_.visit_user_texts(state_, [&](std::string_view text) { gui_.want_characters(text); });
         gui_.begin(events, now - std::exchange(last_frame_seconds_, now));
         const Layout layout = layout_of(window_.size(), gui_.scale(), state_.display);
         arrange(layout);
@@ -333,7 +334,8 @@ private:
 
     void take_picture(const PictureRequest& request) {
         if (request.n_frames > 0) return film_.start(request);
-        write_picture(request.file, renderer_, state_, palette(), request.size, request.transparent);
+        write_picture(request.file, renderer_, state_, palette(), request.size,
+                      {request.transparent, request.legend ? legend_of(state_) : std::nullopt});
         state_.messages.note("Saved " + request.file.string());
     }
 
@@ -344,6 +346,7 @@ private:
         const PictureRequest request{.file = options_.picture,
                                      .size = options_.picture_size,
                                      .transparent = options_.transparent,
+                                     .legend = options_.legend,
                                      .n_frames = options_.film_frames,
                                      .kind = options_.film};
         take_picture(request);

@@ -31,6 +31,7 @@ struct PictureRequest {
     std::filesystem::path file = {};
     Eigen::Vector2i size{1920, 1080};  ///< [pixels]
     bool transparent = false;
+    bool legend = true;  ///< with the colour bar, where there is one
     int n_frames = 0;  ///< of a film; 0: a single picture
     FilmKind kind = FilmKind::turn;
     bool video = false;

@@ -81,4 +81,18 @@ std::string readable_point(const Eigen::Vector3d& x) { return formatted("(%.4g, 
 
 std::string exact(double value) { return formatted("%.17g", value); }
 
+std::vector<char32_t> characters_of(std::string_view text) {
+    constexpr char32_t kNone = 0xFFFD;
+    std::vector<char32_t> characters;
+    while (!text.empty()) {
+        const std::size_t size = character_size(text);
+        const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+        char32_t character = size == 0 ? kNone : size == 1 ? byte(0) : byte(0) & (0x7Fu >> size);
+        for (std::size_t i = 1; i < size; ++i) character = character << 6 | (byte(i) & 0x3Fu);
+        characters.push_back(character);
+        text.remove_prefix(std::max<std::size_t>(size, 1));
+    }
+    return characters;
+}
+
 }  // namespace elastolab

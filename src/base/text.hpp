@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace elastolab {
 
@@ -26,5 +27,8 @@ std::string readable_point(const Eigen::Vector3d& x);
 
 /// All 17 significant digits, so that the number is read back exactly.
 std::string exact(double value);
+
+/// The characters of UTF-8; of bytes that are none, U+FFFD.
+std::vector<char32_t> characters_of(std::string_view text);
 
 }  // namespace elastolab

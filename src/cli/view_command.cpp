@@ -22,7 +22,7 @@ constexpr const char* kInterrupted = "Interrupted; no picture, scene or mesh was
 struct ViewWords {
     std::string input, method, screenshot, timings, replay, record, scene_out, mesh_out, size, picture, picture_size;
     int frames = 0, threads = 0, turntable = 0, pull_film = 0;
-    bool hidden = false, transparent = false;
+    bool hidden = false, transparent = false, legend = false;
 };
 
 Eigen::Vector2i parse_size(const std::string& option, const std::string& text) {
@@ -60,6 +60,7 @@ ViewerOptions options_of(const ViewWords& words) {
     if (!words.size.empty()) options.size = parse_size("--size", words.size);
     options.picture = words.picture;
     options.transparent = words.transparent;
+    options.legend = words.legend;
     options.film_frames = std::max(words.turntable, words.pull_film);
     options.film = words.pull_film > 0 ? FilmKind::pull : FilmKind::turn;
     if (!words.picture_size.empty()) options.picture_size = parse_size("--picture-size", words.picture_size);
@@ -91,6 +92,7 @@ Command add_view_command(CLI::App& program) {
         parser->add_option("--picture", words->picture, "PNG of the scene alone, as it is at the end")->check(path);
     parser->add_option("--picture-size", words->picture_size, "in pixels (default 1920x1080)")->needs(picture);
     parser->add_flag("--transparent", words->transparent, "that picture without background")->needs(picture);
+    parser->add_flag("--legend", words->legend, "that picture with the colours of the field")->needs(picture);
     CLI::Option* const turntable = parser
                                        ->add_option("--turntable", words->turntable,
                                                     "instead of one picture so many of one turn, FILE-0001.png and on")

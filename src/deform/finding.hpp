@@ -31,6 +31,7 @@ enum class FindingKind {
     impossible_volume,     ///< change of volume over volume, of an incompressible solid that is held all over
     large_residual,        ///< relative residual of the solution
     proxy,                 ///< a closed surface of `first` vertices stands for the mesh `object`; its largest distance
+    chosen_proxy,          ///< the same of a mesh that could be simulated itself
     capped_holes,          ///< how many holes of the mesh `object` a proxy closes
     thin_sheets,           ///< open sheets of the mesh `object` became walls; their thickness
 };

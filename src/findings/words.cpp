@@ -83,7 +83,9 @@ std::string coarse_mesh(const Finding& finding) {
 std::string proxy(const Finding& finding) {
     return finding.object + ": simulated through a proxy, a closed surface of " + std::to_string(finding.first) +
            " vertices around it; no vertex is farther from it than " + readable_number(finding.value) +
-           " mesh units. Displacements are those of that body. Mend the surface to have its own.";
+           " mesh units. Displacements are those of that body. " +
+           (finding.kind == FindingKind::proxy ? "Mend the surface to have its own."
+                                               : "The surface is sound: choose no proxy to have its own.");
 }
 
 std::string coarse_forces(const Finding& finding) {
@@ -146,6 +148,7 @@ std::string words(const Finding& finding) {
             return finding.object + ": the solution leaves a relative residual of " + readable_number(finding.value) +
                    ", so it is wrong. Fix more vertices, or use another method.";
         case FindingKind::proxy:
+        case FindingKind::chosen_proxy:
             return proxy(finding);
         case FindingKind::capped_holes:
             return finding.object + ": " + readable_number(finding.value) +

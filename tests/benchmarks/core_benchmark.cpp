@@ -3,14 +3,9 @@
 // and `target`, the ratio that is wanted.
 //   build/release/tests/benchmarks/core_benchmark
 
-#include <benchmark/benchmark.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <functional>
-#include <numeric>
 #include <random>
 
 #include "base/blas.hpp"
@@ -18,54 +13,18 @@
 #include "base/memory.hpp"
 #include "bem/assembly.hpp"
 #include "bem/traction_space.hpp"
-#include "deform/deformer.hpp"
+#include "benchmarks/tools.hpp"
 #include "elasticity/rigid_motion.hpp"
 #include "fem/assembly.hpp"
 #include "fem/compliance.hpp"
 #include "fem/constraints.hpp"
-#include "mesh/checks/check.hpp"
-#include "mesh/input/export.hpp"
-#include "mesh/input/import.hpp"
-#include "mesh/primitives.hpp"
 #include "mesh/tets/tetrahedralize.hpp"
-#include "methods/problem.hpp"
 #include "methods/registry.hpp"
 
 namespace elastolab::test {
 namespace {
 
 constexpr int kCells = 13;  // 1016 vertices, the size of the paper's largest cubes
-
-double median(std::vector<double> values) {
-    std::nth_element(values.begin(), values.begin() + std::ssize(values) / 2, values.end());
-    return values[values.size() / 2];
-}
-
-double seconds_of(const std::function<void()>& work) {
-    const Stopwatch watch;
-    work();
-    return watch.seconds();
-}
-
-/// Times `work` and, beside it in every round, `reference`; `prepare` runs before each of them, untimed. `target`: the
-/// largest ratio that is wanted, printed beside the measured one; 0: none is set.
-void compare(
-    benchmark::State& state, double target, const std::function<void()>& work, const std::function<void()>& reference,
-    const std::function<void()>& prepare = [] {}) {
-    std::vector<double> ours, theirs, ratios;
-    for (auto _ : state) {
-        prepare();
-        theirs.push_back(seconds_of(reference));
-        prepare();
-        ours.push_back(seconds_of(work));
-        ratios.push_back(ours.back() / theirs.back());
-        state.SetIterationTime(ours.back());
-    }
-    state.counters["ms"] = 1e3 * median(ours);
-    state.counters["reference_ms"] = 1e3 * median(theirs);
-    state.counters["ratio"] = median(ratios);
-    if (target > 0.0) state.counters["target"] = target;
-}
 
 const SurfaceMesh& cube() {
     static const SurfaceMesh mesh = make_box(kCells);
@@ -256,16 +215,10 @@ void fem_beside_its_factorisation(benchmark::State& state) {
     state.counters["degrees_of_freedom"] = static_cast<double>(K.rows());
 }
 
-/// A round body of 4 cells^2 + 2 vertices with bumps, as an OBJ file.
+/// make_lump() as an OBJ file.
 class LumpFile {
 public:
-    explicit LumpFile(int cells) {
-        SurfaceMesh mesh = make_sphere(cells);
-        for (auto p : mesh.vertices.colwise())
-            p *= 1.0 + 0.25 * std::sin(3.0 * p[0]) * std::cos(4.0 * p[1] + 1.0) +
-                 0.15 * std::sin(5.0 * p[2] + 2.0 * p[0]);
-        save_surface(file_, mesh);
-    }
+    explicit LumpFile(int cells) { save_surface(file_, make_lump(cells)); }
     ~LumpFile() { std::filesystem::remove(file_); }
     LumpFile(const LumpFile&) = delete;
     LumpFile& operator=(const LumpFile&) = delete;
@@ -280,30 +233,6 @@ private:
     std::filesystem::path file_ =
         std::filesystem::temp_directory_path() / ("core_benchmark_" + std::to_string(::getpid()) + ".obj");
 };
-
-/// The lowest part of a body, and the vertices nearest to the outermost one along an axis.
-std::vector<int> lowest(const SurfaceMesh& mesh, double share) {
-    const double low = mesh.vertices.row(1).minCoeff(), high = mesh.vertices.row(1).maxCoeff();
-    return vertices_where(mesh, [&](const auto& x) { return x[1] < low + share * (high - low); });
-}
-std::vector<int> tip(const SurfaceMesh& mesh, const Eigen::Vector3d& axis, int n) {
-    Eigen::Index outermost = 0;
-    (axis.transpose() * mesh.vertices).maxCoeff(&outermost);
-    std::vector<int> vertices(static_cast<std::size_t>(mesh.n_vertices()));
-    std::iota(vertices.begin(), vertices.end(), 0);
-    const auto distance = [&](int v) { return (mesh.vertices.col(v) - mesh.vertices.col(outermost)).norm(); };
-    std::partial_sort(vertices.begin(), vertices.begin() + n, vertices.end(),
-                      [&](int a, int b) { return distance(a) < distance(b); });
-    vertices.resize(static_cast<std::size_t>(n));
-    return vertices;
-}
-
-DragResponse drag(Deformer& deformer, const ConstrainedSet& set) {
-    Control control;
-    deformer.constrain(set, control);
-    const std::ptrdiff_t n = std::ssize(set.handles);
-    return deformer.drag_response(Eigen::VectorXd::Zero(3 * n), Eigen::MatrixXd::Identity(3, 3).replicate(n, 1));
-}
 
 /// Linear FEM from a file to the columns of a drag, base and handle included, beside TetGen, ordering and factorisation
 /// of the same body. `memory_over_factor`: what the process has taken at most, over the factor; 2.5 is wanted.

@@ -21,6 +21,9 @@ set format x '%g'
 set logscale y
 set format y '%g'
 plot \
+  'scale.csv' using ((strcol('method') eq 'galerkin-bem' && strcol('mode') eq 'on-demand' ? column('vertices') : NaN)):(column('precompute_s')) with linespoints lc rgb '#cc79a7' lw 2 pt 13 ps 0.8 dt 1 title 'galerkin-bem, on-demand', \
+  'scale.csv' using ((strcol('method') eq 'galerkin-bem' && strcol('mode') eq 'full' ? column('vertices') : NaN)):(column('precompute_s')) with linespoints lc rgb '#cc79a7' lw 2 pt 13 ps 0.8 dt 2 title 'galerkin-bem, full', \
+  'scale.csv' using ((strcol('method') eq 'quadratic-fem' && strcol('mode') eq 'on-demand' ? column('vertices') : NaN)):(column('precompute_s')) with linespoints lc rgb '#e69f00' lw 2 pt 11 ps 0.8 dt 1 title 'quadratic-fem, on-demand', \
   'scale.csv' using ((strcol('method') eq 'fem' && strcol('mode') eq 'on-demand' ? column('vertices') : NaN)):(column('precompute_s')) with linespoints lc rgb '#0072b2' lw 2 pt 7 ps 0.8 dt 1 title 'fem, on-demand', \
   'scale.csv' using ((strcol('method') eq 'fem' && strcol('mode') eq 'full' ? column('vertices') : NaN)):(column('precompute_s')) with linespoints lc rgb '#0072b2' lw 2 pt 7 ps 0.8 dt 2 title 'fem, full', \
   'scale.csv' using ((strcol('method') eq 'fem' && strcol('mode') eq 'full-volume' ? column('vertices') : NaN)):(column('precompute_s')) with points lc rgb '#0072b2' lw 2 pt 7 ps 0.8 title 'fem, full-volume', \

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kTurnPerPixel = 0.01;    ///< [radians]
 constexpr double kScalePerPixel = 0.005;  ///< of the logarithm
-constexpr double kSnapScale = 0.1;        ///< likewise
+constexpr double kSnapScale = 0.1;        ///< of the factor
 
 Eigen::Vector3d triangle_normal(const PointingTarget& target, int triangle) {
     const Positions& x = *target.positions;
@@ -91,18 +91,18 @@ void Gestures::pull(GestureContext& context) {
         context.scene.set_motion(pull_.handle, translated(pull_.motion, shift));
         return;
     }
-    Eigen::Vector2d d = cursor_ - pull_.cursor;
-    if (context.tools.snap)
-        d = d.unaryExpr([&](double pixels) {
-            return snapped(pixels,
-                           pull_.mode == PullMode::turn ? kSnapAngle / kTurnPerPixel : kSnapScale / kScalePerPixel);
-        });
-    Eigen::Matrix3d map = std::exp(-kScalePerPixel * d.y()) * Eigen::Matrix3d::Identity();
-    if (pull_.mode == PullMode::turn)
-        map = (Eigen::AngleAxisd(kTurnPerPixel * d.x(), context.camera.up()) *
-               Eigen::AngleAxisd(kTurnPerPixel * d.y(), context.camera.right()))
-                  .toRotationMatrix();
-    transform_pulled(context, map);
+    const Eigen::Vector2d d = cursor_ - pull_.cursor;
+    if (pull_.mode == PullMode::scale) {
+        double factor = std::exp(-kScalePerPixel * d.y());
+        if (context.tools.snap) factor = std::max(kSnapScale, snapped(factor, kSnapScale));
+        return transform_pulled(context, factor * Eigen::Matrix3d::Identity());
+    }
+    const Eigen::Vector2d angles = (kTurnPerPixel * d).unaryExpr([&](double angle) {
+        return context.tools.snap ? snapped(angle, kSnapAngle) : angle;
+    });
+    transform_pulled(context, (Eigen::AngleAxisd(angles.x(), context.camera.up()) *
+                               Eigen::AngleAxisd(angles.y(), context.camera.right()))
+                                  .toRotationMatrix());
 }
 
 /// By a linear map about the middle of the handle.

@@ -29,6 +29,12 @@ constexpr std::array<Choice<Field>, 13> kFields = {
      {Field::stress_yz, "stress yz", "Shear: force along y per area across z."},
      {Field::stress_xz, "stress xz", "Shear: force along x per area across z."}}};
 
+constexpr std::array<Choice<SurfaceMaterial>, 4> kMaterials = {
+    {{SurfaceMaterial::studio, "studio", "Lamps and a bright sky; colours of fields are truest."},
+     {SurfaceMaterial::clay, "clay", "Matt and soft: shape before shine."},
+     {SurfaceMaterial::wax, "wax", "Light goes under the surface, as in skin and rubber."},
+     {SurfaceMaterial::metal, "metal", "Mirrors a horizon: shows every dent."}}};
+
 void draw_range(ViewerState& state, float scale) {
     DisplaySettings& display = state.display;
     set_item_width(scale);
@@ -81,6 +87,8 @@ void Panels::draw_display(const PanelContext& context) {
     set_item_width(scale);
     choose<Field>("colour by", display.field, kFields);
     if (display.field != Field::none) draw_range(context.state, scale);
+    set_item_width(scale);
+    choose<SurfaceMaterial>("material", display.material, kMaterials);
     factor_slider("deformation", display.deformation_scale, 0.1, 10.0, "x %.2f", scale);
     tooltip("Shows displacements larger or smaller than they are.");
     struct Switch {

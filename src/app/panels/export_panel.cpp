@@ -94,6 +94,8 @@ void Panels::draw_picture(const PanelContext& context) {
     ImGui::SameLine();
     draw_number("pixels", picture_.size.y(), 16, kLargestPicture, scale);
     ImGui::Checkbox("transparent background", &picture_.transparent);
+    ImGui::Checkbox("legend", &picture_.legend);
+    tooltip("The colours of the field that is shown, at the lower right.");
     const bool is_film = draw_film_choice(picture_);
     if (is_film) {
         draw_number("frames", picture_.n_frames, 2, kMostFrames, scale);

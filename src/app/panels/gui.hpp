@@ -1,13 +1,19 @@
 #pragma once
 
-#include <memory>
+#include <filesystem>
+#include <list>
+#include <map>
+#include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "app/input/input_event.hpp"
+#include "app/window/fonts.hpp"
 #include "app/window/window.hpp"
 
 struct ImFont;
+using ImWchar = unsigned short;
 
 namespace elastolab {
 
@@ -28,6 +34,9 @@ public:
 
     /// Fonts and measures for this scale of the user's (1: as the screen suggests). Between frames.
     void set_scale(float scale);
+    /// Characters that will be shown, in UTF-8: those of scripts beside Latin and Greek get their glyphs from an installed
+    /// font, from the next frame on.
+    void want_characters(std::string_view text);
     /// Begins a frame with these events. `dt` > 0: seconds since the frame before.
     void begin(std::span<const InputEvent> events, double dt);
     /// Draws the panels.
@@ -48,6 +57,10 @@ public:
 
 private:
     void feed(const InputEvent& event);
+    void want_character(char32_t character);
+    void add_wanted_characters();
+    void load_fonts();
+    ImFont* load_font(const std::optional<std::filesystem::path>& file, float size);
     bool menu_is_open() const;
     void close_menus_on_escape();
     void update_cursor_shape();
@@ -55,6 +68,9 @@ private:
     Window& window_;
     Fonts fonts_;
     float scale_ = 0.0f;
+    std::map<char32_t, std::optional<FontFile>> others_;  ///< characters beside our own, and a font that has them
+    bool new_others_ = false;
+    std::list<std::vector<ImWchar>> ranges_;  ///< of the fonts that are loaded
     bool popup_was_open_ = false;  ///< before the events of this frame, which may have closed it
 };
 

@@ -103,6 +103,16 @@ void Panels::draw(const PanelContext& context) {
     draw_unsaved(context);
 }
 
+void Panels::visit_user_texts(const ViewerState& state, const std::function<void(std::string_view)>& visit) const {
+    const LiveScene& scene = state.scene();
+    visit(scene.name());
+    visit(scene.file().string());
+    for (int handle = 0; handle < scene.n_handles(); ++handle) visit(scene.handle_name(handle));
+    for (const Messages::Message& message : state.messages.all()) visit(message.text);
+    for (const std::filesystem::path& file : state.recent_files()) visit(file.string());
+    files_.visit_texts(visit);
+}
+
 void Panels::draw_side(const PanelContext& context) {
     const Viewport& place = context.layout.panel;
     if (place.width <= 0.0) return;

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -31,6 +33,9 @@ struct PanelContext {
 class Panels {
 public:
     void draw(const PanelContext& context);
+
+    /// Every text of a user's that may be shown: names of bodies, handles and files, messages.
+    void visit_user_texts(const ViewerState& state, const std::function<void(std::string_view)>& visit) const;
 
     void ask_open(ViewerState& state);
     /// Over the scene's own file when it was written here already, else as save_as().

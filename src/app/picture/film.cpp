@@ -77,6 +77,7 @@ double pulled_part(int frame, int n_frames) {
 void Film::draw(SceneRenderer& renderer, ViewerState& state, const Palette& palette, int frame) const {
     const CameraPose pose = state.camera.pose();
     const DisplaySettings display = state.display;
+    const PictureOptions options{request_.transparent, request_.legend ? legend_of(state) : std::nullopt};
     const auto restore = [&] {
         state.camera.set_pose(pose);
         state.display = display;
@@ -96,7 +97,7 @@ void Film::draw(SceneRenderer& renderer, ViewerState& state, const Palette& pale
             state.update_picture();
             renderer.upload(state, palette);
         }
-        write_picture(frame_file(request_.file, frame), renderer, state, palette, request_.size, request_.transparent);
+        write_picture(frame_file(request_.file, frame), renderer, state, palette, request_.size, options);
     } catch (...) {
         restore();
         throw;

@@ -108,14 +108,23 @@ Image scene_picture(SceneRenderer& renderer, ViewerState& state, const Palette& 
         const Area area{left, top, std::max(1, right - left), std::max(1, bottom - top)};
         viewport.place = {0.0, 0.0, area.width / pixel_ratio, area.height / pixel_ratio};
         draw_tiles(
-            area, largest_tile, [&](const Framebuffer& target) { renderer.draw_plain(state, viewport, palette, pixel_ratio, target); }, picture);
+            area, largest_tile,
+            [&](const Framebuffer& target) { renderer.draw_plain(state, viewport, palette, pixel_ratio, target); },
+            picture);
     }
     return picture;
 }
 
 void write_picture(const std::filesystem::path& file, SceneRenderer& renderer, ViewerState& state,
-                   const Palette& palette, const Eigen::Vector2i& size, bool transparent) {
-    if (!transparent) return write_png(file, scene_picture(renderer, state, palette, size));
+                   const Palette& palette, const Eigen::Vector2i& size, const PictureOptions& options) {
+    const auto finish = [&](auto picture) {
+        if (options.legend) {
+            Canvas canvas(picture);
+            draw_legend(canvas, *options.legend, palette, size.x() / around(state.shown.viewports).width);
+        }
+        write_png(file, picture);
+    };
+    if (!options.transparent) return finish(scene_picture(renderer, state, palette, size));
     const LookGuard guard(state);
     state.display.grid = false;  // it has no edge
     const auto before = [&](float grey) {
@@ -123,7 +132,7 @@ void write_picture(const std::filesystem::path& file, SceneRenderer& renderer, V
         plain.background_top = plain.background_bottom = {grey, grey, grey, 1.0f};
         return scene_picture(renderer, state, plain, size);
     };
-    write_png(file, matte(before(0.0f), before(1.0f)));
+    finish(matte(before(0.0f), before(1.0f)));
 }
 
 CameraPose turned(const Camera& camera, const CameraPose& pose, double part) {

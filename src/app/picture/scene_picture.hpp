@@ -2,8 +2,10 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <optional>
 
 #include "app/picture/palette.hpp"
+#include "app/picture/picture_legend.hpp"
 #include "app/picture/scene_renderer.hpp"
 #include "app/viewer_state.hpp"
 #include "render/gl/image.hpp"
@@ -17,9 +19,13 @@ namespace elastolab {
 Image scene_picture(SceneRenderer& renderer, ViewerState& state, const Palette& palette, const Eigen::Vector2i& size,
                     int largest_tile = 4096);
 
-/// Writes one as PNG; `transparent`: without background and grid.
+struct PictureOptions {
+    bool transparent = false;             ///< without background and grid
+    std::optional<PictureLegend> legend;  ///< drawn over it
+};
+/// Writes one as PNG. Throws Error.
 void write_picture(const std::filesystem::path& file, SceneRenderer& renderer, ViewerState& state,
-                   const Palette& palette, const Eigen::Vector2i& size, bool transparent);
+                   const Palette& palette, const Eigen::Vector2i& size, const PictureOptions& options);
 
 /// Turns the camera about its target and its up axis by this part of a whole turn.
 CameraPose turned(const Camera& camera, const CameraPose& pose, double part);

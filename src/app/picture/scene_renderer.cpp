@@ -167,6 +167,7 @@ SurfaceStyle SceneRenderer::surface_style(const ViewerState& state, MethodKind k
     SurfaceStyle style;
     style.colour = palette.body(kind);
     style.flat = display.flat;
+    style.material = display.material;
     style.wireframe = display.wireframe;
     style.wire = style.feature = palette.wire;
     style.wire_opacity = 0.28f;

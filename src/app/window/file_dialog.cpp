@@ -157,4 +157,12 @@ void FileDialog::draw(float scale) {
     ImGui::EndPopup();
 }
 
+void FileDialog::visit_texts(const std::function<void(std::string_view)>& visit) const {
+    if (!open_) return;
+    visit(folder_.string());
+    visit(name_);
+    visit(problem_);
+    for (const Entry& entry : entries_) visit(entry.shown);
+}
+
 }  // namespace elastolab

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace elastolab {
@@ -21,6 +22,8 @@ public:
 
     void open(Purpose purpose);
     bool is_open() const { return open_; }
+    /// Names of files and folders that it shows.
+    void visit_texts(const std::function<void(std::string_view)>& visit) const;
     /// Draws it, when it is open, in the middle of the window.
     void draw(float scale);
 

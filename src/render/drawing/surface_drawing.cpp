@@ -85,6 +85,7 @@ void SurfaceDrawing::set_uniforms(const SceneView& view, const SurfaceStyle& sty
     shader_->set("opacity", style.opacity);
     shader_->set("push", style.ghost ? kGhostPush : 0.0f);
     shader_->set("light", style.light);
+    shader_->set("material", static_cast<int>(style.material));
     shader_->set("flat_normals", style.flat ? 1 : 0);
     shader_->set("wire", style.wire.with_opacity(style.wireframe ? style.wire_opacity : 0.0f));
     shader_->set("wire_width", style.wire_width * view.pixel_ratio());

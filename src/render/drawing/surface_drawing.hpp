@@ -13,6 +13,7 @@
 #include "render/gl/shader.hpp"
 #include "render/scene_frame.hpp"
 #include "render/scene_view.hpp"
+#include "render/surface_material.hpp"
 
 namespace elastolab {
 
@@ -22,6 +23,7 @@ struct SurfaceStyle {
     Colour inside{0.80f, 0.52f, 0.40f, 1.0f};  ///< mixed into what is seen from inside
     float opacity = 1.0f;                      ///< below 1: back faces show through front faces
     bool flat = false;                         ///< one normal a triangle
+    SurfaceMaterial material = SurfaceMaterial::studio;
     bool ghost = false;                        ///< translucent, seen where it is apart from what is drawn already
 
     bool wireframe = false;

@@ -14,11 +14,12 @@ namespace {
 constexpr double kManyThin = 0.05;
 
 std::shared_ptr<const Proxy> embedded(ProxySurface made, const std::shared_ptr<const SurfaceMesh>& shown,
-                                      Control& control) {
+                                      const MeshReport& report, Control& control) {
     auto proxy = std::make_shared<Proxy>();
     // That of equal-sided triangles of the mean area.
     proxy->edge = std::sqrt(4.0 / std::sqrt(3.0) * surface_area(made.surface) / made.surface.n_triangles());
     proxy->kind = made.kind;
+    proxy->shown_is_sound = report.usable_for_fem();
     proxy->n_capped_holes = made.n_capped_holes;
     proxy->thin_part = made.thin_part;
     proxy->thickness = made.thickness;
@@ -44,7 +45,7 @@ std::vector<std::shared_ptr<const Proxy>> make_proxies(const std::string& name,
     try {
         std::vector<std::shared_ptr<const Proxy>> proxies;
         for (ProxySurface& surface : make_proxy_surfaces(*shown, report, sizes, control))
-            proxies.push_back(embedded(std::move(surface), shown, control));
+            proxies.push_back(embedded(std::move(surface), shown, report, control));
         return proxies;
     } catch (const MeshError& error) {
         throw MeshError(name + ": " + error.what());
@@ -52,7 +53,7 @@ std::vector<std::shared_ptr<const Proxy>> make_proxies(const std::string& name,
 }
 
 Findings findings_of_proxy(const Proxy& proxy, const std::string& name) {
-    Findings findings = {{.kind = FindingKind::proxy,
+    Findings findings = {{.kind = proxy.shown_is_sound ? FindingKind::chosen_proxy : FindingKind::proxy,
                           .value = proxy.places.distance.maxCoeff(),
                           .first = proxy.surface->n_vertices(),
                           .object = name}};

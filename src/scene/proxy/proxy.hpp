@@ -18,6 +18,7 @@ struct Proxy {
     SurfacePlaces places;  ///< of the shown vertices on `surface`: they move with these points
     double edge = 0.0;     ///< mean edge of `surface` [L]
     ProxySurface::Kind kind = ProxySurface::Kind::wrapped;
+    bool shown_is_sound = false;  ///< every method could simulate it itself
     int n_capped_holes = 0;  ///< see ProxySurface
     double thin_part = 0.0, thickness = 0.0;
 };

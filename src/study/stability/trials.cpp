@@ -46,6 +46,7 @@ bool tells_of(const Finding& finding, Wrong what) {
         case FindingKind::nothing_constrained:
         case FindingKind::choice_left_aside:
         case FindingKind::proxy:
+        case FindingKind::chosen_proxy:
         case FindingKind::capped_holes:
         case FindingKind::thin_sheets:
             return false;

@@ -70,7 +70,7 @@ TEST_F(ScenePicture, ShowsAllOfTheBodyInANarrowOneAndLeavesTheCameraAlone) {
 TEST_F(ScenePicture, WithoutBackgroundIsOpaqueOnTheBodyAndClearBesideIt) {
     const test::TemporaryFolder folder;
     const auto file = folder.path() / "clear.png";
-    write_picture(file, renderer, stage.state, palette, {400, 300}, true);
+    write_picture(file, renderer, stage.state, palette, {400, 300}, {.transparent = true, .legend = {}});
     int width = 0, height = 0, channels = 0;
     const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(stbi_load(file.c_str(), &width, &height, &channels, 0),
                                                            stbi_image_free);
@@ -82,6 +82,47 @@ TEST_F(ScenePicture, WithoutBackgroundIsOpaqueOnTheBodyAndClearBesideIt) {
     EXPECT_GT(at(200, 150)[0] + at(200, 150)[1] + at(200, 150)[2], 60);
     for (const auto& [x, y] : {std::pair(2, 2), std::pair(397, 2), std::pair(2, 297), std::pair(397, 297)})
         EXPECT_EQ(at(x, y)[3], 0);
+}
+
+TEST_F(ScenePicture, HasALegendWithTheColoursOfTheFieldWhereThatIsWanted) {
+    EXPECT_FALSE(legend_of(stage.state)) << "nothing is coloured";
+    stage.state.display.field = Field::displacement;
+    stage.state.display.auto_range = false;
+    stage.state.display.range_high = 2.0;
+    stage.settle();
+    stage.state.update_picture();
+    renderer.upload(stage.state, palette);
+    const std::optional<PictureLegend> legend = legend_of(stage.state);
+    ASSERT_TRUE(legend);
+    EXPECT_EQ(legend->low, 0.0);
+    EXPECT_EQ(legend->high, 2.0);
+    EXPECT_NE(legend->heading.find("displacement"), std::string::npos);
+
+    const Image plain = scene_picture(renderer, stage.state, palette, {640, 400});
+    Image drawn = plain;
+    Canvas canvas(drawn);
+    draw_legend(canvas, *legend, palette, 1.0);
+    int left = drawn.width, top = drawn.height;
+    for (int y = 0; y < drawn.height; ++y)
+        for (int x = 0; x < drawn.width; ++x)
+            if (drawn.at(x, y) != plain.at(x, y)) {
+                left = std::min(left, x);
+                top = std::min(top, y);
+            }
+    EXPECT_GT(left, 400) << "at the right";
+    EXPECT_GT(top, 100) << "at the bottom";
+    EXPECT_LT(left, 600);
+    const auto shows = [&](const Colour& colour) {
+        for (int y = top; y < drawn.height; ++y)
+            for (int x = left; x < drawn.width; ++x) {
+                const auto [r, g, b] = drawn.at(x, y);
+                if (std::abs(r - 255.0f * colour.r) < 2.0f && std::abs(g - 255.0f * colour.g) < 2.0f &&
+                    std::abs(b - 255.0f * colour.b) < 2.0f)
+                    return true;
+            }
+        return false;
+    };
+    for (const double t : {0.02, 0.5, 0.98}) EXPECT_TRUE(shows(legend->colours->sample(t))) << t;
 }
 
 TEST_F(ScenePicture, OfASizeBeyondTheDriverIsRefused) {

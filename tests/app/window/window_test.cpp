@@ -129,6 +129,26 @@ TEST_F(RealProgram, UndoesAndRedoesADrag) {
     EXPECT_EQ(load_scene(folder.path() / "out.json"), cube_document(4));
 }
 
+TEST_F(RealProgram, FilmsThePullFromRestAndBack) {
+    folder.write("pulled.json", R"({"elastolab": 1, "mesh": {"primitive": "cube", "resolution": 3},
+        "fixed": {"box": {"min": [0, 0, 0], "max": [0, 1, 1]}},
+        "handles": [{"select": {"box": {"min": [1, 0, 0], "max": [1, 1, 1]}}, "translate": [0.3, 0.2, 0]}]})");
+    const ProgramRun run = run_program({"view", "pulled.json", "--hidden", "--frames", "2", "--picture", "film.png",
+                                        "--picture-size", "160x120", "--legend", "--pull-film", "4"},
+                                       folder.path());
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    std::vector<std::string> frames;
+    for (int frame = 1; frame <= 4; ++frame) {
+        std::ifstream in(folder.path() / ("film-000" + std::to_string(frame) + ".png"), std::ios::binary);
+        frames.emplace_back(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
+        EXPECT_GT(frames.back().size(), 100u) << frame;
+    }
+    EXPECT_EQ(frames[1], frames[3]) << "as far on the way back as on the way out";
+    EXPECT_NE(frames[0], frames[1]);
+    EXPECT_NE(frames[1], frames[2]);
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "film-0005.png"));
+}
+
 TEST_F(RealProgram, AnIdleWindowUsesNoProcessor) {
     RealWindow window({save_cube(5)}, folder.path());
     window.settle();

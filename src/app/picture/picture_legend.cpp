@@ -1,0 +1,63 @@
+#include "app/picture/picture_legend.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "app/window/fonts.hpp"
+#include "base/error.hpp"
+#include "render/drawing/legend.hpp"
+#include "render/pixels/lettering.hpp"
+
+namespace elastolab {
+
+namespace {
+
+// On an ordinary screen [pixels].
+constexpr double kMargin = 20.0, kPad = 9.0, kBarWidth = 16.0, kMostBarHeight = 220.0, kFontSize = 17.0;
+constexpr double kTickLength = 4.0, kTickGap = 8.0, kHeadingGap = 10.0, kCorner = 7.0;
+constexpr float kChipOpacity = 0.72f;
+constexpr int kTicks = 5;
+
+}  // namespace
+
+std::optional<PictureLegend> legend_of(const ViewerState& state) {
+    const auto& bodies = state.shown.bodies();
+    if (state.display.field == Field::none ||
+        std::none_of(bodies.begin(), bodies.end(), [](const ShownBody& body) { return body.is_coloured(); }))
+        return {};
+    const auto [low, high] = state.shown.field_range(state.display);
+    return PictureLegend{field_title(state.display.field, state.compare.reference), low, high,
+                         &shown_colour_map(state.display)};
+}
+
+void draw_legend(Canvas& canvas, const PictureLegend& legend, const Palette& palette, double scale) {
+    const std::optional<std::filesystem::path> font = regular_font();
+    if (!font) throw Error("picture: no font for the legend is installed. Install fonts-roboto-unhinted.");
+    const Lettering lettering(*font);
+    const double size = kFontSize * scale, pad = kPad * scale;
+    const double bar_height = std::min(kMostBarHeight * scale, 0.5 * canvas.height());
+    const std::vector<LegendTick> ticks = legend_ticks(legend.low, legend.high, kTicks);
+    double beside = 0.0;
+    for (const LegendTick& tick : ticks) beside = std::max(beside, lettering.width(tick.text, size));
+    const double bar_and_ticks = (kBarWidth + kTickGap) * scale + beside;
+    const double width = std::max(bar_and_ticks, lettering.width(legend.heading, size));
+    const double right = canvas.width() - kMargin * scale - pad, bottom = canvas.height() - kMargin * scale - pad;
+    const double left = right - width, top = bottom - bar_height;
+    const double heading_middle = top - kHeadingGap * scale - 0.5 * size;
+    canvas.fill_rectangle(left - pad, heading_middle - 0.5 * size - pad, right + pad, bottom + pad,
+                          palette.panel.with_opacity(kChipOpacity), kCorner * scale);
+    lettering.draw(canvas, left, heading_middle, legend.heading, size, palette.text);
+
+    const double bar = right - bar_and_ticks, bar_right = bar + kBarWidth * scale;
+    for (auto y = static_cast<int>(top); y < static_cast<int>(bottom); ++y)
+        canvas.fill_rectangle(bar, y, bar_right, y + 1, legend.colours->sample((bottom - y - 0.5) / bar_height));
+    for (const LegendTick& tick : ticks) {
+        const double part = legend.high > legend.low ? (tick.value - legend.low) / (legend.high - legend.low) : 0.5;
+        const double y = bottom - std::clamp(part, 0.0, 1.0) * bar_height;
+        canvas.fill_rectangle(bar_right, y - 0.5 * scale, bar_right + kTickLength * scale, y + 0.5 * scale,
+                              palette.text);
+        lettering.draw(canvas, bar_right + kTickGap * scale, y, tick.text, size, palette.text);
+    }
+}
+
+}  // namespace elastolab

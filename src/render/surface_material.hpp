@@ -1,0 +1,8 @@
+#pragma once
+
+namespace elastolab {
+
+/// What a surface looks made of; shaders/lighting.glsl knows them by number.
+enum class SurfaceMaterial { studio, clay, wax, metal };
+
+}  // namespace elastolab
