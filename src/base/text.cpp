@@ -58,6 +58,13 @@ std::string one_line(std::string_view text) {
     return line;
 }
 
+std::string lower_case(std::string_view text) {
+    std::string lower(text);
+    for (char& c : lower)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return lower;
+}
+
 std::string readable_bytes(double bytes) {
     constexpr std::array kUnits = {"kB", "MB", "GB", "TB", "PB", "EB"};
     if (bytes < 1000.0) return formatted("%.0f bytes", bytes);

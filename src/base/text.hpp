@@ -13,6 +13,9 @@ namespace elastolab {
 /// `text` on one line, for messages that quote a user's data: control characters become spaces, broken UTF-8 a '?'.
 std::string one_line(std::string_view text);
 
+/// ASCII letters in lower case, the rest as it is.
+std::string lower_case(std::string_view text);
+
 /// A number of bytes for people: "812 bytes", "3.4 MB", "14.1 GB" (powers of 1000).
 std::string readable_bytes(double bytes);
 

@@ -1,12 +1,12 @@
 #include "cli/solve_outputs.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <deque>
 #include <set>
 
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
+#include "base/text.hpp"
 #include "cli/command.hpp"
 #include "cli/csv.hpp"
 #include "cli/matrix_market.hpp"
@@ -27,13 +27,6 @@ std::vector<fs::path> files(const OutputPaths& paths) {
     for (const fs::path& path : {paths.displacements, paths.fields, paths.mesh, paths.forces, paths.report})
         if (!path.empty()) result.push_back(path);
     return result;
-}
-
-std::string lower_extension(const fs::path& file) {
-    std::string extension = file.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return std::tolower(c); });
-    return extension;
 }
 
 fs::path resolved(const fs::path& path) {
@@ -129,14 +122,14 @@ void require_distinct(const std::vector<fs::path>& outputs, const std::vector<fs
 }
 
 void require_mesh_extension(const fs::path& mesh) {
-    const std::string extension = lower_extension(mesh);
+    const std::string extension = lower_case(mesh.extension().string());
     if (extension != ".obj" && extension != ".stl" && (extension == ".csv" || !is_field_file(mesh)))
         throw UsageError(mesh.string() +
                          ": a mesh is written as .obj, .ply, .stl, .vtp or .vtu. Choose one of these extensions.");
 }
 
 void require_inside(MethodKind method, const fs::path& mesh) {
-    if (lower_extension(mesh) == ".vtu" && !method->has_inside)
+    if (lower_case(mesh.extension().string()) == ".vtu" && !method->has_inside)
         throw UsageError(mesh.string() + ": " + std::string(name(method)) +
                          " has no tetrahedra inside. Choose .vtp, or a method of finite elements.");
 }
@@ -152,8 +145,7 @@ void write_outputs(const OutputPaths& paths, const Solution& solution) {
     const NewFolder folder(paths.matrices);  // destroyed after `outputs`, whose temporaries lie in it
     OutputSet outputs;
     if (!paths.displacements.empty())
-        write_displacements(outputs.add(paths.displacements).stream(), *solution.surface,
-                            solution.displacement);
+        write_displacements(outputs.add(paths.displacements).stream(), *solution.surface, solution.displacement);
     if (!paths.fields.empty())
         write_field_csv(outputs.add(paths.fields).stream(), solution.surface->vertices,
                         surface_fields(solved_body(solution)));

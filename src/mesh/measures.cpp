@@ -1,10 +1,13 @@
 #include "mesh/measures.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <Eigen/Geometry>
 #include <numbers>
 #include <numeric>
 #include <vector>
+
+#include "mesh/topology.hpp"
 
 namespace elastolab {
 
@@ -22,6 +25,14 @@ Eigen::Vector3d centroid(const SurfaceMesh& mesh, int triangle) {
 
 Vector3d area_vector(const TrianglePoints& triangle) {
     return (triangle.b - triangle.a).cross(triangle.c - triangle.a);
+}
+
+double mean_edge(const SurfaceMesh& mesh) {
+    const EdgeTable edges(mesh);
+    double sum = 0.0;
+    for (int e = 0; e < edges.size(); ++e)
+        sum += (mesh.vertices.col(edges[e].a) - mesh.vertices.col(edges[e].b)).norm();
+    return sum / std::max(1, edges.size());
 }
 
 double surface_area(const SurfaceMesh& mesh) {

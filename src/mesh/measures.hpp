@@ -17,6 +17,8 @@ Eigen::Vector3d centroid(const SurfaceMesh& mesh, int triangle);
 /// Twice the area times the unit normal: (b - a) x (c - a)  [L^2].
 Eigen::Vector3d area_vector(const TrianglePoints& triangle);
 
+/// Mean length of the edges [L]; 0 when there are none.
+double mean_edge(const SurfaceMesh& mesh);
 /// Area of the surface [L^2].
 double surface_area(const SurfaceMesh& mesh);
 

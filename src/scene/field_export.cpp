@@ -1,7 +1,6 @@
 #include "scene/field_export.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <Eigen/LU>
 
@@ -23,13 +22,6 @@ namespace {
 using DisplacementColumns = Eigen::Map<const Eigen::Matrix3Xd>;
 
 DisplacementColumns as_columns(const Eigen::VectorXd& u) { return {u.data(), 3, u.size() / 3}; }
-
-std::string small_ending(const fs::path& file) {
-    std::string ending = file.extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return ending;
-}
 
 /// Rows of values at the model's vertices, as the shown ones have them.
 Eigen::MatrixXd as_shown(const SolvedBody& solved, const Eigen::MatrixXd& rows) {
@@ -86,7 +78,8 @@ const std::vector<std::string>& field_endings() {
 }
 
 bool is_field_file(const fs::path& file) {
-    return std::find(field_endings().begin(), field_endings().end(), small_ending(file)) != field_endings().end();
+    return std::find(field_endings().begin(), field_endings().end(), lower_case(file.extension().string())) !=
+           field_endings().end();
 }
 
 std::vector<MeshField> surface_fields(const SolvedBody& solved) {

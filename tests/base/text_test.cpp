@@ -44,6 +44,11 @@ TEST(Text, ExactNumbersAreReadBackExactly) {
         EXPECT_EQ(std::strtod(exact(value).c_str(), nullptr), value);
 }
 
+TEST(Text, IsTurnedIntoLowerCaseWhereItIsAscii) {
+    EXPECT_EQ(lower_case(".OBJ"), ".obj");
+    EXPECT_EQ(lower_case("aZ[\u00c4"), "az[\u00c4");
+}
+
 TEST(Text, IsReadAsCharacters) {
     EXPECT_EQ(characters_of("a\u00e9\u0416\u4e2d\U0001F600"),
               (std::vector<char32_t>{U'a', U'\u00e9', U'\u0416', U'\u4e2d', U'\U0001F600'}));

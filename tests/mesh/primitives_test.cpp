@@ -72,6 +72,7 @@ TEST(Box, SpansItsSizeExactlyAndHasItsVolume) {
     EXPECT_EQ(Eigen::Vector3d(box.vertices.rowwise().maxCoeff()), size);
     EXPECT_NEAR(enclosed_volume(box), size.prod(), 1e-14);
     EXPECT_NEAR(surface_area(box), 2 * (0.07 + 0.91 + 0.13), 1e-12);
+    EXPECT_NEAR(mean_edge(make_box(1)), (12.0 + 6.0 * std::sqrt(2.0)) / 18.0, 1e-12) << "twelve sides, six diagonals";
 }
 
 TEST(Box, HasCellsInProportionToItsEdges) {

@@ -5,6 +5,8 @@
 #include <Eigen/Geometry>
 #include <numbers>
 
+#include "mesh/measures.hpp"
+
 namespace elastolab {
 
 namespace {
@@ -19,13 +21,6 @@ Eigen::Vector3d section_axis(const DisplaySettings& display, int steps) {
 
 Eigen::AngleAxisd section_turn(const DisplaySettings& display) {
     return Eigen::AngleAxisd(kDegree * display.section_turn, section_axis(display, 1));
-}
-
-double mean_edge(const SurfaceMesh& mesh) {
-    double sum = 0.0;
-    for (const auto& t : mesh.triangles.colwise())
-        for (int i = 0; i < 3; ++i) sum += (mesh.vertices.col(t[i]) - mesh.vertices.col(t[(i + 1) % 3])).norm();
-    return sum / static_cast<double>(std::max<Eigen::Index>(1, 3 * mesh.triangles.cols()));
 }
 
 }  // namespace

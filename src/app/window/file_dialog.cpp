@@ -4,12 +4,12 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstdlib>
 #include <system_error>
 #include <utility>
 
 #include "app/window/recent_files.hpp"
+#include "base/text.hpp"
 
 namespace elastolab {
 
@@ -17,14 +17,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-    return text;
-}
-
 bool has_extension_of(const fs::path& file, const FileDialog::Purpose& purpose) {
     const auto& wanted = purpose.extensions;
-    const std::string extension = lower(file.extension().string());
+    const std::string extension = lower_case(file.extension().string());
     return wanted.empty() || std::find(wanted.begin(), wanted.end(), extension) != wanted.end();
 }
 
@@ -64,7 +59,7 @@ void FileDialog::list_folder() {
     }
     problem_ = error ? folder_.string() + ": " + error.message() : "";
     std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
-        return a.is_folder != b.is_folder ? a.is_folder : lower(a.shown) < lower(b.shown);
+        return a.is_folder != b.is_folder ? a.is_folder : lower_case(a.shown) < lower_case(b.shown);
     });
 }
 

@@ -1,9 +1,7 @@
 #include "mesh/input/export.hpp"
 
-#include <algorithm>
 #include <array>
 #include <bit>
-#include <cctype>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -47,8 +45,9 @@ void write_ply(std::ostream& out, const SurfaceMesh& mesh) {
 
 void write_stl(std::ostream& out, const SurfaceMesh& mesh) {
     if (mesh.n_vertices() > 0 && mesh.vertices.cwiseAbs().maxCoeff() > std::numeric_limits<float>::max())
-        throw MeshError("STL stores coordinates in single precision, up to 3.4e38, and these are larger. Choose .obj or "
-                        ".ply.");
+        throw MeshError(
+            "STL stores coordinates in single precision, up to 3.4e38, and these are larger. Choose .obj or "
+            ".ply.");
     std::string header = "binary STL";  // must not begin with "solid", as text files do
     header.resize(80);
     out << header;
@@ -69,9 +68,7 @@ void write_stl(std::ostream& out, const SurfaceMesh& mesh) {
 using Writer = void (*)(std::ostream&, const SurfaceMesh&);
 
 Writer writer_for(const fs::path& file) {
-    std::string extension = file.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string extension = lower_case(file.extension().string());
     if (extension == ".obj") return write_obj;
     if (extension == ".ply") return write_ply;
     if (extension == ".stl") return write_stl;

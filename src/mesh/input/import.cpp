@@ -29,13 +29,6 @@ namespace {
     throw MeshError(one_line(file.string() + ": " + finding));
 }
 
-std::string lower_case_extension(const fs::path& file) {
-    std::string extension = file.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension;
-}
-
 void require_readable(const fs::path& file) {
     std::error_code error;
     const fs::file_status status = fs::status(file, error);
@@ -47,7 +40,7 @@ void require_readable(const fs::path& file) {
 }
 
 void require_known_format(const fs::path& file) {
-    const std::string extension = lower_case_extension(file);
+    const std::string extension = lower_case(file.extension().string());
     if (!extension.empty() && is_mesh_format(extension.substr(1))) return;
     fail(file, (extension.empty() ? "has no extension" : "is of no format that is read") +
                    std::string(". Export it as OBJ, PLY, OFF, STL or glTF."));

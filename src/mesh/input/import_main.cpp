@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/text.hpp"
 #include "mesh/input/helper_io.hpp"
 #include "mesh/input/import_protocol.hpp"
 #include "mesh/input/readers/readers.hpp"

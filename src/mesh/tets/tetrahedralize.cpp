@@ -23,14 +23,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-double mean_edge(const SurfaceMesh& mesh) {
-    const EdgeTable edges(mesh);
-    double sum = 0.0;
-    for (int e = 0; e < edges.size(); ++e)
-        sum += (mesh.vertices.col(edges[e].a) - mesh.vertices.col(edges[e].b)).norm();
-    return sum / edges.size();
-}
-
 /// One point in each cavity.
 Positions cavity_points(const SurfaceMesh& mesh) {
     std::vector<Vector3d> points;

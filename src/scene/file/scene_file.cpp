@@ -1,7 +1,5 @@
 #include "scene/file/scene_file.hpp"
 
-#include <algorithm>
-#include <cctype>
 #include <fstream>
 #include <sstream>
 
@@ -34,12 +32,7 @@ std::string read_text(const fs::path& file) {
 
 }  // namespace
 
-bool is_scene_file(const fs::path& file) {
-    std::string extension = file.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return std::tolower(c); });
-    return extension == ".json";
-}
+bool is_scene_file(const fs::path& file) { return lower_case(file.extension().string()) == ".json"; }
 
 Document load_scene(const fs::path& file) { return parse_scene(read_text(file), file.string()); }
 

@@ -11,6 +11,7 @@
 #include "fem/assembly.hpp"
 #include "fem/prescribed.hpp"
 #include "fem/quadratic/quadratic_mesh.hpp"
+#include "mesh/measures.hpp"
 #include "mesh/refine.hpp"
 #include "mesh/tets/tetrahedralize.hpp"
 
@@ -45,13 +46,6 @@ TruthProblem make_problem(const SurfaceMesh& surface, std::span<const int> const
     assert(std::all_of(constrained.begin(), constrained.end(),
                        [&](int v) { return in_triangle[static_cast<std::size_t>(v)] != 0; }));
     return problem;
-}
-
-double mean_edge(const SurfaceMesh& mesh) {
-    double sum = 0.0;
-    for (const auto& t : mesh.triangles.colwise())
-        for (int i = 0; i < 3; ++i) sum += (mesh.vertices.col(t[i]) - mesh.vertices.col(t[(i + 1) % 3])).norm();
-    return sum / static_cast<double>(mesh.triangles.size());
 }
 
 struct Solution {

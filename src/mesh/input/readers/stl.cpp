@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/text.hpp"
 #include "mesh/input/readers/polygons.hpp"
 #include "mesh/input/readers/readers.hpp"
 #include "mesh/input/readers/words.hpp"

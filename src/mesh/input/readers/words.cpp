@@ -1,7 +1,6 @@
 #include "mesh/input/readers/words.hpp"
 
 #include <algorithm>
-#include <cctype>
 
 namespace elastolab {
 
@@ -40,13 +39,6 @@ std::optional<std::int64_t> to_integer(std::string_view word) {
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (end != word.data() + word.size() || error != std::errc()) return std::nullopt;
     return value;
-}
-
-std::string lower_case(std::string_view word) {
-    std::string lower(word);
-    std::transform(lower.begin(), lower.end(), lower.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return lower;
 }
 
 std::string in_quotes(std::string_view word) {

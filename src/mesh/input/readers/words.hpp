@@ -70,9 +70,6 @@ std::optional<double> to_double(std::string_view word);
 /// A whole number of at most 64 bits; nothing for another text.
 std::optional<std::int64_t> to_integer(std::string_view word);
 
-/// The same in lower case letters.
-std::string lower_case(std::string_view word);
-
 /// A word of a file, for messages: quoted and not too long.
 std::string in_quotes(std::string_view word);
 
