@@ -40,7 +40,7 @@ vec3 in_metal(vec3 albedo, vec3 normal, vec3 to_eye, float gloss) {
     float sky = mix(0.30, 1.05, smoothstep(-0.05, 0.75, height)), ground = mix(0.42, 0.08, smoothstep(-0.9, 0.0, height));
     float room = mix(ground, sky, smoothstep(-0.06, 0.06, height));
     float lamp = pow(max(dot(mirrored, normalize(vec3(-0.45, 0.60, 0.66))), 0.0), 40.0);
-    float grazing = pow(1.0 - max(dot(normal, to_eye), 0.0), 4.0);
+    float away = clamp(1.0 - dot(normal, to_eye), 0.0, 1.0), grazing = away * away * away * away;
     vec3 tint = mix(albedo, vec3(1.0), 0.5 * grazing);
     return tint * (0.35 * max(normal.z, 0.0) + 0.75 * room) + gloss * 0.6 * lamp;
 }

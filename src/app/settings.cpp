@@ -1,6 +1,27 @@
 #include "app/settings.hpp"
 
+#include <algorithm>
+#include <array>
+
 namespace elastolab {
+
+namespace {
+
+/// By the numbers of Field.
+constexpr std::array kFieldNames = {
+    "none",      "displacement", "difference", "traction",  "von-mises", "first-principal", "third-principal",
+    "stress-xx", "stress-yy",    "stress-zz",  "stress-xy", "stress-yz", "stress-xz"};
+static_assert(kFieldNames.size() == static_cast<std::size_t>(Field::stress_xz) + 1);
+
+}  // namespace
+
+std::vector<std::string> field_names() { return {kFieldNames.begin(), kFieldNames.end()}; }
+
+std::optional<Field> parse_field(std::string_view name) {
+    const auto found = std::find(kFieldNames.begin(), kFieldNames.end(), name);
+    if (found == kFieldNames.end()) return std::nullopt;
+    return static_cast<Field>(found - kFieldNames.begin());
+}
 
 std::optional<StressMeasure> stress_of(Field field) {
     if (field < Field::von_mises) return std::nullopt;

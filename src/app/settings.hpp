@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "deform/method.hpp"
@@ -64,6 +65,10 @@ enum class Field {
     stress_yz,
     stress_xz
 };
+/// Names of the fields, as options have them: "displacement", "von-mises", "stress-xx".
+std::vector<std::string> field_names();
+/// Nothing for another text.
+std::optional<Field> parse_field(std::string_view name);
 /// The stress that a field is; nothing for the others.
 std::optional<StressMeasure> stress_of(Field field);
 /// Whether it has values of either sign, so that zero is in the middle of the colours.

@@ -106,6 +106,7 @@ private:
                 state_.open(options_.input);
         }
         if (options_.method) state_.start_with(*options_.method);
+        if (options_.field) state_.display.field = *options_.field;
         state_.update_displacements();  // begins the precomputation
     }
 

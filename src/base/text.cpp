@@ -96,7 +96,9 @@ std::vector<char32_t> characters_of(std::string_view text) {
         const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
         char32_t character = size == 0 ? kNone : size == 1 ? byte(0) : byte(0) & (0x7Fu >> size);
         for (std::size_t i = 1; i < size; ++i) character = character << 6 | (byte(i) & 0x3Fu);
-        characters.push_back(character);
+        const bool is_too_long = (size == 3 && character < 0x800) || (size == 4 && character < 0x10000);
+        const bool is_no_character = (character >= 0xD800 && character < 0xE000) || character > 0x10FFFF;
+        characters.push_back(is_too_long || is_no_character ? kNone : character);
         text.remove_prefix(std::max<std::size_t>(size, 1));
     }
     return characters;

@@ -49,10 +49,10 @@ bool is_hierarchical(const SurfaceMesh& surface, const Method& method) {
     return method.mode == Mode::on_demand && surface.n_vertices() >= (once ? kHierarchicalOnceFrom : kHierarchicalFrom);
 }
 
-std::uint64_t hierarchical_set_memory(std::int64_t n_vertices, std::int64_t n_tractions) {
-    const double n = static_cast<double>(n_vertices), m = static_cast<double>(n_tractions);
-    const double factorised = m <= static_cast<double>(kMostFactorisedTractions) ? m * m : 0.0;
-    return static_cast<std::uint64_t>(16e3 * n + 15e3 * m + 16.0 * factorised);
+std::uint64_t hierarchical_set_memory(std::int64_t n_vertices, std::int64_t n_loaded, std::int64_t n_tractions) {
+    const auto n = static_cast<double>(n_vertices), m = static_cast<double>(n_tractions);
+    const double factorised = n_tractions <= kMostFactorisedTractions ? m * m : 0.0;
+    return static_cast<std::uint64_t>(16e3 * n + 45e3 * static_cast<double>(n_loaded) + 16.0 * factorised);
 }
 
 /// Half an LU, and half of the pairs of triangles: each once.

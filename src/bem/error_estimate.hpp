@@ -15,10 +15,11 @@ namespace elastolab {
 /// the rims of the constrained patches (and around lone constrained vertices) halved. Galerkin itself is 2 to 14 times
 /// more accurate than collocation on organic bodies, and most of what is left comes from the rims, where tractions are
 /// singular: halving there does nearly what halving everywhere does. Solved afresh each time, large surfaces by
-/// hierarchical matrices. Nothing where the body is not held, or where memory or patience would not suffice.
+/// hierarchical matrices. Nothing where the body is not held, where memory or patience would not
+/// suffice, or where it cannot be solved.
 /// vertices  constrained, all different
 /// values    their displacements, 3*vertices.size()
-/// Throws SolveError, Cancelled.
+/// Throws Cancelled.
 std::optional<ReferenceAnswer> galerkin_reference(const SurfaceMesh& surface, double poisson_ratio,
                                                   std::span<const int> vertices, const Eigen::VectorXd& values,
                                                   Control& control);

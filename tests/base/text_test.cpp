@@ -52,6 +52,7 @@ TEST(Text, IsTurnedIntoLowerCaseWhereItIsAscii) {
 TEST(Text, IsReadAsCharacters) {
     EXPECT_EQ(characters_of("a\u00e9\u0416\u4e2d\U0001F600"),
               (std::vector<char32_t>{U'a', U'\u00e9', U'\u0416', U'\u4e2d', U'\U0001F600'}));
+    EXPECT_EQ(characters_of("\xe0\x80\x80\xed\xa0\x80"), (std::vector<char32_t>{0xFFFD, 0xFFFD}));
     EXPECT_EQ(characters_of("a\xc3"), (std::vector<char32_t>{U'a', 0xFFFD})) << "cut off";
     EXPECT_EQ(characters_of("\xff"
                             "b"),

@@ -436,8 +436,8 @@ set object polygon from 2.4289,0.9091 to 2.5773,0.8657 to 2.4872,0.9528 to 2.428
 set object polygon from 2.3706,0.8654 to 2.4289,0.9091 to 2.2805,0.9525 to 2.3706,0.8654 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.2222,0.9088 to 2.3706,0.8654 to 2.2805,0.9525 to 2.2222,0.9088 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.1639,0.8652 to 2.2222,0.9088 to 2.0738,0.9523 to 2.1639,0.8652 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
-set object polygon from 2.0155,0.9086 to 2.1639,0.8652 to 2.0738,0.9523 to 2.0155,0.9086 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 1.8406,0.1944 to 1.9890,0.2481 to 1.8406,0.2916 to 1.8406,0.1944 fc rgb '#9f9988' fs solid border lc rgb '#5a5a5a' lw 0.5
+set object polygon from 2.0155,0.9086 to 2.1639,0.8652 to 2.0738,0.9523 to 2.0155,0.9086 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 3.3776,-0.0854 to 3.4359,0.0555 to 3.3776,0.0118 to 3.3776,-0.0854 fc rgb '#746f62' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.1374,-0.0869 to 2.1374,0.0103 to 1.9890,0.0538 to 2.1374,-0.0869 fc rgb '#9f9988' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 3.4359,0.1527 to 3.4942,0.1964 to 3.4359,0.2499 to 3.4359,0.1527 fc rgb '#746f62' fs solid border lc rgb '#5a5a5a' lw 0.5
@@ -559,8 +559,8 @@ set object polygon from 2.4607,0.7783 to 2.6091,0.7349 to 2.6674,0.7785 to 2.460
 set object polygon from 2.4342,0.0206 to 2.4342,0.1178 to 2.2858,0.1613 to 2.4342,0.0206 fc rgb '#9f9988' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.2540,0.7780 to 2.4024,0.7346 to 2.4607,0.7783 to 2.2540,0.7780 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.0473,0.7778 to 2.1957,0.7344 to 2.2540,0.7780 to 2.0473,0.7778 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
-set object polygon from 1.8406,0.7775 to 1.9890,0.7341 to 2.0473,0.7778 to 1.8406,0.7775 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 3.3193,0.2597 to 3.3776,0.3034 to 3.3193,0.3569 to 3.3193,0.2597 fc rgb '#746f62' fs solid border lc rgb '#5a5a5a' lw 0.5
+set object polygon from 1.8406,0.7775 to 1.9890,0.7341 to 2.0473,0.7778 to 1.8406,0.7775 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.1374,0.3019 to 2.2858,0.2585 to 2.2858,0.3557 to 2.1374,0.3019 fc rgb '#9f9988' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 3.4359,0.6387 to 3.4942,0.7795 to 3.4359,0.7358 to 3.4359,0.6387 fc rgb '#746f62' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 1.9890,0.6369 to 1.9890,0.7341 to 1.8406,0.7775 to 1.9890,0.6369 fc rgb '#9f9988' fs solid border lc rgb '#5a5a5a' lw 0.5
@@ -584,8 +584,8 @@ set object polygon from 3.0225,0.7354 to 3.1709,0.6919 to 3.0808,0.7790 to 3.022
 set object polygon from 2.9642,0.6917 to 3.0225,0.7354 to 2.8741,0.7788 to 2.9642,0.6917 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.8158,0.7351 to 2.9642,0.6917 to 2.8741,0.7788 to 2.8158,0.7351 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.7575,0.6914 to 2.8158,0.7351 to 2.6674,0.7785 to 2.7575,0.6914 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
-set object polygon from 2.6091,0.7349 to 2.7575,0.6914 to 2.6674,0.7785 to 2.6091,0.7349 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.4342,0.0206 to 2.5826,0.0744 to 2.4342,0.1178 to 2.4342,0.0206 fc rgb '#9f9988' fs solid border lc rgb '#5a5a5a' lw 0.5
+set object polygon from 2.6091,0.7349 to 2.7575,0.6914 to 2.6674,0.7785 to 2.6091,0.7349 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.5508,0.6912 to 2.6091,0.7349 to 2.4607,0.7783 to 2.5508,0.6912 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.4024,0.7346 to 2.5508,0.6912 to 2.4607,0.7783 to 2.4024,0.7346 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.3441,0.6909 to 2.4024,0.7346 to 2.2540,0.7780 to 2.3441,0.6909 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
@@ -596,8 +596,8 @@ set object polygon from 3.2610,0.2160 to 3.3193,0.2597 to 3.3193,0.3569 to 3.261
 set object polygon from 2.2858,0.2585 to 2.4342,0.2150 to 2.2858,0.3557 to 2.2858,0.2585 fc rgb '#9f9988' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 3.1444,-0.2601 to 3.2027,-0.1192 to 3.1444,-0.1629 to 3.1444,-0.2601 fc rgb '#746f62' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.7310,-0.2606 to 2.7310,-0.1634 to 2.5826,-0.1200 to 2.7310,-0.2606 fc rgb '#9f9988' fs solid border lc rgb '#5a5a5a' lw 0.5
-set object polygon from 3.4359,0.6387 to 3.4359,0.7358 to 3.3776,0.6922 to 3.4359,0.6387 fc rgb '#746f62' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 3.2027,-0.0220 to 3.2610,0.0216 to 3.2027,0.0752 to 3.2027,-0.0220 fc rgb '#746f62' fs solid border lc rgb '#5a5a5a' lw 0.5
+set object polygon from 3.4359,0.6387 to 3.4359,0.7358 to 3.3776,0.6922 to 3.4359,0.6387 fc rgb '#746f62' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.4342,0.0206 to 2.5826,-0.0228 to 2.5826,0.0744 to 2.4342,0.0206 fc rgb '#9f9988' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 1.9890,0.6369 to 2.1374,0.6907 to 1.9890,0.7341 to 1.9890,0.6369 fc rgb '#9f9988' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 3.3193,0.3569 to 3.3776,0.4978 to 3.3193,0.4541 to 3.3193,0.3569 fc rgb '#746f62' fs solid border lc rgb '#5a5a5a' lw 0.5
@@ -626,8 +626,8 @@ set object polygon from 3.1444,-0.2601 to 3.1444,-0.1629 to 3.0861,-0.2066 to 3.
 set object polygon from 2.7310,-0.2606 to 2.8794,-0.2068 to 2.7310,-0.1634 to 2.7310,-0.2606 fc rgb '#9f9988' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 3.1444,-0.0657 to 3.2027,-0.0220 to 3.2027,0.0752 to 3.1444,-0.0657 fc rgb '#746f62' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.5826,-0.0228 to 2.7310,-0.0662 to 2.5826,0.0744 to 2.5826,-0.0228 fc rgb '#9f9988' fs solid border lc rgb '#5a5a5a' lw 0.5
-set object polygon from 3.0861,-0.3038 to 3.1444,-0.2601 to 3.0861,-0.2066 to 3.0861,-0.3038 fc rgb '#746f62' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 3.3193,0.3569 to 3.3193,0.4541 to 3.2610,0.4104 to 3.3193,0.3569 fc rgb '#746f62' fs solid border lc rgb '#5a5a5a' lw 0.5
+set object polygon from 3.0861,-0.3038 to 3.1444,-0.2601 to 3.0861,-0.2066 to 3.0861,-0.3038 fc rgb '#746f62' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.7310,-0.2606 to 2.8794,-0.3040 to 2.8794,-0.2068 to 2.7310,-0.2606 fc rgb '#9f9988' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.2858,0.3557 to 2.4342,0.4094 to 2.2858,0.4529 to 2.2858,0.3557 fc rgb '#9f9988' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 3.3193,0.5513 to 3.3776,0.5950 to 3.3776,0.6922 to 3.3193,0.5513 fc rgb '#746f62' fs solid border lc rgb '#5a5a5a' lw 0.5
@@ -645,8 +645,8 @@ set object polygon from 2.2858,0.4529 to 2.4342,0.4094 to 2.2858,0.5500 to 2.285
 set object polygon from 3.1444,-0.0657 to 3.2027,0.0752 to 3.1444,0.0315 to 3.1444,-0.0657 fc rgb '#746f62' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 3.1709,0.6919 to 3.3193,0.6485 to 3.3776,0.6922 to 3.1709,0.6919 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.9642,0.6917 to 3.1126,0.6482 to 3.1709,0.6919 to 2.9642,0.6917 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
-set object polygon from 2.7310,-0.0662 to 2.7310,0.0310 to 2.5826,0.0744 to 2.7310,-0.0662 fc rgb '#9f9988' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.7575,0.6914 to 2.9059,0.6480 to 2.9642,0.6917 to 2.7575,0.6914 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
+set object polygon from 2.7310,-0.0662 to 2.7310,0.0310 to 2.5826,0.0744 to 2.7310,-0.0662 fc rgb '#9f9988' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.5508,0.6912 to 2.6992,0.6477 to 2.7575,0.6914 to 2.5508,0.6912 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.3441,0.6909 to 2.4925,0.6475 to 2.5508,0.6912 to 2.3441,0.6909 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.1374,0.6907 to 2.2858,0.6472 to 2.3441,0.6909 to 2.1374,0.6907 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
@@ -670,8 +670,8 @@ set object polygon from 3.1444,-0.0657 to 3.1444,0.0315 to 3.0861,-0.0122 to 3.1
 set object polygon from 3.2610,0.6048 to 3.3193,0.6485 to 3.1709,0.6919 to 3.2610,0.6048 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 3.1126,0.6482 to 3.2610,0.6048 to 3.1709,0.6919 to 3.1126,0.6482 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 3.0543,0.6046 to 3.1126,0.6482 to 2.9642,0.6917 to 3.0543,0.6046 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
-set object polygon from 2.7310,-0.0662 to 2.8794,-0.0125 to 2.7310,0.0310 to 2.7310,-0.0662 fc rgb '#9f9988' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.9059,0.6480 to 3.0543,0.6046 to 2.9642,0.6917 to 2.9059,0.6480 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
+set object polygon from 2.7310,-0.0662 to 2.8794,-0.0125 to 2.7310,0.0310 to 2.7310,-0.0662 fc rgb '#9f9988' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.8476,0.6043 to 2.9059,0.6480 to 2.7575,0.6914 to 2.8476,0.6043 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.6992,0.6477 to 2.8476,0.6043 to 2.7575,0.6914 to 2.6992,0.6477 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.6409,0.6041 to 2.6992,0.6477 to 2.5508,0.6912 to 2.6409,0.6041 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5

@@ -101,17 +101,20 @@ void Gui::want_characters(std::string_view text) {
 }
 
 void Gui::want_character(char32_t character) {
-    if (!is_own(character) && character <= IM_UNICODE_CODEPOINT_MAX && others_.size() < kMostOthers &&
-        others_.emplace(character, std::nullopt).second)
-        new_others_ = true;
+    constexpr char32_t kFirstPrinted = 0x20;
+    if (character >= kFirstPrinted && !is_own(character) && character <= IM_UNICODE_CODEPOINT_MAX &&
+        others_.size() < kMostOthers && others_.emplace(character, std::nullopt).second)
+        wanted_.push_back(character);
 }
 
 /// Between frames: the panels hold no text then.
 void Gui::add_wanted_characters() {
-    if (!std::exchange(new_others_, false)) return;
-    for (auto& [character, font] : others_)
-        if (!font) font = font_with(character);
-    load_fonts();
+    bool found = false;
+    for (const char32_t character : std::exchange(wanted_, {})) {
+        std::optional<FontFile>& font = others_[character] = font_with(character);
+        found = found || font;
+    }
+    if (found) load_fonts();
 }
 
 void Gui::load_fonts() {

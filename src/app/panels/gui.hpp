@@ -34,8 +34,8 @@ public:
 
     /// Fonts and measures for this scale of the user's (1: as the screen suggests). Between frames.
     void set_scale(float scale);
-    /// Characters that will be shown, in UTF-8: those of scripts beside Latin and Greek get their glyphs from an installed
-    /// font, from the next frame on.
+    /// Characters that will be shown, in UTF-8: those of scripts beside Latin and Greek get their glyphs from an
+    /// installed font, from the next frame on.
     void want_characters(std::string_view text);
     /// Begins a frame with these events. `dt` > 0: seconds since the frame before.
     void begin(std::span<const InputEvent> events, double dt);
@@ -69,9 +69,9 @@ private:
     Fonts fonts_;
     float scale_ = 0.0f;
     std::map<char32_t, std::optional<FontFile>> others_;  ///< characters beside our own, and a font that has them
-    bool new_others_ = false;
-    std::list<std::vector<ImWchar>> ranges_;  ///< of the fonts that are loaded
-    bool popup_was_open_ = false;  ///< before the events of this frame, which may have closed it
+    std::vector<char32_t> wanted_;                        ///< of them, those whose font is still to be found
+    std::list<std::vector<ImWchar>> ranges_;              ///< of the fonts that are loaded
+    bool popup_was_open_ = false;                         ///< before the events of this frame, which may have closed it
 };
 
 }  // namespace elastolab

@@ -13,10 +13,11 @@ namespace elastolab {
 namespace {
 
 // On an ordinary screen [pixels].
-constexpr double kMargin = 20.0, kPad = 9.0, kBarWidth = 16.0, kMostBarHeight = 220.0, kFontSize = 17.0;
-constexpr double kTickLength = 4.0, kTickGap = 8.0, kHeadingGap = 10.0, kCorner = 7.0;
-constexpr float kChipOpacity = 0.72f;
-constexpr int kTicks = 5;
+constexpr double kLegendMargin = 20.0, kLegendPad = 9.0, kBarWidth = 16.0, kMostBarHeight = 220.0,
+                 kLegendFontSize = 17.0;
+constexpr double kTickLength = 4.0, kTickGap = 8.0, kHeadingGap = 10.0, kLegendCorner = 7.0;
+constexpr float kLegendChipOpacity = 0.72f;
+constexpr int kLegendTicks = 5;
 
 }  // namespace
 
@@ -34,18 +35,19 @@ void draw_legend(Canvas& canvas, const PictureLegend& legend, const Palette& pal
     const std::optional<std::filesystem::path> font = regular_font();
     if (!font) throw Error("picture: no font for the legend is installed. Install fonts-roboto-unhinted.");
     const Lettering lettering(*font);
-    const double size = kFontSize * scale, pad = kPad * scale;
+    const double size = kLegendFontSize * scale, pad = kLegendPad * scale;
     const double bar_height = std::min(kMostBarHeight * scale, 0.5 * canvas.height());
-    const std::vector<LegendTick> ticks = legend_ticks(legend.low, legend.high, kTicks);
+    const std::vector<LegendTick> ticks = legend_ticks(legend.low, legend.high, kLegendTicks);
     double beside = 0.0;
     for (const LegendTick& tick : ticks) beside = std::max(beside, lettering.width(tick.text, size));
     const double bar_and_ticks = (kBarWidth + kTickGap) * scale + beside;
     const double width = std::max(bar_and_ticks, lettering.width(legend.heading, size));
-    const double right = canvas.width() - kMargin * scale - pad, bottom = canvas.height() - kMargin * scale - pad;
+    const double right = canvas.width() - kLegendMargin * scale - pad,
+                 bottom = canvas.height() - kLegendMargin * scale - pad;
     const double left = right - width, top = bottom - bar_height;
     const double heading_middle = top - kHeadingGap * scale - 0.5 * size;
     canvas.fill_rectangle(left - pad, heading_middle - 0.5 * size - pad, right + pad, bottom + pad,
-                          palette.panel.with_opacity(kChipOpacity), kCorner * scale);
+                          palette.panel.with_opacity(kLegendChipOpacity), kLegendCorner * scale);
     lettering.draw(canvas, left, heading_middle, legend.heading, size, palette.text);
 
     const double bar = right - bar_and_ticks, bar_right = bar + kBarWidth * scale;

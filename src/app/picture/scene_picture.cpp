@@ -118,9 +118,10 @@ Image scene_picture(SceneRenderer& renderer, ViewerState& state, const Palette& 
 void write_picture(const std::filesystem::path& file, SceneRenderer& renderer, ViewerState& state,
                    const Palette& palette, const Eigen::Vector2i& size, const PictureOptions& options) {
     const auto finish = [&](auto picture) {
-        if (options.legend) {
+        if (options.legend && !state.shown.viewports.empty()) {
+            const Viewport all = around(state.shown.viewports);
             Canvas canvas(picture);
-            draw_legend(canvas, *options.legend, palette, size.x() / around(state.shown.viewports).width);
+            draw_legend(canvas, *options.legend, palette, std::min(size.x() / all.width, size.y() / all.height));
         }
         write_png(file, picture);
     };

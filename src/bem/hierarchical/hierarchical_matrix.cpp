@@ -126,6 +126,15 @@ Eigen::MatrixXd HierarchicalMatrix::transposed_product(const Eigen::MatrixXd& X)
 /// number of threads, and so is the result.
 Eigen::MatrixXd HierarchicalMatrix::multiply(const Eigen::MatrixXd& X, bool transposed) const {
     constexpr std::size_t kGroups = 16;
+    constexpr Eigen::Index kMostColumns = 16;  // each group has sums of its own
+    if (X.cols() > kMostColumns) {
+        Eigen::MatrixXd Y(3 * (transposed ? *col_tree_ : *row_tree_).size(), X.cols());
+        for (Eigen::Index first = 0; first < X.cols(); first += kMostColumns) {
+            const Eigen::Index n = std::min(kMostColumns, X.cols() - first);
+            Y.middleCols(first, n) = multiply(X.middleCols(first, n), transposed);
+        }
+        return Y;
+    }
     const Eigen::Index n_rows = 3 * (transposed ? *col_tree_ : *row_tree_).size();
     std::vector<Eigen::MatrixXd> sums(kGroups);
     Control control;

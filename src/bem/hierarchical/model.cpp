@@ -48,7 +48,10 @@ std::uint64_t HierarchicalGalerkinModel::constrain_memory(std::span<const int> b
                                                           std::span<const int> handles) const {
     const std::vector<int> vertices = joined(base, handles);
     const GalerkinTractions tractions(system_->boundary().mesh(), system_->surfaces(), vertices);
-    return hierarchical_set_memory(facts_.n_vertices, tractions.size());
+    std::int64_t n_loaded = std::ssize(tractions.triangles);
+    for (const int s : tractions.free_surfaces)
+        n_loaded += std::ssize(system_->surfaces().triangles[static_cast<std::size_t>(s)]);
+    return hierarchical_set_memory(facts_.n_vertices, n_loaded, tractions.size());
 }
 
 std::uint64_t HierarchicalGalerkinModel::check_memory(std::span<const int> base, std::span<const int> handles) const {

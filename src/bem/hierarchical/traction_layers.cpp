@@ -14,6 +14,10 @@ namespace {
 
 constexpr int kTrianglesOfALeaf = 48, kTrianglesOfAPatch = 128;
 
+SolveError not_positive_definite() {
+    return SolveError("single-layer matrix: is not positive definite. Check the mesh for slivers.");
+}
+
 }  // namespace
 
 /// V as an operator.
@@ -52,16 +56,19 @@ public:
             parallel_blocks(static_cast<int>(patches_.size()), 1, control, [&](int p, int) {
                 auto& factor = factors_[static_cast<std::size_t>(p)];
                 factor.compute(layers.V_->submatrix(patches_[static_cast<std::size_t>(p)].positions).cast<float>());
-                if (factor.info() != Eigen::Success)
-                    throw SolveError("single-layer matrix: is not positive definite. Check the mesh for slivers.");
+                if (factor.info() != Eigen::Success) throw not_positive_definite();
             });
         }
         Eigen::SparseMatrix<double, Eigen::RowMajor> Z(3 * tree.size(), 3 * std::ssize(patches_));
         Z.setFromTriplets(constants.begin(), constants.end());
         coarse_factor_.compute(layers.V_->galerkin_product(Z, control));
+        if (coarse_factor_.info() != Eigen::Success) throw not_positive_definite();
         Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(size(), size() - layers.n_single_);
         unit.bottomRows(unit.cols()).setIdentity();
-        if (unit.cols() > 0) rigid_scale_ = layers.single_layer(unit).bottomRows(unit.cols()).diagonal().cwiseInverse();
+        if (unit.cols() == 0) return;
+        const Eigen::VectorXd diagonal = layers.single_layer(unit).bottomRows(unit.cols()).diagonal();
+        if (diagonal.minCoeff() <= 0.0) throw not_positive_definite();
+        rigid_scale_ = diagonal.cwiseInverse();
     }
     Eigen::Index size() const override { return layers_.size_; }
     Eigen::MatrixXd product(const Eigen::MatrixXd& X) const override {

@@ -32,14 +32,29 @@ std::vector<int> code_points(std::string_view text) {
     return {characters.begin(), characters.end()};
 }
 
+std::vector<unsigned char> bytes_of(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+bool opens(const std::vector<unsigned char>& bytes, int index, stbtt_fontinfo& info) {
+    constexpr std::size_t kHeader = 12;
+    const int offset = bytes.size() > kHeader ? stbtt_GetFontOffsetForIndex(bytes.data(), index) : -1;
+    return offset >= 0 && stbtt_InitFont(&info, bytes.data(), offset) != 0;
+}
+
 }  // namespace
+
+bool is_readable_font(const std::filesystem::path& file, int index) {
+    const std::vector<unsigned char> bytes = bytes_of(file);
+    stbtt_fontinfo info{};
+    return opens(bytes, index, info);
+}
 
 Lettering::Lettering(const std::filesystem::path& font_file) {
     auto font = std::make_unique<Font>();
-    std::ifstream file(font_file, std::ios::binary);
-    font->bytes.assign(std::istreambuf_iterator<char>(file), {});
-    const int offset = font->bytes.size() > 12 ? stbtt_GetFontOffsetForIndex(font->bytes.data(), 0) : -1;
-    if (offset < 0 || stbtt_InitFont(&font->info, font->bytes.data(), offset) == 0)
+    font->bytes = bytes_of(font_file);
+    if (!opens(font->bytes, 0, font->info))
         throw Error(font_file.string() + ": is no font that can be read. Install fonts-roboto-unhinted.");
     font_ = std::move(font);
 }

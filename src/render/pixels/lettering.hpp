@@ -8,6 +8,9 @@
 
 namespace elastolab {
 
+/// Whether this is a font of outlines (TrueType or CFF), in a file of its own or at this place of a collection.
+bool is_readable_font(const std::filesystem::path& file, int index);
+
 /// Text by a TrueType font at any size, drawn into pictures. Characters that the font lacks are shown as its box.
 class Lettering {
 public:

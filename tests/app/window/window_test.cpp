@@ -133,16 +133,26 @@ TEST_F(RealProgram, FilmsThePullFromRestAndBack) {
     folder.write("pulled.json", R"({"elastolab": 1, "mesh": {"primitive": "cube", "resolution": 3},
         "fixed": {"box": {"min": [0, 0, 0], "max": [0, 1, 1]}},
         "handles": [{"select": {"box": {"min": [1, 0, 0], "max": [1, 1, 1]}}, "translate": [0.3, 0.2, 0]}]})");
-    const ProgramRun run = run_program({"view", "pulled.json", "--hidden", "--frames", "2", "--picture", "film.png",
-                                        "--picture-size", "160x120", "--legend", "--pull-film", "4"},
-                                       folder.path());
+    const ProgramRun run =
+        run_program({"view", "pulled.json", "--hidden", "--frames", "2", "--picture", "film.png", "--picture-size",
+                     "160x120", "--field", "displacement", "--legend", "--pull-film", "4"},
+                    folder.path());
     EXPECT_EQ(run.exit_code, 0) << run.err;
+    const ProgramRun without =
+        run_program({"view", "pulled.json", "--hidden", "--frames", "2", "--picture", "plain.png", "--picture-size",
+                     "160x120", "--field", "displacement", "--pull-film", "2"},
+                    folder.path());
+    EXPECT_EQ(without.exit_code, 0) << without.err;
+    const auto bytes_of = [&](const std::string& file) {
+        std::ifstream in(folder.path() / file, std::ios::binary);
+        return std::string(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
+    };
     std::vector<std::string> frames;
     for (int frame = 1; frame <= 4; ++frame) {
-        std::ifstream in(folder.path() / ("film-000" + std::to_string(frame) + ".png"), std::ios::binary);
-        frames.emplace_back(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
+        frames.push_back(bytes_of("film-000" + std::to_string(frame) + ".png"));
         EXPECT_GT(frames.back().size(), 100u) << frame;
     }
+    EXPECT_NE(frames[0], bytes_of("plain-0001.png")) << "the legend";
     EXPECT_EQ(frames[1], frames[3]) << "as far on the way back as on the way out";
     EXPECT_NE(frames[0], frames[1]);
     EXPECT_NE(frames[1], frames[2]);
