@@ -95,7 +95,7 @@ std::vector<MeshField> surface_fields(const SolvedBody& solved) {
 }
 
 void write_field_file(std::ostream& out, const fs::path& name, const SolvedBody& solved, Control& control) {
-    const std::string ending = small_ending(name);
+    const std::string ending = lower_case(name.extension().string());
     if (ending == ".vtu") return write_inside(out, name, solved, control);
     if (!is_field_file(name))
         throw Error(one_line(name.string()) + ": fields are written as .ply, .vtp, .vtu or .csv. Choose one of these.");
