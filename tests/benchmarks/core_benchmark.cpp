@@ -381,10 +381,4 @@ BENCHMARK(drag_frame_beside_a_copy_of_its_columns)
 }  // namespace
 }  // namespace elastolab::test
 
-int main(int argc, char** argv) {
-    elastolab::prepare_parallel_libraries(argv);
-    benchmark::Initialize(&argc, argv);
-    benchmark::AddCustomContext("blas_kernels", elastolab::blas_kernels());
-    benchmark::AddCustomContext("threads", std::to_string(elastolab::thread_count()));
-    benchmark::RunSpecifiedBenchmarks();
-}
+int main(int argc, char** argv) { elastolab::test::run_benchmarks(argc, argv); }

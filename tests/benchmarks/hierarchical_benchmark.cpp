@@ -7,7 +7,6 @@
 #include <memory>
 #include <numbers>
 
-#include "base/blas.hpp"
 #include "base/memory.hpp"
 #include "benchmarks/tools.hpp"
 #include "mesh/measures.hpp"
@@ -94,10 +93,4 @@ BENCHMARK(galerkin_bem_until_a_drag_beside_an_h_lu)
 }  // namespace
 }  // namespace elastolab::test
 
-int main(int argc, char** argv) {
-    elastolab::prepare_parallel_libraries(argv);
-    benchmark::Initialize(&argc, argv);
-    benchmark::AddCustomContext("blas_kernels", elastolab::blas_kernels());
-    benchmark::AddCustomContext("threads", std::to_string(elastolab::thread_count()));
-    benchmark::RunSpecifiedBenchmarks();
-}
+int main(int argc, char** argv) { elastolab::test::run_benchmarks(argc, argv); }

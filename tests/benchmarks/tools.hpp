@@ -8,8 +8,10 @@
 #include <filesystem>
 #include <functional>
 #include <numeric>
+#include <string>
 #include <vector>
 
+#include "base/blas.hpp"
 #include "base/timer.hpp"
 #include "deform/deformer.hpp"
 #include "mesh/checks/check.hpp"
@@ -82,6 +84,15 @@ inline DragResponse drag(Deformer& deformer, const ConstrainedSet& set) {
     deformer.constrain(set, control);
     const std::ptrdiff_t n = std::ssize(set.handles);
     return deformer.drag_response(Eigen::VectorXd::Zero(3 * n), Eigen::MatrixXd::Identity(3, 3).replicate(n, 1));
+}
+
+/// Those that the command line asks for, with the BLAS kernels that the program would choose.
+inline void run_benchmarks(int argc, char** argv) {
+    prepare_parallel_libraries(argv);
+    benchmark::Initialize(&argc, argv);
+    benchmark::AddCustomContext("blas_kernels", blas_kernels());
+    benchmark::AddCustomContext("threads", std::to_string(thread_count()));
+    benchmark::RunSpecifiedBenchmarks();
 }
 
 }  // namespace elastolab::test
