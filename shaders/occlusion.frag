@@ -16,7 +16,7 @@ float eye_depth(float depth) {  // positive
 vec3 eye_position(ivec2 pixel, float depth) {
     vec2 size = vec2(textureSize(depths, 0)), at = (vec2(pixel) + 0.5) / size * 2.0 - 1.0;
     float z = eye_depth(depth);
-    return vec3(at * z / vec2(projection[0][0], projection[1][1]), -z);
+    return vec3((at + projection[2].xy) * z / vec2(projection[0][0], projection[1][1]), -z);
 }
 
 vec3 position_at(ivec2 pixel) {

@@ -1,19 +1,21 @@
 #include "app/probes.hpp"
 
 #include <algorithm>
-#include <iomanip>
 
 #include "base/atomic_file.hpp"
+#include "base/csv.hpp"
 
 namespace elastolab {
 
 namespace {
 
-/// One more column of a row: a number of what may not be known.
+/// Columns of what may not be known.
 template <class Numbers>
-void write_optional(std::ostream& out, const std::optional<Numbers>& numbers, int i) {
-    out << ',';
-    if (numbers) out << (*numbers)[i];
+void add_if_known(CsvWriter& row, const std::optional<Numbers>& numbers) {
+    if (numbers)
+        row.numbers(*numbers);
+    else
+        row.nothing(static_cast<int>(Numbers::SizeAtCompileTime));
 }
 
 }  // namespace
@@ -60,19 +62,20 @@ std::vector<float> Probes::series(std::size_t probe) const {
 
 void Probes::write_csv(const std::filesystem::path& file) const {
     AtomicFile out(file);
-    out.stream() << "time_s,field,vertex,x,y,z,ux,uy,uz,value,tx,ty,tz,sxx,syy,szz,sxy,syz,sxz\n"
-                 << std::setprecision(17);
+    out.stream() << "time_s,field,vertex,x,y,z,ux,uy,uz,value,tx,ty,tz,sxx,syy,szz,sxy,syz,sxz\n";
+    CsvWriter row(out.stream());
     for (const Sample& sample : samples_)
         for (std::size_t i = 0; i < vertices_.size(); ++i) {
             const ProbeValue& value = sample.values[i];
-            out.stream() << sample.seconds << ',' << sample.field << ',' << vertices_[i];
-            for (const Eigen::Vector3d& vector : {value.position, value.displacement})
-                for (int axis = 0; axis < 3; ++axis) out.stream() << ',' << vector[axis];
-            out.stream() << ',';
-            if (value.field) out.stream() << *value.field;
-            for (int axis = 0; axis < 3; ++axis) write_optional(out.stream(), value.traction, axis);
-            for (int number = 0; number < 6; ++number) write_optional(out.stream(), value.stress, number);
-            out.stream() << '\n';
+            row.number(sample.seconds).text(sample.field).number(vertices_[i]);
+            row.numbers(value.position).numbers(value.displacement);
+            if (value.field)
+                row.number(*value.field);
+            else
+                row.nothing();
+            add_if_known(row, value.traction);
+            add_if_known(row, value.stress);
+            row.end_row();
         }
     out.commit();
 }

@@ -287,6 +287,7 @@ private:
     void arrange(const Layout& layout) {
         const std::size_t before = state_.shown.viewports.size();
         state_.shown.viewports = viewports_of(state_, layout.scene);
+        state_.camera.set_covered(legend_part(state_, gui_.scale()));
         if (state_.shown.viewports.size() != before) state_.frame_in_viewports(before == 0);
     }
 

@@ -90,4 +90,52 @@ MinimumNormSolution solve_minimum_norm(Eigen::MatrixXd A, Eigen::MatrixXd B, dou
     return solution;
 }
 
+QrFactorization::QrFactorization(Eigen::MatrixXd A)
+    : reflectors_(std::move(A)), scales_(std::min(reflectors_.rows(), reflectors_.cols())) {
+    const int m = as_int(reflectors_.rows()), n = as_int(reflectors_.cols());
+    if (scales_.size() == 0) return;
+    double answer = 0.0;
+    LAPACKE_dgeqrf_work(LAPACK_COL_MAJOR, m, n, reflectors_.data(), m, scales_.data(), &answer, -1);
+    std::vector<double> work = work_array(answer);
+    LAPACKE_dgeqrf_work(LAPACK_COL_MAJOR, m, n, reflectors_.data(), m, scales_.data(), work.data(),
+                        as_int(std::ssize(work)));
+}
+
+Eigen::MatrixXd QrFactorization::R() const {
+    return reflectors_.topRows(scales_.size()).triangularView<Eigen::Upper>();
+}
+
+Eigen::MatrixXd QrFactorization::times_Q(const Eigen::MatrixXd& B) const {
+    assert(B.rows() == scales_.size());
+    Eigen::MatrixXd product = Eigen::MatrixXd::Zero(reflectors_.rows(), B.cols());
+    product.topRows(B.rows()) = B;
+    if (product.size() == 0 || scales_.size() == 0) return product;
+    const int m = as_int(product.rows()), n = as_int(product.cols()), k = as_int(scales_.size());
+    double answer = 0.0;
+    LAPACKE_dormqr_work(LAPACK_COL_MAJOR, 'L', 'N', m, n, k, reflectors_.data(), m, scales_.data(), product.data(), m,
+                        &answer, -1);
+    std::vector<double> work = work_array(answer);
+    LAPACKE_dormqr_work(LAPACK_COL_MAJOR, 'L', 'N', m, n, k, reflectors_.data(), m, scales_.data(), product.data(), m,
+                        work.data(), as_int(std::ssize(work)));
+    return product;
+}
+
+SingularValues singular_values(Eigen::MatrixXd A) {
+    const int m = as_int(A.rows()), n = as_int(A.cols()), k = std::min(m, n);
+    if (k == 0) return {Eigen::MatrixXd(m, 0), Eigen::VectorXd(0), Eigen::MatrixXd(n, 0)};
+    // dgesdd may not return from entries that are not finite.
+    if (!A.allFinite()) throw SolveError("singular values: of a matrix with entries that are not finite.");
+    Eigen::MatrixXd U(m, k), Vt(k, n);
+    Eigen::VectorXd sigma(k);
+    std::vector<int> iwork(8 * static_cast<std::size_t>(k));
+    double answer = 0.0;
+    LAPACKE_dgesdd_work(LAPACK_COL_MAJOR, 'S', m, n, A.data(), m, sigma.data(), U.data(), m, Vt.data(), k, &answer, -1,
+                        iwork.data());
+    std::vector<double> work = work_array(answer);
+    if (LAPACKE_dgesdd_work(LAPACK_COL_MAJOR, 'S', m, n, A.data(), m, sigma.data(), U.data(), m, Vt.data(), k,
+                            work.data(), as_int(std::ssize(work)), iwork.data()) != 0)
+        throw SolveError("singular values: the iteration does not converge.");
+    return {std::move(U), std::move(sigma), Vt.transpose()};
+}
+
 }  // namespace elastolab

@@ -45,4 +45,27 @@ struct MinimumNormSolution {
 };
 MinimumNormSolution solve_minimum_norm(Eigen::MatrixXd A, Eigen::MatrixXd B, double rank_tolerance);
 
+/// A = Q R by Householder reflections (dgeqrf): Q has min(rows, columns) orthonormal columns. Immutable.
+class QrFactorization {
+public:
+    explicit QrFactorization(Eigen::MatrixXd A);
+    /// Upper triangular, min(rows, columns) x columns of A.
+    Eigen::MatrixXd R() const;
+    /// Q B;  B has as many rows as Q has columns.
+    Eigen::MatrixXd times_Q(const Eigen::MatrixXd& B) const;
+
+private:
+    Eigen::MatrixXd reflectors_;
+    Eigen::VectorXd scales_;
+};
+
+/// A = U diag(sigma) V^T (dgesdd), thin: min(rows, columns) singular values, in descending order.
+/// Throws SolveError when the iteration does not converge or A has entries that are not finite.
+struct SingularValues {
+    Eigen::MatrixXd U;
+    Eigen::VectorXd sigma;
+    Eigen::MatrixXd V;
+};
+SingularValues singular_values(Eigen::MatrixXd A);
+
 }  // namespace elastolab

@@ -196,39 +196,4 @@ void assemble(Layer layer, const Boundary& boundary, const Sources& sources, con
     parallel_blocks(n_packs(sources.size(), integrator.lanes()), kPacksPerBlock, control, run);
 }
 
-LayerIntegrals::LayerIntegrals(Layer layer, const Boundary& boundary, const Sources& sources, const Elements& elements,
-                               double tolerance, Control& control)
-    : layer_(layer), n_sources_(sources.size()), n_slots_(elements.n_slots), lanes_(best_triangle_kernels().lanes) {
-    const PackIntegrator integrator(layer, boundary, sources, elements, tolerance);
-    const std::size_t pack_size = integrator.slot_size() * static_cast<std::size_t>(n_slots_);
-    const int packs = n_packs(n_sources_, lanes_);
-    data_.resize(pack_size * static_cast<std::size_t>(packs));
-    const auto run = [&](int begin, int end) {
-        std::vector<double> buffer(integrator.buffer_size());
-        for (int pack = begin; pack < end; ++pack) {
-            integrator.integrate(pack, buffer.data());
-            std::copy_n(buffer.begin(), pack_size, data_.begin() + static_cast<std::ptrdiff_t>(pack_size) * pack);
-        }
-    };
-    parallel_blocks(packs, kPacksPerBlock, control, run);
-    for (int pack = 0; pack < packs; ++pack)
-        order_.insert(order_.end(), integrator.sources_of(pack).begin(), integrator.sources_of(pack).end());
-}
-
-std::span<const int> LayerIntegrals::sources_of(int pack) const {
-    const auto first = static_cast<std::size_t>(pack * lanes_);
-    return std::span(order_).subspan(first, std::min(static_cast<std::size_t>(lanes_), order_.size() - first));
-}
-
-void LayerIntegrals::evaluate(const Material& material, Eigen::Ref<Eigen::MatrixXd> out, Control& control) const {
-    assert(out.rows() == 3 * n_sources_ && out.cols() == 3 * n_slots_);
-    const Combination combination(layer_, material);
-    const std::size_t pack_size = static_cast<std::size_t>(numbers_of(layer_)) * static_cast<std::size_t>(lanes_) *
-                                  static_cast<std::size_t>(n_slots_);
-    parallel_blocks(n_packs(n_sources_, lanes_), kPacksPerBlock, control, [&](int begin, int end) {
-        for (int pack = begin; pack < end; ++pack)
-            combination.write(data_.data() + pack_size * static_cast<std::size_t>(pack), sources_of(pack), lanes_, out);
-    });
-}
-
 }  // namespace elastolab

@@ -1,9 +1,7 @@
 #pragma once
 
-#include <cstdint>
 #include <Eigen/Core>
 #include <span>
-#include <vector>
 
 #include "base/control.hpp"
 #include "bem/boundary.hpp"
@@ -26,26 +24,5 @@ enum class Layer {
 /// not depend on the number of threads. Throws Cancelled.
 void assemble(Layer layer, const Boundary& boundary, const Sources& sources, const Elements& elements,
               const Material& material, double tolerance, Eigen::Ref<Eigen::MatrixXd> out, Control& control);
-
-/// The same integrals with the material taken out, kept in memory (10 numbers a block for the double layer, 7 for the
-/// single layer), so that another Poisson's ratio is a linear combination of what is there.
-class LayerIntegrals {
-public:
-    LayerIntegrals(Layer layer, const Boundary& boundary, const Sources& sources, const Elements& elements,
-                   double tolerance, Control& control);
-
-    /// Writes the matrix for a material; the same numbers as assemble(), to the last bit.
-    void evaluate(const Material& material, Eigen::Ref<Eigen::MatrixXd> out, Control& control) const;
-
-    std::uint64_t memory_bytes() const { return data_.size() * sizeof(double); }
-
-private:
-    std::span<const int> sources_of(int pack) const;
-
-    Layer layer_;
-    int n_sources_, n_slots_, lanes_;
-    std::vector<int> order_;    ///< sources as they are packed
-    std::vector<double> data_;  ///< [pack of sources][slot][number][lane]
-};
 
 }  // namespace elastolab

@@ -88,13 +88,4 @@ Elements constant_elements(std::span<const int> triangles) {
     return elements;
 }
 
-Elements discontinuous_elements(std::span<const int> triangles) {
-    Elements elements{Elements::Order::linear, 3 * static_cast<int>(triangles.size()), {}};
-    for (const int t : triangles) {
-        const int first = 3 * static_cast<int>(elements.elements.size());
-        elements.elements.push_back({t, {first, first + 1, first + 2}});
-    }
-    return elements;
-}
-
 }  // namespace elastolab

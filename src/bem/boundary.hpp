@@ -66,7 +66,5 @@ struct Elements {
 Elements vertex_elements(const Boundary& boundary);
 /// Slot = position of the triangle in the list, constant functions.
 Elements constant_elements(std::span<const int> triangles);
-/// Slot = 3 * position of the triangle in the list + corner: each triangle's own linear functions.
-Elements discontinuous_elements(std::span<const int> triangles);
 
 }  // namespace elastolab

@@ -25,7 +25,6 @@ Cost predict(const SurfaceMesh& mesh, const Method& method, double nodes) {
     if (!factorises_ahead(method)) return cost;
     cost.memory_bytes += square_bytes(n + 6.0);
     double flops = 2.0 / 3.0 * n * n * n + kFlopsPerPair * pairs;
-    if (method.keep_integrals) cost.memory_bytes += static_cast<std::uint64_t>(80.0 * nodes * nodes);
     if (method.mode != Mode::on_demand) {
         cost.memory_bytes += 5 * square_bytes(n + 6.0);
         flops += (2.0 / 3.0 + 2.0 + 2.0) * n * n * n + kFlopsPerPair * pairs;
@@ -69,7 +68,6 @@ Cost predict_galerkin_bem(const SurfaceMesh& mesh, const Method& method) {
     if (!factorises_ahead(method)) return cost;
     cost.memory_bytes += square_bytes(n);
     double flops = n * n * n / 3.0 + 0.5 * kFlopsPerPair * triangles * triangles;
-    if (method.keep_integrals) cost.memory_bytes += 2 * square_bytes(n);
     if (method.mode != Mode::on_demand) {
         cost.memory_bytes += 4 * square_bytes(n);
         flops += 2.0 * n * n * n;

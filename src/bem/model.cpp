@@ -16,10 +16,6 @@ bool same_system(const Method& a, const Method& b) {
            a.column_memory == b.column_memory && factorises_ahead(a) == factorises_ahead(b);
 }
 
-bool same_integrals(const Method& a, const Method& b) {
-    return a.kind == b.kind && integral_tolerance(a) == integral_tolerance(b);
-}
-
 }  // namespace
 
 BemModel::BemModel(const BoundaryElement& element, const SurfaceMesh& surface, double poisson_ratio,
@@ -30,10 +26,8 @@ BemModel::BemModel(const BoundaryElement& element, const SurfaceMesh& surface, d
     } else {
         auto boundary =
             before != nullptr ? before->system_->shared_boundary() : std::make_shared<const Boundary>(surface);
-        const bool reuse = before != nullptr && same_integrals(before->method_, method);
-        system_ = std::make_shared<const BemSystem>(element, std::move(boundary), poisson_ratio, method,
-                                                    reuse ? before->system_->integrals() : BemIntegrals{},
-                                                    facts_.stages, control);
+        system_ = std::make_shared<const BemSystem>(element, std::move(boundary), poisson_ratio, method, facts_.stages,
+                                                    control);
     }
     note_facts();
 }

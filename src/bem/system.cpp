@@ -33,7 +33,7 @@ std::uint64_t budget_for(Eigen::Index n_rows, Mode mode) {
 }  // namespace
 
 BemSystem::BemSystem(const BoundaryElement& element, std::shared_ptr<const Boundary> boundary, double poisson_ratio,
-                     const Method& method, BemIntegrals integrals, StageTimes& stages, Control& control)
+                     const Method& method, StageTimes& stages, Control& control)
     : element_(element),
       boundary_(std::move(boundary)),
       material_{1.0, poisson_ratio},
@@ -41,7 +41,6 @@ BemSystem::BemSystem(const BoundaryElement& element, std::shared_ptr<const Bound
       triangles_of_vertex_(boundary_->mesh()),
       nodes_(element.nodes(*boundary_)),
       elements_(element.shape_functions(*boundary_)),
-      integrals_(std::move(integrals)),
       modes_(rigid_modes(nodes_.points)) {
     const Eigen::Index n = 3 * n_nodes();
     cache_budget_ = method.column_memory.value_or(budget_for(n, method.mode));
@@ -49,15 +48,9 @@ BemSystem::BemSystem(const BoundaryElement& element, std::shared_ptr<const Bound
     if (!factorises_ahead(method)) return;
     Eigen::MatrixXd bordered(n + 6, n + 6);
     {
-        const Stage stage(integrals_.H ? "combine" : "integrate", control, stages);
-        if (method.keep_integrals && !integrals_.H)
-            integrals_.H = std::make_shared<LayerIntegrals>(Layer::double_layer, *boundary_, nodes_, elements_,
-                                                            tolerance_, control);
-        if (integrals_.H)
-            integrals_.H->evaluate(material_, bordered.topLeftCorner(n, n), control);
-        else
-            assemble(Layer::double_layer, *boundary_, nodes_, elements_, material_, tolerance_,
-                     bordered.topLeftCorner(n, n), control);
+        const Stage stage("integrate", control, stages);
+        assemble(Layer::double_layer, *boundary_, nodes_, elements_, material_, tolerance_,
+                 bordered.topLeftCorner(n, n), control);
     }
     Eigen::MatrixXd H;
     if (method.mode != Mode::on_demand) H = bordered.topLeftCorner(n, n);
@@ -65,7 +58,7 @@ BemSystem::BemSystem(const BoundaryElement& element, std::shared_ptr<const Bound
         const Stage stage("factorise", control, stages);
         factorise(std::move(bordered), control);
     }
-    if (method.mode != Mode::on_demand) complete(std::move(H), method, stages, control);
+    if (method.mode != Mode::on_demand) complete(std::move(H), stages, control);
 }
 
 void BemSystem::factorise(Eigen::MatrixXd&& bordered, Control& control) {
@@ -79,20 +72,14 @@ void BemSystem::factorise(Eigen::MatrixXd&& bordered, Control& control) {
     lu_.solve_in_place(rigid_);
 }
 
-void BemSystem::complete(Eigen::MatrixXd H, const Method& method, StageTimes& stages, Control& control) {
+void BemSystem::complete(Eigen::MatrixXd H, StageTimes& stages, Control& control) {
     const Eigen::Index n = 3 * n_nodes();
     auto operators = std::make_shared<DenseOperators>();
     full_ = std::make_unique<Full>();
     full_->G.resize(n, n);
     {
-        const Stage stage(integrals_.G ? "combine G" : "integrate G", control, stages);
-        if (method.keep_integrals && !integrals_.G)
-            integrals_.G = std::make_shared<LayerIntegrals>(Layer::single_layer, *boundary_, nodes_, elements_,
-                                                            tolerance_, control);
-        if (integrals_.G)
-            integrals_.G->evaluate(material_, full_->G, control);
-        else
-            assemble(Layer::single_layer, *boundary_, nodes_, elements_, material_, tolerance_, full_->G, control);
+        const Stage stage("integrate G", control, stages);
+        assemble(Layer::single_layer, *boundary_, nodes_, elements_, material_, tolerance_, full_->G, control);
     }
     {
         const Stage stage("K = G^-1 H", control, stages);
@@ -116,8 +103,7 @@ void BemSystem::complete(Eigen::MatrixXd H, const Method& method, StageTimes& st
 
 std::uint64_t BemSystem::memory_bytes() const {
     const auto n = static_cast<std::uint64_t>(lu_.size());
-    return 8 * n * n * (full_ ? 5u : 1u) + (integrals_.H ? integrals_.H->memory_bytes() : 0u) +
-           (integrals_.G ? integrals_.G->memory_bytes() : 0u);
+    return 8 * n * n * (full_ ? 5u : 1u);
 }
 
 Eigen::MatrixXd BemSystem::double_layer(const Sources& sources, Control& control, double tolerance) const {

@@ -22,11 +22,6 @@
 
 namespace elastolab {
 
-/// The material-free integrals of both layers over all nodes, as far as they are kept.
-struct BemIntegrals {
-    std::shared_ptr<const LayerIntegrals> H, G;
-};
-
 /// The boundary equation H u = G t of one solid with unit Young's modulus, bordered by the rigid modes B = C of its
 /// nodes and factorised:
 ///   Hhat = | H   B |      Hhat^-1 = | D'  E |
@@ -34,17 +29,15 @@ struct BemIntegrals {
 /// Nodes are vertices (linear elements) or triangles (constant elements). Any thread may use it.
 class BemSystem {
 public:
-    /// `integrals`: those of this boundary and method; what is missing is integrated (and kept, if the method says so).
     /// On demand with the update `direct` nothing is factorised here: each constrained set has a system of its own.
     BemSystem(const BoundaryElement& element, std::shared_ptr<const Boundary> boundary, double poisson_ratio,
-              const Method& method, BemIntegrals integrals, StageTimes& stages, Control& control);
+              const Method& method, StageTimes& stages, Control& control);
 
     const Boundary& boundary() const { return *boundary_; }
     std::shared_ptr<const Boundary> shared_boundary() const { return boundary_; }
     const VertexTriangles& triangles_of_vertex() const { return triangles_of_vertex_; }
     const BoundaryElement& element() const { return element_; }
     int n_nodes() const { return nodes_.size(); }
-    const BemIntegrals& integrals() const { return integrals_; }
 
     /// E over J: (3*n_nodes + 6) x 6.
     const Eigen::MatrixXd& rigid() const { return rigid_; }
@@ -88,7 +81,7 @@ private:
         std::shared_ptr<const DenseOperators> operators;
     };
     void factorise(Eigen::MatrixXd&& bordered, Control& control);
-    void complete(Eigen::MatrixXd H, const Method& method, StageTimes& stages, Control& control);
+    void complete(Eigen::MatrixXd H, StageTimes& stages, Control& control);
     /// The columns of a whole shape function, out of K^-1; null when K^-1 is not in memory or does not have them.
     Columns::Block from_inverse(const TractionSpace::Block& block) const;
     std::vector<Columns::Block> compute(const std::vector<const TractionSpace::Block*>& missing, Elements::Order order,
@@ -101,7 +94,6 @@ private:
     VertexTriangles triangles_of_vertex_;
     Sources nodes_;
     Elements elements_;
-    BemIntegrals integrals_;
     Eigen::MatrixXd modes_;
     LuFactorization lu_;
     Eigen::MatrixXd rigid_;

@@ -64,7 +64,7 @@ void print_row(std::ostream& out, const char* label, const std::string& value) {
     out << formatted("  %-12s  ", label) << value << "\n";
 }
 
-void print_costs(std::ostream& out, const std::vector<MethodCost>& costs) {
+void print_costs(std::ostream& out, const std::vector<MethodCost>& costs, bool filled) {
     out << formatted("  %-13s  %-12s  %12s  %12s  %10s\n", "method", "mode", "unknowns", "memory", "time");
     for (const MethodCost& row : costs) {
         out << formatted("  %-13s  %-12s  ", std::string(name(row.method.kind)).c_str(),
@@ -73,7 +73,7 @@ void print_costs(std::ostream& out, const std::vector<MethodCost>& costs) {
             out << formatted("%12lld  %12s  %10s", static_cast<long long>(row.cost->degrees_of_freedom),
                              readable_bytes(static_cast<double>(row.cost->memory_bytes)).c_str(),
                              readable_seconds(row.cost->seconds).c_str())
-                << (row.on_proxy ? "  on the proxy\n" : "\n");
+                << (!row.on_proxy ? "\n" : filled ? "  with its holes filled\n" : "  on the proxy\n");
         else
             out << "cannot: see the errors above\n";
     }
@@ -114,10 +114,9 @@ Json list(const Items& items) {
 
 void make_proxy(MeshInfo& info, const ProxyChoice& choice, Control& control) {
     const auto shown = std::make_shared<const SurfaceMesh>(info.mesh.checked.mesh);
-    const std::array sizes = {choice.n_vertices};
     try {
         require_shape(info.mesh.checked.report, info.mesh.name);
-        info.proxy = make_proxies(info.mesh.name, shown, info.mesh.checked.report, sizes, control).front();
+        info.proxy = make_proxy(info.mesh.name, shown, info.mesh.checked.report, choice, control);
     } catch (const MeshError& error) {
         info.proxy_problem = error.what();
     }
@@ -129,6 +128,9 @@ bool usable(const MeshReport& report, MethodKind kind) {
 }
 
 std::string proxy_words(const Proxy& proxy) {
+    if (proxy.is_filled())
+        return formatted("the surface with %d holes filled: %d vertices, %d faces", proxy.n_closed_holes,
+                         proxy.surface->n_vertices(), proxy.surface->n_triangles());
     return formatted("%d vertices, %d faces, at most %.3g from the surface", proxy.surface->n_vertices(),
                      proxy.surface->n_triangles(), proxy.places.distance.maxCoeff());
 }
@@ -169,7 +171,7 @@ void print_info(std::ostream& out, const MeshInfo& info) {
     for (const Defect& defect : report.defects) print_row(out, consequence(defect), one_line(defect.text));
     if (info.proxy) print_row(out, "proxy", proxy_words(*info.proxy));
     if (!info.proxy_problem.empty()) print_row(out, "no proxy", one_line(info.proxy_problem));
-    print_costs(out, info.costs);
+    print_costs(out, info.costs, info.proxy && info.proxy->is_filled());
 }
 
 void write_info(std::ostream& out, const MeshInfo& info) {

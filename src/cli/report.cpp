@@ -61,7 +61,9 @@ void print_sizes(std::ostream& out, const Solution& solution) {
     const ModelFacts& facts = solution.model->facts();
     out << "  sizes         " << solution.surface->n_vertices() << " vertices, " << solution.surface->n_triangles()
         << " faces, ";
-    if (solution.proxy) out << "proxy of " << solution.proxy->surface->n_vertices() << " vertices, ";
+    if (solution.proxy)
+        out << (solution.proxy->is_filled() ? "with its holes filled " : "proxy of ")
+            << solution.proxy->surface->n_vertices() << " vertices, ";
     if (facts.n_tetrahedra > 0) out << facts.n_tetrahedra << " tetrahedra, ";
     out << facts.n_degrees_of_freedom << " degrees of freedom, " << solution.n_constrained << " constrained vertices\n";
 }

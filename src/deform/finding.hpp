@@ -33,6 +33,7 @@ enum class FindingKind {
     proxy,                 ///< a closed surface of `first` vertices stands for the mesh `object`; its largest distance
     chosen_proxy,          ///< the same of a mesh that could be simulated itself
     capped_holes,          ///< how many holes of the mesh `object` a proxy closes
+    filled_holes,          ///< how many holes of the mesh `object` are filled, by `first` triangles
     thin_sheets,           ///< open sheets of the mesh `object` became walls; their thickness
 };
 

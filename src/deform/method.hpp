@@ -101,9 +101,6 @@ struct Method {
     /// BEM: relative error allowed to a boundary integral; decides which rule is used where. 0: that of the method
     /// (MethodTraits::integral_tolerance).
     double integral_tolerance = 0.0;
-    /// BEM: keep the material-free integrals (1.1 times the memory of the matrix itself), so that another Poisson's
-    /// ratio integrates nothing.
-    bool keep_integrals = false;
     /// BEM: bytes of response columns kept at most; sets that need more are served without keeping any. Nothing: an
     /// eighth of the matrix and 40 MiB on demand, one matrix and 40 MiB in the mode `full`.
     std::optional<std::uint64_t> column_memory = {};

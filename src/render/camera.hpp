@@ -49,6 +49,10 @@ public:
     Eigen::Vector3d up() const { return pose_.orientation * Eigen::Vector3d::UnitY(); }
     Eigen::Vector3d backward() const { return pose_.orientation * Eigen::Vector3d::UnitZ(); }
 
+    /// Something stands before the right of every viewport, over this part of its width: the middle of what is seen is
+    /// then the middle of the rest.
+    void set_covered(double part) { covered_ = part; }
+
     /// World to eye coordinates (x right, y up, z backward) [L].
     Eigen::Matrix4d view() const;
     /// Eye to clip coordinates, for eye coordinates in units of `unit` [L]. The depth range holds a few scene radii
@@ -85,9 +89,14 @@ public:
     double pixel_size(double depth, const Viewport& viewport) const;
 
 private:
+    /// Where the viewing direction appears.
+    Eigen::Vector2d middle_of(const Viewport& viewport) const;
+    Eigen::Vector3d eye_direction(const Eigen::Vector2d& pixel, const Viewport& viewport) const;
+
     CameraPose pose_;
     SceneFrame scene_;
     Eigen::Vector3d up_axis_ = Eigen::Vector3d::UnitZ();
+    double covered_ = 0.0;
 };
 
 }  // namespace elastolab

@@ -7,8 +7,10 @@ namespace elastolab {
 
 namespace {
 
-constexpr std::array<std::pair<ProxyUse, std::string_view>, 3> kProxyUses = {
-    {{ProxyUse::never, "never"}, {ProxyUse::automatic, "auto"}, {ProxyUse::always, "always"}}};
+constexpr std::array<std::pair<ProxyUse, std::string_view>, 4> kProxyUses = {{{ProxyUse::never, "never"},
+                                                                              {ProxyUse::automatic, "auto"},
+                                                                              {ProxyUse::always, "always"},
+                                                                              {ProxyUse::fill, "fill"}}};
 
 }  // namespace
 

@@ -86,7 +86,8 @@ struct Handle {
 enum class ProxyUse {
     never,      ///< a surface that a method cannot use is an error
     automatic,  ///< where the method cannot use the surface itself
-    always
+    always,
+    fill  ///< none: where the method cannot use it, the surface itself with its holes filled
 };
 struct ProxyChoice {
     ProxyUse use = ProxyUse::automatic;

@@ -137,8 +137,16 @@ SceneMesh load_scene_mesh(const MeshSource& source, const fs::path& scene_file, 
 }
 
 bool needs_proxy(const ProxyChoice& choice, const MeshReport& mesh, MethodKind kind) {
-    if (choice.use == ProxyUse::automatic) return kind->has_inside ? !mesh.usable_for_fem() : !mesh.usable();
-    return choice.use == ProxyUse::always;
+    switch (choice.use) {
+        case ProxyUse::automatic:
+        case ProxyUse::fill:
+            return kind->has_inside ? !mesh.usable_for_fem() : !mesh.usable();
+        case ProxyUse::always:
+            return true;
+        case ProxyUse::never:
+            break;
+    }
+    return false;
 }
 
 void require_usable(const SceneMesh& mesh, MethodKind kind) {

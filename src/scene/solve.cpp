@@ -50,8 +50,7 @@ Body make_body(const SolveRequest& request, const SceneMesh& mesh, Solution& sol
     Body body{.name = mesh.name, .surface = solution.surface, .material = document.material};
     if (needs_proxy(document.proxy, mesh.checked.report, kind)) {
         const Stage stage("proxy", control, solution.stages);
-        const std::array sizes = {document.proxy.n_vertices};
-        solution.proxy = make_proxies(mesh.name, solution.surface, mesh.checked.report, sizes, control).front();
+        solution.proxy = make_proxy(mesh.name, solution.surface, mesh.checked.report, document.proxy, control);
         append(solution.findings, findings_of_proxy(*solution.proxy, mesh.name));
         body.surface = solution.proxy->surface;
     } else {

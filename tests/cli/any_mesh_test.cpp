@@ -7,6 +7,7 @@
 #include <functional>
 #include <iomanip>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "cli/program.hpp"
 #include "mesh/input/export.hpp"
@@ -196,6 +197,46 @@ TEST_P(AnyTrianglesOfAFile, CanBePulled) {
     }
     EXPECT_GT(n_held, 0);
     EXPECT_GT(n_pulled, 0);
+}
+
+/// The same pull of a ball with two holes that are filled on request, and of the whole one.
+TEST(HolesOfAFile, AreFilledOnRequest) {
+    const test::TemporaryFolder folder;
+    const SurfaceMesh ball = make_sphere(8);
+    const auto solved = [&](const SurfaceMesh& mesh, const char* proxy) {
+        save_surface(folder.path() / "mesh.ply", mesh);
+        folder.write("scene.json", pull(ball, "mesh.ply").scene);
+        return run_program({"solve", "scene.json", "--method", "galerkin-bem", "--proxy", proxy, "--quiet", "--report",
+                            "r.json", "--displacements", "u.csv"},
+                           folder.path());
+    };
+    const auto displacements = [&] {
+        std::vector<Eigen::Vector3d> u;
+        for (const std::vector<double>& row : test::read_csv(folder.path() / "u.csv").rows)
+            u.emplace_back(row[3], row[4], row[5]);
+        return u;
+    };
+    ASSERT_EQ(solved(ball, "never").exit_code, 0);
+    const std::vector<Eigen::Vector3d> expected = displacements();
+    // Vertices beside a hole, where it is neither held nor pulled.
+    const SurfaceMesh open = with_hole(with_hole(ball, {0, 0, 1}, 0.93), {0, 1, 0.1}, 0.9);
+    const auto run = solved(open, "fill");
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const nlohmann::json report = nlohmann::json::parse(std::ifstream(folder.path() / "r.json"));
+    EXPECT_EQ(report["proxy"]["largest_distance"], 0.0);
+    EXPECT_NE(report["warnings"].dump().find("2 holes filled"), std::string::npos) << report["warnings"];
+    const std::vector<Eigen::Vector3d> u = displacements();
+    std::set<int> used;  // the file has no others
+    for (const int v : open.triangles.reshaped()) used.insert(v);
+    ASSERT_EQ(u.size(), used.size());
+    double off = 0.0, size = 0.0;
+    for (std::size_t i = 0; const int v : used) {
+        const Eigen::Vector3d& whole = expected[static_cast<std::size_t>(v)];
+        off += (u[i++] - whole).squaredNorm();
+        size += whole.squaredNorm();
+    }
+    EXPECT_LT(std::sqrt(off / size), 0.01);
+    EXPECT_NE(solved(first_triangles(open, 20), "fill").exit_code, 0);  // no solid, whatever is filled
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ declare -A below=(
 wrapped=(
   'assimp/|^mesh/[a-z_/]*\.cpp$'
   '(.*/)?tetgen\.h|^mesh/[a-z_/]*\.cpp$'
-  'CGAL/|^mesh/wrap/wrap_main\.cpp$'
+  'CGAL/|^mesh/wrap/(cgal_mesh\.hpp|hole_filling\.cpp|wrap_main\.cpp)$'
   '(.*/)?cholmod|^fem/[a-z_/]*\.cpp$'
   'nlohmann/|^(scene/file/json_(text|node)\.hpp|cli/proxy_json\.hpp|(scene|study|cli|app)/[a-z_/]*\.cpp)$'
   'CLI/|^cli/[a-z_/]*\.cpp$'

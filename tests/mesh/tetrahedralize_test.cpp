@@ -11,10 +11,12 @@
 #include <thread>
 
 #include "base/error.hpp"
+#include "mesh/closest_point.hpp"
 #include "mesh/measures.hpp"
 #include "mesh/meshes.hpp"
 #include "mesh/primitives.hpp"
 #include "mesh/tets/node_estimate.hpp"
+#include "mesh/tets/seed_points.hpp"
 #include "mesh/tets/tet_quality.hpp"
 #include "mesh/topology.hpp"
 
@@ -192,6 +194,18 @@ TEST(Tetrahedralize, GradesTheInsideTheMoreTheLargerTheSurface) {
     const SurfaceMesh solid = make_box(15);  // 1352 vertices
     EXPECT_LT(fill(solid).n_vertices(), fill(solid, {.growth = 0.0}).n_vertices());
     EXPECT_EQ(fill(make_box(6)).vertices, fill(make_box(6), {.growth = 0.0}).vertices);
+}
+
+TEST(Tetrahedralize, SeedsStayClearOfTheSurface) {
+    const SurfaceMesh ball = make_sphere(40);
+    const std::vector<double> vertices(ball.vertices.data(), ball.vertices.data() + ball.vertices.size());
+    const std::vector<int> triangles(ball.triangles.data(), ball.triangles.data() + ball.triangles.size());
+    const std::vector<double> seeds = seed_points(vertices, SizeField(vertices, triangles, 0.35));
+    const Positions points = Eigen::Map<const Eigen::Matrix3Xd>(seeds.data(), 3, std::ssize(seeds) / 3);
+    EXPECT_GT(points.cols(), 100);
+    Control control;
+    EXPECT_GT(closest_points(ball, points, control).distance.minCoeff(), mean_edge(ball));
+    EXPECT_TRUE(seed_points(vertices, SizeField(vertices, triangles, 0.0)).empty());
 }
 
 TEST(Tetrahedralize, ItsNodesAreEstimatedFromTheSurface) {

@@ -60,7 +60,8 @@ TEST(Camera, ProjectsEveryPointOfARayToItsPixel) {
 TEST(Camera, UnprojectsWhatItProjects) {
     Random random;
     for (const SceneFrame& ball : scenes()) {
-        const Camera camera = camera_at(ball);
+        Camera camera = camera_at(ball);
+        camera.set_covered(random(0.0, 0.3));
         const Eigen::Vector3d point = random.point(ball);
         const ProjectedPoint seen = camera.project(point, kViewport);
         EXPECT_LT((camera.unproject(seen.pixel, seen.depth, kViewport) - point).norm(), kTight * ball.radius);
@@ -70,7 +71,8 @@ TEST(Camera, UnprojectsWhatItProjects) {
 TEST(Camera, AgreesWithItsMatrices) {
     Random random;
     for (const SceneFrame& ball : scenes()) {
-        const Camera camera = camera_at(ball);
+        Camera camera = camera_at(ball);
+        camera.set_covered(random(0.0, 0.3));
         const Eigen::Vector3d point = random.point(ball);
         const Eigen::Vector4d clip = camera.projection(kViewport.aspect()) * camera.view() * point.homogeneous();
         const Eigen::Vector3d ndc = clip.head<3>() / clip.w();
@@ -209,6 +211,23 @@ TEST(Camera, FitsPointsSoThatTheyTouchTheMarginAndNoneIsOutside) {
         }
         EXPECT_NEAR(farthest.maxCoeff(), 0.86, 1e-9);
     }
+}
+
+TEST(Camera, KeepsABodyClearOfWhatCoversTheRightOfTheViewport) {
+    Camera camera;
+    camera.set_scene({Eigen::Vector3d::Zero(), 2.0});
+    camera.set_view(ViewDirection::isometric);
+    camera.set_covered(0.2);
+    std::srand(7);
+    const Eigen::Matrix3Xd points = Eigen::Vector3d(1, 2, 0.3).asDiagonal() * Eigen::Matrix3Xd::Random(3, 50);
+    const Viewport viewport{0, 0, 600, 500};
+    camera.fit(points, viewport.aspect());
+    for (const auto& point : points.colwise()) {
+        const double x = camera.project(point, viewport).pixel.x();
+        EXPECT_GT(x, 0.0);
+        EXPECT_LT(x, 0.8 * viewport.width);
+    }
+    EXPECT_NEAR(camera.project(camera.pose().target, viewport).pixel.x(), 0.4 * viewport.width, 1e-9);
 }
 
 }  // namespace

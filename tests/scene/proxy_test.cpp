@@ -162,5 +162,45 @@ TEST(Proxy, AnswersWithinATenthOfTheFineAnswer) {
     }
 }
 
+/// A bar some of whose triangles in the middle of a side are missing, and the whole one.
+TEST(FilledSurface, AnswersWithTheVerticesThatAreShown) {
+    SurfaceMesh open = kBar;
+    std::vector<int> kept;
+    for (int t = 0; t < kBar.n_triangles(); ++t) {
+        const Eigen::Vector3d middle = kBar.vertices(Eigen::all, kBar.triangles.col(t)).rowwise().mean();
+        const bool on_top = middle.z() > kBar.vertices.row(2).maxCoeff() - 1e-9;
+        if (!on_top || std::abs(middle.x() - 2.0) > 0.2 || std::abs(middle.y() - 0.5) > 0.2) kept.push_back(t);
+    }
+    ASSERT_LT(std::ssize(kept), kBar.n_triangles());
+    open.triangles = kBar.triangles(Eigen::all, kept);
+    const CheckedMesh checked = check_and_repair(open);
+    ASSERT_FALSE(checked.report.usable());
+    Control control;
+    const auto proxy = make_proxy("body", std::make_shared<const SurfaceMesh>(checked.mesh), checked.report,
+                                  {.use = ProxyUse::fill}, control);
+    EXPECT_EQ(proxy->n_closed_holes, 1);
+    EXPECT_GT(proxy->surface->n_vertices(), 0);
+
+    CarriedConstraints carried(proxy);
+    const Constraints shown = make_constraints(bar(AffineMotion{.translate = {0, 0, 0.5}}), checked.mesh, "s.json");
+    carried.set(shown);
+    EXPECT_EQ(carried.constraints().set.base.size(), shown.set.base.size());
+    EXPECT_EQ(carried.constraints().set.handles.size(), shown.set.handles.size());
+    const Eigen::VectorXd u = carried.displacement(solved(carried));
+    Deformer whole(precompute({.name = "whole", .surface = std::make_shared<const SurfaceMesh>(kBar)},
+                              Method{.kind = kQuadraticFem}, control));
+    const Constraints of_whole = make_constraints(bar(AffineMotion{.translate = {0, 0, 0.5}}), kBar, "s.json");
+    whole.constrain(of_whole.set, control);
+    const Eigen::VectorXd expected = whole.displace(of_whole.values);
+    ASSERT_EQ(u.size(), expected.size());
+    std::set<int> used;
+    for (const int v : open.triangles.reshaped()) used.insert(v);
+    EXPECT_LT(std::ssize(used), open.n_vertices());
+    double off = 0.0;
+    for (const int v : used) off += (u.segment<3>(3 * v) - expected.segment<3>(3 * v)).squaredNorm();
+    EXPECT_LT(std::sqrt(off), 0.01 * expected.norm());
+    for (const int v : shown.set.base) EXPECT_EQ(u.segment<3>(3 * v).norm(), 0.0);
+}
+
 }  // namespace
 }  // namespace elastolab

@@ -8,13 +8,6 @@
 namespace elastolab::test {
 namespace {
 
-TEST(Table, WritesCsvThatItReadsAgain) {
-    const std::vector<std::string> fields = {"plain", "with, comma", "with \"quotes\"", "", "3.5"};
-    EXPECT_EQ(csv_line(fields), "plain,\"with, comma\",\"with \"\"quotes\"\"\",,3.5");
-    EXPECT_EQ(csv_fields(csv_line(fields)), fields);
-    EXPECT_EQ(csv_line({"two\nlines"}), "two lines");
-}
-
 TEST(Table, KeepsSixDigitsAndKnowsWhatIsNoNumber) {
     const Row row = Row().set("pi", 3.14159265).set("n", 12).set("none", std::nan("")).set("word", std::string("fem"));
     EXPECT_EQ(row.text("pi"), "3.14159");

@@ -26,7 +26,38 @@ void draw_poisson_ratio(ViewerState& state, float scale) {
         "FEM with linear tetrahedra grows too stiff near 0.5 and cannot take 0.5 itself.");
 }
 
+constexpr std::array<Choice<ProxyUse>, 2> kProxyUses = {
+    {{ProxyUse::automatic, "through a proxy",
+      "A closed surface around the body is simulated, and what is shown hangs on it. Any triangles can be pulled so."},
+     {ProxyUse::fill, "with holes filled",
+      "The surface itself, all its vertices where they are: each hole is closed by triangles that go on smoothly. "
+      "Possible where holes are all that is wrong with it."}}};
+/// Of a proxy, between which a person chooses.
+constexpr int kFewestChosen = 100, kMostChosen = 10000;
+
 }  // namespace
+
+/// How a surface that bounds no solid is simulated.
+void Panels::draw_proxy(ViewerState& state, float scale) {
+    if (!state.scene().needs_proxy(state.method)) return;
+    ProxyChoice choice = state.scene().document().proxy;
+    const auto set = [&] {
+        state.scene().set_proxy(choice);
+        state.scene().commit();
+    };
+    set_item_width(scale);
+    if (choose<ProxyUse>("simulated", choice.use, kProxyUses)) set();
+    if (choice.use == ProxyUse::fill) return;
+    int n_vertices = proxy_vertices_.value_or(choice.n_vertices);
+    if (slider("proxy vertices", n_vertices, kFewestChosen, kMostChosen, "about %d", scale))
+        proxy_vertices_ = n_vertices;
+    if (ImGui::IsItemDeactivatedAfterEdit() && proxy_vertices_) {  // not at every step: a wrap takes its time
+        choice.n_vertices = *proxy_vertices_;
+        set();
+    }
+    if (!ImGui::IsItemActive()) proxy_vertices_.reset();
+    tooltip("More are closer to the surface and take longer to prepare.");
+}
 
 /// "0.5" passes through "0": the number counts when its field is left.
 void Panels::draw_young_modulus(ViewerState& state, float scale) {
@@ -75,6 +106,7 @@ void Panels::draw_body(const PanelContext& context) {
     if (ImGui::CalcTextSize(file.c_str()).x + ImGui::CalcTextSize(size.c_str()).x < room) ImGui::SameLine();
     paragraph(size, context.palette.text_dim);
     draw_defects(context);
+    draw_proxy(state, scale);
     draw_poisson_ratio(state, scale);
     draw_young_modulus(state, scale);
     if (!ImGui::TreeNode("New body")) return;

@@ -51,4 +51,10 @@ std::vector<SceneViewport> viewports_of(const ViewerState& state, const Viewport
     return viewports;
 }
 
+double legend_part(const ViewerState& state, float scale) {
+    constexpr double kLegendWidth = 118.0, kMostPart = 0.3;
+    if (state.display.field == Field::none || state.shown.viewports.empty()) return 0.0;
+    return std::min(kLegendWidth * scale / state.shown.viewports.back().place.width, kMostPart);
+}
+
 }  // namespace elastolab

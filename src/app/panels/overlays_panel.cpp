@@ -47,6 +47,7 @@ std::string source_words(const ViewerState& state, MethodKind kind) {
                                    : simulation.waiting()           ? "waiting"
                                                                     : "not computed");
     const Proxy* proxy = simulation.embedded(kind).proxy();
+    if (proxy != nullptr && proxy->is_filled()) return kDash + std::string("holes filled");
     return proxy ? kDash + ("on a proxy of " + count_text(proxy->surface->n_vertices()) + " vertices") : "";
 }
 

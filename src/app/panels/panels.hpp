@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -72,6 +73,7 @@ private:
     void draw_unsaved(const PanelContext& context);
     void ask_name_of_unsaved(ViewerState& state);
     void draw_defects(const PanelContext& context);
+    void draw_proxy(ViewerState& state, float scale);
     void draw_young_modulus(ViewerState& state, float scale);
     void open_primitive(ViewerState& state);
     const Cost& cost(const ViewerState& state, const Method& method);
@@ -91,11 +93,12 @@ private:
     std::string primitive_ = "cube";
     int resolution_ = 13;
     std::optional<double> typed_modulus_;             ///< Young's modulus while it is typed
+    std::optional<int> proxy_vertices_;               ///< while the slider is held
     std::pair<int, std::string> typed_name_{-1, ""};  ///< of a handle, while it is typed
     bool side_fits_ = true;                           ///< the side panel's content did, in the last frame
     std::uint64_t costs_of_scene_ = 0;
     std::size_t n_flights_ = 0;  ///< to places of defects
-    std::map<std::pair<MethodKind, Mode>, Cost> costs_;
+    std::map<std::tuple<MethodKind, Mode, const SurfaceMesh*>, Cost> costs_;
 };
 
 }  // namespace elastolab

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
+
+#include "base/csv.hpp"
 
 namespace elastolab {
 
@@ -43,10 +44,11 @@ TimingsRecorder::~TimingsRecorder() {
 
 void TimingsRecorder::add(const FrameRecord& record) {
     const FrameTimes& t = record.times;
-    file_->stream() << record.frame << ',' << std::setprecision(9) << record.time_s << ',' << record.method << ','
-                    << record.vertices << ',' << record.constrained_vertices << ',' << record.handle_vertices << ','
-                    << record.state << ',' << std::setprecision(6) << t.update_ms << ',' << t.upload_ms << ','
-                    << t.draw_ms << ',' << t.gui_ms << ',' << t.frame_ms << '\n';
+    CsvWriter row(file_->stream());
+    row.number(record.frame).number(record.time_s, 9).text(record.method).number(record.vertices);
+    row.number(record.constrained_vertices).number(record.handle_vertices).text(record.state);
+    for (const double ms : {t.update_ms, t.upload_ms, t.draw_ms, t.gui_ms, t.frame_ms}) row.number(ms, 6);
+    row.end_row();
     ++n_rows_;
 }
 

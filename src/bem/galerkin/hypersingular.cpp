@@ -1,8 +1,10 @@
 #include "bem/galerkin/hypersingular.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <numbers>
+#include <span>
 #include <vector>
 
 #include "base/parallel.hpp"
@@ -21,17 +23,24 @@ struct Factors {
     double alpha, beta;
 };
 
+/// A matrix to assemble: zero at first.
+struct Wanted {
+    Factors factors;
+    Eigen::Ref<Eigen::MatrixXd> matrix;
+};
+
 /// The rows of the vertices of some consecutive triangles, from the pairs of these with themselves and all later ones.
 struct Strip {
     std::vector<int> vertices;
-    std::vector<double> blocks;  ///< [vertex of the mesh][vertex of the strip][3 x 3 by rows]
+    std::vector<std::vector<double>>
+        blocks;  ///< of each matrix: [vertex of the mesh][vertex of the strip][3 x 3 by rows]
 };
 
 class HypersingularAssembly {
 public:
-    HypersingularAssembly(const Boundary& boundary, double tolerance, Factors factors)
+    HypersingularAssembly(const Boundary& boundary, double tolerance, std::span<Wanted> wanted)
         : boundary_(boundary),
-          factors_(factors),
+          wanted_(wanted),
           n_(boundary.n_triangles()),
           order_(triangles_along_a_curve(boundary)),
           triangles_(triangles_of(boundary)),
@@ -42,19 +51,18 @@ public:
             for (int k = 0; k < 3; ++k) last_[vertex(position, k)] = position;
     }
 
-    void run(Eigen::Ref<Eigen::MatrixXd> D, Control& control) const {
-        D.setZero();
+    void run(Control& control) const {
         const int n_strips = (n_ + kStripTriangles - 1) / kStripTriangles;
-        const std::size_t bytes = sizeof(double) * 9 * last_.size() * (kStripTriangles * 3 / 4);
+        const std::size_t bytes = sizeof(double) * 9 * last_.size() * (kStripTriangles * 3 / 4) * wanted_.size();
         const int at_once = static_cast<int>(std::clamp<std::size_t>(kStripBytes / bytes, 8, 1024));
         for (int first = 0; first < n_strips; first += at_once) {
             std::vector<Strip> strips(static_cast<std::size_t>(std::min(at_once, n_strips - first)));
             parallel_blocks(static_cast<int>(strips.size()), 1, control, [&](int begin, int end) {
                 for (int i = begin; i < end; ++i) strips[static_cast<std::size_t>(i)] = make_strip(first + i);
             });
-            add(strips, D, control);
+            for (std::size_t w = 0; w < wanted_.size(); ++w) add(strips, w, control);
         }
-        add_transpose(D, control);
+        for (Wanted& wanted : wanted_) add_transpose(wanted.matrix, control);
     }
 
 private:
@@ -75,7 +83,7 @@ private:
             for (int k = 0; k < 3; ++k) strip.vertices.push_back(static_cast<int>(vertex(position, k)));
         std::sort(strip.vertices.begin(), strip.vertices.end());
         strip.vertices.erase(std::unique(strip.vertices.begin(), strip.vertices.end()), strip.vertices.end());
-        strip.blocks.assign(9 * strip.vertices.size() * last_.size(), 0.0);
+        strip.blocks.assign(wanted_.size(), std::vector<double>(9 * strip.vertices.size() * last_.size(), 0.0));
         std::vector<double> sums(kCurlNumbers * last_.size() * static_cast<std::size_t>(integrals_.lanes()));
         for (int first = begin; first < end; first += integrals_.lanes())
             add_pack(first, std::min(end, first + integrals_.lanes()), sums, strip);
@@ -135,21 +143,26 @@ private:
         double blocks[27 * kMaxLanes];
         for (std::size_t b = 0; b < last_.size(); ++b) {
             if (last_[b] < first) continue;
-            kernels_.contract_curls(factors_.alpha, factors_.beta, curls, sums_of(sums, b), blocks);
-            double* row = strip.blocks.data() + 9 * strip.vertices.size() * b;
-            for (std::size_t lane = 0; lane < static_cast<std::size_t>(end - first); ++lane)
-                for (std::size_t k = 0; k < 3; ++k)
-                    for (std::size_t i = 0; i < 9; ++i)
-                        row[9 * rows[3 * lane + k] + i] += blocks[(9 * k + i) * lanes + lane];
+            for (std::size_t w = 0; w < wanted_.size(); ++w) {
+                const Factors& factors = wanted_[w].factors;
+                kernels_.contract_curls(factors.alpha, factors.beta, curls, sums_of(sums, b), blocks);
+                double* row = strip.blocks[w].data() + 9 * strip.vertices.size() * b;
+                for (std::size_t lane = 0; lane < static_cast<std::size_t>(end - first); ++lane)
+                    for (std::size_t k = 0; k < 3; ++k)
+                        for (std::size_t i = 0; i < 9; ++i)
+                            row[9 * rows[3 * lane + k] + i] += blocks[(9 * k + i) * lanes + lane];
+            }
         }
     }
 
-    /// Each column of the matrix takes the strips in their order.
-    void add(const std::vector<Strip>& strips, Eigen::Ref<Eigen::MatrixXd> D, Control& control) const {
+    /// Each column of a matrix takes the strips in their order.
+    void add(const std::vector<Strip>& strips, std::size_t w, Control& control) const {
+        Eigen::Ref<Eigen::MatrixXd>& D = wanted_[w].matrix;
         parallel_blocks(static_cast<int>(last_.size()), 16, control, [&](int begin, int end) {
             for (int b = begin; b < end; ++b)
                 for (const Strip& strip : strips) {
-                    const double* block = strip.blocks.data() + 9 * strip.vertices.size() * static_cast<std::size_t>(b);
+                    const double* block =
+                        strip.blocks[w].data() + 9 * strip.vertices.size() * static_cast<std::size_t>(b);
                     for (const int a : strip.vertices) {
                         for (int i = 0; i < 3; ++i)
                             for (int j = 0; j < 3; ++j) D(3 * a + i, 3 * b + j) += block[3 * i + j];
@@ -175,7 +188,7 @@ private:
     }
 
     const Boundary& boundary_;
-    Factors factors_;
+    std::span<Wanted> wanted_;
     int n_;
     std::vector<int> order_;
     std::vector<TriangleGeometry> triangles_;
@@ -185,28 +198,25 @@ private:
     std::vector<int> last_;  ///< last position of a triangle at each vertex
 };
 
-void assemble_parts(const Boundary& boundary, double tolerance, Factors factors, Eigen::Ref<Eigen::MatrixXd> D,
-                    Control& control) {
-    assert(D.rows() == 3 * boundary.mesh().n_vertices() && D.cols() == D.rows());
-    HypersingularAssembly(boundary, tolerance, factors).run(D, control);
-}
-
 constexpr double kFactor = 0.25 * std::numbers::inv_pi;
 
 }  // namespace
 
 void assemble_hypersingular(const Boundary& boundary, const Material& material, double tolerance,
                             Eigen::Ref<Eigen::MatrixXd> D, Control& control) {
+    assert(D.rows() == 3 * boundary.mesh().n_vertices() && D.cols() == D.rows());
+    D.setZero();
     const double factor = kFactor * material.shear_modulus();
-    assemble_parts(boundary, tolerance, {factor, factor / (1.0 - material.poisson_ratio)}, D, control);
+    Wanted wanted{{factor, factor / (1.0 - material.poisson_ratio)}, D};
+    HypersingularAssembly(boundary, tolerance, std::span(&wanted, 1)).run(control);
 }
 
 HypersingularParts::HypersingularParts(const Boundary& boundary, double tolerance, Control& control) {
     const Eigen::Index n = 3 * boundary.mesh().n_vertices();
-    without_nu.resize(n, n);
-    with_nu.resize(n, n);
-    assemble_parts(boundary, tolerance, {kFactor, 0.0}, without_nu, control);
-    assemble_parts(boundary, tolerance, {0.0, kFactor}, with_nu, control);
+    without_nu = Eigen::MatrixXd::Zero(n, n);
+    with_nu = Eigen::MatrixXd::Zero(n, n);
+    std::array<Wanted, 2> wanted{Wanted{{kFactor, 0.0}, without_nu}, Wanted{{0.0, kFactor}, with_nu}};
+    HypersingularAssembly(boundary, tolerance, wanted).run(control);
 }
 
 void HypersingularParts::evaluate(const Material& material, Eigen::Ref<Eigen::MatrixXd> D) const {

@@ -23,7 +23,7 @@ void assemble_hypersingular(const Boundary& boundary, const Material& material, 
                             Eigen::Ref<Eigen::MatrixXd> D, Control& control);
 
 /// The two parts of D / mu that it is made of: D = mu (without_nu + with_nu / (1 - nu)), so that another Poisson's
-/// ratio is a linear combination of what is in memory.
+/// ratio is a linear combination of what is in memory. Each pair of triangles is integrated once for both.
 struct HypersingularParts {
     Eigen::MatrixXd without_nu, with_nu;  ///< 3V x 3V [L], symmetric
     HypersingularParts(const Boundary& boundary, double tolerance, Control& control);

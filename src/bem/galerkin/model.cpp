@@ -8,9 +8,24 @@ namespace elastolab {
 
 namespace {
 
+/// Of D's integrals, from which on another Poisson's ratio integrates anew: 1900 vertices.
+constexpr std::uint64_t kMostKeptIntegrals = 512u << 20;
+
+bool same_integrals(const Method& a, const Method& b) { return integral_tolerance(a) == integral_tolerance(b); }
+
 bool same_galerkin_system(const Method& a, const Method& b) {
-    return a.mode == b.mode && integral_tolerance(a) == integral_tolerance(b) && a.column_memory == b.column_memory &&
+    return a.mode == b.mode && same_integrals(a, b) && a.column_memory == b.column_memory &&
            factorises_ahead(a) == factorises_ahead(b);
+}
+
+/// D's integrals for every Poisson's ratio: those that are there, or, when the ratio changes for the first time, made
+/// (for little more than those of one ratio), so that who turns it further integrates no more.
+std::shared_ptr<const HypersingularParts> parts_for_change(const GalerkinSystem& before, const Method& method,
+                                                           StageTimes& stages, Control& control) {
+    const auto n = static_cast<std::uint64_t>(before.size());
+    if (before.parts() || !factorises_ahead(method) || 16 * n * n > kMostKeptIntegrals) return before.parts();
+    const Stage stage("integrate", control, stages);
+    return std::make_shared<const HypersingularParts>(before.boundary(), integral_tolerance(method), control);
 }
 
 }  // namespace
@@ -21,12 +36,15 @@ GalerkinModel::GalerkinModel(const SurfaceMesh& surface, double poisson_ratio, c
     if (before != nullptr && before->poisson_ratio_ == poisson_ratio && same_galerkin_system(before->method_, method)) {
         system_ = before->system_;
     } else {
-        const bool same_integrals =
-            before != nullptr && integral_tolerance(before->method_) == integral_tolerance(method);
         auto boundary =
             before != nullptr ? before->system_->shared_boundary() : std::make_shared<const Boundary>(surface);
-        system_ = std::make_shared<const GalerkinSystem>(std::move(boundary), poisson_ratio, method,
-                                                         same_integrals ? before->system_->parts() : nullptr,
+        std::shared_ptr<const HypersingularParts> parts;
+        if (before != nullptr && same_integrals(before->method_, method)) {
+            parts = before->poisson_ratio_ == poisson_ratio
+                        ? before->system_->parts()
+                        : parts_for_change(*before->system_, method, facts_.stages, control);
+        }
+        system_ = std::make_shared<const GalerkinSystem>(std::move(boundary), poisson_ratio, method, std::move(parts),
                                                          facts_.stages, control);
     }
     facts_.n_vertices = surface.n_vertices();

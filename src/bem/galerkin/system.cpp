@@ -68,9 +68,7 @@ GalerkinSystem::GalerkinSystem(std::shared_ptr<const Boundary> boundary, double 
     if (!factorises_ahead(method)) return;
     Eigen::MatrixXd D;
     {
-        const Stage stage("integrate", control, stages);
-        if (method.keep_integrals && !parts_)
-            parts_ = std::make_shared<const HypersingularParts>(*boundary_, tolerance_, control);
+        const Stage stage(parts_ ? "combine" : "integrate", control, stages);
         D = hypersingular(control);
     }
     shift_ = D.diagonal().mean();

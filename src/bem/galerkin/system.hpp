@@ -23,7 +23,7 @@ namespace elastolab {
 class GalerkinSystem {
 public:
     /// On demand with the update `direct` nothing is factorised here. `parts`: D's integrals of this boundary and
-    /// tolerance, if they were kept, or null.
+    /// tolerance, or null.
     GalerkinSystem(std::shared_ptr<const Boundary> boundary, double poisson_ratio, const Method& method,
                    std::shared_ptr<const HypersingularParts> parts, StageTimes& stages, Control& control);
 

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <Eigen/QR>
 #include <Eigen/SVD>
 #include <vector>
+
+#include "base/lapack.hpp"
 
 namespace elastolab {
 
@@ -158,18 +159,6 @@ private:
     int samples_ = 0;
 };
 
-Eigen::MatrixXd upper_factor(const Eigen::HouseholderQR<Eigen::MatrixXd>& qr, Eigen::Index n) {
-    return qr.matrixQR().topRows(n).triangularView<Eigen::Upper>();
-}
-
-/// Q times these columns.
-Eigen::MatrixXd times_Q(const Eigen::HouseholderQR<Eigen::MatrixXd>& qr, const Eigen::MatrixXd& B) {
-    Eigen::MatrixXd product = Eigen::MatrixXd::Zero(qr.rows(), B.cols());
-    product.topRows(B.rows()) = B;
-    product.applyOnTheLeft(qr.householderQ());
-    return product;
-}
-
 }  // namespace
 
 LowRankMatrix cross_approximation(const BlockEntries& entries, PositionRange rows, PositionRange cols,
@@ -179,19 +168,17 @@ LowRankMatrix cross_approximation(const BlockEntries& entries, PositionRange row
 
 LowRankMatrix recompressed(const LowRankMatrix& A, double tolerance) {
     if (A.rank() == 0) return A;
-    const Eigen::HouseholderQR<Eigen::MatrixXd> left(A.U), right(A.V);
-    const Eigen::Index n_left = std::min(A.U.rows(), A.rank()), n_right = std::min(A.V.rows(), A.rank());
-    const Eigen::MatrixXd middle = upper_factor(left, n_left) * upper_factor(right, n_right).transpose();
-    const Eigen::BDCSVD<Eigen::MatrixXd> svd(middle, Eigen::ComputeThinU | Eigen::ComputeThinV);
-    const Eigen::VectorXd& sigma = svd.singularValues();
+    const QrFactorization left(A.U), right(A.V);
+    const SingularValues middle = singular_values(left.R() * right.R().transpose());
+    const Eigen::VectorXd& sigma = middle.sigma;
     const double allowed = tolerance * tolerance * sigma.squaredNorm();
     Eigen::Index rank = sigma.size();
     for (double dropped = 0.0; rank > 0; --rank) {
         dropped += sigma[rank - 1] * sigma[rank - 1];
         if (dropped > allowed) break;
     }
-    return {times_Q(left, svd.matrixU().leftCols(rank) * sigma.head(rank).asDiagonal()),
-            times_Q(right, svd.matrixV().leftCols(rank))};
+    return {left.times_Q(middle.U.leftCols(rank) * sigma.head(rank).asDiagonal()),
+            right.times_Q(middle.V.leftCols(rank))};
 }
 
 }  // namespace elastolab

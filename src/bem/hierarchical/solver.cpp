@@ -1,6 +1,4 @@
-#include <Eigen/QR>
-#include <Eigen/SVD>
-
+#include "base/lapack.hpp"
 #include "bem/hierarchical/system.hpp"
 #include "deform/conjugate_gradients.hpp"
 
@@ -27,9 +25,12 @@ Eigen::MatrixXd rows_of(const Eigen::MatrixXd& all, const std::vector<int>& posi
 /// What these positions do not see of some orthonormal motions, orthonormal.
 Eigen::MatrixXd unseen_motions(const Eigen::MatrixXd& motions, const std::vector<int>& positions) {
     const Eigen::MatrixXd seen = rows_of(motions, positions);
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(seen, Eigen::ComputeThinU | Eigen::ComputeFullV);
-    const auto n_seen = (svd.singularValues().array() > kUnseen * svd.singularValues()[0]).count();
-    return motions * svd.matrixV().rightCols(motions.cols() - n_seen);
+    Eigen::MatrixXd rows =
+        Eigen::MatrixXd::Zero(std::max(seen.rows(), seen.cols()), seen.cols());  // so that V is square
+    rows.topRows(seen.rows()) = seen;
+    const SingularValues svd = singular_values(std::move(rows));
+    const auto n_seen = (svd.sigma.array() > kUnseen * svd.sigma[0]).count();
+    return motions * svd.V.rightCols(motions.cols() - n_seen);
 }
 
 void orthogonalise(Eigen::MatrixXd& X, const Eigen::MatrixXd& N) {
@@ -143,7 +144,7 @@ std::vector<Eigen::Index> HierarchicalSolver::combine(const Eigen::MatrixXd& pre
     std::vector<Eigen::Index> others;
     Eigen::MatrixXd shares(answers_.prescribed.cols(), prescribed.cols()), missed = -prescribed;
     if (shares.rows() > 0) {
-        shares = answers_.prescribed.colPivHouseholderQr().solve(prescribed);
+        shares = solve_minimum_norm(answers_.prescribed, prescribed, kCombined).X;
         missed.noalias() += answers_.prescribed * shares;
     }
     for (Eigen::Index c = 0; c < prescribed.cols(); ++c)

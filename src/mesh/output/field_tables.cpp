@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <ostream>
 
-#include "base/text.hpp"
+#include "base/csv.hpp"
 #include "mesh/output/field_files.hpp"
 
 namespace elastolab {
@@ -43,16 +43,16 @@ void write_ply(std::ostream& out, const SurfaceMesh& mesh, std::span<const MeshF
 }
 
 void write_field_csv(std::ostream& out, const Positions& vertices, std::span<const MeshField> at_vertices) {
-    out << "vertex,x,y,z";
+    CsvWriter table(out);
+    for (const char* name : {"vertex", "x", "y", "z"}) table.text(name);
     for_components(at_vertices,
-                   [&](const MeshField& field, int component) { out << ',' << component_name(field, component); });
-    out << '\n';
+                   [&](const MeshField& field, int component) { table.text(component_name(field, component)); });
+    table.end_row();
     for (Eigen::Index v = 0; v < vertices.cols(); ++v) {
-        out << v;
-        for (const double x : vertices.col(v)) out << ',' << exact(x);
+        table.number(v).numbers(vertices.col(v));
         for_components(at_vertices,
-                       [&](const MeshField& field, int component) { out << ',' << exact(field.values(component, v)); });
-        out << '\n';
+                       [&](const MeshField& field, int component) { table.number(field.values(component, v)); });
+        table.end_row();
     }
 }
 

@@ -83,9 +83,10 @@ double SizeField::bound(const double* point, const Node& node) const {
     return node.least + growth_ * distance(point, nearest);
 }
 
-void SizeField::search(const double* point, std::size_t node, double& best) const {
+void SizeField::search(const double* point, std::size_t node, Nearest& best) const {
     const Node& n = nodes_[node];
-    best = std::min(best, n.size + growth_ * distance(point, n.point));
+    if (const double wanted = n.size + growth_ * distance(point, n.point); wanted < best.wanted)
+        best = {wanted, n.size};
     std::size_t first = 2 * node + 1, second = first + 1;
     if (first >= nodes_.size()) return;
     double first_bound = bound(point, nodes_[first]);
@@ -94,14 +95,19 @@ void SizeField::search(const double* point, std::size_t node, double& best) cons
         std::swap(first, second);
         std::swap(first_bound, second_bound);
     }
-    if (first_bound < best) search(point, first, best);
-    if (second_bound < best) search(point, second, best);
+    if (first_bound < best.wanted) search(point, first, best);
+    if (second_bound < best.wanted) search(point, second, best);
 }
 
-double SizeField::at(const double* point) const {
-    double best = std::numeric_limits<double>::max();
+SizeField::Nearest SizeField::nearest(const double* point) const {
+    Nearest best{std::numeric_limits<double>::max(), 1.0};
     search(point, 0, best);
     return best;
+}
+
+double SizeField::grown(const double* point) const {
+    const Nearest found = nearest(point);
+    return found.wanted / found.own;
 }
 
 }  // namespace elastolab

@@ -15,7 +15,9 @@ public:
     /// triangles   three vertices each
     SizeField(const std::vector<double>& vertices, const std::vector<int>& triangles, double growth);
 
-    double at(const double* point) const;
+    double at(const double* point) const { return nearest(point).wanted; }
+    /// How many times that of the surface near by.
+    double grown(const double* point) const;
     /// The least of all.
     double least() const { return nodes_.front().least; }
 
@@ -28,8 +30,13 @@ private:
     struct Sample {
         double point[3], size;
     };
+    /// The vertex that tells the length at a point.
+    struct Nearest {
+        double wanted, own;
+    };
+    Nearest nearest(const double* point) const;
     void build(std::vector<Sample>& samples, std::size_t begin, std::size_t end, std::size_t node);
-    void search(const double* point, std::size_t node, double& best) const;
+    void search(const double* point, std::size_t node, Nearest& best) const;
     double bound(const double* point, const Node& node) const;
 
     double growth_;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "mesh/input/helper_io.hpp"
+#include "mesh/tets/seed_points.hpp"
 #include "mesh/tets/size_field.hpp"
 #include "mesh/tets/tetgen_protocol.hpp"
 
@@ -17,13 +18,14 @@ namespace {
 
 using namespace elastolab;
 
-/// The surface as TetGen takes it. tetgenio frees what it points to with delete[].
+/// The surface as TetGen takes it, and points that belong to no triangle of it. tetgenio frees what it points to with
+/// delete[].
 void fill(tetgenio& in, const std::vector<double>& vertices, const std::vector<int>& triangles,
-          const std::vector<double>& holes) {
+          const std::vector<double>& holes, const std::vector<double>& seeds) {
     in.firstnumber = 0;
-    in.numberofpoints = static_cast<int>(vertices.size() / 3);
-    in.pointlist = new double[vertices.size()];
-    std::copy(vertices.begin(), vertices.end(), in.pointlist);
+    in.numberofpoints = static_cast<int>((vertices.size() + seeds.size()) / 3);
+    in.pointlist = new double[vertices.size() + seeds.size()];
+    std::copy(seeds.begin(), seeds.end(), std::copy(vertices.begin(), vertices.end(), in.pointlist));
     in.numberoffacets = static_cast<int>(triangles.size() / 3);
     in.facetlist = new tetgenio::facet[triangles.size() / 3];
     for (int t = 0; t < in.numberoffacets; ++t) {
@@ -96,11 +98,13 @@ int main() {
     const auto holes = read_array<double>(3 * request.n_holes);
 
     tetgenio in, out;
-    fill(in, vertices, triangles, holes);
+    std::vector<double> seeds;
     if (request.relative_volume > 0.0) {
         volume_bound = {std::make_unique<SizeField>(vertices, triangles, request.growth), request.relative_volume};
+        seeds = seed_points(vertices, *volume_bound.sizes);
         in.tetunsuitable = is_too_large;
     }
+    fill(in, vertices, triangles, holes, seeds);
     TetgenReplyHeader reply;
     reply.status = run(request.switches.data(), in, out);
     if (reply.status == 0) {

@@ -17,6 +17,7 @@
 #include "mesh/measures.hpp"
 #include "mesh/surface_distance.hpp"
 #include "mesh/wrap/hole_caps.hpp"
+#include "mesh/wrap/unit_frame.hpp"
 #include "mesh/wrap/wrap_process.hpp"
 
 namespace elastolab {
@@ -28,13 +29,6 @@ constexpr double kThinWall = 3.0;
 constexpr int kMostRepairs = 8;
 /// Part of a wrap's vertices on thin walls from which it is taken for one of open sheets.
 constexpr double kMostThin = 0.3;
-
-/// x = scale y + centre takes a body of size 1 around the origin back to its place: geometric libraries have
-/// thresholds.
-struct Frame {
-    Eigen::Vector3d centre;
-    double scale;
-};
 
 using CornerKey = std::array<std::array<double, 3>, 3>;
 
@@ -78,17 +72,6 @@ SurfaceMesh solid_triangles(const SurfaceMesh& shown) {
     for (int v = 0; v < mesh.n_vertices(); ++v)
         if (!(mesh.vertices.col(v).array().abs() <= kLargestCoordinate).all()) mesh.vertices.col(v).setZero();
     return mesh;
-}
-
-Frame to_unit_size(SurfaceMesh& mesh) {
-    Eigen::AlignedBox3d box;
-    for (const int v : mesh.triangles.reshaped()) box.extend(mesh.vertices.col(v));
-    const double size = box.isEmpty() ? 0.0 : box.diagonal().stableNorm();
-    if (!(size > 0.0))
-        throw MeshError("it has no three vertices that are not on a line. Choose a file with a surface.");
-    const Frame frame{box.min() + 0.5 * box.diagonal(), size};
-    mesh.vertices = (mesh.vertices.colwise() - frame.centre) / size;
-    return frame;
 }
 
 /// Moves the vertices of a wrap onto the surface that it was made around.
@@ -224,7 +207,7 @@ std::vector<ProxySurface> make_proxy_surfaces(const SurfaceMesh& shown, const Me
                                               std::span<const int> sizes, Control& control) {
     control.begin_stage("proxy");
     SurfaceMesh triangles = solid_triangles(shown);
-    const Frame frame = to_unit_size(triangles);
+    const UnitFrame frame = to_unit_size(triangles);
     const HoleCaps capped = cap_holes(triangles);
     std::vector<ProxySurface> proxies;
     if (shown.n_vertices() <= kMostCollapsed)

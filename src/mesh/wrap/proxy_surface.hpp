@@ -11,7 +11,11 @@ namespace elastolab {
 
 /// A closed surface that is simulated in place of one that is too large, or that bounds no solid.
 struct ProxySurface {
-    enum class Kind { wrapped, collapsed };
+    enum class Kind {
+        wrapped,
+        collapsed,
+        filled
+    };                    ///< filled: the surface itself, its holes filled (filled_surface.hpp)
     SurfaceMesh surface;  ///< closed, oriented, 2-manifold, without self-intersections: usable by every method
     Kind kind = Kind::wrapped;
     int n_capped_holes = 0;

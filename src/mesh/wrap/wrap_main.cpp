@@ -1,10 +1,8 @@
-// elastolab-wrap: runs CGAL's alpha wrapping and edge collapse for mesh/wrap/wrap_process.hpp, so that a crash or a
-// long run of theirs harms nobody, and so that nothing else has to be compiled with them. Standard input is a socket to
-// the caller.
+// elastolab-wrap: runs CGAL's alpha wrapping, edge collapse and filling of holes for mesh/wrap/wrap_process.hpp, so
+// that a crash or a long run of theirs harms nobody, and so that nothing else has to be compiled with them. Standard
+// input is a socket to the caller.
 #include <CGAL/alpha_wrap_3.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
-#include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Count_stop_predicate.h>
 
@@ -15,29 +13,19 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "mesh/input/helper_io.hpp"
+#include "mesh/wrap/cgal_mesh.hpp"
 #include "mesh/wrap/wrap_protocol.hpp"
 
 namespace {
 
 using namespace elastolab;
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 using Oracle = CGAL::Alpha_wraps_3::internal::Triangle_soup_oracle<Kernel>;
-
-struct Soup {
-    std::vector<Kernel::Point_3> points;
-    std::vector<std::array<std::size_t, 3>> triangles;
-};
-
-struct Result {
-    Mesh mesh;
-    double offset = 0.0;
-};
 
 Soup read_soup(const WrapRequestHeader& request) {
     const auto vertices = read_array<double>(3 * request.n_vertices);
@@ -55,7 +43,7 @@ Soup read_soup(const WrapRequestHeader& request) {
 constexpr double kOffset = 0.1;
 
 Result wrap_once(const Oracle& oracle, double alpha) {
-    Result result{{}, kOffset * alpha};
+    Result result{{}, kOffset * alpha, 0};
     CGAL::Alpha_wraps_3::internal::Alpha_wrap_3<Oracle> wrapper(oracle);
     wrapper(alpha, result.offset, result.mesh);
     return result;
@@ -99,9 +87,7 @@ struct CollapseCost {
 Result collapse(const Soup& soup, int wanted) {
     namespace sms = CGAL::Surface_mesh_simplification;
     Result result;
-    for (const auto& p : soup.points) result.mesh.add_vertex(p);
-    const auto vertex = [](std::size_t i) { return Mesh::Vertex_index(static_cast<Mesh::size_type>(i)); };
-    for (const auto& t : soup.triangles) result.mesh.add_face(vertex(t[0]), vertex(t[1]), vertex(t[2]));
+    result.mesh = mesh_of(soup);
     const sms::Count_stop_predicate<Mesh> stop(3 * static_cast<std::size_t>(wanted));
     sms::edge_collapse(result.mesh, stop, CGAL::parameters::get_cost(CollapseCost{}));
     result.mesh.collect_garbage();
@@ -121,13 +107,41 @@ void answer(const Result& result) {
     WrapReplyHeader reply;
     reply.n_vertices = static_cast<std::int32_t>(vertices.size() / 3);
     reply.n_triangles = static_cast<std::int32_t>(triangles.size() / 3);
+    reply.n_holes = result.n_holes;
     reply.offset = result.offset;
     write_bytes(&reply, sizeof(reply));
     write_bytes(vertices.data(), vertices.size() * sizeof(double));
     write_bytes(triangles.data(), triangles.size() * sizeof(int));
 }
 
+Result result_of(const WrapRequestHeader& request, const Soup& soup) {
+    switch (request.task) {
+        case WrapTask::wrap:
+            return wrap(soup, request.wanted_vertices);
+        case WrapTask::collapse:
+            return collapse(soup, request.wanted_vertices);
+        case WrapTask::fill_smooth:
+        case WrapTask::fill_flat:
+            break;
+    }
+    return fill_holes(soup, request.task == WrapTask::fill_smooth);
+}
+
 }  // namespace
+
+namespace elastolab {
+
+Mesh mesh_of(const Soup& soup) {
+    Mesh mesh;
+    for (const auto& p : soup.points) mesh.add_vertex(p);
+    const auto vertex = [](std::size_t i) { return Mesh::Vertex_index(static_cast<Mesh::size_type>(i)); };
+    for (const auto& t : soup.triangles)
+        if (!mesh.add_face(vertex(t[0]), vertex(t[1]), vertex(t[2])).is_valid())
+            throw std::runtime_error("its triangles are no oriented 2-manifold");
+    return mesh;
+}
+
+}  // namespace elastolab
 
 int main() {
     begin_helper();
@@ -136,8 +150,7 @@ int main() {
     if (request.magic != kWrapMagic || request.n_triangles < 1 || request.wanted_vertices < 4) return kHelperMisused;
     const Soup soup = read_soup(request);
     try {
-        answer(request.task == WrapTask::wrap ? wrap(soup, request.wanted_vertices)
-                                              : collapse(soup, request.wanted_vertices));
+        answer(result_of(request, soup));
     } catch (const std::exception& error) {
         std::puts(error.what());
         return EXIT_FAILURE;

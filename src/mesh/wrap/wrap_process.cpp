@@ -57,6 +57,7 @@ WrapResult run_wrap(WrapTask task, const SurfaceMesh& surface, int n_vertices, C
         return result;
     }
     result.offset = header.offset;
+    result.n_holes = header.n_holes;
     result.surface.vertices.resize(3, header.n_vertices);
     result.surface.triangles.resize(3, header.n_triangles);
     ReplyReader reader(reply);
@@ -74,6 +75,11 @@ WrapResult alpha_wrap(const SurfaceMesh& triangles, int n_vertices, Control& con
 
 WrapResult collapse_edges(const SurfaceMesh& surface, int n_vertices, Control& control) {
     return run_wrap(WrapTask::collapse, surface, n_vertices, control);
+}
+
+WrapResult fill_holes(const SurfaceMesh& surface, HoleFilling how, Control& control) {
+    return run_wrap(how == HoleFilling::smooth ? WrapTask::fill_smooth : WrapTask::fill_flat, surface,
+                    surface.n_vertices(), control);
 }
 
 }  // namespace elastolab

@@ -11,6 +11,7 @@ namespace elastolab {
 struct WrapResult {
     SurfaceMesh surface;
     double offset = 0.0;  ///< distance of its vertices from the other's triangles [L]; 0 when collapsed
+    int n_holes = 0;      ///< that were filled
     std::string failure;  ///< empty on success; else what went wrong
 };
 
@@ -23,5 +24,11 @@ WrapResult alpha_wrap(const SurfaceMesh& triangles, int n_vertices, Control& con
 /// A closed manifold surface with edges collapsed until it has so many vertices, its volume kept (P. Lindstrom, G.
 /// Turk, Fast and memory efficient polygonal simplification, 1998), in the same process. Parts of the result may cross.
 WrapResult collapse_edges(const SurfaceMesh& surface, int n_vertices, Control& control);
+
+/// The surface with its holes filled, in the same process (P. Liepa, Filling holes in meshes, 2003): with triangles as
+/// fine as those around that go on smoothly, or with those alone that join the vertices of a rim. Vertices and
+/// triangles that are there come first. Parts of the result may cross.
+enum class HoleFilling { smooth, flat };
+WrapResult fill_holes(const SurfaceMesh& surface, HoleFilling how, Control& control);
 
 }  // namespace elastolab

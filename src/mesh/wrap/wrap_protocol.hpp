@@ -6,11 +6,13 @@ namespace elastolab {
 
 /// What the caller and the helper program elastolab-wrap say to each other over a socket, in the byte order of the
 /// machine. Both are built together; `magic` catches a helper of another version.
-constexpr std::uint64_t kWrapMagic = 0x656c617374'77'0001;
+constexpr std::uint64_t kWrapMagic = 0x656c617374'77'0002;
 
 enum class WrapTask : std::int32_t {
-    wrap,     ///< alpha wrap of any triangles
-    collapse  ///< edge collapse of a closed manifold surface
+    wrap,         ///< alpha wrap of any triangles
+    collapse,     ///< edge collapse of a closed manifold surface
+    fill_smooth,  ///< the holes of an oriented manifold surface, with triangles as fine as those around
+    fill_flat     ///< the same without further vertices
 };
 
 /// Followed by n_vertices x 3 doubles and n_triangles x 3 ints.
@@ -23,7 +25,7 @@ struct WrapRequestHeader {
 /// Followed by n_vertices x 3 doubles and n_triangles x 3 ints. No triangle: it could not be done.
 struct WrapReplyHeader {
     std::uint64_t magic = kWrapMagic;
-    std::int32_t n_vertices = 0, n_triangles = 0;
+    std::int32_t n_vertices = 0, n_triangles = 0, n_holes = 0, unused = 0;
     double offset = 0.0;  ///< distance of the wrap's vertices from the surface [L]
 };
 

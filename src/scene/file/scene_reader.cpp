@@ -175,7 +175,7 @@ ProxyChoice read_proxy(const JsonNode& node) {
     ProxyChoice proxy;
     if (const auto use = node.find("use")) {
         const auto known = parse_proxy_use(use->text());
-        if (!known) use->fail(use->quoted() + " is none of never, auto, always. Choose one of these.");
+        if (!known) use->fail(use->quoted() + " is none of never, auto, always, fill. Choose one of these.");
         proxy.use = *known;
     }
     if (const auto vertices = node.find("vertices"))

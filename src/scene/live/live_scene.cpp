@@ -155,6 +155,11 @@ void LiveScene::set_material(const Material& material) {
     ++revision_;
 }
 
+void LiveScene::set_proxy(const ProxyChoice& choice) {
+    document_.proxy = choice;
+    ++revision_;
+}
+
 void LiveScene::set_method(MethodKind kind, const MethodSettings& settings) {
     document_.method = kind;
     document_.settings = settings;

@@ -71,6 +71,7 @@ public:
     /// A motion that is not finite at every vertex of the handle is ignored.
     void set_motion(int handle, const Motion& motion);
     void set_material(const Material& material);
+    void set_proxy(const ProxyChoice& choice);
     void set_method(MethodKind kind, const MethodSettings& settings);
     /// The scene begins with this method: no step of undo, and nothing that would have to be saved.
     void start_with(MethodKind kind, const MethodSettings& settings);

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,8 +19,9 @@ public:
     /// `wake` is called by the worker when poll() will find something.
     explicit ProxyKeeper(std::function<void()> wake) : job_(std::move(wake)) {}
 
-    /// Asks for proxies of these sizes of the scene's surface; 0: none. Nothing happens when they are the present ones.
-    void ask(const LiveScene& scene, int n_model_vertices, int n_preview_vertices);
+    /// Asks for the proxy of the scene's choice and a preview of so many vertices (0: none) of the scene's surface.
+    /// Nothing happens when they are the present ones.
+    void ask(const LiveScene& scene, bool needs_model, int n_preview_vertices);
     /// Takes over what the worker finished; true when there is something new.
     bool poll();
 
@@ -37,13 +39,15 @@ public:
 private:
     struct Made {
         std::shared_ptr<const Proxy> model, preview;
+        std::string failure;  ///< why there is no model
     };
     void begin();
 
     std::shared_ptr<const SurfaceMesh> surface_;
     MeshReport report_;
     std::string name_;
-    int n_model_ = 0, n_preview_ = 0;
+    std::optional<ProxyChoice> choice_;  ///< none: no model is wanted
+    int n_preview_ = 0;
     std::shared_ptr<const Proxy> model_, preview_;
     std::string failure_;
     BackgroundJob<Made> job_;

@@ -78,8 +78,7 @@ void Simulation::ask_for_proxies(const LiveScene& scene, const MethodChoices& ch
     has_preview_ = choices.preview && scene.mesh().n_vertices() > kFewestToPreview;
     const bool is_own_preview =
         !scene.needs_proxy(preview_method()) && scene.mesh().n_vertices() <= kMostToPreviewThemselves;
-    proxies_.ask(scene, needs_model ? scene.document().proxy.n_vertices : 0,
-                 has_preview_ && !is_own_preview ? kPreviewVertices : 0);
+    proxies_.ask(scene, needs_model, has_preview_ && !is_own_preview ? kPreviewVertices : 0);
     proxies_.poll();
 }
 

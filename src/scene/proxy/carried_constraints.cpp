@@ -103,6 +103,20 @@ std::vector<CarriedConstraints::Nearest> CarriedConstraints::nearest_parts(const
     return nearest;
 }
 
+/// Where the proxy's vertices are the shown ones: those that are constrained themselves.
+std::vector<CarriedConstraints::Nearest> CarriedConstraints::same_vertices() const {
+    const SurfacePlaces& places = proxy_->places;
+    std::vector<Nearest> nearest(static_cast<std::size_t>(proxy_->surface->n_vertices()));
+    for (std::size_t g = 0; g < shown_.groups.size(); ++g) {
+        const std::vector<int> vertices = vertices_of(shown_, g);
+        for (std::size_t i = 0; i < vertices.size(); ++i)
+            if (const int v = vertices[i]; places.distance[v] == 0.0 && places.weights(0, v) == 1.0)
+                nearest[static_cast<std::size_t>(places.nodes(0, v))] = {
+                    g, {static_cast<int>(i), Vector3d::UnitX(), 0.0}};  // the vertex by itself: see parts()
+    }
+    return nearest;
+}
+
 /// How far the body follows a vertex without a whole triangle depends on the mesh: a part that has triangles has only
 /// their corners.
 void CarriedConstraints::leave_out_lone_vertices(std::vector<Nearest>& nearest) const {
@@ -139,9 +153,11 @@ void CarriedConstraints::hold_nearest(const Part& part, std::size_t group, std::
 
 void CarriedConstraints::choose_vertices() {
     const std::vector<Part> constrained = parts();
-    std::vector<Nearest> nearest = nearest_parts(constrained);
-    leave_out_lone_vertices(nearest);
-    for (std::size_t g = 0; g < constrained.size(); ++g) hold_nearest(constrained[g], g, nearest);
+    std::vector<Nearest> nearest = proxy_->is_filled() ? same_vertices() : nearest_parts(constrained);
+    if (!proxy_->is_filled()) {
+        leave_out_lone_vertices(nearest);
+        for (std::size_t g = 0; g < constrained.size(); ++g) hold_nearest(constrained[g], g, nearest);
+    }
 
     carried_ = {};
     carried_.groups = shown_.groups;
@@ -178,7 +194,7 @@ void CarriedConstraints::find_followers() {
     const std::size_t n_constrained = followers_.size();
     std::vector<std::pair<int, std::size_t>> front;  // a vertex, and where it was reached from
     for (std::size_t i = 0; i < n_constrained; ++i) front.emplace_back(followers_[i].vertex, i);
-    const double reach = proxy_->edge;
+    const double reach = proxy_->is_filled() ? 0.0 : proxy_->edge;
     std::unordered_map<int, double> distances;
     while (!front.empty()) {
         std::vector<std::pair<int, std::size_t>> next;

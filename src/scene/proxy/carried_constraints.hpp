@@ -18,7 +18,8 @@ namespace elastolab {
 /// motion. A part that is smaller than the proxy's triangles holds the corners of the nearest one.
 ///
 /// Shown vertices follow their places on the proxy, but constrained ones go exactly where they were put; what is left
-/// between the two fades out around them within one edge of the proxy.
+/// between the two fades out around them within one edge of the proxy. Where the proxy is the shown surface with its
+/// holes filled, vertices are carried to themselves.
 class CarriedConstraints {
 public:
     static constexpr double kReach = 0.35;
@@ -57,6 +58,7 @@ private:
     std::vector<int> vertices_of(const Constraints& constraints, std::size_t group) const;
     std::vector<Part> parts() const;
     std::vector<Nearest> nearest_parts(const std::vector<Part>& parts) const;
+    std::vector<Nearest> same_vertices() const;
     void leave_out_lone_vertices(std::vector<Nearest>& nearest) const;
     void hold_nearest(const Part& part, std::size_t group, std::vector<Nearest>& nearest) const;
     void choose_vertices();

@@ -1,10 +1,12 @@
 #include "scene/proxy/proxy.hpp"
 
+#include <array>
 #include <cmath>
 #include <utility>
 
 #include "base/error.hpp"
 #include "mesh/measures.hpp"
+#include "mesh/wrap/filled_surface.hpp"
 
 namespace elastolab {
 
@@ -13,19 +15,38 @@ namespace {
 /// Part of a proxy's vertices from which it is told that they belong to thin walls.
 constexpr double kManyThin = 0.05;
 
+/// A shown vertex that is one of `surface` is at a corner of a triangle; the others are where they are closest.
+SurfacePlaces own_places(const SurfaceMesh& surface, const Positions& shown, const std::vector<int>& own,
+                         Control& control) {
+    SurfacePlaces places = closest_points(surface, shown, control);
+    std::vector<Eigen::Vector3i> corners(static_cast<std::size_t>(surface.n_vertices()));
+    for (const auto& triangle : surface.triangles.colwise())
+        for (int k = 0; k < 3; ++k)
+            corners[static_cast<std::size_t>(triangle[k])] << triangle[k], triangle[(k + 1) % 3], triangle[(k + 2) % 3];
+    for (Eigen::Index v = 0; v < shown.cols(); ++v) {
+        const int number = own[static_cast<std::size_t>(v)];
+        if (number < 0) continue;
+        places.nodes.col(v) = corners[static_cast<std::size_t>(number)];
+        places.weights.col(v) = Eigen::Vector3d::UnitX();
+        places.distance[v] = 0.0;
+    }
+    return places;
+}
+
 std::shared_ptr<const Proxy> embedded(ProxySurface made, const std::shared_ptr<const SurfaceMesh>& shown,
-                                      const MeshReport& report, Control& control) {
+                                      const MeshReport& report, Control& control, const std::vector<int>& own = {}) {
     auto proxy = std::make_shared<Proxy>();
     // That of equal-sided triangles of the mean area.
     proxy->edge = std::sqrt(4.0 / std::sqrt(3.0) * surface_area(made.surface) / made.surface.n_triangles());
     proxy->kind = made.kind;
     proxy->shown_is_sound = report.usable_for_fem();
-    proxy->n_capped_holes = made.n_capped_holes;
+    proxy->n_closed_holes = made.n_capped_holes;
     proxy->thin_part = made.thin_part;
     proxy->thickness = made.thickness;
     proxy->surface = std::make_shared<const SurfaceMesh>(std::move(made.surface));
     proxy->shown = shown;
-    proxy->places = closest_points(*proxy->surface, shown->vertices, control);
+    proxy->places = own.empty() ? closest_points(*proxy->surface, shown->vertices, control)
+                                : own_places(*proxy->surface, shown->vertices, own, control);
     return proxy;
 }
 
@@ -52,14 +73,35 @@ std::vector<std::shared_ptr<const Proxy>> make_proxies(const std::string& name,
     }
 }
 
+std::shared_ptr<const Proxy> make_proxy(const std::string& name, const std::shared_ptr<const SurfaceMesh>& shown,
+                                        const MeshReport& report, const ProxyChoice& choice, Control& control) {
+    const std::array sizes = {choice.n_vertices};
+    if (choice.use != ProxyUse::fill) return make_proxies(name, shown, report, sizes, control).front();
+    require_shape(report, name);
+    try {
+        FilledSurface filled = fill_holes(*shown, control);
+        return embedded({.surface = std::move(filled.surface),
+                         .kind = ProxySurface::Kind::filled,
+                         .n_capped_holes = filled.n_holes},
+                        shown, report, control, filled.own);
+    } catch (const MeshError& error) {
+        throw MeshError(name + ": " + error.what());
+    }
+}
+
 Findings findings_of_proxy(const Proxy& proxy, const std::string& name) {
+    if (proxy.is_filled())
+        return {{.kind = FindingKind::filled_holes,
+                 .value = static_cast<double>(proxy.n_closed_holes),
+                 .first = proxy.surface->n_triangles() - proxy.shown->n_triangles(),
+                 .object = name}};
     Findings findings = {{.kind = proxy.shown_is_sound ? FindingKind::chosen_proxy : FindingKind::proxy,
                           .value = proxy.places.distance.maxCoeff(),
                           .first = proxy.surface->n_vertices(),
                           .object = name}};
-    if (proxy.n_capped_holes > 0)
+    if (proxy.n_closed_holes > 0)
         findings.push_back(
-            {.kind = FindingKind::capped_holes, .value = static_cast<double>(proxy.n_capped_holes), .object = name});
+            {.kind = FindingKind::capped_holes, .value = static_cast<double>(proxy.n_closed_holes), .object = name});
     if (proxy.thin_part > kManyThin)
         findings.push_back({.kind = FindingKind::thin_sheets, .value = proxy.thickness, .object = name});
     return findings;

@@ -9,18 +9,22 @@
 #include "deform/finding.hpp"
 #include "mesh/closest_point.hpp"
 #include "mesh/wrap/proxy_surface.hpp"
+#include "scene/document.hpp"
 
 namespace elastolab {
 
-/// A closed surface that is simulated in place of the one that is shown, and how the shown one hangs on it.
+/// A closed surface that is simulated in place of the one that is shown, and how the shown one hangs on it. Where it is
+/// filled, it is the shown surface itself, every vertex of which that has a triangle is one of its own.
 struct Proxy {
     std::shared_ptr<const SurfaceMesh> shown, surface;
     SurfacePlaces places;  ///< of the shown vertices on `surface`: they move with these points
     double edge = 0.0;     ///< mean edge of `surface` [L]
     ProxySurface::Kind kind = ProxySurface::Kind::wrapped;
     bool shown_is_sound = false;  ///< every method could simulate it itself
-    int n_capped_holes = 0;  ///< see ProxySurface
+    int n_closed_holes = 0;       ///< filled, or capped before it was made (see ProxySurface)
     double thin_part = 0.0, thickness = 0.0;
+
+    bool is_filled() const { return kind == ProxySurface::Kind::filled; }
 };
 
 /// Makes proxies of about each of these numbers of vertices (mesh/wrap/proxy_surface.hpp) and embeds the shown
@@ -29,6 +33,11 @@ std::vector<std::shared_ptr<const Proxy>> make_proxies(const std::string& name,
                                                        const std::shared_ptr<const SurfaceMesh>& shown,
                                                        const MeshReport& report, std::span<const int> sizes,
                                                        Control& control);
+
+/// The one that a scene's choice asks for: of about its number of vertices, or the surface with its holes filled, which
+/// throws MeshError too when that is no solid.
+std::shared_ptr<const Proxy> make_proxy(const std::string& name, const std::shared_ptr<const SurfaceMesh>& shown,
+                                        const MeshReport& report, const ProxyChoice& choice, Control& control);
 
 /// Throws MeshError with `name` where no proxy can help: no triangle, or a coordinate that is not finite.
 void require_shape(const MeshReport& report, const std::string& name);

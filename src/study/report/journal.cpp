@@ -1,6 +1,7 @@
 #include "study/report/journal.hpp"
 
 #include "base/atomic_file.hpp"
+#include "base/csv.hpp"
 #include "base/error.hpp"
 
 namespace elastolab {

@@ -50,11 +50,6 @@ struct Table {
 /// Several messages as the text of one cell, separated by semicolons.
 std::string joined(const std::vector<std::string>& messages);
 
-/// One line of CSV (RFC 4180: fields with commas, quotes or line breaks are quoted; line breaks become spaces).
-std::string csv_line(const std::vector<std::string>& fields);
-/// The fields of one line of CSV.
-std::vector<std::string> csv_fields(std::string_view line);
-
 /// Header, then a line for each row.
 void write_csv(std::ostream& out, const Table& table);
 /// What write_csv wrote. Throws Error, which names the line, when it is no such table or not all of it.

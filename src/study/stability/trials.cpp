@@ -48,6 +48,7 @@ bool tells_of(const Finding& finding, Wrong what) {
         case FindingKind::proxy:
         case FindingKind::chosen_proxy:
         case FindingKind::capped_holes:
+        case FindingKind::filled_holes:
         case FindingKind::thin_sheets:
             return false;
     }
