@@ -82,9 +82,12 @@ std::string coarse_mesh(const Finding& finding) {
 
 std::string proxy(const Finding& finding) {
     return finding.object + ": simulated through a proxy, a closed surface of " + std::to_string(finding.first) +
-           " vertices around it; no vertex is farther from it than " + readable_number(finding.value) +
-           " mesh units. Displacements are those of that body. " +
-           (finding.kind == FindingKind::proxy ? "Mend the surface to have its own."
+           " vertices around it, " +
+           (finding.value > 0.0
+                ? "from which no vertex is farther than " + readable_number(finding.value) + " mesh units."
+                : std::string("with all vertices of the mesh on it.")) +
+           " Displacements are those of that body. " +
+           (finding.kind == FindingKind::proxy ? "Mend the surface, or have its holes filled, to have its own."
                                                : "The surface is sound: choose no proxy to have its own.");
 }
 

@@ -52,7 +52,7 @@ std::vector<SceneViewport> viewports_of(const ViewerState& state, const Viewport
 }
 
 double legend_part(const ViewerState& state, float scale) {
-    constexpr double kLegendWidth = 118.0, kMostPart = 0.3;
+    constexpr double kLegendWidth = kLegendHeadingWidth + 26.0, kMostPart = 0.3;  // with the chip's margins
     if (state.display.field == Field::none || state.shown.viewports.empty()) return 0.0;
     return std::min(kLegendWidth * scale / state.shown.viewports.back().place.width, kMostPart);
 }

@@ -97,10 +97,12 @@ void draw_legend(const PanelContext& context, ImDrawList& list) {
     const float x = static_cast<float>(scene.x + scene.width) - 84.0f * scale;
     const float y = static_cast<float>(scene.y + scene.height) - height - 28.0f * scale;
     const std::string heading = field_title(state.display.field, state.compare.reference);
-    const float text_width = ImGui::CalcTextSize(heading.c_str()).x, size = ImGui::GetFontSize();
+    const float size = ImGui::GetFontSize(), room = static_cast<float>(kLegendHeadingWidth) * scale;
+    const ImVec2 words = ImGui::CalcTextSize(heading.c_str(), nullptr, false, room);
     const float right = static_cast<float>(scene.x + scene.width) - kMargin * scale;
-    const float left = std::max(static_cast<float>(scene.x) + kMargin * scale, std::min(x, right - text_width));
-    chip(context, list, {left, y - 1.7f * size}, {right, y + height + 0.5f * size});
+    const float left = std::max(static_cast<float>(scene.x) + kMargin * scale, std::min(x, right - words.x));
+    const float heading_top = y - words.y - 0.7f * size;
+    chip(context, list, {left, heading_top}, {right, y + height + 0.5f * size});
     const ColourMap& map = shown_colour_map(state.display);
     constexpr int kSteps = 64;
     for (int i = 0; i < kSteps; ++i) {
@@ -127,7 +129,8 @@ void draw_legend(const PanelContext& context, ImDrawList& list) {
         list.AddText({x + width + 7.0f * scale, ty - 0.5f * size}, imgui_packed(context.palette.text),
                      tick.text.c_str());
     }
-    list.AddText({left, y - 1.7f * size}, imgui_packed(context.palette.text), heading.c_str());
+    list.AddText(nullptr, 0.0f, {left, heading_top}, imgui_packed(context.palette.text), heading.c_str(), nullptr,
+                 room);
 }
 
 void draw_tools(const PanelContext& context, ImDrawList& list) {

@@ -14,6 +14,8 @@ namespace {
 
 /// Part of a proxy's vertices from which it is told that they belong to thin walls.
 constexpr double kManyThin = 0.05;
+/// Distances, in edges of the proxy, that are none.
+constexpr double kRounding = 1e-9;
 
 /// A shown vertex that is one of `surface` is at a corner of a triangle; the others are where they are closest.
 SurfacePlaces own_places(const SurfaceMesh& surface, const Positions& shown, const std::vector<int>& own,
@@ -95,8 +97,9 @@ Findings findings_of_proxy(const Proxy& proxy, const std::string& name) {
                  .value = static_cast<double>(proxy.n_closed_holes),
                  .first = proxy.surface->n_triangles() - proxy.shown->n_triangles(),
                  .object = name}};
+    const double largest = proxy.places.distance.maxCoeff();
     Findings findings = {{.kind = proxy.shown_is_sound ? FindingKind::chosen_proxy : FindingKind::proxy,
-                          .value = proxy.places.distance.maxCoeff(),
+                          .value = largest > kRounding * proxy.edge ? largest : 0.0,
                           .first = proxy.surface->n_vertices(),
                           .object = name}};
     if (proxy.n_closed_holes > 0)
