@@ -1,8 +1,8 @@
 #include "app/stage.hpp"
 
 #include <algorithm>
-#include <chrono>
-#include <thread>
+
+#include "support/wait_until.hpp"
 
 namespace elastolab::test {
 
@@ -46,10 +46,10 @@ void Stage::frame() {
 }
 
 void Stage::settle() {
-    do {
+    test::wait_for([&] {
         frame();
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    } while (state.waiting() || state.simulation.busy());
+        return !state.waiting() && !state.simulation.busy();
+    });
     frame();
 }
 

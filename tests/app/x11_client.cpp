@@ -18,6 +18,7 @@ using namespace std::chrono_literals;
 
 constexpr long kXdndVersion = 5;
 constexpr auto kPatience = 60s;
+constexpr int kMostOtherEvents = 10000;
 
 /// A client of the display, with an invisible window of its own.
 class Client {
@@ -57,9 +58,10 @@ public:
         return event;
     }
     void wait_for(const char* type) const {
-        while (true)
+        for (int n_others = 0; n_others < kMostOtherEvents; ++n_others)
             if (const XEvent event = next(); event.type == ClientMessage && event.xclient.message_type == atom(type))
                 return;
+        throw std::runtime_error("the window says other things only");
     }
 
     /// Gives the window that asks for it this text.

@@ -10,6 +10,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "support/wait_until.hpp"
+
 namespace elastolab::test {
 
 namespace fs = std::filesystem;
@@ -81,7 +83,7 @@ ProgramRun run_program(const std::vector<std::string>& arguments, const fs::path
 
 ProgramRun interrupt_program(const std::vector<std::string>& arguments, const fs::path& folder) {
     RunningProgram program(arguments, folder);
-    while (!handles_interrupt(program.id())) usleep(1000);
+    test::wait_for([&] { return handles_interrupt(program.id()) || program.ended(); });
     kill(program.id(), SIGINT);
     return program.wait();
 }

@@ -89,7 +89,11 @@ TEST_F(KilledSolve, LeavesEveryOutputOldOrCompleteWhenItIsKilledWhileItWrites) {
     for (int i = 0; i < kKills; ++i) {
         write_old();
         RunningProgram program(arguments(), folder_.path());
-        while (!has_temporary(folder_.path()) && !program.ended()) std::this_thread::yield();
+        const auto end = std::chrono::steady_clock::now() + Seconds(60.0);
+        while (!has_temporary(folder_.path()) && !program.ended()) {
+            std::this_thread::yield();
+            ASSERT_LT(std::chrono::steady_clock::now(), end);
+        }
         std::this_thread::sleep_for(Seconds(random.unit() * 0.003));
         n_killed += program.ended() ? 0 : 1;
     }

@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "methods/registry.hpp"
+#include "support/wait_until.hpp"
 
 namespace elastolab {
 namespace {
@@ -38,14 +39,9 @@ ModelJob::Work endless(std::atomic<bool>& begun) {
     };
 }
 
-template <class Condition>
-void wait_until(const Condition& condition) {
-    while (!condition()) std::this_thread::sleep_for(1ms);
-}
-
 JobEvent wait_for_event(ModelJob& job) {
     JobEvent event = JobEvent::none;
-    wait_until([&] { return (event = job.poll()) != JobEvent::none; });
+    test::wait_for([&] { return (event = job.poll()) != JobEvent::none; });
     return event;
 }
 
@@ -74,7 +70,7 @@ TEST(ModelJob, ShowsStageAndProgressWhileItRuns) {
     std::atomic<bool> begun{false};
     ModelJob job;
     job.start(endless(begun));
-    wait_until([&] { return begun.load(); });
+    test::wait_for([&] { return begun.load(); });
     EXPECT_TRUE(job.running());
     EXPECT_STREQ(job.status().stage, "forever");
     EXPECT_EQ(job.status().progress, 0.5);
@@ -88,7 +84,7 @@ TEST(ModelJob, ACancelLeavesTheModelBeforeIt) {
     job.start(giving("old"));
     wait_for_event(job);
     job.start(endless(begun));
-    wait_until([&] { return begun.load(); });
+    test::wait_for([&] { return begun.load(); });
     job.cancel();
     EXPECT_EQ(wait_for_event(job), JobEvent::cancelled);
     EXPECT_EQ(job.take()->body().name, "old");
@@ -99,7 +95,7 @@ TEST(ModelJob, DropsAResultThatComesAfterACancel) {
     std::atomic<bool> go{false};
     ModelJob job;
     job.start([&](Control&) {
-        wait_until([&] { return go.load(); });
+        test::wait_for([&] { return go.load(); });
         return model_called("too late");
     });
     job.cancel();
@@ -151,10 +147,10 @@ TEST(ModelJob, ManyRequestsDuringOneThatCannotBeStoppedWaitInOneThread) {
     ModelJob job;
     job.start([&](Control&) {
         begun = true;
-        wait_until([&] { return go.load(); });  // a library that knows of no checkpoints
+        test::wait_for([&] { return go.load(); });  // a library that knows of no checkpoints
         return model_called("stroke 0");
     });
-    wait_until([&] { return begun.load(); });
+    test::wait_for([&] { return begun.load(); });
     const std::ptrdiff_t before = n_threads();
     for (int i = 1; i <= 200; ++i)
         job.start([&n_begun, i](Control&) {
@@ -172,7 +168,7 @@ TEST(ModelJob, WhatARequestHoldsIsGoneWhenItIsReplaced) {
     std::atomic<bool> begun{false};
     ModelJob job;
     job.start(endless(begun));
-    wait_until([&] { return begun.load(); });
+    test::wait_for([&] { return begun.load(); });
     auto model = model_called("held");
     const std::weak_ptr<const Model> trace = model;
     job.cancel();
@@ -195,7 +191,7 @@ TEST(ModelJob, ShutsDownWhileItRuns) {
                 throw;
             }
         });
-        wait_until([&] { return begun.load(); });
+        test::wait_for([&] { return begun.load(); });
         job.start(giving("never seen"));
     }
     EXPECT_TRUE(ended);

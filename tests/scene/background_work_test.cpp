@@ -40,8 +40,7 @@ TEST(BackgroundWork, ACompletedInverseIsKeptWhenPoissonsRatioStays) {
             if (change == 0) scene.set_material({.young_modulus = 5.0, .poisson_ratio = 0.3});
             if (change == 1) bench.choices.tractions = Tractions::continuous;
             if (change == 2) bench.choices.update = Update::direct;
-            do bench.update(scene);
-            while (bench.runner(kind).precomputing());
+            bench.update_until(scene, [&] { return !bench.runner(kind).precomputing(); });
             EXPECT_TRUE(bench.runner(kind).has_inverse());
             EXPECT_THAT(bench.runner(kind).model()->facts().stages, IsEmpty());
             bench.settle(scene);
@@ -66,11 +65,9 @@ TEST(BackgroundWork, AnInverseThatWasAskedForGoesWithItsMode) {
 TEST(BackgroundWork, AStopOfTheCompletionLeavesTheAnswerReady) {
     LiveScene scene = cube(8);
     Bench bench;
-    do bench.update(scene);
-    while (!bench.runner().completing());
+    bench.update_until(scene, [&] { return bench.runner().completing(); });
     bench.simulation.prefetch(scene.constraints_with_handle(where(scene, 0.9, 0.6)));
-    do bench.update(scene);
-    while (bench.runner().completing() && !bench.runner().preparing());
+    bench.update_until(scene, [&] { return !bench.runner().completing() || bench.runner().preparing(); });
     bench.simulation.runner(kLinearBem).cancel();
     EXPECT_EQ(bench.runner().state(), State::ready);
     EXPECT_THAT(bench.runner().failure(), IsEmpty());
@@ -114,8 +111,7 @@ TEST(BackgroundWork, TellsTheProgressOfASetThatIsBeingPrepared) {
     LiveScene scene = cube(8);
     Bench bench({kFem});
     bench.choices.complete_up_to = 0;
-    do bench.update(scene);
-    while (bench.runner(kFem).state() != State::preparing);
+    bench.update_until(scene, [&] { return bench.runner(kFem).state() == State::preparing; });
     EXPECT_LT(bench.runner(kFem).status().seconds, 60.0);
     EXPECT_GT(bench.runner(kFem).status().seconds, 0.0);
 }
@@ -126,8 +122,7 @@ TEST(BackgroundWork, AHandleThatWasPrefetchedAnswersAtOnce) {
     bench.settle(scene);
     const std::vector<int> patch = where(scene, 0.9, 0.6);
     bench.simulation.prefetch(scene.constraints_with_handle(patch));
-    do bench.update(scene);
-    while (bench.runner().preparing());
+    bench.update_until(scene, [&] { return !bench.runner().preparing(); });
     EXPECT_EQ(bench.runner().displacement().norm(), 0.0);
     scene.add_handle(patch);
     scene.set_motion(0, AffineMotion{.translate = {0.1, 0, 0}});

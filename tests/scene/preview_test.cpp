@@ -7,6 +7,7 @@
 #include "mesh/primitives.hpp"
 #include "scene/simulation_bench.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/wait_until.hpp"
 
 namespace elastolab {
 namespace {
@@ -22,10 +23,7 @@ struct PreviewBench : Bench {
     }
     /// Frames until the preview answers for what is pulled now.
     void wait_for_preview(const LiveScene& scene) {
-        while (!simulation.previewing(shown.front()) && simulation.busy()) {
-            update(scene);
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        }
+        update_until(scene, [&] { return simulation.previewing(shown.front()) || !simulation.busy(); });
     }
 };
 
@@ -42,7 +40,7 @@ void expect_handles_where_they_are_put(const LiveScene& scene, const Eigen::Vect
 
 TEST(Preview, AnswersBeforeTheMethodDoesAndGivesWay) {
     const LiveScene scene = pulled_cube(10);
-    PreviewBench bench({kConstantBem});       // the slowest
+    PreviewBench bench({kConstantBem});  // the slowest
     bench.begin(scene);
     bench.wait_for_preview(scene);
     ASSERT_TRUE(bench.simulation.previewing(kConstantBem));
@@ -146,7 +144,7 @@ TEST(Proxy, CanBeStoppedAndTriedAgain) {
     PreviewBench bench;
     bench.begin(scene);
     bench.simulation.cancel();
-    while (bench.simulation.stopping()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    ASSERT_TRUE(test::wait_until([&] { return !bench.simulation.stopping(); }));
     bench.update(scene);
     EXPECT_THAT(bench.simulation.problem(kLinearBem), HasSubstr("stopped"));
     bench.simulation.retry(kLinearBem);

@@ -2,13 +2,12 @@
 
 #include <gmock/gmock.h>
 
-#include <chrono>
 #include <limits>
-#include <thread>
 
 #include "methods/precompute.hpp"
 #include "methods/registry.hpp"
 #include "scene/live/simulation.hpp"
+#include "support/wait_until.hpp"
 
 namespace elastolab::testing_simulation {
 
@@ -70,11 +69,16 @@ struct Bench {
         for (const MethodKind kind : all_methods()) simulation.runner(kind).set_solve_budget(seconds);
     }
     bool update(const LiveScene& scene) { return simulation.update(scene, shown, choices); }
-    void settle(const LiveScene& scene) {
-        do {
+    /// One update at least.
+    template <class Condition>
+    void update_until(const LiveScene& scene, const Condition& condition) {
+        test::wait_for([&] {
             update(scene);
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        } while (simulation.busy());
+            return condition();
+        });
+    }
+    void settle(const LiveScene& scene) {
+        update_until(scene, [&] { return !simulation.busy(); });
         update(scene);
     }
     const MethodRunner& runner(MethodKind kind = kLinearBem) { return simulation.runner(kind); }

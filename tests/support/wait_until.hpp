@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <stdexcept>
 #include <thread>
 
 namespace elastolab::test {
@@ -15,6 +16,12 @@ bool wait_until(const Condition& condition, std::chrono::seconds at_most = std::
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     return true;
+}
+
+/// The same from where a test cannot be failed: throws instead, which fails it.
+template <class Condition>
+void wait_for(const Condition& condition, std::chrono::seconds at_most = std::chrono::seconds(300)) {
+    if (!wait_until(condition, at_most)) throw std::runtime_error("waited in vain");
 }
 
 }  // namespace elastolab::test

@@ -7,6 +7,7 @@
 
 #include "app/stage.hpp"
 #include "methods/registry.hpp"
+#include "support/wait_until.hpp"
 
 namespace elastolab::test {
 namespace {
@@ -36,10 +37,11 @@ TEST_F(CutOpen, WhatIsCutAwayIsNotPointedAt) {
 
 TEST_F(CutOpen, StaysOpenWhenTheModelIsCompleted) {
     stage.state.choices.complete_up_to = 2000;
-    do {
+    test::wait_for([&] {
         stage.frame();
         EXPECT_TRUE(stage.state.shown.body(kFem)->section());
-    } while (stage.state.simulation.busy());
+        return !stage.state.simulation.busy();
+    });
     EXPECT_TRUE(stage.state.simulation.runner(kFem).has_inverse());
     EXPECT_FALSE(stage.state.shown.cutting());
 }

@@ -6,6 +6,7 @@
 
 #include "app/stage.hpp"
 #include "methods/registry.hpp"
+#include "support/wait_until.hpp"
 
 namespace elastolab {
 namespace {
@@ -139,7 +140,10 @@ TEST(ReactionRunners, SolveOnTheWorkerWhatTakesLongAndKeepTheLastMeanwhile) {
     ReactionRunner runner([] {});
     runner.set_solve_budget(0.0);
     const auto wait = [&] {
-        while (runner.running()) runner.update(answer);
+        test::wait_for([&] {
+            if (runner.running()) runner.update(answer);
+            return !runner.running();
+        });
     };
     runner.update(answer);
     EXPECT_TRUE(runner.running());
@@ -207,14 +211,15 @@ TEST_F(ShownBodyTest, OnlyAnswersToTheSameSceneAreCompared) {
     ASSERT_TRUE(shown().difference());
     stage.scene().set_material({.young_modulus = 1.0, .poisson_ratio = 0.45});
     bool first = true;
-    do {
+    test::wait_for([&] {
         stage.frame();
         const auto ratio = [&](MethodKind kind) {
             return state.simulation.runner(kind).model()->body().material.poisson_ratio;
         };
         EXPECT_FALSE(std::exchange(first, false) && shown().difference());
         EXPECT_TRUE(!shown().difference() || ratio(kLinearBem) == ratio(kFem));
-    } while (state.simulation.busy());
+        return !state.simulation.busy();
+    });
     stage.frame();
     EXPECT_TRUE(shown().difference());
 }
