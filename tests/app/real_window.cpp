@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -75,6 +76,15 @@ void RealWindow::drag(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
 }
 
 void RealWindow::key(const std::string& name) { tell("key " + name); }
+
+void RealWindow::stroke(const std::string& name) {
+    std::string keys = name;
+    std::replace(keys.begin(), keys.end(), '+', ' ');
+    for (const char* which : {"keydown ", "keyup "}) {
+        tell(which + keys);
+        std::this_thread::sleep_for(std::chrono::milliseconds(150));
+    }
+}
 
 void RealWindow::type(const std::string& text) {
     tell("type --delay 20 '" + text + "'");

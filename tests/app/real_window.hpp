@@ -23,6 +23,8 @@ public:
     void click(const Eigen::Vector2d& at) { drag(at, at); }
     /// Keys as xdotool names them: "ctrl+q".
     void key(const std::string& name);
+    /// The same as slowly as a finger: a text field looks only once a frame which keys are down.
+    void stroke(const std::string& name);
     /// Types a text and Enter.
     void type(const std::string& text);
     void resize(int width, int height);

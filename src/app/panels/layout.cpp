@@ -53,8 +53,11 @@ std::vector<SceneViewport> viewports_of(const ViewerState& state, const Viewport
 
 double legend_part(const ViewerState& state, float scale) {
     constexpr double kLegendWidth = kLegendHeadingWidth + 26.0, kMostPart = 0.3;  // with the chip's margins
+    constexpr double kNarrow = 0.75;  // a body as wide as this viewport ends above the legend
     if (state.display.field == Field::none || state.shown.viewports.empty()) return 0.0;
-    return std::min(kLegendWidth * scale / state.shown.viewports.back().place.width, kMostPart);
+    const Viewport& last = state.shown.viewports.back().place;
+    if (last.aspect() < kNarrow) return 0.0;
+    return std::min(kLegendWidth * scale / last.width, kMostPart);
 }
 
 }  // namespace elastolab

@@ -21,7 +21,8 @@ std::vector<SceneViewport> viewports_of(const ViewerState& state, const Viewport
 
 /// Of the legend's heading, which takes as many lines as it needs [pixels at scale 1].
 constexpr double kLegendHeadingWidth = 104.0;
-/// The part of the last viewport's width, at its right, over which the legend stands; 0 when no field is shown.
+/// The part of the last viewport's width, at its right, over which the legend stands; 0 when no field is shown, or when
+/// the viewport is so narrow that there is room above it.
 double legend_part(const ViewerState& state, float scale);
 
 }  // namespace elastolab

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cmath>
 #include <fstream>
 #include <thread>
 
@@ -134,6 +135,38 @@ TEST(RealGizmo, MovesAndTurnsTheChosenHandle) {
     EXPECT_LT(moved.head<2>().norm(), 1e-9);
     EXPECT_GT(motion.matrix.norm(), 0.1);
     EXPECT_LT(motion.matrix.row(0).norm() + motion.matrix.col(0).norm(), 1e-9);  // about x
+}
+
+/// The row of a handle in the panel chooses it; its name and numbers are typed, from field to field by the Tab key.
+TEST(RealPanel, AHandleIsNamedMovedAndTurnedByTyping) {
+    const TemporaryFolder folder;
+    Document document = cube_document(4);
+    document.handles.push_back(
+        {.name = "end", .select = {PlaneSelector{{1, 0, 0}, {1, 0, 0}, 1e-9}}, .motion = AffineMotion{}});
+    save_scene(folder.path() / "cube.json", document);
+    RealWindow window({"cube.json", "--size", "1000x900", "--scene-out", "out.json"}, folder.path());
+    window.settle();
+    window.click({60, 482});
+    window.settle();
+    window.click({90, 507});
+    window.stroke("ctrl+a");
+    window.type("tip");
+    window.settle();
+    window.click({38, 536});  // along x
+    window.stroke("ctrl+a");
+    for (const char* key : {"0", "period", "2", "5", "Tab", "Tab", "Tab", "Tab", "Tab", "3", "0"}) window.stroke(key);
+    window.type("");
+    window.settle();
+    ASSERT_EQ(window.quit().exit_code, 0);
+
+    const Document left = load_scene(folder.path() / "out.json");
+    ASSERT_EQ(left.handles.size(), 1u);
+    EXPECT_EQ(left.handles[0].name, "tip");
+    const auto& motion = std::get<AffineMotion>(left.handles[0].motion);
+    const Eigen::Vector3d middle(1, 0.5, 0.5);
+    EXPECT_LT((motion.matrix * middle + motion.translate - Eigen::Vector3d(0.25, 0, 0)).norm(), 1e-6);
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(std::acos(-1.0) / 6.0, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    EXPECT_LT((motion.matrix - (turn - Eigen::Matrix3d::Identity())).norm(), 1e-6) << motion.matrix;
 }
 
 /// A ball without its cap, in triangles that do not hang together, as careless scans come: pressed as soon as the
