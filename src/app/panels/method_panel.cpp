@@ -175,15 +175,22 @@ std::string readiness(const MethodRunner& runner) {
     return text + (runner.has_inverse() ? "; K and its inverse are ready" : "; columns on demand");
 }
 
-void draw_warnings(const PanelContext& context, const EmbeddedRunner& runner) {
-    const std::string& name = context.state.scene().name();
-    for (std::string text : words(runner.findings())) {
+}  // namespace
+
+/// While something is pressed or typed into, they stay as they are, so that it does not move away.
+void Panels::draw_warnings(const PanelContext& context) {
+    const ViewerState& state = context.state;
+    const std::pair<std::uint64_t, MethodKind> of(state.scene_number(), state.method);
+    if (!ImGui::IsAnyItemActive() || warnings_of_ != of) {
+        warnings_ = words(state.simulation.embedded(state.method).findings());
+        warnings_of_ = of;
+    }
+    const std::string& name = state.scene().name();
+    for (std::string text : warnings_) {
         if (text.starts_with(name)) text.replace(0, name.size(), std::filesystem::path(name).filename().string());
         paragraph(text, context.palette.busy);
     }
 }
-
-}  // namespace
 
 void Panels::draw_method(const PanelContext& context) {
     ViewerState& state = context.state;
@@ -204,7 +211,7 @@ void Panels::draw_method(const PanelContext& context) {
             (simulation.waiting() || simulation.preparing_preview() || simulation.making_proxy(state.method));
         if (!will_begin && ImGui::Button("Compute")) state.simulation.retry(state.method);
     }
-    draw_warnings(context, state.simulation.embedded(state.method));
+    draw_warnings(context);
 
     if (!ImGui::TreeNode("How it computes")) return;
     if (const std::string text = readiness(runner); !text.empty()) paragraph(text, palette.text_dim);

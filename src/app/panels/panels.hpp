@@ -73,6 +73,7 @@ private:
     void draw_unsaved(const PanelContext& context);
     void ask_name_of_unsaved(ViewerState& state);
     void draw_defects(const PanelContext& context);
+    void draw_warnings(const PanelContext& context);
     void draw_proxy(ViewerState& state, float scale);
     void draw_young_modulus(ViewerState& state, float scale);
     void open_primitive(ViewerState& state);
@@ -97,6 +98,8 @@ private:
     std::pair<int, std::string> typed_name_{-1, ""};  ///< of a handle, while it is typed
     bool side_fits_ = true;                           ///< the side panel's content did, in the last frame
     std::uint64_t costs_of_scene_ = 0;
+    std::vector<std::string> warnings_;  ///< as they are shown, of this scene and method:
+    std::pair<std::uint64_t, MethodKind> warnings_of_;
     std::size_t n_flights_ = 0;  ///< to places of defects
     std::map<std::tuple<MethodKind, Mode, const SurfaceMesh*>, Cost> costs_;
 };
