@@ -9,7 +9,7 @@ set terminal pngcairo size 1350,780 font 'sans,18'
 set output 'stability-slivers.'.kind
 set datafile separator ','
 set datafile missing NaN
-set title 'Error under stress: slivers'
+set title 'Error in the trial: slivers'
 set xlabel 'altitude / edge'
 set ylabel 'largest error / largest displacement'
 set grid lc rgb '#dddddd' lt 1
@@ -24,9 +24,11 @@ set yrange [1e-16:*]
 plot \
   'stability.csv' using ((strcol('group') eq 'slivers' && strcol('variant') eq 'fem' ? column('level') : NaN)):(column('error_max')) with linespoints lc rgb '#0072b2' lw 2 pt 7 ps 0.8 dt 1 title 'fem', \
   'stability.csv' using ((strcol('group') eq 'slivers' && strcol('variant') eq 'constant-bem' ? column('level') : NaN)):(column('error_max')) with linespoints lc rgb '#d55e00' lw 2 pt 5 ps 0.8 dt 1 title 'constant-bem', \
+  'stability.csv' using ((strcol('group') eq 'slivers' && strcol('variant') eq 'galerkin-bem' ? column('level') : NaN)):(column('error_max')) with linespoints lc rgb '#cc79a7' lw 2 pt 13 ps 0.8 dt 1 title 'galerkin-bem', \
+  'stability.csv' using ((strcol('group') eq 'slivers' && strcol('variant') eq 'quadratic-fem' ? column('level') : NaN)):(column('error_max')) with linespoints lc rgb '#e69f00' lw 2 pt 11 ps 0.8 dt 1 title 'quadratic-fem', \
   'stability.csv' using ((strcol('group') eq 'slivers' && strcol('variant') eq 'linear-bem' ? column('level') : NaN)):(column('error_max')) with linespoints lc rgb '#009e73' lw 2 pt 9 ps 0.8 dt 1 title 'linear-bem', \
-  'stability.csv' using ((strcol('group') eq 'slivers' && strcol('variant') eq 'linear-bem restricted' ? column('level') : NaN)):(column('error_max')) with linespoints lc rgb '#cc79a7' lw 2 pt 13 ps 0.8 dt 2 title 'linear-bem restricted', \
-  'stability.csv' using ((strcol('group') eq 'slivers' && strcol('variant') eq 'linear-bem continuous' ? column('level') : NaN)):(column('error_max')) with linespoints lc rgb '#e69f00' lw 2 pt 11 ps 0.8 dt 2 title 'linear-bem continuous'
+  'stability.csv' using ((strcol('group') eq 'slivers' && strcol('variant') eq 'linear-bem restricted' ? column('level') : NaN)):(column('error_max')) with linespoints lc rgb '#56b4e9' lw 2 pt 6 ps 0.8 dt 2 title 'linear-bem restricted', \
+  'stability.csv' using ((strcol('group') eq 'slivers' && strcol('variant') eq 'linear-bem continuous' ? column('level') : NaN)):(column('error_max')) with linespoints lc rgb '#666666' lw 2 pt 4 ps 0.8 dt 2 title 'linear-bem continuous'
 unset output
 reset
 }
