@@ -12,6 +12,12 @@ namespace {
 
 /// Arithmetic per pair of source and triangle, in flops at the speed of the matrix product: about 0.1 us on a core.
 constexpr double kFlopsPerPair = 3000.0;
+/// Of Galerkin's pairs that touch or are close, which are a few for each triangle: about 0.5 ms on a core.
+constexpr double kFlopsPerTriangle = 17e6;
+/// What every boundary method needs besides its matrices.
+constexpr std::uint64_t kLeastMemory = 12u << 20;
+/// Of the strips that wait to be added to the hypersingular matrix, at most; a part of a matrix for small ones.
+constexpr double kMostStripMemory = 144e6, kStripMemoryPerPair = 108.0;
 
 /// Hierarchical matrices: vertices from which they are used, and what they take for each and each level of clusters.
 constexpr int kHierarchicalOnceFrom = 3000, kHierarchicalFrom = 5000;
@@ -21,7 +27,7 @@ constexpr double kBytesPerVertex = 14e3;
 
 Cost predict(const SurfaceMesh& mesh, const Method& method, double nodes) {
     const double n = 3.0 * nodes, pairs = nodes * mesh.n_triangles();
-    Cost cost{static_cast<std::int64_t>(n), 64u << 20, 0.0};
+    Cost cost{static_cast<std::int64_t>(n), kLeastMemory, 0.0};
     if (!factorises_ahead(method)) return cost;
     cost.memory_bytes += square_bytes(n + 6.0);
     double flops = 2.0 / 3.0 * n * n * n + kFlopsPerPair * pairs;
@@ -57,7 +63,9 @@ std::uint64_t hierarchical_set_memory(std::int64_t n_vertices, std::int64_t n_lo
 /// Half an LU, and half of the pairs of triangles: each once.
 Cost predict_galerkin_bem(const SurfaceMesh& mesh, const Method& method) {
     const double n = 3.0 * mesh.n_vertices(), triangles = mesh.n_triangles();
-    Cost cost{static_cast<std::int64_t>(n), 192u << 20, 0.0};
+    const double vertices = mesh.n_vertices();
+    const double strips = std::min(kMostStripMemory, kStripMemoryPerPair * vertices * vertices);
+    Cost cost{static_cast<std::int64_t>(n), kLeastMemory + static_cast<std::uint64_t>(strips), 0.0};
     if (is_hierarchical(mesh, method)) {
         const double levels = std::log2(std::max(mesh.n_vertices() / 48.0, 2.0));
         const double per_vertex = kBytesPerVertexAndLevel * levels + kBytesPerVertex;
@@ -67,7 +75,7 @@ Cost predict_galerkin_bem(const SurfaceMesh& mesh, const Method& method) {
     }
     if (!factorises_ahead(method)) return cost;
     cost.memory_bytes += square_bytes(n);
-    double flops = n * n * n / 3.0 + 0.5 * kFlopsPerPair * triangles * triangles;
+    double flops = n * n * n / 3.0 + 0.5 * kFlopsPerPair * triangles * triangles + kFlopsPerTriangle * triangles;
     if (method.mode != Mode::on_demand) {
         cost.memory_bytes += 4 * square_bytes(n);
         flops += 2.0 * n * n * n;

@@ -1,6 +1,7 @@
 #include "scene/user_text.hpp"
 
 #include <new>
+#include <system_error>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
@@ -11,6 +12,10 @@ std::string user_text(const std::exception& error) {
     if (dynamic_cast<const Error*>(&error) != nullptr) return one_line(error.what());
     if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr)
         return "The memory of this machine is used up. Use a coarser mesh, or the mode on-demand.";
+    if (const auto* system = dynamic_cast<const std::system_error*>(&error);
+        system != nullptr && system->code() == std::errc::resource_unavailable_try_again)
+        return "No further thread can be started: out of memory or of what this process may have. Raise its limits "
+               "(ulimit -v, ulimit -u), or use fewer threads.";
     return "Internal error: " + one_line(error.what()) + ". Please report it.";
 }
 

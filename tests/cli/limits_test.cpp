@@ -34,9 +34,9 @@ protected:
 
 /// OpenBLAS tries for ever when it cannot have its buffer.
 TEST_F(LimitsTest, SaysOutOfMemoryWhereAddressesAreFew) {
-    folder_.write("scene.json", cube_scene("linear-bem", 4));
+    folder_.write("scene.json", cube_scene("linear-bem", 14));
     int n_refused = 0;
-    for (const int mib : {250, 350, 500, 800, 8000}) {
+    for (const int mib : {200, 250, 350, 500, 800, 8000}) {
         const ProgramRun result = run("ulimit -v " + std::to_string(mib * 1024), "solve --quiet scene.json");
         ASSERT_NE(result.exit_code, kTimedOut) << mib;
         if (result.exit_code == 0) continue;
