@@ -1,7 +1,6 @@
 #include "cli/info.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -73,7 +72,9 @@ void print_costs(std::ostream& out, const std::vector<MethodCost>& costs, bool f
             out << formatted("%12lld  %12s  %10s", static_cast<long long>(row.cost->degrees_of_freedom),
                              readable_bytes(static_cast<double>(row.cost->memory_bytes)).c_str(),
                              readable_seconds(row.cost->seconds).c_str())
-                << (!row.on_proxy ? "\n" : filled ? "  with its holes filled\n" : "  on the proxy\n");
+                << (!row.on_proxy ? "\n"
+                    : filled      ? "  with its holes filled\n"
+                                  : "  on the proxy\n");
         else
             out << "cannot: see the errors above\n";
     }

@@ -52,6 +52,7 @@ public:
     /// Something stands before the right of every viewport, over this part of its width: the middle of what is seen is
     /// then the middle of the rest.
     void set_covered(double part) { covered_ = part; }
+    double covered() const { return covered_; }
 
     /// World to eye coordinates (x right, y up, z backward) [L].
     Eigen::Matrix4d view() const;

@@ -1,7 +1,6 @@
 #include "scene/solve.hpp"
 
 #include <algorithm>
-#include <array>
 #include <Eigen/Geometry>
 
 #include "base/error.hpp"

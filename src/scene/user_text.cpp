@@ -14,7 +14,8 @@ std::string user_text(const std::exception& error) {
         return "The memory of this machine is used up. Use a coarser mesh, or the mode on-demand.";
     if (const auto* system = dynamic_cast<const std::system_error*>(&error);
         system != nullptr && system->code() == std::errc::resource_unavailable_try_again)
-        return "No further thread can be started: out of memory or of what this process may have. Raise its limits "
+        return "No further thread can be started: this process is at the limit of its memory or of its threads. Raise "
+               "it "
                "(ulimit -v, ulimit -u), or use fewer threads.";
     return "Internal error: " + one_line(error.what()) + ". Please report it.";
 }

@@ -84,7 +84,7 @@ ProgramRun run_program(const std::vector<std::string>& arguments, const fs::path
 ProgramRun interrupt_program(const std::vector<std::string>& arguments, const fs::path& folder) {
     RunningProgram program(arguments, folder);
     test::wait_for([&] { return handles_interrupt(program.id()) || program.ended(); });
-    kill(program.id(), SIGINT);
+    if (!program.ended()) kill(program.id(), SIGINT);
     return program.wait();
 }
 

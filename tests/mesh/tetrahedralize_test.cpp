@@ -15,6 +15,7 @@
 #include "mesh/measures.hpp"
 #include "mesh/meshes.hpp"
 #include "mesh/primitives.hpp"
+#include "mesh/refine.hpp"
 #include "mesh/tets/node_estimate.hpp"
 #include "mesh/tets/seed_points.hpp"
 #include "mesh/tets/tet_quality.hpp"
@@ -196,16 +197,56 @@ TEST(Tetrahedralize, GradesTheInsideTheMoreTheLargerTheSurface) {
     EXPECT_EQ(fill(make_box(6)).vertices, fill(make_box(6), {.growth = 0.0}).vertices);
 }
 
+/// A box of few large triangles, one of whose corners is split into many small ones: lengths are those of a far corner.
+SurfaceMesh box_with_a_fine_corner(const Eigen::Vector3d& size, int n_rounds) {
+    RefinedSurface surface = unrefined(make_box(4, size));
+    for (int round = 0; round < n_rounds; ++round) {
+        const double reach = 0.4 * std::pow(0.7, round) * size.maxCoeff();
+        std::vector<char> marked;
+        for (const auto& triangle : surface.mesh.triangles.colwise())
+            marked.push_back(surface.mesh.vertices(Eigen::all, triangle).colwise().norm().minCoeff() < reach);
+        surface = refine_marked(surface, marked);
+    }
+    return surface.mesh;
+}
+
+Positions seeds_of(const SurfaceMesh& mesh, double growth) {
+    const std::vector<double> vertices(mesh.vertices.data(), mesh.vertices.data() + mesh.vertices.size());
+    const std::vector<int> triangles(mesh.triangles.data(), mesh.triangles.data() + mesh.triangles.size());
+    const std::vector<double> seeds = seed_points(vertices, SizeField(vertices, triangles, growth));
+    return Eigen::Map<const Eigen::Matrix3Xd>(seeds.data(), 3, std::ssize(seeds) / 3);
+}
+
 TEST(Tetrahedralize, SeedsStayClearOfTheSurface) {
     const SurfaceMesh ball = make_sphere(40);
-    const std::vector<double> vertices(ball.vertices.data(), ball.vertices.data() + ball.vertices.size());
-    const std::vector<int> triangles(ball.triangles.data(), ball.triangles.data() + ball.triangles.size());
-    const std::vector<double> seeds = seed_points(vertices, SizeField(vertices, triangles, 0.35));
-    const Positions points = Eigen::Map<const Eigen::Matrix3Xd>(seeds.data(), 3, std::ssize(seeds) / 3);
-    EXPECT_GT(points.cols(), 100);
+    const Positions seeds = seeds_of(ball, 0.35);
+    EXPECT_GT(seeds.cols(), 100);
     Control control;
-    EXPECT_GT(closest_points(ball, points, control).distance.minCoeff(), mean_edge(ball));
-    EXPECT_TRUE(seed_points(vertices, SizeField(vertices, triangles, 0.0)).empty());
+    EXPECT_GT(closest_points(ball, seeds, control).distance.minCoeff(), mean_edge(ball));
+    EXPECT_EQ(seeds_of(ball, 0.0).cols(), 0);
+}
+
+/// Where a fine corner tells the lengths far away, large triangles lie beside points of an octree, or under them.
+TEST(Tetrahedralize, SeedsStayClearOfLargeTrianglesToo) {
+    Control control;
+    for (const Eigen::Vector3d& size :
+         {Eigen::Vector3d(1, 1, 0.125), Eigen::Vector3d(1, 0.5, 0.25), Eigen::Vector3d(1, 1, 1)}) {
+        const SurfaceMesh mesh = box_with_a_fine_corner(size, 6);
+        for (const double growth : {0.05, 0.13, 0.35}) {
+            const Positions seeds = seeds_of(mesh, growth);
+            if (seeds.cols() == 0) continue;
+            EXPECT_GT(closest_points(mesh, seeds, control).distance.minCoeff(), 0.5 * mean_edge(mesh)) << growth;
+        }
+        TetOptions options;
+        options.growth = 0.13;
+        EXPECT_GT(tetrahedralize(mesh, "box", options, control).n_tetrahedra(), 0);
+    }
+}
+
+TEST(Tetrahedralize, SlenderBodiesGetNoCloudOfSeeds) {
+    const SurfaceMesh rod = make_box(6, {60.0, 1.0, 1.0});
+    EXPECT_LE(seeds_of(rod, 0.05).cols(), rod.n_vertices());
+    EXPECT_LE(seeds_of(rod, 0.35).cols(), rod.n_vertices());
 }
 
 TEST(Tetrahedralize, ItsNodesAreEstimatedFromTheSurface) {

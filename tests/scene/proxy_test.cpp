@@ -179,7 +179,6 @@ TEST(FilledSurface, AnswersWithTheVerticesThatAreShown) {
     const auto proxy = make_proxy("body", std::make_shared<const SurfaceMesh>(checked.mesh), checked.report,
                                   {.use = ProxyUse::fill}, control);
     EXPECT_EQ(proxy->n_closed_holes, 1);
-    EXPECT_GT(proxy->surface->n_vertices(), 0);
 
     CarriedConstraints carried(proxy);
     const Constraints shown = make_constraints(bar(AffineMotion{.translate = {0, 0, 0.5}}), checked.mesh, "s.json");
@@ -187,7 +186,7 @@ TEST(FilledSurface, AnswersWithTheVerticesThatAreShown) {
     EXPECT_EQ(carried.constraints().set.base.size(), shown.set.base.size());
     EXPECT_EQ(carried.constraints().set.handles.size(), shown.set.handles.size());
     const Eigen::VectorXd u = carried.displacement(solved(carried));
-    Deformer whole(precompute({.name = "whole", .surface = std::make_shared<const SurfaceMesh>(kBar)},
+    Deformer whole(precompute({.name = "whole", .surface = std::make_shared<const SurfaceMesh>(kBar), .material = {}},
                               Method{.kind = kQuadraticFem}, control));
     const Constraints of_whole = make_constraints(bar(AffineMotion{.translate = {0, 0, 0.5}}), kBar, "s.json");
     whole.constrain(of_whole.set, control);

@@ -45,8 +45,10 @@ void Panels::draw_proxy(ViewerState& state, float scale) {
         state.scene().set_proxy(choice);
         state.scene().commit();
     };
-    set_item_width(scale);
-    if (choose<ProxyUse>("simulated", choice.use, kProxyUses)) set();
+    if (choice.use != ProxyUse::always) {
+        set_item_width(scale);
+        if (choose<ProxyUse>("simulated", choice.use, kProxyUses)) set();
+    }
     if (choice.use == ProxyUse::fill) return;
     int n_vertices = proxy_vertices_.value_or(choice.n_vertices);
     if (slider("proxy vertices", n_vertices, kFewestChosen, kMostChosen, "about %d", scale))

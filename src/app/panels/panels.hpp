@@ -100,8 +100,8 @@ private:
     std::uint64_t costs_of_scene_ = 0;
     std::vector<std::string> warnings_;  ///< as they are shown, of this scene and method:
     std::pair<std::uint64_t, MethodKind> warnings_of_;
-    std::size_t n_flights_ = 0;  ///< to places of defects
-    std::map<std::tuple<MethodKind, Mode, const SurfaceMesh*>, Cost> costs_;
+    std::size_t n_flights_ = 0;                                     ///< to places of defects
+    std::map<std::tuple<MethodKind, Mode, int, int>, Cost> costs_;  ///< by vertices and triangles of what is simulated
 };
 
 }  // namespace elastolab

@@ -18,9 +18,11 @@ namespace {
 /// What is changed of the state for a picture comes back.
 class LookGuard {
 public:
-    explicit LookGuard(ViewerState& state) : state_(state), pose_(state.camera.pose()), grid_(state.display.grid) {}
+    explicit LookGuard(ViewerState& state)
+        : state_(state), pose_(state.camera.pose()), covered_(state.camera.covered()), grid_(state.display.grid) {}
     ~LookGuard() {
         state_.camera.set_pose(pose_);
+        state_.camera.set_covered(covered_);
         state_.display.grid = grid_;
     }
     LookGuard(const LookGuard&) = delete;
@@ -29,6 +31,7 @@ public:
 private:
     ViewerState& state_;
     CameraPose pose_;
+    double covered_;
     bool grid_;
 };
 
@@ -125,8 +128,9 @@ void write_picture(const std::filesystem::path& file, SceneRenderer& renderer, V
         }
         write_png(file, picture);
     };
-    if (!options.transparent) return finish(scene_picture(renderer, state, palette, size));
     const LookGuard guard(state);
+    if (!options.legend) state.camera.set_covered(0.0);
+    if (!options.transparent) return finish(scene_picture(renderer, state, palette, size));
     state.display.grid = false;  // it has no edge
     const auto before = [&](float grey) {
         Palette plain = palette;

@@ -1,5 +1,6 @@
 #include "bem/galerkin/model.hpp"
 
+#include "base/memory.hpp"
 #include "bem/error_estimate.hpp"
 #include "bem/galerkin/field.hpp"
 #include "bem/galerkin/solvers.hpp"
@@ -23,7 +24,10 @@ bool same_galerkin_system(const Method& a, const Method& b) {
 std::shared_ptr<const HypersingularParts> parts_for_change(const GalerkinSystem& before, const Method& method,
                                                            StageTimes& stages, Control& control) {
     const auto n = static_cast<std::uint64_t>(before.size());
-    if (before.parts() || !factorises_ahead(method) || 16 * n * n > kMostKeptIntegrals) return before.parts();
+    const std::uint64_t bytes = 16 * n * n;
+    if (before.parts() || !factorises_ahead(method) || bytes > kMostKeptIntegrals ||
+        3 * bytes > available_memory_bytes())  // with the new system beside the old one
+        return before.parts();
     const Stage stage("integrate", control, stages);
     return std::make_shared<const HypersingularParts>(before.boundary(), integral_tolerance(method), control);
 }

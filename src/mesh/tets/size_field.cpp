@@ -13,6 +13,12 @@ namespace {
 
 double distance(const double* a, const double* b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
 
+double distance_to_box(const double* point, const double* low, const double* high) {
+    double nearest[3];
+    for (std::size_t axis = 0; axis < 3; ++axis) nearest[axis] = std::clamp(point[axis], low[axis], high[axis]);
+    return distance(point, nearest);
+}
+
 /// Mean length of the edges at each vertex, or of all edges where that is more. Edges are counted by triangles: those
 /// of a closed surface twice.
 std::vector<double> sizes_at_vertices(const std::vector<double>& vertices, const std::vector<int>& triangles) {
@@ -57,7 +63,11 @@ void SizeField::build(std::vector<Sample>& samples, std::size_t begin, std::size
         }
     }
     n.least = std::numeric_limits<double>::max();
-    for (std::size_t i = begin; i < end; ++i) n.least = std::min(n.least, samples[i].size);
+    n.most = 0.0;
+    for (std::size_t i = begin; i < end; ++i) {
+        n.least = std::min(n.least, samples[i].size);
+        n.most = std::max(n.most, samples[i].size);
+    }
     std::size_t longest = 0;
     for (std::size_t axis = 1; axis < 3; ++axis)
         if (n.high[axis] - n.low[axis] > n.high[longest] - n.low[longest]) longest = axis;
@@ -77,10 +87,15 @@ void SizeField::build(std::vector<Sample>& samples, std::size_t begin, std::size
 }
 
 double SizeField::bound(const double* point, const Node& node) const {
-    double nearest[3];
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        nearest[axis] = std::clamp(point[axis], node.low[axis], node.high[axis]);
-    return node.least + growth_ * distance(point, nearest);
+    return node.least + growth_ * distance_to_box(point, node.low, node.high);
+}
+
+bool SizeField::is_clear(const double* point, double lengths, std::size_t node) const {
+    if (node >= nodes_.size()) return true;
+    const Node& n = nodes_[node];
+    if (distance_to_box(point, n.low, n.high) > lengths * n.most) return true;
+    return distance(point, n.point) > lengths * n.size && is_clear(point, lengths, 2 * node + 1) &&
+           is_clear(point, lengths, 2 * node + 2);
 }
 
 void SizeField::search(const double* point, std::size_t node, Nearest& best) const {

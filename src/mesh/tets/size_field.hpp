@@ -16,15 +16,17 @@ public:
     SizeField(const std::vector<double>& vertices, const std::vector<int>& triangles, double growth);
 
     double at(const double* point) const { return nearest(point).wanted; }
-    /// How many times that of the surface near by.
+    /// How many times that of the vertex that tells it.
     double grown(const double* point) const;
+    /// Whether every vertex is farther away than so many times its own length.
+    bool is_clear(const double* point, double lengths) const { return is_clear(point, lengths, 0); }
     /// The least of all.
     double least() const { return nodes_.front().least; }
 
 private:
     /// A vertex and the box of those below it in the tree.
     struct Node {
-        double point[3], size, least;
+        double point[3], size, least, most;
         double low[3], high[3];
     };
     struct Sample {
@@ -38,6 +40,7 @@ private:
     void build(std::vector<Sample>& samples, std::size_t begin, std::size_t end, std::size_t node);
     void search(const double* point, std::size_t node, Nearest& best) const;
     double bound(const double* point, const Node& node) const;
+    bool is_clear(const double* point, double lengths, std::size_t node) const;
 
     double growth_;
     std::vector<Node> nodes_;  ///< a balanced tree, children of i at 2 i + 1 and 2 i + 2

@@ -101,7 +101,7 @@ int main() {
     std::vector<double> seeds;
     if (request.relative_volume > 0.0) {
         volume_bound = {std::make_unique<SizeField>(vertices, triangles, request.growth), request.relative_volume};
-        seeds = seed_points(vertices, *volume_bound.sizes);
+        if (request.seeded != 0) seeds = seed_points(vertices, *volume_bound.sizes);
         in.tetunsuitable = is_too_large;
     }
     fill(in, vertices, triangles, holes, seeds);

@@ -23,6 +23,7 @@ std::string request_bytes(const SurfaceMesh& surface, const Positions& holes, co
     std::copy(settings.switches.begin(), settings.switches.end(), header.switches.begin());
     header.relative_volume = settings.relative_volume;
     header.growth = settings.growth;
+    header.seeded = settings.seeded ? 1 : 0;
     header.n_vertices = surface.n_vertices();
     header.n_triangles = surface.n_triangles();
     header.n_holes = static_cast<std::int32_t>(holes.cols());

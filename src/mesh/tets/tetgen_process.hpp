@@ -20,6 +20,7 @@ struct TetgenSettings {
     /// Bound on a tetrahedron's volume, in units of the regular one whose edge the SizeField of this growth tells at
     /// its middle; <= 0: no bound.
     double relative_volume = 0.0, growth = 0.0;
+    bool seeded = false;  ///< begins with points inside, where there is a growth (seed_points.hpp)
 };
 
 /// Runs TetGen in a process of its own. `holes`: a point inside each cavity.

@@ -7,13 +7,14 @@ namespace elastolab {
 
 /// What tetrahedralize() and the helper program elastolab-tetgen say to each other over a socket, in the byte order of
 /// the machine. Both are built together; `magic` catches a helper of another version.
-constexpr std::uint64_t kTetgenMagic = 0x656c61737465'0002;
+constexpr std::uint64_t kTetgenMagic = 0x656c61737465'0003;
 
 /// Followed by n_vertices x 3 doubles, n_triangles x 3 ints, n_holes x 3 doubles.
 struct TetgenRequestHeader {
     std::uint64_t magic = kTetgenMagic;
     std::array<char, 64> switches{};  ///< of TetGen's command line, zero-terminated
-    std::int32_t n_vertices = 0, n_triangles = 0, n_holes = 0, unused = 0;
+    std::int32_t n_vertices = 0, n_triangles = 0, n_holes = 0;
+    std::int32_t seeded = 0;  ///< 1: begins with points inside (tets/seed_points.hpp); only with a growth
     /// Bound on a tetrahedron's volume, in units of the regular one over the SizeField of this growth; 0: none.
     double relative_volume = 0.0, growth = 0.0;
 };

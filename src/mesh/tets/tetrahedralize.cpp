@@ -113,15 +113,18 @@ TetMesh tetrahedralize(const SurfaceMesh& solid, const std::string& name, const 
     if (!finding.empty()) throw MeshError(message(name, finding));
     // TetGen's tolerances are absolute in places, so it sees every body in the unit box, and every body as it is
     // whatever its numbering and orientation. The second attempt is for fine detail that the first tolerance, TetGen's
-    // own, takes for coincidence.
+    // own, takes for coincidence; it begins with the surface alone.
     struct Attempt {
         double tolerance;
         int grid_bits;
+        bool seeded;
     };
-    for (const auto& [tolerance, grid_bits] : {Attempt{1e-8, 40}, Attempt{1e-13, 52}}) {
+    for (const auto& [tolerance, grid_bits, seeded] : {Attempt{1e-8, 40, true}, Attempt{1e-13, 52, false}}) {
         const CanonicalFrame frame(solid, grid_bits);
         const SurfaceMesh& unit = frame.mesh();
-        TetgenResult result = run_tetgen(unit, cavity_points(unit), settings(options, unit, tolerance), control);
+        TetgenSettings its_settings = settings(options, unit, tolerance);
+        its_settings.seeded = seeded;
+        TetgenResult result = run_tetgen(unit, cavity_points(unit), its_settings, control);
         if (result.failure.empty()) {
             TetMesh mesh = to_mesh(result, solid, frame);
             result.failure = flaw(mesh, solid);

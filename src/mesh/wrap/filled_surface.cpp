@@ -16,7 +16,8 @@ namespace {
 /// What keeps a method from using the surface; empty when nothing does.
 std::string first_defect(const MeshReport& report) {
     for (const Defect& defect : report.defects)
-        if (!defect.repaired && (defect.fatal || defect.fatal_for_fem)) return defect.text;
+        if (!defect.repaired && (defect.fatal || defect.fatal_for_fem))
+            return defect.text.substr(0, defect.text.find(". "));  // without its advice
     return "";
 }
 
@@ -63,7 +64,7 @@ FilledSurface fill_holes(const SurfaceMesh& shown, Control& control) {
         if (failure.empty() && checked.mesh.n_vertices() == n_vertices)
             return {std::move(checked.mesh), std::move(own), result.n_holes};
     }
-    throw MeshError("with its holes filled it is no solid either: " + failure + " Choose a proxy.");
+    throw MeshError("with its holes filled it is no solid either: " + failure + ". Choose a proxy.");
 }
 
 }  // namespace elastolab

@@ -9,7 +9,8 @@ namespace elastolab {
 
 /// A surface whose holes have been filled.
 struct FilledSurface {
-    SurfaceMesh surface;   ///< vertices (those of triangles) and triangles of the open one come first, as they were
+    SurfaceMesh
+        surface;  ///< those of the open one come first: its used vertices, its triangles (but for their orientation)
     std::vector<int> own;  ///< for each vertex of the open one its number here; -1: no triangle uses it
     int n_holes = 0;
 };

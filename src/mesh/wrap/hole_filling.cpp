@@ -1,5 +1,5 @@
 // CGAL's filling of holes: the triangulation of least area and bending (P. Liepa, Filling holes in meshes, 2003),
-// refined and faired (M. Botsch, L. Kobbelt, O. Sorkine, ...: the linear system is Eigen's).
+// refined and faired; the linear system is Eigen's.
 #define CGAL_EIGEN3_ENABLED
 #include <CGAL/Polygon_mesh_processing/border.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>

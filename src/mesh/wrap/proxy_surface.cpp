@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <Eigen/Geometry>
 #include <functional>
 #include <optional>
 #include <span>
