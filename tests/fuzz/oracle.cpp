@@ -22,7 +22,8 @@ constexpr std::size_t kLongestLine = 1000;
 
 std::string complaint_about_end(const Run& run, const Command& most) {
     if (run.stuck) return "does not end and does nothing";
-    if (run.signal == SIGXCPU || run.cpu_seconds > most.cpu_seconds)
+    // The kernel may end it a moment before the time that it then reports.
+    if (run.signal == SIGXCPU || run.cpu_seconds > most.cpu_seconds - 0.1)
         return "takes more than " + std::to_string(std::lround(most.cpu_seconds)) + " s";
     if (run.signal != 0) return "ended by signal " + std::to_string(run.signal);
     if (run.exit_code > 2) return "exit code " + std::to_string(run.exit_code);
