@@ -59,13 +59,13 @@ private:
     Eigen::VectorXd scales_;
 };
 
-/// A = U diag(sigma) V^T (dgesdd), thin: min(rows, columns) singular values, in descending order.
-/// Throws SolveError when the iteration does not converge or A has entries that are not finite.
+/// A = U diag(sigma) V^T, thin: k = min(rows, columns) singular values, in descending order.
 struct SingularValues {
-    Eigen::MatrixXd U;
-    Eigen::VectorXd sigma;
-    Eigen::MatrixXd V;
+    Eigen::MatrixXd U;      ///< rows x k, orthonormal columns
+    Eigen::VectorXd sigma;  ///< k, none negative
+    Eigen::MatrixXd V;      ///< columns x k, orthonormal columns
 };
+/// By dgesdd. Throws SolveError when the iteration does not converge or A has entries that are not finite.
 SingularValues singular_values(Eigen::MatrixXd A);
 
 }  // namespace elastolab

@@ -8,6 +8,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "mesh/wrap/wrap_protocol.hpp"
+
 namespace elastolab {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -29,6 +31,6 @@ Mesh mesh_of(const Soup& soup);
 
 /// Fills every hole of an oriented manifold: with triangles as fine as those around it that go on smoothly, or with
 /// none but those that join the vertices of its rim. Vertices that are there stay where they are and come first.
-Result fill_holes(const Soup& soup, bool smooth);
+Result fill_holes(const Soup& soup, WrapTask how);
 
 }  // namespace elastolab

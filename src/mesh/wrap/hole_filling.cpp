@@ -10,7 +10,7 @@
 
 namespace elastolab {
 
-Result fill_holes(const Soup& soup, bool smooth) {
+Result fill_holes(const Soup& soup, WrapTask how) {
     namespace processing = CGAL::Polygon_mesh_processing;
     Result result;
     result.mesh = mesh_of(soup);
@@ -19,7 +19,7 @@ Result fill_holes(const Soup& soup, bool smooth) {
     for (const Mesh::Halfedge_index rim : rims) {
         std::vector<Mesh::Face_index> faces;
         std::vector<Mesh::Vertex_index> vertices;
-        if (smooth)
+        if (how == WrapTask::fill_smooth)
             processing::triangulate_refine_and_fair_hole(result.mesh, rim, std::back_inserter(faces),
                                                          std::back_inserter(vertices));
         else

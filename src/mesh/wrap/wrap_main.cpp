@@ -124,7 +124,7 @@ Result result_of(const WrapRequestHeader& request, const Soup& soup) {
         case WrapTask::fill_flat:
             break;
     }
-    return fill_holes(soup, request.task == WrapTask::fill_smooth);
+    return fill_holes(soup, request.task);
 }
 
 }  // namespace

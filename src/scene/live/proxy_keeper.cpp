@@ -34,18 +34,19 @@ void ProxyKeeper::begin() {
     job_.start([surface = surface_, report = report_, name = name_, choice = choice_, sizes, fills,
                 needs_preview](Control& control) {
         Made made;
-        if (!sizes.empty()) try {
+        try {
+            if (!sizes.empty()) {
                 const auto proxies = make_proxies(name, surface, report, sizes, control);
                 if (needs_preview) made.preview = proxies.back();
                 if (proxies.size() > 1 || !needs_preview) made.model = proxies.front();
-            } catch (const MeshError&) {
-                if (!fills) throw;  // there is no preview then
             }
-        if (!fills) return made;
+        } catch (const MeshError&) {
+            if (!fills) throw;  // a filled surface does without a preview
+        }
         try {
-            made.model = make_proxy(name, surface, report, *choice, control);
+            if (fills) made.model = make_proxy(name, surface, report, *choice, control);
         } catch (const MeshError& error) {
-            made.failure = error.what();
+            made.failure = error.what();  // and the preview answers without it
         }
         return made;
     });

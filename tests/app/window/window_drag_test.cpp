@@ -105,13 +105,18 @@ TEST_P(RealDrag, KeepsTheVertexUnderTheCursorAndTheBodyIsThatOfSolve) {
     EXPECT_LT((solved - shown).colwise().norm().maxCoeff(), kSameAsSolve * size);
 }
 
-/// A press on a handle chooses it; then its arrow moves it along one axis and its ring turns it about one.
-TEST(RealGizmo, MovesAndTurnsTheChosenHandle) {
-    const TemporaryFolder folder;
+/// Its face at x = 1 is the handle "end", at rest.
+void save_cube_with_handle(const std::filesystem::path& file) {
     Document document = cube_document(4);
     document.handles.push_back(
         {.name = "end", .select = {PlaneSelector{{1, 0, 0}, {1, 0, 0}, 1e-9}}, .motion = AffineMotion{}});
-    save_scene(folder.path() / "cube.json", document);
+    save_scene(file, document);
+}
+
+/// A press on a handle chooses it; then its arrow moves it along one axis and its ring turns it about one.
+TEST(RealGizmo, MovesAndTurnsTheChosenHandle) {
+    const TemporaryFolder folder;
+    save_cube_with_handle(folder.path() / "cube.json");
     const Screen screen(folder.path() / "cube.json");
     RealWindow window({"cube.json", "--size", "1000x700", "--scene-out", "out.json"}, folder.path());
     window.settle();
@@ -140,10 +145,7 @@ TEST(RealGizmo, MovesAndTurnsTheChosenHandle) {
 /// The row of a handle in the panel chooses it; its name and numbers are typed, from field to field by the Tab key.
 TEST(RealPanel, AHandleIsNamedMovedAndTurnedByTyping) {
     const TemporaryFolder folder;
-    Document document = cube_document(4);
-    document.handles.push_back(
-        {.name = "end", .select = {PlaneSelector{{1, 0, 0}, {1, 0, 0}, 1e-9}}, .motion = AffineMotion{}});
-    save_scene(folder.path() / "cube.json", document);
+    save_cube_with_handle(folder.path() / "cube.json");
     RealWindow window({"cube.json", "--size", "1000x900", "--scene-out", "out.json"}, folder.path());
     window.settle();
     window.click({60, 482});

@@ -1,0 +1,62 @@
+#include "base/lapack.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <limits>
+
+#include "base/error.hpp"
+
+namespace elastolab {
+namespace {
+
+using Eigen::MatrixXd;
+
+/// Tall, wide, square, a row, a column; full rank and not.
+std::vector<MatrixXd> matrices() {
+    std::srand(3);
+    std::vector<MatrixXd> all;
+    for (const auto& [m, n] : {std::pair{9, 4}, {4, 9}, {6, 6}, {1, 5}, {5, 1}}) all.push_back(MatrixXd::Random(m, n));
+    all.push_back(MatrixXd::Random(8, 2) * MatrixXd::Random(2, 5));
+    all.push_back(MatrixXd::Zero(3, 2));
+    return all;
+}
+
+bool is_orthonormal(const MatrixXd& Q) {
+    return (Q.transpose() * Q - MatrixXd::Identity(Q.cols(), Q.cols())).norm() < 1e-13;
+}
+
+TEST(QrFactorization, GivesTheMatrixBack) {
+    for (const MatrixXd& A : matrices()) {
+        const QrFactorization qr(A);
+        const Eigen::Index k = std::min(A.rows(), A.cols());
+        const MatrixXd Q = qr.times_Q(MatrixXd::Identity(k, k)), R = qr.R();
+        EXPECT_EQ(R.rows(), k);
+        EXPECT_TRUE(is_orthonormal(Q));
+        EXPECT_LT((Q * R - A).norm(), 1e-13 * (1.0 + A.norm()));
+        EXPECT_EQ(MatrixXd(R.triangularView<Eigen::StrictlyLower>()).norm(), 0.0);
+    }
+}
+
+TEST(SingularValues, GiveTheMatrixBack) {
+    for (const MatrixXd& A : matrices()) {
+        const SingularValues svd = singular_values(A);
+        ASSERT_EQ(svd.sigma.size(), std::min(A.rows(), A.cols()));
+        EXPECT_TRUE(is_orthonormal(svd.U));
+        EXPECT_TRUE(is_orthonormal(svd.V));
+        EXPECT_LT((svd.U * svd.sigma.asDiagonal() * svd.V.transpose() - A).norm(), 1e-13 * (1.0 + A.norm()));
+        for (Eigen::Index i = 1; i < svd.sigma.size(); ++i) EXPECT_GE(svd.sigma[i - 1], svd.sigma[i]);
+        EXPECT_GE(svd.sigma.minCoeff(), 0.0);
+    }
+    EXPECT_LT(singular_values(matrices()[5]).sigma[2], 1e-13);  // of rank two
+    EXPECT_EQ(singular_values(MatrixXd(0, 3)).sigma.size(), 0);
+}
+
+TEST(SingularValues, RefuseEntriesThatAreNotFinite) {
+    MatrixXd A = MatrixXd::Identity(3, 3);
+    A(1, 2) = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THROW(singular_values(A), SolveError);
+}
+
+}  // namespace
+}  // namespace elastolab
