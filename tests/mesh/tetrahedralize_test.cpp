@@ -199,7 +199,7 @@ TEST(Tetrahedralize, GradesTheInsideTheMoreTheLargerTheSurface) {
 
 /// A box of few large triangles, one of whose corners is split into many small ones: lengths are those of a far corner.
 SurfaceMesh box_with_a_fine_corner(const Eigen::Vector3d& size, int n_rounds) {
-    RefinedSurface surface = unrefined(make_box(4, size));
+    RefinedSurface surface = unrefined(make_box(1, size));
     for (int round = 0; round < n_rounds; ++round) {
         const double reach = 0.4 * std::pow(0.7, round) * size.maxCoeff();
         std::vector<char> marked;
@@ -232,7 +232,7 @@ TEST(Tetrahedralize, SeedsStayClearOfLargeTrianglesToo) {
     Eigen::Index n_seeds = 0;
     for (const Eigen::Vector3d& size :
          {Eigen::Vector3d(1, 1, 0.125), Eigen::Vector3d(1, 0.5, 0.25), Eigen::Vector3d(1, 1, 1)}) {
-        const SurfaceMesh mesh = box_with_a_fine_corner(size, 6);
+        const SurfaceMesh mesh = box_with_a_fine_corner(size, 8);
         for (const double growth : {0.05, 0.13, 0.35}) {
             const Positions seeds = seeds_of(mesh, growth);
             n_seeds += seeds.cols();
