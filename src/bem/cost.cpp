@@ -12,12 +12,13 @@ namespace {
 
 /// Arithmetic per pair of source and triangle, in flops at the speed of the matrix product: about 0.1 us on a core.
 constexpr double kFlopsPerPair = 3000.0;
-/// Of Galerkin's pairs that touch or are close, which are a few for each triangle: about 0.5 ms on a core.
-constexpr double kFlopsPerTriangle = 17e6;
+/// Of Galerkin's pairs that touch or are close, which are a few for each triangle: about 0.2 ms on a core.
+constexpr double kFlopsPerTriangle = 8e6;
 /// What every boundary method needs besides its matrices.
 constexpr std::uint64_t kLeastMemory = 12u << 20;
-/// Of the strips that wait to be added to the hypersingular matrix, at most; a part of a matrix for small ones.
-constexpr double kMostStripMemory = 144e6, kStripMemoryPerPair = 108.0;
+/// Of the rows that wait to be added to the hypersingular matrix: for each vertex, at least for small bodies, and for
+/// each pair of vertices of the smallest.
+constexpr double kRowMemoryPerVertex = 17e3, kLeastRowMemory = 12e6, kRowMemoryPerPair = 160.0;
 
 /// Hierarchical matrices: vertices from which they are used, and what they take for each and each level of clusters.
 constexpr int kHierarchicalOnceFrom = 3000, kHierarchicalFrom = 5000;
@@ -64,8 +65,9 @@ std::uint64_t hierarchical_set_memory(std::int64_t n_vertices, std::int64_t n_lo
 Cost predict_galerkin_bem(const SurfaceMesh& mesh, const Method& method) {
     const double n = 3.0 * mesh.n_vertices(), triangles = mesh.n_triangles();
     const double vertices = mesh.n_vertices();
-    const double strips = std::min(kMostStripMemory, kStripMemoryPerPair * vertices * vertices);
-    Cost cost{static_cast<std::int64_t>(n), kLeastMemory + static_cast<std::uint64_t>(strips), 0.0};
+    const double waiting =
+        std::min(kLeastRowMemory + kRowMemoryPerVertex * vertices, kRowMemoryPerPair * vertices * vertices);
+    Cost cost{static_cast<std::int64_t>(n), kLeastMemory + static_cast<std::uint64_t>(waiting), 0.0};
     if (is_hierarchical(mesh, method)) {
         const double levels = std::log2(std::max(mesh.n_vertices() / 48.0, 2.0));
         const double per_vertex = kBytesPerVertexAndLevel * levels + kBytesPerVertex;

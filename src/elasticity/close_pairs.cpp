@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "elasticity/outer_cells.hpp"
-#include "elasticity/pair_rules.hpp"
+#include "elasticity/triangle_rules.hpp"
 
 namespace elastolab {
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
@@ -16,30 +15,38 @@ constexpr double kInfinite = 1e300;
 /// Enough for edges over edges at 1e-6 of their length, and ends where triangles cross one another.
 constexpr int kMaxCuts = 28;
 
-/// The ellipse with foci -1 and 1 through the zeros of |w + z h|^2.
-double ellipse_through_zeros(double ww, double wh, double hh) {
-    const double centre = -wh / hh;
-    const std::complex<double> z(centre, std::sqrt(std::max(0.0, ww / hh - centre * centre)));
-    const std::complex<double> root = std::sqrt(z * z - 1.0);
-    return std::max(std::abs(z + root), std::abs(z - root));
+/// The long semi-axis of the ellipse with foci -1 and 1 through the zeros of |w + z h|^2: half the sum of their
+/// distances from the foci.
+double axis_through_zeros(double ww, double wh, double hh) {
+    const double real = -wh / hh, imaginary2 = std::max(0.0, ww / hh - real * real);
+    const double left = real + 1.0, right = real - 1.0;
+    return 0.5 * (std::sqrt(left * left + imaginary2) + std::sqrt(right * right + imaginary2));
 }
 
-/// For the chord m + z h, -1 <= z <= 1. Singular are the zeros of the distance from either end, and those of the
-/// distance from the line through both where they project between the ends.
-double ellipse_beside_edge(const Vec& m, const Vec& h, const Vec& begin, const Vec& end) {
+/// Of the largest ellipse for the chord m + z h, -1 <= z <= 1. Singular are the zeros of the distance from either end,
+/// and those of the distance from the line through both where they project between the ends.
+double axis_beside_edge(const Vec& m, const Vec& h, const Vec& begin, const Vec& end) {
     const Vec w = m - begin, edge = end - begin;
     const double hh = h.squaredNorm(), length = edge.norm();
-    double rho = std::min(ellipse_through_zeros(w.squaredNorm(), w.dot(h), hh),
-                          ellipse_through_zeros((m - end).squaredNorm(), (m - end).dot(h), hh));
+    const double axis = std::min(axis_through_zeros(w.squaredNorm(), w.dot(h), hh),
+                                 axis_through_zeros((m - end).squaredNorm(), (m - end).dot(h), hh));
     const Vec t = edge / length;
     const Vec w_across = w - w.dot(t) * t, h_across = h - h.dot(t) * t;
     const double across = h_across.squaredNorm();
-    if (across < 1e-24 * hh) return rho;
+    if (across < 1e-24 * hh) return axis;
     const double nearest = (w - w_across.dot(h_across) / across * h).dot(t);
-    if (nearest >= 0.0 && nearest <= length)
-        rho = std::min(rho, ellipse_through_zeros(w_across.squaredNorm(), w_across.dot(h_across), across));
-    return rho;
+    if (nearest < 0.0 || nearest > length) return axis;
+    return std::min(axis, axis_through_zeros(w_across.squaredNorm(), w_across.dot(h_across), across));
 }
+
+double axis_beside_edge(const double* p, const double* q, const TriangleGeometry& field, int edge) {
+    const Eigen::Map<const Vec> from(p), to(q), begin(field.corner[edge]), end(field.corner[(edge + 1) % 3]);
+    const Vec half = 0.5 * (to - from);
+    return half.squaredNorm() == 0.0 ? kInfinite : axis_beside_edge(0.5 * (from + to), half, begin, end);
+}
+
+/// The sum of both semi-axes.
+double ellipse_of(double axis) { return axis < kInfinite ? axis + std::sqrt(axis * axis - 1.0) : kInfinite; }
 
 class Cutter {
 public:
@@ -92,15 +99,13 @@ private:
 }  // namespace
 
 double analytic_ellipse(const double* p, const double* q, const TriangleGeometry& field, int edge) {
-    const Eigen::Map<const Vec> from(p), to(q), begin(field.corner[edge]), end(field.corner[(edge + 1) % 3]);
-    const Vec half = 0.5 * (to - from);
-    return half.squaredNorm() == 0.0 ? kInfinite : ellipse_beside_edge(0.5 * (from + to), half, begin, end);
+    return ellipse_of(axis_beside_edge(p, q, field, edge));
 }
 
 double analytic_ellipse(const double* p, const double* q, const TriangleGeometry& field) {
-    double rho = kInfinite;
-    for (int edge = 0; edge < 3; ++edge) rho = std::min(rho, analytic_ellipse(p, q, field, edge));
-    return rho;
+    double axis = kInfinite;
+    for (int edge = 0; edge < 3; ++edge) axis = std::min(axis, axis_beside_edge(p, q, field, edge));
+    return ellipse_of(axis);
 }
 
 int gauss_points(double rho, double tolerance) {

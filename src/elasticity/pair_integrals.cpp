@@ -1,7 +1,11 @@
 #include "elasticity/pair_integrals.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <numeric>
+
+#include "elasticity/triangle_rules.hpp"
 
 namespace elastolab {
 
@@ -15,7 +19,10 @@ struct RuleBound {
 };
 
 std::vector<RuleBound> rule_bounds() {
-    return {{&pair_rule_5(), 6e-3, 6.0}, {&pair_rule_7(), 2e-3, 8.0}, {&pair_rule_8(), 1.2e-4, 9.0}};
+    return {{&pair_rule_5(), 6e-3, 6.0},
+            {&pair_rule_7(), 1e-3, 8.0},
+            {&pair_rule_9(), 3.5e-4, 11.0},
+            {&pair_rule_11(), 4e-5, 13.0}};
 }
 
 double radius_of(const TriangleGeometry& T) {
@@ -28,8 +35,28 @@ double radius_of(const TriangleGeometry& T) {
     return std::sqrt(square);
 }
 
-double point_coordinate(const TriangleGeometry& T, const std::array<double, 3>& point, int axis) {
-    return point[0] * T.corner[0][axis] + point[1] * T.corner[1][axis] + point[2] * T.corner[2][axis];
+/// Points of a rule that are kept for every triangle, and of any rule.
+constexpr std::size_t kMostKeptPoints = 32, kMostPoints = 256;
+
+/// [point][axis]
+void write_points(const TriangleGeometry& T, const PairRule& rule, double* out) {
+    for (const auto& point : rule.points)
+        for (int axis = 0; axis < 3; ++axis)
+            *out++ = point[0] * T.corner[0][axis] + point[1] * T.corner[1][axis] + point[2] * T.corner[2][axis];
+}
+
+double distance(const double (&a)[3], double x, double y, double z) {
+    return std::sqrt((a[0] - x) * (a[0] - x) + (a[1] - y) * (a[1] - y) + (a[2] - z) * (a[2] - z));
+}
+
+void bound(PairIntegrals::Pack& pack, int lanes) {
+    for (int axis = 0; axis < 3; ++axis)
+        pack.centre[axis] = std::accumulate(pack.centroid[axis], pack.centroid[axis] + lanes, 0.0) / lanes;
+    pack.extent = 0.0;
+    for (int lane = 0; lane < lanes; ++lane)
+        pack.extent = std::max(
+            pack.extent, distance(pack.centre, pack.centroid[0][lane], pack.centroid[1][lane], pack.centroid[2][lane]));
+    pack.largest_radius = *std::max_element(pack.radius, pack.radius + lanes);
 }
 
 }  // namespace
@@ -37,27 +64,25 @@ double point_coordinate(const TriangleGeometry& T, const std::array<double, 3>& 
 PairIntegrals::PairIntegrals(std::span<const TriangleGeometry> triangles, double tolerance)
     : triangles_(triangles), tolerance_(tolerance) {
     for (const TriangleGeometry& T : triangles) radius_.push_back(radius_of(T));
-    std::size_t offset = 0;
     for (const RuleBound& bound : rule_bounds()) {
-        FarRule far{
-            bound.rule, std::max(1.5, std::pow(bound.factor / tolerance, 1.0 / bound.exponent)), {}, {}, offset};
+        FarRule far{bound.rule, std::max(1.5, std::pow(bound.factor / tolerance, 1.0 / bound.exponent)), {}, {}};
         for (const auto& point : bound.rule->points) far.phi.insert(far.phi.end(), point.begin(), point.end());
-        for (const TriangleGeometry& T : triangles)
-            for (const auto& point : bound.rule->points)
-                for (int axis = 0; axis < 3; ++axis) far.points.push_back(point_coordinate(T, point, axis));
-        offset += 3 * static_cast<std::size_t>(lanes()) * bound.rule->points.size();
+        const std::size_t n_points = bound.rule->points.size();
+        assert(n_points <= kMostPoints);
+        if (n_points <= kMostKeptPoints) {
+            far.points.resize(3 * n_points * triangles.size());
+            for (std::size_t t = 0; t < triangles.size(); ++t)
+                write_points(triangles[t], *bound.rule, far.points.data() + 3 * n_points * t);
+        }
         far_rules_.push_back(std::move(far));
     }
 }
 
 PairIntegrals::Pack PairIntegrals::pack(std::span<const int> tests) const {
-    Pack pack{{tests.begin(), tests.end()}, {}, {}, {}, {}, {}};
+    Pack pack{};
+    pack.triangles.assign(tests.begin(), tests.end());
     pack.triangles.resize(static_cast<std::size_t>(lanes()), tests.back());
-    for (const FarRule& far : far_rules_)
-        for (const auto& point : far.rule->points)
-            for (int axis = 0; axis < 3; ++axis)
-                for (const int t : pack.triangles)
-                    pack.points.push_back(point_coordinate(triangles_[static_cast<std::size_t>(t)], point, axis));
+    pack.points.resize(far_rules_.size());
     for (int corner = 0; corner < 3; ++corner)
         for (int axis = 0; axis < 3; ++axis)
             for (const int t : pack.triangles)
@@ -68,7 +93,29 @@ PairIntegrals::Pack PairIntegrals::pack(std::span<const int> tests) const {
         pack.area[lane] = 0.5 * triangles_[t].double_area;
         for (int axis = 0; axis < 3; ++axis) pack.centroid[axis][lane] = triangles_[t].centroid[axis];
     }
+    bound(pack, lanes());
     return pack;
+}
+
+const double* PairIntegrals::points_of(const FarRule& far, const Pack& pack) const {
+    std::vector<double>& points = pack.points[static_cast<std::size_t>(&far - far_rules_.data())];
+    const std::size_t n_lanes = static_cast<std::size_t>(lanes()), n_numbers = 3 * far.rule->points.size();
+    if (points.empty()) {
+        points.resize(n_numbers * n_lanes);
+        double memory[3 * kMostPoints];
+        for (std::size_t lane = 0; lane < n_lanes; ++lane) {
+            const double* own = points_of(far, pack.triangles[lane], memory);
+            for (std::size_t i = 0; i < n_numbers; ++i) points[i * n_lanes + lane] = own[i];
+        }
+    }
+    return points.data();
+}
+
+const double* PairIntegrals::points_of(const FarRule& far, int field, double* memory) const {
+    const auto t = static_cast<std::size_t>(field);
+    if (!far.points.empty()) return far.points.data() + 3 * far.rule->points.size() * t;
+    write_points(triangles_[t], *far.rule, memory);
+    return memory;
 }
 
 double PairIntegrals::distance_square(const Pack& pack, int lane, int field) const {
@@ -83,6 +130,11 @@ double PairIntegrals::distance_square(const Pack& pack, int lane, int field) con
 }
 
 const PairIntegrals::FarRule* PairIntegrals::far_rule(const Pack& pack, int field) const {
+    // Most fields are far from the whole pack.
+    const double(&c)[3] = triangles_[static_cast<std::size_t>(field)].centroid;
+    const double radii = pack.largest_radius + radius_[static_cast<std::size_t>(field)];
+    if (distance(pack.centre, c[0], c[1], c[2]) - pack.extent >= far_rules_.front().from * radii)
+        return &far_rules_.front();
     double least = 1e300;
     for (int lane = 0; lane < lanes(); ++lane) least = std::min(least, distance_square(pack, lane, field));
     for (const FarRule& far : far_rules_)
@@ -129,8 +181,8 @@ void PairIntegrals::integrate(const Pack& pack, int field, bool all, double* out
 
 void PairIntegrals::integrate(const FarRule& far, const Pack& pack, int field, bool all, double* out) const {
     const TriangleGeometry& s = triangles_[static_cast<std::size_t>(field)];
-    const double* x = pack.points.data() + far.pack_offset;
-    const double* y = far.points.data() + static_cast<std::size_t>(field) * 3 * far.rule->points.size();
+    double memory[3 * kMostPoints];
+    const double *x = points_of(far, pack), *y = points_of(far, field, memory);
     const auto& terms = far.rule->terms;
     const int n_terms = static_cast<int>(terms.size()), n_numbers = all ? kPairNumbers : kPairTensorNumbers;
     if (all)
@@ -165,7 +217,7 @@ void PairIntegrals::integrate_close(const Pack& pack, int field, bool all, doubl
 
 void PairIntegrals::add_medium(const Pack& pack, const TriangleGeometry& s, int n, bool all, double* out) const {
     std::fill(out, out + (all ? kPairNumbers : kPairTensorNumbers) * lanes(), 0.0);
-    const CollapsedRule& rule = collapsed_rule(n);
+    const TriangleRule& rule = triangle_rule(n);
     SourceLanes points{};
     std::fill(points.own_triangle, points.own_triangle + kMaxLanes, -1.0);
     double* const coordinates[3] = {points.x, points.y, points.z};

@@ -22,13 +22,15 @@ public:
     /// demanding of them decides for all.
     int lanes() const { return kernels_.lanes; }
 
+    /// Belongs to one thread.
     struct Pack {
         std::vector<int> triangles;
-        std::vector<double> points;   ///< of every far rule in turn: [point][axis][lane]
-        std::vector<double> corners;  ///< [corner][axis][lane]
-        double radius[kMaxLanes];     ///< largest distance of a corner from the centroid
+        mutable std::vector<std::vector<double>> points;  ///< of each far rule: [point][axis][lane]; when first used
+        std::vector<double> corners;                      ///< [corner][axis][lane]
+        double radius[kMaxLanes];                         ///< largest distance of a corner from the centroid
         double area[kMaxLanes];
         double centroid[3][kMaxLanes];
+        double centre[3], extent, largest_radius;  ///< all centroids lie within `extent` of the centre
     };
     Pack pack(std::span<const int> tests) const;
 
@@ -49,10 +51,12 @@ private:
         const PairRule* rule;
         double from;                 ///< least distance of the centroids in units of the sum of both radii
         std::vector<double> phi;     ///< [point][shape]
-        std::vector<double> points;  ///< of every triangle: [triangle][point][axis]
-        std::size_t pack_offset;     ///< of its points in Pack::points
+        std::vector<double> points;  ///< of every triangle: [triangle][point][axis]; of rules of few points only
     };
     const FarRule* far_rule(const Pack& pack, int field) const;
+    const double* points_of(const FarRule& far, const Pack& pack) const;
+    /// A field triangle's: kept ones, or written to `memory`.
+    const double* points_of(const FarRule& far, int field, double* memory) const;
     /// Squared distance of the centroids in units of the sum of both radii.
     double distance_square(const Pack& pack, int lane, int field) const;
     void integrate(const FarRule& far, const Pack& pack, int field, bool all, double* out) const;

@@ -17,6 +17,14 @@ struct PairRuleTerm {
     double weight;  ///< of one pair of points
 };
 
+/// What an operator with surface curls makes of Q = iint e e^T / r of a pair: s = scalar tr Q, N = trace tr Q I +
+/// tensor Q.
+struct CurlFactors {
+    double scalar, trace, tensor;
+};
+constexpr CurlFactors kHypersingularFactors{1.0, 1.0, -1.0};
+constexpr CurlFactors double_layer_factors(double poisson_ratio) { return {0.0, 1.0 - 2.0 * poisson_ratio, 1.0}; }
+
 /// Numbers that a test triangle and a vertex share in the operators with surface curls: p, then M by columns.
 constexpr int kCurlNumbers = 12;
 
@@ -30,8 +38,8 @@ struct PairKernels {
     void (*all)(const double* x, const double* y, const double* phi, const double normal[3], const PairRuleTerm* terms,
                 int n_terms, double* out);
     /// For each corner k of a field triangle with surface curl c_k:  into[k] [kCurlNumbers][lane] += (s c_k, N [c_k]),
-    /// [c] x = c x x.  s[lane], N[6][lane] symmetric (xx yy zz xy xz yz). The three curls sum to zero.
-    void (*add_curls)(const double* s, const double* N, const double curls[3][3], double* const into[3]);
+    /// [c] x = c x x, with s and N from Q [6][lane] (xx yy zz xy xz yz) by these factors. The three curls sum to zero.
+    void (*add_curls)(const double* Q, const CurlFactors& factors, const double curls[3][3], double* const into[3]);
     /// out[corner][3 i + j][lane] <- alpha (2 p_i a_j - a_i p_j) - beta ([a] M)_ij for the curls a [corner][axis][lane]
     /// of the test triangles and (p, M) as add_curls sums them.
     void (*contract_curls)(double alpha, double beta, const double* a, const double* sums, double* out);

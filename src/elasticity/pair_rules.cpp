@@ -1,143 +1,110 @@
 #include "elasticity/pair_rules.hpp"
 
-#include <cassert>
-#include <cmath>
-#include <numbers>
+#include <utility>
 
-#include "elasticity/gauss_rules.hpp"
+#include "elasticity/orbit.hpp"
 
 namespace elastolab {
 
 namespace {
 
-/// Appends orbits. A point is given in the complex plane whose origin is the centroid of an equilateral triangle with
-/// corners at 1, e^(2 pi i/3), e^(-2 pi i/3): rho e^(i theta), with cos(3 theta) given.
 class PairRuleBuilder {
 public:
     explicit PairRuleBuilder(int degree) { rule_.degree = degree; }
     /// All combinations of the points of both orbits (and exchanged, if they differ) share this weight.
-    PairRuleBuilder& add(double weight, double rho_x, double rho_y, double cosine_y = 1.0) {
-        const Orbit x = orbit(rho_x, 1.0), y = rho_x == rho_y ? x : orbit(rho_y, cosine_y);
-        const int n = x.n * y.n * (rho_x == rho_y ? 1 : 2);
-        rule_.terms.push_back({x.first, x.n, y.first, y.n, weight / n});
-        if (rho_x != rho_y) rule_.terms.push_back({y.first, y.n, x.first, x.n, weight / n});
+    PairRuleBuilder& add(double weight, Orbit x, Orbit y) {
+        const Run a = run_of(x), b = run_of(y);
+        const int n = a.n * b.n * (x == y ? 1 : 2);
+        rule_.terms.push_back({a.first, a.n, b.first, b.n, weight / n});
+        if (x != y) rule_.terms.push_back({b.first, b.n, a.first, a.n, weight / n});
         rule_.n_pairs += n;
         return *this;
     }
     PairRule build() const { return rule_; }
 
 private:
-    struct Orbit {
+    struct Run {
         int first, n;
     };
-    /// The centroid, three points on the lines to the corners, or six.
-    Orbit orbit(double rho, double cosine) {
-        const Orbit result{static_cast<int>(rule_.points.size()), rho == 0.0 ? 1 : cosine == 1.0 ? 3 : 6};
-        for (int i = 0; i < result.n; ++i) {
-            const double turn = 2.0 * std::numbers::pi / 3.0;
-            const double angle = (i < 3 ? 1.0 : -1.0) * std::acos(cosine) / 3.0 + turn * (i % 3);
-            std::array<double, 3> point;
-            for (int k = 0; k < 3; ++k)
-                point[static_cast<std::size_t>(k)] = (1.0 + 2.0 * rho * std::cos(angle - turn * k)) / 3.0;
-            rule_.points.push_back(point);
-        }
-        return result;
+    Run run_of(Orbit orbit) {
+        for (const auto& [known, run] : known_)
+            if (known == orbit) return run;
+        const auto points = points_of(orbit);
+        const Run run{static_cast<int>(rule_.points.size()), static_cast<int>(points.size())};
+        rule_.points.insert(rule_.points.end(), points.begin(), points.end());
+        known_.emplace_back(orbit, run);
+        return run;
     }
     PairRule rule_;
+    std::vector<std::pair<Orbit, Run>> known_;
 };
-
-PairRule product(const GaussRule& rule) {
-    PairRule result{rule.degree, rule.n_points * rule.n_points, {}, {}};
-    for (int i = 0; i < rule.n_points; ++i) result.points.push_back(rule.points[static_cast<std::size_t>(i)]);
-    for (int i = 0; i < rule.n_points; ++i)
-        for (int j = 0; j < rule.n_points; ++j)
-            result.terms.push_back(
-                {i, 1, j, 1, rule.weights[static_cast<std::size_t>(i)] * rule.weights[static_cast<std::size_t>(j)]});
-    return result;
-}
-
-/// Newton's method on the Legendre polynomial.
-LineRule make_legendre_rule(int n) {
-    LineRule rule;
-    for (int i = 0; i < n; ++i) {
-        double x = std::cos(std::numbers::pi * (i + 0.75) / (n + 0.5)), slope = 0.0;
-        for (int step = 0; step < 100; ++step) {
-            double p0 = 1.0, p1 = x;
-            for (int k = 2; k <= n; ++k) {
-                const double p2 = ((2 * k - 1) * x * p1 - (k - 1) * p0) / k;
-                p0 = p1;
-                p1 = p2;
-            }
-            slope = n * (x * p1 - p0) / (x * x - 1.0);
-            const double change = p1 / slope;
-            x -= change;
-            if (std::abs(change) < 1e-15) break;
-        }
-        rule.nodes.push_back(0.5 * (1.0 - x));
-        rule.weights.push_back(1.0 / ((1.0 - x * x) * slope * slope));
-    }
-    return rule;
-}
-
-CollapsedRule make_collapsed_rule(int n) {
-    CollapsedRule rule;
-    const LineRule& line = legendre_rule(n);
-    for (std::size_t i = 0; i < line.nodes.size(); ++i)
-        for (std::size_t j = 0; j < line.nodes.size(); ++j) {
-            const double u = line.nodes[i], v = line.nodes[j];
-            rule.points.push_back({1.0 - u, u * (1.0 - v), u * v});
-            rule.weights.push_back(2.0 * u * line.weights[i] * line.weights[j]);
-        }
-    return rule;
-}
-
-template <class Rule>
-std::vector<Rule> all_rules(Rule (*make)(int)) {
-    std::vector<Rule> rules(1);
-    for (int n = 1; n <= kMaxLegendre; ++n) rules.push_back(n == 1 ? Rule{} : make(n));
-    return rules;
-}
 
 }  // namespace
 
 const PairRule& pair_rule_5() {
     static const PairRule rule = PairRuleBuilder(5)
-                                     .add(0.17722800925925972, 0.0, 0.0)
-                                     .add(0.13894675925925956, 0.0, 6.0 / 7.0)
-                                     .add(0.30502216060615861, -0.44656161314697768, -0.44656161314697768)
-                                     .add(0.37880307087532195, 0.60386498393349475, 0.60386498393349475)
+                                     .add(0.17722800925925972, {0.0}, {0.0})
+                                     .add(0.13894675925925956, {0.0}, {6.0 / 7.0})
+                                     .add(0.30502216060615861, {-0.44656161314697768}, {-0.44656161314697768})
+                                     .add(0.37880307087532195, {0.60386498393349475}, {0.60386498393349475})
                                      .build();
     return rule;
 }
 
 const PairRule& pair_rule_7() {
     static const PairRule rule = PairRuleBuilder(7)
-                                     .add(0.089793242839320359, 0.0, 0.98001035045174811)
-                                     .add(-0.33229722841251502, 0.0, 0.85584964205358072)
-                                     .add(0.41513918075983319, 0.0, -0.77157869711227123, -0.90361714656328385)
-                                     .add(0.129532780132393, 0.70447197653383697, 0.70447197653383697)
-                                     .add(0.29154957783109203, 0.34103302497671845, 0.34103302497671845)
-                                     .add(0.19888794305318902, -0.39574366907167641, -0.39574366907167641)
-                                     .add(0.20739450379668697, 0.72974186423723875, -0.44402757852295305)
+                                     .add(0.089793242839320359, {0.0}, {0.98001035045174811})
+                                     .add(-0.33229722841251502, {0.0}, {0.85584964205358072})
+                                     .add(0.41513918075983319, {0.0}, {-0.77157869711227123, -0.90361714656328385})
+                                     .add(0.129532780132393, {0.70447197653383697}, {0.70447197653383697})
+                                     .add(0.29154957783109203, {0.34103302497671845}, {0.34103302497671845})
+                                     .add(0.19888794305318902, {-0.39574366907167641}, {-0.39574366907167641})
+                                     .add(0.20739450379668697, {0.72974186423723875}, {-0.44402757852295305})
                                      .build();
     return rule;
 }
 
-const PairRule& pair_rule_8() {
-    static const PairRule rule = product(gauss_rule_16());
+const PairRule& pair_rule_9() {
+    static const PairRule rule = PairRuleBuilder(9)
+                                     .add(-0.11930477573846457, {0.0}, {0.654626522153255915})
+                                     .add(-0.00761651734459641624, {0.0}, {0.895067339854353901})
+                                     .add(0.018776061713255296, {0.829678590331494904}, {0.829678590331494904})
+                                     .add(0.108527078132174553, {0.424766932940986144}, {0.424766932940986144})
+                                     .add(0.113958827135843844, {-0.211527532729623677}, {-0.211527532729623677})
+                                     .add(0.0368436867635006959, {-0.441581931074582592}, {0.889427736526699738})
+                                     .add(0.23087758885519506, {0.53046818482139963}, {-0.366936948751266841})
+                                     .add(0.100073517169686252, {0.860401277449542697}, {0.365103409147267691})
+                                     .add(0.115776316472289214, {-0.312813041474425595}, {-0.480862490814814607})
+                                     .add(0.248841120230355783, {0.0}, {0.651401579501440174, 0.837355269958075865})
+                                     .add(0.15324709661076029, {0.621851799182096258, 0.643240078305005255},
+                                          {0.621851799182096258, 0.643240078305005255})
+                                     .build();
     return rule;
 }
 
-const LineRule& legendre_rule(int n) {
-    assert(n >= 2 && n <= kMaxLegendre);
-    static const std::vector<LineRule> rules = all_rules(&make_legendre_rule);
-    return rules[static_cast<std::size_t>(n)];
-}
-
-const CollapsedRule& collapsed_rule(int n) {
-    assert(n >= 2 && n <= kMaxLegendre);
-    static const std::vector<CollapsedRule> rules = all_rules(&make_collapsed_rule);
-    return rules[static_cast<std::size_t>(n)];
+const PairRule& pair_rule_11() {
+    static const PairRule rule =
+        PairRuleBuilder(11)
+            .add(0.0256885919741126999, {0.0}, {0.0})
+            .add(0.0946870004034204194, {0.0}, {0.648322078064765632})
+            .add(-0.0377662438171575476, {0.0}, {0.742896893476172088})
+            .add(-0.0825214738270748655, {-0.469088523787467}, {-0.469088523787467})
+            .add(0.0396175304085042224, {-0.448896418318567004}, {0.326384568508534434})
+            .add(-0.0932637019752867213, {0.745920073723909378}, {0.745920074299862219})
+            .add(0.103370035005690658, {0.475729013194541671}, {0.725659833918697078})
+            .add(0.0686093248955679774, {0.849278475851835908}, {0.726778156225870516})
+            .add(0.0297609992148731563, {0.217103646739639072}, {0.909486602617331532})
+            .add(0.159233581798446355, {-0.479908893459937514}, {0.476894949408568393, -0.402697863022239004})
+            .add(0.11065314859409607, {0.178606678795852507}, {0.531142473831889443, 0.0541639997058413776})
+            .add(0.117702115430536976, {-0.323827561698713787}, {0.752003979249733143, 0.879334989835357188})
+            .add(0.0177672278687119678, {0.924574403800193376}, {0.516484722974393395, -0.292324379935814416})
+            .add(0.10104886803552888, {0.626445390915078245}, {0.524828290807589516, 0.0321201986438265765})
+            .add(0.0837325221087198844, {0.696134134436168992, 0.89331789084610659},
+                 {0.696134134436168992, 0.89331789084610659})
+            .add(0.261680473881309868, {0.350399847259265991, 0.19900053332491351},
+                 {0.350399847259265991, 0.19900053332491351})
+            .build();
+    return rule;
 }
 
 }  // namespace elastolab

@@ -11,8 +11,8 @@
 #include "elasticity/close_pairs.hpp"
 #include "elasticity/exact_fields.hpp"
 #include "elasticity/kelvin.hpp"
-#include "elasticity/pair_rules.hpp"
 #include "elasticity/rigid_motion.hpp"
+#include "elasticity/triangle_rules.hpp"
 #include "mesh/primitives.hpp"
 
 namespace elastolab {
@@ -154,7 +154,7 @@ TEST(Galerkin, HypersingularEntriesAreThoseOfTheDefinition) {
     const Boundary boundary(mesh);
     const Eigen::MatrixXd D = hypersingular(boundary, kMaterial, 1e-11);
     const double mu = kMaterial.shear_modulus(), pi = std::acos(-1.0);
-    const CollapsedRule& rule = collapsed_rule(8);
+    const TriangleRule& rule = triangle_rule(8);
     // M_ij = n_j d_i - n_i d_j of the hat of corner k.
     const auto guenter = [&](int t, int k) {
         const TriangleGeometry& T = boundary.triangle(t);

@@ -84,7 +84,7 @@ double mean_power(int i, int j) {  // of b1^i b2^j over a triangle
 }
 
 TEST(PairRules, IntegrateEveryPolynomialOfTheirTotalDegree) {
-    for (const PairRule* rule : {&pair_rule_5(), &pair_rule_7(), &pair_rule_8()})
+    for (const PairRule* rule : {&pair_rule_5(), &pair_rule_7(), &pair_rule_9(), &pair_rule_11()})
         for (int a = 0; a <= rule->degree; ++a)
             for (int b = 0; a + b <= rule->degree; ++b)
                 for (int c = 0; a + b + c <= rule->degree; ++c)

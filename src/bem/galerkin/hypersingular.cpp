@@ -15,8 +15,9 @@ namespace elastolab {
 
 namespace {
 
-constexpr int kStripTriangles = 64;            ///< a multiple of every number of lanes
-constexpr std::size_t kStripBytes = 1u << 27;  ///< of strips that wait to be added to the matrix
+constexpr int kPacksPerTask = 4;
+constexpr std::size_t kRowBytes = 1u << 25;     ///< of rows that wait to be added: what a cache holds
+constexpr int kLeastPacks = 8 * kPacksPerTask;  ///< whose rows wait, so that every thread has some
 
 /// D = alpha sum P (2 c_b c_a^T - c_a c_b^T) + beta sum [c_a]^T (P I - Q) [c_b].
 struct Factors {
@@ -29,11 +30,12 @@ struct Wanted {
     Eigen::Ref<Eigen::MatrixXd> matrix;
 };
 
-/// The rows of the vertices of some consecutive triangles, from the pairs of these with themselves and all later ones.
-struct Strip {
+/// The rows of the vertices of a pack of consecutive triangles, from their pairs with themselves and all later ones.
+struct PackRows {
+    int first = 0;  ///< position of its first triangle
     std::vector<int> vertices;
-    std::vector<std::vector<double>>
-        blocks;  ///< of each matrix: [vertex of the mesh][vertex of the strip][3 x 3 by rows]
+    /// Of each matrix: [vertex of the mesh][vertex of the pack][3 x 3 by rows]; those of earlier vertices are unset.
+    std::vector<Eigen::VectorXd> blocks;
 };
 
 class HypersingularAssembly {
@@ -52,15 +54,18 @@ public:
     }
 
     void run(Control& control) const {
-        const int n_strips = (n_ + kStripTriangles - 1) / kStripTriangles;
-        const std::size_t bytes = sizeof(double) * 9 * last_.size() * (kStripTriangles * 3 / 4) * wanted_.size();
-        const int at_once = static_cast<int>(std::clamp<std::size_t>(kStripBytes / bytes, 8, 1024));
-        for (int first = 0; first < n_strips; first += at_once) {
-            std::vector<Strip> strips(static_cast<std::size_t>(std::min(at_once, n_strips - first)));
-            parallel_blocks(static_cast<int>(strips.size()), 1, control, [&](int begin, int end) {
-                for (int i = begin; i < end; ++i) strips[static_cast<std::size_t>(i)] = make_strip(first + i);
+        for (Wanted& wanted : wanted_) set_zero(wanted.matrix, control);
+        const int n_packs = (n_ + integrals_.lanes() - 1) / integrals_.lanes();
+        std::vector<PackRows> memory(static_cast<std::size_t>(std::min(n_packs, packs_at_once())));
+        for (int first = 0; first < n_packs; first += static_cast<int>(memory.size())) {
+            const auto packs =
+                std::span(memory).first(std::min(memory.size(), static_cast<std::size_t>(n_packs - first)));
+            parallel_blocks(static_cast<int>(packs.size()), kPacksPerTask, control, [&](int begin, int end) {
+                std::vector<double> sums(kCurlNumbers * last_.size() * static_cast<std::size_t>(integrals_.lanes()));
+                for (int i = begin; i < end; ++i)
+                    make_rows((first + i) * integrals_.lanes(), sums, packs[static_cast<std::size_t>(i)]);
             });
-            for (std::size_t w = 0; w < wanted_.size(); ++w) add(strips, w, control);
+            for (std::size_t w = 0; w < wanted_.size(); ++w) add(packs, w, control);
         }
         for (Wanted& wanted : wanted_) add_transpose(wanted.matrix, control);
     }
@@ -76,28 +81,32 @@ private:
         return static_cast<std::size_t>(boundary_.mesh().triangles(k, triangle(position)));
     }
 
-    Strip make_strip(int number) const {
-        const int begin = number * kStripTriangles, end = std::min(n_, begin + kStripTriangles);
-        Strip strip;
-        for (int position = begin; position < end; ++position)
-            for (int k = 0; k < 3; ++k) strip.vertices.push_back(static_cast<int>(vertex(position, k)));
-        std::sort(strip.vertices.begin(), strip.vertices.end());
-        strip.vertices.erase(std::unique(strip.vertices.begin(), strip.vertices.end()), strip.vertices.end());
-        strip.blocks.assign(wanted_.size(), std::vector<double>(9 * strip.vertices.size() * last_.size(), 0.0));
-        std::vector<double> sums(kCurlNumbers * last_.size() * static_cast<std::size_t>(integrals_.lanes()));
-        for (int first = begin; first < end; first += integrals_.lanes())
-            add_pack(first, std::min(end, first + integrals_.lanes()), sums, strip);
-        return strip;
+    int packs_at_once() const {
+        const std::size_t n_rows =
+            3 * static_cast<std::size_t>(integrals_.lanes());  // at most: most corners are shared
+        const std::size_t bytes = sizeof(double) * 9 * last_.size() * n_rows * wanted_.size();
+        return static_cast<int>(std::clamp<std::size_t>(kRowBytes / bytes, kLeastPacks, 4096));
     }
 
-    /// Adds the pairs of the triangles at these positions with all from `first` on.
-    void add_pack(int first, int end, std::vector<double>& sums, Strip& strip) const {
+    /// The pairs of the triangles from position `first` on with all from there on.
+    void make_rows(int first, std::vector<double>& sums, PackRows& rows) const {
+        const int end = std::min(n_, first + integrals_.lanes());
+        rows.first = first;
+        rows.vertices.clear();
+        for (int position = first; position < end; ++position)
+            for (int k = 0; k < 3; ++k) rows.vertices.push_back(static_cast<int>(vertex(position, k)));
+        std::sort(rows.vertices.begin(), rows.vertices.end());
+        rows.vertices.erase(std::unique(rows.vertices.begin(), rows.vertices.end()), rows.vertices.end());
+        rows.blocks.resize(wanted_.size());
+        const auto n_numbers = static_cast<Eigen::Index>(9 * rows.vertices.size() * last_.size());
+        for (Eigen::VectorXd& blocks : rows.blocks)
+            if (blocks.size() < n_numbers) blocks.resize(n_numbers);
         const auto tests =
             std::span(order_).subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(end - first));
         const PairIntegrals::Pack pack = integrals_.pack(tests);
         std::fill(sums.begin(), sums.end(), 0.0);
         for (int position = first; position < n_; ++position) add_field(pack, first, end, position, sums);
-        contract(pack, first, end, sums, strip);
+        contract(pack, first, end, sums, rows);
     }
 
     double* sums_of(std::vector<double>& sums, std::size_t vertex) const {
@@ -106,7 +115,7 @@ private:
 
     void add_field(const PairIntegrals::Pack& pack, int first, int end, int position, std::vector<double>& sums) const {
         const int lanes = integrals_.lanes();
-        double Q[kPairNumbers * kMaxLanes], P[kMaxLanes];
+        double Q[kPairNumbers * kMaxLanes];
         integrals_.integrate(pack, triangle(position), false, Q);
         if (position < first + lanes)  // each pair once; that of a triangle with itself is half
             for (int lane = 0; lane < lanes; ++lane) {
@@ -114,31 +123,27 @@ private:
                 const double share = test >= end || test > position ? 0.0 : test == position ? 0.5 : 1.0;
                 for (int k = 0; k < kPairTensorNumbers; ++k) Q[k * lanes + lane] *= share;
             }
-        for (int lane = 0; lane < lanes; ++lane) {  // N = P I - Q
-            P[lane] = Q[lane] + Q[lanes + lane] + Q[2 * lanes + lane];
-            for (int k = 0; k < kPairTensorNumbers; ++k)
-                Q[k * lanes + lane] = (k < 3 ? P[lane] : 0.0) - Q[k * lanes + lane];
-        }
         const Eigen::Matrix3d& c = curls_[static_cast<std::size_t>(triangle(position))];
         const double curls[3][3] = {
             {c(0, 0), c(1, 0), c(2, 0)}, {c(0, 1), c(1, 1), c(2, 1)}, {c(0, 2), c(1, 2), c(2, 2)}};
         double* const into[3] = {sums_of(sums, vertex(position, 0)), sums_of(sums, vertex(position, 1)),
                                  sums_of(sums, vertex(position, 2))};
-        kernels_.add_curls(P, Q, curls, into);
+        kernels_.add_curls(Q, kHypersingularFactors, curls, into);
     }
 
-    void contract(const PairIntegrals::Pack& pack, int first, int end, std::vector<double>& sums, Strip& strip) const {
+    void contract(const PairIntegrals::Pack& pack, int first, int end, std::vector<double>& sums,
+                  PackRows& rows) const {
         const auto lanes = static_cast<std::size_t>(integrals_.lanes());
         double curls[9 * kMaxLanes];
-        std::size_t rows[3 * kMaxLanes];
+        std::size_t row_of[3 * kMaxLanes];
         for (std::size_t lane = 0; lane < lanes; ++lane)
             for (std::size_t k = 0; k < 3; ++k) {
                 const Eigen::Matrix3d& c = curls_[static_cast<std::size_t>(pack.triangles[lane])];
                 for (std::size_t i = 0; i < 3; ++i)
                     curls[(3 * k + i) * lanes + lane] = c(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
                 const int v = boundary_.mesh().triangles(static_cast<Eigen::Index>(k), pack.triangles[lane]);
-                const auto at = std::lower_bound(strip.vertices.begin(), strip.vertices.end(), v);
-                rows[3 * lane + k] = static_cast<std::size_t>(at - strip.vertices.begin());
+                const auto at = std::lower_bound(rows.vertices.begin(), rows.vertices.end(), v);
+                row_of[3 * lane + k] = static_cast<std::size_t>(at - rows.vertices.begin());
             }
         double blocks[27 * kMaxLanes];
         for (std::size_t b = 0; b < last_.size(); ++b) {
@@ -146,30 +151,37 @@ private:
             for (std::size_t w = 0; w < wanted_.size(); ++w) {
                 const Factors& factors = wanted_[w].factors;
                 kernels_.contract_curls(factors.alpha, factors.beta, curls, sums_of(sums, b), blocks);
-                double* row = strip.blocks[w].data() + 9 * strip.vertices.size() * b;
+                double* row = rows.blocks[w].data() + 9 * rows.vertices.size() * b;
+                std::fill(row, row + 9 * rows.vertices.size(), 0.0);
                 for (std::size_t lane = 0; lane < static_cast<std::size_t>(end - first); ++lane)
                     for (std::size_t k = 0; k < 3; ++k)
                         for (std::size_t i = 0; i < 9; ++i)
-                            row[9 * rows[3 * lane + k] + i] += blocks[(9 * k + i) * lanes + lane];
+                            row[9 * row_of[3 * lane + k] + i] += blocks[(9 * k + i) * lanes + lane];
             }
         }
     }
 
-    /// Each column of a matrix takes the strips in their order.
-    void add(const std::vector<Strip>& strips, std::size_t w, Control& control) const {
+    /// Each column of a matrix takes the packs in their order.
+    void add(std::span<const PackRows> packs, std::size_t w, Control& control) const {
         Eigen::Ref<Eigen::MatrixXd>& D = wanted_[w].matrix;
         parallel_blocks(static_cast<int>(last_.size()), 16, control, [&](int begin, int end) {
             for (int b = begin; b < end; ++b)
-                for (const Strip& strip : strips) {
+                for (const PackRows& rows : packs) {
+                    if (last_[static_cast<std::size_t>(b)] < rows.first) continue;
                     const double* block =
-                        strip.blocks[w].data() + 9 * strip.vertices.size() * static_cast<std::size_t>(b);
-                    for (const int a : strip.vertices) {
+                        rows.blocks[w].data() + 9 * rows.vertices.size() * static_cast<std::size_t>(b);
+                    for (const int a : rows.vertices) {
                         for (int i = 0; i < 3; ++i)
                             for (int j = 0; j < 3; ++j) D(3 * a + i, 3 * b + j) += block[3 * i + j];
                         block += 9;
                     }
                 }
         });
+    }
+
+    static void set_zero(Eigen::Ref<Eigen::MatrixXd> D, Control& control) {
+        parallel_blocks(static_cast<int>(D.cols()), 64, control,
+                        [&](int begin, int end) { D.middleCols(begin, end - begin).setZero(); });
     }
 
     static void add_transpose(Eigen::Ref<Eigen::MatrixXd> D, Control& control) {
@@ -205,7 +217,6 @@ constexpr double kFactor = 0.25 * std::numbers::inv_pi;
 void assemble_hypersingular(const Boundary& boundary, const Material& material, double tolerance,
                             Eigen::Ref<Eigen::MatrixXd> D, Control& control) {
     assert(D.rows() == 3 * boundary.mesh().n_vertices() && D.cols() == D.rows());
-    D.setZero();
     const double factor = kFactor * material.shear_modulus();
     Wanted wanted{{factor, factor / (1.0 - material.poisson_ratio)}, D};
     HypersingularAssembly(boundary, tolerance, std::span(&wanted, 1)).run(control);
@@ -213,8 +224,8 @@ void assemble_hypersingular(const Boundary& boundary, const Material& material, 
 
 HypersingularParts::HypersingularParts(const Boundary& boundary, double tolerance, Control& control) {
     const Eigen::Index n = 3 * boundary.mesh().n_vertices();
-    without_nu = Eigen::MatrixXd::Zero(n, n);
-    with_nu = Eigen::MatrixXd::Zero(n, n);
+    without_nu.resize(n, n);
+    with_nu.resize(n, n);
     std::array<Wanted, 2> wanted{Wanted{{kFactor, 0.0}, without_nu}, Wanted{{0.0, kFactor}, with_nu}};
     HypersingularAssembly(boundary, tolerance, wanted).run(control);
 }

@@ -16,7 +16,7 @@ namespace elastolab {
 ///   D_ab = mu/(4 pi) { P (2 c_b c_a^T - c_a c_b^T) + [c_a]^T (P I - Q) [c_b] / (1 - nu) },   [c] x = c x x,
 /// summed over the pairs of triangles at a and b: no hypersingular integral is left. Each pair is integrated once.
 /// tolerance: relative, of the integrals of one pair (elasticity/pair_integrals.hpp). The result does not depend on the
-/// number of threads. Needs, besides the result, at most kStripBytes or one strip of 64 triangles. Throws Cancelled.
+/// number of threads. Needs, besides the result, 12 MB and 17 kB for each vertex. Throws Cancelled.
 /// Sources: Steinbach, Numerical Approximation Methods for Elliptic Boundary Value Problems (2008), section 6.7;
 /// H. Han, Numer. Math. 68 (1994).
 void assemble_hypersingular(const Boundary& boundary, const Material& material, double tolerance,

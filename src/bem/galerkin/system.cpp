@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/parallel.hpp"
 #include "bem/galerkin/traction_rows.hpp"
 #include "elasticity/rigid_motion.hpp"
 
@@ -21,6 +22,42 @@ std::uint64_t half_column_budget(Eigen::Index n, Mode mode) {
     const auto matrix = static_cast<std::uint64_t>(n * n) * 8;
     return (64ull << 20) + (mode == Mode::on_demand ? matrix / 4 : matrix);
 }
+
+/// What the integrals leave in D of the rigid motions C of closed surfaces: D - left C^T - C left^T = P D P with
+/// P = I - C C^T.
+class RigidPart {
+public:
+    RigidPart(const Eigen::MatrixXd& D, const Eigen::MatrixXd& C, Control& control) : C_(C), left_(C.rows(), C.cols()) {
+        for_columns(D, control, [&](Eigen::Index begin, Eigen::Index count) {  // D is symmetric
+            left_.middleRows(begin, count).noalias() = D.middleCols(begin, count).transpose() * C_;
+        });
+        left_ -= 0.5 * C_ * (C_.transpose() * left_);
+    }
+    /// Of P D P.
+    double mean_diagonal(const Eigen::MatrixXd& D) const {
+        return (D.trace() - 2.0 * left_.cwiseProduct(C_).sum()) / static_cast<double>(D.rows());
+    }
+    /// D <- P D P + shift C C^T.
+    void replace(Eigen::MatrixXd& D, double shift, Control& control) const {
+        const Eigen::Index n = C_.cols();
+        Eigen::MatrixXd A(C_.rows(), 2 * n), B(C_.rows(), 2 * n);
+        A << left_, C_;
+        B << C_, left_ - shift * C_;
+        for_columns(D, control, [&](Eigen::Index begin, Eigen::Index count) {
+            D.middleCols(begin, count).noalias() -= A * B.middleRows(begin, count).transpose();
+        });
+    }
+
+private:
+    template <class Use>
+    static void for_columns(const Eigen::MatrixXd& D, Control& control, Use&& use) {
+        parallel_blocks(static_cast<int>(D.cols()), 64, control,
+                        [&](int begin, int end) { use(begin, Eigen::Index{end - begin}); });
+    }
+
+    const Eigen::MatrixXd& C_;
+    Eigen::MatrixXd left_;
+};
 
 /// Rows (or rows and columns) of the triangles of a space, taken to its unknowns: rigid fields for whole surfaces.
 class Reduction {
@@ -66,15 +103,18 @@ GalerkinSystem::GalerkinSystem(std::shared_ptr<const Boundary> boundary, double 
       parts_(std::move(parts)),
       cache_(std::make_unique<ColumnCache>(method.column_memory.value_or(half_column_budget(size(), method.mode)))) {
     if (!factorises_ahead(method)) return;
-    Eigen::MatrixXd D;
+    Eigen::MatrixXd D, kept;
     {
         const Stage stage(parts_ ? "combine" : "integrate", control, stages);
-        D = hypersingular(control);
+        D = integrals(control);
+        const RigidPart rigid(D, surfaces_.rigid, control);
+        shift_ = rigid.mean_diagonal(D);
+        if (method.mode != Mode::on_demand) {
+            kept = D;
+            rigid.replace(kept, 0.0, control);
+        }
+        rigid.replace(D, shift_, control);
     }
-    shift_ = D.diagonal().mean();
-    Eigen::MatrixXd kept;
-    if (method.mode != Mode::on_demand) kept = D;
-    D.noalias() += shift_ * surfaces_.rigid * surfaces_.rigid.transpose();
     {
         const Stage stage("factorise", control, stages);
         factor_ = CholeskyFactorization(std::move(D), "hypersingular matrix", &control);
@@ -83,17 +123,17 @@ GalerkinSystem::GalerkinSystem(std::shared_ptr<const Boundary> boundary, double 
 }
 
 Eigen::MatrixXd GalerkinSystem::hypersingular(Control& control) const {
+    Eigen::MatrixXd D = integrals(control);
+    RigidPart(D, surfaces_.rigid, control).replace(D, 0.0, control);
+    return D;
+}
+
+Eigen::MatrixXd GalerkinSystem::integrals(Control& control) const {
     Eigen::MatrixXd D(size(), size());
     if (parts_)
         parts_->evaluate(material_, D);
     else
         assemble_hypersingular(*boundary_, material_, tolerance_, D, control);
-    // P D P with P = I - C C^T.
-    const Eigen::MatrixXd& C = surfaces_.rigid;
-    Eigen::MatrixXd left = D * C;
-    left.noalias() -= 0.5 * C * (C.transpose() * left).eval();
-    D.noalias() -= left * C.transpose();
-    D.noalias() -= C * left.transpose();
     return D;
 }
 

@@ -53,6 +53,8 @@ public:
     std::shared_ptr<const DenseOperators> dense() const { return dense_; }
 
 private:
+    /// D as it is integrated.
+    Eigen::MatrixXd integrals(Control& control) const;
     void complete(Eigen::MatrixXd D, StageTimes& stages, Control& control);
     std::vector<Columns::Block> compute(const std::vector<ColumnKey>& missing, Control& control) const;
     void free_of_rigid_motions(Eigen::MatrixXd& K) const;

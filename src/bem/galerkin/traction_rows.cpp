@@ -99,25 +99,19 @@ private:
         }
     }
 
-    void add_field(int field, double* numbers, Sums& sums) const {
+    void add_field(int field, const double* numbers, Sums& sums) const {
         const int lanes = integrals_.lanes();
         const double* normal = numbers + kPairTensorNumbers * lanes;
-        for (int lane = 0; lane < lanes; ++lane) {
-            double* q = numbers + lane;
-            const double scalar = (1.0 - 2.0 * nu_) * (q[0] + q[lanes] + q[2 * lanes]);
-            for (int k = 0; k < 3; ++k) q[k * lanes] += scalar;
-        }
         const Eigen::Matrix3d c = hat_curls(triangles_[static_cast<std::size_t>(field)]);
         const double curls[3][3] = {
             {c(0, 0), c(1, 0), c(2, 0)}, {c(0, 1), c(1, 1), c(2, 1)}, {c(0, 2), c(1, 2), c(2, 2)}};
-        const double zero[kMaxLanes] = {};
         double* into[3];
         for (int k = 0; k < 3; ++k) {
             const int vertex = boundary_.mesh().triangles(k, field);
             into[k] = sums.curls_of(vertex);
             for (int lane = 0; lane < lanes; ++lane) sums.normals_of(vertex)[lane] += normal[k * lanes + lane];
         }
-        kernels_.add_curls(zero, numbers, curls, into);
+        kernels_.add_curls(numbers, double_layer_factors(nu_), curls, into);
     }
 
     void write_double(int test, std::size_t lane, Sums& sums, Eigen::MatrixXd& K) const {

@@ -161,17 +161,12 @@ void HypersingularEntries::fill_with(const PairIntegrals& integrals, PositionRan
             std::span(tests.triangles).subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(count)));
         sums.clear();
         for (std::size_t f = 0; f < fields.triangles.size(); ++f) {
-            double Q[kPairNumbers * kMaxLanes], P[kMaxLanes];
+            double Q[kPairNumbers * kMaxLanes];
             integrate_tensor(integrals, close, pack, fields.triangles[f], Q);
-            for (int lane = 0; lane < lanes; ++lane) {  // N = P I - Q
-                P[lane] = Q[lane] + Q[lanes + lane] + Q[2 * lanes + lane];
-                for (int k = 0; k < kPairTensorNumbers; ++k)
-                    Q[k * lanes + lane] = (k < 3 ? P[lane] : 0.0) - Q[k * lanes + lane];
-            }
             const CurlRows curls(pairs().curls(fields.triangles[f]));
             const auto& corner = fields.corners[f];
             double* const into[3] = {sums.at(corner[0]), sums.at(corner[1]), sums.at(corner[2])};
-            kernels.add_curls(P, Q, curls.values, into);
+            kernels.add_curls(Q, kHypersingularFactors, curls.values, into);
         }
         double curls[9 * kMaxLanes];
         for (std::size_t lane = 0; lane < n_lanes; ++lane)
@@ -240,7 +235,6 @@ void DoubleLayerEntries::fill_with(const PairIntegrals& integrals, PositionRange
     std::vector<double> normals(static_cast<std::size_t>(lanes * (cols.size() + 1)));
     const auto normals_at = [&](int v) { return normals.data() + lanes * (v < 0 ? cols.size() : v); };
     const double factor = 1.0 / (8.0 * std::numbers::pi * (1.0 - nu_));
-    const double zero[kMaxLanes] = {};
     for (int first = rows.begin; first < rows.end; first += lanes) {
         const int count = std::min(lanes, rows.end - first);
         const PairIntegrals::Pack pack = integrals.pack(
@@ -254,14 +248,9 @@ void DoubleLayerEntries::fill_with(const PairIntegrals& integrals, PositionRange
             for (std::size_t k = 0; k < 3; ++k)
                 for (int lane = 0; lane < lanes; ++lane)
                     normals_at(corner[k])[lane] += numbers[(kPairTensorNumbers + static_cast<int>(k)) * lanes + lane];
-            for (int lane = 0; lane < lanes; ++lane) {
-                double* q = numbers + lane;
-                const double scalar = (1.0 - 2.0 * nu_) * (q[0] + q[lanes] + q[2 * lanes]);
-                for (int k = 0; k < 3; ++k) q[k * lanes] += scalar;
-            }
             const CurlRows curls(pairs().curls(fields.triangles[f]));
             double* const into[3] = {sums.at(corner[0]), sums.at(corner[1]), sums.at(corner[2])};
-            kernels.add_curls(zero, numbers, curls.values, into);
+            kernels.add_curls(numbers, double_layer_factors(nu_), curls.values, into);
         }
         for (int lane = 0; lane < count; ++lane) {
             const int test = first + lane;
