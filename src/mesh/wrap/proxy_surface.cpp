@@ -149,13 +149,15 @@ std::optional<SurfaceMesh> collapsed(const SurfaceMesh& sound, int n_vertices, C
 /// A wrap of so many vertices rounds what is finer than its triangles and bridges gaps of their size; one of this many
 /// times the vertices, with its edges collapsed, is far closer to the body and takes hardly longer.
 constexpr int kFinerWrap = 4;
+/// Factors within which wraps have the vertices wanted: another attempt takes as long as the wrap.
+constexpr double kFinerWithin = 2.0, kWithin = 1.33;
 
 /// Surfaces of more vertices are wrapped even where they are sound: to collapse their edges takes several times longer.
 constexpr int kMostCollapsed = 100000;
 
 /// The settled wrap, or the wrap itself where settling did not keep it sound.
-ProxySurface wrapped_once(const SurfaceMesh& closed, int n_vertices, Control& control) {
-    WrapResult wrap = alpha_wrap(closed, n_vertices, control);
+ProxySurface wrapped_once(const SurfaceMesh& closed, int n_vertices, double within, Control& control) {
+    WrapResult wrap = alpha_wrap(closed, n_vertices, within, control);
     if (!wrap.failure.empty())
         throw MeshError("no closed surface could be made around it (" + wrap.failure +
                         "). Mend the file, or choose another.");
@@ -170,11 +172,11 @@ ProxySurface wrapped_once(const SurfaceMesh& closed, int n_vertices, Control& co
 /// Open sheets are as thick as the wrap is coarse, and have to be: a finer one would make them too thin for its own
 /// triangles.
 std::vector<ProxySurface> wrapped(const SurfaceMesh& closed, std::span<const int> sizes, Control& control) {
-    const ProxySurface fine = wrapped_once(closed, kFinerWrap * std::ranges::max(sizes), control);
+    const ProxySurface fine = wrapped_once(closed, kFinerWrap * std::ranges::max(sizes), kFinerWithin, control);
     std::vector<ProxySurface> proxies;
     for (const int n_vertices : sizes) {
         auto coarse = fine.thin_part <= kMostThin ? collapsed(fine.surface, n_vertices, control) : std::nullopt;
-        proxies.push_back(coarse ? fine : wrapped_once(closed, n_vertices, control));
+        proxies.push_back(coarse ? fine : wrapped_once(closed, n_vertices, kWithin, control));
         if (coarse) proxies.back().surface = std::move(*coarse);
     }
     return proxies;

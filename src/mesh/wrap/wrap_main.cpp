@@ -50,8 +50,10 @@ Result wrap_once(const Oracle& oracle, double alpha) {
 }
 
 /// The number of vertices of a wrap grows with its area over the square of alpha. Area is known only of a wrap, since
-/// what the triangles hide does not count: a coarse one tells it, and how many vertices go to a square of alpha.
-Result wrap(const Soup& soup, int wanted) {
+/// what the triangles hide does not count: a coarse one tells it, and how many vertices go to a square of alpha. The
+/// finer one sees more of the surface, so that their number grows a little slower between the first two.
+Result wrap(const Soup& soup, int wanted, double within) {
+    constexpr double kFirstExponent = 1.85;
     Oracle oracle;
     oracle.add_triangle_soup(soup.points, soup.triangles, CGAL::parameters::default_values());
     const CGAL::Bbox_3 box = CGAL::bbox_3(soup.points.begin(), soup.points.end());
@@ -61,9 +63,8 @@ Result wrap(const Soup& soup, int wanted) {
     for (int attempt = 0; attempt < 4; ++attempt) {
         result = wrap_once(oracle, alpha);
         const double ratio = static_cast<double>(result.mesh.number_of_vertices()) / wanted;
-
-        if (ratio == 0.0 || (ratio > 0.75 && ratio < 1.3)) break;
-        alpha *= std::clamp(std::sqrt(ratio), 0.1, 4.0);
+        if (ratio == 0.0 || (ratio > 1.0 / within && ratio < within)) break;
+        alpha *= std::clamp(std::pow(ratio, 1.0 / (attempt == 0 ? kFirstExponent : 2.0)), 0.1, 4.0);
     }
     return result;
 }
@@ -117,7 +118,7 @@ void answer(const Result& result) {
 Result result_of(const WrapRequestHeader& request, const Soup& soup) {
     switch (request.task) {
         case WrapTask::wrap:
-            return wrap(soup, request.wanted_vertices);
+            return wrap(soup, request.wanted_vertices, request.within);
         case WrapTask::collapse:
             return collapse(soup, request.wanted_vertices);
         case WrapTask::fill_smooth:

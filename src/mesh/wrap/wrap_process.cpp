@@ -15,12 +15,9 @@ namespace elastolab {
 
 namespace {
 
-std::string wrap_request(WrapTask task, const SurfaceMesh& surface, int n_vertices) {
-    WrapRequestHeader header;
-    header.task = task;
+std::string request_bytes(WrapRequestHeader header, const SurfaceMesh& surface) {
     header.n_vertices = surface.n_vertices();
     header.n_triangles = surface.n_triangles();
-    header.wanted_vertices = n_vertices;
     std::string bytes;
     append_bytes(bytes, &header, 1);
     append_bytes(bytes, surface.vertices.data(), static_cast<std::size_t>(surface.vertices.size()));
@@ -39,9 +36,9 @@ std::string end_of_wrap(int status, const std::string& output) {
     return output.empty() ? "it ended early" : output.substr(0, output.find('\n'));
 }
 
-WrapResult run_wrap(WrapTask task, const SurfaceMesh& surface, int n_vertices, Control& control) {
+WrapResult run_wrap(const WrapRequestHeader& request, const SurfaceMesh& surface, Control& control) {
     ChildProcess helper(helper_program("elastolab-wrap"));
-    const std::vector<char> reply = helper.exchange(wrap_request(task, surface, n_vertices), control);
+    const std::vector<char> reply = helper.exchange(request_bytes(request, surface), control);
     const int status = helper.wait(control);
 
     WrapResult result;
@@ -69,17 +66,17 @@ WrapResult run_wrap(WrapTask task, const SurfaceMesh& surface, int n_vertices, C
 
 }  // namespace
 
-WrapResult alpha_wrap(const SurfaceMesh& triangles, int n_vertices, Control& control) {
-    return run_wrap(WrapTask::wrap, triangles, n_vertices, control);
+WrapResult alpha_wrap(const SurfaceMesh& triangles, int n_vertices, double within, Control& control) {
+    return run_wrap({.task = WrapTask::wrap, .wanted_vertices = n_vertices, .within = within}, triangles, control);
 }
 
 WrapResult collapse_edges(const SurfaceMesh& surface, int n_vertices, Control& control) {
-    return run_wrap(WrapTask::collapse, surface, n_vertices, control);
+    return run_wrap({.task = WrapTask::collapse, .wanted_vertices = n_vertices}, surface, control);
 }
 
 WrapResult fill_holes(const SurfaceMesh& surface, HoleFilling how, Control& control) {
-    return run_wrap(how == HoleFilling::smooth ? WrapTask::fill_smooth : WrapTask::fill_flat, surface,
-                    surface.n_vertices(), control);
+    const WrapTask task = how == HoleFilling::smooth ? WrapTask::fill_smooth : WrapTask::fill_flat;
+    return run_wrap({.task = task, .wanted_vertices = surface.n_vertices()}, surface, control);
 }
 
 }  // namespace elastolab

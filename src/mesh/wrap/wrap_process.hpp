@@ -15,11 +15,12 @@ struct WrapResult {
     std::string failure;  ///< empty on success; else what went wrong
 };
 
-/// A closed, oriented 2-manifold without self-intersections around any triangles, of about so many vertices: the alpha
-/// wrap of CGAL (C. Portaneri, M. Rouxel-Labbe, M. Hemmer, D. Cohen-Steiner, P. Alliez, Alpha wrapping with an offset,
-/// ACM Trans. Graph. 41, 2022), in a process of its own. Coordinates are finite and at most 1e3 or so; triangles
-/// without area do not count. Throws MeshError only when the helper program is missing; Cancelled.
-WrapResult alpha_wrap(const SurfaceMesh& triangles, int n_vertices, Control& control);
+/// A closed, oriented 2-manifold without self-intersections around any triangles, of so many vertices within that
+/// factor if four attempts reach it: the alpha wrap of CGAL (C. Portaneri, M. Rouxel-Labbe, M. Hemmer, D.
+/// Cohen-Steiner, P. Alliez, Alpha wrapping with an offset, ACM Trans. Graph. 41, 2022), in a process of its own.
+/// Coordinates are finite and at most 1e3 or so; triangles without area do not count. Throws MeshError only when the
+/// helper program is missing; Cancelled.
+WrapResult alpha_wrap(const SurfaceMesh& triangles, int n_vertices, double within, Control& control);
 
 /// A closed manifold surface with edges collapsed until it has so many vertices, its volume kept (P. Lindstrom, G.
 /// Turk, Fast and memory efficient polygonal simplification, 1998), in the same process. Parts of the result may cross.
