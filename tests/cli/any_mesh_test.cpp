@@ -199,6 +199,34 @@ TEST_P(AnyTrianglesOfAFile, CanBePulled) {
     EXPECT_GT(n_pulled, 0);
 }
 
+TEST(VerticesThatAreNotFinite, AreLeftOutWithTheirTriangles) {
+    const test::TemporaryFolder folder;
+    SurfaceMesh ball = make_sphere(6);
+    const Pull pulled = pull(ball, "mesh.ply");
+    folder.write("scene.json", pulled.scene);
+    ball.vertices(1, 7) = std::nan("");
+    ball.vertices(0, 40) = HUGE_VAL;
+    save_surface(folder.path() / "mesh.ply", ball);
+    const std::vector<std::string> solve = {"solve", "scene.json", "--quiet", "--displacements",
+                                            "u.csv", "--report",   "r.json"};
+    const auto run = run_program(solve, folder.path());
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const nlohmann::json report = nlohmann::json::parse(std::ifstream(folder.path() / "r.json"));
+    EXPECT_NE(report["warnings"].dump().find("2 vertices have coordinates that are not finite"), std::string::npos)
+        << report["warnings"];
+    int n_pulled = 0;
+    for (const std::vector<double>& row : test::read_csv(folder.path() / "u.csv").rows) {
+        const Eigen::Vector3d x(row[0], row[1], row[2]), u(row[3], row[4], row[5]);
+        ASSERT_TRUE(x.allFinite() && u.allFinite());
+        EXPECT_LT(u.norm(), 5.0 * pulled.by.norm());
+        n_pulled += (u - pulled.by).norm() <= 1e-12 * pulled.by.norm() ? 1 : 0;
+    }
+    EXPECT_GT(n_pulled, 0);
+    std::vector<std::string> exactly = solve;
+    exactly.insert(exactly.end(), {"--proxy", "never"});
+    EXPECT_NE(run_program(exactly, folder.path()).exit_code, 0);
+}
+
 /// The same pull of a ball with two holes that are filled on request, and of the whole one.
 TEST(HolesOfAFile, AreFilledOnRequest) {
     const test::TemporaryFolder folder;

@@ -188,7 +188,7 @@ INSTANTIATE_TEST_SUITE_P(
              "v 2 0 -.3\nv 2 0 .3\nv -1 1.7 -.3\nv -1 1.7 .3\nv -1 -1.7 -.3\nv -1 -1.7 .3\nf 1 3 4 2\nf 3 5 6 4\n"
              "f 5 2 1 6\n",
              {}),
-        shapeless("NaNInAnyProxy", "v nan 0 0\nv 0 1 0\nv 0 0 1\nv 1 0 0\nf 1 4 3\nf 1 2 4\nf 1 3 2\nf 2 3 4\n"),
+        shapeless("NaNInEveryTriangle", "v nan 0 0\nv 0 1 0\nv 0 0 1\nv 1 0 0\nf 1 4 3\nf 1 2 4\nf 1 3 2\n"),
         shapeless("OnALine", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\nf 3 2 1\n"),
         shapeless("OnePoint", "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n"),
         mesh("CrossingParts", "input.obj", tetrahedron(0, 0) + tetrahedron(0.25, 4), {"cross"}, "fem")),

@@ -258,9 +258,13 @@ TEST(Check, ReportsDuplicatesUnusedVerticesAndNumbersThatAreNotFinite) {
     for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
         SurfaceMesh broken = cube;
         broken.vertices(1, 5) = bad;
-        const MeshReport report = check_and_repair(broken).report;
-        EXPECT_EQ(only_defect(report).kind, Kind::non_finite);
-        EXPECT_FALSE(report.usable());
+        const CheckedMesh checked = check_and_repair(broken);
+        EXPECT_EQ(count(checked.report, Kind::non_finite), 1);
+        EXPECT_FALSE(checked.report.usable());
+        EXPECT_TRUE(checked.mesh.vertices.allFinite());
+        EXPECT_EQ(checked.mesh.n_vertices(), cube.n_vertices());
+        for (const int v : checked.mesh.triangles.reshaped()) EXPECT_NE(v, 5);
+        EXPECT_EQ(count(checked.report, Kind::unreferenced_vertices), 0);
     }
     EXPECT_EQ(only_defect(check_and_repair({}).report).kind, Kind::no_triangles);
 }

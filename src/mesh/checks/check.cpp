@@ -47,7 +47,7 @@ Defect no_triangles() {
     defect.kind = Defect::Kind::no_triangles;
     defect.count = 1;
     defect.fatal = true;
-    defect.text = "it has no triangle. Choose a file with a surface.";
+    defect.text = "it has no triangle of finite points. Choose a file with a surface.";
     return defect;
 }
 
@@ -78,10 +78,13 @@ CheckedMesh check_and_repair(SurfaceMesh mesh, Control& control) {
         return result;
     }
     control.checkpoint();
-    report_non_finite(result.mesh, report);
     report_unreferenced(result.mesh, report);
+    leave_out_non_finite(result.mesh, report);
+    if (result.mesh.n_triangles() == 0) {
+        report.defects.push_back(no_triangles());
+        return result;
+    }
     report_collapsed(result.mesh, report);
-    const bool finite = (result.mesh.vertices.array().abs() <= kLargestCoordinate).all();
 
     SurfaceMesh sound = without_collapsed(result.mesh);
     const bool complete = sound.n_triangles() == result.mesh.n_triangles();
@@ -93,7 +96,6 @@ CheckedMesh check_and_repair(SurfaceMesh mesh, Control& control) {
     for (int e = 0; e < edges.size(); ++e) report.closed = report.closed && edges.half_edges(e).size() == 2;
     report_hinges(sound, report);
     report_duplicates(sound, report);
-    if (!finite) return result;
     measure(sound, edges, report);
     report_shapes(sound, report);
     inspect_as_a_whole(sound, edges, components, report, control);

@@ -34,7 +34,8 @@ std::string counted(int count, const std::string& one, const std::string& many,
 /// Largest coordinate that is taken for a number: exact predicates (mesh/checks/predicates.hpp) go no further.
 constexpr double kLargestCoordinate = 1e90;
 
-void report_non_finite(const SurfaceMesh& mesh, MeshReport& report);
+/// Takes away triangles with a vertex that is no finite point, and puts such vertices into the middle of the others.
+void leave_out_non_finite(SurfaceMesh& mesh, MeshReport& report);
 void report_unreferenced(const SurfaceMesh& mesh, MeshReport& report);
 /// Triangles with two equal vertices; inspections of edges then leave them out.
 void report_collapsed(const SurfaceMesh& mesh, MeshReport& report);

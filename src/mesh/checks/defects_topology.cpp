@@ -43,13 +43,34 @@ bool is_hinge(const SurfaceMesh& mesh, int vertex, std::span<const int> around) 
 
 }  // namespace
 
-void report_non_finite(const SurfaceMesh& mesh, MeshReport& report) {
+void leave_out_non_finite(SurfaceMesh& mesh, MeshReport& report) {
     DefectCount found;
-    for (int v = 0; v < mesh.n_vertices(); ++v)
-        if (!(mesh.vertices.col(v).array().abs() <= kLargestCoordinate).all()) found.add(mesh.vertices.col(v));
+    std::vector<bool> finite;
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (int v = 0; v < mesh.n_vertices(); ++v) {
+        const auto& vertex = mesh.vertices.col(v);
+        finite.push_back((vertex.array().abs() <= kLargestCoordinate).all());
+        if (finite.back())
+            sum += vertex;
+        else
+            found.add(vertex);
+    }
+    if (found.count() == 0) return;
+    std::vector<int> kept;
+    for (int t = 0; t < mesh.n_triangles(); ++t) {
+        const auto& v = mesh.triangles.col(t);
+        if (std::all_of(v.begin(), v.end(), [&](int corner) { return finite[static_cast<std::size_t>(corner)]; }))
+            kept.push_back(t);
+    }
+    const std::string left_out = std::to_string(mesh.n_triangles() - std::ssize(kept));
     found.report_fatal(report, Defect::Kind::non_finite,
                        "vertex has a coordinate that is not a finite number up to 1e90",
-                       "vertices have coordinates that are not finite numbers up to 1e90", ". Export the mesh again.");
+                       "vertices have coordinates that are not finite numbers up to 1e90",
+                       "; " + left_out + " triangles there are left out. Export the mesh again.");
+    const Eigen::Vector3d middle = sum / std::max<double>(1.0, mesh.n_vertices() - found.count());
+    for (int v = 0; v < mesh.n_vertices(); ++v)
+        if (!finite[static_cast<std::size_t>(v)]) mesh.vertices.col(v) = middle;
+    mesh.triangles = Triangles(mesh.triangles(Eigen::all, kept));
 }
 
 void report_unreferenced(const SurfaceMesh& mesh, MeshReport& report) {

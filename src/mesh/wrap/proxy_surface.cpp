@@ -47,17 +47,11 @@ std::size_t hash_of(const CornerKey& corners) {
     return hash;
 }
 
-bool is_finite(const TrianglePoints& p) {
-    return ((p.a.cwiseAbs().cwiseMax(p.b.cwiseAbs()).cwiseMax(p.c.cwiseAbs())).array() <= kLargestCoordinate).all();
-}
-
-/// The triangles that can be wrapped: of finite corners, and each once, since a search tree finds no way among
-/// thousands in one place.
+/// The triangles that can be wrapped: each once, since a search tree finds no way among thousands in one place.
 SurfaceMesh solid_triangles(const SurfaceMesh& shown) {
     std::vector<std::pair<std::size_t, int>> by_hash;
     for (int t = 0; t < shown.n_triangles(); ++t)
-        if (const TrianglePoints p = triangle_points(shown, t); is_finite(p))
-            by_hash.emplace_back(hash_of(sorted_corners(p)), t);
+        by_hash.emplace_back(hash_of(sorted_corners(triangle_points(shown, t))), t);
     std::sort(by_hash.begin(), by_hash.end());
     std::vector<int> kept;
     for (std::size_t i = 0; i < by_hash.size(); ++i) {
@@ -67,10 +61,7 @@ SurfaceMesh solid_triangles(const SurfaceMesh& shown) {
         if (!repeats) kept.push_back(by_hash[i].second);
     }
     std::sort(kept.begin(), kept.end());
-    SurfaceMesh mesh{shown.vertices, shown.triangles(Eigen::all, kept)};
-    for (int v = 0; v < mesh.n_vertices(); ++v)
-        if (!(mesh.vertices.col(v).array().abs() <= kLargestCoordinate).all()) mesh.vertices.col(v).setZero();
-    return mesh;
+    return {shown.vertices, shown.triangles(Eigen::all, kept)};
 }
 
 /// Moves the vertices of a wrap onto the surface that it was made around.
