@@ -118,7 +118,7 @@ Document default_document() {
     Document document;
     document.method = first_method();
     document.mesh = Primitive{.name = "cube", .resolution = 13, .size = {}};
-    document.fixed = Selector{PlaneSelector{{0, 0, 0}, {1, 0, 0}, 1e-6}};
+    document.fixed = {{.select = {PlaneSelector{{0, 0, 0}, {1, 0, 0}, 1e-6}}}};
     return document;
 }
 

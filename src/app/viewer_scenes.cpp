@@ -77,7 +77,7 @@ void ViewerState::make_primitive_scene(const Primitive& primitive) {
     document.mesh = primitive;
     document.material = scene_->document().material;
     document.method = method;
-    if (attempt([&] { document.fixed = default_support(primitive); }))
+    if (attempt([&] { document.fixed = {{.select = default_support(primitive)}}; }))
         open_document(std::move(document), primitive.name + ".json");
 }
 

@@ -153,20 +153,34 @@ void ViewerState::take_method() {
     choices.set(scene_->document().settings);
 }
 
+std::string ViewerState::selected_fixed_name() const {
+    const int set = gestures.selected_fixed();
+    return set >= 0 && set < scene_->n_fixed_sets() ? scene_->fixed_name(set) : "";
+}
+
+/// After undo and redo: the numbers of handles and sets may mean others, the name of a set does not.
+void ViewerState::take_step(const std::string& selected_fixed_set) {
+    take_method();
+    gestures.select_handle(-1);
+    gestures.select_fixed(-1);
+    for (int set = 0; set < scene_->n_fixed_sets(); ++set)
+        if (scene_->fixed_name(set) == selected_fixed_set) gestures.select_fixed(set);
+}
+
 void ViewerState::undo() {
     finish_gesture();
     keep_method();
+    const std::string selected = selected_fixed_name();
     if (scene_->can_undo()) scene_->undo();
-    take_method();
-    gestures.select_handle(-1);
+    take_step(selected);
 }
 
 void ViewerState::redo() {
     finish_gesture();
     keep_method();
+    const std::string selected = selected_fixed_name();
     if (scene_->can_redo()) scene_->redo();
-    take_method();
-    gestures.select_handle(-1);
+    take_step(selected);
 }
 
 void ViewerState::remove_handle(int handle) {
@@ -184,6 +198,15 @@ void ViewerState::clear_handles() {
     scene_->clear_handles();
     scene_->commit();
     gestures.select_handle(-1);
+}
+
+void ViewerState::remove_fixed_set(int set) {
+    if (set < 0 || set >= scene_->n_fixed_sets()) return;
+    finish_gesture();
+    if (set >= scene_->n_fixed_sets()) return;
+    scene_->remove_fixed_set(set);
+    scene_->commit();
+    gestures.select_fixed(-1);
 }
 
 FrameRecord ViewerState::frame_record(const FrameTimes& times, double now) const {

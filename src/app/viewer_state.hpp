@@ -32,7 +32,7 @@ struct PictureRequest {
     Eigen::Vector2i size{1920, 1080};  ///< [pixels]
     bool transparent = false;
     bool legend = true;  ///< with the colour bar, where there is one
-    int n_frames = 0;  ///< of a film; 0: a single picture
+    int n_frames = 0;    ///< of a film; 0: a single picture
     FilmKind kind = FilmKind::turn;
     bool video = false;
 };
@@ -127,6 +127,7 @@ public:
     void redo();
     void remove_handle(int handle);
     void clear_handles();
+    void remove_fixed_set(int set);
     void set_young_modulus(double value);
     void select_method(MethodKind kind);
     void frame_body();
@@ -166,6 +167,8 @@ private:
     void poll_loading();
     void keep_method();
     void take_method();
+    std::string selected_fixed_name() const;
+    void take_step(const std::string& selected_fixed_set);
     void add_recent(const std::filesystem::path& file);
     /// False when it failed, which becomes a message.
     template <class Action>

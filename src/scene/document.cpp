@@ -26,6 +26,12 @@ std::optional<ProxyUse> parse_proxy_use(std::string_view text) {
     return std::nullopt;
 }
 
+std::string default_fixed_name(std::size_t place) { return place == 0 ? "fixed" : "fixed-" + std::to_string(place); }
+
+bool is_plain(const std::vector<FixedSet>& sets) {
+    return sets.size() == 1 && (sets.front().name.empty() || sets.front().name == default_fixed_name(0));
+}
+
 bool operator==(const Document& a, const Document& b) {
     return a.mesh == b.mesh && a.material.young_modulus == b.material.young_modulus &&
            a.material.poisson_ratio == b.material.poisson_ratio && a.method == b.method && a.fixed == b.fixed &&

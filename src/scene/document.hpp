@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <Eigen/Core>
 #include <optional>
 #include <string>
@@ -99,6 +100,18 @@ inline constexpr int kFewestProxyVertices = 20, kMostProxyVertices = 100000;
 std::string_view name(ProxyUse use);
 std::optional<ProxyUse> parse_proxy_use(std::string_view text);
 
+/// Vertices that stay where they are at rest.
+struct FixedSet {
+    std::string name = {};  ///< empty: called after its place in the list
+    Selector select;
+    bool operator==(const FixedSet&) const = default;
+};
+/// What a fixed set without a name of its own is called.
+std::string default_fixed_name(std::size_t place);
+/// Whether scene files have them as one selector, without a list and names: a single set that has the name it would
+/// have anyway.
+bool is_plain(const std::vector<FixedSet>& sets);
+
 /// Where a scene is looked at from.
 struct ViewPoint {
     Eigen::Vector3d eye, target;                          ///< [L]; they differ
@@ -121,7 +134,7 @@ struct Document {
     MeshSource mesh;
     Material material;
     MethodKind method = default_method();
-    std::optional<Selector> fixed;
+    std::vector<FixedSet> fixed;  ///< together they are the fixed part
     std::vector<Handle> handles;
     ProxyChoice proxy = {};
     MethodSettings settings = {};

@@ -15,11 +15,15 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kNobody = -1;
-constexpr int kFixed = -2;
+constexpr int kFirstFixed = -2;  ///< of the fixed sets, which count downwards
 
 std::string place(const fs::path& scene_file, const std::string& path) { return scene_file.string() + ": " + path; }
 
 std::string handle_path(std::size_t i) { return "/handles/" + std::to_string(i); }
+
+std::string fixed_path(const Document& document, std::size_t i) {
+    return is_plain(document.fixed) ? "/fixed" : "/fixed/" + std::to_string(i);
+}
 
 [[noreturn]] void fail(const fs::path& scene_file, const std::string& path, const std::string& finding) {
     throw SceneError(one_line(place(scene_file, path) + ": " + finding));
@@ -43,16 +47,24 @@ public:
           owner_(static_cast<std::size_t>(mesh.n_vertices()), kNobody) {}
 
     Constraints collect() && {
-        if (document_.fixed) add_fixed(*document_.fixed);
+        for (std::size_t i = 0; i < document_.fixed.size(); ++i) add_fixed(i);
+        if (!result_.fixed_sets.empty()) result_.groups.push_back({"fixed", 0, result_.fixed_sets.back().end});
         for (std::size_t i = 0; i < document_.handles.size(); ++i) add_handle(i);
         result_.values = Eigen::Map<const Eigen::VectorXd>(values_.data(), std::ssize(values_));
         return std::move(result_);
     }
 
 private:
-    void add_fixed(const Selector& selector) {
-        result_.set.base = claim(selector, "/fixed", kFixed);
-        add_group("fixed", result_.set.base.size());
+    void add_fixed(std::size_t i) {
+        const FixedSet& set = document_.fixed[i];
+        const std::string path = fixed_path(document_, i), select = path == "/fixed" ? path : path + "/select";
+        const std::vector<int> vertices = claim(set.select, select, kFirstFixed - static_cast<int>(i));
+        std::string name = set.name.empty() ? default_fixed_name(i) : set.name;
+        for (const ConstraintGroup& other : result_.fixed_sets)
+            if (other.name == name) fail_named_twice("/fixed", name);
+        const auto begin = static_cast<int>(result_.set.base.size());
+        result_.set.base.insert(result_.set.base.end(), vertices.begin(), vertices.end());
+        result_.fixed_sets.push_back({std::move(name), begin, static_cast<int>(result_.set.base.size())});
     }
 
     void add_handle(std::size_t i) {
@@ -78,7 +90,9 @@ private:
     }
 
     [[noreturn]] void fail_claimed(const std::string& path, int vertex, int owner) const {
-        const std::string other = owner == kFixed ? "/fixed" : handle_path(static_cast<std::size_t>(owner));
+        const std::string other = owner <= kFirstFixed
+                                      ? fixed_path(document_, static_cast<std::size_t>(kFirstFixed - owner))
+                                      : handle_path(static_cast<std::size_t>(owner));
         const Eigen::Vector3d x = mesh_.vertices.col(vertex);
         fail(scene_file_, path,
              "vertex " + std::to_string(vertex) + " at (" + readable_number(x.x(), 6) + ", " +
@@ -108,16 +122,23 @@ private:
 
     void add_group(std::string name, std::size_t n_vertices) {
         for (const ConstraintGroup& group : result_.groups)
-            if (group.name == name)
-                fail(scene_file_, "/handles", "two of them are called \"" + name + "\". Name them apart.");
+            if (group.name == name) fail_named_twice("/handles", name);
+        for (const ConstraintGroup& set : result_.fixed_sets)
+            if (set.name == name)
+                fail(scene_file_, "/handles",
+                     "one of them and a fixed set are called \"" + name + "\". Name them apart.");
         const int begin = result_.groups.empty() ? 0 : result_.groups.back().end;
         result_.groups.push_back({std::move(name), begin, begin + static_cast<int>(n_vertices)});
+    }
+
+    [[noreturn]] void fail_named_twice(const std::string& path, const std::string& name) const {
+        fail(scene_file_, path, "two of them are called \"" + name + "\". Name them apart.");
     }
 
     const Document& document_;
     const SurfaceMesh& mesh_;
     const fs::path& scene_file_;
-    std::vector<int> owner_;  ///< for every vertex: kNobody, kFixed, or the number of its handle
+    std::vector<int> owner_;  ///< for every vertex: kNobody, its handle, or kFirstFixed and below
     std::vector<double> values_;
     Constraints result_;
 };

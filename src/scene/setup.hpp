@@ -43,14 +43,15 @@ struct Constraints {
     ConstrainedSet set;                   ///< base: the fixed part; handles: those of all handles, one after the other
     Eigen::VectorXd values;               ///< 3 * set.handles.size(), node-major [L]
     std::vector<Motion> motions;          ///< of every handle; `values` are what they do to its vertices
-    std::vector<ConstraintGroup> groups;  ///< "fixed" first when there is one, then every handle
+    std::vector<ConstraintGroup> groups;  ///< "fixed", all of it, first when there is one, then every handle
+    std::vector<ConstraintGroup> fixed_sets = {};  ///< the parts of "fixed", as the document lists them
 
     bool has_fixed() const { return groups.size() > motions.size(); }
 };
 
 /// Throws SceneError naming the JSON path when a selector selects nothing or a vertex that is not there, when a vertex
-/// is constrained twice, when a handle is called "fixed" or as another one, or when its displacements are not one for
-/// each of its vertices or not finite.
+/// is constrained twice, when a handle is called "fixed", when two sets or handles have the same name, or when its
+/// displacements are not one for each of its vertices or not finite.
 Constraints make_constraints(const Document& document, const SurfaceMesh& mesh,
                              const std::filesystem::path& scene_file);
 

@@ -16,7 +16,7 @@ constexpr double kEventSeconds = 0.01;
 Document cube_document(int cells) {
     Document document;
     document.mesh = Primitive{.name = "cube", .resolution = cells, .size = {}};
-    document.fixed = Selector{PlaneSelector{{0, 0, 0}, {1, 0, 0}, 1e-9}};
+    document.fixed = {{.select = {PlaneSelector{{0, 0, 0}, {1, 0, 0}, 1e-9}}}};
     return document;
 }
 

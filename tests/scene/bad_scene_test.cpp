@@ -128,6 +128,14 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Selector, BadSceneTest,
     testing::Values(
+        BadScene{"FixedSetWithoutSelector", FIXED(R"([{"name": "a"}])"), "/fixed/0/select", "is missing"},
+        BadScene{"FixedSetAmongSelectors", FIXED(R"([{"vertices": [1]}, {"select": {"vertices": [2]}}])"),
+                 "/fixed/1/select", "Known ones"},
+        BadScene{"SelectorAmongFixedSets", FIXED(R"([{"select": {"vertices": [2]}}, {"vertices": [1]}])"),
+                 "/fixed/1/vertices", "Known ones"},
+        BadScene{"FixedSetNamedTwice", FIXED(R"([{"name": "a", )" SELECT R"(}, {"name": "a", )" SELECT "}]"),
+                 "/fixed/1/name", "is the name of fixed set 0"},
+        BadScene{"FixedSetWithEmptyName", FIXED(R"([{"name": "", )" SELECT "}]"), "/fixed/0/name", "is empty"},
         BadScene{"Number", FIXED("1"), "/fixed", "must be an object"}, BadScene{"None", FIXED("{}"), "/fixed", "has 0"},
         BadScene{"Two", FIXED(R"({"vertices": [1], "box": {}})"), "/fixed", "has 2"},
         BadScene{"EmptyList", FIXED("[]"), "/fixed", "selects nothing"},

@@ -10,7 +10,7 @@ constexpr std::size_t kMegabyte = std::size_t{1} << 20;
 /// So many vertices held, and a step that differs from all others.
 Document document(int n_held, int step) {
     Document result;
-    result.fixed = Selector{VertexSelector{std::vector<int>(static_cast<std::size_t>(n_held), step)}};
+    result.fixed = {{.select = {VertexSelector{std::vector<int>(static_cast<std::size_t>(n_held), step)}}}};
     return result;
 }
 

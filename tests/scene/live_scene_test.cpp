@@ -17,7 +17,7 @@ using testing::IsEmpty;
 LiveScene cube() {
     Document document;
     document.mesh = Primitive{.name = "cube", .resolution = 2, .size = {}};
-    document.fixed = Selector{PlaneSelector{{0, 0, 0}, {1, 0, 0}, 1e-9}};
+    document.fixed = {{.select = {PlaneSelector{{0, 0, 0}, {1, 0, 0}, 1e-9}}}};
     return {document, "cube.json"};
 }
 
@@ -108,6 +108,70 @@ TEST(LiveScene, FixedVerticesCanBeTakenBack) {
     EXPECT_THAT(scene.vertices(LiveScene::kFixed), IsEmpty());
     scene.fix(std::vector<int>{3, 1});
     EXPECT_THAT(scene.vertices(LiveScene::kFixed), ElementsAre(1, 3));
+}
+
+std::vector<int> members(std::span<const int> vertices) { return {vertices.begin(), vertices.end()}; }
+
+TEST(LiveScene, FixedSetsKeepTheirVerticesAndTogetherAreTheFixedPart) {
+    LiveScene scene = cube();
+    const std::vector<int> left = members(scene.fixed_vertices(0)), face = right_face(scene);
+    EXPECT_EQ(scene.fixed_name(0), "fixed");
+    scene.fix(std::vector<int>{face[0], left[0]}, scene.n_fixed_sets());
+    ASSERT_EQ(scene.n_fixed_sets(), 2);
+    EXPECT_EQ(scene.fixed_name(1), "fixed-1");
+    EXPECT_EQ(members(scene.fixed_vertices(0)), left) << "its vertices are left to it";
+    EXPECT_THAT(scene.fixed_vertices(1), ElementsAre(face[0]));
+    scene.fix(std::vector<int>{face[1]}, 0);
+    scene.fix(std::vector<int>{face[2]});  // to the last
+    EXPECT_EQ(scene.fixed_set_of(face[1]), 0);
+    EXPECT_EQ(scene.fixed_set_of(face[2]), 1);
+    EXPECT_EQ(scene.fixed_set_of(face[3]), LiveScene::kNobody);
+    EXPECT_EQ(scene.owner(face[2]), LiveScene::kFixed);
+    EXPECT_EQ(scene.vertices(LiveScene::kFixed).size(), left.size() + 3);
+    EXPECT_EQ(scene.add_handle(std::vector<int>{face[0], face[1]}), LiveScene::kNobody);
+}
+
+TEST(LiveScene, VerticesLeaveOneFixedSetOrAllAndAnEmptySetIsGone) {
+    LiveScene scene = cube();
+    const std::vector<int> left = members(scene.fixed_vertices(0)), face = right_face(scene);
+    scene.fix(face, 1);
+    scene.unfix(std::vector<int>{left[0], face[0]}, 1);
+    EXPECT_EQ(scene.fixed_set_of(left[0]), 0);
+    EXPECT_EQ(scene.owner(face[0]), LiveScene::kNobody);
+    scene.unfix(std::vector<int>{left[0], face[1]});
+    EXPECT_EQ(scene.fixed_vertices(0).size(), left.size() - 1);
+    EXPECT_EQ(scene.fixed_vertices(1).size(), face.size() - 2);
+    scene.unfix(left, 0);
+    ASSERT_EQ(scene.n_fixed_sets(), 1);
+    EXPECT_EQ(scene.fixed_name(0), "fixed-1") << "names stay";
+}
+
+TEST(LiveScene, FixedSetsAreMadeRenamedAndRemovedInStepsOfUndo) {
+    LiveScene scene = cube();
+    const std::vector<int> face = right_face(scene);
+    scene.fix(std::vector<int>{face[0]}, 1);
+    scene.commit();
+    scene.add_handle(std::vector<int>{face[1]});
+    scene.commit();
+    for (const char* name : {"", "fixed", "fixed-1", "handle-0"}) EXPECT_FALSE(scene.rename_fixed_set(1, name)) << name;
+    EXPECT_TRUE(scene.rename_fixed_set(1, "clamp"));
+    scene.commit();
+    EXPECT_FALSE(scene.rename_handle(0, "clamp"));
+    scene.remove_fixed_set(0);
+    scene.commit();
+    ASSERT_EQ(scene.n_fixed_sets(), 1);
+    EXPECT_EQ(scene.fixed_name(0), "clamp");
+    EXPECT_EQ(scene.handle_name(0), "handle-0");
+    scene.undo();
+    EXPECT_EQ(scene.n_fixed_sets(), 2);
+    EXPECT_EQ(scene.fixed_vertices(0).size(), 9u);
+    scene.undo();
+    EXPECT_EQ(scene.fixed_name(1), "fixed-1");
+    scene.undo();
+    scene.undo();
+    EXPECT_EQ(scene.n_fixed_sets(), 1);
+    scene.redo();
+    EXPECT_THAT(scene.fixed_vertices(1), ElementsAre(face[0]));
 }
 
 TEST(LiveScene, NewNamesAvoidThoseThatAreTaken) {

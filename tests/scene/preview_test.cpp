@@ -97,7 +97,7 @@ LiveScene open_box(const std::filesystem::path& folder, int cells, ProxyUse use)
     save_surface(folder / "box.obj", box);
     Document document;
     document.mesh = MeshFile{"box.obj"};
-    document.fixed = Selector{PlaneSelector{{0, 0, 0}, {1, 0, 0}, 1e-9}};
+    document.fixed = {{.select = {PlaneSelector{{0, 0, 0}, {1, 0, 0}, 1e-9}}}};
     document.proxy.use = use;
     return {document, folder / "scene.json"};
 }

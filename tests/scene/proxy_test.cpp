@@ -29,7 +29,7 @@ Selector slab(double low, double high) { return {BoxSelector{{low, -9, -9}, {hig
 /// A bar along x with both ends constrained.
 Document bar(const Motion& motion) {
     Document document;
-    document.fixed = slab(-9, 0.3);
+    document.fixed = {{.select = slab(-9, 0.3)}};
     document.handles = {{.name = "end", .select = slab(3.8, 9), .motion = motion}};
     return document;
 }
@@ -86,8 +86,9 @@ TEST(CarriedConstraints, ConstrainedShownVerticesGoExactlyWhereTheyArePut) {
 TEST(CarriedConstraints, ATurnOfEverythingIsATurn) {
     const Eigen::Matrix3d spin = (Eigen::Matrix3d() << 0, -0.2, 0.1, 0.2, 0, -0.3, -0.1, 0.3, 0).finished();
     Document document = bar(AffineMotion{.matrix = spin});
-    document.handles.push_back({.name = "other", .select = *document.fixed, .motion = AffineMotion{.matrix = spin}});
-    document.fixed.reset();
+    document.handles.push_back(
+        {.name = "other", .select = document.fixed[0].select, .motion = AffineMotion{.matrix = spin}});
+    document.fixed.clear();
     const Constraints shown = make_constraints(document, kBar, "s.json");
     CarriedConstraints carried(proxy_of(kBar, 250));
     carried.set(shown);
@@ -144,7 +145,7 @@ TEST(Proxy, AnswersWithinATenthOfTheFineAnswer) {
         const SurfaceMesh mesh = make_primitive(name, std::string(name) == "beam" ? 4 : 5, {});
         const double low = mesh.vertices.row(0).minCoeff(), high = mesh.vertices.row(0).maxCoeff();
         Document document;
-        document.fixed = slab(low - 1.0, low + 0.2 * (high - low));
+        document.fixed = {{.select = slab(low - 1.0, low + 0.2 * (high - low))}};
         document.handles = {{.name = "end",
                              .select = slab(high - 0.15 * (high - low), high + 1.0),
                              .motion = AffineMotion{.translate = {0.1, 0.3, 0.2}}}};

@@ -13,6 +13,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 /// Every kind of thing that a scene can hold, with numbers that decimal digits hold badly.
 Document everything() {
@@ -22,7 +23,7 @@ Document everything() {
     document.method = kConstantBem;
     const Selector box{BoxSelector{.min = {-1e-300, 0.1, -3}, .max = {0.2, 0.7, 1e300}}};
     const Selector plane{PlaneSelector{.point = {0, 0, 0.3}, .normal = {0, 0, -2}, .tolerance = 1e-9}};
-    document.fixed = Selector{std::vector<Selector>{box, Selector{std::vector<Selector>{plane}}}};
+    document.fixed = {{.select = {std::vector<Selector>{box, Selector{std::vector<Selector>{plane}}}}}};
     document.handles.push_back(
         {.name = "ear \"left\", \xC3\xA4",
          .select = {SphereSelector{.center = {0, 1, 0}, .radius = 0.1}},
@@ -66,7 +67,7 @@ TEST(SceneFile, HasDefaultsForAllButVersionAndMesh) {
     EXPECT_EQ(std::get<MeshFile>(document.mesh).file, "bunny.obj");
     EXPECT_EQ(document.method, kLinearBem);
     EXPECT_EQ(document.material.poisson_ratio, 0.3);
-    EXPECT_FALSE(document.fixed.has_value());
+    EXPECT_TRUE(document.fixed.empty());
     EXPECT_TRUE(document.handles.empty());
 }
 
@@ -88,6 +89,38 @@ TEST(SceneFile, ReadsTheExampleOfTheReadme) {
     EXPECT_EQ(document.handles[0].name, "ear");
     EXPECT_EQ(std::get<AffineMotion>(document.handles[1].motion).matrix(1, 2), -0.2);
     EXPECT_EQ(std::get<VertexMotion>(document.handles[2].motion).displacements[1].x(), 0.2);
+}
+
+std::string scene_with_fixed(const std::string& fixed) {
+    return R"({"elastolab": 1, "mesh": {"primitive": "cube", "resolution": 2}, "fixed": )" + fixed + "}";
+}
+
+TEST(SceneFile, KeepsNamedFixedSetsInTheirOrder) {
+    Document document = everything();
+    document.fixed = {{.name = "left", .select = {VertexSelector{{0, 4}}}},
+                      {.select = {VertexSelector{{7}}}},
+                      {.name = "\xC3\xA4", .select = {SphereSelector{.center = {0, 0, 0}, .radius = 0.5}}}};
+    EXPECT_TRUE(parse_scene(print_scene(document), "test") == document) << print_scene(document);
+    document.fixed.resize(1);
+    EXPECT_TRUE(parse_scene(print_scene(document), "test") == document) << "one alone has a name, too";
+}
+
+TEST(SceneFile, ReadsASelectorOrAListOfSelectorsAsOneFixedSetWithoutAName) {
+    const Selector corner{VertexSelector{{0}}}, other{VertexSelector{{1, 2}}};
+    const auto fixed = [](const std::string& text) { return parse_scene(scene_with_fixed(text), "test").fixed; };
+    EXPECT_EQ(fixed(R"({"vertices": [0]})"), std::vector<FixedSet>{{.select = corner}});
+    EXPECT_EQ(fixed(R"([{"vertices": [0]}, {"vertices": [1, 2]}])"),
+              (std::vector<FixedSet>{{.select = {std::vector<Selector>{corner, other}}}}));
+    EXPECT_EQ(fixed(R"([{"select": {"vertices": [0]}}, {"name": "b", "select": {"vertices": [1, 2]}}])"),
+              (std::vector<FixedSet>{{.select = corner}, {.name = "b", .select = other}}));
+}
+
+TEST(SceneFile, WritesASingleFixedSetWithoutANameOfItsOwnAsBefore) {
+    Document document = parse_scene(scene_with_fixed(R"({"vertices": [5]})"), "test");
+    const std::string text = print_scene(document);
+    EXPECT_THAT(text, Not(HasSubstr("select")));
+    document.fixed.front().name = "fixed";  // as the viewer calls it
+    EXPECT_EQ(print_scene(document), text);
 }
 
 TEST(SceneFile, CannotHoldNamesThatAreNotUtf8) {

@@ -24,7 +24,7 @@ const Selector kRight{BoxSelector{.min = {1, 0, 0}, .max = {1, 1, 1}}};
 Document cube() {
     Document document;
     document.mesh = Primitive{.name = "cube", .resolution = 2, .size = {}};
-    document.fixed = kLeft;
+    document.fixed = {{.select = kLeft}};
     return document;
 }
 
@@ -68,7 +68,7 @@ TEST(Setup, AnAffineHandleMovesEveryVertexByItsRestPosition) {
 
 TEST(Setup, DisplacementsFollowTheOrderOfTheirVertices) {
     Document document = cube();
-    document.fixed.reset();
+    document.fixed.clear();
     document.handles.push_back(
         {.name = "", .select = {VertexSelector{{20, 3}}}, .motion = VertexMotion{{{1, 2, 3}, {4, 5, 6}}}});
     const Constraints result = constraints(document);
@@ -78,7 +78,7 @@ TEST(Setup, DisplacementsFollowTheOrderOfTheirVertices) {
 
 TEST(Setup, GroupsAreTheFixedPartAndThenTheHandles) {
     Document document = cube();
-    document.fixed = Selector{VertexSelector{{0, 1, 2}}};
+    document.fixed = {{.select = {VertexSelector{{0, 1, 2}}}}};
     document.handles.push_back({.name = "", .select = {VertexSelector{{25}}}, .motion = AffineMotion{}});
     document.handles.push_back({.name = "b", .select = {VertexSelector{{24, 23}}}, .motion = AffineMotion{}});
     const Constraints result = constraints(document);
@@ -90,6 +90,36 @@ TEST(Setup, GroupsAreTheFixedPartAndThenTheHandles) {
     EXPECT_EQ(result.groups[2].begin, 4);
     EXPECT_EQ(result.groups[2].end, 6);
     EXPECT_THAT(result.set.handles, ElementsAre(25, 24, 23));
+}
+
+TEST(Setup, FixedSetsAreOneGroupTogether) {
+    Document document = cube();
+    document.fixed = {{.name = "a", .select = {VertexSelector{{4, 1}}}}, {.select = {VertexSelector{{0, 9, 3}}}}};
+    document.handles.push_back({.name = "h", .select = {VertexSelector{{25}}}, .motion = AffineMotion{}});
+    const Constraints result = constraints(document);
+    EXPECT_THAT(result.set.base, ElementsAre(4, 1, 0, 9, 3));
+    ASSERT_EQ(result.groups.size(), 2U);
+    EXPECT_EQ(result.groups[0].name, "fixed");
+    EXPECT_EQ(result.groups[0].end, 5);
+    EXPECT_EQ(result.groups[1].begin, 5);
+    ASSERT_EQ(result.fixed_sets.size(), 2U);
+    EXPECT_EQ(result.fixed_sets[0].name, "a");
+    EXPECT_EQ(result.fixed_sets[1].name, "fixed-1");
+    EXPECT_EQ(result.fixed_sets[1].begin, 2);
+    EXPECT_EQ(result.fixed_sets[1].end, 5);
+}
+
+TEST(Setup, FixedSetsAreDisjointAndNamedApart) {
+    Document document = cube();
+    document.fixed.push_back({.select = {VertexSelector{{25, 0}}}});
+    EXPECT_THAT(refusal(document), HasSubstr("s.json: /fixed/1/select: vertex 0"));
+    EXPECT_THAT(refusal(document), HasSubstr("also belongs to /fixed/0"));
+    document.fixed[1] = {.name = "fixed", .select = kRight};
+    EXPECT_THAT(refusal(document), HasSubstr("/fixed: two of them are called \"fixed\""));
+    document.fixed[1].name = "a";
+    document.handles.push_back(
+        {.name = "a", .select = {BoxSelector{{0.5, 0, 0}, {0.5, 0, 0}}}, .motion = AffineMotion{}});
+    EXPECT_THAT(refusal(document), HasSubstr("and a fixed set are called \"a\""));
 }
 
 TEST(Setup, NoVertexIsConstrainedTwice) {

@@ -21,7 +21,7 @@ inline const std::vector<MethodKind> kLinear = {kLinearBem};
 inline LiveScene cube(int cells = 3) {
     Document document;
     document.mesh = Primitive{.name = "cube", .resolution = cells, .size = {}};
-    document.fixed = Selector{PlaneSelector{{0, 0, 0}, {1, 0, 0}, 1e-9}};
+    document.fixed = {{.select = {PlaneSelector{{0, 0, 0}, {1, 0, 0}, 1e-9}}}};
     return {document, "cube.json"};
 }
 

@@ -16,15 +16,6 @@ constexpr double kSpringSeconds = 0.25;
 /// False for vertices inside the body: they show where it is cut open, and cannot be grabbed.
 bool is_on_surface(const GestureContext& context, int vertex) { return vertex < context.scene.mesh().n_vertices(); }
 
-/// Fixes these vertices, those inside the body aside, or frees them.
-void fix_or_free(const GestureContext& context, std::vector<int> vertices, Hold hold) {
-    std::erase_if(vertices, [&](int v) { return !is_on_surface(context, v); });
-    if (hold == Hold::free)
-        context.scene.unfix(vertices);
-    else
-        context.scene.fix(vertices);
-}
-
 /// What a press at this free vertex takes hold of.
 std::vector<int> free_patch(const GestureContext& context, int vertex) {
     return patch_around(context.scene.mesh(), context.graph, vertex, context.tools.patch_radius,
@@ -124,6 +115,7 @@ void Gestures::press_body(GestureContext& context, const PickHit& hit) {
     }
     const int owner = context.scene.owner(hit.vertex);
     if (owner == LiveScene::kFixed) {
+        selected_fixed_ = context.scene.fixed_set_of(hit.vertex);
         hint_ = "This vertex is fixed. Free it with the brush (B) and Shift.";
         action_ = Action::blocked;  // to turn the view would look as if the body had been pulled
     } else if (owner != LiveScene::kNobody) {
@@ -206,8 +198,28 @@ void Gestures::paint(GestureContext& context) {
                 hold_);
 }
 
+/// Fixes these vertices, those inside the body aside, or frees them, in the selected set.
+void Gestures::fix_or_free(const GestureContext& context, std::vector<int> vertices, Hold hold) {
+    std::erase_if(vertices, [&](int v) { return !is_on_surface(context, v); });
+    LiveScene& scene = context.scene;
+    const bool selected = selected_fixed_ >= 0 && selected_fixed_ <= scene.n_fixed_sets();
+    const int n_before = scene.n_fixed_sets();
+    if (hold == Hold::free)
+        scene.unfix(vertices, selected ? selected_fixed_ : LiveScene::kFixed);
+    else if (selected)
+        scene.fix(vertices, selected_fixed_);
+    else
+        scene.fix(vertices);
+    // The selected set has lost its last vertex, and its number is another's now.
+    if (selected && scene.n_fixed_sets() < n_before) selected_fixed_ = scene.n_fixed_sets();
+}
+
 void Gestures::toggle_fixed(GestureContext& context, int vertex) {
-    fix_or_free(context, {vertex}, context.scene.owner(vertex) == LiveScene::kFixed ? Hold::free : Hold::fix);
+    const LiveScene& scene = context.scene;
+    const int set = scene.fixed_set_of(vertex);
+    if (set >= 0 && selected_fixed_ >= 0 && set != selected_fixed_)
+        hint_ = "This vertex belongs to the fixed set \"" + scene.fixed_name(set) + "\". Select that one to free it.";
+    fix_or_free(context, {vertex}, set >= 0 ? Hold::free : Hold::fix);
 }
 
 void Gestures::end_box(GestureContext& context) {
@@ -252,6 +264,7 @@ void Gestures::finish(GestureContext& context) {
     button_ = -1;
     end_spring(context);
     selected_ = std::min(selected_, context.scene.n_handles() - 1);
+    selected_fixed_ = std::min(selected_fixed_, context.scene.n_fixed_sets());
     hover_ = {};
 }
 

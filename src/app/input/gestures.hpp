@@ -53,7 +53,9 @@ enum class Hold { fix, free };
 ///   empty    left: orbit; right, middle or Shift + left: pan; double click: frame the body
 ///   gizmo    left: an arrow moves the handle (or the plane of the cut), a ring turns it; Ctrl snaps
 ///   wheel    zoom to the cursor
-///   brush    left fixes vertices under the brush, with Shift frees them; a click fixes or frees one vertex
+///   brush    left adds vertices under the brush to the selected fixed set, with Shift frees them; a click fixes or
+///   frees
+///            one vertex
 ///   box      left draws a box, likewise
 ///   probe    a click chooses a vertex, a drag turns the view
 class Gestures {
@@ -76,6 +78,10 @@ public:
     /// The handle that was grabbed last (or chosen), for the panel and for removal; -1: none.
     int selected_handle() const { return selected_; }
     void select_handle(int handle) { selected_ = handle; }
+    /// The fixed set that brush and box change: -1: add to the last one, and free vertices of all; n_fixed_sets(): a
+    /// new one, from the next stroke on.
+    int selected_fixed() const { return selected_fixed_; }
+    void select_fixed(int set) { selected_fixed_ = set; }
     /// The box that is being drawn: two corners [pixels].
     std::optional<std::pair<Eigen::Vector2d, Eigen::Vector2d>> box() const;
     const Eigen::Vector2d& cursor() const { return cursor_; }
@@ -137,6 +143,7 @@ private:
     void end_pull(GestureContext& context);
     void paint(GestureContext& context);
     void end_box(GestureContext& context);
+    void fix_or_free(const GestureContext& context, std::vector<int> vertices, Hold hold);
     void toggle_fixed(GestureContext& context, int vertex);
     bool is_double_click(const InputEvent& event);
     const PointingTarget* target_at(const GestureContext& context) const;
@@ -156,7 +163,7 @@ private:
     std::optional<Spring> spring_;
     std::optional<GizmoDrag> gizmo_drag_;
     DisplaySettings plane_before_;  ///< as it was taken hold of
-    int selected_ = -1;
+    int selected_ = -1, selected_fixed_ = -1;
     double last_press_seconds_ = -1.0;
     Eigen::Vector2d last_press_ = Eigen::Vector2d::Zero();
     bool frame_requested_ = false;

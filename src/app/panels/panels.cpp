@@ -109,6 +109,7 @@ void Panels::visit_user_texts(const ViewerState& state, const std::function<void
     visit(scene.name());
     visit(scene.file().string());
     for (int handle = 0; handle < scene.n_handles(); ++handle) visit(scene.handle_name(handle));
+    for (int set = 0; set < scene.n_fixed_sets(); ++set) visit(scene.fixed_name(set));
     for (const Messages::Message& message : state.messages.all()) visit(message.text);
     for (const std::filesystem::path& file : state.recent_files()) visit(file.string());
     files_.visit_texts(visit);

@@ -56,7 +56,11 @@ private:
     void draw_mode(const PanelContext& context);
     void draw_body(const PanelContext& context);
     void draw_pull(const PanelContext& context);
+    void draw_fixed_sets(const PanelContext& context);
+    void draw_handles(const PanelContext& context);
     void draw_handle(const PanelContext& context, int handle);
+    void draw_name(const PanelContext& context, int owner, const std::string& name,
+                   const std::function<bool(const std::string&)>& rename);
     void draw_probes(const PanelContext& context);
     void draw_compare(const PanelContext& context);
     void draw_display(const PanelContext& context);
@@ -93,10 +97,10 @@ private:
     int unsaved_choice_ = 0;  ///< which button of the question Enter presses
     std::string primitive_ = "cube";
     int resolution_ = 13;
-    std::optional<double> typed_modulus_;             ///< Young's modulus while it is typed
-    std::optional<int> proxy_vertices_;               ///< while the slider is held
-    std::pair<int, std::string> typed_name_{-1, ""};  ///< of a handle, while it is typed
-    bool side_fits_ = true;                           ///< the side panel's content did, in the last frame
+    std::optional<double> typed_modulus_;     ///< Young's modulus while it is typed
+    std::optional<int> proxy_vertices_;       ///< while the slider is held
+    std::map<int, std::string> typed_names_;  ///< of handles, or kFixed and below of fixed sets, while they are typed
+    bool side_fits_ = true;                   ///< the side panel's content did, in the last frame
     std::uint64_t costs_of_scene_ = 0;
     std::vector<std::string> warnings_;  ///< as they are shown, of this scene and method:
     std::pair<std::uint64_t, MethodKind> warnings_of_;

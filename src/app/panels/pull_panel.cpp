@@ -120,59 +120,125 @@ void draw_reaction(const ShownBody* shown, const std::string& name, const Colour
     }
 }
 
+std::string vertices_text(const std::string& name, std::span<const int> vertices) {
+    return name + ": " + count_text(std::ssize(vertices)) + (vertices.size() == 1 ? " vertex" : " vertices");
+}
+
+/// What was done to a row of a list of handles or fixed sets.
+struct RowAnswer {
+    bool clicked = false, removed = false;
+};
+
+/// A row that can be selected, with a button at its right that removes what it stands for.
+RowAnswer draw_row(const std::string& text, bool selected, const Colour& colour, float scale) {
+    ImGui::PushStyleColor(ImGuiCol_Text, imgui_colour(colour));
+    const float room = ImGui::GetContentRegionAvail().x - 60.0f * scale;
+    const bool clicked = ImGui::Selectable((text + "###row").c_str(), selected, 0, {room, 0});
+    ImGui::PopStyleColor();
+    ImGui::SameLine();
+    return {clicked, ImGui::SmallButton("remove")};
+}
+
+/// Begins a fixed set that the next stroke makes, with a tool that makes strokes.
+void begin_fixed_set(ViewerState& state) {
+    state.gestures.select_fixed(state.scene().n_fixed_sets());
+    if (state.tools.tool != Tool::box) state.tools.tool = Tool::brush;
+}
+
+void draw_new_fixed_set(const PanelContext& context) {
+    ViewerState& state = context.state;
+    const bool begun = state.gestures.selected_fixed() == state.scene().n_fixed_sets();
+    if (ImGui::Button("New fixed set")) begin_fixed_set(state);
+    tooltip("What brush and box take next becomes a set of its own, with a name.");
+    if (!begun || state.scene().n_fixed_sets() == 0) return;
+    ImGui::SameLine();
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextColored(imgui_colour(context.palette.fixed_active), "now brush or box");
+}
+
 }  // namespace
+
+/// A text field for the name of a handle or a fixed set; `rename` says whether it takes the name.
+void Panels::draw_name(const PanelContext& context, int owner, const std::string& name,
+                       const std::function<bool(const std::string&)>& rename) {
+    ViewerState& state = context.state;
+    const auto kept = typed_names_.find(owner);
+    std::string typed = kept == typed_names_.end() ? name : kept->second;
+    set_item_width(context.gui.scale());
+    const bool entered = ImGui::InputText("name", &typed, ImGuiInputTextFlags_EnterReturnsTrue);
+    if (ImGui::IsItemActive())
+        typed_names_[owner] = typed;
+    else
+        typed_names_.erase(owner);
+    typed = one_line(typed);
+    if ((entered || ImGui::IsItemDeactivatedAfterEdit()) && typed != name) {
+        if (rename(typed))
+            state.scene().commit();
+        else
+            state.messages.error("\"" + typed + "\" cannot be its name: it is empty or taken. Type another.");
+    }
+}
 
 /// Name, placement and forces of the selected handle.
 void Panels::draw_handle(const PanelContext& context, int handle) {
+    LiveScene& scene = context.state.scene();
+    draw_name(context, handle, scene.handle_name(handle),
+              [&](const std::string& name) { return scene.rename_handle(handle, name); });
+    draw_placement(context.state, handle, context.gui.scale());
+    draw_reaction(context.state.shown.body(context.state.method), scene.handle_name(handle), context.palette.text_dim);
+}
+
+/// The fixed sets, of which brush and box change the selected one, and what holds them all.
+void Panels::draw_fixed_sets(const PanelContext& context) {
     ViewerState& state = context.state;
-    const float scale = context.gui.scale();
-    const std::string& name = state.scene().handle_name(handle);
-    if (typed_name_.first != handle) typed_name_ = {handle, name};
-    set_item_width(scale);
-    const bool entered = ImGui::InputText("name", &typed_name_.second, ImGuiInputTextFlags_EnterReturnsTrue);
-    if (entered || ImGui::IsItemDeactivatedAfterEdit()) {
-        const std::string typed = one_line(typed_name_.second);
-        if (typed != name && state.scene().rename_handle(handle, typed))
-            state.scene().commit();
-        else if (typed != name)
-            state.messages.error("\"" + typed +
-                                 "\" cannot be the name of a handle: it is empty or taken. Type another.");
+    LiveScene& scene = state.scene();
+    int removed = -1;
+    for (int set = 0; set < scene.n_fixed_sets(); ++set) {
+        ImGui::PushID(LiveScene::kFixed - set);
+        const bool selected = set == state.gestures.selected_fixed();
+        const RowAnswer answer =
+            draw_row(vertices_text(scene.fixed_name(set), scene.fixed_vertices(set)), selected,
+                     selected ? context.palette.fixed_active : context.palette.fixed, context.gui.scale());
+        if (answer.clicked) state.gestures.select_fixed(selected ? -1 : set);
+        if (selected)
+            draw_name(context, LiveScene::kFixed - set, scene.fixed_name(set),
+                      [&](const std::string& name) { return scene.rename_fixed_set(set, name); });
+        if (answer.removed) removed = set;
+        ImGui::PopID();
     }
-    if (!ImGui::IsItemActive()) typed_name_ = {handle, state.scene().handle_name(handle)};
-    draw_placement(state, handle, scale);
-    draw_reaction(state.shown.body(state.method), state.scene().handle_name(handle), context.palette.text_dim);
+    state.remove_fixed_set(removed);
+    draw_new_fixed_set(context);
+    draw_reaction(state.shown.body(state.method), "fixed", context.palette.text_dim);
+}
+
+void Panels::draw_handles(const PanelContext& context) {
+    ViewerState& state = context.state;
+    const LiveScene& scene = state.scene();
+    int removed = -1;
+    for (int h = 0; h < scene.n_handles(); ++h) {
+        ImGui::PushID(h);
+        const bool selected = h == state.gestures.selected_handle();
+        const RowAnswer answer =
+            draw_row(vertices_text(scene.handle_name(h), scene.vertices(h)), selected,
+                     selected ? context.palette.active : context.palette.handle, context.gui.scale());
+        if (answer.clicked) state.gestures.select_handle(selected ? -1 : h);
+        if (selected) draw_handle(context, h);
+        if (answer.removed) removed = h;
+        ImGui::PopID();
+    }
+    state.remove_handle(removed);
+    if (scene.n_handles() == 0)
+        paragraph("No handle yet: press on the body and pull.", context.palette.text_dim);
+    else if (ImGui::Button("Remove all handles"))
+        state.clear_handles();
 }
 
 void Panels::draw_pull(const PanelContext& context) {
     ViewerState& state = context.state;
     draw_tools(state, context.gui.scale());
     draw_patch(context);
-    const LiveScene& scene = state.scene();
-    ImGui::TextColored(imgui_colour(context.palette.fixed), "fixed: %s vertices",
-                       count_text(std::ssize(scene.vertices(LiveScene::kFixed))).c_str());
-    draw_reaction(state.shown.body(state.method), "fixed", context.palette.text_dim);
-    for (int h = 0; h < scene.n_handles(); ++h) {
-        ImGui::PushID(h);
-        const bool selected = h == state.gestures.selected_handle();
-        const std::string label = scene.handle_name(h) + ": " + count_text(std::ssize(scene.vertices(h))) + " vertices";
-        ImGui::PushStyleColor(ImGuiCol_Text, imgui_colour(selected ? context.palette.active : context.palette.handle));
-        if (ImGui::Selectable(label.c_str(), selected, 0,
-                              {ImGui::GetContentRegionAvail().x - 60.0f * context.gui.scale(), 0}))
-            state.gestures.select_handle(selected ? -1 : h);
-        ImGui::PopStyleColor();
-        ImGui::SameLine();
-        const bool removed = ImGui::SmallButton("remove");
-        if (selected) draw_handle(context, h);
-        ImGui::PopID();
-        if (removed) {
-            state.remove_handle(h);
-            break;
-        }
-    }
-    if (scene.n_handles() == 0)
-        paragraph("No handle yet: press on the body and pull.", context.palette.text_dim);
-    else if (ImGui::Button("Remove all"))
-        state.clear_handles();
+    draw_fixed_sets(context);
+    draw_handles(context);
     if (const std::string& problem = state.shown.reaction_failure(state.method); !problem.empty())
         paragraph(problem, context.palette.bad);
 }

@@ -9,13 +9,18 @@ namespace elastolab {
 
 namespace {
 
+/// Which of several fixed sets a vertex is of.
+std::string set_text(const LiveScene& scene, int vertex) {
+    return scene.n_fixed_sets() < 2 ? "" : " in " + scene.fixed_name(scene.fixed_set_of(vertex));
+}
+
 std::string left_text(const ViewerState& state) {
     if (state.loading()) return "Loading...";
     const Gestures& gestures = state.gestures;
     if (gestures.hover().vertex >= 0) {
         const int v = gestures.hover().vertex, owner = state.scene().owner(v);
         std::string text = "vertex " + std::to_string(v);
-        if (owner == LiveScene::kFixed) text += ", fixed";
+        if (owner == LiveScene::kFixed) text += ", fixed" + set_text(state.scene(), v);
         if (owner >= 0) text += ", of " + state.scene().handle_name(owner);
         const auto n = std::ssize(gestures.hover().patch);
         if (n > 0) text += ", patch of " + count_text(n) + (n == 1 ? " vertex" : " vertices");

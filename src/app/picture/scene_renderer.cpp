@@ -133,7 +133,11 @@ void SceneRenderer::upload_points(const ViewerState& state, const ShownBody& bod
             if (seen[static_cast<std::size_t>(v)] != 0) points.push_back({body.positions().col(v), colour, size});
     };
     if (state.display.constraints) {
-        add_points(scene.vertices(LiveScene::kFixed), palette.fixed, crowd * kPointSize);
+        for (int s = 0; s < scene.n_fixed_sets(); ++s) {
+            const bool active = s == state.gestures.selected_fixed();
+            add_points(scene.fixed_vertices(s), active ? palette.fixed_active : palette.fixed,
+                       crowd * (active ? kActivePointSize : kPointSize));
+        }
         for (int h = 0; h < scene.n_handles(); ++h) {
             const bool active = h == state.gestures.selected_handle();
             add_points(scene.vertices(h), active ? palette.active : palette.handle,
@@ -263,6 +267,7 @@ SceneRenderer::Look SceneRenderer::look_of(const ViewerState& state, const Scene
     look.range = state.shown.field_range(state.display);
     look.hover = state.gestures.hover();
     look.selected_handle = state.gestures.selected_handle();
+    look.selected_fixed = state.gestures.selected_fixed();
     look.pulling = state.gestures.pulling();
     look.scene_number = state.scene_number();
     look.scene_revision = state.scene().revision();

@@ -64,7 +64,7 @@ private:
         DisplaySettings display;
         std::pair<double, double> range;
         Hover hover;
-        int selected_handle = -1;
+        int selected_handle = -1, selected_fixed = -1;
         bool pulling = false;
         std::uint64_t scene_number = 0, scene_revision = 0;
         const Palette* palette = nullptr;

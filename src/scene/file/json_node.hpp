@@ -28,6 +28,7 @@ public:
     JsonNode at(std::string_view key, std::string_view hint) const;
     std::optional<JsonNode> find(std::string_view key) const;
 
+    bool is_object() const { return value_->is_object(); }
     bool is_array() const { return value_->is_array(); }
     /// Requires an array, and `size` members unless it is negative.
     int array_size(int size = -1) const;

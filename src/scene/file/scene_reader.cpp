@@ -170,6 +170,45 @@ Handle read_handle(const JsonNode& node) {
     return handle;
 }
 
+/// The last of these, which `node` holds, has a name that none before it has. `kind`: what they are.
+template <class Named>
+void require_new_name(const JsonNode& node, const std::vector<Named>& all, const std::string& kind) {
+    const auto last = std::prev(all.end());
+    const auto first = std::find_if(all.begin(), last, [&](const Named& other) { return other.name == last->name; });
+    if (last->name.empty() || first == last) return;
+    const JsonNode name = node.at("name", "");
+    name.fail(name.quoted() + " is the name of " + kind + " " + std::to_string(first - all.begin()) +
+              " already. Choose another name.");
+}
+
+FixedSet read_fixed_set(const JsonNode& node) {
+    node.require_keys({"name", "select"});
+    FixedSet set;
+    if (const auto name = node.find("name")) {
+        set.name = name->text();
+        if (set.name.empty()) name->fail("is empty. Give a name, or leave the key out.");
+    }
+    set.select = read_selector(node.at("select", "Say which vertices are fixed."));
+    return set;
+}
+
+/// A selector, or a list of sets, which have a "select" each, where selectors have a shape.
+std::vector<FixedSet> read_fixed(const JsonNode& node) {
+    const auto is_set = [](const JsonNode& member) {
+        return member.is_object() && (member.has("select") || member.has("name"));
+    };
+    std::vector<FixedSet> sets;
+    if (!node.is_array() || node.array_size() == 0 || !is_set(node[0])) {
+        sets.push_back({.select = read_selector(node)});
+        return sets;
+    }
+    for (int i = 0; i < node.array_size(); ++i) {
+        sets.push_back(read_fixed_set(node[i]));
+        require_new_name(node[i], sets, "fixed set");
+    }
+    return sets;
+}
+
 ProxyChoice read_proxy(const JsonNode& node) {
     node.require_keys({"use", "vertices"});
     ProxyChoice proxy;
@@ -197,23 +236,12 @@ ViewPoint read_camera(const JsonNode& node) {
     return view;
 }
 
-/// The last of `handles`, which `node` holds, has a name that none before it has.
-void require_new_name(const JsonNode& node, const std::vector<Handle>& handles) {
-    const auto last = std::prev(handles.end());
-    const auto same = [&](const Handle& handle) { return handle.name == last->name; };
-    const auto first = std::find_if(handles.begin(), last, same);
-    if (last->name.empty() || first == last) return;
-    const JsonNode name = node.at("name", "");
-    name.fail(name.quoted() + " is the name of handle " + std::to_string(first - handles.begin()) +
-              " already. Choose another name.");
-}
-
 std::vector<Handle> read_handles(const JsonNode& node) {
     std::vector<Handle> handles;
     const int n = node.array_size();
     for (int i = 0; i < n; ++i) {
         handles.push_back(read_handle(node[i]));
-        require_new_name(node[i], handles);
+        require_new_name(node[i], handles, "handle");
     }
     return handles;
 }
@@ -229,7 +257,7 @@ Document parse_scene(std::string_view text, const std::string& name) {
     document.mesh = read_mesh(root.at("mesh", "Give a mesh file or a primitive."));
     if (const auto material = root.find("material")) document.material = read_material(*material);
     if (const auto method = root.find("method")) document.method = read_method(*method);
-    if (const auto fixed = root.find("fixed")) document.fixed = read_selector(*fixed);
+    if (const auto fixed = root.find("fixed")) document.fixed = read_fixed(*fixed);
     if (const auto handles = root.find("handles")) document.handles = read_handles(*handles);
     if (const auto proxy = root.find("proxy")) document.proxy = read_proxy(*proxy);
     if (const auto camera = root.find("camera")) document.camera = read_camera(*camera);

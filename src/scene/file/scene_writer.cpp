@@ -67,6 +67,18 @@ Json to_json(const Handle& handle) {
     return json;
 }
 
+Json to_json(const std::vector<FixedSet>& sets) {
+    if (is_plain(sets)) return to_json(sets.front().select);
+    Json list = Json::array();
+    for (const FixedSet& set : sets) {
+        Json json = Json::object();
+        if (!set.name.empty()) json["name"] = set.name;
+        json["select"] = to_json(set.select);
+        list.push_back(std::move(json));
+    }
+    return list;
+}
+
 Json to_json(const ViewPoint& view) {
     return {{"eye", to_json(view.eye)},
             {"target", to_json(view.target)},
@@ -81,7 +93,7 @@ Json to_json(const Document& document) {
         {"material",
          {{"young_modulus", document.material.young_modulus}, {"poisson_ratio", document.material.poisson_ratio}}},
         {"method", std::string(name(document.method))}};
-    if (document.fixed) json["fixed"] = to_json(*document.fixed);
+    if (!document.fixed.empty()) json["fixed"] = to_json(document.fixed);
     json["handles"] = Json::array();
     for (const Handle& handle : document.handles) json["handles"].push_back(to_json(handle));
     if (document.proxy != ProxyChoice{})

@@ -29,7 +29,7 @@ std::size_t bytes_of(const Handle& handle) {
 
 std::size_t bytes_of(const Document& document) {
     std::size_t bytes = sizeof(Document);
-    if (document.fixed) bytes += bytes_of(*document.fixed);
+    for (const FixedSet& set : document.fixed) bytes += sizeof(FixedSet) + set.name.size() + bytes_of(set.select);
     for (const Handle& handle : document.handles) bytes += bytes_of(handle);
     return bytes;
 }

@@ -8,14 +8,6 @@ namespace elastolab {
 
 namespace {
 
-/// "handle-0", "handle-1", ...: the first that no handle has.
-std::string unused_name(const std::vector<Handle>& handles) {
-    for (std::size_t n = 0;; ++n) {
-        std::string name = "handle-" + std::to_string(n);
-        if (std::none_of(handles.begin(), handles.end(), [&](const Handle& h) { return h.name == name; })) return name;
-    }
-}
-
 /// The vertices of `all` that are not among `some`.
 std::vector<int> without(std::span<const int> all, std::span<const int> some) {
     std::vector<int> sorted(some.begin(), some.end()), rest;
@@ -41,6 +33,8 @@ LiveScene::LiveScene(Document document, std::filesystem::path scene_file, Contro
         require_shape(mesh_.checked.report, mesh_.name);
     for (std::size_t i = 0; i < document_.handles.size(); ++i)
         if (std::string& name = document_.handles[i].name; name.empty()) name = "handle-" + std::to_string(i);
+    for (std::size_t i = 0; i < document_.fixed.size(); ++i)
+        if (std::string& name = document_.fixed[i].name; name.empty()) name = default_fixed_name(i);
     saved_ = document_;
     history_ = History(document_);
     surface_ = std::make_shared<const SurfaceMesh>(std::move(mesh_.checked.mesh));
@@ -56,15 +50,30 @@ Body LiveScene::body(MethodKind kind, const Proxy* proxy) const {
 
 std::span<const int> LiveScene::vertices(int owner) const {
     if (owner == kFixed) return constraints_.set.base;
-    const auto group = static_cast<std::size_t>(owner) + (document_.fixed ? 1 : 0);
+    const auto group = static_cast<std::size_t>(owner) + (constraints_.has_fixed() ? 1 : 0);
     const ConstraintGroup& range = constraints_.groups[group];
     const auto n_base = constraints_.set.base.size();
     return std::span<const int>(constraints_.set.handles)
         .subspan(static_cast<std::size_t>(range.begin) - n_base, static_cast<std::size_t>(range.end - range.begin));
 }
 
+std::span<const int> LiveScene::fixed_vertices(int set) const {
+    const ConstraintGroup& range = constraints_.fixed_sets[static_cast<std::size_t>(set)];
+    return std::span<const int>(constraints_.set.base)
+        .subspan(static_cast<std::size_t>(range.begin), static_cast<std::size_t>(range.end - range.begin));
+}
+
+int LiveScene::fixed_set_of(int vertex) const {
+    if (owner(vertex) != kFixed) return kNobody;
+    const std::vector<int>& all = constraints_.set.base;
+    const auto place = std::find(all.begin(), all.end(), vertex) - all.begin();
+    int set = 0;
+    while (constraints_.fixed_sets[static_cast<std::size_t>(set)].end <= place) ++set;
+    return set;
+}
+
 const std::string& LiveScene::handle_name(int handle) const {
-    return constraints_.groups[static_cast<std::size_t>(handle) + (document_.fixed ? 1 : 0)].name;
+    return constraints_.groups[static_cast<std::size_t>(handle) + (constraints_.has_fixed() ? 1 : 0)].name;
 }
 
 std::vector<int> LiveScene::only_free(std::span<const int> vertices) const {
@@ -74,12 +83,19 @@ std::vector<int> LiveScene::only_free(std::span<const int> vertices) const {
     return result;
 }
 
+/// "handle-0", "handle-1", ...: the first that nobody has.
+std::string LiveScene::unused_handle_name() const {
+    std::size_t n = 0;
+    while (is_taken("handle-" + std::to_string(n))) ++n;
+    return "handle-" + std::to_string(n);
+}
+
 int LiveScene::add_handle(std::span<const int> vertices) {
     std::vector<int> own = only_free(vertices);
     if (own.empty()) return kNobody;
     Document changed = document_;
     changed.handles.push_back(
-        {.name = unused_name(document_.handles), .select = {VertexSelector{std::move(own)}}, .motion = AffineMotion{}});
+        {.name = unused_handle_name(), .select = {VertexSelector{std::move(own)}}, .motion = AffineMotion{}});
     become(std::move(changed));
     return n_handles() - 1;
 }
@@ -96,37 +112,68 @@ void LiveScene::clear_handles() {
     become(std::move(changed));
 }
 
+bool LiveScene::is_taken(const std::string& name) const {
+    const auto has_name = [&](const auto& named) { return named.name == name; };
+    return std::any_of(document_.handles.begin(), document_.handles.end(), has_name) ||
+           std::any_of(document_.fixed.begin(), document_.fixed.end(), has_name);
+}
+
 bool LiveScene::rename_handle(int handle, const std::string& name) {
-    const std::vector<Handle>& all = document_.handles;
-    const bool taken = std::any_of(all.begin(), all.end(), [&](const Handle& h) { return h.name == name; });
-    if (name.empty() || name == "fixed" || taken) return false;
+    if (name.empty() || name == "fixed" || is_taken(name)) return false;
     Document changed = document_;
     changed.handles[static_cast<std::size_t>(handle)].name = name;
     become(std::move(changed));
     return true;
 }
 
-void LiveScene::fix(std::span<const int> vertices) {
-    const std::span<const int> present = this->vertices(kFixed);
-    std::vector<int> all(present.begin(), present.end());
-    const std::vector<int> more = only_free(vertices);
-    if (more.empty()) return;
-    all.insert(all.end(), more.begin(), more.end());
-    std::sort(all.begin(), all.end());
-    replace_fixed(std::move(all));
-}
-
-void LiveScene::unfix(std::span<const int> vertices) {
-    std::vector<int> rest = without(this->vertices(kFixed), vertices);
-    if (rest.size() < this->vertices(kFixed).size()) replace_fixed(std::move(rest));
-}
-
-void LiveScene::replace_fixed(std::vector<int> vertices) {
+bool LiveScene::rename_fixed_set(int set, const std::string& name) {
+    if (name.empty() || is_taken(name)) return false;
     Document changed = document_;
-    if (vertices.empty())
-        changed.fixed.reset();
-    else
-        changed.fixed = Selector{VertexSelector{std::move(vertices)}};
+    changed.fixed[static_cast<std::size_t>(set)].name = name;
+    become(std::move(changed));
+    return true;
+}
+
+std::string LiveScene::unused_fixed_name() const {
+    std::size_t n = 0;
+    while (is_taken(default_fixed_name(n))) ++n;
+    return default_fixed_name(n);
+}
+
+void LiveScene::fix(std::span<const int> vertices, int set) {
+    std::vector<int> all = only_free(vertices);
+    if (all.empty()) return;
+    Document changed = document_;
+    if (set == n_fixed_sets()) {
+        changed.fixed.push_back({.name = unused_fixed_name(), .select = {}});
+    } else {
+        const std::span<const int> present = fixed_vertices(set);
+        all.insert(all.end(), present.begin(), present.end());
+    }
+    std::sort(all.begin(), all.end());
+    changed.fixed[static_cast<std::size_t>(set)].select = {VertexSelector{std::move(all)}};
+    become(std::move(changed));
+}
+
+void LiveScene::unfix(std::span<const int> vertices, int set) {
+    Document changed = document_;
+    bool any = false;
+    for (int s = n_fixed_sets() - 1; s >= 0; --s) {
+        if (set != kFixed && set != s) continue;
+        std::vector<int> rest = without(fixed_vertices(s), vertices);
+        if (rest.size() == fixed_vertices(s).size()) continue;
+        any = true;
+        if (rest.empty())
+            changed.fixed.erase(changed.fixed.begin() + s);
+        else
+            changed.fixed[static_cast<std::size_t>(s)].select = {VertexSelector{std::move(rest)}};
+    }
+    if (any) become(std::move(changed));
+}
+
+void LiveScene::remove_fixed_set(int set) {
+    Document changed = document_;
+    changed.fixed.erase(changed.fixed.begin() + set);
     become(std::move(changed));
 }
 
@@ -196,7 +243,7 @@ Constraints LiveScene::constraints_with_handle(std::span<const int> vertices) co
     all.values.conservativeResize(all.values.size() + 3 * std::ssize(own));
     all.values.tail(3 * std::ssize(own)).setZero();
     all.motions.emplace_back(AffineMotion{});
-    all.groups.push_back({unused_name(document_.handles), begin, begin + static_cast<int>(own.size())});
+    all.groups.push_back({unused_handle_name(), begin, begin + static_cast<int>(own.size())});
     return all;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -43,11 +44,16 @@ public:
 
     const Constraints& constraints() const { return constraints_; }
     int n_handles() const { return static_cast<int>(document_.handles.size()); }
-    /// The vertices of a handle, or of the fixed part (kFixed).
+    int n_fixed_sets() const { return static_cast<int>(document_.fixed.size()); }
+    /// The vertices of a handle, or of the fixed part, all its sets (kFixed).
     std::span<const int> vertices(int owner) const;
+    std::span<const int> fixed_vertices(int set) const;
     int owner(int vertex) const { return owners_[static_cast<std::size_t>(vertex)]; }
+    /// The fixed set of a vertex that kFixed owns; kNobody for others.
+    int fixed_set_of(int vertex) const;
     /// Name of a handle as constraints().groups has it.
     const std::string& handle_name(int handle) const;
+    const std::string& fixed_name(int set) const { return document_.fixed[static_cast<std::size_t>(set)].name; }
 
     /// Grows with every edit.
     std::uint64_t revision() const { return revision_; }
@@ -62,10 +68,17 @@ public:
     int add_handle(std::span<const int> vertices);
     void remove_handle(int handle);
     void clear_handles();
-    /// False when the name is empty, "fixed", or that of a handle: then nothing changes.
+    /// False when the name is empty, "fixed", or that of a handle or fixed set: then nothing changes.
     bool rename_handle(int handle, const std::string& name);
-    void fix(std::span<const int> vertices);
-    void unfix(std::span<const int> vertices);
+    /// Adds vertices to a fixed set, or, with n_fixed_sets(), makes a new one of them.
+    void fix(std::span<const int> vertices, int set);
+    /// To the last of the sets; to a new one where there is none.
+    void fix(std::span<const int> vertices) { fix(vertices, std::max(0, n_fixed_sets() - 1)); }
+    /// Takes vertices out of a fixed set, or out of all sets (kFixed). A set without any is gone.
+    void unfix(std::span<const int> vertices, int set = kFixed);
+    void remove_fixed_set(int set);
+    /// False when the name is empty, or that of a handle or fixed set: then nothing changes.
+    bool rename_fixed_set(int set, const std::string& name);
 
     // Edits of values.
     /// A motion that is not finite at every vertex of the handle is ignored.
@@ -89,7 +102,8 @@ public:
 
 private:
     std::vector<int> only_free(std::span<const int> vertices) const;
-    void replace_fixed(std::vector<int> vertices);
+    bool is_taken(const std::string& name) const;
+    std::string unused_handle_name() const, unused_fixed_name() const;
     void become(Document document);
 
     Document document_;

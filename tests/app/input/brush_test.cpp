@@ -49,6 +49,63 @@ TEST_F(Brush, AClickFixesOneVertexAndTheNextFreesIt) {
     EXPECT_EQ(n_fixed(), n_fixed_before);
 }
 
+TEST_F(Brush, ChangesTheSelectedFixedSetOnly) {
+    const LiveScene& scene = stage.scene();
+    stage.state.gestures.select_fixed(scene.n_fixed_sets());  // a new one
+    stroke();
+    ASSERT_EQ(scene.n_fixed_sets(), 2);
+    EXPECT_EQ(scene.fixed_set_of(right), 1);
+    EXPECT_EQ(stage.state.gestures.selected_fixed(), 1);
+    EXPECT_EQ(std::ssize(scene.fixed_vertices(0)), n_fixed_before);
+    stage.state.gestures.select_fixed(0);
+    stage.modifiers = GLFW_MOD_SHIFT;
+    stroke();
+    EXPECT_EQ(scene.fixed_set_of(right), 1) << "belongs to another one";
+    stage.state.gestures.select_fixed(-1);
+    stroke();
+    EXPECT_FALSE(is_fixed(right)) << "none selected: of all";
+}
+
+TEST_F(Brush, AClickInAnotherFixedSetSaysWhoseVertexItIs) {
+    stage.state.gestures.select_fixed(1);
+    stage.click(stage.pixel(right));
+    stage.state.gestures.select_fixed(0);
+    stage.click(stage.pixel(right));
+    EXPECT_TRUE(is_fixed(right));
+    EXPECT_NE(stage.state.gestures.hint().find("\"fixed-1\""), std::string::npos);
+}
+
+/// The number of a set that has lost its last vertex is that of the next one.
+TEST_F(Brush, GoesOnWithNoOtherFixedSetWhenItHasEmptiedItsOwn) {
+    const LiveScene& scene = stage.scene();
+    stage.state.gestures.select_fixed(1);
+    stage.click(stage.pixel(left));
+    stage.state.gestures.select_fixed(2);
+    stage.click(stage.pixel(right));
+    ASSERT_EQ(scene.n_fixed_sets(), 3);
+    stage.state.gestures.select_fixed(1);
+    stage.modifiers = GLFW_MOD_SHIFT;
+    stage.move(stage.pixel(left));
+    stage.press();
+    stage.move(stage.pixel(left) + Eigen::Vector2d(5, 0));
+    stage.move(stage.pixel(right));
+    stage.release();
+    EXPECT_FALSE(is_fixed(left));
+    EXPECT_TRUE(is_fixed(right));
+}
+
+TEST_F(Brush, UndoKeepsTheSelectedFixedSetByItsName) {
+    stage.state.gestures.select_fixed(0);
+    stroke();
+    stage.state.undo();
+    EXPECT_EQ(stage.state.gestures.selected_fixed(), 0);
+    stage.state.remove_fixed_set(0);
+    EXPECT_EQ(stage.state.gestures.selected_fixed(), -1);
+    EXPECT_EQ(n_fixed(), 0);
+    stage.state.undo();
+    EXPECT_EQ(n_fixed(), n_fixed_before);
+}
+
 TEST_F(Brush, LeavesHandlesAlone) {
     stage.scene().add_handle(std::vector<int>{right});
     stage.settle();

@@ -23,7 +23,7 @@ TEST(Palette, EveryTextCanBeReadInBothThemes) {
         for (const Colour Palette::*ground : {&Palette::panel, &Palette::panel_raised})
             for (const Colour Palette::*text :
                  {&Palette::text, &Palette::text_dim, &Palette::good, &Palette::busy, &Palette::bad, &Palette::fixed,
-                  &Palette::handle, &Palette::active, &Palette::probe, &Palette::accent})
+                  &Palette::fixed_active, &Palette::handle, &Palette::active, &Palette::probe, &Palette::accent})
                 EXPECT_GE(contrast(palette->*text, palette->*ground), 4.5)
                     << (palette == &dark_palette() ? "dark" : "light");
 }

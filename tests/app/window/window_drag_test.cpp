@@ -24,9 +24,9 @@ const Eigen::Vector2i kWindow(1000, 700);
 /// What the program shows at its start: its own camera and layout, computed here.
 class Screen {
 public:
-    explicit Screen(const std::filesystem::path& scene) {
+    explicit Screen(const std::filesystem::path& scene, const Eigen::Vector2i& window = kWindow) {
         state_.open_now(scene);
-        place_ = layout_of(kWindow, 1.0f).scene;
+        place_ = layout_of(window, 1.0f).scene;
         state_.shown.viewports = viewports_of(state_, place_);
         state_.frame_body();
     }
@@ -148,13 +148,13 @@ TEST(RealPanel, AHandleIsNamedMovedAndTurnedByTyping) {
     save_cube_with_handle(folder.path() / "cube.json");
     RealWindow window({"cube.json", "--size", "1000x900", "--scene-out", "out.json"}, folder.path());
     window.settle();
-    window.click({60, 482});
+    window.click({60, 510});
     window.settle();
-    window.click({90, 507});
+    window.click({90, 535});
     window.stroke("ctrl+a");
     window.type("tip");
     window.settle();
-    window.click({38, 536});  // along x
+    window.click({38, 564});  // along x
     window.stroke("ctrl+a");
     for (const char* key : {"0", "period", "2", "5", "Tab", "Tab", "Tab", "Tab", "Tab", "3", "0"}) window.stroke(key);
     window.type("");
@@ -169,6 +169,36 @@ TEST(RealPanel, AHandleIsNamedMovedAndTurnedByTyping) {
     EXPECT_LT((motion.matrix * middle + motion.translate - Eigen::Vector3d(0.25, 0, 0)).norm(), 1e-6);
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(std::acos(-1.0) / 6.0, Eigen::Vector3d::UnitZ()).toRotationMatrix();
     EXPECT_LT((motion.matrix - (turn - Eigen::Matrix3d::Identity())).norm(), 1e-6) << motion.matrix;
+}
+
+/// The button begins a set, a stroke of the brush makes it, its name is typed, and the set that was there is removed.
+TEST(RealPanel, AFixedSetIsBegunPaintedNamedAndAnotherRemoved) {
+    const TemporaryFolder folder;
+    save_cube_with_handle(folder.path() / "cube.json");
+    const Screen screen(folder.path() / "cube.json", {1000, 900});
+    RealWindow window({"cube.json", "--size", "1000x900", "--scene-out", "out.json"}, folder.path());
+    window.settle();
+    window.click({58, 486});
+    window.settle();
+    window.drag(screen.pixel({0.25, 0.5, 1}), screen.pixel({0.75, 0.5, 1}));
+    window.settle();
+    window.click({90, 449});
+    window.stroke("ctrl+a");
+    window.type("clamp");
+    window.settle();
+    window.click({273, 403});
+    window.settle();
+    ASSERT_EQ(window.quit().exit_code, 0);
+
+    const Document left = load_scene(folder.path() / "out.json");
+    ASSERT_EQ(left.fixed.size(), 1u);
+    EXPECT_EQ(left.fixed[0].name, "clamp");
+    const auto& painted = std::get<VertexSelector>(left.fixed[0].select.shape).vertices;
+    EXPECT_GE(painted.size(), 2u);
+    for (const int v : painted) {
+        EXPECT_EQ(screen.mesh().vertices(2, v), 1.0) << "on the top";
+        EXPECT_EQ(screen.mesh().vertices(1, v), 0.5) << "along the stroke";
+    }
 }
 
 /// A ball without its cap, in triangles that do not hang together, as careless scans come: pressed as soon as the
