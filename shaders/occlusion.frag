@@ -4,6 +4,7 @@
 uniform sampler2D depths;
 uniform mat4 projection;
 uniform float reach;  // [eye units]
+uniform ivec2 first_cell;  // of the picture, at the corner of what is drawn to: a cell is two by two pixels
 out float open;
 
 const int kSamples = 14;
@@ -31,7 +32,7 @@ vec3 tangent(vec3 here, ivec2 pixel, ivec2 step) {
 }
 
 void main() {
-    ivec2 pixel = 2 * ivec2(gl_FragCoord.xy);
+    ivec2 place = ivec2(gl_FragCoord.xy) + first_cell, pixel = 2 * place;
     float depth = texelFetch(depths, pixel, 0).r;
     open = 1.0;
     if (depth >= 1.0) return;
@@ -39,7 +40,7 @@ void main() {
     vec3 normal = normalize(cross(tangent(here, pixel, ivec2(2, 0)), tangent(here, pixel, ivec2(0, 2))));
     float height = float(textureSize(depths, 0).y);
     float radius = min(0.5 * height * projection[1][1] * reach / -here.z, 0.4 * height);
-    ivec2 cell = ivec2(gl_FragCoord.xy) & 3;
+    ivec2 cell = place & 3;
     float phase = float((cell.x * 4 + cell.y * 7 + 3 * (cell.x ^ cell.y)) & 15) / 16.0 * 2.0 * kPi;
     float sum = 0.0;
     for (int i = 0; i < kSamples; ++i) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 
 #include "base/error.hpp"
@@ -72,18 +73,20 @@ void copy_into(const Image& part, int x, int y, Image& whole) {
     }
 }
 
-/// Draws one viewport in tiles: each a window onto the whole of it, which OpenGL clips.
+/// Whether an area of the picture is drawn in tiles.
+bool is_tiled(const Area& area, int largest_tile) { return std::max(area.width, area.height) > largest_tile; }
+
+/// Draws one viewport in tiles: each a window onto the whole of it, which OpenGL clips. `draw` gets the tile, bound,
+/// and the place of its top left corner in the area.
 template <class Draw>
-void draw_tiles(const Area& area, int largest_tile, const Draw& draw, Image& picture) {
+void draw_tiles(const Area& area, int largest_tile, const Draw& draw) {
     for (int y = 0; y < area.height; y += largest_tile)
         for (int x = 0; x < area.width; x += largest_tile) {
             const int width = std::min(largest_tile, area.width - x), height = std::min(largest_tile, area.height - y);
             Framebuffer tile(width, height);
-            if (width < area.width || height < area.height)
-                tile.be_tile_of(area.width, area.height, x, area.height - height - y);
+            if (is_tiled(area, largest_tile)) tile.be_tile_of(area.width, area.height, x, area.height - height - y);
             tile.bind();
-            draw(tile);
-            copy_into(tile.read(), area.x + x, area.y + y, picture);
+            draw(tile, x, y);
         }
 }
 
@@ -110,10 +113,17 @@ Image scene_picture(SceneRenderer& renderer, ViewerState& state, const Palette& 
         const auto bottom = static_cast<int>(std::lround((place.y + place.height - all.y) * scale_y));
         const Area area{left, top, std::max(1, right - left), std::max(1, bottom - top)};
         viewport.place = {0.0, 0.0, area.width / pixel_ratio, area.height / pixel_ratio};
-        draw_tiles(
-            area, largest_tile,
-            [&](const Framebuffer& target) { renderer.draw_plain(state, viewport, palette, pixel_ratio, target); },
-            picture);
+        std::optional<DepthBuffer> depths;  // occlusion reaches over the borders of tiles
+        if (state.display.soft_shadows && is_tiled(area, largest_tile)) {
+            depths.emplace(area.width, area.height);
+            draw_tiles(area, largest_tile, [&](const Framebuffer& tile, int, int) {
+                renderer.draw_depths(state, viewport, palette, pixel_ratio, tile, *depths);
+            });
+        }
+        draw_tiles(area, largest_tile, [&](const Framebuffer& tile, int x, int y) {
+            renderer.draw_plain(state, viewport, palette, pixel_ratio, tile, depths ? &*depths : nullptr);
+            copy_into(tile.read(), area.x + x, area.y + y, picture);
+        });
     }
     return picture;
 }

@@ -228,15 +228,28 @@ void SceneRenderer::draw_ghosts(const ViewerState& state, const SceneView& view,
     }
 }
 
-void SceneRenderer::draw_viewport(const ViewerState& state, const SceneViewport& viewport, const Palette& palette,
-                                  double pixel_ratio, const Framebuffer& target, bool with_axes) {
-    const SceneView view(state.camera, viewport.place, pixel_ratio);
-    const MethodKind solid = viewport.kinds.front();
+/// The background and the opaque body before it, as it is or cut open.
+const SurfaceDrawing& SceneRenderer::draw_solid(const ViewerState& state, const SceneView& view, MethodKind solid,
+                                                const Palette& palette) {
     background_.draw(palette.background_top, palette.background_bottom);
     BodyDrawing& main = drawing(solid);
-    const SurfaceStyle style = surface_style(state, solid, palette);
     SurfaceDrawing& body = main.section ? *main.section : main.surface;
-    body.draw(view, style);
+    body.draw(view, surface_style(state, solid, palette));
+    return body;
+}
+
+void SceneRenderer::draw_depths(const ViewerState& state, const SceneViewport& viewport, const Palette& palette,
+                                double pixel_ratio, const Framebuffer& tile, DepthBuffer& whole) {
+    draw_solid(state, SceneView(state.camera, viewport.place, pixel_ratio), viewport.kinds.front(), palette);
+    whole.take(tile);
+}
+
+void SceneRenderer::draw_viewport(const ViewerState& state, const SceneViewport& viewport, const Palette& palette,
+                                  double pixel_ratio, const Framebuffer& target, const Extent& extent) {
+    const SceneView view(state.camera, viewport.place, pixel_ratio);
+    BodyDrawing& main = drawing(viewport.kinds.front());
+    const SurfaceDrawing& body = draw_solid(state, view, viewport.kinds.front(), palette);
+    if (state.display.soft_shadows && extent.whole != nullptr) occlusion_.draw_tile(view, target, *extent.whole);
     if (state.display.soft_shadows && !target.is_tile()) occlusion_.draw(view, target);
     if (state.display.grid || state.display.soft_shadows) draw_ground(state, view, palette, body, target);
     draw_ghosts(state, view, viewport, palette);
@@ -245,7 +258,7 @@ void SceneRenderer::draw_viewport(const ViewerState& state, const SceneViewport&
     const float hidden = mesh_->n_vertices() > kMostHidden ? 0.0f : 0.12f;
     main.points.draw(view, {.outline = palette.wire, .outline_width = 1.0f, .hidden_opacity = hidden});
     main.arrows.draw(view, {.width = 6.0f, .hidden_opacity = 0.5f});
-    if (with_axes) gizmo_->draw(state.camera, viewport.place, gizmo_place(viewport.place), pixel_ratio);
+    if (extent.axes) gizmo_->draw(state.camera, viewport.place, gizmo_place(viewport.place), pixel_ratio);
 }
 
 SceneRenderer::Look SceneRenderer::look_of(const ViewerState& state, const SceneViewport& viewport,
@@ -289,7 +302,7 @@ int SceneRenderer::draw(const ViewerState& state, const Palette& palette, double
         if (!picture.framebuffer) picture.framebuffer = std::make_unique<Framebuffer>(width, height);
         picture.framebuffer->resize(width, height);
         picture.framebuffer->bind();
-        draw_viewport(state, viewport, palette, pixel_ratio, *picture.framebuffer);
+        draw_viewport(state, viewport, palette, pixel_ratio, *picture.framebuffer, {});
         ++n_drawn;
     }
     return n_drawn;

@@ -34,12 +34,15 @@ public:
     /// Copies the drawn viewports to the window of this size [framebuffer pixels].
     void show(const ViewerState& state, double pixel_ratio, const Eigen::Vector2i& framebuffer);
 
-    /// Draws one viewport without the axes to `target`, which is bound. On a tile without ambient occlusion, which
-    /// would have to see the tiles beside it.
+    /// Draws one viewport without the axes to `target`, which is bound. A tile has ambient occlusion where the depths
+    /// of the whole are given, which draw_depths() has gathered from all tiles.
     void draw_plain(const ViewerState& state, const SceneViewport& viewport, const Palette& palette, double pixel_ratio,
-                    const Framebuffer& target) {
-        draw_viewport(state, viewport, palette, pixel_ratio, target, false);
+                    const Framebuffer& target, const DepthBuffer* whole = nullptr) {
+        draw_viewport(state, viewport, palette, pixel_ratio, target, {.axes = false, .whole = whole});
     }
+    /// Draws what ambient occlusion depends on to a tile, which is bound, and adds its depths to those of the whole.
+    void draw_depths(const ViewerState& state, const SceneViewport& viewport, const Palette& palette,
+                     double pixel_ratio, const Framebuffer& tile, DepthBuffer& whole);
 
 private:
     /// What belongs to one method's body. Revisions tell what of it is on the card.
@@ -74,6 +77,10 @@ private:
         Look look;
         std::unique_ptr<Framebuffer> framebuffer;
     };
+    struct Extent {
+        bool axes = true;
+        const DepthBuffer* whole = nullptr;  ///< of what a tile belongs to
+    };
     Look look_of(const ViewerState& state, const SceneViewport& viewport, const Palette& palette,
                  double pixel_ratio) const;
     BodyDrawing& drawing(MethodKind kind);
@@ -83,7 +90,9 @@ private:
     void upload_points(const ViewerState& state, const ShownBody& body, BodyDrawing& target, const Palette& palette);
     void upload_arrows(const ViewerState& state, const ShownBody& body, BodyDrawing& target, const Palette& palette);
     void draw_viewport(const ViewerState& state, const SceneViewport& viewport, const Palette& palette,
-                       double pixel_ratio, const Framebuffer& target, bool with_axes = true);
+                       double pixel_ratio, const Framebuffer& target, const Extent& extent);
+    const SurfaceDrawing& draw_solid(const ViewerState& state, const SceneView& view, MethodKind solid,
+                                     const Palette& palette);
     void draw_ground(const ViewerState& state, const SceneView& view, const Palette& palette,
                      const SurfaceDrawing& body, const Framebuffer& target);
     void draw_ghosts(const ViewerState& state, const SceneView& view, const SceneViewport& viewport,

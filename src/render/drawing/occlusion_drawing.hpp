@@ -20,8 +20,18 @@ public:
     OcclusionDrawing();
     /// Over what was drawn to `target`, to which draws go afterwards: after the opaque surfaces, before all else.
     void draw(const SceneView& view, const Framebuffer& target, const OcclusionStyle& style = {});
+    /// The same on a tile: as it would be in the whole picture, whose depths are gathered already.
+    void draw_tile(const SceneView& view, const Framebuffer& tile, const DepthBuffer& whole,
+                   const OcclusionStyle& style = {});
 
 private:
+    /// The depths of a picture, and which part of it is drawn [pixels from its bottom left corner].
+    struct Part {
+        unsigned depths;
+        Eigen::Vector2i whole, place, size;
+    };
+    void draw_part(const SceneView& view, const Framebuffer& target, const Part& part, const OcclusionStyle& style);
+
     MaskBuffer open_;
     GlVertexArray array_;
     std::shared_ptr<ShaderProgram> find_, blend_;

@@ -124,6 +124,27 @@ void Framebuffer::copy_to_window(int x, int y) const {
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
+DepthBuffer::DepthBuffer(int width, int height)
+    : width_(width), height_(height), texture_(make_gl_texture()), gathered_(make_gl_framebuffer()) {
+    allocate_texture(texture_, kDepth, width, height);
+    glBindFramebuffer(GL_FRAMEBUFFER, gathered_.id());
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, texture_.id(), 0);
+    glDrawBuffer(GL_NONE);
+    glReadBuffer(GL_NONE);
+    require_complete();
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+void DepthBuffer::take(const Framebuffer& tile) {
+    tile.resolve_depth();
+    const Eigen::Vector2i low = tile.place(), high = low + Eigen::Vector2i(tile.width(), tile.height());
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, tile.resolved_.id());
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, gathered_.id());
+    glBlitFramebuffer(0, 0, tile.width(), tile.height(), low.x(), low.y(), high.x(), high.y(), GL_DEPTH_BUFFER_BIT,
+                      GL_NEAREST);
+    tile.bind();
+}
+
 MaskBuffer::MaskBuffer(Depth depth) : texture_(make_gl_texture()), drawn_(make_gl_framebuffer()) {
     if (depth == Depth::tested) depth_ = make_gl_renderbuffer();
 }

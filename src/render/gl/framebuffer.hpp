@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+
 #include "render/gl/gl_object.hpp"
 #include "render/gl/image.hpp"
 
@@ -29,12 +31,15 @@ public:
     /// The depths of what was drawn, of one sample a pixel, to depth_texture(). Draws go here again afterwards.
     void resolve_depth() const;
     unsigned depth_texture() const { return depth_texture_.id(); }
+    /// Its place in what it is a tile of, or in itself: from the bottom left corner.
+    Eigen::Vector2i place() const { return {whole_.x, whole_.y}; }
     /// resolve(), then a copy. Waits for the graphics card.
     Image read() const;
     /// resolve(), then to the window at (x, y) from its bottom left corner, pixel by pixel.
     void copy_to_window(int x, int y) const;
 
 private:
+    friend class DepthBuffer;
     void allocate();
 
     struct Whole {
@@ -45,6 +50,23 @@ private:
     GlTexture texture_, depth_texture_;
     GlRenderbuffer colour_, depth_;
     GlFramebuffer drawn_, resolved_;
+};
+
+/// The depths of a whole picture, gathered from its tiles.
+class DepthBuffer {
+public:
+    /// Throws Error when the driver refuses the size.
+    DepthBuffer(int width, int height);
+    int width() const { return width_; }
+    int height() const { return height_; }
+    /// What was drawn to this tile. Draws go there again afterwards.
+    void take(const Framebuffer& tile);
+    unsigned texture() const { return texture_.id(); }
+
+private:
+    int width_, height_;
+    GlTexture texture_;
+    GlFramebuffer gathered_;
 };
 
 /// A picture of one number a pixel, 0 to 1, drawn on the way to another.

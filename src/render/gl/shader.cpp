@@ -103,6 +103,9 @@ void ShaderProgram::set(const char* uniform, float value) { glUniform1f(location
 void ShaderProgram::set(const char* uniform, const Eigen::Vector2f& value) {
     glUniform2fv(location(uniform), 1, value.data());
 }
+void ShaderProgram::set(const char* uniform, const Eigen::Vector2i& value) {
+    glUniform2iv(location(uniform), 1, value.data());
+}
 void ShaderProgram::set(const char* uniform, const Eigen::Vector3f& value) {
     glUniform3fv(location(uniform), 1, value.data());
 }

@@ -27,6 +27,7 @@ public:
     void set(const char* uniform, int value);
     void set(const char* uniform, float value);
     void set(const char* uniform, const Eigen::Vector2f& value);
+    void set(const char* uniform, const Eigen::Vector2i& value);
     void set(const char* uniform, const Eigen::Vector3f& value);
     void set(const char* uniform, const Colour& value);
     void set(const char* uniform, const Eigen::Matrix4f& value);

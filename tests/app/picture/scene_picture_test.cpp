@@ -31,6 +31,8 @@ protected:
     SceneRenderer renderer;
 };
 
+constexpr int kDither = 2;  ///< noise that hides the steps of the background
+
 int largest_difference(const Image& a, const Image& b) {
     int largest = 0;
     for (std::size_t i = 0; i < a.pixels.size(); ++i)
@@ -39,14 +41,33 @@ int largest_difference(const Image& a, const Image& b) {
 }
 
 TEST_F(ScenePicture, IsTheSameInTilesAndWhole) {
-    stage.state.display.soft_shadows = false;  // tiles have no ambient occlusion
     const Eigen::Vector2i size(501, 333);
     const Image whole = scene_picture(renderer, stage.state, palette, size);
     const Image tiles = scene_picture(renderer, stage.state, palette, size, 64);
     EXPECT_EQ(whole.width, 501);
     EXPECT_EQ(whole.height, 333);
     EXPECT_GT(largest_difference(whole, Image{501, 333, std::vector<std::uint8_t>(whole.pixels.size(), 20)}), 50);
-    EXPECT_LE(largest_difference(whole, tiles), 2) << "noise that hides the steps of the background";
+    EXPECT_LE(largest_difference(whole, tiles), kDither);
+}
+
+/// What covers a point may be tiles away.
+TEST_F(ScenePicture, HasTheSameOcclusionInTilesAndWhole) {
+    Document document;
+    document.mesh = Primitive{.name = "torus", .resolution = 6, .size = {}};
+    stage.open(document);
+    stage.state.frame_body();
+    stage.settle();
+    DisplaySettings& display = stage.state.display;
+    display.wireframe = display.feature_edges = display.grid = false;
+    renderer.upload(stage.state, palette);
+    const Eigen::Vector2i size(333, 261);
+    const Image whole = scene_picture(renderer, stage.state, palette, size);
+    for (const int tile : {50, 97}) {
+        const Image tiles = scene_picture(renderer, stage.state, palette, size, tile);
+        EXPECT_LE(largest_difference(whole, tiles), kDither) << tile;
+    }
+    display.soft_shadows = false;
+    EXPECT_GT(largest_difference(whole, scene_picture(renderer, stage.state, palette, size)), 30);
 }
 
 TEST_F(ScenePicture, ShowsAllOfTheBodyInANarrowOneAndLeavesTheCameraAlone) {
