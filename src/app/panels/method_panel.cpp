@@ -2,16 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
 #include "base/memory.hpp"
 #include "base/text.hpp"
-#include "findings/words.hpp"
 #include "methods/registry.hpp"
 
 namespace elastolab {
@@ -177,21 +174,6 @@ std::string readiness(const MethodRunner& runner) {
 
 }  // namespace
 
-/// While something is pressed or typed into, they stay as they are, so that it does not move away.
-void Panels::draw_warnings(const PanelContext& context) {
-    const ViewerState& state = context.state;
-    const std::pair<std::uint64_t, MethodKind> of(state.scene_number(), state.method);
-    if (!ImGui::IsAnyItemActive() || warnings_of_ != of) {
-        warnings_ = words(state.simulation.embedded(state.method).findings());
-        warnings_of_ = of;
-    }
-    const std::string& name = state.scene().name();
-    for (std::string text : warnings_) {
-        if (text.starts_with(name)) text.replace(0, name.size(), std::filesystem::path(name).filename().string());
-        paragraph(text, context.palette.busy);
-    }
-}
-
 void Panels::draw_method(const PanelContext& context) {
     ViewerState& state = context.state;
     const Palette& palette = context.palette;
@@ -211,7 +193,6 @@ void Panels::draw_method(const PanelContext& context) {
             (simulation.waiting() || simulation.preparing_preview() || simulation.making_proxy(state.method));
         if (!will_begin && ImGui::Button("Compute")) state.simulation.retry(state.method);
     }
-    draw_warnings(context);
 
     if (!ImGui::TreeNode("How it computes")) return;
     if (const std::string text = readiness(runner); !text.empty()) paragraph(text, palette.text_dim);

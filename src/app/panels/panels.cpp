@@ -118,8 +118,9 @@ void Panels::visit_user_texts(const ViewerState& state, const std::function<void
 void Panels::draw_side(const PanelContext& context) {
     const Viewport& place = context.layout.panel;
     if (place.width <= 0.0) return;
+    const float warnings = draw_warnings(context);
     ImGui::SetNextWindowPos({static_cast<float>(place.x), static_cast<float>(place.y)});
-    ImGui::SetNextWindowSize({static_cast<float>(place.width), static_cast<float>(place.height)});
+    ImGui::SetNextWindowSize({static_cast<float>(place.width), static_cast<float>(place.height) - warnings});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0f);
     // Its place is kept, so that nothing moves when it is needed; until then nothing of it is seen.
     ImGui::PushStyleColor(ImGuiCol_ScrollbarGrab,

@@ -77,7 +77,7 @@ private:
     void draw_unsaved(const PanelContext& context);
     void ask_name_of_unsaved(ViewerState& state);
     void draw_defects(const PanelContext& context);
-    void draw_warnings(const PanelContext& context);
+    float draw_warnings(const PanelContext& context);
     void draw_proxy(ViewerState& state, float scale);
     void draw_young_modulus(ViewerState& state, float scale);
     void open_primitive(ViewerState& state);

@@ -201,6 +201,30 @@ TEST(RealPanel, AFixedSetIsBegunPaintedNamedAndAnotherRemoved) {
     }
 }
 
+/// A single vertex is pulled, which is warned of as soon as the button is let go: the field for its name is where it
+/// was.
+TEST(RealPanel, AWarningDoesNotMoveWhatIsToBeClicked) {
+    const TemporaryFolder folder;
+    save_scene(folder.path() / "cube.json", cube_document(4));
+    const Screen screen(folder.path() / "cube.json", {1000, 900});
+    RealWindow window({"cube.json", "--size", "1000x900", "--scene-out", "out.json"}, folder.path());
+    window.settle();
+    for (int i = 0; i < 20; ++i) window.key("bracketleft");
+    const Eigen::Vector2d from = screen.pixel({0.75, 0.25, 1});
+    window.drag(from, from + Eigen::Vector2d(20, -30));
+    window.settle();
+    window.click({90, 535});
+    window.stroke("ctrl+a");
+    window.type("tip");
+    window.settle();
+    ASSERT_EQ(window.quit().exit_code, 0);
+    const Document left = load_scene(folder.path() / "out.json");
+    ASSERT_EQ(left.handles.size(), 1u);
+    EXPECT_EQ(left.handles[0].name, "tip");
+    ASSERT_EQ(run_program({"solve", "out.json", "--report", "report.json", "--quiet"}, folder.path()).exit_code, 0);
+    EXPECT_NE(read_text(folder.path() / "report.json").find("moved alone"), std::string::npos) << "nothing warned of";
+}
+
 /// A ball without its cap, in triangles that do not hang together, as careless scans come: pressed as soon as the
 /// window is there, before anything is computed.
 TEST(RealDragOfAScan, MovesWithTheMouseAtOnceAndIsWhatSolveComputes) {
