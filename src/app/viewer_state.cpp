@@ -62,7 +62,10 @@ const EmbeddedRunner* ViewerState::reference() const {
 
 void ViewerState::frame_body() {
     std::vector<const Positions*> all = {&scene_->mesh().vertices};
-    for (const ShownBody& body : shown.bodies()) all.push_back(&body.positions());
+    for (const ShownBody& body : shown.bodies()) {
+        all.push_back(&body.positions());
+        if (body.filling() && display.defects) all.push_back(&body.filling()->positions);
+    }
     Positions points(3, 0);
     for (const Positions* positions : all) {
         points.conservativeResize(Eigen::NoChange, points.cols() + positions->cols());

@@ -160,7 +160,7 @@ std::string words(const Finding& finding) {
         case FindingKind::filled_holes:
             return finding.object + ": simulated with its " + readable_number(finding.value) +
                    (finding.value == 1.0 ? " hole" : " holes") + " filled by " + std::to_string(finding.first) +
-                   " triangles, which are not shown. Close them in the file where another shape is meant.";
+                   " triangles, which no output has. Close them in the file where another shape is meant.";
         case FindingKind::thin_sheets:
             return finding.object + ": has no inside in places; its sheets are simulated as walls " +
                    readable_number(finding.value) + " mesh units thick. Give them their thickness in the file.";

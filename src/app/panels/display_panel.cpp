@@ -104,7 +104,8 @@ void Panels::draw_display(const PanelContext& context) {
          {"held vertices", &DisplaySettings::constraints, "Fixed vertices and handles as points."},
          {"forces", &DisplaySettings::arrows, "What the fixed part and every handle exert on the body."},
          {"grid", &DisplaySettings::grid, ""},
-         {"defects", &DisplaySettings::defects, "Rims of holes, and edges of more or fewer than two triangles."},
+         {"defects", &DisplaySettings::defects,
+          "Rims of holes, what fills them where that is simulated, and edges of more or fewer than two triangles."},
          {"soft shadows", &DisplaySettings::soft_shadows,
           "Hollows are darker, and the body throws a shadow on the ground."}}};
     for (std::size_t i = 0; i < kSwitches.size(); ++i) {

@@ -97,6 +97,7 @@ void SceneRenderer::upload_body(const ViewerState& state, const ShownBody& body,
         else
             target.surface.set_vertex_scalars(body.values());
         upload_section(body, target);
+        upload_filling(body, target);
     }
     if (is_new || target.palette != &palette) {
         target.palette = &palette;
@@ -120,6 +121,16 @@ void SceneRenderer::upload_section(const ShownBody& body, BodyDrawing& target) {
         target.section->clear_scalars();
     else
         target.section->set_vertex_scalars(section.values);
+}
+
+void SceneRenderer::upload_filling(const ShownBody& body, BodyDrawing& target) {
+    if (!body.filling()) return target.filling.reset();
+    const ShownFilling& filling = *body.filling();
+    if (!target.filling || target.filling_shape != filling.shape) {
+        target.filling.emplace(filling.shape->rest(), filling.shape->triangles());
+        target.filling_shape = filling.shape;
+    }
+    target.filling->update(filling.positions, frame_);
 }
 
 void SceneRenderer::upload_points(const ViewerState& state, const ShownBody& body, BodyDrawing& target,
@@ -205,6 +216,19 @@ void SceneRenderer::draw_ground(const ViewerState& state, const SceneView& view,
     ground_.draw(view, area, up, style);
 }
 
+/// What closes the holes of what is simulated: faint, so that the surface is still seen to be open.
+void SceneRenderer::draw_filling(const ViewerState& state, const SceneView& view, BodyDrawing& body,
+                                 const Palette& palette) {
+    if (!state.display.defects || !body.filling || body.section) return;
+    SurfaceStyle style;
+    style.colour = style.inside = palette.bad;  // as the rims of the holes
+    style.opacity = 0.10f;
+    style.wireframe = state.display.wireframe;
+    style.wire = palette.bad;
+    style.wire_opacity = 0.40f;
+    body.filling->draw(view, style);
+}
+
 /// The other methods of a comparison, and the body as it was: seen where they are apart from the solid one.
 void SceneRenderer::draw_ghosts(const ViewerState& state, const SceneView& view, const SceneViewport& viewport,
                                 const Palette& palette) {
@@ -252,6 +276,7 @@ void SceneRenderer::draw_viewport(const ViewerState& state, const SceneViewport&
     if (state.display.soft_shadows && extent.whole != nullptr) occlusion_.draw_tile(view, target, *extent.whole);
     if (state.display.soft_shadows && !target.is_tile()) occlusion_.draw(view, target);
     if (state.display.grid || state.display.soft_shadows) draw_ground(state, view, palette, body, target);
+    draw_filling(state, view, main, palette);
     draw_ghosts(state, view, viewport, palette);
     if (state.display.defects && main.rim)
         main.rim->draw(view, {.colour = palette.bad, .width = 1.8f, .hidden_opacity = 0.25f});

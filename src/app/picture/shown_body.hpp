@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/picture/filling_shape.hpp"
 #include "app/picture/reaction_runner.hpp"
 #include "app/picture/section_runner.hpp"
 #include "app/picture/section_shape.hpp"
@@ -36,6 +37,12 @@ struct ShownSection {
     std::shared_ptr<const SectionShape> shape;
     Positions positions;        ///< of all vertices of the shape
     std::vector<float> values;  ///< of the chosen field, NaN inside where it is known on the surface only; or empty
+};
+
+/// What fills the holes of the body, deformed with it.
+struct ShownFilling {
+    std::shared_ptr<const FillingShape> shape;
+    Positions positions;  ///< of its vertices
 };
 
 /// What is seen of one method's answer; made anew only when the answer or the settings have changed.
@@ -70,6 +77,8 @@ public:
     const std::optional<Difference>& difference() const { return difference_; }
     const std::vector<ShownReaction>& reactions() const { return reactions_; }
     const std::optional<ShownSection>& section() const { return section_; }
+    /// Where the body is simulated with its holes filled; not while a preview answers, which is another surface.
+    const std::optional<ShownFilling>& filling() const { return filling_; }
     double section_seconds() const { return section_seconds_; }  ///< that its last update took
 
 private:
@@ -78,6 +87,7 @@ private:
         const SurfaceMesh* mesh = nullptr;
         std::uint64_t version = 0, reference_version = 0;
         const EmbeddedRunner *answer = nullptr, *reference = nullptr;
+        const Proxy* proxy = nullptr;
         Field field = Field::none;
         double scale = 1.0;
         const ReactionRunner* reactions = nullptr;
@@ -89,6 +99,7 @@ private:
     };
     static Key key_of(const Sources& sources, const DisplaySettings& display);
     void update_positions(const Sources& sources, double scale);
+    void update_filling(const EmbeddedRunner& answer, double scale);
     void update_reactions(const Sources& sources);
     void update_difference(const Sources& sources);
     void update_section(const Sources& sources, const DisplaySettings& display);
@@ -105,6 +116,7 @@ private:
     std::optional<Difference> difference_;
     std::vector<ShownReaction> reactions_;
     std::optional<ShownSection> section_;
+    std::optional<ShownFilling> filling_;
     double section_seconds_ = 0.0;
     Eigen::Matrix3Xd tractions_;  ///< of the simulated vertices [force / L^2]; no columns when not known
     Eigen::MatrixXd shown_tractions_, shown_stresses_;
