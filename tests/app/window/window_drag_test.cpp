@@ -6,9 +6,8 @@
 #include <fstream>
 #include <thread>
 
-#include "app/input/gizmo.hpp"
-#include "app/panels/layout.hpp"
 #include "app/real_window.hpp"
+#include "app/screen.hpp"
 #include "app/stage.hpp"
 #include "mesh/primitives.hpp"
 #include "methods/registry.hpp"
@@ -19,29 +18,6 @@ namespace {
 
 constexpr double kCursorPixels = 2.0;
 constexpr double kSameAsSolve = 1e-6;  // of the largest displacement
-const Eigen::Vector2i kWindow(1000, 700);
-
-/// What the program shows at its start: its own camera and layout, computed here.
-class Screen {
-public:
-    explicit Screen(const std::filesystem::path& scene, const Eigen::Vector2i& window = kWindow) {
-        state_.open_now(scene);
-        place_ = layout_of(window, 1.0f).scene;
-        state_.shown.viewports = viewports_of(state_, place_);
-        state_.frame_body();
-    }
-    const SurfaceMesh& mesh() const { return state_.scene().mesh(); }
-    Eigen::Vector2d pixel(const Eigen::Vector3d& point) const { return state_.camera.project(point, place_).pixel; }
-
-    Gizmo gizmo(int handle) const { return handle_gizmo(state_.scene(), handle, mesh().vertices, GizmoAxes::world); }
-    std::vector<Eigen::Vector2d> outline(const Gizmo& gizmo, const GizmoPart& part) const {
-        return elastolab::outline(gizmo, part, state_.camera, place_);
-    }
-
-private:
-    ViewerState state_{[] {}};
-    Viewport place_;
-};
 
 int vertex_near(const SurfaceMesh& mesh, const Eigen::Vector3d& point) {
     int nearest = 0;
