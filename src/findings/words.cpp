@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <string>
 
 #include "base/text.hpp"
 #include "deform/node_solver.hpp"
@@ -14,7 +15,12 @@ constexpr double kRounding = std::numeric_limits<double>::epsilon();
 
 std::string place_of(const Finding& finding) { return readable_point(finding.place.value_or(Eigen::Vector3d::Zero())); }
 
-std::string percent(double part) { return readable_number(100.0 * part) + " %"; }
+/// Of two digits, but written out: "3.7 %", "370 %".
+std::string percent(double part) {
+    const std::string digits = readable_number(100.0 * part);
+    const double rounded = std::stod(digits);
+    return (rounded < 100.0 ? digits : formatted("%.0f", rounded)) + " %";
+}
 
 std::string locking(const Finding& finding) {
     return std::string(finding.method->name) + ": linear tetrahedra lock at Poisson's ratio " +

@@ -160,6 +160,15 @@ TEST(Findings, TellOfABodyThatIsNotHeldWhateverTheMethod) {
         }
 }
 
+TEST(Findings, WritePercentagesOut) {
+    const auto told = [](double part) {
+        return words(Finding{.kind = FindingKind::coarse_forces, .value = part, .method = kLinearBem});
+    };
+    EXPECT_THAT(told(0.0374), HasSubstr("about 3.7 %"));
+    EXPECT_THAT(told(0.996), HasSubstr("about 100 %"));
+    EXPECT_THAT(told(3.74), HasSubstr("about 370 %"));
+}
+
 TEST(Findings, TellOfTheDigitsThatAConditionLeaves) {
     EXPECT_THAT(words(findings_of_condition("matrix", 1e9)), IsEmpty());
     EXPECT_THAT(words(findings_of_condition("matrix", 1e11)), Contains(HasSubstr("2.2e-05")));

@@ -149,7 +149,8 @@ void draw_progress(const PanelContext& context, MethodRunner& runner) {
     const bool works = runner.precomputing() || runner.completing() || runner.state() == State::preparing;
     if (!works) {
         const std::optional<double> error = context.state.simulation.preview_error(context.state.method);
-        const std::string text = error ? "the preview was " + readable_number(100.0 * *error) + " % off" : "";
+        const std::string text =
+            error ? "the preview was " + formatted("%.*f", *error < 0.1 ? 1 : 0, 100.0 * *error) + " % off" : "";
         ImGui::AlignTextToFramePadding();
         return ImGui::TextColored(imgui_colour(context.palette.text_dim), "%s", text.c_str());
     }
