@@ -135,6 +135,7 @@ RowAnswer draw_row(const std::string& text, bool selected, const Colour& colour,
     const float room = ImGui::GetContentRegionAvail().x - 60.0f * scale;
     const bool clicked = ImGui::Selectable((text + "###row").c_str(), selected, 0, {room, 0});
     ImGui::PopStyleColor();
+    if (ImGui::CalcTextSize(text.c_str()).x > room) tooltip(text.c_str());
     ImGui::SameLine();
     return {clicked, ImGui::SmallButton("remove")};
 }

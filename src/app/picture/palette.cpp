@@ -55,7 +55,7 @@ Palette make_light() {
             .grid = hex(0x6b7683),
             .outline = hex(0xffffff),
             .fixed = hex(0x2a5bc0),
-            .fixed_active = hex(0x00707f),
+            .fixed_active = hex(0x00606d),
             .handle = hex(0xa8480a),
             .active = hex(0x7d5900),
             .hover = hex(0x8a5a00),
