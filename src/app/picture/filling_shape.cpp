@@ -2,8 +2,33 @@
 
 #include <algorithm>
 #include <cassert>
+#include <numeric>
+#include <utility>
 
 namespace elastolab {
+
+namespace {
+
+constexpr std::size_t kMostLeaders = 64;
+
+/// All of a list, or as many as may lead, in equal steps.
+std::vector<int> some_of(const std::vector<int>& all) {
+    const std::size_t step = (all.size() + kMostLeaders - 1) / kMostLeaders;
+    std::vector<int> some;
+    for (std::size_t i = 0; i < all.size(); i += step) some.push_back(all[i]);
+    return some;
+}
+
+/// The nearer, the more; their sum is 1.
+std::vector<double> shares_by_distance(const Eigen::Vector3d& x, const Positions& places) {
+    std::vector<double> shares;
+    for (const auto& place : places.colwise()) shares.push_back(1.0 / (place - x).squaredNorm());
+    const double sum = std::accumulate(shares.begin(), shares.end(), 0.0);
+    for (double& share : shares) share /= sum;
+    return shares;
+}
+
+}  // namespace
 
 FillingShape::FillingShape(const Proxy& filled) : surface_(filled.surface) {
     assert(filled.is_filled());
@@ -15,6 +40,41 @@ FillingShape::FillingShape(const Proxy& filled) : surface_(filled.surface) {
     for (int& vertex : triangles_.reshaped())
         vertex = static_cast<int>(std::lower_bound(vertices_.begin(), vertices_.end(), vertex) - vertices_.begin());
     rest_ = surface_->vertices(Eigen::all, vertices_);
+    find_leaders(filled);
+}
+
+void FillingShape::find_leaders(const Proxy& filled) {
+    const Positions& shown = filled.shown->vertices;
+    std::vector<int> rim;                        // of the shown surface
+    std::vector<int> own(vertices_.size(), -1);  // for each column of rest_: which of them it is
+    for (Eigen::Index v = 0; v < shown.cols(); ++v) {
+        if (filled.places.distance[v] != 0.0 || filled.places.weights(0, v) != 1.0) continue;
+        const auto place = std::lower_bound(vertices_.begin(), vertices_.end(), filled.places.nodes(0, v));
+        if (place == vertices_.end() || *place != filled.places.nodes(0, v)) continue;
+        own[static_cast<std::size_t>(place - vertices_.begin())] = static_cast<int>(v);
+        rim.push_back(static_cast<int>(v));
+    }
+    const std::vector<int> leaders = some_of(rim);
+    for (std::size_t i = 0; i < own.size(); ++i) {
+        const Eigen::Vector3d x = rest_.col(static_cast<Eigen::Index>(i));
+        Follower follower{own[i] < 0 ? leaders : std::vector<int>{own[i]}, {1.0}, x};
+        if (own[i] < 0) follower.shares = shares_by_distance(x, shown(Eigen::all, leaders));
+        for (std::size_t k = 0; k < follower.leaders.size(); ++k)
+            follower.offset -= follower.shares[k] * shown.col(follower.leaders[k]);
+        followers_.push_back(std::move(follower));
+    }
+}
+
+Positions FillingShape::following(const Positions& shown) const {
+    Positions result = rest_;
+    for (std::size_t v = 0; v < followers_.size(); ++v) {
+        const Follower& follower = followers_[v];
+        Eigen::Vector3d place = follower.offset;
+        for (std::size_t i = 0; i < follower.leaders.size(); ++i)
+            place += follower.shares[i] * shown.col(follower.leaders[i]);
+        result.col(static_cast<Eigen::Index>(v)) = place;
+    }
+    return result;
 }
 
 Positions FillingShape::displaced(const Eigen::VectorXd& of_surface, double scale) const {

@@ -80,7 +80,7 @@ ShownBody::Key ShownBody::key_of(const Sources& sources, const DisplaySettings& 
             .reference_version = differs ? sources.reference->version() : 0,
             .answer = &sources.answer,
             .reference = differs ? sources.reference : nullptr,
-            .proxy = sources.answer.proxy(),
+            .proxy = sources.proxy,
             .field = display.field,
             .scale = display.deformation_scale,
             .reactions = sources.reactions,
@@ -98,7 +98,7 @@ bool ShownBody::update(const Sources& sources, const DisplaySettings& display) {
     static std::uint64_t last_revision = 0;  // one thread owns all of them
     revision_ = ++last_revision;
     update_positions(sources, display.deformation_scale);
-    update_filling(sources.answer, display.deformation_scale);
+    update_filling(sources, display.deformation_scale);
     update_reactions(sources);
     update_difference(sources);
     update_values(sources, display.field);
@@ -118,14 +118,16 @@ void ShownBody::update_positions(const Sources& sources, double scale) {
     max_displacement_ = std::sqrt(u.colwise().squaredNorm().maxCoeff());
 }
 
-void ShownBody::update_filling(const EmbeddedRunner& answer, double scale) {
-    const Proxy* proxy = answer.proxy();
+/// While a preview answers, which is another surface, the filling follows the rims of the holes.
+void ShownBody::update_filling(const Sources& sources, double scale) {
+    const Proxy* proxy = sources.proxy;
     if (proxy == nullptr || !proxy->is_filled()) return filling_.reset();
     if (!filling_ || filling_->shape->surface() != proxy->surface)
         filling_ = ShownFilling{std::make_shared<const FillingShape>(*proxy), {}};
-    const Eigen::VectorXd& u = answer.runner().displacement();
-    filling_->positions =
-        u.size() == proxy->surface->vertices.size() ? filling_->shape->displaced(u, scale) : filling_->shape->rest();
+    const FillingShape& shape = *filling_->shape;
+    const Eigen::VectorXd& u = sources.answer.runner().displacement();
+    const bool is_own = sources.answer.proxy() == proxy && u.size() == proxy->surface->vertices.size();
+    filling_->positions = is_own ? shape.displaced(u, scale) : shape.following(positions_);
 }
 
 void ShownBody::update_reactions(const Sources& sources) {

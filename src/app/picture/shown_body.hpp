@@ -54,6 +54,7 @@ public:
     struct Sources {
         const LiveScene& scene;
         const EmbeddedRunner& answer;
+        const Proxy* proxy = nullptr;  ///< that the method itself simulates, whoever answers; null when none
         const EmbeddedRunner* reference = nullptr;         ///< what differences are to; null when there is none
         const ReactionRunner* reactions = nullptr;         ///< null when nothing is shown that needs them
         std::shared_ptr<const SectionShape> section = {};  ///< when it is to be cut open
@@ -77,7 +78,7 @@ public:
     const std::optional<Difference>& difference() const { return difference_; }
     const std::vector<ShownReaction>& reactions() const { return reactions_; }
     const std::optional<ShownSection>& section() const { return section_; }
-    /// Where the body is simulated with its holes filled; not while a preview answers, which is another surface.
+    /// Where the method simulates the body with its holes filled.
     const std::optional<ShownFilling>& filling() const { return filling_; }
     double section_seconds() const { return section_seconds_; }  ///< that its last update took
 
@@ -99,7 +100,7 @@ private:
     };
     static Key key_of(const Sources& sources, const DisplaySettings& display);
     void update_positions(const Sources& sources, double scale);
-    void update_filling(const EmbeddedRunner& answer, double scale);
+    void update_filling(const Sources& sources, double scale);
     void update_reactions(const Sources& sources);
     void update_difference(const Sources& sources);
     void update_section(const Sources& sources, const DisplaySettings& display);

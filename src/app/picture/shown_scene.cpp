@@ -104,6 +104,7 @@ bool ShownScene::update(const ShownAnswers& answers) {
         seconds += of_inside.seconds();
         const ShownBody::Sources sources{.scene = answers.scene,
                                          .answer = answers.simulation.answer(kind),
+                                         .proxy = answers.simulation.embedded(kind).proxy(),
                                          .reference = answers.simulation.previewing(kind) ? nullptr : answers.reference,
                                          .reactions = reactions(answers, kind),
                                          .section = section_,
