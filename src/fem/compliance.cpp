@@ -6,6 +6,7 @@
 
 #include "base/blas.hpp"
 #include "base/parallel.hpp"
+#include "deform/holds.hpp"
 #include "elasticity/rigid_motion.hpp"
 #include "fem/forward_elimination.hpp"
 

@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "mesh/input/export.hpp"
 #include "mesh/measures.hpp"
+#include "mesh/meshes.hpp"
 #include "mesh/primitives.hpp"
 #include "scene/simulation_bench.hpp"
 #include "support/temporary_folder.hpp"
@@ -131,6 +132,26 @@ TEST(Proxy, AnOpenSurfaceIsPulledByEveryMethod) {
                 }
         EXPECT_LT(std::sqrt(off / size), 0.12);
     }
+}
+
+/// A bowl: around its triangles alone there is a shell, that bends far more than the filled half of a ball.
+TEST(Preview, OfASurfaceWhoseHolesAreFilledIsSolid) {
+    const test::TemporaryFolder folder;
+    save_surface(folder.path() / "bowl.ply", with_hole(make_sphere(14), {0, 0, 1}, 0.3));
+    Document document;
+    document.mesh = MeshFile{"bowl.ply"};
+    document.fixed = {{.select = {PlaneSelector{{-1, 0, 0}, {1, 0, 0}, 0.4}}}};
+    document.proxy.use = ProxyUse::fill;
+    LiveScene scene(document, folder.path() / "scene.json");
+    scene.add_handle(where(scene, 0.6, -1.0));
+    scene.set_motion(0, AffineMotion{.translate = {0, 0, 0.2}});
+    PreviewBench bench({kConstantBem});
+    bench.begin(scene);
+    bench.wait_for_preview(scene);
+    bench.settle(scene);
+    EXPECT_EQ(bench.simulation.problem(kConstantBem), "");
+    ASSERT_TRUE(bench.simulation.preview_error(kConstantBem));
+    EXPECT_LT(*bench.simulation.preview_error(kConstantBem), 0.15);
 }
 
 TEST(Proxy, WhereItIsForbiddenTheSurfaceIsRefused) {

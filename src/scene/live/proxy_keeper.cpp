@@ -1,17 +1,25 @@
 #include "scene/live/proxy_keeper.hpp"
 
+#include <span>
 #include <utility>
 
 #include "base/error.hpp"
 
 namespace elastolab {
 
+namespace {
+
+bool is_filling(const std::optional<ProxyChoice>& choice) { return choice && choice->use == ProxyUse::fill; }
+
+}  // namespace
+
 void ProxyKeeper::ask(const LiveScene& scene, bool needs_model, int n_preview_vertices) {
     const bool same_surface = surface_ == scene.surface();
     const auto choice = needs_model ? std::optional(scene.document().proxy) : std::nullopt;
     if (same_surface && choice_ == choice && n_preview_ == n_preview_vertices) return;
+    const bool same_solid = same_surface && is_filling(choice_) == is_filling(choice);
     if (!same_surface || choice_ != choice) model_.reset();
-    if (!same_surface || n_preview_ != n_preview_vertices) preview_.reset();
+    if (!same_solid || n_preview_ != n_preview_vertices) preview_.reset();
     surface_ = scene.surface();
     report_ = scene.report();
     name_ = scene.name();
@@ -27,26 +35,42 @@ void ProxyKeeper::begin() {
         job_.cancel();
         return;
     }
-    const bool fills = needs_model && choice_->use == ProxyUse::fill;
+    if (is_filling(choice_))
+        begin_filling(needs_preview);
+    else
+        begin_proxies(needs_model, needs_preview);
+}
+
+void ProxyKeeper::begin_proxies(bool needs_model, bool needs_preview) {
     std::vector<int> sizes;  // made at once: their first steps are the same
-    if (needs_model && !fills) sizes.push_back(choice_->n_vertices);
+    if (needs_model) sizes.push_back(choice_->n_vertices);
     if (needs_preview) sizes.push_back(n_preview_);
-    job_.start([surface = surface_, report = report_, name = name_, choice = choice_, sizes, fills,
-                needs_preview](Control& control) {
+    job_.start(
+        [surface = surface_, report = report_, name = name_, sizes, needs_model, needs_preview](Control& control) {
+            Made made;
+            const auto proxies = make_proxies(name, surface, report, sizes, control);
+            if (needs_model) made.model = proxies.front();
+            if (needs_preview) made.preview = proxies.back();
+            return made;
+        });
+}
+
+/// The preview is one of the filled surface, which is solid where the open one may be a shell.
+void ProxyKeeper::begin_filling(bool needs_preview) {
+    job_.start([surface = surface_, report = report_, name = name_, choice = *choice_, n_preview = n_preview_,
+                filled = model_, needs_preview](Control& control) {
         Made made;
+        std::shared_ptr<const Proxy> solid = filled;
         try {
-            if (!sizes.empty()) {
-                const auto proxies = make_proxies(name, surface, report, sizes, control);
-                if (needs_preview) made.preview = proxies.back();
-                if (proxies.size() > 1 || !needs_preview) made.model = proxies.front();
-            }
-        } catch (const MeshError&) {
-            if (!fills) throw;  // a filled surface does without a preview
-        }
-        try {
-            if (fills) made.model = make_proxy(name, surface, report, *choice, control);
+            if (!solid) solid = made.model = make_proxy(name, surface, report, choice, control);
         } catch (const MeshError& error) {
-            made.failure = error.what();  // and the preview answers without it
+            made.failure = error.what();  // and a preview of what is there answers
+        }
+        if (!needs_preview) return made;
+        try {
+            made.preview = solid ? make_coarser_proxy(name, *solid, n_preview, control)
+                                 : make_proxies(name, surface, report, std::span(&n_preview, 1), control).front();
+        } catch (const MeshError&) {  // it does without one
         }
         return made;
     });

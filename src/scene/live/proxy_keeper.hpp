@@ -42,6 +42,8 @@ private:
         std::string failure;  ///< why there is no model
     };
     void begin();
+    void begin_proxies(bool needs_model, bool needs_preview);
+    void begin_filling(bool needs_preview);
 
     std::shared_ptr<const SurfaceMesh> surface_;
     MeshReport report_;

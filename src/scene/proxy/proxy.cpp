@@ -90,6 +90,17 @@ std::shared_ptr<const Proxy> make_proxy(const std::string& name, const std::shar
     }
 }
 
+std::shared_ptr<const Proxy> make_coarser_proxy(const std::string& name, const Proxy& fine, int n_vertices,
+                                                Control& control) {
+    const MeshReport report = check_and_repair(*fine.surface, control).report;
+    try {
+        auto surfaces = make_proxy_surfaces(*fine.surface, report, std::span(&n_vertices, 1), control);
+        return embedded(std::move(surfaces.front()), fine.shown, report, control);
+    } catch (const MeshError& error) {
+        throw MeshError(name + ": " + error.what());
+    }
+}
+
 Findings findings_of_proxy(const Proxy& proxy, const std::string& name) {
     if (proxy.is_filled())
         return {{.kind = FindingKind::filled_holes,

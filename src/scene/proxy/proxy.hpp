@@ -28,7 +28,7 @@ struct Proxy {
 };
 
 /// Makes proxies of about each of these numbers of vertices (mesh/wrap/proxy_surface.hpp) and embeds the shown
-/// vertices. `name` is for messages. Throws MeshError also when a coordinate is not finite; Cancelled.
+/// vertices. `name` is for messages. Throws MeshError also when no triangle has finite points; Cancelled.
 std::vector<std::shared_ptr<const Proxy>> make_proxies(const std::string& name,
                                                        const std::shared_ptr<const SurfaceMesh>& shown,
                                                        const MeshReport& report, std::span<const int> sizes,
@@ -39,7 +39,11 @@ std::vector<std::shared_ptr<const Proxy>> make_proxies(const std::string& name,
 std::shared_ptr<const Proxy> make_proxy(const std::string& name, const std::shared_ptr<const SurfaceMesh>& shown,
                                         const MeshReport& report, const ProxyChoice& choice, Control& control);
 
-/// Throws MeshError with `name` where no proxy can help: no triangle, or a coordinate that is not finite.
+/// One of about so many vertices of what `fine` simulates, for the same shown vertices. Throws as make_proxies.
+std::shared_ptr<const Proxy> make_coarser_proxy(const std::string& name, const Proxy& fine, int n_vertices,
+                                                Control& control);
+
+/// Throws MeshError with `name` where no proxy can help: no triangle, of finite points.
 void require_shape(const MeshReport& report, const std::string& name);
 
 /// What the person should know of it; `name` is that of the mesh that is shown.
