@@ -1,4 +1,5 @@
 #include "elasticity/pair_integrals.hpp"
+#include "elasticity/triangle_rules.hpp"
 
 #include <gtest/gtest.h>
 
@@ -100,6 +101,22 @@ TEST(PairRules, IntegrateEveryPolynomialOfTheirTotalDegree) {
                                 }
                         EXPECT_NEAR(sum, mean_power(a, b) * mean_power(c, d), 1e-14) << rule->degree;
                     }
+}
+
+TEST(TriangleRules, IntegrateEveryPolynomialOfTheirDegree) {
+    for (int n = 2; n <= 12; ++n) {
+        const TriangleRule& rule = triangle_rule(n);
+        EXPECT_LE(std::ssize(rule.points), n * n);
+        for (int a = 0; a <= 2 * n - 2; ++a)
+            for (int b = 0; a + b <= 2 * n - 2; ++b) {
+                double sum = 0.0;
+                for (std::size_t i = 0; i < rule.points.size(); ++i) {
+                    for (const double coordinate : rule.points[i]) EXPECT_GT(coordinate, 0.0);
+                    sum += rule.weights[i] * std::pow(rule.points[i][1], a) * std::pow(rule.points[i][2], b);
+                }
+                EXPECT_NEAR(sum, mean_power(a, b), 1e-15 + 1e-13 * mean_power(a, b)) << n << " " << a << " " << b;
+            }
+    }
 }
 
 TEST(PairIntegrals, AgreeWithAdaptiveQuadrature) {

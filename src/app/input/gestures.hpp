@@ -53,9 +53,8 @@ enum class Hold { fix, free };
 ///   empty    left: orbit; right, middle or Shift + left: pan; double click: frame the body
 ///   gizmo    left: an arrow moves the handle (or the plane of the cut), a ring turns it; Ctrl snaps
 ///   wheel    zoom to the cursor
-///   brush    left adds vertices under the brush to the selected fixed set, with Shift frees them; a click fixes or
-///   frees
-///            one vertex
+///   brush    left adds vertices under the brush to the selected fixed set, with Shift frees them; a click does so
+///            with one vertex
 ///   box      left draws a box, likewise
 ///   probe    a click chooses a vertex, a drag turns the view
 class Gestures {

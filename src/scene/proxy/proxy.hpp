@@ -43,7 +43,7 @@ std::shared_ptr<const Proxy> make_proxy(const std::string& name, const std::shar
 std::shared_ptr<const Proxy> make_coarser_proxy(const std::string& name, const Proxy& fine, int n_vertices,
                                                 Control& control);
 
-/// Throws MeshError with `name` where no proxy can help: no triangle, of finite points.
+/// Throws MeshError with `name` where no proxy can help: no triangle of finite points.
 void require_shape(const MeshReport& report, const std::string& name);
 
 /// What the person should know of it; `name` is that of the mesh that is shown.
