@@ -28,6 +28,14 @@ std::string recorded_name(MethodRunner::State state) {
     return "idle";
 }
 
+/// The handles' vertices where they are put.
+Positions handles_put(const LiveScene& scene) {
+    const Constraints& constraints = scene.constraints();
+    Positions places = scene.mesh().vertices(Eigen::all, constraints.set.handles);
+    places.reshaped() += constraints.values;
+    return places;
+}
+
 }  // namespace
 
 ViewerState::ViewerState(const std::function<void()>& wake)
@@ -61,7 +69,9 @@ const EmbeddedRunner* ViewerState::reference() const {
 }
 
 void ViewerState::frame_body() {
+    const Positions handles = handles_put(*scene_);
     std::vector<const Positions*> all = {&scene_->mesh().vertices};
+    if (shown.bodies().empty()) all.push_back(&handles);  // a scene just opened: no method has answered yet
     for (const ShownBody& body : shown.bodies()) {
         all.push_back(&body.positions());
         if (body.filling() && display.defects) all.push_back(&body.filling()->positions);
