@@ -28,11 +28,11 @@ std::string recorded_name(MethodRunner::State state) {
     return "idle";
 }
 
-/// The handles' vertices where they are put.
-Positions handles_put(const LiveScene& scene) {
+/// The handles' vertices where they are shown once a method has answered.
+Positions handles_put(const LiveScene& scene, double scale) {
     const Constraints& constraints = scene.constraints();
     Positions places = scene.mesh().vertices(Eigen::all, constraints.set.handles);
-    places.reshaped() += constraints.values;
+    places.reshaped() += scale * constraints.values;
     return places;
 }
 
@@ -69,9 +69,8 @@ const EmbeddedRunner* ViewerState::reference() const {
 }
 
 void ViewerState::frame_body() {
-    const Positions handles = handles_put(*scene_);
-    std::vector<const Positions*> all = {&scene_->mesh().vertices};
-    if (shown.bodies().empty()) all.push_back(&handles);  // a scene just opened: no method has answered yet
+    const Positions handles = handles_put(*scene_, display.deformation_scale);  // known before any method answers
+    std::vector<const Positions*> all = {&scene_->mesh().vertices, &handles};
     for (const ShownBody& body : shown.bodies()) {
         all.push_back(&body.positions());
         if (body.filling() && display.defects) all.push_back(&body.filling()->positions);

@@ -214,6 +214,23 @@ TEST(ViewerState, FailuresOfOutputsBecomeMessages) {
     EXPECT_EQ(stage.state.measurements.timings, nullptr);
 }
 
+/// Before any method has answered.
+TEST(ViewerState, ASceneIsFramedWithItsHandlesWhereTheyArePut) {
+    Document document = test::cube_document(2);
+    document.handles.push_back({.name = "end",
+                                .select = {PlaneSelector{{1, 0, 0}, {1, 0, 0}, 1e-9}},
+                                .motion = AffineMotion{.translate = {3, 0, 0}}});
+    test::Stage stage(2);
+    stage.open(document);
+    const auto& viewports = stage.state.shown.viewports;
+    const Viewport place = viewports.empty() ? Viewport{0.0, 0.0, 1300.0, 1000.0} : viewports.front().place;
+    const Eigen::Vector2d pixel = stage.state.camera.project({4.0, 0.5, 0.5}, place).pixel;
+    EXPECT_GT(pixel.x(), place.x);
+    EXPECT_LT(pixel.x(), place.x + place.width);
+    EXPECT_GT(pixel.y(), place.y);
+    EXPECT_LT(pixel.y(), place.y + place.height);
+}
+
 TEST(ViewerState, AFrameRecordTellsMethodSizesAndState) {
     Stage stage(2);
     stage.scene().add_handle(std::vector<int>{stage.vertex_near({1, 1, 1})});

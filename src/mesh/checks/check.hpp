@@ -51,8 +51,7 @@ struct CheckedMesh {
 
 /// Inspects and repairs. Vertex numbers never change. Never throws on bad geometry: it reports.
 /// - fatal: no triangle, coordinates that are not finite (the mesh is returned without their triangles), open edges,
-/// edges of more than two triangles, vertices where
-///   parts of the surface only touch (a hinge), triangles without area, the same triangle twice, a one-sided surface,
+///   edges of more than two triangles, vertices where parts of the surface only touch (a hinge), triangles without area, the same triangle twice, a one-sided surface,
 ///   parts that enclose no volume, and vertices of no triangle (load_surface drops those).
 /// - fatal for FEM, a warning for the others: parts of the surface that cross or touch. Found exactly.
 /// - repaired: triangles that face the other way than their neighbours, and closed surfaces that face the wrong way:
