@@ -103,15 +103,11 @@ public:
                                     slot(buffer, element.slots[2])};
             kernel_(triangle, points.lanes, far_field_.rule(distance / triangle.longest_edge), out);
         }
-        if (layer_ == Layer::double_layer) add_free_terms(numbers, buffer);
     }
 
-private:
-    double* slot(double* buffer, int number) const {
-        return buffer + slot_size() * static_cast<std::size_t>(number < 0 ? elements_.n_slots : number);
-    }
-
-    void add_free_terms(std::span<const int> numbers, double* buffer) const {
+    /// To the integrals of a double layer over a whole closed surface.
+    void add_free_terms(int pack, double* buffer) const {
+        const std::span<const int> numbers = sources_of(pack);
         std::vector<double> sum(slot_size(), 0.0);
         for (int s = 0; s < elements_.n_slots; ++s)
             for (std::size_t i = 0; i < slot_size(); ++i) sum[i] += slot(buffer, s)[i];
@@ -121,6 +117,11 @@ private:
                 for (std::size_t i = lane; i < slot_size(); i += static_cast<std::size_t>(lanes()))
                     slot(buffer, weight.slot)[i] -= weight.value * sum[i];
             }
+    }
+
+private:
+    double* slot(double* buffer, int number) const {
+        return buffer + slot_size() * static_cast<std::size_t>(number < 0 ? elements_.n_slots : number);
     }
 
     Layer layer_;
@@ -190,10 +191,23 @@ void assemble(Layer layer, const Boundary& boundary, const Sources& sources, con
         std::vector<double> buffer(integrator.buffer_size());
         for (int pack = begin; pack < end; ++pack) {
             integrator.integrate(pack, buffer.data());
+            if (layer == Layer::double_layer) integrator.add_free_terms(pack, buffer.data());
             combination.write(buffer.data(), integrator.sources_of(pack), integrator.lanes(), out);
         }
     };
     parallel_blocks(n_packs(sources.size(), integrator.lanes()), kPacksPerBlock, control, run);
+}
+
+void integrate_block(Layer layer, const Boundary& boundary, const Sources& sources, const Elements& elements,
+                     const Material& material, double tolerance, Eigen::Ref<Eigen::MatrixXd> out) {
+    assert(out.rows() == 3 * sources.size() && out.cols() == 3 * elements.n_slots);
+    const PackIntegrator integrator(layer, boundary, sources, elements, tolerance);
+    const Combination combination(layer, material);
+    std::vector<double> buffer(integrator.buffer_size());
+    for (int pack = 0; pack < n_packs(sources.size(), integrator.lanes()); ++pack) {
+        integrator.integrate(pack, buffer.data());
+        combination.write(buffer.data(), integrator.sources_of(pack), integrator.lanes(), out);
+    }
 }
 
 }  // namespace elastolab

@@ -25,4 +25,8 @@ enum class Layer {
 void assemble(Layer layer, const Boundary& boundary, const Sources& sources, const Elements& elements,
               const Material& material, double tolerance, Eigen::Ref<Eigen::MatrixXd> out, Control& control);
 
+/// The same without the free terms and on one thread: a block of a larger matrix, of whichever elements.
+void integrate_block(Layer layer, const Boundary& boundary, const Sources& sources, const Elements& elements,
+                     const Material& material, double tolerance, Eigen::Ref<Eigen::MatrixXd> out);
+
 }  // namespace elastolab

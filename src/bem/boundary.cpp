@@ -1,5 +1,7 @@
 #include "bem/boundary.hpp"
 
+#include <utility>
+
 #include "elasticity/triangle_geometry.hpp"
 
 namespace elastolab {
@@ -30,6 +32,14 @@ Sources Sources::subset(std::span<const int> numbers) const {
         some.weights.push_back(weights[as_size(numbers[i])]);
     }
     return some;
+}
+
+void Sources::append(const Sources& more) {
+    Positions all(3, points.cols() + more.points.cols());
+    all << points, more.points;
+    points = std::move(all);
+    own_triangle.insert(own_triangle.end(), more.own_triangle.begin(), more.own_triangle.end());
+    weights.insert(weights.end(), more.weights.begin(), more.weights.end());
 }
 
 Sources vertex_sources(const Boundary& boundary) {

@@ -41,6 +41,7 @@ struct Sources {
     int size() const { return static_cast<int>(points.cols()); }
     /// The sources with these numbers.
     Sources subset(std::span<const int> numbers) const;
+    void append(const Sources& more);
 };
 
 /// Every vertex of the mesh (linear elements).

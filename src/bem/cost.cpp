@@ -22,9 +22,23 @@ constexpr double kRowMemoryPerVertex = 17e3, kLeastRowMemory = 12e6, kRowMemoryP
 
 /// Hierarchical matrices: vertices from which they are used, and what they take for each and each level of clusters.
 constexpr int kHierarchicalOnceFrom = 3000, kHierarchicalFrom = 5000;
-constexpr double kBytesPerVertexAndLevel = 9.1e3, kFlopsPerVertexAndLevel = 1.8e7;
-/// Points of rules and close pairs, which are dropped once the matrix is there.
+constexpr double kBytesPerVertexAndLevel = 9.1e3, kFlopsPerVertexAndLevel = 1.4e7;
+/// Points of rules and close pairs of Galerkin BEM, which are dropped once the matrix is there.
 constexpr double kBytesPerVertex = 14e3;
+/// By linear collocation, whose matrix is not symmetric and needs no pairs of triangles; and for each traction of a
+/// constrained set and level, and each equation.
+constexpr double kCollocationBytes = 12.2e3, kCollocationFlops = 1.7e7;
+constexpr double kCollocationBytesOfATraction = 15.5e3, kCollocationBytesOfAnEquation = 28e3;
+
+/// Levels of clusters.
+double levels_of(std::int64_t n_vertices) { return std::log2(std::max(static_cast<double>(n_vertices) / 48.0, 2.0)); }
+
+Cost predict_hierarchical(const SurfaceMesh& mesh, double bytes_per_level, double bytes, double flops_per_level) {
+    const double n = mesh.n_vertices(), levels = levels_of(mesh.n_vertices());
+    return {3 * static_cast<std::int64_t>(mesh.n_vertices()),
+            (64u << 20) + static_cast<std::uint64_t>((bytes_per_level * levels + bytes) * n),
+            flops_per_level * n * levels / product_speed()};
+}
 
 Cost predict(const SurfaceMesh& mesh, const Method& method, double nodes) {
     const double n = 3.0 * nodes, pairs = nodes * mesh.n_triangles();
@@ -47,11 +61,13 @@ Cost predict_constant_bem(const SurfaceMesh& mesh, const Method& method) {
 }
 
 Cost predict_linear_bem(const SurfaceMesh& mesh, const Method& method) {
+    if (is_hierarchical(mesh, method)) return predict_hierarchical(mesh, kCollocationBytes, 0.0, kCollocationFlops);
     return predict(mesh, method, mesh.n_vertices());
 }
 
 bool is_hierarchical(const SurfaceMesh& surface, const Method& method) {
-    const bool once = !factorises_ahead(method);  // a factor serves many sets, and is dear for one
+    const bool once = !factorises_ahead(method);      // a factor serves many sets, and is dear for one
+    if (method.update == Update::eqn9) return false;  // acts on inverses of the whole matrix
     return method.mode == Mode::on_demand && surface.n_vertices() >= (once ? kHierarchicalOnceFrom : kHierarchicalFrom);
 }
 
@@ -61,20 +77,21 @@ std::uint64_t hierarchical_set_memory(std::int64_t n_vertices, std::int64_t n_lo
     return static_cast<std::uint64_t>(16e3 * n + 45e3 * static_cast<double>(n_loaded) + 16.0 * factorised);
 }
 
+std::uint64_t collocation_set_memory(std::int64_t n_vertices, std::int64_t n_points, std::int64_t n_slots) {
+    return static_cast<std::uint64_t>(kCollocationBytesOfATraction * levels_of(n_vertices) *
+                                          static_cast<double>(n_slots) +
+                                      kCollocationBytesOfAnEquation * static_cast<double>(n_points));
+}
+
 /// Half an LU, and half of the pairs of triangles: each once.
 Cost predict_galerkin_bem(const SurfaceMesh& mesh, const Method& method) {
+    if (is_hierarchical(mesh, method))
+        return predict_hierarchical(mesh, kBytesPerVertexAndLevel, kBytesPerVertex, kFlopsPerVertexAndLevel);
     const double n = 3.0 * mesh.n_vertices(), triangles = mesh.n_triangles();
     const double vertices = mesh.n_vertices();
     const double waiting =
         std::min(kLeastRowMemory + kRowMemoryPerVertex * vertices, kRowMemoryPerPair * vertices * vertices);
     Cost cost{static_cast<std::int64_t>(n), kLeastMemory + static_cast<std::uint64_t>(waiting), 0.0};
-    if (is_hierarchical(mesh, method)) {
-        const double levels = std::log2(std::max(mesh.n_vertices() / 48.0, 2.0));
-        const double per_vertex = kBytesPerVertexAndLevel * levels + kBytesPerVertex;
-        cost.memory_bytes = (64u << 20) + static_cast<std::uint64_t>(per_vertex * mesh.n_vertices());
-        cost.seconds = kFlopsPerVertexAndLevel * mesh.n_vertices() * levels / product_speed();
-        return cost;
-    }
     if (!factorises_ahead(method)) return cost;
     cost.memory_bytes += square_bytes(n);
     double flops = n * n * n / 3.0 + 0.5 * kFlopsPerPair * triangles * triangles + kFlopsPerTriangle * triangles;

@@ -10,8 +10,10 @@ namespace {
 template <const BoundaryElement& (*element)()>
 std::shared_ptr<const SolidModel> precompute(const SurfaceMesh& surface, const std::string&, double poisson_ratio,
                                              const Method& method, const SolidModel* before, Control& control) {
-    return std::make_shared<BemModel>(element(), surface, poisson_ratio, method, dynamic_cast<const BemModel*>(before),
-                                      control);
+    const bool hierarchical = element == linear_element && is_hierarchical(surface, method);
+    return std::make_shared<BemModel>(element(), surface, poisson_ratio, method,
+                                      hierarchical ? BemSystem::Storage::hierarchical : BemSystem::Storage::dense,
+                                      dynamic_cast<const BemModel*>(before), control);
 }
 
 constexpr std::array kSurfaceModes = {Mode::on_demand, Mode::full};

@@ -27,8 +27,8 @@ std::vector<int> collocated(const TractionSpace& space, const std::vector<int>& 
 
 /// Columns of the mixed matrix that a thread copies at a time.
 constexpr int kColumnsAtOnce = 64;
-/// Sources at which the residual is evaluated, of each kind.
-constexpr int kSampledSources = 128;
+/// Sources at which the residual is evaluated, of each kind, and at once: few, as the matrix may be no dense one.
+constexpr int kSampledSources = 128, kSampledAtOnce = 16;
 
 std::vector<int> free_nodes(const Partition& partition) {
     std::vector<int> nodes;
@@ -61,13 +61,16 @@ struct Balance {
 
     void add(const BemSystem& system, const TractionSpace& space, const NodeSolution& solution, const Sources& sources,
              Control& control) {
-        for_source_strips(sources, [&](int, const Sources& strip) {
-            const Eigen::MatrixXd H = system.double_layer(strip, control);
-            const Eigen::MatrixXd G = system.single_layer(strip, space.elements, control);
-            const Eigen::VectorXd u = solution.displacements.col(0), q = solution.loads.col(0);
-            off += (H * u - G * q).squaredNorm();
-            size += (H.cwiseAbs() * u.cwiseAbs() + G.cwiseAbs() * q.cwiseAbs()).squaredNorm();
-        });
+        for_source_strips(
+            sources,
+            [&](int, const Sources& strip) {
+                const Eigen::MatrixXd H = system.double_layer(strip, control);
+                const Eigen::MatrixXd G = system.single_layer(strip, space.elements, control);
+                const Eigen::VectorXd u = solution.displacements.col(0), q = solution.loads.col(0);
+                off += (H * u - G * q).squaredNorm();
+                size += (H.cwiseAbs() * u.cwiseAbs() + G.cwiseAbs() * q.cwiseAbs()).squaredNorm();
+            },
+            kSampledAtOnce);
     }
 };
 

@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "bem/boundary_field.hpp"
+#include "bem/cost.hpp"
 #include "bem/error_estimate.hpp"
 #include "bem/mixed_solver.hpp"
 #include "bem/responses.hpp"
@@ -11,23 +12,25 @@ namespace elastolab {
 
 namespace {
 
-bool same_system(const Method& a, const Method& b) {
-    return a.kind == b.kind && a.mode == b.mode && integral_tolerance(a) == integral_tolerance(b) &&
-           a.column_memory == b.column_memory && factorises_ahead(a) == factorises_ahead(b);
+bool same_system(const Method& a, const Method& b, BemSystem::Storage storage) {
+    if (a.kind != b.kind || integral_tolerance(a) != integral_tolerance(b)) return false;
+    return storage == BemSystem::Storage::hierarchical ||
+           (a.mode == b.mode && a.column_memory == b.column_memory && factorises_ahead(a) == factorises_ahead(b));
 }
 
 }  // namespace
 
 BemModel::BemModel(const BoundaryElement& element, const SurfaceMesh& surface, double poisson_ratio,
-                   const Method& method, const BemModel* before, Control& control)
-    : element_(element), method_(method), poisson_ratio_(poisson_ratio) {
-    if (before != nullptr && before->poisson_ratio_ == poisson_ratio && same_system(before->method_, method)) {
+                   const Method& method, BemSystem::Storage storage, const BemModel* before, Control& control)
+    : element_(element), method_(method), storage_(storage), poisson_ratio_(poisson_ratio) {
+    if (before != nullptr && before->poisson_ratio_ == poisson_ratio && before->storage_ == storage &&
+        same_system(before->method_, method, storage)) {
         system_ = before->system_;
     } else {
         auto boundary =
             before != nullptr ? before->system_->shared_boundary() : std::make_shared<const Boundary>(surface);
-        system_ = std::make_shared<const BemSystem>(element, std::move(boundary), poisson_ratio, method, facts_.stages,
-                                                    control);
+        system_ = std::make_shared<const BemSystem>(element, std::move(boundary), poisson_ratio, method, storage,
+                                                    facts_.stages, control);
     }
     note_facts();
 }
@@ -45,6 +48,9 @@ void BemModel::note_facts() {
 
 std::unique_ptr<NodeSolver> BemModel::make_solver(const TractionSpace& space, const std::vector<int>& nodes, int n_base,
                                                   Control& control) const {
+    if (system_->hierarchical())
+        return std::make_unique<CollocationSolver>(system_->hierarchical(), space, nodes,
+                                                   method_.update == Update::direct, control);
     switch (method_.update) {
         case Update::direct:
             if (has_K()) return std::make_unique<DirectSolver>(system_->operators(), nodes, &control);
@@ -68,6 +74,10 @@ BemConstraints BemModel::constraints_of(std::span<const int> base, std::span<con
 
 std::uint64_t BemModel::constrain_memory(std::span<const int> base, std::span<const int> handles) const {
     const BemConstraints setting = constraints_of(base, handles);
+    if (system_->hierarchical())
+        return collocation_set_memory(facts_.n_vertices,
+                                      facts_.n_vertices + 3 * std::ssize(setting.space.interior_triangles),
+                                      setting.space.n_slots());
     if (method_.update == Update::reduced) return response_memory(*system_, setting.space);
     const auto all = 3 * static_cast<std::uint64_t>(system_->n_nodes());
     const auto constrained = 3 * static_cast<std::uint64_t>(setting.nodes.nodes.size()), free = all - constrained;

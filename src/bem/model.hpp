@@ -13,7 +13,7 @@ public:
     /// before: a model of the same surface, of which the boundary, the integrals or the whole system are taken over
     /// where they serve; or null.
     BemModel(const BoundaryElement& element, const SurfaceMesh& surface, double poisson_ratio, const Method& method,
-             const BemModel* before, Control& control);
+             BemSystem::Storage storage, const BemModel* before, Control& control);
 
     std::unique_ptr<ConstrainedSolid> constrain(std::span<const int> base, std::span<const int> handles,
                                                 Control& control) const override;
@@ -32,6 +32,7 @@ private:
 
     const BoundaryElement& element_;
     Method method_;
+    BemSystem::Storage storage_;
     double poisson_ratio_;
     std::shared_ptr<const BemSystem> system_;
     std::shared_ptr<const SparseRows> display_;  ///< null where nodes are vertices

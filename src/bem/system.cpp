@@ -33,7 +33,7 @@ std::uint64_t budget_for(Eigen::Index n_rows, Mode mode) {
 }  // namespace
 
 BemSystem::BemSystem(const BoundaryElement& element, std::shared_ptr<const Boundary> boundary, double poisson_ratio,
-                     const Method& method, StageTimes& stages, Control& control)
+                     const Method& method, Storage storage, StageTimes& stages, Control& control)
     : element_(element),
       boundary_(std::move(boundary)),
       material_{1.0, poisson_ratio},
@@ -45,6 +45,11 @@ BemSystem::BemSystem(const BoundaryElement& element, std::shared_ptr<const Bound
     const Eigen::Index n = 3 * n_nodes();
     cache_budget_ = method.column_memory.value_or(budget_for(n, method.mode));
     cache_ = std::make_unique<ColumnCache>(cache_budget_);
+    if (storage == Storage::hierarchical) {
+        const Stage stage("integrate", control, stages);
+        hierarchical_ = std::make_shared<const HierarchicalCollocation>(boundary_, material_, tolerance_, control);
+        return;
+    }
     if (!factorises_ahead(method)) return;
     Eigen::MatrixXd bordered(n + 6, n + 6);
     {
@@ -102,6 +107,7 @@ void BemSystem::complete(Eigen::MatrixXd H, StageTimes& stages, Control& control
 }
 
 std::uint64_t BemSystem::memory_bytes() const {
+    if (hierarchical_) return hierarchical_->memory_bytes();
     const auto n = static_cast<std::uint64_t>(lu_.size());
     return 8 * n * n * (full_ ? 5u : 1u);
 }

@@ -14,6 +14,7 @@
 #include "bem/assembly.hpp"
 #include "bem/boundary.hpp"
 #include "bem/element.hpp"
+#include "bem/hierarchical/collocation.hpp"
 #include "bem/traction_space.hpp"
 #include "deform/columns.hpp"
 #include "deform/dense_solvers.hpp"
@@ -29,9 +30,13 @@ namespace elastolab {
 /// Nodes are vertices (linear elements) or triangles (constant elements). Any thread may use it.
 class BemSystem {
 public:
-    /// On demand with the update `direct` nothing is factorised here: each constrained set has a system of its own.
+    /// How H is kept. Hierarchical: linear elements, on demand; each constrained set is iterated for.
+    enum class Storage { dense, hierarchical };
+
+    /// Dense, on demand with the update `direct` nothing is integrated here: each constrained set has a system of its
+    /// own.
     BemSystem(const BoundaryElement& element, std::shared_ptr<const Boundary> boundary, double poisson_ratio,
-              const Method& method, StageTimes& stages, Control& control);
+              const Method& method, Storage storage, StageTimes& stages, Control& control);
 
     const Boundary& boundary() const { return *boundary_; }
     std::shared_ptr<const Boundary> shared_boundary() const { return boundary_; }
@@ -67,6 +72,8 @@ public:
     /// X <- Hhat^-1 X.
     void solve_in_place(Eigen::Ref<Eigen::MatrixXd> X) const { lu_.solve_in_place(X); }
 
+    /// H, or null where it is dense.
+    const std::shared_ptr<const HierarchicalCollocation>& hierarchical() const { return hierarchical_; }
     /// H, G, K and Khat^-1: only in the mode `full`, else null.
     const Eigen::MatrixXd* double_layer_matrix() const { return full_ ? &full_->H : nullptr; }
     const Eigen::MatrixXd* single_layer_matrix() const { return full_ ? &full_->G : nullptr; }
@@ -98,6 +105,7 @@ private:
     LuFactorization lu_;
     Eigen::MatrixXd rigid_;
     std::unique_ptr<Full> full_;
+    std::shared_ptr<const HierarchicalCollocation> hierarchical_;
     Findings findings_;
     std::uint64_t cache_budget_ = 0;
     std::unique_ptr<ColumnCache> cache_;

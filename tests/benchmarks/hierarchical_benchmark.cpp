@@ -1,5 +1,6 @@
-// Galerkin BEM by hierarchical matrices beside hmat-oss's H-LU (Debian's libhmat-oss, which is sequential) of a matrix
-// of the same size: Kelvin's solution between the vertices, to 1e-4, for which a solve is then off by about 1e-2.
+// Galerkin and linear BEM by hierarchical matrices beside hmat-oss's H-LU (Debian's libhmat-oss, which is sequential)
+// of a matrix of the same size: Kelvin's solution between the vertices, to 1e-4, for which a solve is then off by about
+// 1e-2.
 //   build/release/tests/benchmarks/hierarchical_benchmark
 
 #include <hmat/hmat.h>
@@ -68,13 +69,14 @@ void factorise_by_hmat(const SurfaceMesh& mesh) {
     hmat.finalize();
 }
 
-/// From the surface to columns of a drag, base and handle included. `gigabytes`: what the process has taken at most.
-void galerkin_bem_until_a_drag_beside_an_h_lu(benchmark::State& state) {
+/// From the surface to columns of a drag, base and handle included. `gigabytes`: what the process has taken at most,
+/// of this method only when it is the one that --benchmark_filter names.
+void bem_until_a_drag_beside_an_h_lu(benchmark::State& state, MethodKind kind) {
     const SurfaceMesh mesh = make_lump(static_cast<int>(state.range(0)));
     const ConstrainedSet set{lowest(mesh, 0.08), tip(mesh, Eigen::Vector3d::UnitX(), 30)};
     const Body body = make_body(mesh);
     const auto work = [&] {
-        Deformer deformer(precomputed(body, make_method(kGalerkinBem)));
+        Deformer deformer(precomputed(body, make_method(kind)));
         benchmark::DoNotOptimize(drag(deformer, set));
     };
     work();
@@ -83,12 +85,11 @@ void galerkin_bem_until_a_drag_beside_an_h_lu(benchmark::State& state) {
     state.counters["vertices"] = mesh.n_vertices();
 }
 
-BENCHMARK(galerkin_bem_until_a_drag_beside_an_h_lu)
-    ->ArgName("cells")
-    ->Arg(50)  // 10 002 vertices
-    ->UseManualTime()
-    ->Iterations(1)
-    ->Unit(benchmark::kMillisecond);
+void of_10002_vertices(benchmark::internal::Benchmark* its) {
+    its->ArgName("cells")->Arg(50)->UseManualTime()->Iterations(1)->Unit(benchmark::kMillisecond);
+}
+BENCHMARK_CAPTURE(bem_until_a_drag_beside_an_h_lu, galerkin, kGalerkinBem)->Apply(of_10002_vertices);
+BENCHMARK_CAPTURE(bem_until_a_drag_beside_an_h_lu, linear, kLinearBem)->Apply(of_10002_vertices);
 
 }  // namespace
 }  // namespace elastolab::test

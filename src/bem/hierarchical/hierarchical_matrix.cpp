@@ -29,6 +29,31 @@ std::vector<Eigen::Index> scalar_rows(const std::vector<int>& positions, Eigen::
     return rows;
 }
 
+/// Rows and columns up to which all entries of a far block are computed, many at once, rather than some one by one.
+constexpr int kSmallBlock = 128;
+
+/// A block that is in memory.
+class StoredEntries : public BlockEntries {
+public:
+    StoredEntries(const BlockEntries& entries, PositionRange rows, PositionRange cols)
+        : rows_(rows), cols_(cols), block_(3 * rows.size(), 3 * cols.size()) {
+        entries.fill_far(rows, cols, block_);
+    }
+    void fill(PositionRange rows, PositionRange cols, Eigen::Ref<Eigen::MatrixXd> out) const override {
+        out = block_.block(3 * (rows.begin - rows_.begin), 3 * (cols.begin - cols_.begin), out.rows(), out.cols());
+    }
+    bool are_stored() const override { return true; }
+
+private:
+    PositionRange rows_, cols_;
+    Eigen::MatrixXd block_;
+};
+
+LowRankMatrix approximate(const BlockEntries& entries, PositionRange rows, PositionRange cols, double tolerance) {
+    if (std::max(rows.size(), cols.size()) > kSmallBlock) return cross_approximation(entries, rows, cols, tolerance);
+    return cross_approximation(StoredEntries(entries, rows, cols), rows, cols, tolerance);
+}
+
 }  // namespace
 
 struct HierarchicalMatrix::Block {
@@ -86,7 +111,7 @@ HierarchicalMatrix::HierarchicalMatrix(std::shared_ptr<const ClusterTree> rows, 
         block.cols = col_tree_->cluster(pair.col).range;
         block.mirrored = symmetric_ && pair.row != pair.col;
         if (pair.admissible) {
-            const LowRankMatrix cross = cross_approximation(entries, block.rows, block.cols, 0.5 * options.tolerance);
+            const LowRankMatrix cross = approximate(entries, block.rows, block.cols, 0.5 * options.tolerance);
             const LowRankMatrix least = recompressed(cross, 0.5 * options.tolerance);
             block.U = least.U.cast<float>();
             block.V = least.V.cast<float>();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <Eigen/SVD>
 #include <vector>
 
@@ -14,8 +15,9 @@ namespace {
 /// A direction of a pivot row is used only if the pivot is at least this part of what the row has anywhere: smaller
 /// pivots would multiply errors.
 constexpr double kLeastPivot = 0.1;
-/// Crosses below the tolerance in turn, and rows looked at, before the approximation is believed.
-constexpr int kSmallCrosses = 2, kSamples = 3;
+/// Crosses below the tolerance in turn, groups of rows looked at, and rows in a group (which mostly cost what
+/// one costs), before the approximation is believed.
+constexpr int kSmallCrosses = 2, kSamples = 3, kRowsTogether = 8;
 
 class CrossApproximation {
 public:
@@ -31,7 +33,7 @@ public:
         V_.resize(3 * cols_.size(), 0);
         int n_small = 0;
         for (int row = rows_.size() / 2; row >= 0 && rank_ < limit();) {
-            n_small = cross(row) > tolerance_ * std::sqrt(norm_square_) ? 0 : n_small + 1;
+            n_small = cross(row) > allowed(rows_.size()) ? 0 : n_small + 1;
             row = next_row();
             if (n_small >= kSmallCrosses || row < 0) {
                 n_small = 0;
@@ -44,14 +46,15 @@ public:
 private:
     static constexpr int kUses = 3;  ///< of one row: each takes at least one of its three directions
 
+    /// Size of the error that so many rows may have.
+    double allowed(int n_rows) const { return tolerance_ * std::sqrt(norm_square_ * n_rows / rows_.size()); }
     Eigen::Index limit() const { return 3 * std::min(rows_.size(), cols_.size()); }
     int& uses(int row) { return uses_[static_cast<std::size_t>(row)]; }
 
-    Eigen::Matrix3Xd residual_row(int row) const {
-        Eigen::MatrixXd values(3, 3 * cols_.size());
-        const int at = rows_.begin + row;
-        entries_.fill_far({at, at + 1}, cols_, values);
-        values.noalias() -= U_.block(3 * row, 0, 3, rank_) * V_.leftCols(rank_).transpose();
+    Eigen::MatrixXd residual_rows(PositionRange some) const {
+        Eigen::MatrixXd values(3 * some.size(), 3 * cols_.size());
+        entries_.fill_far({rows_.begin + some.begin, rows_.begin + some.end}, cols_, values);
+        values.noalias() -= U_.block(3 * some.begin, 0, values.rows(), rank_) * V_.leftCols(rank_).transpose();
         return values;
     }
 
@@ -65,7 +68,7 @@ private:
 
     /// Adds the cross through a row; returns the size of what it adds, in the Frobenius norm.
     double cross(int row) {
-        const Eigen::Matrix3Xd R = residual_row(row);
+        const Eigen::Matrix3Xd R = residual_rows({row, row + 1});
         int col = 0;
         double largest = -1.0;
         for (int j = 0; j < cols_.size(); ++j)
@@ -135,17 +138,30 @@ private:
         return best;
     }
 
-    /// A row that is not yet approximated, out of a few spread over the block; -1: all are.
+    /// Groups of rows that are looked at: a few spread over the block, or all where that costs nothing.
+    int n_groups() const {
+        const int all = (rows_.size() + kRowsTogether - 1) / kRowsTogether;
+        return entries_.are_stored() ? all : std::min(all, kSamples);
+    }
+    PositionRange group(int g) const {
+        const int last = std::max(rows_.size() - kRowsTogether, 0), n = n_groups();
+        const int begin = n > 1 ? static_cast<int>(static_cast<std::int64_t>(g) * last / (n - 1)) : last / 2;
+        return {begin, std::min(begin + kRowsTogether, rows_.size())};
+    }
+
+    /// The worst row of a group in which some are not yet approximated; -1: all are.
     int unconverged_sample() {
-        const double allowed = tolerance_ * std::sqrt(norm_square_ / rows_.size());
-        while (samples_ < kSamples) {
-            const int row = (2 * samples_ + 1) * rows_.size() / (2 * kSamples);
-            ++samples_;
-            if (uses(row) >= kUses) continue;
-            if (residual_row(row).norm() > 3.0 * allowed) {
-                samples_ = 0;
-                return row;
-            }
+        for (; samples_ < n_groups(); ++samples_) {
+            const PositionRange some = group(samples_);
+            const Eigen::MatrixXd R = residual_rows(some);
+            int worst = -1;
+            double largest = 3.0 * allowed(1);
+            for (int i = 0; i < some.size(); ++i)
+                if (const double size = R.middleRows<3>(3 * i).norm(); size > largest && uses(some.begin + i) < kUses) {
+                    largest = size;
+                    worst = some.begin + i;
+                }
+            if (worst >= 0) return worst;  // the same group is looked at once more
         }
         return -1;
     }

@@ -17,6 +17,8 @@ public:
     virtual void fill_far(PositionRange rows, PositionRange cols, Eigen::Ref<Eigen::MatrixXd> out) const {
         fill(rows, cols, out);
     }
+    /// Whether entries are only copied: then all of them are looked at.
+    virtual bool are_stored() const { return false; }
 };
 
 /// U V^T
@@ -27,9 +29,9 @@ struct LowRankMatrix {
 
 /// U V^T ~ the block of these rows and columns, with an error of about `tolerance` times the Frobenius norm of the
 /// block, by adaptive cross approximation: rows and columns of one node at a time, chosen by partial pivoting, each
-/// with its 3 x 3 pivot. Rows that were not visited are sampled before it ends, as a block of several parts of the
-/// surface can hide one of them from the pivots. The rank grows to that of the block, if need be. Source: M. Bebendorf,
-/// Numer. Math. 86 (2000); the pivots are blocks here.
+/// with its 3 x 3 pivot. Rows that were not visited are sampled before it ends (or all of them looked at), as a block
+/// of several parts of the surface can hide one of them from the pivots. The rank grows to that of the block, if need
+/// be. Source: M. Bebendorf, Numer. Math. 86 (2000); the pivots are blocks here.
 LowRankMatrix cross_approximation(const BlockEntries& entries, PositionRange rows, PositionRange cols,
                                   double tolerance);
 

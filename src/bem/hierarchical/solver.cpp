@@ -1,4 +1,5 @@
-#include "base/lapack.hpp"
+#include "bem/hierarchical/free_motions.hpp"
+#include "bem/hierarchical/item_rows.hpp"
 #include "bem/hierarchical/system.hpp"
 #include "deform/conjugate_gradients.hpp"
 
@@ -9,33 +10,6 @@ namespace {
 /// Of the residual, relative: prescribed displacements end at the rims in a jump, beside which a bend is small. And of
 /// that of the tractions inside, of which some dozens add up to less, at first and at most.
 constexpr double kIterationResidual = 1e-8, kInnerResidual = 1e-10, kMostInnerResidual = 1e-3;
-/// A rigid motion counts as free when the constrained vertices see less than this part of what they see of another.
-constexpr double kUnseen = 1e-9;
-/// Columns of answers that are kept, and what a combination of them may miss.
-constexpr Eigen::Index kMostKept = 16;
-constexpr double kCombined = 1e-12;
-
-Eigen::MatrixXd rows_of(const Eigen::MatrixXd& all, const std::vector<int>& positions) {
-    Eigen::MatrixXd rows(3 * std::ssize(positions), all.cols());
-    for (std::size_t i = 0; i < positions.size(); ++i)
-        rows.middleRows<3>(3 * static_cast<Eigen::Index>(i)) = all.middleRows<3>(3 * positions[i]);
-    return rows;
-}
-
-/// What these positions do not see of some orthonormal motions, orthonormal.
-Eigen::MatrixXd unseen_motions(const Eigen::MatrixXd& motions, const std::vector<int>& positions) {
-    const Eigen::MatrixXd seen = rows_of(motions, positions);
-    Eigen::MatrixXd rows =
-        Eigen::MatrixXd::Zero(std::max(seen.rows(), seen.cols()), seen.cols());  // so that V is square
-    rows.topRows(seen.rows()) = seen;
-    const SingularValues svd = singular_values(std::move(rows));
-    const auto n_seen = (svd.sigma.array() > kUnseen * svd.sigma[0]).count();
-    return motions * svd.V.rightCols(motions.cols() - n_seen);
-}
-
-void orthogonalise(Eigen::MatrixXd& X, const Eigen::MatrixXd& N) {
-    if (N.cols() > 0) X.noalias() -= N * (N.transpose() * X).eval();
-}
 
 /// A preconditioner that stays orthogonal to the free motions.
 class Projected : public LinearOperator {
@@ -138,44 +112,9 @@ Eigen::MatrixXd HierarchicalSolver::iterate(const Eigen::MatrixXd& prescribed, C
     return u;
 }
 
-/// Columns that are combinations of kept answers are taken from them; returns the numbers of the others.
-std::vector<Eigen::Index> HierarchicalSolver::combine(const Eigen::MatrixXd& prescribed, Eigen::MatrixXd& u) const {
-    const std::scoped_lock lock(mutex_);
-    std::vector<Eigen::Index> others;
-    Eigen::MatrixXd shares(answers_.prescribed.cols(), prescribed.cols()), missed = -prescribed;
-    if (shares.rows() > 0) {
-        shares = solve_minimum_norm(answers_.prescribed, prescribed, kCombined).X;
-        missed.noalias() += answers_.prescribed * shares;
-    }
-    for (Eigen::Index c = 0; c < prescribed.cols(); ++c)
-        if (missed.col(c).stableNorm() <= kCombined * prescribed.col(c).stableNorm())
-            u.col(c) = shares.rows() > 0 ? Eigen::VectorXd(answers_.displacements * shares.col(c))
-                                         : Eigen::VectorXd::Zero(u.rows());
-        else
-            others.push_back(c);
-    return others;
-}
-
 Eigen::MatrixXd HierarchicalSolver::displacements(const Eigen::MatrixXd& prescribed, Control& control) const {
-    Eigen::MatrixXd u(system_->size(), prescribed.cols());
-    const std::vector<Eigen::Index> others = combine(prescribed, u);
-    if (others.empty()) return u;
-    const Eigen::MatrixXd new_prescribed = prescribed(Eigen::all, others), answers = iterate(new_prescribed, control);
-    u(Eigen::all, others) = answers;
-    const std::scoped_lock lock(mutex_);
-    const Eigen::Index n_old = answers_.prescribed.cols();
-    if (n_old + answers.cols() <= kMostKept) {
-        Answers all{Eigen::MatrixXd(prescribed.rows(), n_old + answers.cols()),
-                    Eigen::MatrixXd(u.rows(), n_old + answers.cols())};
-        if (n_old > 0) all.prescribed.leftCols(n_old) = answers_.prescribed;
-        if (n_old > 0) all.displacements.leftCols(n_old) = answers_.displacements;
-        all.prescribed.rightCols(answers.cols()) = new_prescribed;
-        all.displacements.rightCols(answers.cols()) = answers;
-        answers_ = std::move(all);
-    } else if (answers.cols() <= kMostKept) {
-        answers_ = {new_prescribed, answers};
-    }
-    return u;
+    return answers_.get(prescribed, system_->size(),
+                        [&](const Eigen::MatrixXd& new_ones) { return iterate(new_ones, control); });
 }
 
 NodeSolution HierarchicalSolver::solve(const Eigen::MatrixXd& prescribed, bool want_loads) const {

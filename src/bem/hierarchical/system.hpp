@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <span>
 #include <vector>
 
@@ -11,6 +10,7 @@
 #include "bem/galerkin/tractions.hpp"
 #include "bem/hierarchical/boundary_entries.hpp"
 #include "bem/hierarchical/hierarchical_matrix.hpp"
+#include "bem/hierarchical/kept_answers.hpp"
 #include "bem/hierarchical/schwarz.hpp"
 #include "bem/hierarchical/traction_layers.hpp"
 #include "deform/method.hpp"
@@ -74,7 +74,6 @@ private:
     /// Displacements in the order of the tree.
     Eigen::MatrixXd displacements(const Eigen::MatrixXd& prescribed, Control& control) const;
     Eigen::MatrixXd iterate(const Eigen::MatrixXd& prescribed, Control& control) const;
-    std::vector<Eigen::Index> combine(const Eigen::MatrixXd& prescribed, Eigen::MatrixXd& u) const;
     Eigen::MatrixXd operate(const Eigen::MatrixXd& u, double inner, Control& control) const;
     Eigen::MatrixXd double_layer(Eigen::MatrixXd u) const;
     Eigen::MatrixXd transposed_double_layer(const Eigen::MatrixXd& t) const;
@@ -86,12 +85,7 @@ private:
     std::unique_ptr<const TractionLayers> layers_;
     std::unique_ptr<const SchwarzPreconditioner> preconditioner_;
     Eigen::MatrixXd free_motions_;  ///< rigid motions that the constraints leave, orthonormal; mostly none
-
-    struct Answers {
-        Eigen::MatrixXd prescribed, displacements;
-    };
-    mutable std::mutex mutex_;
-    mutable Answers answers_;
+    mutable KeptAnswers answers_;
 };
 
 /// As galerkin_residual, over a sample of the equations, with entries computed afresh.

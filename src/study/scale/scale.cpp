@@ -43,7 +43,7 @@ std::vector<Growth> growths(bool quick) {
             {method(kFem, Mode::full_volume), cells(10)},
             {method(kConstantBem, Mode::on_demand), cells(20)},
             {method(kConstantBem, Mode::full), cells(10)},
-            {method(kLinearBem, Mode::on_demand), cells(30)},
+            {method(kLinearBem, Mode::on_demand), cells(82)},
             {method(kLinearBem, Mode::full), cells(16)}};
 }
 

@@ -1,0 +1,195 @@
+#include "bem/hierarchical/collocation.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+#include "bem/hierarchical/free_motions.hpp"
+#include "bem/hierarchical/item_rows.hpp"
+#include "deform/gmres.hpp"
+#include "elasticity/rigid_motion.hpp"
+#include "mesh/measures.hpp"
+
+namespace elastolab {
+
+namespace {
+
+/// Error of a far block over that of an integral, and at most; how near a far block may be. Displacements then differ
+/// by 8e-8 from those of the dense matrix (cube of 2906 vertices, integrals to 1e-10); with smaller leaves and nearer
+/// blocks, which are in single precision, by 1e-6.
+constexpr double kFarTolerance = 5000.0, kMostFarTolerance = 1e-4, kEta = 2.0;
+/// Columns that are iterated for at once: each has a basis of its own.
+constexpr Eigen::Index kColumnsAtOnce = 4;
+constexpr double kIterationResidual = 1e-8;
+
+std::vector<int> without(const std::vector<int>& numbers, const std::vector<int>& left_out) {
+    std::vector<int> sorted = left_out, kept;
+    std::sort(sorted.begin(), sorted.end());
+    for (const int number : numbers)
+        if (!std::binary_search(sorted.begin(), sorted.end(), number)) kept.push_back(number);
+    return kept;
+}
+
+std::vector<int> all_numbers(int n) {
+    std::vector<int> numbers(static_cast<std::size_t>(n));
+    for (int i = 0; i < n; ++i) numbers[static_cast<std::size_t>(i)] = i;
+    return numbers;
+}
+
+}  // namespace
+
+HierarchicalCollocation::HierarchicalCollocation(std::shared_ptr<const Boundary> boundary, const Material& material,
+                                                 double tolerance, Control& control)
+    : boundary_(std::move(boundary)),
+      material_(material),
+      tolerance_(tolerance),
+      options_{.tolerance = std::min(kFarTolerance * tolerance, kMostFarTolerance), .eta = kEta},
+      motions_(std::make_shared<const Eigen::MatrixXd>(rigid_modes(boundary_->mesh().vertices))),
+      elements_(*boundary_, vertex_elements(*boundary_)),
+      H_(*boundary_, vertex_sources(*boundary_), elements_, motions_, material_, tolerance_, options_, control) {}
+
+std::unique_ptr<const HierarchicalDoubleLayer> HierarchicalCollocation::seen_from(Sources sources,
+                                                                                  Control& control) const {
+    return std::make_unique<const HierarchicalDoubleLayer>(*boundary_, std::move(sources), elements_, motions_,
+                                                           material_, tolerance_, options_, control);
+}
+
+CollocationProblem::CollocationProblem(std::shared_ptr<const HierarchicalCollocation> matrices,
+                                       const TractionSpace& space, std::vector<int> constrained, bool must_hold,
+                                       Control& control)
+    : matrices_(std::move(matrices)),
+      free_(without(all_numbers(n_vertices()), constrained)),
+      constrained_(std::move(constrained)),
+      at_(free_),
+      loads_(matrices_->boundary(), space.elements),
+      traction_scale_(matrices_->material().shear_modulus() / mean_edge(matrices_->boundary().mesh())),
+      free_motions_(unseen_motions(*matrices_->motions(), constrained_)) {
+    if (must_hold && !holds_the_body()) throw NotHeldError();
+    control.begin_stage("integrate tractions");
+    const std::vector<int> collocated = without(constrained_, space.dropped_collocation);
+    at_.insert(at_.end(), collocated.begin(), collocated.end());
+    sources_ = matrices_->at_vertices().sources().subset(at_);
+    if (!space.interior_triangles.empty()) {
+        const Sources interior = interior_sources(matrices_->boundary(), space.interior_triangles);
+        sources_.append(interior);
+        A_ = matrices_->seen_from(interior, control);
+    }
+    G_ = std::make_unique<const HierarchicalLayer>(Layer::single_layer, matrices_->boundary(), sources_, loads_,
+                                                   matrices_->material(), matrices_->tolerance(), matrices_->options(),
+                                                   control);
+    // A triangle holds the body: where there is one, with interior points or without, nothing is free.
+    assert(holds_the_body() || !A_);
+    shift_ = rows_of(free_motions_, at_);
+}
+
+/// What displacements alone contribute.
+Eigen::MatrixXd CollocationProblem::equations(const Eigen::MatrixXd& displacements) const {
+    Eigen::MatrixXd rows(size(), displacements.cols());
+    rows.topRows(3 * std::ssize(at_)) = rows_of(matrices_->at_vertices().product(displacements), at_);
+    if (A_) rows.bottomRows(size() - 3 * std::ssize(at_)) = A_->product(displacements);
+    return rows;
+}
+
+Eigen::MatrixXd CollocationProblem::product(const Eigen::MatrixXd& X) const {
+    Eigen::MatrixXd displacements = Eigen::MatrixXd::Zero(3 * n_vertices(), X.cols());
+    put_rows(X, free_, displacements);
+    Eigen::MatrixXd rows = equations(displacements);
+    rows -= G_->product(traction_scale_ * X.bottomRows(3 * loads_.n_slots()));
+    if (!holds_the_body()) rows.noalias() += shift_ * (free_motions_.transpose() * displacements).eval();
+    return rows;
+}
+
+Eigen::MatrixXd CollocationProblem::right_side(const Eigen::MatrixXd& prescribed) const {
+    Eigen::MatrixXd displacements = Eigen::MatrixXd::Zero(3 * n_vertices(), prescribed.cols());
+    put_rows(prescribed, constrained_, displacements);
+    return -equations(displacements);
+}
+
+Eigen::MatrixXd CollocationProblem::assemble_answer(const Eigen::MatrixXd& prescribed, const Eigen::MatrixXd& X) const {
+    Eigen::MatrixXd displacements = Eigen::MatrixXd::Zero(3 * n_vertices(), X.cols());
+    put_rows(X, free_, displacements);
+    orthogonalise(displacements, free_motions_);
+    put_rows(prescribed, constrained_, displacements);
+    Eigen::MatrixXd answer(displacements.rows() + 3 * loads_.n_slots(), X.cols());
+    answer << displacements, traction_scale_ * X.bottomRows(3 * loads_.n_slots());
+    return answer;
+}
+
+const Eigen::Matrix3d& CollocationProblem::free_term(int equation) const {
+    const int n_at = static_cast<int>(at_.size());
+    return equation < n_at ? matrices_->at_vertices().free_term(at_[static_cast<std::size_t>(equation)])
+                           : A_->free_term(equation - n_at);
+}
+
+Eigen::MatrixXd CollocationProblem::block(const std::vector<int>& numbers) const {
+    std::vector<int> vertices, slots;
+    for (const int number : numbers)
+        if (number < n_free())
+            vertices.push_back(free_[static_cast<std::size_t>(number)]);
+        else
+            slots.push_back(number - n_free());
+    const Sources sources = sources_.subset(numbers);
+    const Boundary& boundary = matrices_->boundary();
+    const auto integrate = [&](Layer layer, const Elements& elements, Eigen::Ref<Eigen::MatrixXd> out) {
+        integrate_block(layer, boundary, sources, elements, matrices_->material(), matrices_->tolerance(), out);
+    };
+    const Eigen::Index n = 3 * std::ssize(numbers), n_displacements = 3 * std::ssize(vertices);
+    Eigen::MatrixXd A(n, n);
+    if (!vertices.empty())
+        integrate(Layer::double_layer, matrices_->elements().of(vertices), A.leftCols(n_displacements));
+    if (!slots.empty()) {
+        integrate(Layer::single_layer, loads_.of(slots), A.rightCols(n - n_displacements));
+        A.rightCols(n - n_displacements) *= -traction_scale_;
+    }
+    for (int row = 0; row < sources.size(); ++row)
+        for (const Sources::Weight& weight : sources.weights[static_cast<std::size_t>(row)]) {
+            const auto at = std::lower_bound(vertices.begin(), vertices.end(), weight.slot);
+            if (at != vertices.end() && *at == weight.slot)
+                A.block<3, 3>(3 * row, 3 * (at - vertices.begin())) +=
+                    weight.value * free_term(numbers[static_cast<std::size_t>(row)]);
+        }
+    if (!holds_the_body())
+        A.leftCols(n_displacements).noalias() +=
+            rows_of(shift_, numbers) * rows_of(free_motions_, vertices).transpose();
+    return A;
+}
+
+std::uint64_t CollocationProblem::memory_bytes() const { return (A_ ? A_->memory_bytes() : 0) + G_->memory_bytes(); }
+
+CollocationSolver::CollocationSolver(std::shared_ptr<const HierarchicalCollocation> matrices,
+                                     const TractionSpace& space, const std::vector<int>& constrained, bool must_hold,
+                                     Control& control)
+    : problem_(std::move(matrices), space, constrained, must_hold, control) {
+    held_ = problem_.holds_the_body();
+    control.begin_stage("precondition");
+    preconditioner_ = make_collocation_preconditioner(problem_, control);
+}
+
+CollocationSolver::~CollocationSolver() = default;
+
+NodeSolution CollocationSolver::solve(const Eigen::MatrixXd& prescribed, bool want_loads) const {
+    Control control;
+    return solve_watched(prescribed, want_loads, control);
+}
+
+NodeSolution CollocationSolver::solve_watched(const Eigen::MatrixXd& prescribed, bool want_loads,
+                                              Control& control) const {
+    const Eigen::Index n = 3 * problem_.n_vertices();
+    const auto iterate = [&](const Eigen::MatrixXd& new_ones) {
+        Eigen::MatrixXd answers(n + 3 * problem_.n_slots(), new_ones.cols());
+        for (Eigen::Index first = 0; first < new_ones.cols(); first += kColumnsAtOnce) {
+            const Eigen::Index count = std::min(kColumnsAtOnce, new_ones.cols() - first);
+            const Eigen::MatrixXd some = new_ones.middleCols(first, count);
+            const Eigen::MatrixXd X = gmres(problem_, *preconditioner_, problem_.right_side(some),
+                                            {.tolerance = kIterationResidual}, "boundary equations", control);
+            answers.middleCols(first, count) = problem_.assemble_answer(some, X);
+        }
+        return answers;
+    };
+    const Eigen::MatrixXd answer = answers_.get(prescribed, n + 3 * problem_.n_slots(), iterate);
+    NodeSolution solution{answer.topRows(n), {}};
+    if (want_loads) solution.loads = answer.bottomRows(answer.rows() - n);
+    return solution;
+}
+
+}  // namespace elastolab

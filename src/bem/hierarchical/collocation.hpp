@@ -1,0 +1,115 @@
+#pragma once
+
+#include <cstdint>
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "base/control.hpp"
+#include "bem/hierarchical/collocation_entries.hpp"
+#include "bem/hierarchical/kept_answers.hpp"
+#include "bem/traction_space.hpp"
+#include "deform/linear_operator.hpp"
+#include "deform/node_solver.hpp"
+
+namespace elastolab {
+
+/// H of linear collocation over a whole surface with unit Young's modulus, hierarchical. Immutable; any thread may use
+/// it.
+class HierarchicalCollocation {
+public:
+    /// tolerance: of the integrals, relative. Throws Cancelled.
+    HierarchicalCollocation(std::shared_ptr<const Boundary> boundary, const Material& material, double tolerance,
+                            Control& control);
+
+    const Boundary& boundary() const { return *boundary_; }
+    const Material& material() const { return material_; }
+    double tolerance() const { return tolerance_; }
+    const HierarchicalOptions& options() const { return options_; }
+    /// Rigid motions of all vertices, orthonormal: 3*n_vertices x 6.
+    const std::shared_ptr<const Eigen::MatrixXd>& motions() const { return motions_; }
+    const ClusteredElements& elements() const { return elements_; }
+    const HierarchicalDoubleLayer& at_vertices() const { return H_; }
+    /// The double layer seen from other points.
+    std::unique_ptr<const HierarchicalDoubleLayer> seen_from(Sources sources, Control& control) const;
+    std::uint64_t memory_bytes() const { return H_.memory_bytes(); }
+
+private:
+    std::shared_ptr<const Boundary> boundary_;
+    Material material_;
+    double tolerance_;
+    HierarchicalOptions options_;
+    std::shared_ptr<const Eigen::MatrixXd> motions_;
+    ClusteredElements elements_;
+    HierarchicalDoubleLayer H_;
+};
+
+/// The equations of one constrained set (MixedProblem in bem/mixed_solver.hpp), with hierarchical matrices. Unknowns:
+/// the displacements of the free vertices, then the tractions in the order of their slots. Equations, one for each: at
+/// the free vertices, then at the constrained vertices whose hats carry tractions, then at the interior points. Rigid
+/// motions that the constraints leave free are shifted: solutions have none of them. (Then the discrete equations may
+/// contradict each other, and hold but for what these motions do to them, as by the bordered matrix.)
+class CollocationProblem : public LinearOperator {
+public:
+    /// constrained: vertices. Throws NotHeldError with `must_hold`, Cancelled.
+    CollocationProblem(std::shared_ptr<const HierarchicalCollocation> matrices, const TractionSpace& space,
+                       std::vector<int> constrained, bool must_hold, Control& control);
+
+    Eigen::Index size() const override { return 3 * (std::ssize(free_) + loads_.n_slots()); }
+    Eigen::MatrixXd product(const Eigen::MatrixXd& X) const override;
+    /// -A u for prescribed displacements of the constrained vertices.
+    Eigen::MatrixXd right_side(const Eigen::MatrixXd& prescribed) const;
+    /// Displacements of all vertices over the tractions of all slots, from a solution.
+    Eigen::MatrixXd assemble_answer(const Eigen::MatrixXd& prescribed, const Eigen::MatrixXd& X) const;
+
+    bool holds_the_body() const { return free_motions_.cols() == 0; }
+    int n_vertices() const { return matrices_->elements().n_slots(); }
+    int n_slots() const { return loads_.n_slots(); }
+    int n_free() const { return static_cast<int>(free_.size()); }
+    /// Where each equation is asked to hold.
+    const Positions& points() const { return sources_.points; }
+    /// The block of these equations and the unknowns of the same numbers (ascending).
+    Eigen::MatrixXd block(const std::vector<int>& numbers) const;
+    std::uint64_t memory_bytes() const;
+
+private:
+    Eigen::MatrixXd equations(const Eigen::MatrixXd& displacements) const;
+    const Eigen::Matrix3d& free_term(int equation) const;
+
+    std::shared_ptr<const HierarchicalCollocation> matrices_;
+    std::vector<int> free_, constrained_;
+    std::vector<int> at_;  ///< vertices of the first equations; interior points follow
+    Sources sources_;      ///< of all equations
+    ClusteredElements loads_;
+    std::unique_ptr<const HierarchicalDoubleLayer> A_;  ///< seen from the interior points, or null
+    std::unique_ptr<const HierarchicalLayer> G_;
+    double traction_scale_;  ///< [force / L^2] over [L], so that tractions and displacements count alike
+    Eigen::MatrixXd free_motions_, shift_;
+};
+
+/// Displacements and tractions of one constrained set by linear collocation, by preconditioned GMRES. Answers are kept:
+/// prescribed displacements that are a combination of earlier ones cost no iteration.
+class CollocationSolver : public NodeSolver {
+public:
+    /// Where the constraints leave a rigid motion free, the solution without it is taken; with `must_hold` NotHeldError
+    /// is thrown. Throws SolveError, Cancelled.
+    CollocationSolver(std::shared_ptr<const HierarchicalCollocation> matrices, const TractionSpace& space,
+                      const std::vector<int>& constrained, bool must_hold, Control& control);
+    ~CollocationSolver() override;
+
+    NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const override;
+    NodeSolution solve_watched(const Eigen::MatrixXd& prescribed, bool want_loads, Control& control) const override;
+
+private:
+    CollocationProblem problem_;
+    std::unique_ptr<const LinearOperator> preconditioner_;
+    mutable KeptAnswers answers_;
+};
+
+/// About the inverse of a collocation problem in two levels: overlapping patches of its points, each solved for by
+/// itself (restricted additive Schwarz, in single precision), and, before them, rigid motions and constant tractions of
+/// some dozens of parts. Source: X.-C. Cai and M. Sarkis, SIAM J. Sci. Comput. 21 (1999).
+std::unique_ptr<const LinearOperator> make_collocation_preconditioner(const CollocationProblem& problem,
+                                                                      Control& control);
+
+}  // namespace elastolab

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace elastolab {
+
+/// Orthonormal combinations of `motions` (orthonormal, three rows an item) that vanish at these items: what a
+/// constrained set leaves free. Mostly none.
+Eigen::MatrixXd unseen_motions(const Eigen::MatrixXd& motions, const std::vector<int>& items);
+
+/// X without what it has of the columns of N, which are orthonormal.
+void orthogonalise(Eigen::MatrixXd& X, const Eigen::MatrixXd& N);
+
+}  // namespace elastolab
