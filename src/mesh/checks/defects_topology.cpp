@@ -62,11 +62,13 @@ void leave_out_non_finite(SurfaceMesh& mesh, MeshReport& report) {
         if (std::all_of(v.begin(), v.end(), [&](int corner) { return finite[static_cast<std::size_t>(corner)]; }))
             kept.push_back(t);
     }
-    const std::string left_out = std::to_string(mesh.n_triangles() - std::ssize(kept));
+    const auto n_left_out = mesh.n_triangles() - std::ssize(kept);
+    const std::string left_out =
+        std::to_string(n_left_out) + (n_left_out == 1 ? " triangle there is" : " triangles there are");
     found.report_fatal(report, Defect::Kind::non_finite,
                        "vertex has a coordinate that is not a finite number up to 1e90",
                        "vertices have coordinates that are not finite numbers up to 1e90",
-                       "; " + left_out + " triangles there are left out. Export the mesh again.");
+                       "; " + left_out + " left out. Export the mesh again.");
     const Eigen::Vector3d middle = sum / std::max<double>(1.0, mesh.n_vertices() - found.count());
     for (int v = 0; v < mesh.n_vertices(); ++v)
         if (!finite[static_cast<std::size_t>(v)]) mesh.vertices.col(v) = middle;
