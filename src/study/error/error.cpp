@@ -153,7 +153,7 @@ void add_organic(CaseList& cases, bool quick) {
                                                        {"cactus", 850}, {"cactus-turned", 850}};
     if (quick) bodies = {{"potato", 150}, {"potato-turned", 150}};
     for (const auto& [body, size] : bodies)
-        for (const double nu : {0.3, 0.45}) {
+        for (const double nu : {0.0, 0.3, 0.45, 0.49}) {
             if (quick && nu != 0.3) continue;
             for (const Variant& variant : main_variants(quick)) cases.add("organic", body, variant, nu, size);
         }
