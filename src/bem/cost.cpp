@@ -20,23 +20,23 @@ constexpr std::uint64_t kLeastMemory = 12u << 20;
 /// each pair of vertices of the smallest.
 constexpr double kRowMemoryPerVertex = 17e3, kLeastRowMemory = 12e6, kRowMemoryPerPair = 160.0;
 
-/// Hierarchical matrices: vertices from which they are used, and what they take for each and each level of clusters.
-constexpr int kHierarchicalOnceFrom = 3000, kHierarchicalFrom = 5000;
-constexpr double kBytesPerVertexAndLevel = 9.1e3, kFlopsPerVertexAndLevel = 1.4e7;
-/// Points of rules and close pairs of Galerkin BEM, which are dropped once the matrix is there.
-constexpr double kBytesPerVertex = 14e3;
+/// Hierarchical matrices: vertices from which they are used, and what they take for each and each level of clusters. A
+/// cube of 3458 vertices with a held face and a patch took 29 s by linear BEM with a dense factor, one of 5402 takes
+/// 13; only a further handle of a few vertices, whose columns are few, is cheaper with the factor.
+constexpr int kHierarchicalFrom = 3000;
+constexpr double kBytesPerVertexAndLevel = 8.2e3, kFlopsPerVertexAndLevel = 1.05e7;
 /// By linear collocation, whose matrix is not symmetric and needs no pairs of triangles; and for each traction of a
 /// constrained set and level, and each equation.
-constexpr double kCollocationBytes = 12.2e3, kCollocationFlops = 1.7e7;
+constexpr double kCollocationBytes = 12.2e3, kCollocationFlops = 1.15e7;
 constexpr double kCollocationBytesOfATraction = 15.5e3, kCollocationBytesOfAnEquation = 28e3;
 
 /// Levels of clusters.
 double levels_of(std::int64_t n_vertices) { return std::log2(std::max(static_cast<double>(n_vertices) / 48.0, 2.0)); }
 
-Cost predict_hierarchical(const SurfaceMesh& mesh, double bytes_per_level, double bytes, double flops_per_level) {
+Cost predict_hierarchical(const SurfaceMesh& mesh, double bytes_per_level, double flops_per_level) {
     const double n = mesh.n_vertices(), levels = levels_of(mesh.n_vertices());
     return {3 * static_cast<std::int64_t>(mesh.n_vertices()),
-            (64u << 20) + static_cast<std::uint64_t>((bytes_per_level * levels + bytes) * n),
+            (64u << 20) + static_cast<std::uint64_t>(bytes_per_level * levels * n),
             flops_per_level * n * levels / product_speed()};
 }
 
@@ -61,14 +61,13 @@ Cost predict_constant_bem(const SurfaceMesh& mesh, const Method& method) {
 }
 
 Cost predict_linear_bem(const SurfaceMesh& mesh, const Method& method) {
-    if (is_hierarchical(mesh, method)) return predict_hierarchical(mesh, kCollocationBytes, 0.0, kCollocationFlops);
+    if (is_hierarchical(mesh, method)) return predict_hierarchical(mesh, kCollocationBytes, kCollocationFlops);
     return predict(mesh, method, mesh.n_vertices());
 }
 
 bool is_hierarchical(const SurfaceMesh& surface, const Method& method) {
-    const bool once = !factorises_ahead(method);      // a factor serves many sets, and is dear for one
-    if (method.update == Update::eqn9) return false;  // acts on inverses of the whole matrix
-    return method.mode == Mode::on_demand && surface.n_vertices() >= (once ? kHierarchicalOnceFrom : kHierarchicalFrom);
+    return method.mode == Mode::on_demand && surface.n_vertices() >= kHierarchicalFrom &&
+           method.update != Update::eqn9;  // which acts on inverses of the whole matrix
 }
 
 std::uint64_t hierarchical_set_memory(std::int64_t n_vertices, std::int64_t n_loaded, std::int64_t n_tractions) {
@@ -86,7 +85,7 @@ std::uint64_t collocation_set_memory(std::int64_t n_vertices, std::int64_t n_poi
 /// Half an LU, and half of the pairs of triangles: each once.
 Cost predict_galerkin_bem(const SurfaceMesh& mesh, const Method& method) {
     if (is_hierarchical(mesh, method))
-        return predict_hierarchical(mesh, kBytesPerVertexAndLevel, kBytesPerVertex, kFlopsPerVertexAndLevel);
+        return predict_hierarchical(mesh, kBytesPerVertexAndLevel, kFlopsPerVertexAndLevel);
     const double n = 3.0 * mesh.n_vertices(), triangles = mesh.n_triangles();
     const double vertices = mesh.n_vertices();
     const double waiting =

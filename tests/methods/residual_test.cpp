@@ -20,7 +20,8 @@ struct StretchedCube {
         : mesh(make_box(5)),
           left_and_right(vertices_where(mesh, [](const auto& x) { return x[0] < 1e-9 || x[0] > 1.0 - 1e-9; })),
           element(method.kind == kConstantBem ? constant_element() : linear_element()),
-          system(element, std::make_shared<const Boundary>(mesh), 0.3, method, stages, control),
+          system(element, std::make_shared<const Boundary>(mesh), 0.3, method, BemSystem::Storage::dense, stages,
+                 control),
           constraints(
               element.constrain(system.boundary(), system.triangles_of_vertex(), method.tractions, {}, left_and_right)),
           nodes(constraints.nodes),

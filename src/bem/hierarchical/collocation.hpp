@@ -108,7 +108,7 @@ private:
 
 /// About the inverse of a collocation problem in two levels: overlapping patches of its points, each solved for by
 /// itself (restricted additive Schwarz, in single precision), and, before them, rigid motions and constant tractions of
-/// some dozens of parts. Source: X.-C. Cai and M. Sarkis, SIAM J. Sci. Comput. 21 (1999).
+/// one or two dozen parts. Source: X.-C. Cai and M. Sarkis, SIAM J. Sci. Comput. 21 (1999).
 std::unique_ptr<const LinearOperator> make_collocation_preconditioner(const CollocationProblem& problem,
                                                                       Control& control);
 

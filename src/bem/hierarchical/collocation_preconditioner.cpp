@@ -17,7 +17,7 @@ namespace {
 constexpr int kPointsOfAPatch = 48;               ///< before it grows
 constexpr double kGrowth = 1.5;                   ///< in units of the distance of its points
 constexpr int kMostPoints = 4 * kPointsOfAPatch;  ///< after that: beside finer triangles its box holds many
-constexpr int kParts = 24;                        ///< of the coarse level; more save hardly an iteration
+constexpr int kParts = 16;                        ///< of the coarse level; more save hardly an iteration
 constexpr double kIndependent = 1e-6;
 
 using SparseColumns = Eigen::SparseMatrix<double>;
