@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <vector>
-
-#include "base/error.hpp"
 
 namespace elastolab {
 
@@ -22,11 +19,6 @@ Eigen::RowVectorXd ratio(const Eigen::RowVectorXd& a, const Eigen::RowVectorXd& 
     for (Eigen::Index c = 0; c < a.size(); ++c)
         if (!done[static_cast<std::size_t>(c)]) r[c] = a[c] / b[c];
     return r;
-}
-
-[[noreturn]] void give_up(const char* name, double residual) {
-    throw SolveError(std::string(name) + ": the iteration does not converge (relative residual " +
-                     std::to_string(residual) + "). Check the mesh for slivers and thin walls, or choose fem.");
 }
 
 }  // namespace
@@ -65,7 +57,7 @@ Eigen::MatrixXd conjugate_gradients(const LinearOperator& A, const LinearOperato
         R -= AP * alpha.asDiagonal();
         const double residual = worst();
         if (report != nullptr) *report = {iterations + 1, residual};
-        if (!std::isfinite(residual) || iterations >= options.max_iterations) give_up(name, residual);
+        if (!std::isfinite(residual) || iterations >= options.max_iterations) give_up_iteration(name, residual);
         control.set_progress(std::clamp(std::log(std::max(residual, 1e-300)) / std::log(options.tolerance), 0.0, 1.0));
         Z = preconditioner.product(R);
         const Eigen::RowVectorXd next = column_products(R, Z);

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include "base/control.hpp"
+#include "deform/iteration.hpp"
 #include "deform/linear_operator.hpp"
 
 namespace elastolab {
@@ -10,12 +11,6 @@ namespace elastolab {
 struct IterationOptions {
     double tolerance = 1e-8;  ///< of the residual, relative to the right side, Euclidean, for each column
     int max_iterations = 1000;
-};
-
-/// What an iterative solver has done so far.
-struct IterationReport {
-    int iterations = 0;
-    double residual = 0.0;  ///< the largest of all columns
 };
 
 /// X with A X = B for A symmetric positive definite (or semidefinite, with B in its range), by conjugate gradients, all

@@ -16,7 +16,6 @@ namespace elastolab {
 
 namespace {
 
-
 [[maybe_unused]] bool all_differ(const ConstrainedSet& set, int n_vertices) {
     std::vector<int> vertices = joined(set.base, set.handles);
     std::sort(vertices.begin(), vertices.end());

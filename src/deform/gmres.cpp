@@ -4,10 +4,7 @@
 #include <cmath>
 #include <Eigen/Jacobi>
 #include <Eigen/QR>
-#include <string>
 #include <vector>
-
-#include "base/error.hpp"
 
 namespace elastolab {
 
@@ -72,11 +69,6 @@ double largest_size(const Eigen::MatrixXd& X) {
 /// A cycle that leaves more than this of the residual leads nowhere.
 constexpr double kProgress = 0.9;
 
-[[noreturn]] void give_up(const char* name, double residual) {
-    throw SolveError(std::string(name) + ": the iteration does not converge (relative residual " +
-                     std::to_string(residual) + "). Check the mesh for slivers and thin walls, or choose fem.");
-}
-
 /// The vectors of one cycle, for all columns at once.
 class Cycle {
 public:
@@ -138,7 +130,7 @@ Eigen::MatrixXd gmres(const LinearOperator& A, const LinearOperator& preconditio
     Eigen::MatrixXd X = Eigen::MatrixXd::Zero(B.rows(), B.cols()), R = unit;
     int iterations = 0;
     double residual = largest_size(R);
-    if (!std::isfinite(residual)) give_up(name, residual);
+    if (!std::isfinite(residual)) give_up_iteration(name, residual);
     while (residual > options.tolerance) {
         const double before = residual;
         Cycle cycle(A, preconditioner, R, options.basis);
@@ -146,7 +138,7 @@ Eigen::MatrixXd gmres(const LinearOperator& A, const LinearOperator& preconditio
         for (int j = 0; j < options.basis && iterations < options.max_iterations && expected > options.tolerance; ++j) {
             control.checkpoint();
             expected = cycle.step();
-            if (!std::isfinite(expected)) give_up(name, expected);
+            if (!std::isfinite(expected)) give_up_iteration(name, expected);
             ++iterations;
             if (report != nullptr) *report = {iterations, expected};
             control.set_progress(
@@ -157,7 +149,7 @@ Eigen::MatrixXd gmres(const LinearOperator& A, const LinearOperator& preconditio
         residual = largest_size(R);
         if (!(residual <= options.tolerance) &&
             (iterations >= options.max_iterations || !(residual < kProgress * before)))
-            give_up(name, residual);
+            give_up_iteration(name, residual);
     }
     return X * size.asDiagonal();
 }

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 
 #include "base/control.hpp"
-#include "deform/conjugate_gradients.hpp"
+#include "deform/iteration.hpp"
 #include "deform/linear_operator.hpp"
 
 namespace elastolab {

@@ -17,10 +17,10 @@ namespace {
 /// Error of a far block over that of an integral, and at most; how near a far block may be. Displacements then differ
 /// by 8e-8 from those of the dense matrix (cube of 2906 vertices, integrals to 1e-10); with smaller leaves and nearer
 /// blocks, which are in single precision, by 1e-6.
-constexpr double kFarTolerance = 5000.0, kMostFarTolerance = 1e-4, kEta = 2.0;
+constexpr double kFarError = 5000.0, kMostFarError = 1e-4, kEta = 2.0;
 /// Columns that are iterated for at once: each has a basis of its own.
-constexpr Eigen::Index kColumnsAtOnce = 4;
-constexpr double kIterationResidual = 1e-8;
+constexpr Eigen::Index kColumnsIterated = 4;
+constexpr double kGmresResidual = 1e-8;
 
 std::vector<int> without(const std::vector<int>& numbers, const std::vector<int>& left_out) {
     std::vector<int> sorted = left_out, kept;
@@ -43,7 +43,7 @@ HierarchicalCollocation::HierarchicalCollocation(std::shared_ptr<const Boundary>
     : boundary_(std::move(boundary)),
       material_(material),
       tolerance_(tolerance),
-      options_{.tolerance = std::min(kFarTolerance * tolerance, kMostFarTolerance), .eta = kEta},
+      options_{.tolerance = std::min(kFarError * tolerance, kMostFarError), .eta = kEta},
       motions_(std::make_shared<const Eigen::MatrixXd>(rigid_modes(boundary_->mesh().vertices))),
       elements_(*boundary_, vertex_elements(*boundary_)),
       H_(*boundary_, vertex_sources(*boundary_), elements_, motions_, material_, tolerance_, options_, control) {}
@@ -177,11 +177,11 @@ NodeSolution CollocationSolver::solve_watched(const Eigen::MatrixXd& prescribed,
     const Eigen::Index n = 3 * problem_.n_vertices();
     const auto iterate = [&](const Eigen::MatrixXd& new_ones) {
         Eigen::MatrixXd answers(n + 3 * problem_.n_slots(), new_ones.cols());
-        for (Eigen::Index first = 0; first < new_ones.cols(); first += kColumnsAtOnce) {
-            const Eigen::Index count = std::min(kColumnsAtOnce, new_ones.cols() - first);
+        for (Eigen::Index first = 0; first < new_ones.cols(); first += kColumnsIterated) {
+            const Eigen::Index count = std::min(kColumnsIterated, new_ones.cols() - first);
             const Eigen::MatrixXd some = new_ones.middleCols(first, count);
             const Eigen::MatrixXd X = gmres(problem_, *preconditioner_, problem_.right_side(some),
-                                            {.tolerance = kIterationResidual}, "boundary equations", control);
+                                            {.tolerance = kGmresResidual}, "boundary equations", control);
             answers.middleCols(first, count) = problem_.assemble_answer(some, X);
         }
         return answers;

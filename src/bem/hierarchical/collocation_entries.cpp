@@ -53,7 +53,7 @@ private:
 };
 
 /// Of the error of a far block.
-constexpr double kFarIntegrals = 0.1;
+constexpr double kFarIntegralError = 0.1;
 
 }  // namespace
 
@@ -110,7 +110,7 @@ HierarchicalLayer::HierarchicalLayer(Layer layer, const Boundary& boundary, cons
       elements_(elements.tree()),
       matrix_(sources_, elements_, false,
               CollocationEntries(layer, boundary, sources, *sources_, elements, material, tolerance,
-                                 kFarIntegrals * options.tolerance),
+                                 kFarIntegralError * options.tolerance),
               options, control) {}
 
 Eigen::MatrixXd HierarchicalLayer::product(const Eigen::MatrixXd& X) const {

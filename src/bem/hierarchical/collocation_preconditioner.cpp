@@ -20,7 +20,7 @@ constexpr int kMostPoints = 4 * kPointsOfAPatch;  ///< after that: beside finer 
 constexpr int kParts = 16;                        ///< of the coarse level; more save hardly an iteration
 constexpr double kIndependent = 1e-6;
 
-using SparseColumns = Eigen::SparseMatrix<double>;
+using PartColumns = Eigen::SparseMatrix<double>;
 
 Eigen::AlignedBox3d box_around(const Positions& points, const ClusterTree& tree, PositionRange range) {
     Eigen::AlignedBox3d box;
@@ -71,7 +71,7 @@ Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns) {
 
 /// Rigid motions of the free vertices and constant tractions of each part: columns without rows in common, but for
 /// those of one part.
-SparseColumns columns_of_parts(const CollocationProblem& problem, const ClusterTree& tree) {
+PartColumns columns_of_parts(const CollocationProblem& problem, const ClusterTree& tree) {
     std::vector<Eigen::Triplet<double>> entries;
     int n_columns = 0;
     const auto add = [&](const std::vector<int>& numbers, const Eigen::MatrixXd& columns) {
@@ -99,7 +99,7 @@ SparseColumns columns_of_parts(const CollocationProblem& problem, const ClusterT
         add(vertices, motions);
         add(slots, Eigen::Matrix3d::Identity().replicate(std::ssize(slots), 1));
     }
-    SparseColumns Z(problem.size(), n_columns);
+    PartColumns Z(problem.size(), n_columns);
     Z.setFromTriplets(entries.begin(), entries.end());
     return Z;
 }
@@ -169,11 +169,11 @@ private:
     }
 
     void make_coarse_level(const CollocationProblem& problem, Control& control) {
-        constexpr Eigen::Index kColumnsAtOnce = 16;
+        constexpr Eigen::Index kCoarseColumns = 16;
         AZ_.resize(Z_.rows(), Z_.cols());
         Eigen::MatrixXd E(Z_.cols(), Z_.cols());
-        for (Eigen::Index first = 0; first < Z_.cols(); first += kColumnsAtOnce) {
-            const Eigen::Index count = std::min(kColumnsAtOnce, Z_.cols() - first);
+        for (Eigen::Index first = 0; first < Z_.cols(); first += kCoarseColumns) {
+            const Eigen::Index count = std::min(kCoarseColumns, Z_.cols() - first);
             const Eigen::MatrixXd some = problem.product(Eigen::MatrixXd(Z_.middleCols(first, count)));
             E.middleCols(first, count) = Z_.transpose() * some;
             AZ_.middleCols(first, count) = some.cast<float>();
@@ -185,7 +185,7 @@ private:
 
     Eigen::Index size_;
     std::vector<Patch> patches_;
-    SparseColumns Z_;
+    PartColumns Z_;
     Eigen::MatrixXf AZ_;
     LuFactorization coarse_factor_;
 };
