@@ -15,9 +15,9 @@ namespace elastolab {
 namespace {
 
 /// Error of a far block over that of an integral, and at most; how near a far block may be. Displacements then differ
-/// by 8e-8 from those of the dense matrix (cube of 2906 vertices, integrals to 1e-10); with smaller leaves and nearer
+/// by 1e-7 from those of the dense matrix (cube of 2906 vertices, integrals to 1e-10); with smaller leaves and nearer
 /// blocks, which are in single precision, by 1e-6.
-constexpr double kFarError = 5000.0, kMostFarError = 1e-4, kEta = 2.0;
+constexpr double kFarError = 10000.0, kMostFarError = 1e-4, kEta = 2.5;
 /// Columns that are iterated for at once: each has a basis of its own.
 constexpr Eigen::Index kColumnsIterated = 4;
 constexpr double kGmresResidual = 1e-8;
