@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <Eigen/Jacobi>
-#include <Eigen/QR>
 #include <vector>
 
 namespace elastolab {

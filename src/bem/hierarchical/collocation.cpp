@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <numeric>
 #include <utility>
 
 #include "bem/hierarchical/free_motions.hpp"
@@ -32,7 +33,7 @@ std::vector<int> without(const std::vector<int>& numbers, const std::vector<int>
 
 std::vector<int> all_numbers(int n) {
     std::vector<int> numbers(static_cast<std::size_t>(n));
-    for (int i = 0; i < n; ++i) numbers[static_cast<std::size_t>(i)] = i;
+    std::iota(numbers.begin(), numbers.end(), 0);
     return numbers;
 }
 

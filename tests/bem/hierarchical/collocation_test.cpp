@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "bem/cost.hpp"
+#include "bem/hierarchical/cases.hpp"
 #include "bem/hierarchical/collocation.hpp"
 #include "bem/hierarchical/kept_answers.hpp"
 #include "bem/method.hpp"
@@ -45,10 +46,6 @@ Method hierarchical(Update update = Update::reduced, Tractions tractions = Tract
 }
 Method dense(Tractions tractions = Tractions::discontinuous, Update update = Update::direct) {
     return {.kind = always<BemSystem::Storage::dense>(), .tractions = tractions, .update = update};
-}
-
-double off(const Eigen::MatrixXd& a, const Eigen::MatrixXd& truth) {
-    return (a - truth).cwiseAbs().maxCoeff() / truth.cwiseAbs().maxCoeff();
 }
 
 void expect_as_dense(const SurfaceMesh& mesh, const ConstrainedSet& set, const Eigen::VectorXd& values,
@@ -103,33 +100,11 @@ TEST(HierarchicalCollocation, AHollowSphereIsPulledAsByTheDenseMatrix) {
 }
 
 TEST(HierarchicalCollocation, IsExactForAStretchedBoxUpToIncompressibility) {
-    const SurfaceMesh mesh = make_box(10, {2.0, 1.0, 1.0});
-    const auto ends = vertices_where(mesh, [](const auto& x) { return x[0] < 1e-9 || x[0] > 2.0 - 1e-9; });
-    for (const auto& [nu, update] : {std::pair(0.3, Update::direct), std::pair(0.5, Update::reduced)}) {
-        Eigen::VectorXd exact(3 * mesh.n_vertices());
-        for (int v = 0; v < mesh.n_vertices(); ++v)
-            exact.segment<3>(3 * v) = mesh.vertices.col(v).cwiseProduct(Eigen::Vector3d(1.0, -nu, -nu));
-        EXPECT_LT(
-            off(displaced(precomputed(make_body(mesh, {1.0, nu}), hierarchical(update)), {{}, ends}, at(exact, ends)),
-                exact),
-            1e-6);
-    }
+    expect_exact_for_a_stretched_box(10, [](Update update) { return hierarchical(update); });
 }
 
 TEST(HierarchicalCollocation, ATurnedBodyCarriesNoForces) {
-    const SurfaceMesh mesh = make_rabbit(700).surface;
-    const double low = mesh.vertices.row(2).minCoeff();
-    const auto held = vertices_where(mesh, [&](const auto& x) { return x[2] < low + 0.3; });
-    Eigen::VectorXd exact(3 * mesh.n_vertices());
-    for (int v = 0; v < mesh.n_vertices(); ++v)
-        exact.segment<3>(3 * v) = Eigen::Vector3d(0.1, -0.2, 0.3) +
-                                  Eigen::Vector3d(0.3, 0.2, -0.1).cross(Eigen::Vector3d(mesh.vertices.col(v)));
-    Control control;
-    Deformer deformer(precomputed(make_body(mesh), hierarchical()));
-    deformer.constrain({{}, held}, control);
-    const Deformer::Answer answer = deformer.answer(at(exact, held), {}, control);
-    EXPECT_LT(off(answer.displacements, exact), 1e-6);
-    EXPECT_LT(answer.reactions.forces.cwiseAbs().maxCoeff(), 1e-5);
+    expect_rigid_motion_without_force(make_rabbit(700).surface, hierarchical(), 1e-5);
 }
 
 TEST(HierarchicalCollocation, ABodyThatIsNotHeldMovesAsByTheDenseMatrixOrIsRefused) {

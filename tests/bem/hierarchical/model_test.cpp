@@ -7,6 +7,7 @@
 #include "bem/cost.hpp"
 #include "bem/error_estimate.hpp"
 #include "bem/galerkin/method.hpp"
+#include "bem/hierarchical/cases.hpp"
 #include "bem/hierarchical/model.hpp"
 #include "deform/node_solver.hpp"
 #include "mesh/primitives.hpp"
@@ -35,10 +36,6 @@ const MethodTraits& always_hierarchical() {
 
 Method hierarchical(Update update = Update::reduced) { return {.kind = &always_hierarchical(), .update = update}; }
 Method dense() { return {.kind = kGalerkinBem, .update = Update::direct}; }
-
-double off(const Eigen::MatrixXd& a, const Eigen::MatrixXd& truth) {
-    return (a - truth).cwiseAbs().maxCoeff() / truth.cwiseAbs().maxCoeff();
-}
 
 TEST(HierarchicalGalerkin, AgreesWithTheDenseMatrixOnAnOrganicBody) {
     const OrganicBody body = make_rabbit(800);
@@ -97,36 +94,11 @@ TEST(HierarchicalGalerkin, GivesTheSecondAnswerThatEstimatesAreMadeOf) {
     EXPECT_NEAR(pull, 1.0, 1e-4) << "a unit stretch of a unit square";
 }
 
-TEST(HierarchicalGalerkin, IsExactForAStretchedBox) {
-    const SurfaceMesh mesh = make_box(6, {2.0, 1.0, 1.0});
-    const auto ends = vertices_where(mesh, [](const auto& x) { return x[0] < 1e-9 || x[0] > 2.0 - 1e-9; });
-    for (const auto& [nu, update] : {std::pair(0.3, Update::direct), std::pair(0.5, Update::reduced)}) {
-        Eigen::VectorXd exact(3 * mesh.n_vertices());
-        for (int v = 0; v < mesh.n_vertices(); ++v)
-            exact.segment<3>(3 * v) = mesh.vertices.col(v).cwiseProduct(Eigen::Vector3d(1.0, -nu, -nu));
-        EXPECT_LT(
-            off(displaced(precomputed(make_body(mesh, {1.0, nu}), hierarchical(update)), {{}, ends}, at(exact, ends)),
-                exact),
-            1e-6);
-    }
-}
+TEST(HierarchicalGalerkin, IsExactForAStretchedBox) { expect_exact_for_a_stretched_box(6, hierarchical); }
 
 TEST(HierarchicalGalerkin, RigidMotionsCauseNoForceAndCavitiesFollow) {
-    for (const SurfaceMesh& mesh : {make_rabbit(500).surface, make_hollow_sphere(6)}) {
-        const double low = mesh.vertices.row(2).minCoeff();
-        const auto held = vertices_where(mesh, [&](const auto& x) { return x[2] < low + 0.3; });
-        Eigen::VectorXd exact(3 * mesh.n_vertices());
-        for (int v = 0; v < mesh.n_vertices(); ++v)
-            exact.segment<3>(3 * v) = Eigen::Vector3d(0.1, -0.2, 0.3) +
-                                      Eigen::Vector3d(0.3, 0.2, -0.1).cross(Eigen::Vector3d(mesh.vertices.col(v)));
-        Control control;
-        Deformer deformer(precomputed(make_body(mesh), hierarchical()));
-        deformer.constrain({{}, held}, control);
-        const Deformer::Answer answer = deformer.answer(at(exact, held), {.residual = true}, control);
-        EXPECT_LT(off(answer.displacements, exact), 1e-6);
-        EXPECT_LT(answer.reactions.forces.cwiseAbs().maxCoeff(), 1e-6);
-        EXPECT_LT(answer.residual.value(), 1e-6);
-    }
+    for (const SurfaceMesh& mesh : {make_rabbit(500).surface, make_hollow_sphere(6)})
+        expect_rigid_motion_without_force(mesh, hierarchical(), 1e-6);
 }
 
 TEST(HierarchicalGalerkin, AHollowSphereIsPulledAsByTheDenseMatrix) {
