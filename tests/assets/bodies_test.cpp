@@ -38,7 +38,7 @@ double smallest_angle(const SurfaceMesh& mesh) {
     return std::acos(largest_cosine) * 180.0 / std::numbers::pi;
 }
 
-std::string test_name(const testing::TestParamInfo<std::string>& body) {
+std::string body_name(const testing::TestParamInfo<std::string>& body) {
     std::string name = body.param;
     std::replace(name.begin(), name.end(), '-', '_');
     return name;
@@ -71,7 +71,7 @@ TEST_P(Bodies, AreWhatMakeBodiesMakes) {
         << "make_bodies makes another " << GetParam() << ". Run `make_bodies assets/meshes` and commit the result.";
 }
 
-INSTANTIATE_TEST_SUITE_P(Assets, Bodies, testing::ValuesIn(mesh_names()), test_name);
+INSTANTIATE_TEST_SUITE_P(Assets, Bodies, testing::ValuesIn(mesh_names()), body_name);
 
 }  // namespace
 }  // namespace elastolab

@@ -99,13 +99,13 @@ TEST_P(Examples, DeformVisiblyWithoutFoldingOver) {
     std::printf("%s: FEM and linear BEM differ by %.3f\n", GetParam().name.c_str(), found);
 }
 
-std::string test_name(const testing::TestParamInfo<Example>& example) {
+std::string example_name(const testing::TestParamInfo<Example>& example) {
     std::string name = example.param.name;
     std::replace(name.begin(), name.end(), '-', '_');
     return name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Assets, Examples, testing::ValuesIn(kExamples), test_name);
+INSTANTIATE_TEST_SUITE_P(Assets, Examples, testing::ValuesIn(kExamples), example_name);
 
 TEST(ExampleList, NamesEveryScene) {
     std::vector<std::string> listed, present;

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "base/blas.hpp"
+#include "bem/common.hpp"
 #include "elasticity/exact_fields.hpp"
 #include "elasticity/rigid_motion.hpp"
 #include "mesh/primitives.hpp"
@@ -16,13 +17,9 @@
 namespace elastolab {
 namespace {
 
-constexpr double kTolerance = 1e-10;  // of the integrals
+using test::all_triangles;
 
-std::vector<int> all_triangles(const Boundary& boundary) {
-    std::vector<int> triangles(static_cast<std::size_t>(boundary.n_triangles()));
-    std::iota(triangles.begin(), triangles.end(), 0);
-    return triangles;
-}
+constexpr double kTolerance = 1e-10;  // of the integrals
 
 Eigen::MatrixXd matrix(Layer layer, const Boundary& boundary, const Sources& sources, const Elements& elements,
                        const Material& material, double tolerance = kTolerance) {

@@ -2,10 +2,10 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <numeric>
 #include <string>
 
 #include "base/blas.hpp"
+#include "bem/common.hpp"
 #include "bem/galerkin/hypersingular.hpp"
 #include "bem/galerkin/traction_rows.hpp"
 #include "elasticity/close_pairs.hpp"
@@ -18,23 +18,20 @@
 namespace elastolab {
 namespace {
 
-constexpr double kTolerance = 1e-8;
-const Material kMaterial{1.0, 0.3};
+using test::all_triangles;
+using test::kUnitMaterial;
 
-std::vector<std::pair<const char*, SurfaceMesh>> bodies() {
+constexpr double kDefaultTolerance = 1e-8;
+
+std::vector<std::pair<const char*, SurfaceMesh>> primitives() {
     return {{"cube", make_box(3)},
             {"sphere", make_sphere(3)},
             {"torus", make_torus(3)},
             {"hollow sphere", make_hollow_sphere(2)}};
 }
 
-std::vector<int> all_triangles(const Boundary& boundary) {
-    std::vector<int> all(static_cast<std::size_t>(boundary.n_triangles()));
-    std::iota(all.begin(), all.end(), 0);
-    return all;
-}
-
-Eigen::MatrixXd hypersingular(const Boundary& boundary, const Material& material, double tolerance = kTolerance) {
+Eigen::MatrixXd hypersingular(const Boundary& boundary, const Material& material,
+                              double tolerance = kDefaultTolerance) {
     Control control;
     Eigen::MatrixXd D(3 * boundary.mesh().n_vertices(), 3 * boundary.mesh().n_vertices());
     assemble_hypersingular(boundary, material, tolerance, D, control);
@@ -42,13 +39,13 @@ Eigen::MatrixXd hypersingular(const Boundary& boundary, const Material& material
 }
 
 TractionRows traction_rows(const Boundary& boundary, const std::vector<int>& triangles, const Material& material,
-                           double tolerance = kTolerance) {
+                           double tolerance = kDefaultTolerance) {
     Control control;
     return assemble_traction_rows(boundary, triangles, material, tolerance, control);
 }
 
 TEST(Galerkin, OperatorsAnnihilateRigidMotions) {
-    for (const auto& [name, mesh] : bodies())
+    for (const auto& [name, mesh] : primitives())
         for (const double tolerance : {1e-6, 1e-8, 1e-11}) {
             const Boundary boundary(mesh);
             const Eigen::MatrixXd modes = rigid_modes(mesh.vertices);
@@ -63,8 +60,8 @@ TEST(Galerkin, OperatorsAnnihilateRigidMotions) {
 
 /// Beyond the six of the whole body there are those of each further closed surface, and no others.
 TEST(Galerkin, HypersingularOperatorIsSymmetricAndPositiveOffTheRigidMotions) {
-    for (const auto& [name, mesh] : bodies()) {
-        const Eigen::MatrixXd D = hypersingular(Boundary(mesh), kMaterial);
+    for (const auto& [name, mesh] : primitives()) {
+        const Eigen::MatrixXd D = hypersingular(Boundary(mesh), kUnitMaterial);
         EXPECT_EQ((D - D.transpose()).norm(), 0.0) << name;
         const Eigen::VectorXd values =
             Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(D, Eigen::EigenvaluesOnly).eigenvalues();
@@ -79,13 +76,13 @@ TEST(Galerkin, BothBoundaryEquationsHoldForALinearField) {
     Eigen::Matrix3d gradient;
     gradient << 0.3, 0.1, -0.2, 0.5, -0.4, 0.7, 0.1, 0.2, 0.6;
     const Eigen::Matrix3d strain = 0.5 * (gradient + gradient.transpose());
-    const Eigen::Matrix3d stress = 2.0 * kMaterial.shear_modulus() * strain +
-                                   kMaterial.lame_lambda() * strain.trace() * Eigen::Matrix3d::Identity();
-    for (const auto& [name, mesh] : bodies())
+    const Eigen::Matrix3d stress = 2.0 * kUnitMaterial.shear_modulus() * strain +
+                                   kUnitMaterial.lame_lambda() * strain.trace() * Eigen::Matrix3d::Identity();
+    for (const auto& [name, mesh] : primitives())
         for (const double tolerance : {1e-8, 1e-11}) {
             const Boundary boundary(mesh);
             const std::vector<int> all = all_triangles(boundary);
-            const TractionRows rows = traction_rows(boundary, all, kMaterial, tolerance);
+            const TractionRows rows = traction_rows(boundary, all, kUnitMaterial, tolerance);
             const Eigen::Matrix3Xd displacement = gradient * mesh.vertices;
             const Eigen::Map<const Eigen::VectorXd> u(displacement.data(), displacement.size());
             Eigen::VectorXd t(3 * boundary.n_triangles());
@@ -95,18 +92,18 @@ TEST(Galerkin, BothBoundaryEquationsHoldForALinearField) {
             EXPECT_LT((rows.single_layer * t - Ku).norm(), tolerance * Ku.norm()) << name;
             const Eigen::VectorXd load =
                 traction_mass(boundary, all).transpose() * t - rows.double_layer.transpose() * t;
-            const Eigen::VectorXd Du = hypersingular(boundary, kMaterial, tolerance) * u;
+            const Eigen::VectorXd Du = hypersingular(boundary, kUnitMaterial, tolerance) * u;
             EXPECT_LT((Du - load).norm(), tolerance * Du.norm()) << name;
         }
 }
 
 /// A point force outside a cube: its tractions at the centroids and displacements at the vertices.
 TEST(Galerkin, ResidualsOfASmoothFieldFallWithTheMeshSize) {
-    const PointForceField field{kMaterial, {1.8, 0.6, 0.7}, {0.3, -0.5, 0.8}};
+    const PointForceField field{kUnitMaterial, {1.8, 0.6, 0.7}, {0.3, -0.5, 0.8}};
     const auto residuals = [&](int cells) {
         const Boundary boundary(make_box(cells));
         const std::vector<int> all = all_triangles(boundary);
-        const TractionRows rows = traction_rows(boundary, all, kMaterial);
+        const TractionRows rows = traction_rows(boundary, all, kUnitMaterial);
         const Eigen::VectorXd u = displacements(field, boundary.mesh().vertices);
         Eigen::VectorXd t(3 * boundary.n_triangles());
         for (const int i : all) {
@@ -114,7 +111,7 @@ TEST(Galerkin, ResidualsOfASmoothFieldFallWithTheMeshSize) {
             t.segment<3>(3 * i) =
                 field.stress(Eigen::Map<const Eigen::Vector3d>(T.centroid)) * Eigen::Map<const Eigen::Vector3d>(T.n);
         }
-        const Eigen::VectorXd Ku = rows.double_layer * u, Du = hypersingular(boundary, kMaterial) * u;
+        const Eigen::VectorXd Ku = rows.double_layer * u, Du = hypersingular(boundary, kUnitMaterial) * u;
         const Eigen::VectorXd load = traction_mass(boundary, all).transpose() * t - rows.double_layer.transpose() * t;
         return Eigen::Vector2d((rows.single_layer * t - Ku).norm() / Ku.norm(), (Du - load).norm() / Du.norm());
     };
@@ -127,9 +124,9 @@ TEST(Galerkin, HypersingularOperatorDoesNotDependOnTheNumberOfThreads) {
     const Boundary boundary(make_box(4));
     const int before = thread_count();
     set_thread_count(1);
-    const Eigen::MatrixXd one = hypersingular(boundary, kMaterial);
+    const Eigen::MatrixXd one = hypersingular(boundary, kUnitMaterial);
     set_thread_count(3);
-    const Eigen::MatrixXd three = hypersingular(boundary, kMaterial);
+    const Eigen::MatrixXd three = hypersingular(boundary, kUnitMaterial);
     set_thread_count(before);
     EXPECT_TRUE(one == three);
 }
@@ -137,7 +134,7 @@ TEST(Galerkin, HypersingularOperatorDoesNotDependOnTheNumberOfThreads) {
 TEST(Galerkin, PartsOfTheHypersingularOperatorServeEveryPoissonRatio) {
     const Boundary boundary(make_sphere(2));
     Control control;
-    const HypersingularParts parts(boundary, kTolerance, control);
+    const HypersingularParts parts(boundary, kDefaultTolerance, control);
     for (const double nu : {-0.4, 0.0, 0.3, 0.5}) {
         const Material material{2.5, nu};
         Eigen::MatrixXd D(parts.with_nu.rows(), parts.with_nu.cols());
@@ -152,8 +149,8 @@ TEST(Galerkin, PartsOfTheHypersingularOperatorServeEveryPoissonRatio) {
 TEST(Galerkin, HypersingularEntriesAreThoseOfTheDefinition) {
     const SurfaceMesh mesh = make_box(4);
     const Boundary boundary(mesh);
-    const Eigen::MatrixXd D = hypersingular(boundary, kMaterial, 1e-11);
-    const double mu = kMaterial.shear_modulus(), pi = std::acos(-1.0);
+    const Eigen::MatrixXd D = hypersingular(boundary, kUnitMaterial, 1e-11);
+    const double mu = kUnitMaterial.shear_modulus(), pi = std::acos(-1.0);
     const TriangleRule& rule = triangle_rule(8);
     // M_ij = n_j d_i - n_i d_j of the hat of corner k.
     const auto guenter = [&](int t, int k) {
@@ -183,7 +180,7 @@ TEST(Galerkin, HypersingularEntriesAreThoseOfTheDefinition) {
                                     rule.weights[p] * rule.weights[q] * boundary.area(t) * boundary.area(s);
                                 const double r = (x - y).norm();
                                 const Eigen::Matrix3d kernel = mu / (2 * pi * r) * Eigen::Matrix3d::Identity() -
-                                                               4 * mu * mu * kelvin_displacement(x, y, kMaterial);
+                                                               4 * mu * mu * kelvin_displacement(x, y, kUnitMaterial);
                                 block += w * (mu / (4 * pi * r) * Sa.dot(Sb) * Eigen::Matrix3d::Identity() +
                                               Ma.transpose() * kernel * Mb + mu / (4 * pi * r) * Mb.transpose() * Ma);
                             }

@@ -23,20 +23,20 @@ struct Pair {
 
 TriangleGeometry triangle(const Vec& a, const Vec& b, const Vec& c) { return make_triangle_geometry(a, b, c, 0); }
 
-const Vec P(0, 0, 0), Q(1, 0, 0), R(0.3, 0.8, 0.1);
+const Vec kP(0, 0, 0), kQ(1, 0, 0), kR(0.3, 0.8, 0.1);
 
 std::vector<Pair> pairs() {
-    const TriangleGeometry t = triangle(P, Q, R);
-    return {{"common edge", t, triangle(Q, P, {0.4, -0.7, 0.4})},
-            {"common edge, flat", triangle(P, Q, {0.3, 0.8, 0.0}), triangle(Q, P, {0.4, -0.7, 0.0})},
-            {"common edge, sharp", t, triangle(Q, P, R + Vec(0.05, 0.02, 0.1))},
-            {"common vertex", t, triangle(P, {-0.6, 0.3, 0.5}, {-0.5, -0.4, 0.2})},
-            {"common vertex, sharp", t, triangle(P, {1.0, 0.05, 0.05}, {0.3, -0.8, 0.1})},
+    const TriangleGeometry t = triangle(kP, kQ, kR);
+    return {{"common edge", t, triangle(kQ, kP, {0.4, -0.7, 0.4})},
+            {"common edge, flat", triangle(kP, kQ, {0.3, 0.8, 0.0}), triangle(kQ, kP, {0.4, -0.7, 0.0})},
+            {"common edge, sharp", t, triangle(kQ, kP, kR + Vec(0.05, 0.02, 0.1))},
+            {"common vertex", t, triangle(kP, {-0.6, 0.3, 0.5}, {-0.5, -0.4, 0.2})},
+            {"common vertex, sharp", t, triangle(kP, {1.0, 0.05, 0.05}, {0.3, -0.8, 0.1})},
             {"apart", t, triangle({2, 0, 0}, {2.5, 1, 0}, {2, 0.5, 1})},
-            {"thin wall", t, triangle(P + Vec(0.1, 0.1, -0.1), Q + Vec(0, 0.1, -0.15), R + Vec(0, 0, -0.1))},
-            {"thin triangles, common edge", triangle(P, Q, {0.3, 0.05, 0}), triangle(Q, P, {0.5, -0.02, 0.02})},
-            {"thin triangles, common vertex", triangle(P, Q, {0.3, 0.05, 0}),
-             triangle(P, {-0.5, -0.02, 0.02}, {-0.9, 0.01, 0})}};
+            {"thin wall", t, triangle(kP + Vec(0.1, 0.1, -0.1), kQ + Vec(0, 0.1, -0.15), kR + Vec(0, 0, -0.1))},
+            {"thin triangles, common edge", triangle(kP, kQ, {0.3, 0.05, 0}), triangle(kQ, kP, {0.5, -0.02, 0.02})},
+            {"thin triangles, common vertex", triangle(kP, kQ, {0.3, 0.05, 0}),
+             triangle(kP, {-0.5, -0.02, 0.02}, {-0.9, 0.01, 0})}};
 }
 
 /// The outer integral by adaptive quadrature; the inner closed form has its own tests.
@@ -127,17 +127,17 @@ TEST(PairIntegrals, AgreeWithAdaptiveQuadrature) {
 }
 
 TEST(PairIntegrals, OfATriangleWithItselfAgreeWithAdaptiveQuadrature) {
-    const TriangleGeometry t = triangle(P, Q, R);
+    const TriangleGeometry t = triangle(kP, kQ, kR);
     const PairNumbers truth = by_adaptive_quadrature(t, t, 1e-9L), numbers = close_pair(t, t, false, 1e-8);
     for (std::size_t k = 0; k < 6; ++k) EXPECT_NEAR(numbers[k], truth[k], 1e-8 * truth[0]);
 }
 
 /// A triangle cut in two: identical pairs, which are closed forms, and the pair with a common edge check each other.
 TEST(PairIntegrals, AreTheSumOfThoseOfTheParts) {
-    for (const Vec& apex : {R, Vec(0.4, 0.02, 0.0), Vec(-0.7, 0.3, 0.2)}) {
-        const TriangleGeometry whole = triangle(P, Q, apex);
-        const Vec middle = 0.4 * P + 0.6 * Q;
-        const TriangleGeometry parts[2] = {triangle(P, middle, apex), triangle(middle, Q, apex)};
+    for (const Vec& apex : {kR, Vec(0.4, 0.02, 0.0), Vec(-0.7, 0.3, 0.2)}) {
+        const TriangleGeometry whole = triangle(kP, kQ, apex);
+        const Vec middle = 0.4 * kP + 0.6 * kQ;
+        const TriangleGeometry parts[2] = {triangle(kP, middle, apex), triangle(middle, kQ, apex)};
         PairNumbers sum{};
         for (const TriangleGeometry& a : parts)
             for (const TriangleGeometry& b : parts) {
@@ -162,9 +162,9 @@ TEST(PairIntegrals, KeepATightTolerance) {
 /// Two triangles over one another, nearly touching, as on both sides of a plate: edges over edges, and across them.
 std::vector<Pair> over_one_another(double gap) {
     const Vec up(0.0, 0.0, gap), aside(0.21, 0.13, 0.0);
-    return {{"edges over edges", triangle(P, Q, R), triangle(P + up, R + up, Q + up)},
-            {"beside one another", triangle(P, Q, R), triangle(Q + up, P + up, P + Q - R + up)},
-            {"edges across edges", triangle(P, Q, R), triangle(P + aside + up, R + aside + up, Q + aside + up)}};
+    return {{"edges over edges", triangle(kP, kQ, kR), triangle(kP + up, kR + up, kQ + up)},
+            {"beside one another", triangle(kP, kQ, kR), triangle(kQ + up, kP + up, kP + kQ - kR + up)},
+            {"edges across edges", triangle(kP, kQ, kR), triangle(kP + aside + up, kR + aside + up, kQ + aside + up)}};
 }
 
 TEST(PairIntegrals, OfTrianglesOverOneAnotherAreTheSumOfThoseOfTheParts) {

@@ -138,17 +138,16 @@ void fuzz(const Options& options, Tally& tally) {
 
 void replay(const Options& options, Tally& tally) {
     const std::vector<Seed> files = load_seeds(options.replay);
+    const std::size_t n_ways = Subject::n_variants();
     on_all_jobs(options, [&](Subject& subject, std::uint64_t number) {
-        if (number >= files.size()) return false;
-        const Seed& file = files[number];
+        if (number >= files.size() * n_ways) return false;
+        const Seed& file = files[number / n_ways];
+        const std::size_t variant = number % n_ways;
+        if (kind_of(file.name) == Kind::replay && variant > 0) return true;
         const Input input{"input" + fs::path(file.name).extension().string(), file.bytes};
-        const std::size_t n = kind_of(file.name) == Kind::replay ? 1 : Subject::n_variants();
-        for (std::size_t variant = 0; variant < n; ++variant) {
-            Outcome outcome = subject.try_input(input, variant);
-            if (options.all_accepted && !outcome.accepted && outcome.complaint.empty())
-                outcome.complaint = "is refused";
-            tally.add(input, outcome, file.name);
-        }
+        Outcome outcome = subject.try_input(input, variant);
+        if (options.all_accepted && !outcome.accepted && outcome.complaint.empty()) outcome.complaint = "is refused";
+        tally.add(input, outcome, file.name);
         return true;
     });
 }

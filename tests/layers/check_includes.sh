@@ -38,30 +38,27 @@ wrapped=(
 failures=0
 complain() { echo "$1"; failures=$((failures + 1)); }
 
-check_layers() {  # FILE: its includes of our own headers
-  local layer=${1%%/*} included
-  if [[ -z ${below[$layer]+known} ]]; then complain "$1: is in no known layer"; return; fi
-  while read -r included; do
-    [[ $included == "$layer" || " ${below[$layer]} " == *" $included "* ]] || complain "$1: includes $included/..."
-  done < <(sed -nE 's|^[[:space:]]*#[[:space:]]*include[[:space:]]*"([a-z_]+)/.*|\1|p' "$1")
+includes() {  # PATTERN: "file:text" of every include of our sources whose text behind #include this matches
+  grep -rsHoE --include='*.[ch]pp' "^[[:space:]]*#[[:space:]]*include[[:space:]]*$1" ./*/ |
+    sed -E 's|^\./+||; s|^([^:]*):[^"<]*|\1:|' | sort || true
 }
 
-check_wrapped() {  # FILE: its includes of wrapped libraries
-  local entry pattern allowed
-  for entry in "${wrapped[@]}"; do
-    pattern=${entry%|^*} allowed="^${entry##*|^}"
-    if grep -qE "^[[:space:]]*#[[:space:]]*include[[:space:]]*[<\"]$pattern" "$1" && ! [[ $1 =~ $allowed ]]; then
-      complain "$1: includes $pattern, which is wrapped elsewhere"
-    fi
-  done
-}
+while read -r layer; do
+  [[ -n ${below[$layer]+known} ]] || complain "$layer: is no known layer"
+done < <(find . -mindepth 2 -name '*.[ch]pp' -printf '%P\n' | cut -d/ -f1 | sort -u)
 
-n_files=0
-while read -r file; do
-  check_layers "$file"
-  check_wrapped "$file"
-  n_files=$((n_files + 1))
-done < <(find . -mindepth 2 \( -name '*.hpp' -o -name '*.cpp' \) -printf '%P\n' | sort)
+while IFS=: read -r file included; do
+  layer=${file%%/*} included=${included//[\"\/]/}
+  [[ $included == "$layer" || " ${below[$layer]-} " == *" $included "* ]] || complain "$file: includes $included/..."
+done < <(includes '"[a-z_]+/')
 
+for entry in "${wrapped[@]}"; do
+  pattern=${entry%|^*} allowed="^${entry##*|^}"
+  while IFS=: read -r file _; do
+    [[ $file =~ $allowed ]] || complain "$file: includes $pattern, which is wrapped elsewhere"
+  done < <(includes "[<\"]$pattern")
+done
+
+n_files=$(find . -mindepth 2 -name '*.[ch]pp' | wc -l)
 echo "$n_files files, $failures findings"
 [[ $failures -eq 0 && $n_files -gt 0 ]]

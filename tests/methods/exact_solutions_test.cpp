@@ -13,8 +13,6 @@
 namespace elastolab::test {
 namespace {
 
-constexpr double kEdge = 1e-9;
-
 Eigen::VectorXd solve(const SurfaceMesh& mesh, const Material& material, const Method& method,
                       const std::vector<int>& constrained, const Eigen::VectorXd& exact) {
     return displaced(precomputed(make_body(mesh, material), method), {{}, constrained}, at(exact, constrained));

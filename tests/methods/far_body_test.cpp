@@ -2,12 +2,12 @@
 
 #include <Eigen/Geometry>
 
-#include "methods/problem.hpp"
 #include "deform/volume.hpp"
 #include "mesh/checks/check.hpp"
 #include "mesh/input/export.hpp"
 #include "mesh/input/import.hpp"
 #include "mesh/primitives.hpp"
+#include "methods/problem.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace elastolab {

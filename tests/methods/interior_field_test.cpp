@@ -18,7 +18,6 @@
 namespace elastolab::test {
 namespace {
 
-constexpr double kEdge = 1e-9;
 constexpr double kNu = 0.3;
 const Material kMaterial{2.0, kNu};
 
@@ -83,7 +82,7 @@ Problem hollow_sphere() {
         [](const Eigen::Vector3d& x) { return x.norm() < 0.75; }, 0.75 * shell.leftCols(40), spread);
 }
 
-struct Errors {
+struct FieldErrors {
     double displacement, stress;  ///< relative, L2 over the points
     double worst_stress;          ///< over the largest of them
 };
@@ -100,8 +99,8 @@ InteriorValues solved_inside(const Problem& problem, const SurfaceMesh& mesh, co
     return deformer.inside(values, control)->at(points, control);
 }
 
-Errors errors_of(const Problem& problem, const InteriorValues& values, const Positions& points) {
-    Errors errors{0.0, 0.0, 0.0};
+FieldErrors errors_of(const Problem& problem, const InteriorValues& values, const Positions& points) {
+    FieldErrors errors{0.0, 0.0, 0.0};
     double u_size = 0.0, s_size = 0.0, s_largest = 0.0;
     for (Eigen::Index i = 0; i < points.cols(); ++i) {
         const Eigen::Vector3d u = problem.displacement(points.col(i));
@@ -133,7 +132,7 @@ Positions below_surface(const SurfaceMesh& mesh, double depth) {
     return all;
 }
 
-Errors errors_on(const Problem& problem, MethodKind kind, int cells) {
+FieldErrors errors_on(const Problem& problem, MethodKind kind, int cells) {
     // Tetrahedra are coarser far from the surface than near it: all of them tell the order.
     const Positions& points = kind->has_inside ? problem.spread : problem.deep;
     return errors_of(problem, solved_inside(problem, problem.mesh(cells), make_method(kind), points), points);
@@ -142,7 +141,7 @@ Errors errors_on(const Problem& problem, MethodKind kind, int cells) {
 /// Of displacements and stresses away from the surface, when cells are divided by `factor`.
 void expect_orders(MethodKind kind, int cells, int factor, double of_displacement, double of_stress) {
     for (const Problem& p : {bending(), torsion(), hollow_sphere()}) {
-        const Errors coarse = errors_on(p, kind, cells), fine = errors_on(p, kind, factor * cells);
+        const FieldErrors coarse = errors_on(p, kind, cells), fine = errors_on(p, kind, factor * cells);
         const std::string what = p.name + ", " + std::string(name(kind)) + ", inside";
         const auto order = [&](double a, double b) { return std::log(a / b) / std::log(factor); };
         print_measured(what + ", relative L2 error of stress", fine.stress);
@@ -171,7 +170,7 @@ TEST(InteriorField, OfBoundaryElementsDoesNotBlowUpTowardsTheSurface) {
     for (const Problem& p : {bending(), hollow_sphere()})
         for (const MethodKind kind : {kLinearBem, kGalerkinBem}) {
             const SurfaceMesh mesh = p.mesh(5);
-            std::vector<Errors> errors;
+            std::vector<FieldErrors> errors;
             for (const double depth : {0.3, 0.1, 0.02, 0.0}) {
                 const Positions near = below_surface(mesh, depth);
                 errors.push_back(errors_of(p, solved_inside(p, mesh, make_method(kind), near), near));
@@ -198,7 +197,7 @@ TEST(InteriorField, IsExactForLinearFieldsUpToTheSurface) {
     for (const MethodKind kind : {kFem, kQuadraticFem, kLinearBem, kGalerkinBem})
         for (const double depth : {0.5, 0.1, 0.0}) {
             const Positions points = below_surface(mesh, depth);
-            const Errors e = errors_of(p, solved_inside(p, mesh, make_method(kind), points), points);
+            const FieldErrors e = errors_of(p, solved_inside(p, mesh, make_method(kind), points), points);
             EXPECT_LT(e.displacement, 1e-6) << name(kind) << " " << depth;
             EXPECT_LT(e.worst_stress, 2e-5) << name(kind) << " " << depth;
         }

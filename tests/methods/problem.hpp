@@ -13,6 +13,9 @@
 
 namespace elastolab::test {
 
+/// What lies this near to a face of a body of size 1 lies on it.
+inline constexpr double kEdge = 1e-9;
+
 inline Method make_method(MethodKind kind, Tractions tractions = Tractions::discontinuous, Mode mode = Mode::on_demand,
                           Update update = Update::reduced) {
     return {.kind = kind, .mode = mode, .tractions = tractions, .update = update};

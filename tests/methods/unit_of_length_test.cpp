@@ -10,6 +10,7 @@
 
 #include "deform/volume.hpp"
 #include "elasticity/rigid_motion.hpp"
+#include "mesh/measures.hpp"
 #include "mesh/primitives.hpp"
 #include "methods/problem.hpp"
 
@@ -151,26 +152,50 @@ TEST(UnitOfLength, IsThatOfExportedMatrices) {
     }
 }
 
-/// [K  G^-1 C; C^T  0] and its inverse, as they are exported, of a body that is neither stiff 1 nor large 1.
-TEST(FullMode, ExportsTheInverseOfTheBorderedBoundaryStiffness) {
-    constexpr double kUnit = 3e-5, kYoung = 2e5;
-    SurfaceMesh box = make_box(3);
-    box.vertices *= kUnit;
-    std::map<std::string, Eigen::MatrixXd> found;
-    test::precomputed(test::make_body(box, {kYoung, 0.3}), test::make_method(kLinearBem, {}, Mode::full))
-        ->visit_matrices([&](const NamedMatrix& matrix) { found[matrix.name] = matrix.values; });
-    const Eigen::MatrixXd &K = found.at("K"), C = rigid_modes(box.vertices);
+/// Of a body that is neither stiff 1 nor large 1.
+struct FullMode : testing::TestWithParam<Method> {
+    static constexpr double kUnit = 3e-5, kYoung = 2e5;
+
+    void SetUp() override {
+        SurfaceMesh box = make_box(3);
+        box.vertices *= kUnit;
+        const auto model = test::precomputed(test::make_body(box, {kYoung, 0.3}), GetParam());
+        model->visit_matrices([this](const NamedMatrix& matrix) { found_[matrix.name] = matrix.values; });
+        C_ = rigid_modes(GetParam().kind == kConstantBem ? centroids(box) : box.vertices);
+    }
+
+    static Positions centroids(const SurfaceMesh& mesh) {
+        Positions result(3, mesh.n_triangles());
+        for (int t = 0; t < mesh.n_triangles(); ++t) result.col(t) = centroid(mesh, t);
+        return result;
+    }
+
+    std::map<std::string, Eigen::MatrixXd> found_;
+    Eigen::MatrixXd C_;
+};
+
+/// [K  B; C^T  0] times its inverse as it is exported; B is G^-1 C where K is of tractions, and C where it is of
+/// forces.
+TEST_P(FullMode, ExportsTheInverseOfTheBorderedStiffness) {
+    const bool of_tractions = found_.contains("G");
+    const double stiffness = of_tractions ? kYoung / kUnit : kYoung * kUnit;
+    const Eigen::MatrixXd& K = found_.at("K");
     const Eigen::Index n = K.rows();
     Eigen::MatrixXd bordered = Eigen::MatrixXd::Zero(n + 6, n + 6);
     bordered.topLeftCorner(n, n) = K;
-    bordered.topRightCorner(n, 6) = found.at("G").partialPivLu().solve(C);
-    bordered.bottomLeftCorner(6, n) = C.transpose();
-    Eigen::MatrixXd product = bordered * found.at("Khatinv") - Eigen::MatrixXd::Identity(n + 6, n + 6);
-    // Tractions per displacement and per border value: E / L.
-    product.topRightCorner(n, 6) *= kUnit / kYoung;
-    product.bottomLeftCorner(6, n) *= kYoung / kUnit;
+    bordered.topRightCorner(n, 6) = C_;
+    if (of_tractions) bordered.topRightCorner(n, 6) = found_.at("G").partialPivLu().solve(C_);
+    bordered.bottomLeftCorner(6, n) = C_.transpose();
+    Eigen::MatrixXd product = bordered * found_.at("Khatinv") - Eigen::MatrixXd::Identity(n + 6, n + 6);
+    product.topRightCorner(n, 6) /= stiffness;
+    product.bottomLeftCorner(6, n) *= stiffness;
     EXPECT_LT(product.cwiseAbs().maxCoeff(), 1e-9);
 }
+
+INSTANTIATE_TEST_SUITE_P(Methods, FullMode,
+                         testing::Values(test::make_method(kConstantBem, {}, Mode::full),
+                                         test::make_method(kLinearBem, {}, Mode::full),
+                                         test::make_method(kFem, {}, Mode::full)));
 
 }  // namespace
 }  // namespace elastolab

@@ -8,20 +8,15 @@
 #include <random>
 #include <vector>
 
+#include "render/viewpoint.hpp"
+
 namespace elastolab {
 namespace {
 
-constexpr Viewport kViewport{40.0, 25.0, 1200.0, 800.0};
-constexpr double kTight = 1e-9;  // relative to the size of the scene, and in pixels
+using test::camera_at;
 
-/// A camera that looks at a ball of this size, somewhat from the side.
-Camera camera_at(const SceneFrame& ball) {
-    Camera camera;
-    camera.set_scene(ball);
-    camera.set_view(ViewDirection::isometric);
-    camera.frame(ball, kViewport.aspect());
-    return camera;
-}
+constexpr Viewport kPlace{40.0, 25.0, 1200.0, 800.0};
+constexpr double kTight = 1e-9;  // relative to the size of the scene, and in pixels
 
 /// Sizes and places of scenes that must all work alike.
 std::vector<SceneFrame> scenes() {
@@ -46,13 +41,13 @@ double distance(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return (a 
 TEST(Camera, ProjectsEveryPointOfARayToItsPixel) {
     Random random;
     for (const SceneFrame& ball : scenes()) {
-        const Camera camera = camera_at(ball);
+        const Camera camera = camera_at(ball, kPlace);
         for (int i = 0; i < 100; ++i) {
             const Eigen::Vector2d pixel = random.pixel();
-            const Ray ray = camera.ray(pixel, kViewport);
+            const Ray ray = camera.ray(pixel, kPlace);
             const Eigen::Vector3d point = ray.origin + ball.radius * random(0.5, 9.0) * ray.direction;
             EXPECT_NEAR(ray.direction.norm(), 1.0, 1e-14);
-            EXPECT_LT(distance(camera.project(point, kViewport).pixel, pixel), kTight);
+            EXPECT_LT(distance(camera.project(point, kPlace).pixel, pixel), kTight);
         }
     }
 }
@@ -60,25 +55,25 @@ TEST(Camera, ProjectsEveryPointOfARayToItsPixel) {
 TEST(Camera, UnprojectsWhatItProjects) {
     Random random;
     for (const SceneFrame& ball : scenes()) {
-        Camera camera = camera_at(ball);
+        Camera camera = camera_at(ball, kPlace);
         camera.set_covered(random(0.0, 0.3));
         const Eigen::Vector3d point = random.point(ball);
-        const ProjectedPoint seen = camera.project(point, kViewport);
-        EXPECT_LT((camera.unproject(seen.pixel, seen.depth, kViewport) - point).norm(), kTight * ball.radius);
+        const ProjectedPoint seen = camera.project(point, kPlace);
+        EXPECT_LT((camera.unproject(seen.pixel, seen.depth, kPlace) - point).norm(), kTight * ball.radius);
     }
 }
 
 TEST(Camera, AgreesWithItsMatrices) {
     Random random;
     for (const SceneFrame& ball : scenes()) {
-        Camera camera = camera_at(ball);
+        Camera camera = camera_at(ball, kPlace);
         camera.set_covered(random(0.0, 0.3));
         const Eigen::Vector3d point = random.point(ball);
-        const Eigen::Vector4d clip = camera.projection(kViewport.aspect()) * camera.view() * point.homogeneous();
+        const Eigen::Vector4d clip = camera.projection(kPlace.aspect()) * camera.view() * point.homogeneous();
         const Eigen::Vector3d ndc = clip.head<3>() / clip.w();
-        const Eigen::Vector2d pixel(kViewport.x + 0.5 * (1.0 + ndc.x()) * kViewport.width,
-                                    kViewport.y + 0.5 * (1.0 - ndc.y()) * kViewport.height);
-        EXPECT_LT(distance(camera.project(point, kViewport).pixel, pixel), 1e-6);
+        const Eigen::Vector2d pixel(kPlace.x + 0.5 * (1.0 + ndc.x()) * kPlace.width,
+                                    kPlace.y + 0.5 * (1.0 - ndc.y()) * kPlace.height);
+        EXPECT_LT(distance(camera.project(point, kPlace).pixel, pixel), 1e-6);
         EXPECT_LT(std::abs(ndc.z()), 1.0);
     }
 }
@@ -86,13 +81,13 @@ TEST(Camera, AgreesWithItsMatrices) {
 TEST(Camera, KeepsADraggedPointUnderTheCursor) {
     Random random;
     for (const SceneFrame& ball : scenes()) {
-        const Camera camera = camera_at(ball);
+        const Camera camera = camera_at(ball, kPlace);
         for (int i = 0; i < 100; ++i) {
             const Eigen::Vector3d anchor = random.point(ball);
-            const ProjectedPoint from = camera.project(anchor, kViewport);
+            const ProjectedPoint from = camera.project(anchor, kPlace);
             const Eigen::Vector2d to = random.pixel();
-            const Eigen::Vector3d moved = anchor + camera.drag_in_plane(anchor, from.pixel, to, kViewport);
-            const ProjectedPoint seen = camera.project(moved, kViewport);
+            const Eigen::Vector3d moved = anchor + camera.drag_in_plane(anchor, from.pixel, to, kPlace);
+            const ProjectedPoint seen = camera.project(moved, kPlace);
             EXPECT_LT(distance(seen.pixel, to), 1e-6);
             EXPECT_NEAR(seen.depth, from.depth, kTight * ball.radius);
         }
@@ -101,40 +96,40 @@ TEST(Camera, KeepsADraggedPointUnderTheCursor) {
 
 TEST(Camera, PansThePlaneOfItsTargetWithTheCursor) {
     for (const SceneFrame& ball : scenes()) {
-        Camera camera = camera_at(ball);
+        Camera camera = camera_at(ball, kPlace);
         const Eigen::Vector2d from(300, 200), to(900, 640);
-        const Eigen::Vector3d point = camera.unproject(from, camera.pose().distance, kViewport);
-        camera.pan(from, to, kViewport);
-        EXPECT_LT(distance(camera.project(point, kViewport).pixel, to), 1e-6);
+        const Eigen::Vector3d point = camera.unproject(from, camera.pose().distance, kPlace);
+        camera.pan(from, to, kPlace);
+        EXPECT_LT(distance(camera.project(point, kPlace).pixel, to), 1e-6);
     }
 }
 
 TEST(Camera, ZoomsAboutThePointUnderTheCursor) {
     Random random;
     for (const SceneFrame& ball : scenes()) {
-        Camera camera = camera_at(ball);
+        Camera camera = camera_at(ball, kPlace);
         const Eigen::Vector2d cursor = random.pixel();
         const Eigen::Vector3d anchor = random.point(ball);
-        const double depth = camera.project(anchor, kViewport).depth, distance_before = camera.pose().distance;
-        const Eigen::Vector3d point = camera.unproject(cursor, depth, kViewport);
-        camera.zoom_to(cursor, 1.5, anchor, kViewport);
-        EXPECT_LT(distance(camera.project(point, kViewport).pixel, cursor), 1e-6);
+        const double depth = camera.project(anchor, kPlace).depth, distance_before = camera.pose().distance;
+        const Eigen::Vector3d point = camera.unproject(cursor, depth, kPlace);
+        camera.zoom_to(cursor, 1.5, anchor, kPlace);
+        EXPECT_LT(distance(camera.project(point, kPlace).pixel, cursor), 1e-6);
         EXPECT_NEAR(camera.pose().distance, distance_before / 1.5, 1e-12 * distance_before);
     }
 }
 
 TEST(Camera, StopsZoomingBeforeItLosesTheScene) {
-    Camera camera = camera_at({});
-    for (int i = 0; i < 1000; ++i) camera.zoom_to(kViewport.center(), 1.2, Eigen::Vector3d::Zero(), kViewport);
+    Camera camera = camera_at({}, kPlace);
+    for (int i = 0; i < 1000; ++i) camera.zoom_to(kPlace.center(), 1.2, Eigen::Vector3d::Zero(), kPlace);
     EXPECT_GT(camera.pose().distance, 0.99e-4);
-    for (int i = 0; i < 1000; ++i) camera.zoom_to(kViewport.center(), 0.8, Eigen::Vector3d::Zero(), kViewport);
+    for (int i = 0; i < 1000; ++i) camera.zoom_to(kPlace.center(), 0.8, Eigen::Vector3d::Zero(), kPlace);
     EXPECT_LT(camera.pose().distance, 1.01e3);
 }
 
 TEST(Camera, FramesABallThatTouchesNoBorder) {
     for (const SceneFrame& ball : scenes())
         for (const Viewport& viewport : {Viewport{0, 0, 1200, 500}, Viewport{0, 0, 500, 1200}}) {
-            Camera camera = camera_at(ball);
+            Camera camera = camera_at(ball, kPlace);
             camera.frame(ball, viewport.aspect());
             const double reach = ball.radius / std::sin(std::acos(ball.radius / camera.pose().distance));
             const double shorter = std::min(viewport.width, viewport.height);
@@ -146,24 +141,24 @@ TEST(Camera, FramesABallThatTouchesNoBorder) {
 
 TEST(Camera, OrbitKeepsTheUpAxisUprightAndStopsAtThePoles) {
     Random random;
-    Camera camera = camera_at({});
+    Camera camera = camera_at({}, kPlace);
     for (int i = 0; i < 500; ++i) {
-        camera.orbit(random(-80, 80), random(-80, 80), kViewport);
+        camera.orbit(random(-80, 80), random(-80, 80), kPlace);
         EXPECT_NEAR(camera.right().dot(camera.up_axis()), 0.0, 1e-9);
         EXPECT_GT(camera.up().dot(camera.up_axis()), -1e-9);
     }
-    camera.orbit(0.0, 1e5, kViewport);
+    camera.orbit(0.0, 1e5, kPlace);
     EXPECT_NEAR(camera.backward().z(), 1.0, kTight);
-    camera.orbit(0.0, -1e5, kViewport);
+    camera.orbit(0.0, -1e5, kPlace);
     EXPECT_NEAR(camera.backward().z(), -1.0, kTight);
 }
 
 TEST(Camera, StaysUprightAtThePolesHoweverOftenItIsTurnedThere) {
     Random random;
     for (const double way : {1.0, -1.0}) {
-        Camera camera = camera_at({});
+        Camera camera = camera_at({}, kPlace);
         for (int i = 0; i < 2000; ++i) {
-            camera.orbit(random(-80, 80), way * random(-1, 80), kViewport);
+            camera.orbit(random(-80, 80), way * random(-1, 80), kPlace);
             ASSERT_GT(camera.up().dot(camera.up_axis()), -1e-12) << i;
         }
     }
@@ -173,9 +168,9 @@ TEST(Camera, TurnsTheSceneTheWayThatItIsDragged) {
     const Eigen::Vector3d front(0.0, -1.0, 0.0);
     Camera camera;
     camera.set_view(ViewDirection::front);
-    const Eigen::Vector2d before = camera.project(front, kViewport).pixel;
-    camera.orbit(30.0, 20.0, kViewport);
-    const Eigen::Vector2d after = camera.project(front, kViewport).pixel;
+    const Eigen::Vector2d before = camera.project(front, kPlace).pixel;
+    camera.orbit(30.0, 20.0, kPlace);
+    const Eigen::Vector2d after = camera.project(front, kPlace).pixel;
     EXPECT_GT(after.x(), before.x() + 10.0);
     EXPECT_GT(after.y(), before.y() + 5.0);
 }

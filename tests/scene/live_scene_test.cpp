@@ -14,7 +14,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 /// A cube of 2 cells (26 vertices), held at x = 0.
-LiveScene cube() {
+LiveScene cube_scene() {
     Document document;
     document.mesh = Primitive{.name = "cube", .resolution = 2, .size = {}};
     document.fixed = {{.select = {PlaneSelector{{0, 0, 0}, {1, 0, 0}, 1e-9}}}};
@@ -29,7 +29,7 @@ std::vector<int> right_face(const LiveScene& scene) {
 }
 
 TEST(LiveScene, AHandleOwnsItsVertices) {
-    LiveScene scene = cube();
+    LiveScene scene = cube_scene();
     const std::vector<int> face = right_face(scene);
     ASSERT_EQ(scene.add_handle(face), 0);
     EXPECT_EQ(scene.owner(face[3]), 0);
@@ -39,7 +39,7 @@ TEST(LiveScene, AHandleOwnsItsVertices) {
 }
 
 TEST(LiveScene, NoVertexIsTakenTwice) {
-    LiveScene scene = cube();
+    LiveScene scene = cube_scene();
     const std::vector<int> face = right_face(scene);
     scene.add_handle(std::vector<int>{face[0], face[1]});
     EXPECT_EQ(scene.add_handle(face), 1);
@@ -50,7 +50,7 @@ TEST(LiveScene, NoVertexIsTakenTwice) {
 }
 
 TEST(LiveScene, HandlesAreRenamedButNotLikeOthers) {
-    LiveScene scene = cube();
+    LiveScene scene = cube_scene();
     const std::vector<int> face = right_face(scene);
     scene.add_handle(std::vector<int>{face[0]});
     scene.add_handle(std::vector<int>{face[1]});
@@ -67,7 +67,7 @@ TEST(LiveScene, HandlesAreRenamedButNotLikeOthers) {
 }
 
 TEST(LiveScene, AMotionReachesTheValuesOfItsHandleOnly) {
-    LiveScene scene = cube();
+    LiveScene scene = cube_scene();
     const std::vector<int> face = right_face(scene);
     scene.add_handle(std::vector<int>{face[0]});
     scene.add_handle(std::vector<int>{face[1], face[2]});
@@ -78,7 +78,7 @@ TEST(LiveScene, AMotionReachesTheValuesOfItsHandleOnly) {
 }
 
 TEST(LiveScene, UndoAndRedoGoThroughTheSteps) {
-    LiveScene scene = cube();
+    LiveScene scene = cube_scene();
     const std::vector<int> face = right_face(scene);
     scene.add_handle(face);
     scene.set_motion(0, AffineMotion{.translate = {0.1, 0, 0}});
@@ -99,7 +99,7 @@ TEST(LiveScene, UndoAndRedoGoThroughTheSteps) {
 }
 
 TEST(LiveScene, FixedVerticesCanBeTakenBack) {
-    LiveScene scene = cube();
+    LiveScene scene = cube_scene();
     const std::vector<int> all(scene.vertices(LiveScene::kFixed).begin(), scene.vertices(LiveScene::kFixed).end());
     scene.unfix(std::vector<int>{all[0]});
     EXPECT_EQ(scene.vertices(LiveScene::kFixed).size(), 8u);
@@ -113,7 +113,7 @@ TEST(LiveScene, FixedVerticesCanBeTakenBack) {
 std::vector<int> members(std::span<const int> vertices) { return {vertices.begin(), vertices.end()}; }
 
 TEST(LiveScene, FixedSetsKeepTheirVerticesAndTogetherAreTheFixedPart) {
-    LiveScene scene = cube();
+    LiveScene scene = cube_scene();
     const std::vector<int> left = members(scene.fixed_vertices(0)), face = right_face(scene);
     EXPECT_EQ(scene.fixed_name(0), "fixed");
     scene.fix(std::vector<int>{face[0], left[0]}, scene.n_fixed_sets());
@@ -132,7 +132,7 @@ TEST(LiveScene, FixedSetsKeepTheirVerticesAndTogetherAreTheFixedPart) {
 }
 
 TEST(LiveScene, VerticesLeaveOneFixedSetOrAllAndAnEmptySetIsGone) {
-    LiveScene scene = cube();
+    LiveScene scene = cube_scene();
     const std::vector<int> left = members(scene.fixed_vertices(0)), face = right_face(scene);
     scene.fix(face, 1);
     scene.unfix(std::vector<int>{left[0], face[0]}, 1);
@@ -147,7 +147,7 @@ TEST(LiveScene, VerticesLeaveOneFixedSetOrAllAndAnEmptySetIsGone) {
 }
 
 TEST(LiveScene, FixedSetsAreMadeRenamedAndRemovedInStepsOfUndo) {
-    LiveScene scene = cube();
+    LiveScene scene = cube_scene();
     const std::vector<int> face = right_face(scene);
     scene.fix(std::vector<int>{face[0]}, 1);
     scene.commit();
@@ -175,7 +175,7 @@ TEST(LiveScene, FixedSetsAreMadeRenamedAndRemovedInStepsOfUndo) {
 }
 
 TEST(LiveScene, NewNamesAvoidThoseThatAreTaken) {
-    LiveScene scene = cube();
+    LiveScene scene = cube_scene();
     const std::vector<int> face = right_face(scene);
     scene.add_handle(std::vector<int>{face[0]});
     scene.add_handle(std::vector<int>{face[1]});
@@ -186,7 +186,7 @@ TEST(LiveScene, NewNamesAvoidThoseThatAreTaken) {
 }
 
 TEST(LiveScene, AMotionThatIsNotFiniteIsIgnored) {
-    LiveScene scene = cube();
+    LiveScene scene = cube_scene();
     scene.add_handle(right_face(scene));
     const Motion motion = AffineMotion{.translate = {0.1, 0, 0}};
     scene.set_motion(0, motion);

@@ -17,14 +17,14 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-const Selector kLeft{BoxSelector{.min = {0, 0, 0}, .max = {0, 1, 1}}};
-const Selector kRight{BoxSelector{.min = {1, 0, 0}, .max = {1, 1, 1}}};
+const Selector kLeftFace{BoxSelector{.min = {0, 0, 0}, .max = {0, 1, 1}}};
+const Selector kRightFace{BoxSelector{.min = {1, 0, 0}, .max = {1, 1, 1}}};
 
 /// A cube of 26 vertices, 9 on every face, fixed at the left.
-Document cube() {
+Document cube_document() {
     Document document;
     document.mesh = Primitive{.name = "cube", .resolution = 2, .size = {}};
-    document.fixed = {{.select = kLeft}};
+    document.fixed = {{.select = kLeftFace}};
     return document;
 }
 
@@ -52,10 +52,10 @@ std::string refusal(const Document& document) {
 }
 
 TEST(Setup, AnAffineHandleMovesEveryVertexByItsRestPosition) {
-    Document document = cube();
+    Document document = cube_document();
     const AffineMotion motion{.matrix = (Eigen::Matrix3d() << 0, 1, 2, 3, 4, 5, 6, 7, 8).finished(),
                               .translate = {0.1, 0.2, 0.3}};
-    document.handles.push_back({.name = "right", .select = kRight, .motion = motion});
+    document.handles.push_back({.name = "right", .select = kRightFace, .motion = motion});
     const SurfaceMesh mesh = mesh_of(document);
     const Constraints result = constraints(document);
     ASSERT_EQ(result.set.handles.size(), 9U);
@@ -67,7 +67,7 @@ TEST(Setup, AnAffineHandleMovesEveryVertexByItsRestPosition) {
 }
 
 TEST(Setup, DisplacementsFollowTheOrderOfTheirVertices) {
-    Document document = cube();
+    Document document = cube_document();
     document.fixed.clear();
     document.handles.push_back(
         {.name = "", .select = {VertexSelector{{20, 3}}}, .motion = VertexMotion{{{1, 2, 3}, {4, 5, 6}}}});
@@ -77,7 +77,7 @@ TEST(Setup, DisplacementsFollowTheOrderOfTheirVertices) {
 }
 
 TEST(Setup, GroupsAreTheFixedPartAndThenTheHandles) {
-    Document document = cube();
+    Document document = cube_document();
     document.fixed = {{.select = {VertexSelector{{0, 1, 2}}}}};
     document.handles.push_back({.name = "", .select = {VertexSelector{{25}}}, .motion = AffineMotion{}});
     document.handles.push_back({.name = "b", .select = {VertexSelector{{24, 23}}}, .motion = AffineMotion{}});
@@ -93,7 +93,7 @@ TEST(Setup, GroupsAreTheFixedPartAndThenTheHandles) {
 }
 
 TEST(Setup, FixedSetsAreOneGroupTogether) {
-    Document document = cube();
+    Document document = cube_document();
     document.fixed = {{.name = "a", .select = {VertexSelector{{4, 1}}}}, {.select = {VertexSelector{{0, 9, 3}}}}};
     document.handles.push_back({.name = "h", .select = {VertexSelector{{25}}}, .motion = AffineMotion{}});
     const Constraints result = constraints(document);
@@ -110,11 +110,11 @@ TEST(Setup, FixedSetsAreOneGroupTogether) {
 }
 
 TEST(Setup, FixedSetsAreDisjointAndNamedApart) {
-    Document document = cube();
+    Document document = cube_document();
     document.fixed.push_back({.select = {VertexSelector{{25, 0}}}});
     EXPECT_THAT(refusal(document), HasSubstr("s.json: /fixed/1/select: vertex 0"));
     EXPECT_THAT(refusal(document), HasSubstr("also belongs to /fixed/0"));
-    document.fixed[1] = {.name = "fixed", .select = kRight};
+    document.fixed[1] = {.name = "fixed", .select = kRightFace};
     EXPECT_THAT(refusal(document), HasSubstr("/fixed: two of them are called \"fixed\""));
     document.fixed[1].name = "a";
     document.handles.push_back(
@@ -123,30 +123,30 @@ TEST(Setup, FixedSetsAreDisjointAndNamedApart) {
 }
 
 TEST(Setup, NoVertexIsConstrainedTwice) {
-    Document document = cube();
-    document.handles.push_back({.name = "a", .select = kRight, .motion = AffineMotion{}});
-    document.handles.push_back({.name = "b", .select = kRight, .motion = AffineMotion{}});
+    Document document = cube_document();
+    document.handles.push_back({.name = "a", .select = kRightFace, .motion = AffineMotion{}});
+    document.handles.push_back({.name = "b", .select = kRightFace, .motion = AffineMotion{}});
     EXPECT_THAT(refusal(document), HasSubstr("s.json: /handles/1/select: vertex"));
     EXPECT_THAT(refusal(document), HasSubstr("also belongs to /handles/0"));
-    document.handles = {{.name = "c", .select = kLeft, .motion = AffineMotion{}}};
+    document.handles = {{.name = "c", .select = kLeftFace, .motion = AffineMotion{}}};
     EXPECT_THAT(refusal(document), HasSubstr("also belongs to /fixed"));
 }
 
 TEST(Setup, EveryVertexNeedsADisplacement) {
-    Document document = cube();
-    document.handles.push_back({.name = "", .select = kRight, .motion = VertexMotion{{{1, 2, 3}}}});
+    Document document = cube_document();
+    document.handles.push_back({.name = "", .select = kRightFace, .motion = VertexMotion{{{1, 2, 3}}}});
     EXPECT_THAT(refusal(document), HasSubstr("/handles/0/displacements: has 1 entries for 9 selected vertices"));
 }
 
 TEST(Setup, DisplacementsMustStayFinite) {
-    Document document = cube();
+    Document document = cube_document();
     const AffineMotion huge{.matrix = Eigen::Matrix3d::Constant(1e308), .translate = {0, 0, 0}};
-    document.handles.push_back({.name = "", .select = kRight, .motion = huge});
+    document.handles.push_back({.name = "", .select = kRightFace, .motion = huge});
     EXPECT_THAT(refusal(document), HasSubstr("/handles/0: moves vertex"));
 }
 
 TEST(Setup, AnUnnamedHandleMustNotTakeTheNameOfAnother) {
-    Document document = cube();
+    Document document = cube_document();
     document.handles.push_back({.name = "handle-1", .select = {VertexSelector{{25}}}, .motion = AffineMotion{}});
     document.handles.push_back({.name = "", .select = {VertexSelector{{24}}}, .motion = AffineMotion{}});
     EXPECT_THAT(refusal(document), HasSubstr("called \"handle-1\""));
@@ -155,7 +155,7 @@ TEST(Setup, AnUnnamedHandleMustNotTakeTheNameOfAnother) {
 TEST(Setup, AMeshFileLiesBesideTheScene) {
     const test::TemporaryFolder folder;
     save_surface(folder.path() / "cube.obj", make_box(2));
-    Document document = cube();
+    Document document = cube_document();
     document.mesh = MeshFile{"cube.obj"};
     const auto scene_file = folder.path() / "scene.json";
     const SceneMesh mesh = load(document.mesh, scene_file);
@@ -172,7 +172,7 @@ TEST(Setup, PrimitivesThatCannotBeMadeAreErrorsOfTheScene) {
 }
 
 TEST(Setup, OnlyFemRefusesAnIncompressibleMaterial) {
-    Document document = cube();
+    Document document = cube_document();
     document.material.poisson_ratio = 0.5;
     const auto body = [&](MethodKind kind) {
         return finding([&] { require_material(document.material, kind, "s.json"); });

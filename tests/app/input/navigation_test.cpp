@@ -7,12 +7,12 @@
 namespace elastolab::test {
 namespace {
 
-const Eigen::Vector2d kDrag(60.0, 35.0);
+const Eigen::Vector2d kStroke(60.0, 35.0);
 
 TEST(Navigation, ADragBesideTheBodyTurnsTheViewAboutItsTarget) {
     Stage stage;
     const CameraPose before = stage.state.camera.pose();
-    stage.drag(stage.empty_place(), stage.empty_place() + kDrag);
+    stage.drag(stage.empty_place(), stage.empty_place() + kStroke);
     EXPECT_EQ(stage.state.camera.pose().target, before.target);
     EXPECT_EQ(stage.state.camera.pose().distance, before.distance);
     EXPECT_GT(stage.state.camera.pose().orientation.angularDistance(before.orientation), 0.1);
@@ -26,8 +26,8 @@ TEST(Navigation, RightMiddleAndShiftLeftDragsMoveTheView) {
         const Eigen::Vector3d target = stage.state.camera.pose().target;
         const Eigen::Vector2d before = stage.pixel(target);
         stage.modifiers = modifiers;
-        stage.drag(stage.empty_place(), stage.empty_place() + kDrag, button);
-        EXPECT_LT((stage.pixel(target) - before - kDrag).norm(), 1e-6) << button;
+        stage.drag(stage.empty_place(), stage.empty_place() + kStroke, button);
+        EXPECT_LT((stage.pixel(target) - before - kStroke).norm(), 1e-6) << button;
     }
 }
 

@@ -41,10 +41,10 @@ MethodKind always() {
     return &traits;
 }
 
-Method hierarchical(Update update = Update::reduced, Tractions tractions = Tractions::discontinuous) {
+Method hierarchical_linear(Update update = Update::reduced, Tractions tractions = Tractions::discontinuous) {
     return {.kind = always<BemSystem::Storage::hierarchical>(), .tractions = tractions, .update = update};
 }
-Method dense(Tractions tractions = Tractions::discontinuous, Update update = Update::direct) {
+Method dense_linear(Tractions tractions = Tractions::discontinuous, Update update = Update::direct) {
     return {.kind = always<BemSystem::Storage::dense>(), .tractions = tractions, .update = update};
 }
 
@@ -52,7 +52,7 @@ void expect_as_dense(const SurfaceMesh& mesh, const ConstrainedSet& set, const E
                      Tractions tractions) {
     Control control;
     std::vector<Deformer::Answer> answers;
-    for (const Method& method : {dense(tractions), hierarchical(Update::direct, tractions)}) {
+    for (const Method& method : {dense_linear(tractions), hierarchical_linear(Update::direct, tractions)}) {
         Deformer deformer(precomputed(make_body(mesh), method));
         deformer.constrain(set, control);
         answers.push_back(deformer.answer(values, {.residual = true}, control));
@@ -100,17 +100,17 @@ TEST(HierarchicalCollocation, AHollowSphereIsPulledAsByTheDenseMatrix) {
 }
 
 TEST(HierarchicalCollocation, IsExactForAStretchedBoxUpToIncompressibility) {
-    expect_exact_for_a_stretched_box(10, [](Update update) { return hierarchical(update); });
+    expect_exact_for_a_stretched_box(10, [](Update update) { return hierarchical_linear(update); });
 }
 
 TEST(HierarchicalCollocation, ATurnedBodyCarriesNoForces) {
-    expect_rigid_motion_without_force(make_rabbit(700).surface, hierarchical(), 1e-5);
+    expect_rigid_motion_without_force(make_rabbit(700).surface, hierarchical_linear(), 1e-5);
 }
 
 TEST(HierarchicalCollocation, ABodyThatIsNotHeldMovesAsByTheDenseMatrixOrIsRefused) {
     const SurfaceMesh mesh = make_sphere(9);
     Control control;
-    Deformer direct(precomputed(make_body(mesh), hierarchical(Update::direct)));
+    Deformer direct(precomputed(make_body(mesh), hierarchical_linear(Update::direct)));
     EXPECT_THROW(direct.constrain({{}, {0}}, control), NotHeldError);
     // One vertex is followed; two that are pulled apart leave a turn about their line.
     const int last = mesh.n_vertices() - 1;
@@ -119,7 +119,7 @@ TEST(HierarchicalCollocation, ABodyThatIsNotHeldMovesAsByTheDenseMatrixOrIsRefus
     for (const auto& [pulled, values] : {std::pair<std::vector<int>, Eigen::VectorXd>{{0}, Eigen::Vector3d(1, 2, 3)},
                                          std::pair<std::vector<int>, Eigen::VectorXd>{{0, last}, apart}}) {
         std::vector<Eigen::VectorXd> answers;
-        for (const Method& method : {dense(Tractions::discontinuous, Update::reduced), hierarchical()}) {
+        for (const Method& method : {dense_linear(Tractions::discontinuous, Update::reduced), hierarchical_linear()}) {
             Deformer reduced(precomputed(make_body(mesh), method));
             reduced.constrain({{}, pulled}, control);
             EXPECT_FALSE(reduced.quality().held);

@@ -10,36 +10,31 @@
 #include "mesh/input/merge.hpp"
 #include "mesh/primitives.hpp"
 #include "render/geometry/visibility.hpp"
+#include "render/viewpoint.hpp"
 
 namespace elastolab {
 namespace {
 
-constexpr Viewport kViewport{0.0, 0.0, 1000.0, 800.0};
+using test::camera_at;
 
-Camera camera_at(const SceneFrame& ball) {
-    Camera camera;
-    camera.set_scene(ball);
-    camera.set_view(ViewDirection::isometric);
-    camera.frame(ball, kViewport.aspect());
-    return camera;
-}
+constexpr Viewport kView{0.0, 0.0, 1000.0, 800.0};
 
 std::optional<PickHit> pick_on(const SurfaceMesh& mesh, const Camera& camera, const Eigen::Vector2d& cursor,
                                double snap = 12.0) {
-    return pick(camera, kViewport, cursor, mesh.vertices, mesh.triangles, snap);
+    return pick(camera, kView, cursor, mesh.vertices, mesh.triangles, snap);
 }
 
 TEST(Picking, FindsThePointUnderTheCursorOnTheNearSide) {
     for (const double radius : {1e-9, 1.0, 1e9}) {
         const SurfaceMesh mesh = make_sphere(10, radius);
-        const Camera camera = camera_at({Eigen::Vector3d::Zero(), radius});
+        const Camera camera = camera_at({Eigen::Vector3d::Zero(), radius}, kView);
         std::mt19937 engine(1);
         std::uniform_real_distribution<> offset(-200, 200);
         for (int i = 0; i < 100; ++i) {
             const Eigen::Vector2d cursor(500 + offset(engine), 400 + offset(engine));
             const auto hit = pick_on(mesh, camera, cursor);
             ASSERT_TRUE(hit && hit->triangle >= 0);
-            EXPECT_LT((camera.project(hit->point, kViewport).pixel - cursor).norm(), 1e-6);
+            EXPECT_LT((camera.project(hit->point, kView).pixel - cursor).norm(), 1e-6);
             EXPECT_GT(hit->point.dot(camera.backward()), 0.0);
             EXPECT_NEAR(hit->barycentric.sum(), 1.0, 1e-12);
             EXPECT_GE(hit->barycentric.minCoeff(), -1e-9);
@@ -49,10 +44,10 @@ TEST(Picking, FindsThePointUnderTheCursorOnTheNearSide) {
 
 TEST(Picking, FindsAVertexThatIsUnderTheCursorExactly) {
     const SurfaceMesh mesh = make_sphere(8);
-    const Camera camera = camera_at({});
+    const Camera camera = camera_at({}, kView);
     for (int vertex = 0; vertex < mesh.n_vertices(); ++vertex) {
         if (mesh.vertices.col(vertex).dot(camera.backward()) < 0.4) continue;
-        const auto hit = pick_on(mesh, camera, camera.project(mesh.vertices.col(vertex), kViewport).pixel);
+        const auto hit = pick_on(mesh, camera, camera.project(mesh.vertices.col(vertex), kView).pixel);
         ASSERT_TRUE(hit);
         EXPECT_EQ(hit->vertex, vertex);
         EXPECT_GE(hit->triangle, 0);
@@ -63,18 +58,18 @@ TEST(Picking, FindsAVertexThatIsUnderTheCursorExactly) {
 TEST(Picking, MeetsTrianglesFromBehindToo) {
     SurfaceMesh mesh = make_sphere(4);
     mesh.triangles.row(0).swap(mesh.triangles.row(1));
-    const auto hit = pick_on(mesh, camera_at({}), kViewport.center());
+    const auto hit = pick_on(mesh, camera_at({}, kView), kView.center());
     ASSERT_TRUE(hit && hit->triangle >= 0);
-    EXPECT_GT(hit->point.dot(camera_at({}).backward()), 0.5);
+    EXPECT_GT(hit->point.dot(camera_at({}, kView).backward()), 0.5);
 }
 
 TEST(Picking, SnapsToAVisibleVertexBesideTheBody) {
     const SurfaceMesh mesh = make_box(1);
-    const Camera camera = camera_at({Eigen::Vector3d::Constant(0.5), 0.9});
+    const Camera camera = camera_at({Eigen::Vector3d::Constant(0.5), 0.9}, kView);
     for (int vertex = 0; vertex < 8; ++vertex) {
-        const Eigen::Vector2d pixel = camera.project(mesh.vertices.col(vertex), kViewport).pixel;
-        const Eigen::Vector2d outward = (pixel - kViewport.center()).normalized();
-        if ((pixel - kViewport.center()).norm() < 150) continue;  // those in the middle
+        const Eigen::Vector2d pixel = camera.project(mesh.vertices.col(vertex), kView).pixel;
+        const Eigen::Vector2d outward = (pixel - kView.center()).normalized();
+        if ((pixel - kView.center()).norm() < 150) continue;  // those in the middle
         const auto near = pick_on(mesh, camera, pixel + 8.0 * outward),
                    far = pick_on(mesh, camera, pixel + 20.0 * outward);
         ASSERT_TRUE(near);
@@ -100,12 +95,12 @@ TEST(Picking, DoesNotSnapToAHiddenVertex) {
 
 TEST(Picking, SelectsTheVisibleVerticesOfARectangle) {
     const SurfaceMesh mesh = make_sphere(12);
-    const Camera camera = camera_at({});
+    const Camera camera = camera_at({}, kView);
     const auto all =
-        vertices_in_rectangle(camera, kViewport, {0, 0}, {1000, 800}, mesh.vertices, mesh.triangles, Reach::through);
+        vertices_in_rectangle(camera, kView, {0, 0}, {1000, 800}, mesh.vertices, mesh.triangles, Reach::through);
     EXPECT_EQ(static_cast<int>(all.size()), mesh.n_vertices());
     const auto visible =
-        vertices_in_rectangle(camera, kViewport, {1000, 0}, {0, 800}, mesh.vertices, mesh.triangles, Reach::visible);
+        vertices_in_rectangle(camera, kView, {1000, 0}, {0, 800}, mesh.vertices, mesh.triangles, Reach::visible);
     const double horizon = 1.0 / camera.pose().distance;
     for (int vertex = 0; vertex < mesh.n_vertices(); ++vertex) {
         const double height = mesh.vertices.col(vertex).dot(camera.backward());
@@ -117,38 +112,37 @@ TEST(Picking, SelectsTheVisibleVerticesOfARectangle) {
 
 TEST(Picking, SortsIntoCellsWithoutChangingWhatIsVisible) {
     const SurfaceMesh mesh = make_torus(8);
-    const Camera camera = camera_at({Eigen::Vector3d::Zero(), 1.35});
+    const Camera camera = camera_at({Eigen::Vector3d::Zero(), 1.35}, kView);
     std::vector<int> all, expected;
     for (int vertex = 0; vertex < mesh.n_vertices(); ++vertex) {
         all.push_back(vertex);
         if (is_visible(camera.eye(), vertex, mesh.vertices, mesh.triangles)) expected.push_back(vertex);
     }
-    EXPECT_EQ(visible_of(all, camera, kViewport, mesh.vertices, mesh.triangles), expected);
+    EXPECT_EQ(visible_of(all, camera, kView, mesh.vertices, mesh.triangles), expected);
     EXPECT_GT(expected.size(), all.size() / 4);
     EXPECT_LT(expected.size(), all.size() * 3 / 4);
 }
 
 TEST(Picking, VerticesOfNoTriangleAreNotThere) {
     const SurfaceMesh mesh = make_sphere(6);
-    const Camera camera = camera_at({});
+    const Camera camera = camera_at({}, kView);
     Positions more(3, mesh.n_vertices() + 1);
     more << mesh.vertices, Eigen::Vector3d(0.0, 0.0, 1.5);
-    const Eigen::Vector2d there = camera.project(more.col(mesh.n_vertices()), kViewport).pixel;
-    const auto hit = pick(camera, kViewport, there, more, mesh.triangles, 2000.0);
+    const Eigen::Vector2d there = camera.project(more.col(mesh.n_vertices()), kView).pixel;
+    const auto hit = pick(camera, kView, there, more, mesh.triangles, 2000.0);
     ASSERT_TRUE(hit);
     EXPECT_LT(hit->vertex, mesh.n_vertices());
-    EXPECT_TRUE(vertices_in_brush(camera, kViewport, there, 1.0, more, mesh.triangles, Reach::visible).empty());
+    EXPECT_TRUE(vertices_in_brush(camera, kView, there, 1.0, more, mesh.triangles, Reach::visible).empty());
 }
 
 TEST(Picking, PaintsWithARoundBrush) {
     const SurfaceMesh mesh = make_sphere(12);
-    const Camera camera = camera_at({});
+    const Camera camera = camera_at({}, kView);
     const Eigen::Vector2d cursor(540, 380);
-    const auto painted =
-        vertices_in_brush(camera, kViewport, cursor, 90.0, mesh.vertices, mesh.triangles, Reach::visible);
+    const auto painted = vertices_in_brush(camera, kView, cursor, 90.0, mesh.vertices, mesh.triangles, Reach::visible);
     std::vector<int> expected;
     for (int vertex = 0; vertex < mesh.n_vertices(); ++vertex) {
-        const bool near = (camera.project(mesh.vertices.col(vertex), kViewport).pixel - cursor).norm() <= 90.0;
+        const bool near = (camera.project(mesh.vertices.col(vertex), kView).pixel - cursor).norm() <= 90.0;
         if (near && mesh.vertices.col(vertex).dot(camera.backward()) > 0.0) expected.push_back(vertex);
     }
     EXPECT_EQ(painted, expected);
@@ -162,10 +156,10 @@ TEST(Picking, CopesWithTrianglesThatReachBehindTheEye) {
     triangles << 0, 1, 2;
     Camera camera;
     camera.look_from({0, 0, 1}, {0, 1, 0});
-    const auto hit = pick(camera, kViewport, kViewport.center() + Eigen::Vector2d(0, 50), positions, triangles);
+    const auto hit = pick(camera, kView, kView.center() + Eigen::Vector2d(0, 50), positions, triangles);
     ASSERT_TRUE(hit);
     EXPECT_EQ(hit->triangle, 0);
-    EXPECT_LT((camera.project(hit->point, kViewport).pixel - kViewport.center() - Eigen::Vector2d(0, 50)).norm(), 1e-6);
+    EXPECT_LT((camera.project(hit->point, kView).pixel - kView.center() - Eigen::Vector2d(0, 50)).norm(), 1e-6);
 }
 
 }  // namespace
