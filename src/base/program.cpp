@@ -17,8 +17,6 @@
 #include "base/error.hpp"
 #include "base/file_descriptor.hpp"
 
-extern char** environ;
-
 namespace elastolab {
 
 namespace fs = std::filesystem;

@@ -1,0 +1,18 @@
+#!/usr/bin/env bash
+# tidy.sh [LAYER...]: clang-tidy (.clang-tidy) over the sources of these layers, or of all; any finding fails. It reads
+# the unity sources, which takes a third of the time that the sources take one by one.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+begin=$SECONDS
+scripts/install.sh clang-tidy
+cmake --preset release >/dev/null
+layers=${*:-[a-z]+}
+mapfile -t sources < <(sed -nE 's|^ *"file": "(.*)",?$|\1|p' build/release/compile_commands.json |
+  grep -E "^$PWD/(build/release/)?src/(${layers// /|})/")
+code=0
+printf '%s\0' "${sources[@]}" |
+  xargs -0 -P "$(nproc)" -n 1 clang-tidy -p build/release --quiet --extra-arg=-Wno-unknown-warning-option \
+    >build/release/tidy.log 2>/dev/null || code=1
+if [[ $code -ne 0 ]]; then grep -E ' (warning|error): ' build/release/tidy.log | sort -u; fi
+echo "clang-tidy: ${#sources[@]} sources in $((SECONDS - begin)) s, $([[ $code -eq 0 ]] && echo no finding || echo findings)."
+exit "$code"
