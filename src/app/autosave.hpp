@@ -23,12 +23,12 @@ struct AutosavedScene {
     std::filesystem::file_time_type time;
     FileDescriptor locked;
 
-    /// Not wanted any more.
+    /// Deletes it: it is not wanted any more.
     void remove();
 };
 
-/// The scenes that viewers which were killed have left, the newest first. Each is locked, so that no other viewer finds
-/// it; those of viewers that run are not among them. Never throws: without them nothing can be recovered, that is all.
+/// Scenes left by viewers that were killed, the newest first. Each is locked, so that no other viewer finds it; those
+/// of running viewers are not among them. Never throws: at worst, nothing can be recovered.
 std::vector<AutosavedScene> find_autosaved();
 
 /// Writes the scene that is edited, on a worker, whenever it has changed and is not saved: at most every two seconds.
@@ -40,7 +40,7 @@ public:
 
     /// What there is to keep.
     struct Scene {
-        std::uint64_t revision = 0;  ///< differs for whatever differs
+        std::uint64_t revision = 0;  ///< another one for every other state
         bool modified = false;
         std::filesystem::path origin;        ///< its file; may be empty
         std::function<Document()> document;  ///< with absolute names; called when it is written
@@ -49,7 +49,7 @@ public:
     void update(const Scene& scene, double now);
     /// Seconds until update() has something to do; negative when it has not.
     double due_in(double now) const;
-    /// The next scene was recovered from this one: it is written over when that changes.
+    /// The next scene was recovered from this one, whose file is overwritten when the scene changes.
     void adopt(AutosavedScene scene);
     /// The session has ended as it should: nothing is left behind.
     void clear();

@@ -7,7 +7,7 @@
 
 namespace elastolab {
 
-/// Tells the note that a job ended with, or why it failed. Whether there is something new to see. Once per frame.
+/// Shows the note that a job ended with, or why it failed; true when there is something new to see. Once per frame.
 bool tell_end(BackgroundJob<std::string>& job, Messages& messages);
 
 }  // namespace elastolab

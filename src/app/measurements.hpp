@@ -7,7 +7,7 @@
 
 namespace elastolab {
 
-/// What the viewer measures and writes down of itself.
+/// What the viewer measures and records about itself.
 struct Measurements {
     FrameHistory history;
     FrameTimes last_frame;

@@ -9,7 +9,7 @@ namespace elastolab {
 
 namespace {
 
-/// Columns of what may not be known.
+/// Columns for numbers that may be unknown.
 template <class Numbers>
 void add_if_known(CsvWriter& row, const std::optional<Numbers>& numbers) {
     if (numbers)

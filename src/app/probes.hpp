@@ -13,7 +13,7 @@ namespace elastolab {
 /// What is shown at one vertex.
 struct ProbeValue {
     Eigen::Vector3d position, displacement;   ///< true to scale, whatever the picture's [L]
-    std::optional<double> field;              ///< of the colours, where there is one
+    std::optional<double> field;              ///< the value that is coloured, where there is one
     std::optional<Eigen::Vector3d> traction;  ///< [force / L^2], where it is known; likewise:
     std::optional<StressNumbers> stress;
 };
@@ -32,7 +32,7 @@ public:
     /// Adds what is shown now, when that is not what was added last. `seconds`: of the clock of frames.
     void record(double seconds, const Positions& rest, const ShownBody& body, const DisplaySettings& display);
     std::size_t n_samples() const { return samples_.size(); }
-    /// Of one kept probe, oldest first: the shown field where there is one, else how far the vertex has moved [L].
+    /// Samples of one probe, oldest first: the shown field where there is one, else how far the vertex has moved [L].
     std::vector<float> series(std::size_t probe) const;
     /// Rows of time_s,field,vertex,x,y,z,ux,uy,uz,value,tx,ty,tz,sxx,syy,szz,sxy,syz,sxz. Throws Error when it cannot
     /// be written.

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kLowestPart = 0.06;  ///< of a bare mesh that is held, of its height
+constexpr double kLowestPart = 0.06;  ///< part of a bare mesh's height that is held
 
 /// Holds the lowest part of a body that nothing holds yet. The person has changed nothing by that.
 void hold_lowest(LiveScene& scene, const Eigen::Vector3d& up) {

@@ -14,12 +14,12 @@ namespace elastolab {
 /// A scene as it comes from a file.
 struct LoadedScene {
     std::unique_ptr<LiveScene> scene;
-    Eigen::Vector3d up_axis = Eigen::Vector3d::UnitZ();  ///< which axis it has upward
-    std::filesystem::path file;                          ///< that it can be saved over; empty for a bare mesh
+    Eigen::Vector3d up_axis = Eigen::Vector3d::UnitZ();  ///< its axis that points up
+    std::filesystem::path file;                          ///< the file it can be saved over; empty for a bare mesh
     bool recovered = false;                              ///< from a viewer that was killed: its changes are unsaved
 };
 
-/// Reads a scene file (.json), or a mesh, whose lowest part is held. Takes as long as the mesh is large. Throws
+/// Reads a scene file (.json), or a mesh, whose lowest part is held. The time grows with the mesh. Throws
 /// SceneError, MeshError, Cancelled.
 LoadedScene load_scene_or_mesh(const std::filesystem::path& file, Control& control);
 

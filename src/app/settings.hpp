@@ -22,7 +22,7 @@ enum class Release { pin, spring_back };
 /// How the cursor moves what is pulled: in the plane of the screen, along a direction, or otherwise.
 enum class PullMode { plane, normal, axis_x, axis_y, axis_z, turn, scale };
 
-/// Along what the gizmo of a handle moves and turns: the axes of the world, those of the surface there (the third is
+/// The axes by which a handle's gizmo moves and turns it: those of the world, those of the surface there (the third is
 /// its normal), or the world's turned as the handle was.
 enum class GizmoAxes { world, surface, own };
 

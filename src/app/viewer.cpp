@@ -31,7 +31,7 @@ namespace elastolab {
 namespace {
 
 constexpr double kProgressSeconds = 1.0 / 15.0;  ///< between frames while a progress bar moves
-constexpr int kSettlingFrames = 3;               ///< Dear ImGui needs as many after an event to come to rest
+constexpr int kSettlingFrames = 3;               ///< frames that Dear ImGui needs to settle after an event
 constexpr double kCheckSeconds = 0.25;           ///< between looks at a check that goes on in the background
 constexpr double kCaretSeconds = 0.4;            ///< between frames while a text cursor blinks
 constexpr double kPatienceSeconds = 1.0;         ///< for workers at the end
@@ -97,7 +97,7 @@ private:
 
     bool nobody_watches() const { return options_.hidden || options_.n_frames > 0; }
 
-    /// Where somebody sees the window, a file that cannot be opened is told there.
+    /// Where somebody sees the window, a file that cannot be opened is reported there.
     void open_input() {
         if (!options_.input.empty()) {
             if (nobody_watches())
@@ -114,8 +114,8 @@ private:
     bool replaying() const { return replay_ && (options_.hidden || !replay_->done()); }
     bool computing() const { return state_.waiting(); }
 
-    /// Frames by number and replays go on only when the scene is ready, and the model will not be replaced any more:
-    /// the set of a completed one is prepared anew.
+    /// The later half of a given number of frames waits until the scene is ready and the model will not be replaced any
+    /// more: the set of a completed one is prepared anew.
     bool held_back() const {
         const bool late_frames =
             options_.n_frames > 0 && 2 * (state_.measurements.frame + 1) > options_.n_frames && !replay_;
@@ -199,7 +199,7 @@ private:
         return events;
     }
 
-    /// No single edit ends a person's session; what went wrong is told. False when something did.
+    /// No failed edit ends a person's session: the failure becomes a message, and the result is false.
     template <class Action>
     bool guarded(const Action& action) {
         try {
@@ -341,7 +341,7 @@ private:
         state_.messages.note("Saved " + request.file.string());
     }
 
-    /// Those of the command line, at the end.
+    /// The pictures that the command line asks for, at the end.
     void write_pictures() {
         if (options_.picture.empty()) return;
         if (nobody_watches() && !replay_) state_.frame_in_viewports(true);  // as it is deformed by now
@@ -376,7 +376,7 @@ private:
         if (options_.screenshot.empty() || picture_ || window_.size().minCoeff() <= 0) return;
         try {
             draw_frame();
-        } catch (const std::exception&) {  // write_outputs() tells that there is no picture
+        } catch (const std::exception&) {  // write_outputs() reports that there is no picture
         }
     }
 

@@ -29,7 +29,7 @@ struct ViewerOptions {
     bool hidden = false;
 };
 
-/// Opens the viewer and returns when it is closed. Frames that are asked for by number: the first half is drawn as
+/// Opens the viewer and returns when it is closed. When a number of frames is asked for, the first half is drawn as
 /// they come, the rest (and every frame of a replay) once the scene is ready, so that they show and measure it.
 /// Throws Error when there is no display, when an output cannot be written, or when the input cannot be read and
 /// nobody is there to see it (hidden, or with a number of frames).

@@ -19,8 +19,7 @@ void ViewerState::export_mesh(const fs::path& file) {
         });
         return;
     }
-    const std::string note =
-        "Exported " + file.string() + (is_preview ? ", the preview: the method is not ready yet" : "");
+    std::string note = "Exported " + file.string() + (is_preview ? ", the preview: the method is not ready yet" : "");
     export_job_.start([file, note, source = std::make_shared<const ExportSource>(std::move(source))](Control& control) {
         write_export(file, *source, control);
         return note;

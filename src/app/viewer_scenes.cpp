@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kPatchPart = 0.07;   ///< default radius of a patch: of the body's diagonal,
-constexpr double kPatchEdges = 1.6;   ///< but so many edges, so that it has whole triangles
+constexpr double kPatchEdges = 1.6;   ///< but at least so many edges, so that it has whole triangles
 constexpr int kDenseVertices = 2000;  ///< above, a wireframe hides more than it shows
 
 double diagonal(const MeshReport& report) { return (report.max_corner - report.min_corner).norm(); }
@@ -144,7 +144,7 @@ bool ViewerState::save_scene(const fs::path& file) {
 void ViewerState::save_probes(const fs::path& file) {
     attempt([&] {
         probes.write_csv(file);
-        messages.note(std::to_string(probes.n_samples()) + " states of the probes in " + file.string());
+        messages.note(std::to_string(probes.n_samples()) + " samples of the probes in " + file.string());
     });
 }
 

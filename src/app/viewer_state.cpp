@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// As in the timings file: a frame shows what belongs to the scene, or that is being computed, or nothing is done.
+/// As in the timings file: a frame shows the scene's answer, or that is being computed, or nothing is being done.
 std::string recorded_name(MethodRunner::State state) {
     switch (state) {
         case MethodRunner::State::ready:
@@ -147,7 +147,7 @@ void ViewerState::finish_gesture() {
     gestures.finish(context);
 }
 
-/// What was chosen of the method becomes a step of the scene's history, wherever it was chosen.
+/// A choice of the method or its settings becomes a step of the scene's history, wherever it was made.
 void ViewerState::keep_method() {
     const Document& document = scene_->document();
     if (document.method == method && document.settings == choices.settings()) return;

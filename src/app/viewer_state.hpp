@@ -88,7 +88,7 @@ public:
     void stop_timings();
 
     // Scenes. Failures become messages; what was there stays. What would lose unsaved changes waits until the person
-    // has answered: open, open_primitive and quit do nothing more than ask then.
+    // has answered: open, open_primitive and quit then only ask.
     /// Opens a scene file (.json) or a mesh, on a worker.
     void open(const std::filesystem::path& file);
     /// The same, here and now, without a question. Throws SceneError, MeshError, Cancelled.
@@ -113,11 +113,11 @@ public:
     /// Writes a mesh, or fields, on a worker (write_export).
     void export_mesh(const std::filesystem::path& file);
     const std::vector<std::filesystem::path>& recent_files() const { return recent_; }
-    /// Scenes that viewers which were killed have left; recover() opens the first, unsaved as it was.
+    /// Scenes left by viewers that were killed; recover() opens the first, unsaved as it was.
     std::vector<AutosavedScene> recoverable;
     void recover();
     void discard_recoverable();
-    /// What was recovered, once it is open: the place that it is kept at goes to the one who keeps it from then on.
+    /// What was recovered, once it is open: whoever takes it keeps the scene there from then on (Autosave::adopt).
     std::optional<AutosavedScene> take_recovered() { return std::exchange(recovered_, std::nullopt); }
     /// The method to begin with, for the scene that is there and the one that is being opened.
     void start_with(MethodKind kind);
@@ -131,13 +131,13 @@ public:
     void set_young_modulus(double value);
     void select_method(MethodKind kind);
     void frame_body();
-    /// The number of viewports has changed: frames the body, but for the first time a scene is seen that was saved
-    /// with its camera.
+    /// The number of viewports has changed: frames the body, except the first time that a scene saved with its
+    /// camera is seen.
     void frame_in_viewports(bool first_time);
     /// Ends a gesture, so that an edit from elsewhere finds no half-done one.
     void finish_gesture();
     GestureContext gesture_context();
-    /// What stands in the scene to be taken hold of.
+    /// What can be taken hold of in the scene.
     std::vector<Gizmo> gizmos() const;
 
     ViewerRequests requests;
@@ -183,7 +183,7 @@ private:
     bool simulated_ = false;       ///< something was computed already
     std::vector<std::filesystem::path> recent_;
     std::vector<int> prefetched_;
-    std::filesystem::path pending_file_;  ///< that is being loaded, since the scene had this revision:
+    std::filesystem::path pending_file_;  ///< being loaded since the scene had this revision:
     std::uint64_t revision_at_open_ = 0;
     std::optional<MethodKind> first_method_;
     std::optional<AutosavedScene> recovering_, recovered_;

@@ -36,7 +36,7 @@ void require_folder(const fs::path& shown, const fs::path& file) {
 }
 
 /// Gives a file the owner, the group and the permissions of the one that it is to replace, as far as this user may.
-/// Who now gets at it as the file's group, when the group itself could not be kept, may no more than everybody.
+/// Where the group could not be kept, the new group gets no more rights than everybody.
 void take_over_permissions(const fs::path& replaced, int fd) {
     struct stat old {};
     struct stat own {};
@@ -46,7 +46,7 @@ void take_over_permissions(const fs::path& replaced, int fd) {
         is_same || ::fchown(fd, old.st_uid, old.st_gid) == 0 || ::fchown(fd, static_cast<uid_t>(-1), old.st_gid) == 0;
     mode_t mode = old.st_mode & 0777U;
     if (!keeps_group) mode &= ~070U | (mode & 07U) << 3U;
-    ::fchmod(fd, mode);  // not possible on some file systems, which know no permissions
+    ::fchmod(fd, mode);  // fails on file systems that have no permissions
 }
 
 /// So that the new name outlives a power failure, too.
@@ -73,7 +73,7 @@ AtomicFile::AtomicFile(const fs::path& destination) : shown_(destination) {
     fail(shown_, "cannot be written there (" + reason + "). Choose another place.");
 }
 
-/// What replaces another file is hidden from others until it gets that file's permissions.
+/// A temporary that is to replace a file is hidden from others until it gets that file's permissions.
 void AtomicFile::open_beside(const fs::path& destination) {
     if (destination != shown_) require_folder(shown_, destination);
     destination_ = destination;

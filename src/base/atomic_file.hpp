@@ -9,10 +9,11 @@
 namespace elastolab {
 
 /// A file that is written beside its destination and takes its place once it is complete and on the disk (fsync), so
-/// that no reader ever sees half a file and a failure leaves what was there before. It keeps the permissions, and where
-/// this user may the owner and group, of the file that it replaces. A destination that is no regular file (a pipe, a
-/// terminal) or an open stream of this process (/dev/stdout) is written directly; through any other symbolic link the
-/// file that it leads to is replaced, or made. What killed programs have left beside the destination is removed.
+/// that no reader ever sees half a file and a failure leaves what was there before. It keeps the permissions of the
+/// file that it replaces and, where this user may set them, its owner and group. A destination that is no regular file
+/// (a pipe, a terminal) or an open stream of this process (/dev/stdout) is written directly; any other symbolic link is
+/// followed, and the file that it leads to is replaced or created. Temporaries that killed programs left beside the
+/// destination are removed.
 class AtomicFile {
 public:
     /// Opens the temporary. Throws Error, naming `destination`, when it is empty or a directory, when its folder is

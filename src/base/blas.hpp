@@ -21,8 +21,8 @@ std::string blas_kernels();
 void set_thread_count(int n);
 int thread_count();
 
-// OpenBLAS 0.3.21 has one number of threads for the whole program. Which it is while several workers compute, the next
-// two classes settle between them. Both may nest, on any threads.
+// OpenBLAS 0.3.21 has one number of threads for the whole program. The next two classes settle which it is while
+// several workers compute. Both may nest, on any threads.
 
 /// For a parallel loop whose bodies call the BLAS: while an instance lives, a BLAS call runs on its caller's thread.
 /// OpenBLAS has one pool of threads, in which calls from several threads wait for each other (sparse solves of many
@@ -36,8 +36,8 @@ public:
 };
 
 /// For one large BLAS computation, such as a factorisation: while an instance lives, BLAS calls use thread_count()
-/// threads, even if another worker has a SerialBlas: a factorisation is not slowed down by that, and what it rounds
-/// does not depend on what runs beside it.
+/// threads, even if another worker has a SerialBlas: so a factorisation is not slowed down, and its rounding does not
+/// depend on what runs beside it.
 class ParallelBlas {
 public:
     ParallelBlas();

@@ -12,7 +12,7 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 
-// Exported by OpenBLAS, declared in no header of it; null in a library that does not have them.
+// Exported by OpenBLAS but declared in none of its headers; null in a library without them.
 extern "C" [[gnu::weak]] void* blas_memory_alloc(int);
 extern "C" [[gnu::weak]] void blas_memory_free(void*);
 
@@ -24,10 +24,10 @@ constexpr const char* kThreadsVariable = "OPENBLAS_NUM_THREADS";
 /// What OpenBLAS maps for each thread of its pool and for each thread that calls it [bytes].
 constexpr std::size_t kBuffer = (std::size_t{128} << 20) + (std::size_t{1} << 16);
 
-/// Where addresses are scarce, buffers get one part of these, data the others.
+/// Where addresses are scarce, buffers get one of this many parts, data the others.
 constexpr std::size_t kShareOfBuffers = 4;
 
-/// Whether memory may be refused to a process that asks for addresses, long before it is used up.
+/// Whether a request for addresses may be refused long before the memory is used up.
 bool are_addresses_limited() {
     rlimit limit{};
     if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) return true;
@@ -46,7 +46,7 @@ bool can_map(std::size_t bytes) {
 /// Buffers for n threads that call, and for the n - 1 that the pool has then.
 std::size_t buffers_for(int n) { return (2 * static_cast<std::size_t>(n) - 1) * kBuffer; }
 
-/// Buffers that were taken once OpenBLAS keeps and uses again.
+/// OpenBLAS keeps buffers that were taken once, and reuses them.
 void take_buffers_once(int n) {
     if (blas_memory_alloc == nullptr || blas_memory_free == nullptr) return;
     std::vector<void*> buffers;

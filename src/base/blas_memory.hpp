@@ -8,7 +8,7 @@ namespace elastolab {
 void start_blas_within_limits(char** argv);
 
 /// Where a limit of the address space may refuse memory, maps all buffers that OpenBLAS is going to use, for as many
-/// threads as leave most of the addresses to data: from then on that is the thread count at most. Without this,
+/// threads as leave most of the addresses to data; that number limits the thread count from then on. Without this,
 /// OpenBLAS never returns from a call that finds no room for its buffer. Throws Error when there is no room for one
 /// thread.
 void reserve_blas_buffers();

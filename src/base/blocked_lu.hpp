@@ -7,8 +7,7 @@
 
 namespace elastolab {
 
-/// Number of rows up to which LAPACK factorises a matrix in one call: a cancel is not heard meanwhile, for some tenths
-/// of a second.
+/// Number of rows up to which LAPACK factorises a matrix in one call, which delays a cancel by some tenths of a second.
 constexpr int kLuAtOnce = 3072;
 
 /// A <- its factors L and U with row exchanges, as LAPACK's getrf leaves them. Matrices larger than `at_once` are

@@ -22,7 +22,7 @@ public:
         for (const double value : values) number(value);
         return *this;
     }
-    /// Cells of which nothing is known.
+    /// Empty cells, where nothing is known.
     CsvWriter& nothing(int n_cells = 1);
     void end_row();
 

@@ -14,7 +14,7 @@ extern const MixedProductKernels kAvx512MixedProductKernels;
 
 namespace {
 
-constexpr Eigen::Index kRowsAtOnce = 1024;  ///< some whose part of X or Y stays in the first cache
+constexpr Eigen::Index kRowsAtOnce = 1024;  ///< so few that their part of X or Y stays in the L1 cache
 
 const MixedProductKernels& mixed_kernels() {
 #if defined(__x86_64__)

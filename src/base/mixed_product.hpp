@@ -4,8 +4,8 @@
 
 namespace elastolab {
 
-/// Products of a matrix in single precision with all sums in double precision, for few columns X: they take the time
-/// of reading A once, where a copy in double precision would take that of writing and reading it too. Sequential.
+/// Products with a matrix A in single precision, all sums in double precision, for few columns X. They take the time of
+/// reading A once; a copy of A in double precision would have to be written and read as well. Sequential.
 
 /// Y += A X
 void add_mixed_product(const Eigen::Ref<const Eigen::MatrixXf>& A, const Eigen::Ref<const Eigen::MatrixXd>& X,

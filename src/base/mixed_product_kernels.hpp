@@ -16,9 +16,10 @@ struct MixedProductKernels {
                            const double* x, double* y);
 };
 
+// NOLINTBEGIN(misc-definitions-in-headers): each source compiles its own.
 namespace {
 
-/// Columns at once: x or y is then read from the cache a fourth as often.
+/// Columns of A taken together: y (for A^T: x) is then read from the cache a fourth as often.
 constexpr std::ptrdiff_t kColumnsAtOnce = 4;
 
 void add_columns(const float* A, std::ptrdiff_t stride, std::ptrdiff_t rows, std::ptrdiff_t cols, const double* x,
@@ -68,5 +69,6 @@ void add_dot_products(const float* A, std::ptrdiff_t stride, std::ptrdiff_t rows
 constexpr MixedProductKernels kMixedProductKernels = {add_columns, add_dot_products};
 
 }  // namespace
+// NOLINTEND(misc-definitions-in-headers)
 
 }  // namespace elastolab

@@ -51,11 +51,12 @@ fs::path followed_links(const fs::path& start) {
         const fs::path folder = fs::canonical(fs::absolute(path).parent_path(), error);
         if (error) return path;
         if (is_laid_by_a_stranger(path, folder))
-            throw Error(start.string() + ": is a link of another user in a folder that everybody may write in. " +
+            throw Error(start.string() +
+                        ": is a symbolic link of another user in a folder that everybody may write in. " +
                         "Name the file itself.");
         path = next_of(path, folder);
     }
-    throw Error(start.string() + ": is a link that leads in a circle. Name the file itself.");
+    throw Error(start.string() + ": is a symbolic link that leads back to itself. Name the file itself.");
 }
 
 }  // namespace elastolab

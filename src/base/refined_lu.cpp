@@ -94,7 +94,7 @@ Eigen::MatrixXd RefinedLu::solve_single(const Eigen::MatrixXd& B) const {
 }
 
 bool RefinedLu::refine(const Eigen::MatrixXd& B, Eigen::MatrixXd& X) const {
-    // As small as rounding in the product allows; factors in double precision would leave as much.
+    // The residual that rounding in the product leaves; factors in double precision would leave as much.
     const double rounding = std::numeric_limits<double>::epsilon() * std::sqrt(static_cast<double>(B.rows())) * norm_;
     double before = std::numeric_limits<double>::infinity();
     for (int step = 0; step < kMostSteps; ++step) {

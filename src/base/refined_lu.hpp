@@ -11,13 +11,13 @@
 
 namespace elastolab {
 
-/// LU factors in single precision, and the matrix itself in double precision, by which solutions are refined
-/// until they are as good as those of factors in double precision. Half the time of LuFactorization to factorise, twice
-/// to three times to solve, one and a half times the memory: for a matrix that is solved with once or a few times.
+/// LU factors in single precision, and the matrix itself in double precision, with which solutions are refined until
+/// they are as good as those of factors in double precision. Compared with LuFactorization: half the time to factorise,
+/// two to three times the time to solve, one and a half times the memory; for a matrix that is solved with once or a
+/// few times.
 ///
-/// Where that cannot work it takes factors in double precision, in place of the matrix: when the condition is above
-/// 1e5 or an entry leaves the range of single precision; and, for the solution at hand and all later ones, when
-/// refinement stalls.
+/// Where that cannot work, factors in double precision replace the matrix: when the condition is above 1e5 or an entry
+/// leaves the range of single precision; and, for the solution at hand and all later ones, when refinement stalls.
 /// Method: C. B. Moler, Iterative refinement in floating point, J. ACM 14, 1967; LAPACK's dsgesv. Any thread may use
 /// it.
 class RefinedLu {

@@ -44,8 +44,8 @@ bool is_stale(int fd) {
            ::flock(fd, LOCK_EX | LOCK_NB) == 0;
 }
 
-/// Locks a new file. False when another process, that looks for stale ones, was faster and has removed it or is about
-/// to. A file system without locks is no reason to fail: nobody can take the file for stale there.
+/// Locks a new file. False when another process, looking for stale files, was faster and has removed it or is about to.
+/// A file system without locks is no reason to fail: nobody can take the file for stale there.
 bool is_kept(int fd) {
     if (::flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return false;
     struct stat info {};

@@ -33,7 +33,7 @@ std::size_t character_size(std::string_view text) {
     return size;
 }
 
-/// Of ASCII, or one of those from U+0080 to U+009F, which terminals obey, too.
+/// An ASCII control character, or one of those from U+0080 to U+009F, which terminals obey, too.
 bool is_control(std::string_view character) {
     const auto first = static_cast<unsigned char>(character[0]);
     return first < 0x20 || first == 0x7f ||

@@ -31,7 +31,7 @@ std::string readable_point(const Eigen::Vector3d& x);
 /// All 17 significant digits, so that the number is read back exactly.
 std::string exact(double value);
 
-/// The characters of UTF-8; of bytes that are none, U+FFFD.
+/// The characters of a text in UTF-8; U+FFFD for bytes that are not valid.
 std::vector<char32_t> characters_of(std::string_view text);
 
 }  // namespace elastolab

@@ -105,7 +105,7 @@ public:
         }
     }
 
-    /// To the integrals of a double layer over a whole closed surface.
+    /// Completes the integrals of a double layer over a whole closed surface.
     void add_free_terms(int pack, double* buffer) const {
         const std::span<const int> numbers = sources_of(pack);
         std::vector<double> sum(slot_size(), 0.0);

@@ -16,9 +16,9 @@ namespace {
 
 /// Far below the error of any discretisation; the error of a rule is as smooth as the integral.
 constexpr double kFieldTolerance = 1e-5;
-/// Of a difference, in distances from the surface.
+/// Step of the differences, in units of the distance from the surface.
 constexpr double kStep = 1e-3;
-/// The point itself, then a step forth and back along each axis, and one to fill the lanes.
+/// The point itself, then a step forward and back along each axis, and one to fill the lanes.
 constexpr int kStencil = 8;
 constexpr int kMostMoves = 4;
 
@@ -56,7 +56,7 @@ BoundaryField::Place BoundaryField::place_of(const Eigen::Vector3d& point) const
     Place best{point, 0.0, 0};
     Eigen::Vector3d x = point;
     double least = 0.0;
-    // On an edge or at a corner each move leaves one of its faces.
+    // On an edge or at a corner, each move takes the point away from one of its faces.
     for (int move = 0; move <= kMostMoves; ++move) {
         const SurfacePoint nearest = closest_(x);
         const TriangleGeometry& triangle = boundary_->triangle(nearest.triangle);
@@ -71,7 +71,7 @@ BoundaryField::Place BoundaryField::place_of(const Eigen::Vector3d& point) const
         if (inside && nearest.distance >= (move == 0 ? 1.0 : 0.9) * least) return {x, nearest.distance, corners[0]};
         x = (inside ? x - nearest.distance * inward : on_surface) + least * inward;
     }
-    // A place that is thinner than that, or outside: as near as it gets.
+    // The body is thinner than that here, or the point is outside: the best place that was found.
     best.distance = std::max(best.distance, 0.1 * least);
     return best;
 }
@@ -149,7 +149,8 @@ private:
                 out[corner] = layer_.data() + slot_size() * static_cast<std::size_t>(mesh.triangles(corner, t));
             kernels_.double_layer_linear(triangle, lanes_, rule_for(triangle, x), out);
         }
-        // A translation has no double layer but itself: without that of a vertex nearby the rules have less to err on.
+        // The double layer returns a translation as it is: with that of a nearby vertex taken off, the rules have less
+        // to err on.
         const Eigen::Matrix3Xd there = field_.displacements_.middleRows<3>(3 * vertex);
         Eigen::Matrix3Xd u(3, n_solutions_);
         for (int v = 0; v < mesh.n_vertices(); ++v) {

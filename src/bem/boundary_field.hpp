@@ -34,8 +34,8 @@ private:
 /// by the closed forms of both layers near x and by Gauss rules far from it. Its derivatives, and with them the
 /// stresses, are central differences over a thousandth of the distance d from the surface: the layers are analytic
 /// there, rounding of the closed forms (1e-14) leaves eleven digits and the step six. Nearer to the surface than
-/// kNearest of an edge the stress is that of the nearest point at that distance, and displacements go on linearly.
-/// Source: docs/formulation.md section 11.
+/// kNearest of an edge length, the stress is that of the nearest point at that distance, and displacements are
+/// extrapolated linearly. Source: docs/formulation.md section 11.
 class BoundaryField : public InteriorField {
 public:
     static constexpr double kNearest = 0.05;

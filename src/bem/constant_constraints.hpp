@@ -9,7 +9,8 @@
 namespace elastolab {
 
 /// Constant elements: a triangle is constrained when all its vertices are, at the mean of their displacements; a vertex
-/// with no such triangle constrains the triangles around it, at the mean over such vertices of the triangle.
+/// with no such triangle constrains the triangles around it, at the mean over the vertices of this kind that the
+/// triangle has.
 ConstrainedNodes constrain_triangles(const SurfaceMesh& mesh, const VertexTriangles& triangles_of_vertex,
                                      std::span<const int> vertices);
 

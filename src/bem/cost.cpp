@@ -12,21 +12,22 @@ namespace {
 
 /// Arithmetic per pair of source and triangle, in flops at the speed of the matrix product: about 0.1 us on a core.
 constexpr double kFlopsPerPair = 3000.0;
-/// Of Galerkin's pairs that touch or are close, which are a few for each triangle: about 0.2 ms on a core.
+/// The same per triangle for its pairs that touch or are close (Galerkin), which are a few: about 0.2 ms on a core.
 constexpr double kFlopsPerTriangle = 8e6;
 /// What every boundary method needs besides its matrices.
 constexpr std::uint64_t kLeastMemory = 12u << 20;
-/// Of the rows that wait to be added to the hypersingular matrix: for each vertex, at least for small bodies, and for
-/// each pair of vertices of the smallest.
+/// Bytes of the rows that wait to be added to the hypersingular matrix: for each vertex, beside a constant, and at most
+/// for each pair of vertices (small bodies).
 constexpr double kRowMemoryPerVertex = 17e3, kLeastRowMemory = 12e6, kRowMemoryPerPair = 160.0;
 
-/// Hierarchical matrices: vertices from which they are used, and what they take for each and each level of clusters. A
-/// cube of 3458 vertices with a held face and a patch took 29 s by linear BEM with a dense factor, one of 5402 takes
-/// 13; only a further handle of a few vertices, whose columns are few, is cheaper with the factor.
+/// Hierarchical matrices: number of vertices from which they are used, and what they take per vertex and level of
+/// clusters. By linear BEM a cube of 3458 vertices with a held face and a patch took 29 s with a dense factor, one of
+/// 5402 takes 13 s with them; only a further handle of a few vertices, whose columns are few, is cheaper with the
+/// factor.
 constexpr int kHierarchicalFrom = 3000;
 constexpr double kBytesPerVertexAndLevel = 8.2e3, kFlopsPerVertexAndLevel = 1.05e7;
-/// By linear collocation, whose matrix is not symmetric and needs no pairs of triangles; and for each traction of a
-/// constrained set and level, and each equation.
+/// The same by linear collocation, whose matrix is not symmetric and needs no pairs of triangles; and bytes per
+/// traction of a constrained set and level, and per equation.
 constexpr double kCollocationBytes = 12.2e3, kCollocationFlops = 1.15e7;
 constexpr double kCollocationBytesOfATraction = 15.5e3, kCollocationBytesOfAnEquation = 28e3;
 

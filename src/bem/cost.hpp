@@ -11,7 +11,7 @@ Cost predict_galerkin_bem(const SurfaceMesh& surface, const Method& method);
 /// Whether Galerkin and linear BEM keep their operators as hierarchical matrices: on demand, on surfaces for which that
 /// is cheaper.
 bool is_hierarchical(const SurfaceMesh& surface, const Method& method);
-/// Scalar tractions of a constrained set up to which the single layer is factorised then: 0.3 GB.
+/// Number of scalar tractions of a constrained set up to which the single layer is then factorised: 0.3 GB.
 constexpr std::int64_t kMostFactorisedTractions = 6000;
 /// Bytes of a constrained set by iteration: its tractions, the preconditioner and vectors. n_loaded: triangles that
 /// carry tractions, those of surfaces with rigid fields too.

@@ -14,7 +14,7 @@ namespace elastolab {
 struct BemConstraints {
     ConstrainedNodes nodes;
     TractionSpace space;
-    int n_base = 0;  ///< so many of the nodes rest
+    int n_base = 0;  ///< the first so many nodes rest
 };
 
 /// What a collocation method puts on a triangle: where its nodes are, which shape functions carry displacements and

@@ -17,7 +17,7 @@ namespace elastolab {
 
 namespace {
 
-/// Of the integrals: far below what an estimate needs.
+/// Relative tolerance of the integrals: far stricter than an estimate needs.
 constexpr double kReferenceTolerance = 1e-6;
 /// Vertices above which the reference would take many minutes.
 constexpr int kMostVertices = 20000;
@@ -41,7 +41,7 @@ std::vector<char> constrained_triangles(const SurfaceMesh& surface, const std::v
     return inside;
 }
 
-/// Those around the rims, and around constrained vertices without a constrained triangle.
+/// Marks those around the rims, and around constrained vertices without a constrained triangle.
 std::vector<char> triangles_to_halve(const SurfaceMesh& surface, const std::vector<int>& place,
                                      const std::vector<char>& inside) {
     std::vector<char> marked = around_rim(unrefined(surface), inside);
@@ -136,7 +136,7 @@ std::optional<ReferenceAnswer> galerkin_reference(const SurfaceMesh& surface, do
         const NodeSolution solution = solve_by_galerkin(problem, poisson_ratio, control);
         return ReferenceAnswer{solution.displacements.col(0).head(3 * surface.n_vertices()),
                                on_coarse_vertices(problem, solution.loads.col(0), vertices)};
-    } catch (const SolveError&) {  // not held, or no convergence: the answer itself stands without
+    } catch (const SolveError&) {  // not held, or no convergence: the answer stands without an estimate
         return {};
     }
 }

@@ -12,11 +12,11 @@
 namespace elastolab {
 
 /// The answer that boundary elements are judged by: symmetric Galerkin on the same surface, with the triangles along
-/// the rims of the constrained patches (and around lone constrained vertices) halved. Galerkin itself is 2 to 14 times
-/// more accurate than collocation on organic bodies, and most of what is left comes from the rims, where tractions are
-/// singular: halving there does nearly what halving everywhere does. Solved afresh each time, large surfaces by
-/// hierarchical matrices. Nothing where the body is not held, where memory or patience would not
-/// suffice, or where it cannot be solved.
+/// the rims of the constrained patches (and around lone constrained vertices) refined once. Galerkin itself is 2 to 14
+/// times more accurate than collocation on organic bodies, and most of what is left comes from the rims, where
+/// tractions are singular: refining there gains nearly what refining everywhere does. Solved afresh each time, large
+/// surfaces by hierarchical matrices. Nothing where the body is not held, where it would take too much memory or time,
+/// or where it cannot be solved.
 /// vertices  constrained, all different
 /// values    their displacements, 3*vertices.size()
 /// Throws Cancelled.
@@ -28,7 +28,7 @@ std::optional<ReferenceAnswer> galerkin_reference(const SurfaceMesh& surface, do
 std::uint64_t galerkin_reference_memory(const SurfaceMesh& surface, std::span<const int> vertices);
 
 /// The same for an answer by Galerkin on the surface as it is: errors at a rim fall with the first power of the size of
-/// its triangles, so that halving them shows a part of the error only.
+/// its triangles, so that halving their edges shows only part of the error.
 std::optional<ReferenceAnswer> galerkin_self_reference(const SurfaceMesh& surface, double poisson_ratio,
                                                        std::span<const int> vertices, const Eigen::VectorXd& values,
                                                        Control& control);

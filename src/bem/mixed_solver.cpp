@@ -27,7 +27,7 @@ std::vector<int> collocated(const TractionSpace& space, const std::vector<int>& 
 
 /// Columns of the mixed matrix that a thread copies at a time.
 constexpr int kColumnsAtOnce = 64;
-/// Sources at which the residual is evaluated, of each kind, and at once: few, as the matrix may be no dense one.
+/// Sources of each kind at which the residual is evaluated, and how many of them at once: few, as H may not be dense.
 constexpr int kSampledSources = 128, kSampledAtOnce = 16;
 
 std::vector<int> free_nodes(const Partition& partition) {
@@ -119,7 +119,7 @@ std::uint64_t mixed_memory(const BemSystem& system, const TractionSpace& space, 
 MixedSolver::MixedSolver(const BemSystem& system, const TractionSpace& space, const std::vector<int>& nodes, int n_base,
                          Control& control)
     : problem_(system, space, nodes, n_base, control) {
-    // Tractions have another unit than displacements; without a common scale the condition would depend on it.
+    // Tractions and displacements have different units; without a common scale the condition would depend on these.
     auto tractions = problem_.unknown.rightCols(3 * space.n_slots());
     if (tractions.size() > 0) traction_scale_ = 1.0 / tractions.cwiseAbs().maxCoeff();
     tractions *= traction_scale_;

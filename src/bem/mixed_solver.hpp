@@ -44,7 +44,7 @@ public:
     NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const override;
 
 private:
-    MixedProblem problem_;  ///< its matrix of the unknowns is given up to the factorisation
+    MixedProblem problem_;  ///< its matrix `unknown` is moved into the factorisation
     double traction_scale_ = 1.0;
     RefinedLu lu_;
 };

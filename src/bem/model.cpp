@@ -128,7 +128,7 @@ void BemModel::visit_matrices(const std::function<void(const NamedMatrix&)>& vis
     visit({"G", *system_->single_layer_matrix(), {kTractionCompliance}});
     visit({"K", operators->K, {kTractionStiffness}});
     visit({"Kinv", operators->D(), {kTractionCompliance}});
-    // Of [H B; B^T 0], times G where it meets tractions: both blocks on the left are.
+    // Inverse of [H B; B^T 0], with G multiplied into both blocks on the left, which act on tractions.
     visit(
         {"Khatinv",
          operators->Khatinv,

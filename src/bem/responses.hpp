@@ -13,8 +13,8 @@ namespace elastolab {
 
 /// Responses Hhat^-1 [G; 0] of a boundary-element solid to the loads of a space. They are kept where the system keeps
 /// columns for so many (BemSystem::keeps); else nothing is kept: the small system is made from groups of columns, and
-/// a product integrates and solves afresh. That is as exact, and takes the time of a set change for each product
-/// (divided by the number of loads) instead of a second matrix.
+/// a product integrates and solves afresh. That is as exact and saves a second matrix; each product takes the time of a
+/// set change divided by the number of loads.
 class BemResponses : public Responses {
 public:
     BemResponses(std::shared_ptr<const BemSystem> system, TractionSpace space, Control& control);

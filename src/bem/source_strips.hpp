@@ -8,7 +8,7 @@
 
 namespace elastolab {
 
-/// Sources whose equations are integrated at once: many enough for BLAS-3, few beside the matrix.
+/// Sources whose equations are integrated at once: enough for BLAS-3, few beside the matrix.
 constexpr int kSourcesAtOnce = 192;
 
 /// Calls use(first, strip) for strips of all these sources.

@@ -23,7 +23,7 @@ void solve_in_strips(const LuFactorization& A, Eigen::MatrixXd& X, Control& cont
     }
 }
 
-/// Kept columns may take an eighth of the matrix, and something where the matrix is small; more where there are five
+/// Kept columns may take 40 MiB and, on demand, an eighth of the matrix; else as much as the matrix, as there are five
 /// such matrices anyway.
 std::uint64_t budget_for(Eigen::Index n_rows, Mode mode) {
     const auto matrix = static_cast<std::uint64_t>(n_rows * n_rows) * 8;

@@ -30,11 +30,11 @@ namespace elastolab {
 /// Nodes are vertices (linear elements) or triangles (constant elements). Any thread may use it.
 class BemSystem {
 public:
-    /// How H is kept. Hierarchical: linear elements, on demand; each constrained set is iterated for.
+    /// How H is kept. Hierarchical: linear elements, on demand; each constrained set is solved by iteration.
     enum class Storage { dense, hierarchical };
 
-    /// Dense, on demand with the update `direct` nothing is integrated here: each constrained set has a system of its
-    /// own.
+    /// With dense storage, on demand and the update `direct`, nothing is integrated here: each constrained set has a
+    /// system of its own.
     BemSystem(const BoundaryElement& element, std::shared_ptr<const Boundary> boundary, double poisson_ratio,
               const Method& method, Storage storage, StageTimes& stages, Control& control);
 
@@ -57,7 +57,7 @@ public:
     Eigen::MatrixXd double_layer(const Sources& sources, Control& control, double tolerance = 0.0) const;
     Eigen::MatrixXd single_layer(const Sources& sources, const Elements& loads, Control& control,
                                  double tolerance = 0.0) const;
-    /// Rows of H at these nodes: out of memory in the mode `full`, else integrated.
+    /// Rows of H at these nodes: copied in the mode `full`, where H is in memory, else integrated.
     Eigen::MatrixXd double_layer_at(std::span<const int> nodes, Control& control) const;
 
     /// Bytes of columns that are kept at most.
@@ -89,7 +89,7 @@ private:
     };
     void factorise(Eigen::MatrixXd&& bordered, Control& control);
     void complete(Eigen::MatrixXd H, StageTimes& stages, Control& control);
-    /// The columns of a whole shape function, out of K^-1; null when K^-1 is not in memory or does not have them.
+    /// The columns of a whole shape function, copied from K^-1; null when K^-1 is not in memory or does not have them.
     Columns::Block from_inverse(const TractionSpace::Block& block) const;
     std::vector<Columns::Block> compute(const std::vector<const TractionSpace::Block*>& missing, Elements::Order order,
                                         Control& control) const;

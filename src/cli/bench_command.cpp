@@ -30,7 +30,7 @@ std::string study_list() {
         text += "  " + entry.name + std::string(12 - entry.name.size(), ' ') + entry.description + "\n";
     return text +
            "Each writes STUDY.csv, plots (SVG and PNG, drawn by gnuplot from scripts beside them) and README.md.\n"
-           "Finished cases of a stopped run are kept in STUDY.partial.csv, and the same command goes on from there.";
+           "Finished cases of a stopped run are kept in STUDY.partial.csv, and the same command resumes from there.";
 }
 
 void add_options(CLI::App& parser, BenchOptions& options) {
@@ -39,10 +39,11 @@ void add_options(CLI::App& parser, BenchOptions& options) {
     parser.add_option("study", options.study, "which study")->required()->check(CLI::IsMember(names));
     parser.add_option("--out", options.folder, "folder for the results, made when it is missing (default bench-STUDY)");
     parser.add_flag("--quick", options.quick, "small sizes: under a minute");
-    parser.add_option("--seed", options.seed, "of the known nodes of paper and the edits of stability (default 1)");
+    parser.add_option("--seed", options.seed,
+                      "random seed of the known nodes (paper) and the edits (stability) (default 1)");
     add_threads_option(parser, options.threads);
-    parser.add_flag("--fresh", options.fresh, "do not go on with a stopped run, begin anew");
-    parser.add_flag("--report", options.report, "run nothing: plots and report again from the table that is there");
+    parser.add_flag("--fresh", options.fresh, "start over instead of resuming a stopped run");
+    parser.add_flag("--report", options.report, "run nothing; plots and report again from the existing table");
     parser.add_flag("--quiet", options.quiet, "no list of cases and no progress bar");
     parser.footer(study_list());
 }
@@ -74,7 +75,7 @@ RunResult run_with_bar(const Study& study, const RunSettings& settings, bool wit
     } catch (const Cancelled&) {
         const StudyState state = progress.state();
         throw Interrupted("Interrupted after " + std::to_string(state.n_done) + " of " + std::to_string(state.n_cases) +
-                          " cases, which are kept: the same command goes on from there.");
+                          " cases, which are kept: the same command resumes from there.");
     }
 }
 
@@ -82,7 +83,7 @@ void run_bench(BenchOptions options) {
     if (options.folder.empty()) options.folder = "bench-" + options.study;
     Control control;
     const InterruptGuard interrupt(control,
-                                   "Interrupted; finished cases are kept: the same command goes on from there.");
+                                   "Interrupted; finished cases are kept: the same command resumes from there.");
     apply_threads_option(options.threads);
     const RunSettings settings = settings_of(options);
     const RunResult result =

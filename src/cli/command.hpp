@@ -15,7 +15,7 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-/// Thrown after Ctrl-C by a command that has said itself what was kept; others let Cancelled through.
+/// Thrown after Ctrl-C by a command that has already said what was kept; others let Cancelled through.
 class Interrupted : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;

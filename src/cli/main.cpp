@@ -58,7 +58,7 @@ int main(int argc, char** argv) {
     }
     elastolab::start_blas_within_limits(argv);
     elastolab::prepare_parallel_libraries(argv);
-    std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow any more is an error of writing, not the end
+    std::signal(SIGXFSZ, SIG_IGN);  // at the file size limit a write fails; the program is not killed
     try {
         elastolab::reserve_blas_buffers();
         const int code = run(argc, argv);

@@ -8,9 +8,9 @@ void ProxyOptions::add_to(CLI::App& parser) {
     parser
         .add_option("--proxy", use,
                     "simulate a closed surface around the mesh (default: the scene's choice, else auto: where the "
-                    "method cannot use it); fill: instead of that the mesh itself with its holes filled")
+                    "method cannot use it); fill: the mesh itself with its holes filled")
         ->check(CLI::IsMember({"never", "auto", "always", "fill"}));
-    parser.add_option("--proxy-vertices", n_vertices, "about so many vertices of it (default 1500)")
+    parser.add_option("--proxy-vertices", n_vertices, "approximate number of its vertices (default 1500)")
         ->check(CLI::Range(kFewestProxyVertices, kMostProxyVertices));
 }
 

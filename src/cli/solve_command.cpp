@@ -40,13 +40,15 @@ void add_options(CLI::App& parser, SolveOptions& options) {
     const CLI::IsMember updates({"direct", "eqn9", "reduced"});
     const CLI::Validator path([](std::string& text) { return text.empty() ? "the name is empty" : ""; }, "PATH");
     parser.add_option("scene", options.scene, "scene file")->required()->check(path);
-    parser.add_option("--method", options.method, "instead of the scene's own method")->check(methods);
+    parser.add_option("--method", options.method, "default: the scene's own")->check(methods);
     parser.add_option("--mode", options.mode, "what is computed ahead (default on-demand; full-volume is FEM's)")
         ->check(modes);
-    parser.add_option("--tractions", options.tractions, "of linear BEM (default discontinuous)")->check(tractions);
+    parser.add_option("--tractions", options.tractions, "traction space of linear BEM (default discontinuous)")
+        ->check(tractions);
     parser
         .add_option("--update", options.update,
-                    "Eqn. 7 afresh, Eqn. 9, or its collapsed form (default: reduced; on-demand: direct)")
+                    "direct: Eqn. 7 afresh; eqn9: Eqn. 9; reduced: its collapsed form (default: reduced; "
+                    "on-demand: direct)")
         ->check(updates);
     parser.add_option("--displacements", options.displacements, "CSV: rest positions and displacements")->check(path);
     parser

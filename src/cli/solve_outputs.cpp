@@ -46,7 +46,7 @@ void require_writable_folder(const fs::path& folder) {
 /// Writers fill it; commit() puts everything in place. What was not committed leaves nothing behind.
 class OutputSet {
 public:
-    /// Throws Error for a file that is there already: a matrix of the name of another output.
+    /// Throws Error for a file that was added before: a matrix with the name of another output.
     AtomicFile& add(const fs::path& destination) {
         if (!places_.insert(resolved(destination)).second)
             throw Error(destination.string() + ": is the place of two outputs. Name another file.");
@@ -131,7 +131,7 @@ void require_mesh_extension(const fs::path& mesh) {
 void require_inside(MethodKind method, const fs::path& mesh) {
     if (lower_case(mesh.extension().string()) == ".vtu" && !method->has_inside)
         throw UsageError(mesh.string() + ": " + std::string(name(method)) +
-                         " has no tetrahedra inside. Choose .vtp, or a method of finite elements.");
+                         " has no tetrahedra inside. Choose .vtp, or a finite-element method.");
 }
 
 void require_writable(const OutputPaths& paths, const std::vector<fs::path>& inputs) {

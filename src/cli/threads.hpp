@@ -8,7 +8,7 @@ namespace elastolab {
 
 /// The option --threads, of several commands.
 void add_threads_option(CLI::App& parser, int& threads);
-/// Takes it over: as many threads as it says, or as there are cores if it says more (they would only disturb each
+/// Applies it: as many threads as it says, or as there are cores if it says more (they would only disturb each
 /// other) or nothing (0).
 void apply_threads_option(int threads);
 

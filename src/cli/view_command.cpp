@@ -80,9 +80,8 @@ Command add_view_command(CLI::App& program) {
     CLI::App* parser = program.add_subcommand("view", "opens the viewer on a scene or a mesh (default: a cube)");
     const CLI::Validator path([](std::string& text) { return text.empty() ? "the name is empty" : ""; }, "PATH");
     parser->add_option("input", words->input, "scene file (.json) or mesh")->check(path);
-    parser->add_option("--method", words->method, "instead of the scene's own method")
-        ->check(CLI::IsMember(method_names()));
-    parser->add_option("--field", words->field, "that colours the body")->check(CLI::IsMember(field_names()));
+    parser->add_option("--method", words->method, "default: the scene's own")->check(CLI::IsMember(method_names()));
+    parser->add_option("--field", words->field, "field that colours the body")->check(CLI::IsMember(field_names()));
     parser->add_option("--frames", words->frames, "quit after so many frames")->check(CLI::Range(1, 1000000000));
     parser->add_option("--screenshot", words->screenshot, "PNG of the last frame")->check(path);
     parser->add_option("--timings", words->timings, "CSV: records frame timings from the start")->check(path);
@@ -98,16 +97,18 @@ Command add_view_command(CLI::App& program) {
     parser->add_option("--picture-size", words->picture_size, "in pixels (default 1920x1080)")->needs(picture);
     parser->add_flag("--transparent", words->transparent, "that picture without background")->needs(picture);
     parser->add_flag("--legend", words->legend, "that picture with the colours of the field")->needs(picture);
-    CLI::Option* const turntable = parser
-                                       ->add_option("--turntable", words->turntable,
-                                                    "instead of one picture so many of one turn, FILE-0001.png and on")
-                                       ->needs(picture)
-                                       ->check(CLI::Range(2, 3600));
-    parser->add_option("--pull-film", words->pull_film, "the same of the pull, from rest to where it is and back")
+    CLI::Option* const turntable =
+        parser
+            ->add_option("--turntable", words->turntable,
+                         "this many frames of one turn instead of one picture: FILE-0001.png, ...")
+            ->needs(picture)
+            ->check(CLI::Range(2, 3600));
+    parser
+        ->add_option("--pull-film", words->pull_film, "this many frames of the pull, from rest to where it is and back")
         ->needs(picture)
         ->excludes(turntable)
         ->check(CLI::Range(2, 3600));
-    parser->add_option("--size", words->size, "of the window in pixels, as in 1280x800");
+    parser->add_option("--size", words->size, "size of the window in pixels, as in 1280x800");
     add_threads_option(*parser, words->threads);
     parser->add_flag("--hidden", words->hidden, "no visible window; still real OpenGL");
     return {parser, [words] {

@@ -13,7 +13,7 @@
 
 namespace elastolab {
 
-/// What a block of response columns answers to; made by the model, meaningful to it alone.
+/// Identifies a block of response columns; made by the model, meaningful to it alone.
 using ColumnKey = std::vector<int>;
 
 /// A matrix held as blocks of columns that others may share.
@@ -43,9 +43,9 @@ public:
     explicit ColumnCache(std::uint64_t budget_bytes) : budget_bytes_(budget_bytes) {}
 
     /// The blocks for these keys; `compute` is called once with the keys that are missing (if any) and returns their
-    /// blocks. When all would exceed the budget, blocks that nobody else holds are dropped first, oldest first, for
-    /// which `bytes` tells the size of a block that is missing. While another thread computes, this waits: throws
-    /// Cancelled when `control` is cancelled meanwhile.
+    /// blocks. `bytes` tells the size of a missing block: when all would exceed the budget, blocks that nobody else
+    /// holds are dropped first, least recently used first. While another thread computes, this waits: throws Cancelled
+    /// when `control` is cancelled meanwhile.
     Columns get(const std::vector<ColumnKey>& keys, const std::function<std::uint64_t(const ColumnKey&)>& bytes,
                 const std::function<std::vector<Columns::Block>(const std::vector<ColumnKey>&)>& compute,
                 const Control& control);

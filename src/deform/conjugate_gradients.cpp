@@ -13,7 +13,7 @@ Eigen::RowVectorXd column_products(const Eigen::MatrixXd& a, const Eigen::Matrix
     return a.cwiseProduct(b).colwise().sum();
 }
 
-/// a / b where the column is still of interest, else 0.
+/// a / b where the column is not done yet, else 0.
 Eigen::RowVectorXd ratio(const Eigen::RowVectorXd& a, const Eigen::RowVectorXd& b, const std::vector<char>& done) {
     Eigen::RowVectorXd r = Eigen::RowVectorXd::Zero(a.size());
     for (Eigen::Index c = 0; c < a.size(); ++c)

@@ -14,10 +14,11 @@ struct IterationOptions {
 };
 
 /// X with A X = B for A symmetric positive definite (or semidefinite, with B in its range), by conjugate gradients, all
-/// columns at once: each by itself, but for the products, which they share. `preconditioner`: symmetric positive
-/// definite, about A^-1. Starts at zero. `report` is kept up to date: an operator may look there how exact a product must
-/// be, since errors of late ones matter less (Simoncini and Szyld 2003, van den Eshof and Sleijpen 2004). Tells `control` its progress, and may be cancelled in every iteration. Throws
-/// SolveError naming `name` when the tolerance is not reached, Cancelled.
+/// columns at once: each has its own iteration, but they share the products. `preconditioner`: symmetric positive
+/// definite, about A^-1. Starts at zero. `report` is kept up to date: an operator may read there how exact a product
+/// must be, since errors in late products matter less (Simoncini and Szyld 2003, van den Eshof and Sleijpen 2004).
+/// Tells `control` its progress, and may be cancelled in every iteration. Throws SolveError naming `name` when the
+/// tolerance is not reached, Cancelled.
 Eigen::MatrixXd conjugate_gradients(const LinearOperator& A, const LinearOperator& preconditioner,
                                     const Eigen::MatrixXd& B, const IterationOptions& options, const char* name,
                                     Control& control, IterationReport* report = nullptr);

@@ -40,19 +40,19 @@ std::unique_ptr<ConstrainedSolid> constrained(const SolidModel& solid, std::span
     }
 }
 
-/// Of the largest of these; 0 where there is none, or where it is so small or not finite that its inverse is neither.
+/// Binary exponent of the largest magnitude; 0 where that is zero, denormal or not finite.
 int exponent_of(const Eigen::VectorXd& values) {
     const double largest = values.size() == 0 ? 0.0 : values.cwiseAbs().maxCoeff();
     return std::isnormal(largest) ? std::clamp(std::ilogb(largest), -1000, 1000) : 0;
 }
 
-/// Next to nu = -1 a body resists shear 1 / (1 + nu) times more than stretch. Displacements that shear by mistake, by
-/// parts of what they are off, take forces as much too large; those of the better answer do, too, and their difference
-/// shows nothing. The smallest part that was measured (Galerkin BEM, bending).
+/// Near nu = -1 a body resists shear 1 / (1 + nu) times more than stretch. Where a part of the displacement error is
+/// spurious shear, forces are too large by that factor times that part, in the better answer too, so that the
+/// difference of both does not show it. The smallest such part that was measured (Galerkin BEM, bending).
 constexpr double kShearForces = 0.1;
 double shear_over_stretch(const Body& body) { return 1.0 / (1.0 + body.material.poisson_ratio); }
 
-/// Forces below this part of Young's modulus times displacement times length are rounding.
+/// Forces below this fraction of Young's modulus times displacement times length are rounding.
 constexpr double kNoForce = 1e-9;
 
 Reactions no_reactions(Eigen::Index n) { return {Eigen::Matrix3Xd::Zero(3, n), Eigen::Matrix3Xd::Zero(3, n)}; }
@@ -128,7 +128,7 @@ void Deformer::require_memory(const ConstrainedSet& set) const {
     if (needed <= available) return;
     throw SolveError(model_->body().name + ": " + std::to_string(set.base.size() + set.handles.size()) +
                      " constrained vertices need " + readable_bytes(static_cast<double>(needed)) + " of memory, " +
-                     readable_bytes(static_cast<double>(available)) + " are free. Constrain fewer vertices" +
+                     readable_bytes(static_cast<double>(available)) + " is available. Constrain fewer vertices" +
                      (model_->method().kind->sparse ? ", or use a coarser mesh." : ", or choose fem."));
 }
 
@@ -153,7 +153,7 @@ void Deformer::constrain(ConstrainedSet set, Control& control) {
     }
     solids_ = std::move(solids);
     set_ = std::move(set);
-    quality_ = std::move(quality);
+    quality_ = quality;
 }
 
 void Deformer::place(std::size_t part, Eigen::MatrixXd&& own, Eigen::MatrixXd& all) const {
@@ -207,8 +207,8 @@ DragResponse Deformer::drag_response(const Eigen::VectorXd& values, const Eigen:
 
 void Deformer::add_reactions(std::size_t part, Reactions own, Reactions& sum) const {
     const SolidState& state = solids_[part];
-    // Of the solid's coordinates, which are those of the body times a factor, and of these displacements as they are: a
-    // force is stiffness times displacement, [E L] [L].
+    // In the solid, coordinates are those of the body times a factor, displacements are as they are: a force is
+    // stiffness times displacement, [E L] [L].
     const Eigen::Vector3d& origin = model_->parts()[part].origin;
     const double unit = 1.0 / model_->parts()[part].scale;
     own.forces *= unit;
@@ -258,7 +258,7 @@ std::shared_ptr<const InteriorField> Deformer::inside(const Eigen::MatrixXd& val
 std::optional<DiscretisationCheck> Deformer::check_of(const Answer& answer, const SolutionError& error) const {
     const SurfaceMesh& surface = *model_->body().surface;
     Eigen::Index moving_most = 0, worst = 0;
-    // Over the better answer: one that moves too little would overstate its error.
+    // Relative to the better answer: one that moves too little would overstate its error.
     const double size = largest_motion(answer.displacements + error.to_better * error.displacements, moving_most);
     const double off = largest_motion(error.displacements, worst);
     if (!std::isfinite(off)) return {};
@@ -300,7 +300,7 @@ Deformer::Answer Deformer::answer(const Eigen::VectorXd& values, Wanted wanted, 
             wanted.check = own.has_value();
             if (own) {
                 error.to_better = own->to_better;
-                place(s, std::move(own->displacements), off);
+                place(s, own->displacements, off);
                 add_reactions(s, std::move(own->reactions), error.reactions);
             }
         }

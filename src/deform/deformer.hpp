@@ -30,7 +30,7 @@ struct DragResponse {
     void displace(const Eigen::VectorXd& parameters, Eigen::VectorXd& u) const;
 };
 
-/// What the rest of the world exerts on the body at one constrained vertex.
+/// What the supports exert on the body, for each constrained vertex.
 struct Reactions {
     Eigen::Matrix3Xd forces;   ///< 3 x n [force]
     Eigen::Matrix3Xd moments;  ///< 3 x n, about the origin [force * L]
@@ -38,7 +38,7 @@ struct Reactions {
 
 /// What should be known about a solution before it is believed.
 struct SolutionQuality {
-    double condition_estimate = 1.0;  ///< of the small system (reduced) or of K00 (direct), 1-norm; largest solid
+    double condition_estimate = 1.0;  ///< of the small system (reduced) or K00 (direct), 1-norm; largest of the solids
     bool held = true;                 ///< false: the system has no unique solution, the smallest is taken
     bool free_to_move = false;        ///< the reason for that: some solid can move as a whole
 };
@@ -113,9 +113,9 @@ public:
 
     /// How far displacements and reactions for these values may be off because the mesh is coarse: the difference to a
     /// second, better answer. Boundary elements: symmetric Galerkin, the triangles along the rims of the constrained
-    /// patches halved. FEM: quadratic elements on the same tetrahedra (quadratic FEM: linear ones, which tells what a
-    /// degree brings). Measured against converged answers in tests/methods/discretisation_test.cpp. Takes up to three
-    /// times a single solve: not for every frame. Nothing where the memory left does not suffice.
+    /// patches refined once. FEM: quadratic elements on the same tetrahedra (quadratic FEM: linear ones, which shows
+    /// what one degree gains). Measured against converged answers in tests/methods/discretisation_test.cpp. Takes up to
+    /// three times a single solve: not for every frame. Nothing where the memory left does not suffice.
     std::optional<DiscretisationCheck> discretisation_check(const Eigen::VectorXd& values, Control& control) const;
 
     /// Relative residual of the full system for these values, evaluated independently of the factorisation (BEM: the
@@ -125,9 +125,9 @@ public:
     /// interior points, evenly spread.
     double residual(const Eigen::VectorXd& values, Control& control) const;
 
-    /// Displacements and stresses inside for these columns of values, as many solutions as columns. What it returns
-    /// does not need this any more. Takes a solve of all columns, FEM keeps the displacements of all nodes.
-    /// Throws SolveError, Cancelled.
+    /// Displacements and stresses inside the body, one solution for each column of values. The result does not refer to
+    /// this object. Takes a solve of all columns; FEM keeps the displacements of all nodes. Throws SolveError,
+    /// Cancelled.
     std::shared_ptr<const InteriorField> inside(const Eigen::MatrixXd& values, Control& control) const;
 
     const SolutionQuality& quality() const { return quality_; }
@@ -135,13 +135,13 @@ public:
 
 private:
     struct SolidState;
-    /// The share of a part in a set, not yet constrained.
+    /// A part's share of a set, not yet constrained.
     SolidState split(const ConstrainedSet& set, const Model::Part& part) const;
     void require_memory(const ConstrainedSet& set) const;
     /// Rows of all vertices <- those of a part.
     void place(std::size_t part, Eigen::MatrixXd&& own, Eigen::MatrixXd& all) const;
     void require_finite(const Eigen::MatrixXd& u) const;
-    /// Adds those of a part, for unit Young's modulus and about its own origin, to those of the whole body.
+    /// Adds the reactions of a part, for unit Young's modulus and about its own origin, to those of the whole body.
     void add_reactions(std::size_t part, Reactions own, Reactions& sum) const;
     std::optional<DiscretisationCheck> check_of(const Answer& answer, const SolutionError& error) const;
 

@@ -9,7 +9,7 @@ namespace elastolab {
 
 namespace {
 
-/// What is left of one column after some steps, by Givens rotations of its Hessenberg matrix.
+/// The least-squares problem of one column, whose Hessenberg matrix is made triangular by Givens rotations.
 class LeastSquares {
 public:
     explicit LeastSquares(int basis, double size)
@@ -54,7 +54,7 @@ Eigen::MatrixXd normalised(const Eigen::MatrixXd& X, Eigen::RowVectorXd& size) {
     return unit;
 }
 
-/// Of all columns; not a number when one of them has none.
+/// Largest norm of the columns; not finite when one of them is not.
 double largest_size(const Eigen::MatrixXd& X) {
     double largest = 0.0;
     for (const auto& column : X.colwise()) {
@@ -65,7 +65,7 @@ double largest_size(const Eigen::MatrixXd& X) {
     return largest;
 }
 
-/// A cycle that leaves more than this of the residual leads nowhere.
+/// A cycle that leaves more than this fraction of the residual has stagnated.
 constexpr double kProgress = 0.9;
 
 /// The vectors of one cycle, for all columns at once.

@@ -14,12 +14,11 @@ struct GmresOptions {
     int basis = 100;
 };
 
-/// X with A X = B for any regular A, by flexible GMRES, preconditioned from the right, all columns at once: each by
-/// itself, but for the products, which they share. `preconditioner`: about A^-1, roughly linear (it may round to
-/// floats). Starts at zero; begins anew from what it has when its basis of `options.basis` vectors is used up. The
-/// residual is that of A X = B itself. Tells `control` its progress, and may be cancelled in every iteration. Throws
-/// SolveError naming `name` when the tolerance is not reached, Cancelled. Source: Y. Saad, SIAM J. Sci. Comput. 14
-/// (1993).
+/// X with A X = B for any nonsingular A, by flexible GMRES, preconditioned from the right, all columns at once: each
+/// has its own iteration, but they share the products. `preconditioner`: about A^-1, nearly linear (it may round to
+/// floats). Starts at zero; restarts when its basis of `options.basis` vectors is full. The residual is that of A X = B
+/// itself. Tells `control` its progress, and may be cancelled in every iteration. Throws SolveError naming `name` when
+/// the tolerance is not reached, Cancelled. Source: Y. Saad, SIAM J. Sci. Comput. 14 (1993).
 Eigen::MatrixXd gmres(const LinearOperator& A, const LinearOperator& preconditioner, const Eigen::MatrixXd& B,
                       const GmresOptions& options, const char* name, Control& control,
                       IterationReport* report = nullptr);

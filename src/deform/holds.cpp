@@ -12,8 +12,8 @@ bool holds(const Positions& positions, std::span<const int> nodes) {
     Eigen::Matrix3Xd points(3, std::ssize(nodes));
     for (std::size_t i = 0; i < nodes.size(); ++i) points.col(static_cast<Eigen::Index>(i)) = positions.col(nodes[i]);
     points.colwise() -= points.rowwise().mean().eval();
-    // Off a line means a second direction of spread. Its square is known to 1e-16 of the largest, the least that counts
-    // is 1e-12 of the body's.
+    // Not on one line means spread in a second direction. Its square is accurate to 1e-16 of the largest; the least
+    // that counts is 1e-12 of the body's.
     const Eigen::Matrix3d squared = points * points.transpose();
     const Eigen::Vector3d ascending =
         Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(squared, Eigen::EigenvaluesOnly).eigenvalues();

@@ -5,8 +5,8 @@
 namespace elastolab {
 
 /// A square matrix known by what it does: dense, sparse, hierarchical, a factorisation that is substituted, or a sum of
-/// such. What applies is separate from what solves, so that a solver need not know how its matrix is kept.
-/// Immutable to its users; any thread may use it.
+/// such. Applying is separate from solving, so that a solver need not know how its matrix is kept. Immutable to its
+/// users; any thread may use it.
 class LinearOperator {
 public:
     virtual ~LinearOperator() = default;

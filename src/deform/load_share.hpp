@@ -8,7 +8,7 @@
 namespace elastolab {
 
 /// Part of the force of a load slot that one constrained vertex carries:
-/// force += weight * load,  moment about the origin += first_moment x load.
+/// force += weight * load,  moment about the origin += first_moment x load;  psi is its part of the shape function.
 struct LoadShare {
     int slot = 0;
     int constrained = 0;                                     ///< position in the list of constrained vertices

@@ -44,9 +44,9 @@ std::string refusal(const Method& method, double poisson_ratio) {
     if (!has(method.kind, method.mode))
         return say(mode, method.mode == Mode::full_volume && !traits.has_inside
                              ? "boundary elements have no volume. Choose the mode full, or FEM."
-                             : std::string(traits.label) + " does not have it. Choose the mode on-demand.");
+                             : std::string(traits.label) + " does not offer it. Choose the mode on-demand.");
     if (!has(method.kind, method.update))
-        return say(update, std::string(traits.label) + " does not have it. Choose the update reduced.");
+        return say(update, std::string(traits.label) + " does not offer it. Choose the update reduced.");
     if (method.update == Update::eqn9 && method.mode == Mode::on_demand)
         return say(update, "needs K and its inverse in memory. Choose the mode full.");
     if (poisson_ratio < 0.5) return {};

@@ -46,7 +46,7 @@ struct Cost {
     double seconds = 0.0;
 };
 
-/// MethodTraits::error_to_tell of methods whose estimate is of the size of the error: half of what must not be silent.
+/// MethodTraits::error_to_tell of methods whose estimate is of the size of the error: half the error that must be told.
 inline constexpr double kErrorToTell = 0.05;
 
 /// Everything that code above the methods may know about one: a row of the table that src/methods collects. Every rule
@@ -79,8 +79,8 @@ struct MethodTraits {
     /// where there is no estimate.
     std::optional<double> error_to_tell = {};
 
-    /// Precomputes one solid of unit Young's modulus; `before`: a model of the same solid, by whatever method, of which
-    /// is taken over what serves, or null. `name` is that of the body, for messages.
+    /// Precomputes one solid of unit Young's modulus; `before`: a model of the same solid, by whatever method, from
+    /// which all that still serves is taken over, or null. `name` is that of the body, for messages.
     /// Throws MeshError, SolveError, Cancelled.
     std::shared_ptr<const SolidModel> (*precompute)(const SurfaceMesh& surface, const std::string& name,
                                                     double poisson_ratio, const Method& method,
@@ -114,10 +114,10 @@ inline double integral_tolerance(const Method& method) {
 bool has(MethodKind kind, Mode mode);
 bool has(MethodKind kind, Update update);
 
-/// Why a method cannot be had with these choices at this Poisson's ratio, with a way forward; empty when it can.
+/// Why a method cannot be used with these choices at this Poisson's ratio, with a way forward; empty when it can.
 std::string refusal(const Method& method, double poisson_ratio);
 
-/// Whether a system is factorised before there is a constrained set: not on demand by the update direct, by which each
+/// Whether a system is factorised before there is a constrained set: not on demand with the update direct, where each
 /// set has a system of its own.
 inline bool factorises_ahead(const Method& method) {
     return method.mode != Mode::on_demand || method.update != Update::direct;

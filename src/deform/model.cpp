@@ -8,8 +8,8 @@ namespace elastolab {
 
 namespace {
 
-/// What a quantity of this dimension is multiplied by, from unit Young's modulus and coordinates times `scale`. A power
-/// of two but for E.
+/// Factor that takes a quantity of this dimension from unit Young's modulus and coordinates times `scale` to the body.
+/// A power of two but for E.
 double factor(const Dimension& dimension, double E, double scale) {
     return std::pow(E, dimension.young) * std::pow(scale, -dimension.length);
 }

@@ -36,8 +36,8 @@ struct ModelFacts {
     Findings surface_findings;        ///< of the surface alone, whatever the material (src/findings)
 };
 
-/// Physical dimension of a quantity of elastostatics, E^young L^length: how it follows Young's modulus and the unit of
-/// length. Nodal stiffness (force over displacement) is {1, 1}, traction over displacement {1, -1}.
+/// Physical dimension of a quantity of elastostatics, E^young L^length: how it scales with Young's modulus and the unit
+/// of length. Nodal stiffness (force over displacement) is {1, 1}, traction over displacement {1, -1}.
 struct Dimension {
     int young = 0;
     int length = 0;
@@ -50,8 +50,8 @@ struct MatrixDimensions {
     Dimension columns = {}, rows = {}, corner = {};  ///< of the border
 };
 
-/// A named dense matrix for export; filled only when asked for. K^ is K bordered by six columns and rows: by the rigid
-/// modes C of its nodes on both sides for FEM, by G^-1 C and C^T for BEM (C^T the orthonormal basis that
+/// A named dense matrix for export; filled only when asked for. Khat is K bordered by six columns and rows: by the
+/// rigid modes C of its nodes on both sides for FEM, by G^-1 C and C^T for BEM (C: the orthonormal basis that
 /// elasticity/rigid_motion.hpp makes).
 struct NamedMatrix {
     std::string name;  ///< "H", "G", "K", "Kinv" (D of the bordered inverse), "Khatinv" (the whole bordered inverse)

@@ -37,7 +37,7 @@ public:
 
     /// prescribed  3*n_constrained_nodes x m, in the order of the constrained nodes
     virtual NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const = 0;
-    /// The same, told its progress and cancelled where it iterates. Throws SolveError, Cancelled.
+    /// The same; where it iterates, it tells its progress and can be cancelled. Throws SolveError, Cancelled.
     virtual NodeSolution solve_watched(const Eigen::MatrixXd& prescribed, bool want_loads, Control&) const {
         return solve(prescribed, want_loads);
     }

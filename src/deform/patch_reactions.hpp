@@ -9,8 +9,8 @@
 namespace elastolab {
 
 /// Positions in the list base + handles, grouped into patches: vertices that edges of the surface connect within the
-/// base or within the handles. What holds or moves a body as one piece, whose total force means something; that of a
-/// single vertex depends on the mesh.
+/// base or within the handles. A patch holds or moves the body as one piece, so its total force means something; that
+/// of a single vertex depends on the mesh.
 using ConstrainedPatches = std::vector<std::vector<int>>;
 ConstrainedPatches constrained_patches(const SurfaceMesh& surface, std::span<const int> base,
                                        std::span<const int> handles);

@@ -19,7 +19,7 @@ public:
     /// Number of unknown loads.
     virtual Eigen::Index cols() const = 0;
     /// The small system, unknown loads first, then border values: prescribed displacements at `nodes`, the border rows,
-    /// and what rows the ansatz needs to be closed. rigid: E over J. May throw Cancelled.
+    /// and the rows that close the ansatz. rigid: E over J. May throw Cancelled.
     virtual Eigen::MatrixXd small_matrix(const std::vector<int>& nodes, const Eigen::MatrixXd& rigid,
                                          Control& control) const = 0;
     /// displacements += W_u * loads
@@ -50,7 +50,7 @@ struct ReducedSystem {
     std::shared_ptr<const Responses> responses;
     Eigen::MatrixXd rigid;     ///< E over J: (3*n_nodes + n_border) x n_border
     std::vector<int> nodes;    ///< constrained nodes
-    Eigen::Index n_loads = 0;  ///< the first so many unknowns are loads, the others residuals of dropped rows
+    Eigen::Index n_loads = 0;  ///< of the unknowns, loads come first; the others are residuals of dropped rows
 };
 
 /// Eqn. (9'), the collapsed form of the paper's Eqn. 9. One factorisation of the small system; a solve costs its
@@ -61,7 +61,7 @@ public:
     NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const override;
 
 private:
-    /// The small system solved for its right sides, whose columns may be shorter.
+    /// Solution of the small system for these right sides; rows that they lack at the end are zero.
     Eigen::MatrixXd unknowns(const Eigen::MatrixXd& right) const;
     /// Displacements of all nodes for these unknowns.
     Eigen::MatrixXd displacements(const Eigen::MatrixXd& unknowns) const;

@@ -24,8 +24,8 @@ namespace elastolab {
 struct ReferenceAnswer {
     Eigen::VectorXd displacements;  ///< of all vertices, 3*n_vertices [L]
     Reactions reactions;            ///< at the constrained vertices, for unit Young's modulus
-    /// What the first answer lacks over the difference between both, second less first. Above 1: the second lacks some
-    /// too; negative: the first is the better one.
+    /// What the first answer lacks (true less first) over the difference of both (second less first). Above 1: the
+    /// second lacks some too; negative: the first is the better one.
     double share = 1.0;
 };
 
@@ -36,15 +36,15 @@ struct SolutionChecks {
     /// The second answer for these displacements of the constrained vertices; nothing where it would not fit into
     /// memory. Null where there is none.
     std::function<std::optional<ReferenceAnswer>(const Eigen::VectorXd& values, Control&)> reference;
-    /// What these solutions are inside.
+    /// Displacements and stresses inside, for these solutions.
     std::function<std::shared_ptr<const InteriorField>(NodeSolution&&, Control&)> inside = {};
 };
 
-/// What a solution lacks, estimated.
+/// What a solution lacks (true less computed), estimated.
 struct SolutionError {
     Eigen::VectorXd displacements;  ///< 3*n_vertices [L]
     Reactions reactions;            ///< at the constrained vertices, for unit Young's modulus
-    double to_better = 1.0;         ///< this times it leads from the solution to the better of both answers
+    double to_better = 1.0;         ///< solution + to_better * error is the better of both answers
 };
 
 /// Forces and moments at n constrained vertices from the loads that they share, one column.

@@ -28,8 +28,8 @@ double distance_to_segment(const Vec& p, const Vec& a, const Vec& b) {
 /// Collects weighted points, as many as a kernel takes at once, and sums potentials of one triangle over them.
 class PotentialSum {
 public:
-    /// normals: nullptr, or the normal of the plane in which the points y lie; then the sum's normal numbers are those
-    /// of the adjoint, phi_k(y) int (y - x) . n / r^3 dx, else those of the triangle's own hats (if `all`).
+    /// plane_normal: nullptr, or the normal of the plane in which the points y lie; then the sum's normal numbers are
+    /// those of the adjoint, phi_k(y) int (y - x) . n / r^3 dx, else those of the triangle's own hats (if `all`).
     PotentialSum(const TriangleGeometry& triangle, bool all, const double* plane_normal, PairNumbers& sum)
         : triangle_(triangle), all_(all), plane_normal_(plane_normal), sum_(sum) {}
 
@@ -152,8 +152,8 @@ private:
         }
     }
 
-    /// In which the potential is analytic. Along a ray from a corner it is A(u) + u log(u) B(u) with A and B singular
-    /// at the opposite edge only.
+    /// Parameter of the ellipse in which the potential is analytic. Along a ray from a corner it is A(u) + u log(u)
+    /// B(u) with A and B singular at the opposite edge only.
     double ellipse(double from, double to) const {
         const Vec p = point(from), q = point(to);
         if (singular_ < 0) return analytic_ellipse(p.data(), q.data(), other_);
@@ -207,8 +207,8 @@ TriangleGeometry shifted(TriangleGeometry T, const Vec& origin) {
     return T;
 }
 
-/// The end of a path that is a corner of the other triangle, else its apex. As origin it keeps points near it exact,
-/// however far from the origin the body lies.
+/// The end of a path that is a corner of the other triangle, else its apex. Taken as the local origin, it keeps points
+/// near it exact, however far the body lies from the global one.
 Vec singular_corner(const TriangleGeometry& path, int apex, const TriangleGeometry& other) {
     for (int end = 1; end <= 2; ++end)
         for (int i = 0; i < 3; ++i)

@@ -10,16 +10,17 @@ namespace elastolab {
 /// The material-free integrals of one pair of flat triangles, x over the test triangle t and y over the field triangle
 /// s, with r = |y - x|, e = (y - x) / r, n the field triangle's normal and phi_k its hats:
 ///   tensor  xx yy zz xy xz yz of  iint e e^T / r        [L^3], symmetric in the pair; iint 1/r is its trace
-///   normal  iint phi_k(y) (e . n) / r^2                 [L^2], k = 0, 1, 2; zero in one plane
+///   normal  iint phi_k(y) (e . n) / r^2                 [L^2], k = 0, 1, 2; zero for coplanar triangles
 /// Kelvin's iint U = [(3-4nu) trace I + tensor] / (16 pi mu (1-nu)).
 using PairNumbers = std::array<double, kPairNumbers>;
 
-/// Points per direction of the outer rule that keeps `tolerance` on a triangle of radius R around a centre at the
-/// distance `ratio` * R from the nearest edge of the field triangle; more than max_outer_points: by close_pair.
+/// Points per direction that the outer rule needs to keep `tolerance` on a test triangle of radius R whose centre is
+/// `ratio` * R away from the nearest edge of the field triangle. Pairs that need more than max_outer_points are left to
+/// close_pair.
 int outer_points(double ratio, double tolerance);
 int max_outer_points(double tolerance);
 
-/// Centre-to-edge distance of a triangle in units of its radius: what outer_points asks for.
+/// That ratio: distance of the test triangle's centre from the nearest edge of the field triangle over its radius.
 double outer_ratio(const double (&test_corners)[3][3], const TriangleGeometry& field);
 
 /// The integrals of any two triangles that do not intersect: apart, or with one, two or three corners in common

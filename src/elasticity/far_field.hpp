@@ -6,8 +6,8 @@ namespace elastolab {
 
 /// Chooses between the closed form and Gauss rules for the integral over one triangle, from the distance of the source
 /// and a tolerance on the error relative to the integral. Near the triangle only the closed form is exact; far away it
-/// loses digits by cancellation (about 4e-15 d^3 at d edge lengths) while every Gauss rule wins. The bounds on the
-/// errors behind the choice are measured in tests/elasticity/far_field_test.cpp.
+/// loses digits by cancellation (errors up to 2e-14 d^3 at d edge lengths) while every Gauss rule gains them. The error
+/// bounds behind the choice are measured in tests/elasticity/far_field_test.cpp.
 class FarField {
 public:
     explicit FarField(double tolerance);

@@ -7,9 +7,10 @@
 
 namespace elastolab {
 
-/// The points that arise from one by renumbering the corners. It is given in the complex plane whose origin is the
-/// centroid of an equilateral triangle with corners at 1, e^(2 pi i/3), e^(-2 pi i/3): rho e^(i theta), cosine =
-/// cos(3 theta). The centroid itself (rho = 0), three points on the lines to the corners (cosine = 1), or six.
+/// The points that arise from one point by renumbering the corners. That point is given in the complex plane whose
+/// origin is the centroid of an equilateral triangle with corners at 1, e^(2 pi i/3), e^(-2 pi i/3): rho e^(i theta),
+/// cosine = cos(3 theta). An orbit is the centroid itself (rho = 0), three points on the lines to the corners
+/// (cosine = 1), or six.
 struct Orbit {
     double rho, cosine = 1.0;
     bool operator==(const Orbit&) const = default;

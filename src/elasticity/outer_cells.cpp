@@ -12,7 +12,7 @@ namespace {
 using Vec = Eigen::Vector3d;
 
 constexpr double kInfinite = 1e300;
-/// Enough for edges over edges at 1e-6 of their length, and ends where triangles cross one another.
+/// Enough for edges above edges at 1e-6 of their length; ends the recursion where triangles cross one another.
 constexpr int kMaxCuts = 28;
 
 /// The long semi-axis of the ellipse with foci -1 and 1 through the zeros of |w + z h|^2: half the sum of their
@@ -23,8 +23,8 @@ double axis_through_zeros(double ww, double wh, double hh) {
     return 0.5 * (std::sqrt(left * left + imaginary2) + std::sqrt(right * right + imaginary2));
 }
 
-/// Of the largest ellipse for the chord m + z h, -1 <= z <= 1. Singular are the zeros of the distance from either end,
-/// and those of the distance from the line through both where they project between the ends.
+/// Long semi-axis of the largest ellipse for the chord m + z h, -1 <= z <= 1. Its singularities are the zeros of the
+/// distance from either end, and those of the distance from the line through both ends that project between them.
 double axis_beside_edge(const Vec& m, const Vec& h, const Vec& begin, const Vec& end) {
     const Vec w = m - begin, edge = end - begin;
     const double hh = h.squaredNorm(), length = edge.norm();
@@ -45,7 +45,7 @@ double axis_beside_edge(const double* p, const double* q, const TriangleGeometry
     return half.squaredNorm() == 0.0 ? kInfinite : axis_beside_edge(0.5 * (from + to), half, begin, end);
 }
 
-/// The sum of both semi-axes.
+/// The parameter rho, which is the sum of both semi-axes, from the long one.
 double ellipse_of(double axis) { return axis < kInfinite ? axis + std::sqrt(axis * axis - 1.0) : kInfinite; }
 
 class Cutter {
@@ -59,7 +59,8 @@ public:
         double rho_u = kInfinite, rho_v = kInfinite;
         for (const double at : {cell.v0, v, cell.v1}) rho_u = std::min(rho_u, chord(cell.u0, at, cell.u1, at));
         for (const double at : {cell.u0, u, cell.u1}) rho_v = std::min(rho_v, chord(at, cell.v0, at, cell.v1));
-        // Small cells may be less exact: of those of one size there are at most as many as lie side by side.
+        // Small cells may be less exact: those of one size lie side by side along a line, so that there are few of
+        // them.
         const double share = (cell.u1 * cell.u1 - cell.u0 * cell.u0) * (cell.v1 - cell.v0);
         const double tolerance = std::min(0.1, tolerance_ / std::sqrt(share));
         cell.n_u = gauss_points(rho_u, tolerance);

@@ -35,7 +35,7 @@ double radius_of(const TriangleGeometry& T) {
     return std::sqrt(square);
 }
 
-/// Points of a rule that are kept for every triangle, and of any rule.
+/// Most points of a rule whose points are kept for every triangle, and of any rule.
 constexpr std::size_t kMostKeptPoints = 32, kMostPoints = 256;
 
 /// [point][axis]
@@ -130,7 +130,7 @@ double PairIntegrals::distance_square(const Pack& pack, int lane, int field) con
 }
 
 const PairIntegrals::FarRule* PairIntegrals::far_rule(const Pack& pack, int field) const {
-    // Most fields are far from the whole pack.
+    // Most field triangles are far from the whole pack.
     const double(&c)[3] = triangles_[static_cast<std::size_t>(field)].centroid;
     const double radii = pack.largest_radius + radius_[static_cast<std::size_t>(field)];
     if (distance(pack.centre, c[0], c[1], c[2]) - pack.extent >= far_rules_.front().from * radii)

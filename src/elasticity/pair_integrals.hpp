@@ -18,14 +18,14 @@ class PairIntegrals {
 public:
     PairIntegrals(std::span<const TriangleGeometry> triangles, double tolerance);
 
-    /// Test triangles that are integrated at once: one a lane, at most lanes(). Lie them close together: the most
+    /// Number of test triangles that are integrated at once, one per lane. They should lie close together: the most
     /// demanding of them decides for all.
     int lanes() const { return kernels_.lanes; }
 
     /// Belongs to one thread.
     struct Pack {
         std::vector<int> triangles;
-        mutable std::vector<std::vector<double>> points;  ///< of each far rule: [point][axis][lane]; when first used
+        mutable std::vector<std::vector<double>> points;  ///< of each far rule: [point][axis][lane]; made on first use
         std::vector<double> corners;                      ///< [corner][axis][lane]
         double radius[kMaxLanes];                         ///< largest distance of a corner from the centroid
         double area[kMaxLanes];
@@ -38,7 +38,8 @@ public:
     /// `all` the normal numbers are not written. Lanes beyond the pack's triangles repeat its last one.
     void integrate(const Pack& pack, int field, bool all, double* out) const;
     /// The same for the test triangles that are far enough for a PairRule, as cheaply as these allow; returns the
-    /// others, a bit a lane, whose numbers are not to be used. For callers that keep those of close pairs.
+    /// others as a mask, one bit per lane: their numbers must not be used. For callers that keep the numbers of close
+    /// pairs.
     unsigned integrate_far(const Pack& pack, int field, bool all, double* out) const;
     /// Whether a pair is too close for every PairRule.
     bool is_close(int test, int field) const;
@@ -55,7 +56,7 @@ private:
     };
     const FarRule* far_rule(const Pack& pack, int field) const;
     const double* points_of(const FarRule& far, const Pack& pack) const;
-    /// A field triangle's: kept ones, or written to `memory`.
+    /// The points of a field triangle: those kept, or written to `memory`.
     const double* points_of(const FarRule& far, int field, double* memory) const;
     /// Squared distance of the centroids in units of the sum of both radii.
     double distance_square(const Pack& pack, int lane, int field) const;

@@ -15,7 +15,7 @@ struct WeightedOrbit {
     Orbit orbit;
 };
 
-/// Of the rules of 2, 3, ... 8.
+/// Orbits of the rules n = 2, 3, ... 8.
 const std::vector<std::vector<WeightedOrbit>>& symmetric_orbits() {
     static const std::vector<std::vector<WeightedOrbit>> orbits{
         {},

@@ -15,7 +15,7 @@ namespace elastolab {
 namespace {
 
 /// Columns solved at once: enough for BLAS-3 kernels, few enough for frequent checkpoints, and two blocks where there
-/// are few. Not a matter of the number of threads, on which results shall not depend.
+/// are few. The number of threads plays no part: results must not depend on it.
 int block_of(Eigen::Index n_columns) { return std::clamp(static_cast<int>(n_columns + 1) / 2, 12, 48); }
 
 SparseMatrix held(const SparseMatrix& K, const Positions& positions, int n_surface, std::span<const int> base) {
@@ -99,7 +99,7 @@ Eigen::MatrixXd SurfaceCompliance::block(std::span<const int> vertices, Control&
     subtract_compressed_inverse(factor_, unit_loads, D, control);
     D = -D;
     if (rigid_.cols() > 0) {
-        // P K_g^-1 P with P = I - R R^T, of which K_g^-1 is there so far.
+        // So far D holds K_g^-1 alone; what is wanted is P K_g^-1 P with P = I - R R^T.
         Eigen::MatrixXd R(n, rigid_.cols()), G_R(n, rigid_.cols());
         for (Eigen::Index k = 0; k < n; ++k) {
             const Eigen::Index row = 3 * vertices[static_cast<std::size_t>(k / 3)] + k % 3;

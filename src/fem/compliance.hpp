@@ -25,7 +25,7 @@ namespace elastolab {
 /// does not depend on where they are. With a base (nodes fixed at zero), D = K_ff^-1, zero in rows and columns of the
 /// base, and there is no R.
 ///
-/// A block of D between few vertices is had without its columns, by a forward substitution of what they reach.
+/// A block of D between few vertices needs no columns of D, only a forward substitution over the rows that they reach.
 ///
 /// Immutable; any thread may use it.
 class SurfaceCompliance {

@@ -9,7 +9,7 @@ namespace elastolab {
 
 namespace {
 
-/// Rows and columns [first, first + count) squared, or off-diagonal, of a sparse matrix.
+/// Rows [row, row + rows) and columns [column, column + columns) of a sparse matrix.
 SparseMatrix submatrix(const SparseMatrix& K, int row, int rows, int column, int columns) {
     SparseMatrix sub = SparseMatrix(K.middleCols(column, columns)).middleRows(row, rows);
     sub.makeCompressed();

@@ -67,7 +67,7 @@ private:
 
 ConstrainedFemNodes constrain_nodes(const Positions& positions, const SurfaceMidpoints& surface,
                                     std::span<const int> base, std::span<const int> handles) {
-    const std::vector<int> vertices = joined(base, handles);
+    std::vector<int> vertices = joined(base, handles);
     const int n_base = static_cast<int>(base.size()), n = static_cast<int>(vertices.size());
     std::vector<int> place(static_cast<std::size_t>(positions.cols()), -1);
     for (int i = 0; i < n; ++i) place[static_cast<std::size_t>(vertices[static_cast<std::size_t>(i)])] = i;

@@ -15,7 +15,7 @@ struct SurfaceMidpoints {
     Triangles midpoints;  ///< the nodes between its vertices 0 and 1, 1 and 2, 2 and 0
 };
 
-/// The nodes that a constrained set prescribes, and who carries their forces.
+/// The nodes that a constrained set prescribes, and which vertices carry their forces.
 struct ConstrainedFemNodes {
     ConstrainedNodes prescribed;  ///< those of the base first
     int n_base = 0;
@@ -28,7 +28,7 @@ struct ConstrainedFemNodes {
 /// Displacements are linear on a triangle whose three vertices are constrained: the midpoints of its edges are
 /// prescribed at the mean of their ends. A constrained vertex without such a triangle prescribes itself only. Forces
 /// are the energy's derivatives with respect to the displacements of the vertices, so that each end of an edge carries
-/// half of its midpoint's.
+/// half of the force at its midpoint.
 /// positions       of all nodes, vertices of the surface first
 /// base, handles   vertices of the surface, all different
 ConstrainedFemNodes constrain_nodes(const Positions& positions, const SurfaceMidpoints& surface,

@@ -65,7 +65,7 @@ SparseMatrix eliminated(const SparseMatrix& K, std::span<const int> nodes) {
     std::vector<char> is_eliminated(static_cast<std::size_t>(K.rows()) / 3, 0);
     for (int node : nodes) is_eliminated[static_cast<std::size_t>(node)] = 1;
     const auto marked = [&](Eigen::Index dof) { return is_eliminated[static_cast<std::size_t>(dof / 3)] != 0; };
-    SparseMatrix K_ff = K;
+    SparseMatrix K_ff = K;  // NOLINT(performance-unnecessary-copy-initialization): changed through valueRef()
     for (int column = 0; column < K_ff.cols(); ++column)
         for (SparseMatrix::InnerIterator it(K_ff, column); it; ++it)
             if (it.row() != column && (marked(it.row()) || marked(column))) it.valueRef() = 0.0;

@@ -20,8 +20,8 @@ StaticSupport choose_support(const Positions& positions, int n_candidates);
 /// connected body, with the pattern of K.
 SparseMatrix grounded(const SparseMatrix& K, const Positions& positions, const StaticSupport& support);
 
-/// K with the rows and columns of the nodes emptied but for their diagonal; same pattern, explicit zeros. Solving with
-/// a load b gives K_ff^-1 b_f on the other nodes, and b_i / K_ii on these.
+/// K with the rows and columns of the nodes set to zero but for their diagonal; same pattern, explicit zeros. Solving
+/// with a load b gives K_ff^-1 b_f on the other nodes, and b_i / K_ii on these.
 SparseMatrix eliminated(const SparseMatrix& K, std::span<const int> nodes);
 
 }  // namespace elastolab

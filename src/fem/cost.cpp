@@ -80,7 +80,7 @@ Cost predict_linear_fem(const SurfaceMesh& mesh, const Method& method) {
     return cost;
 }
 
-/// A node more for every edge, of which there are some six a vertex.
+/// One more node for every edge, of which there are about six per vertex.
 Cost predict_quadratic_fem(const SurfaceMesh& mesh, const Method&) {
     const double vertices = estimated_tet_nodes(mesh), nodes = 7.0 * vertices;
     return predict_sparse(FactorEstimate(mesh, vertices, true), 3.0 * nodes, kNodeWork * (vertices + nodes / 3.0));

@@ -17,17 +17,17 @@ namespace elastolab {
 
 namespace {
 
-/// Error that quadratic elements leave, over what they change. Along the rim of a constrained patch errors fall with
-/// the square of the degree, elsewhere faster; measured in tests/methods/discretisation_test.cpp.
+/// Error that quadratic elements leave, over how much they change the answer. Along the rim of a constrained patch
+/// errors fall like 1 / degree^2, elsewhere faster; measured in tests/methods/discretisation_test.cpp.
 constexpr double kLeftByQuadratic = 0.45;
-/// Energy norm of the error of conjugate gradients over that of the first guess, estimated.
+/// Estimated energy norm of the error, over that of the first guess, at which conjugate gradients stop.
 constexpr double kEnoughReduction = 0.01;
 constexpr int kMostSteps = 150;
 /// Bytes of the stiffness and its parts for each quadratic node, some 30 blocks of 3 x 3 in each of three matrices; and
-/// of the linear stiffness and its factor for each node of quadratic elements that have it.
+/// of the linear stiffness and its factor, by which quadratic elements are judged, for each of their nodes.
 constexpr std::uint64_t kBytesOfQuadraticNode = 9000, kBytesOfLinearPart = 3000;
 
-/// The nodes of quadratic elements out of the corners of their tetrahedra: corners are themselves, a midpoint is the
+/// Expresses the nodes of quadratic elements by the corners of their tetrahedra: a corner is itself, a midpoint the
 /// mean of its ends.
 class CornerNodes {
 public:

@@ -22,12 +22,12 @@ std::optional<ReferenceAnswer> quadratic_reference(const FemSystem& linear, doub
                                                    std::span<const int> vertices, const Eigen::VectorXd& values,
                                                    Control& control);
 
-/// Bytes that they take.
+/// Bytes that these references take.
 std::uint64_t quadratic_reference_memory(const FemSystem& linear);
 std::uint64_t linear_reference_memory(const FemSystem& quadratic);
 
-/// What quadratic tetrahedra are judged by: linear ones, whose answer is in the same space. What the second degree
-/// changed tells what a third would.
+/// The answer that quadratic tetrahedra are judged by: linear ones, whose space is part of theirs. What the second
+/// degree changed indicates what a third would.
 std::optional<ReferenceAnswer> linear_reference(const FemSystem& quadratic, std::span<const int> vertices,
                                                 const Eigen::VectorXd& values, Control& control);
 

@@ -11,8 +11,8 @@
 namespace elastolab {
 
 /// S -= B^T A^-1 B, lower triangle. With P A P^T = L L^T this is Y^T Y, Y = L^-1 P B. Most of Y is zero where B is
-/// sparse: the rows of a supernode of L see only the columns that are not zero in the part of the body that its
-/// elimination tree covers, and only those are formed. No back substitution, and no column of A^-1.
+/// sparse: the rows of a supernode of L see only the columns that are not zero in the part of the body that its subtree
+/// of the elimination tree covers, and only those are formed. No back substitution, and no column of A^-1.
 /// factor  of A, n x n;  B  n x m;  S  m x m
 /// Throws Cancelled.
 void subtract_compressed_inverse(const SparseCholesky& factor, const SparseMatrix& B, Eigen::MatrixXd& S,

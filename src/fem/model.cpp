@@ -50,10 +50,10 @@ std::shared_ptr<const InteriorField> field_of(const FemSystem& system, double po
                                               system.mesh->degree(), poisson_ratio, std::move(u));
 }
 
-/// Part by which a set may be dearer than the cheapest, where later ones gain by it.
+/// Fraction by which a set may cost more than in the cheapest way, where later sets gain by it.
 constexpr double kWorthForLater = 0.3;
 
-/// Of one factor; a second one is dropped above.
+/// Bytes of one factor above which no second one is kept.
 constexpr std::uint64_t kLargeFactor = 256ull << 20;
 
 }  // namespace

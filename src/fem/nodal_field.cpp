@@ -17,9 +17,9 @@ namespace elastolab {
 
 namespace {
 
-/// Weights of the corners, as far below zero as this, are rounding.
+/// Barycentric weights that are below zero by no more than this count as rounding.
 constexpr double kOnFace = 1e-9;
-/// Least eigenvalue of the moments of a patch, scaled to a diagonal of ones.
+/// Least eigenvalue of a patch's moments, scaled to a diagonal of ones, above which they determine a slope.
 constexpr double kTellsSlope = 0.02;
 
 Eigen::Matrix3d edges_of(const TetMesh& tets, Eigen::Index t) {
@@ -27,7 +27,7 @@ Eigen::Matrix3d edges_of(const TetMesh& tets, Eigen::Index t) {
     return x.rightCols<3>().colwise() - x.col(0);
 }
 
-/// A tree of boxes knows triangles: for each tetrahedron one that has its box.
+/// A BoxTree takes triangles: for each tetrahedron, one with the same bounding box.
 SurfaceMesh diagonals_of_boxes(const TetMesh& tets) {
     SurfaceMesh mesh{Positions(3, 2 * tets.n_tetrahedra()), Triangles(3, tets.n_tetrahedra())};
     for (int t = 0; t < tets.n_tetrahedra(); ++t) {
@@ -45,8 +45,9 @@ std::vector<int> all_tetrahedra(const TetMesh& tets) {
     return all;
 }
 
-/// For each node, what takes (1, place) of the middle of a tetrahedron around it, places from the node in units of
-/// `edge`, to the weight of its stress: those of a linear fit by least squares over all of them, weighted by volume.
+/// For each node, the row that takes (1, place) of a tetrahedron around it to the weight of its stress in a linear
+/// least-squares fit over all of these, weighted by volume. place: of the centroid, relative to the node in units of
+/// `edge`.
 class PatchFits {
 public:
     PatchFits(const TetMesh& tets, double edge) : tets_(tets), edge_(edge) {
@@ -71,7 +72,7 @@ private:
         p << 1.0, (middle - tets_.vertices.col(corner)) / edge_;
         return p;
     }
-    /// Few tetrahedra, or some in a plane, do not tell a slope: then their mean.
+    /// Few tetrahedra, or coplanar ones, do not determine a slope: then their mean.
     static Eigen::Vector4d first_row_of_inverse(const Eigen::Matrix4d& sum) {
         const Eigen::Vector4d scale = sum.diagonal().cwiseSqrt().cwiseMax(1e-300);
         const Eigen::Matrix4d unit = scale.cwiseInverse().asDiagonal() * sum * scale.cwiseInverse().asDiagonal();
@@ -169,7 +170,7 @@ void NodalField::for_each_node(const Place& place, const Each& each) const {
 NodalField::Place NodalField::place_of(const Eigen::Vector3d& point) const {
     Place best;
     double least = -std::numeric_limits<double>::infinity();
-    // Between the rounded faces of two tetrahedra, or outside: the one that it is least outside of.
+    // For a point between the rounded faces of two tetrahedra, or outside: the one that it is least outside of.
     for (double reach = 1e-6 * edge_; std::isinf(least); reach *= 8.0)
         boxes_.for_each_near(
             point, [&](double) { return least >= -kOnFace ? -1.0 : reach; },

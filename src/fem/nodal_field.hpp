@@ -10,10 +10,11 @@
 
 namespace elastolab {
 
-/// The inside of a solid of unit Young's modulus out of the displacements of all nodes. Displacements and stresses are
-/// of the elements' degree in each, between values at the nodes, and so continuous. A node's stress is, with linear
-/// elements, that of a linear fit to the tetrahedra around it (patch recovery, O. C. Zienkiewicz, J. Z. Zhu, Int. J.
-/// Numer. Methods Eng. 33, 1992); with quadratic ones the mean of what the elements around it have there, by volume.
+/// The inside of a solid of unit Young's modulus from the displacements of all nodes. In each element displacements and
+/// stresses interpolate values at the nodes with the element's degree, and so are continuous. A node's stress is, with
+/// linear elements, that of a linear fit to the tetrahedra around it (patch recovery, O. C. Zienkiewicz, J. Z. Zhu,
+/// Int. J. Numer. Methods Eng. 33, 1992); with quadratic ones the mean of the stresses that the elements around it have
+/// there, weighted by volume.
 class NodalField : public InteriorField {
 public:
     /// tets           their vertices are the nodes; quadratic elements are split in eight (QuadraticMesh::split)
@@ -30,7 +31,7 @@ private:
     };
     Place place_of(const Eigen::Vector3d& point) const;
 
-    /// each(node, weight) for what a value at the place is made of.
+    /// Calls each(node, weight) for the nodes whose values make up the value at a place.
     template <class Each>
     void for_each_node(const Place& place, const Each& each) const;
 

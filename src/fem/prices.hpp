@@ -22,9 +22,9 @@ struct BlockPrice {
 };
 BlockPrice block_price(const SupernodalView& pattern, std::span<const int> nodes);
 
-/// Columns are computed and kept where this is what they cost at most: then a solve is a product with them, of no
-/// account, and the next set finds those of its vertices that the last one had. Dearer ones are not: the block between
-/// the vertices and one substitution for each solve cost less.
+/// Columns are computed and kept where they cost at most this: then a solve is a product with them, which costs next to
+/// nothing, and the next set reuses those of the vertices that it shares with the last. Dearer ones are not kept: the
+/// block between the vertices and one substitution for each solve cost less.
 inline constexpr double kColumnsWorthKeeping = 1e9;
 
 }  // namespace elastolab

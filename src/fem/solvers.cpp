@@ -15,7 +15,7 @@ namespace elastolab {
 namespace {
 
 constexpr std::uint64_t kCacheBudget = 512ull << 20;
-/// Columns are copied from strips of these into the blocks that are kept.
+/// Vertices whose columns are computed together, then copied into the blocks that are kept.
 constexpr std::size_t kVerticesAtOnce = 128;
 
 ReducedSystem reduced_system(const FactorisedBody& body, const std::vector<int>& vertices, Control& control) {
@@ -105,7 +105,7 @@ Eigen::MatrixXd FactorisedBody::volume_displacements(const Eigen::MatrixXd& surf
                                                      const Eigen::MatrixXd& loads) const {
     Eigen::MatrixXd u = compliance_.volume_response(loads);
     if (compliance_.rigid().cols() > 0) {
-        // The response is right up to a rigid motion, which the surface tells.
+        // The response is right up to a rigid motion, which the displacements of the surface determine.
         const Eigen::MatrixXd modes = rigid_modes(system_->positions());
         const Eigen::MatrixXd on_surface = modes.topRows(surface.rows());
         u += modes * on_surface.householderQr().solve(surface - u.topRows(surface.rows()));

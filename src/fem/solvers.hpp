@@ -22,8 +22,8 @@ namespace elastolab {
 struct FemMesh {
     /// Its vertices are the nodes, those of the surface first. Quadratic elements are split in eight on their nodes.
     TetMesh tets;
-    int n_surface_nodes = 0;     ///< the first so many nodes are on the surface
-    SurfaceMidpoints midpoints;  ///< quadratic elements
+    int n_surface_nodes = 0;     ///< nodes on the surface, which come first
+    SurfaceMidpoints midpoints;  ///< of quadratic elements, else none
     int n_elements = 0;
     StiffnessParts parts;
     std::unique_ptr<const CholeskyAnalysis> analysis;
@@ -53,7 +53,7 @@ struct FemSystem {
 /// Whether the columns of so many vertices are kept (kColumnsWorthKeeping).
 bool keeps_columns(const FemSystem& system, std::ptrdiff_t n_vertices);
 
-/// The body factorised with a base eliminated (or free), and the columns of its surface compliance so far.
+/// The body factorised with a base eliminated (or free), and the columns of its surface compliance computed so far.
 class FactorisedBody : public std::enable_shared_from_this<FactorisedBody> {
 public:
     FactorisedBody(std::shared_ptr<const FemSystem> system, std::vector<int> base, Control& control);

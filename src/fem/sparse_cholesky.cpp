@@ -63,7 +63,7 @@ using FactorPtr = std::unique_ptr<cholmod_factor, CholmodFactorDeleter>;
 
 namespace {
 
-/// CHOLMOD's way to look at the lower triangle of a matrix; nothing is copied or written.
+/// CHOLMOD's view of the lower triangle of a matrix; nothing is copied or written.
 cholmod_sparse sparse_view(const SparseMatrix& A) {
     assert(A.isCompressed() && A.rows() == A.cols());
     cholmod_sparse view{};

@@ -19,10 +19,10 @@ namespace {
 
 using Block = Eigen::Map<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
 
-/// Columns of a block product at once: a fraction of a second for the largest bodies, between two looks for a cancel.
+/// Columns of a block product at once: a fraction of a second for the largest bodies, between two checks for a cancel.
 constexpr int kPanel = 192;
 
-/// A supernode takes over from an earlier one: whose rows from `first_row` on are rows of this one.
+/// The update of a supernode by an earlier one, `from`, whose rows from `first_row` on are rows of this one.
 struct Update {
     int from, first_row;
 };

@@ -8,10 +8,10 @@
 
 namespace elastolab {
 
-/// Numeric Cholesky factorisation by supernodes, left-looking: each takes over what those before it leave in its rows,
-/// as products of dense blocks. CHOLMOD's own can be neither stopped nor watched, and its threads are those of the BLAS
-/// alone; here parts of the elimination tree that do not see each other go to different threads, the rest to the BLAS.
-/// Neither the parts nor the order of sums depend on the number of threads.
+/// Numeric Cholesky factorisation by supernodes, left-looking: each is updated by those before it that have rows in
+/// common, by products of dense blocks. CHOLMOD's own can be neither stopped nor watched, and its threads are those of
+/// the BLAS alone; here independent subtrees of the elimination tree go to different threads, and the rest uses those
+/// of the BLAS. Neither the parts nor the order of sums depend on the number of threads.
 /// pattern  where entries go; its values are not looked at
 /// A        its lower triangle is read
 /// values   room for all entries of the factor; the result

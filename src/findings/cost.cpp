@@ -26,8 +26,8 @@ void require_memory(const Cost& cost, const Method& method) {
                                      : method.mode == Mode::full      ? "the mode on-demand"
                                                                       : method.kind->cheaper;
     throw SolveError(std::string(name(method.kind)) + ", mode " + std::string(name(method.mode)) + ": needs " +
-                     in_gigabytes(cost.memory_bytes) + " of memory, " + in_gigabytes(available) + " are free. Choose " +
-                     std::string(cheaper) + ".");
+                     in_gigabytes(cost.memory_bytes) + " of memory, " + in_gigabytes(available) +
+                     " is available. Choose " + std::string(cheaper) + ".");
 }
 
 }  // namespace elastolab

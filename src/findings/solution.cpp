@@ -15,8 +15,8 @@ using Eigen::Vector3d;
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();
 constexpr double kLocking = 0.48;
-constexpr double kLostDigits = 1e-6;     ///< relative error of displacements above which rounding is told
-constexpr double kWeakLever = 100.0;     ///< by how much an error of a handle may be amplified
+constexpr double kLostDigits = 1e-6;     ///< relative error of displacements above which rounding is reported
+constexpr double kWeakLever = 100.0;     ///< tolerated amplification of an error at a handle
 constexpr double kLargeResidual = 1e-6;  ///< rounding leaves 1e-10 at most
 
 void append(Findings& all, Findings more) {
@@ -30,24 +30,7 @@ std::vector<char> marked(const SurfaceMesh& surface, const ConstrainedSet& set) 
     return is_constrained;
 }
 
-Findings findings_of_points(const SurfaceMesh& surface, const ConstrainedSet& set, std::span<const char> constrained) {
-    const auto at = [](int v) { return static_cast<std::size_t>(v); };
-    std::vector<char> in_patch(constrained.size(), 0);
-    for (const auto& t : surface.triangles.colwise())
-        if (constrained[at(t[0])] && constrained[at(t[1])] && constrained[at(t[2])])
-            for (const int v : t) in_patch[at(v)] = 1;
-    int count = 0, first = -1;
-    for (const std::vector<int>* vertices : {&set.base, &set.handles})
-        for (const int v : *vertices)
-            if (!in_patch[at(v)] && count++ == 0) first = v;
-    if (count == 0) return {};
-    return {{.kind = FindingKind::point_constraint,
-             .value = static_cast<double>(count),
-             .place = surface.vertices.col(first),
-             .first = first}};
-}
-
-/// Of one solid: `solid` are its vertices in the mesh.
+/// For one solid; `solid`: its vertices in the mesh.
 Findings findings_of_hold(const SurfaceMesh& surface, std::span<const int> solid, std::span<const char> constrained) {
     std::vector<int> held;
     for (const int v : solid)
@@ -87,7 +70,7 @@ VolumeChange volume_change(const SurfaceMesh& surface, std::span<const char> in_
     return sum;
 }
 
-/// Incompressible solids all of whose vertices are prescribed, to another volume than they have.
+/// Incompressible solids whose vertices are all prescribed in a way that changes their volume.
 Findings findings_of_volume(const Deformer& deformer, const Eigen::VectorXd& u) {
     constexpr double kIncompressible = 0.5 - 1e-9, kChange = 1e-6;
     const Body& body = deformer.model().body();
@@ -104,7 +87,7 @@ Findings findings_of_volume(const Deformer& deformer, const Eigen::VectorXd& u) 
         if (!all) continue;
         const VolumeChange sum = volume_change(*body.surface, in_solid, u);
         const double relative = std::abs(sum.change) / std::abs(sum.volume);
-        // To first order in u, whatever its scale: against how far it moves the surface.
+        // The change is linear in u: compared with how far u moves the surface, its scale does not matter.
         const double extent =
             (body.surface->vertices.rowwise().maxCoeff() - body.surface->vertices.rowwise().minCoeff()).norm();
         if (relative > kChange * u.cwiseAbs().maxCoeff() / extent)
@@ -147,8 +130,26 @@ Findings findings_of_set(const Deformer& deformer) {
     else
         findings.push_back(
             {.kind = quality.free_to_move ? FindingKind::free_motion : FindingKind::singular_though_held});
-    append(findings, findings_of_points(surface, deformer.set(), constrained));
+    append(findings, findings_of_points(surface, deformer.set()));
     return findings;
+}
+
+Findings findings_of_points(const SurfaceMesh& surface, const ConstrainedSet& set) {
+    const std::vector<char> constrained = marked(surface, set);
+    const auto at = [](int v) { return static_cast<std::size_t>(v); };
+    std::vector<char> in_patch(constrained.size(), 0);
+    for (const auto& t : surface.triangles.colwise())
+        if (constrained[at(t[0])] && constrained[at(t[1])] && constrained[at(t[2])])
+            for (const int v : t) in_patch[at(v)] = 1;
+    int count = 0, first = -1;
+    for (const std::vector<int>* vertices : {&set.base, &set.handles})
+        for (const int v : *vertices)
+            if (!in_patch[at(v)] && count++ == 0) first = v;
+    if (count == 0) return {};
+    return {{.kind = FindingKind::point_constraint,
+             .value = static_cast<double>(count),
+             .place = surface.vertices.col(first),
+             .first = first}};
 }
 
 Findings findings_of_answer(const Deformer& deformer, const Deformer::Answer& answer) {

@@ -11,9 +11,9 @@ namespace elastolab {
 
 namespace {
 
-/// Relative error of an integral above which lost digits are told.
+/// Relative error of an integral above which lost digits are reported.
 constexpr double kLostIntegralDigits = 1e-6;
-/// Distance of the other side over the longest edge of the triangle there. Constant elements bend one cell badly.
+/// Distance to the facing side over the longest edge of the triangle there. One cell of constant elements bends badly.
 constexpr double kThinWall = 0.5, kThinWallOfConstant = 0.8;
 constexpr double kSlender = 15.0;   ///< length over thickness
 constexpr double kTouching = 0.01;  ///< of the mean edge

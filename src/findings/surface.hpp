@@ -16,8 +16,8 @@ namespace elastolab {
 ///   thin_triangle  altitude / longest edge so small (below 5e-5) that the integrals keep fewer than six digits
 ///   slender_body   more than 15 times as long as thick (4 volume / area): bars of two cells across in bending are 9 %
 ///                  off at 20 times, 15 % at 40 times
-///   thin_wall      walls or gaps thinner than half the edges beside them: a plate of 8 x 8 cells in bending is 5 to
-///                  10 % off by linear elements and 40 % by constant ones (told from 0.8 edges) from there on down
+///   thin_wall      walls or gaps thinner than half the edges beside them, or 0.8 of them with constant elements:
+///                  below that, a bent plate of 8 x 8 cells is 5 to 10 % off by linear elements, 40 % by constant ones
 /// Throws Cancelled.
 Findings findings_of_surface(const SurfaceMesh& surface, MethodKind method, Control& control);
 

@@ -15,7 +15,7 @@ constexpr double kRounding = std::numeric_limits<double>::epsilon();
 
 std::string place_of(const Finding& finding) { return readable_point(finding.place.value_or(Eigen::Vector3d::Zero())); }
 
-/// Of two digits, but written out: "3.7 %", "370 %".
+/// Two significant digits, without an exponent: "3.7 %", "370 %".
 std::string percent(double part) {
     const std::string digits = readable_number(100.0 * part);
     const double rounded = std::stod(digits);
@@ -45,8 +45,9 @@ std::string thin_triangle(const Finding& finding) {
 
 std::string slender_body(const Finding& finding) {
     return "boundary elements: the body is " + readable_number(finding.value) +
-           " times as long as thick. With one or two elements across, linear-bem is off by 9 % in the bending of a bar "
-           "that is 20 times as long as thick, by 15 % at 40 times (constant-bem by more). Refine, or compare with "
+           " times as long as it is thick. With two elements across, linear-bem is off by 9 % in the bending of a bar "
+           "that is 20 times as long as it is thick, by 15 % at 40 times (constant-bem by more). Refine, or compare "
+           "with "
            "fem.";
 }
 
@@ -93,8 +94,9 @@ std::string proxy(const Finding& finding) {
                 ? "from which no vertex is farther than " + readable_number(finding.value) + " mesh units."
                 : std::string("with all vertices of the mesh on it.")) +
            " Displacements are those of that body. " +
-           (finding.kind == FindingKind::proxy ? "Mend the surface, or have its holes filled, to have its own."
-                                               : "The surface is sound: choose no proxy to have its own.");
+           (finding.kind == FindingKind::proxy
+                ? "Repair the surface, or have its holes filled, to simulate the surface itself."
+                : "The surface is sound: turn the proxy off to simulate the surface itself.");
 }
 
 std::string coarse_forces(const Finding& finding) {
@@ -133,10 +135,11 @@ std::string words(const Finding& finding) {
         case FindingKind::weak_hold:
             return weak_hold(finding);
         case FindingKind::free_motion:
-            return "constraints: leave the body free to move as a whole; the smallest motion is taken. Constrain three "
+            return "constraints: leave the body free to move as a whole; the smallest such motion is chosen. Constrain "
+                   "three "
                    "vertices that are not on one line.";
         case FindingKind::singular_though_held:
-            return std::string(kSingularThoughHeld) + " The smallest solution is taken.";
+            return std::string(kSingularThoughHeld) + " The smallest solution is chosen.";
         case FindingKind::coarse_mesh:
             return coarse_mesh(finding);
         case FindingKind::coarse_forces:
@@ -148,11 +151,12 @@ std::string words(const Finding& finding) {
         case FindingKind::nothing_constrained:
             return finding.object + ": no vertex is fixed or moved, so the body rests. Add a handle.";
         case FindingKind::choice_left_aside:
-            return finding.object + ": only linear-bem has a choice of them; it was left aside.";
+            return finding.object + ": applies to linear-bem only, and was ignored.";
         case FindingKind::impossible_volume:
             return "constraints: hold the whole surface of an incompressible body and change its volume by " +
                    percent(finding.value) +
-                   ", which no displacement inside does. Free some vertices, or choose a Poisson's ratio below 1/2.";
+                   ", which no displacement of the inside can satisfy. Free some vertices, or choose a Poisson's ratio "
+                   "below 1/2.";
         case FindingKind::large_residual:
             return finding.object + ": the solution leaves a relative residual of " + readable_number(finding.value) +
                    ", so it is wrong. Fix more vertices, or use another method.";
@@ -166,7 +170,7 @@ std::string words(const Finding& finding) {
         case FindingKind::filled_holes:
             return finding.object + ": simulated with its " + readable_number(finding.value) +
                    (finding.value == 1.0 ? " hole" : " holes") + " filled by " + std::to_string(finding.first) +
-                   " triangles, which no output has. Close them in the file where another shape is meant.";
+                   " triangles, which are written to no output. Close them in the file where another shape is meant.";
         case FindingKind::thin_sheets:
             return finding.object + ": has no inside in places; its sheets are simulated as walls " +
                    readable_number(finding.value) + " mesh units thick. Give them their thickness in the file.";

@@ -20,8 +20,8 @@ public:
     void for_each_close_pair(const std::function<bool(int, int)>& visit) const;
 
     /// Calls visit(t) for every triangle whose box is no farther from a point than reach(longest edge of the triangle),
-    /// and for some more: distances are measured along the axes. `reach` must not fall with the edge; it may shrink
-    /// from one call to the next.
+    /// and for some more: distances are measured along the axes. `reach` must not decrease as the edge grows; it may
+    /// shrink from one call to the next.
     template <class Reach, class Visit>
     void for_each_near(const Eigen::Vector3d& point, const Reach& reach, const Visit& visit) const;
 

@@ -18,8 +18,8 @@ struct SurfacePoint {
 /// The point of a triangle that is closest to `point`; also for triangles without area.
 SurfacePoint closest_in_triangle(const Eigen::Vector3d& point, const SurfaceMesh& mesh, int triangle);
 
-/// Finds the closest points of a surface with a tree of boxes: some log n each. Keeps a reference to the mesh, which
-/// has a triangle at least, and finite vertices.
+/// Finds the closest points of a surface with a tree of boxes: about log n steps each. Keeps a reference to the mesh,
+/// which has a triangle at least, and finite vertices.
 class ClosestPoint {
 public:
     explicit ClosestPoint(const SurfaceMesh& mesh);

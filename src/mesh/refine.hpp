@@ -19,8 +19,8 @@ struct RefinedSurface {
 
     /// Extends values at the coarse vertices (3 x n_coarse) to all, linearly on every coarse triangle.
     Eigen::Matrix3Xd interpolate(const Eigen::Matrix3Xd& coarse) const;
-    /// The transpose: takes loads at all vertices (3 x n) to those at the coarse ones that do the same work, a
-    /// midpoint's by halves to its two vertices.
+    /// The transpose: takes loads at all vertices (3 x n) to those at the coarse ones that do the same work, half of a
+    /// midpoint's to each of its two vertices.
     Eigen::Matrix3Xd gather(Eigen::Matrix3Xd loads) const;
 };
 

@@ -51,7 +51,7 @@ std::vector<Solid> split_solids(const SurfaceMesh& mesh) {
             std::copy_if(around[c].begin(), around[c].end(), std::back_inserter(candidates),
                          [&](int d) { return volume_of(d) > 0.0; });
             if (candidates.empty())
-                throw MeshError("a surface faces inward with no solid around it. Turn its triangles round and reload.");
+                throw MeshError("a surface faces inward with no solid around it. Flip its triangles and reload.");
             outer = static_cast<std::size_t>(*std::min_element(
                 candidates.begin(), candidates.end(), [&](int a, int b) { return volume_of(a) < volume_of(b); }));
         }

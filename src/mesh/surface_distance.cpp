@@ -26,7 +26,7 @@ double distance_to_segment(const Vector3d& x, const Vector3d& a, const Vector3d&
     return (x - a - s * edge).norm();
 }
 
-/// Boxes are as wide as they are to rounding; a search reaches a little farther, so that it misses nothing.
+/// The sizes of boxes are right to rounding only; a search reaches a little farther, so that it misses nothing.
 constexpr double kSlack = 1.0 + 1e-12;
 /// Vertices at a time for a thread.
 constexpr int kGrain = 256;

@@ -18,9 +18,9 @@ struct Approach {
     double ratio = std::numeric_limits<double>::infinity();  ///< distance / longest edge of the triangle opposite
     int vertex = -1;
 };
-/// Over all vertices and triangles that do not share it and face the opposite way (normals at least 120 degrees
-/// apart), as far as they are closer than the triangle's longest edge; none: infinity. Of several vertices, the first.
-/// A search in a tree of boxes on all threads: with triangles of similar size some n log n. `control` learns the
+/// Over all vertices and those triangles that do not have the vertex as a corner, face the opposite way (normals at
+/// least 120 degrees apart) and are closer than their longest edge; none: infinity. Of several vertices, the first. A
+/// search in a tree of boxes on all threads: with triangles of similar size about n log n steps. `control` learns the
 /// progress of the present stage. Throws Cancelled.
 Approach closest_facing_approach(const SurfaceMesh& mesh, Control& control);
 Approach closest_facing_approach(const SurfaceMesh& mesh);

@@ -25,7 +25,7 @@ namespace {
 struct EdgeUse {
     std::uint64_t key;  // both vertices, the smaller one in the upper half
     int half_edge;
-    auto operator<=>(const EdgeUse&) const = default;
+    auto operator<=>(const EdgeUse&) const = default;  // NOLINT(modernize-use-nullptr): of clang-tidy 14
 };
 
 std::vector<EdgeUse> sorted_edge_uses(const SurfaceMesh& mesh) {

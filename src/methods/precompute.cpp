@@ -60,12 +60,12 @@ Findings findings_of(const SurfaceMesh& surface, const std::vector<Solid>& solid
     return findings;
 }
 
-/// Whether both methods look for the same in a surface.
+/// Whether both methods find the same in a surface.
 bool same_findings(MethodKind a, MethodKind b) {
     return a->integrates_boundary == b->integrates_boundary && a->shows_averages == b->shows_averages;
 }
 
-/// before: of the same surface, or null.
+/// before: a model of the same surface, or null.
 std::shared_ptr<const Model> precompute(const Body& body, const Method& method, const Model* before, Control& control) {
     require_possible(method, body.material);
     if (before == nullptr || method.kind != before->method().kind || method.mode != before->method().mode)

@@ -13,8 +13,8 @@ namespace elastolab {
 std::shared_ptr<const Model> precompute(const Body& body, const Method& method, Control& control);
 
 /// The same body with another material or method; takes over whatever does not change. A change of Young's modulus
-/// costs nothing. A change of Poisson's ratio integrates nothing by FEM, and by symmetric Galerkin BEM up to 1900
-/// vertices only the first time (but for the rows of the constrained triangles). Throws as precompute does.
+/// costs nothing. A change of Poisson's ratio needs no new integrals for FEM, nor, after the first such change, for
+/// symmetric Galerkin BEM up to 1900 vertices (but for the rows of constrained triangles). Throws as precompute does.
 std::shared_ptr<const Model> precompute_again(const Model& before, const Material& material, const Method& method,
                                               Control& control);
 

@@ -22,9 +22,9 @@ std::vector<std::string> method_names();
 
 /// The one that is taken when nobody chooses.
 MethodKind default_method();
-/// The one that the viewer begins with: the most accurate, which is ready to be pulled hardly later than the default.
+/// The one that the viewer begins with: the most accurate, and ready to be pulled hardly later than the default.
 MethodKind first_method();
-/// The one that answers on a coarse surface while others compute: few unknowns for its accuracy, whatever the triangles.
+/// The one that answers on a coarse surface while others compute: few unknowns for its accuracy, on any triangles.
 MethodKind preview_method();
 
 /// By MethodTraits::name; nothing for an unknown name.

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kNearestZoom = 1e-4, kFarthestZoom = 1e3;  // distance / scene radius
 constexpr double kFrameMargin = 1.08;                       // room around a framed ball
-constexpr double kInFront = 1.6, kBehind = 8.0;             // scene radii before and after its centre that are in sight
+constexpr double kInFront = 1.6, kBehind = 8.0;             // scene radii in sight in front of its centre and behind
 constexpr double kNearestPlane = 0.02;                      // of the distance
 constexpr double kRounding = 1e-9;                          // of an orientation, after many turns
 
@@ -23,7 +23,7 @@ double slope_per_pixel(const Viewport& viewport) {
     return 2.0 * std::tan(0.5 * Camera::kFieldOfView) / viewport.height;
 }
 
-/// Any direction across this one.
+/// Any direction perpendicular to this one.
 Eigen::Vector3d across(const Eigen::Vector3d& direction) {
     Eigen::Index smallest = 0;
     direction.cwiseAbs().minCoeff(&smallest);
@@ -58,7 +58,7 @@ Eigen::Matrix4d Camera::projection(double aspect, double unit) const {
     const double scale = 1.0 / std::tan(0.5 * kFieldOfView);
     Eigen::Matrix4d matrix = Eigen::Matrix4d::Zero();
     matrix(0, 0) = scale / aspect;
-    matrix(0, 2) = covered_;  // half of it of the width, which is 2 in clip coordinates
+    matrix(0, 2) = covered_;  // half of it, times the width, which is 2 in clip coordinates
     matrix(1, 1) = scale;
     matrix(2, 2) = -(far + near) / (far - near);
     matrix(2, 3) = -2.0 * far * near / (far - near);
@@ -71,8 +71,8 @@ void Camera::orbit(double dx, double dy, const Viewport& viewport) {
     pose_.orientation = turn(-dx * per_pixel, up_axis_) * pose_.orientation;
     const double upright = up().dot(up_axis_);
     const double side = upright >= -kRounding ? 1.0 : -1.0;  // -1: upside down, by set_pose()
-    // 0 when looking down. By both of its sides, as near the poles an arc cosine has half the digits; a camera that is
-    // upright but for rounding may be just beyond a pole.
+    // 0 when looking down. From its sine and cosine, as near the poles an arc cosine keeps half the digits; a camera
+    // that is upright but for rounding may be just beyond a pole.
     double polar = std::atan2(side * upright, backward().dot(up_axis_));
     if (polar < -0.5 * std::numbers::pi) polar += 2.0 * std::numbers::pi;
     const double wanted = std::clamp(polar - side * dy * per_pixel, 0.0, std::numbers::pi);
@@ -99,8 +99,8 @@ void Camera::fit(const PositionsView& points, double aspect) {
     const Eigen::Matrix3d axes = pose_.orientation.toRotationMatrix();
     const Eigen::Vector3d origin = points.col(0);
     const Eigen::Matrix3Xd local = axes.transpose() * (points.colwise() - origin);
-    // The eye is where the four sides of the picture's pyramid touch the points: the pairs of opposite sides each give
-    // a place across and a distance, and the farther one is taken.
+    // The four sides of the viewing frustum are to touch the points: each pair of opposite sides gives the eye a place
+    // across and a distance, of which the larger is taken.
     const auto side = [&](Eigen::Index axis, double slope) {
         const double high = (local.row(axis) + slope * local.row(2)).maxCoeff();
         const double low = (local.row(axis) - slope * local.row(2)).minCoeff();

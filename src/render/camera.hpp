@@ -49,8 +49,7 @@ public:
     Eigen::Vector3d up() const { return pose_.orientation * Eigen::Vector3d::UnitY(); }
     Eigen::Vector3d backward() const { return pose_.orientation * Eigen::Vector3d::UnitZ(); }
 
-    /// Something stands before the right of every viewport, over this part of its width: the middle of what is seen is
-    /// then the middle of the rest.
+    /// Something covers this share of every viewport's width, at its right: the view is then centred in the rest.
     void set_covered(double part) { covered_ = part; }
     double covered() const { return covered_; }
 
@@ -60,8 +59,8 @@ public:
     /// around the scene, and stays clear of the eye.
     Eigen::Matrix4d projection(double aspect, double unit = 1.0) const;
 
-    /// A drag of the cursor by (dx, dy) pixels turns the view about the target: sideways about the up axis, upward
-    /// until looking along it. The height of the viewport is half a turn.
+    /// A drag of the cursor by (dx, dy) pixels turns the view about the target: sideways about the up axis, up and
+    /// down until it looks along that axis. The height of the viewport is half a turn.
     void orbit(double dx, double dy, const Viewport& viewport);
     /// Moves the view so that what is seen at `from` in the plane of the target is then seen at `to`.
     void pan(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Viewport& viewport);
@@ -70,7 +69,7 @@ public:
     void zoom_to(const Eigen::Vector2d& cursor, double factor, const Eigen::Vector3d& anchor, const Viewport& viewport);
     /// Puts this ball in the middle, as large as fits. Keeps the orientation.
     void frame(const SceneFrame& ball, double aspect);
-    /// Moves and comes as near as these points, one column each, fit with a margin. Keeps the orientation.
+    /// Moves and comes as near as these points (one column each) allow, with a margin. Keeps the orientation.
     void fit(const PositionsView& points, double aspect);
     /// Turns about the target to look from there.
     void set_view(ViewDirection from);

@@ -12,6 +12,7 @@ namespace elastolab {
 using PackedColour = std::array<std::uint8_t, 4>;
 
 inline PackedColour pack(const Colour& colour) {
+    // NOLINTNEXTLINE(bugprone-incorrect-roundings): nothing is negative, and lround is slow
     const auto byte = [](float x) { return static_cast<std::uint8_t>(std::clamp(x, 0.0f, 1.0f) * 255.0f + 0.5f); };
     return {byte(colour.r), byte(colour.g), byte(colour.b), byte(colour.a)};
 }

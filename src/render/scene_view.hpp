@@ -3,14 +3,14 @@
 #include <Eigen/Core>
 
 #include "render/camera.hpp"
-#include "render/scene_frame.hpp"
 #include "render/gl/shader.hpp"
+#include "render/scene_frame.hpp"
 #include "render/viewport.hpp"
 
 namespace elastolab {
 
 /// What a drawing knows of the camera in one frame. Eye coordinates are in units of the camera's scene radius. Pixels
-/// are of the framebuffer: `pixel_ratio` of them to a logical one, which all sizes in styles are multiplied by.
+/// are of the framebuffer: `pixel_ratio` of them make a logical one, and all sizes in styles are multiplied by it.
 class SceneView {
 public:
     SceneView(const Camera& camera, const Viewport& viewport, double pixel_ratio = 1.0);

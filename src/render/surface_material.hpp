@@ -2,7 +2,7 @@
 
 namespace elastolab {
 
-/// What a surface looks made of; shaders/lighting.glsl knows them by number.
+/// What a surface appears to be made of; shaders/lighting.glsl knows them by number.
 enum class SurfaceMaterial { studio, clay, wax, metal };
 
 }  // namespace elastolab

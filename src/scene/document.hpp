@@ -88,7 +88,7 @@ enum class ProxyUse {
     never,      ///< a surface that a method cannot use is an error
     automatic,  ///< where the method cannot use the surface itself
     always,
-    fill  ///< none: where the method cannot use it, the surface itself with its holes filled
+    fill  ///< none around it; a surface that the method cannot use has its holes filled
 };
 struct ProxyChoice {
     ProxyUse use = ProxyUse::automatic;
@@ -96,7 +96,7 @@ struct ProxyChoice {
     bool operator==(const ProxyChoice&) const = default;
 };
 inline constexpr int kFewestProxyVertices = 20, kMostProxyVertices = 100000;
-/// The words of scene files and command lines; nothing for another one.
+/// The words that scene files and command lines use; nothing for any other.
 std::string_view name(ProxyUse use);
 std::optional<ProxyUse> parse_proxy_use(std::string_view text);
 
@@ -108,8 +108,7 @@ struct FixedSet {
 };
 /// What a fixed set without a name of its own is called.
 std::string default_fixed_name(std::size_t place);
-/// Whether scene files have them as one selector, without a list and names: a single set that has the name it would
-/// have anyway.
+/// Whether scene files write them as one selector, without a list and names: a single set that has its default name.
 bool is_plain(const std::vector<FixedSet>& sets);
 
 /// Where a scene is looked at from.
@@ -141,7 +140,7 @@ struct Document {
     std::optional<ViewPoint> camera = {};  ///< none: the whole body is to be seen
 };
 
-/// Whether they state the same problem in the same way; where it is looked at from makes no difference.
+/// Whether they state the same problem in the same way; the camera makes no difference.
 bool operator==(const Document& a, const Document& b);
 
 }  // namespace elastolab

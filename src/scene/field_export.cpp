@@ -23,7 +23,7 @@ using DisplacementColumns = Eigen::Map<const Eigen::Matrix3Xd>;
 
 DisplacementColumns as_columns(const Eigen::VectorXd& u) { return {u.data(), 3, u.size() / 3}; }
 
-/// Rows of values at the model's vertices, as the shown ones have them.
+/// Rows of values at the model's vertices, carried to the shown ones.
 Eigen::MatrixXd as_shown(const SolvedBody& solved, const Eigen::MatrixXd& rows) {
     if (!solved.proxy) return rows;
     Eigen::MatrixXd shown(rows.rows(), solved.shown->n_vertices());
@@ -61,7 +61,7 @@ void write_inside(std::ostream& out, const fs::path& name, const SolvedBody& sol
     const std::shared_ptr<const Volume> volume = Volume::of(solved.model, control);
     if (!volume)
         throw Error(one_line(name.string()) + ": " + std::string(elastolab::name(solved.model->method().kind)) +
-                    " has no tetrahedra inside. Choose .vtp, or a method of finite elements.");
+                    " has no tetrahedra inside. Choose .vtp, or a finite-element method.");
     const Eigen::VectorXd u = volume->displace(solved.simulated_displacement);
     const std::vector<MeshField> cells = cell_stresses(volume->mesh(), as_columns(u), solved.model->body().material);
     TetMesh moved = volume->mesh();

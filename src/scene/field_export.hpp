@@ -13,13 +13,13 @@
 
 namespace elastolab {
 
-/// A solution of which the fields are known at every vertex: what is written to files.
+/// A solution whose fields are known at every vertex: what is written to files.
 struct SolvedBody {
-    std::shared_ptr<const SurfaceMesh> shown;  ///< of the scene, whose vertices the results speak of
-    std::shared_ptr<const Proxy> proxy;        ///< that was simulated in its place; null: shown itself was
+    std::shared_ptr<const SurfaceMesh> shown;  ///< that of the scene; results are at its vertices
+    std::shared_ptr<const Proxy> proxy;        ///< what was simulated in its place; null: shown itself
     std::shared_ptr<const Model> model;
     Eigen::VectorXd displacement;            ///< of the shown vertices, 3*n [L]
-    Eigen::VectorXd simulated_displacement;  ///< of those of the model's surface, 3*n [L]
+    Eigen::VectorXd simulated_displacement;  ///< of the vertices of the model's surface, 3*n [L]
     std::vector<int> constrained;            ///< vertices of the model's surface
     Eigen::Matrix3Xd forces;                 ///< reactions at these, 3 x n [force]
 };

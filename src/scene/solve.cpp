@@ -67,7 +67,7 @@ void precompute_model(const Method& method, const Body& body, Solution& solution
     append(solution.findings, findings_of_model(*solution.model));
 }
 
-/// Part of the largest reaction from which an imbalance is told.
+/// Share of the largest reaction above which an imbalance is reported.
 constexpr double kLargeImbalance = 0.05;
 
 void add_imbalance(const Imbalance& imbalance, MethodKind method, Findings& findings) {
@@ -121,6 +121,7 @@ void apply(const Constraints& constraints, bool with_checks, Solution& solution,
 void carry_back(const CarriedConstraints& carried, Solution& solution) {
     const Eigen::VectorXd u = carried.displacement(solution.displacement.reshaped());
     solution.displacement = Eigen::Map<const Eigen::Matrix3Xd>(u.data(), 3, u.size() / 3);
+    solution.findings = carried.as_shown(std::move(solution.findings));
 }
 
 }  // namespace

@@ -22,8 +22,8 @@ struct SolveRequest {
     std::filesystem::path scene_file;
     Document document;
     Method method;  ///< with the kind that the command line or the scene asks for
-    /// Solving once, on demand: take the direct update, which factorises once and nothing else, unless the body is not
-    /// held; then the reduced one.
+    /// Solving once, on demand: take the direct update, which needs one factorisation and nothing else, or the reduced
+    /// one if the body is not held.
     bool solve_once = false;
     /// Residual, and the estimates of the error, which take up to three times the solve.
     bool with_checks = true;
@@ -37,7 +37,8 @@ struct GroupReaction {
 };
 
 /// How far the reactions are from equilibrium: the resultant of all groups over the largest of one group; 0 where
-/// there is no force. Moments are about the centroid of the body's vertices, where a force counts with the body's size.
+/// there is no force. Moments are about the mean of the body's vertices; a force times the body's radius counts as one
+/// when the largest is sought.
 struct Imbalance {
     double force = 0.0, moment = 0.0;
 };
@@ -45,14 +46,14 @@ Imbalance imbalance_of(const std::vector<GroupReaction>& reactions, const Surfac
 
 /// Everything that solve writes or prints.
 struct Solution {
-    std::shared_ptr<const SurfaceMesh> surface;  ///< that of the scene, whose vertices the results speak of
-    std::shared_ptr<const Proxy> proxy;          ///< that was simulated in its place; null: the surface itself was
+    std::shared_ptr<const SurfaceMesh> surface;  ///< that of the scene; results are at its vertices
+    std::shared_ptr<const Proxy> proxy;          ///< what was simulated in its place; null: the surface itself
     std::shared_ptr<const Model> model;
     Cost predicted;
     std::string mesh_name;
     int n_constrained = 0;
     Eigen::Matrix3Xd displacement;  ///< 3 x n_vertices [L]
-    /// Of the vertices of the model's surface, and reactions at those of them that are constrained: for fields.
+    /// For fields: displacements of the model's surface, its constrained vertices, and the reactions there.
     Eigen::VectorXd simulated_displacement;
     std::vector<int> constrained;
     Eigen::Matrix3Xd forces;

@@ -19,7 +19,7 @@ void set_errors(Row& row, const Problem& problem, const Eigen::VectorXd& u) {
     row.set("error", problem.error(u)).set("error_max", problem.largest_error(u));
 }
 
-/// What is left empty where there is nothing.
+/// Not a number, which leaves a cell empty, where there is no value.
 double or_nothing(const std::optional<double>& value) {
     return value.value_or(std::numeric_limits<double>::quiet_NaN());
 }

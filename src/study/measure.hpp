@@ -22,7 +22,7 @@ struct Repeats {
 ///   once_s         a single solve and nothing kept (the program's `solve`)
 ///   frame_s        a frame of a drag
 ///   error, error_max, error_force, condition, residual, warnings
-///   estimate, estimate_force   what the program says of the largest error of displacements and of reactions
+///   estimate, estimate_force   the program's own estimates of the largest error of displacements and of reactions
 ///   check_s        an answer with these estimates
 Row measure(const Problem& problem, const Method& method, const Repeats& repeats, Control& control);
 

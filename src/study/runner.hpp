@@ -32,7 +32,7 @@ struct RunResult {
 
 /// Runs the cases that are not finished yet, then writes STUDY.csv, plots with their scripts, and README.md. Until all
 /// cases are done they are kept in STUDY.partial.csv, from which the next run goes on when program, machine, threads,
-/// seed and options are the same; with others, the file is kept under another name. Two runs at a time in one folder
+/// seed and options are the same; otherwise the file is kept under another name. Two runs at a time in one folder
 /// are refused.
 ///
 /// STUDY.csv: a header, the study's columns, `note`, then those of provenance().

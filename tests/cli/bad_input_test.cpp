@@ -123,7 +123,7 @@ INSTANTIATE_TEST_SUITE_P(
         changed("NoVersion", R"("elastolab": 1, )", "", {"/elastolab", "is missing"}),
         changed("NewerVersion", R"("elastolab": 1)", R"("elastolab": 7)", {"/elastolab", "version 7"}),
         changed("UnknownKey", R"("method")", R"("methode")", {"/methode"}),
-        changed("DuplicateKey", R"("elastolab": 1)", R"("elastolab": 1, "elastolab": 1)", {"stands twice"}),
+        changed("DuplicateKey", R"("elastolab": 1)", R"("elastolab": 1, "elastolab": 1)", {"appears twice"}),
         changed("Overflow", "1000", "1e400", {"line 1", "overflow"}),
         changed("NegativeYoung", "1000", "-1", {"/material/young_modulus", "must be positive"}),
         changed("PoissonOne", "0.3}", "1}", {"/material/poisson_ratio"}),

@@ -243,7 +243,7 @@ TEST(Check, ReportsTrianglesWithoutAreaAndSlivers) {
     EXPECT_EQ(count(thin(1e-2), Kind::sliver_triangles), 0);
     EXPECT_EQ(count(thin(5e-4), Kind::sliver_triangles), 8);
     EXPECT_TRUE(thin(5e-4).usable());
-    EXPECT_THAT(only_defect(thin(5e-5)).text, testing::HasSubstr("most of their digits"));
+    EXPECT_THAT(only_defect(thin(5e-5)).text, testing::HasSubstr("fewer than nine digits"));
     EXPECT_EQ(count(thin(0.0), Kind::degenerate_triangles), 8);
 }
 

@@ -130,7 +130,7 @@ TEST(ImportHelper, ReadsAFileWhoseNameLeadsUpAndDown) {
 
 TEST(ImportHelper, ReadsFormatsOfItsListOnly) {
     const TemporaryFolder folder;
-    EXPECT_THAT(finding(folder.write("a.bvh", "HIERARCHY")), HasSubstr("is of no format that is read"));
+    EXPECT_THAT(finding(folder.write("a.bvh", "HIERARCHY")), HasSubstr("has an unsupported format"));
     EXPECT_THAT(finding(folder.write("mesh", "OFF")), HasSubstr("has no extension"));
 }
 

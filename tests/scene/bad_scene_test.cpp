@@ -59,9 +59,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{"NaN", ROOT(R"("material": {"young_modulus": NaN})"), "line 1", "invalid literal"},
         BadScene{"Overflow", ROOT("\n\"material\": {\"young_modulus\": 1e999}"), "line 2", "number overflow"},
         BadScene{"BadUtf8", "{\"\xff\": 1}", "line 1", "ill-formed UTF-8"},
-        BadScene{"DuplicateKey", R"({"elastolab": 1, "elastolab": 1})", "/elastolab", "stands twice"},
+        BadScene{"DuplicateKey", R"({"elastolab": 1, "elastolab": 1})", "/elastolab", "appears twice"},
         BadScene{"NestedDuplicateKey", HANDLE(R"({"select": {"box": {"min": 1, "min": 2}}})"),
-                 "/handles/0/select/box/min", "stands twice"},
+                 "/handles/0/select/box/min", "appears twice"},
         BadScene{"Array", "[1]", "must be an object", "is [1]"}, BadScene{"Null", "null", "must be an object", "null"}),
     case_name);
 
@@ -170,7 +170,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{"BadMatrix", HANDLE("{" SELECT R"(, "matrix": [[0, 0, 0], [0, 0], [0, 0, 0]]})"),
                  "/handles/0/matrix/1", "must have 3 entries"},
         BadScene{"BothMotions", HANDLE("{" SELECT R"(, "translate": [0, 0, 0], "displacements": [[0, 0, 0]]})"),
-                 "/handles/0", "beside"},
+                 "/handles/0", "both displacements and"},
         BadScene{"BadDisplacement", HANDLE("{" SELECT R"(, "displacements": [[0, 0]]})"), "/handles/0/displacements/0",
                  "must have 3 entries"}),
     case_name);

@@ -121,6 +121,28 @@ TEST(CarriedConstraints, APartSmallerThanATriangleHoldsTheNearestOne) {
     EXPECT_THAT(carried.constraints().set.handles.size(), testing::AllOf(testing::Ge(1u), testing::Le(4u)));
 }
 
+TEST(CarriedConstraints, APointIsToldOfByTheVertexThatIsShown) {
+    const auto proxy = proxy_of(kBar, 300);
+    const auto points_told = [&](std::vector<int> pulled) {
+        Document document = bar(AffineMotion{});
+        document.handles = {{.name = "spot", .select = {VertexSelector{std::move(pulled)}}, .motion = AffineMotion{}}};
+        CarriedConstraints carried(proxy);
+        carried.set(make_constraints(document, kBar, "s.json"));
+        // As the solver of the proxy says it: one of its own vertices.
+        const Findings of_proxy = {{.kind = FindingKind::free_motion},
+                                   {.kind = FindingKind::point_constraint, .value = 2.0, .first = 299}};
+        return carried.as_shown(of_proxy);
+    };
+    const Eigen::Vector3i patch = kBar.triangles.col(kBar.n_triangles() / 2);
+    const Findings of_a_point = points_told({patch[0]});
+    ASSERT_THAT(of_a_point, testing::SizeIs(2));
+    EXPECT_EQ(of_a_point[0].kind, FindingKind::free_motion);
+    EXPECT_EQ(of_a_point[1].kind, FindingKind::point_constraint);
+    EXPECT_EQ(of_a_point[1].first, patch[0]);
+    EXPECT_EQ(of_a_point[1].value, 1.0);
+    EXPECT_THAT(points_told({patch.begin(), patch.end()}), testing::SizeIs(1));
+}
+
 TEST(CarriedConstraints, OneDisplacementEachIsInterpolated) {
     Document document =
         bar(AffineMotion{.matrix = Eigen::Vector3d(0.1, 0.2, 0.3).asDiagonal(), .translate = {1, 0, 0}});

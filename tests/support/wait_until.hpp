@@ -6,8 +6,8 @@
 
 namespace elastolab::test {
 
-/// Waits until `condition()` holds; false when it does not within a minute, which is far beyond what anything takes
-/// that a test waits for, so that a test which waits in vain fails instead of hanging. ASSERT_TRUE(wait_until(...)).
+/// Waits until `condition()` holds; false when it does not within a minute, far longer than anything that a test waits
+/// for takes, so that a test that waits in vain fails instead of hanging. ASSERT_TRUE(wait_until(...)).
 template <class Condition>
 bool wait_until(const Condition& condition, std::chrono::seconds at_most = std::chrono::seconds(60)) {
     const auto end = std::chrono::steady_clock::now() + at_most;

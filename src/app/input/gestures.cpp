@@ -117,7 +117,7 @@ void Gestures::press_body(GestureContext& context, const PickHit& hit) {
     if (owner == LiveScene::kFixed) {
         selected_fixed_ = context.scene.fixed_set_of(hit.vertex);
         hint_ = "This vertex is fixed. Free it with the brush (B) and Shift.";
-        action_ = Action::blocked;  // to turn the view would look as if the body had been pulled
+        action_ = Action::blocked;  // turning the view would look as if the body had been pulled
     } else if (owner != LiveScene::kNobody) {
         begin_pull(context, owner, Grabbed::present_handle, hit);
     } else {
@@ -198,7 +198,7 @@ void Gestures::paint(GestureContext& context) {
                 hold_);
 }
 
-/// Fixes these vertices, those inside the body aside, or frees them, in the selected set.
+/// Fixes or frees these vertices, except those inside the body, in the selected set.
 void Gestures::fix_or_free(const GestureContext& context, std::vector<int> vertices, Hold hold) {
     std::erase_if(vertices, [&](int v) { return !is_on_surface(context, v); });
     LiveScene& scene = context.scene;

@@ -65,7 +65,7 @@ public:
     void handle(const InputEvent& event, GestureContext& context);
     /// Moves what springs back; true while something does.
     bool animate(double now, GestureContext& context);
-    /// Ends at once what is going on (an edit from elsewhere comes).
+    /// Ends at once what is going on (before an edit from elsewhere).
     void finish(GestureContext& context);
     /// Forgets everything: the scene was replaced.
     void reset();
@@ -151,7 +151,7 @@ private:
 
     Action action_ = Action::none;
     int button_ = -1;
-    std::size_t target_ = 0;  ///< that the action goes on in
+    std::size_t target_ = 0;  ///< the one that the action goes on in
     Eigen::Vector2d cursor_ = Eigen::Vector2d::Zero(), last_cursor_ = cursor_, press_cursor_ = cursor_;
     bool dragged_ = false;
     Hold hold_ = Hold::fix;  ///< what brush and box do

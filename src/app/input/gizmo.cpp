@@ -15,8 +15,8 @@ namespace {
 
 // In lengths of the arrows.
 constexpr double kRing = 0.68, kArrowBegin = 0.78, kFree = 0.3;
-constexpr double kReach = 7.0;        ///< of the cursor [pixels]
-constexpr double kShortArrow = 12.0;  ///< on the screen, which points at the eye [pixels]
+constexpr double kReach = 7.0;        ///< how near the cursor must be [pixels]
+constexpr double kShortArrow = 12.0;  ///< on the screen; a shorter one points at the eye [pixels]
 constexpr int kRingSteps = 64;
 constexpr double kEdgeOn = 0.15;  ///< cosine between the viewing direction and the axis of a ring
 
@@ -59,7 +59,7 @@ Eigen::Matrix3d axes_on(const Eigen::Vector3d& normal) {
     return axes;
 }
 
-/// The turn in what a handle was made to do; none for motions of single vertices.
+/// The rotation part of a handle's motion; the identity for motions of single vertices.
 Eigen::Matrix3d own_axes(const Motion& motion) {
     const auto* affine = std::get_if<AffineMotion>(&motion);
     if (affine == nullptr) return Eigen::Matrix3d::Identity();

@@ -33,7 +33,7 @@ struct Gizmo {
 
 /// At a handle as it is shown: `positions` are those of all vertices.
 Gizmo handle_gizmo(const LiveScene& scene, int handle, const Positions& positions, GizmoAxes axes);
-/// At the plane of the cut, through the middle of the body at rest: an arrow across it and rings for turn and tilt.
+/// At the plane of the cut, through the middle of the body at rest: an arrow normal to it and rings for turn and tilt.
 Gizmo plane_gizmo(const Positions& rest, const DisplaySettings& display);
 
 /// A part as it is seen, a line of points [logical pixels]; of a ring the half towards the eye. Empty where it is
@@ -47,8 +47,8 @@ std::optional<GizmoPart> part_at(const Gizmo& gizmo, const Camera& camera, const
 double dragged(const Gizmo& gizmo, const GizmoPart& part, const Camera& camera, const Viewport& viewport,
                const Eigen::Vector2d& from, const Eigen::Vector2d& to);
 
-/// How far the cursor, moved from one place to the other, drags a point along a line of this direction (of unit length)
-/// [L]; 0 where that points at the eye and gives nothing to hold on to.
+/// How far the cursor, moved from one place to the other, drags a point along this direction (of unit length) [L]; 0
+/// where the direction points at the eye.
 double dragged_along(const Camera& camera, const Viewport& viewport, const Eigen::Vector3d& point,
                      const Eigen::Vector3d& direction, const Eigen::Vector2d& from, const Eigen::Vector2d& to);
 

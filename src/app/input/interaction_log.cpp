@@ -40,7 +40,7 @@ int integer(const Json& json, int low, int high) {
 
 InputEvent event_of(const Json& json, double seconds) {
     const auto kind = std::find(kKinds.begin(), kKinds.end(), json.at(0).get<std::string>());
-    if (kind == kKinds.end() || json.size() != 7) throw std::runtime_error("is no event");
+    if (kind == kKinds.end() || json.size() != 7) throw std::runtime_error("is not a known event");
     InputEvent event;
     event.kind = static_cast<InputEvent::Kind>(kind - kKinds.begin());
     event.cursor = {json.at(1).get<double>(), json.at(2).get<double>()};
@@ -75,7 +75,7 @@ InteractionRecorder::InteractionRecorder(const std::filesystem::path& file, cons
 InteractionRecorder::~InteractionRecorder() {
     try {
         finish();
-    } catch (const std::exception&) {  // finish() tells those who ask
+    } catch (const std::exception&) {  // whoever needs to know calls finish()
     }
 }
 

@@ -34,8 +34,8 @@ double circumference(const SurfaceMesh& mesh, const Eigen::Vector3i& t) {
     return (x.col(t[0]) - x.col(t[1])).norm() + (x.col(t[1]) - x.col(t[2])).norm() + (x.col(t[2]) - x.col(t[0])).norm();
 }
 
-/// A connected patch made of whole triangles: vertices that have none within it take along the smallest free one that
-/// has another corner in it, or are dropped where there is none. The first vertex always stays first.
+/// A connected patch made of whole triangles: a vertex without one in the patch adds its smallest free triangle that
+/// has another corner in it, or is dropped where there is none. The first vertex always stays first.
 std::vector<int> with_whole_triangles(const SurfaceMesh& mesh, const std::vector<int>& patch,
                                       const std::function<bool(int)>& is_free) {
     enum State : char { outside, alone, whole };

@@ -19,10 +19,10 @@ private:
 };
 
 /// Vertices around `center` (first in the list): those within `radius` [L] of it that can be reached over others of
-/// them, so that a patch does not jump to the other side of a thin part. Of these the free ones, and where the radius
-/// is not 0 corners of whole triangles only: a vertex that has none within its patch is a point load, whose answer
-/// depends on the mesh. It takes along a triangle that it shares with the patch, which reaches beyond the radius, or is
-/// left out where none is free. `center` must be free. Rest positions.
+/// them, so that a patch does not jump to the other side of a thin part; of these only the free ones. Where the radius
+/// is not 0, only corners of whole triangles: a lone vertex is a point load, whose answer depends on the mesh. A vertex
+/// that has none adds a triangle that it shares with the patch, even beyond the radius, or is left out where none is
+/// free. `center` must be free. Rest positions.
 std::vector<int> patch_around(const SurfaceMesh& mesh, const VertexGraph& graph, int center, double radius,
                               const std::function<bool(int)>& is_free);
 

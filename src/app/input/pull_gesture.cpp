@@ -44,7 +44,8 @@ void Gestures::begin_pull(GestureContext& context, int handle, Grabbed grabbed, 
     set_baseline(context);
 }
 
-/// What is shown may lag behind while a new handle is prepared: the place follows from the motion since the last one.
+/// What is shown may lag behind while a new handle is prepared: the place is moved on by the motion since the baseline
+/// before.
 void Gestures::set_baseline(GestureContext& context) {
     pull_.mode = pull_mode(context.tools);
     pull_.cursor = cursor_;
@@ -84,7 +85,6 @@ void Gestures::pull(GestureContext& context) {
     if (!pull_.moved && (cursor_ - press_cursor_).norm() < kClickPixels) return;
     pull_.moved = true;
     if (gizmo_drag_) return pull_by_gizmo(context);
-    const std::span<const int> vertices = context.scene.vertices(pull_.handle);
     if (pull_.mode != PullMode::turn && pull_.mode != PullMode::scale) {
         Eigen::Vector3d shift = pull_shift(context) / context.display.deformation_scale;
         if (context.tools.snap) shift = in_steps(shift, pull_.mode != PullMode::plane, snap_length(context.scene));
@@ -105,7 +105,7 @@ void Gestures::pull(GestureContext& context) {
                                   .toRotationMatrix());
 }
 
-/// By a linear map about the middle of the handle.
+/// Applies a linear map about the middle of the handle.
 void Gestures::transform_pulled(GestureContext& context, const Eigen::Matrix3d& map) {
     const std::span<const int> vertices = context.scene.vertices(pull_.handle);
     const Positions rest =
@@ -183,7 +183,7 @@ void Gestures::end_pull(GestureContext& context) {
     }
 }
 
-/// Of the person's, or made by this press: in either case nothing of it is left.
+/// Whether the handle was there before or was made by this press, nothing of it is left.
 void Gestures::remove_pulled(GestureContext& context) {
     context.scene.remove_handle(pull_.handle);
     context.scene.commit();

@@ -28,11 +28,11 @@ void draw_poisson_ratio(ViewerState& state, float scale) {
 
 constexpr std::array<Choice<ProxyUse>, 2> kProxyUses = {
     {{ProxyUse::automatic, "through a proxy",
-      "A closed surface around the body is simulated, and what is shown hangs on it. Any triangles can be pulled so."},
+      "A closed surface around the body is simulated, and the body moves with it. Works for any triangles."},
      {ProxyUse::fill, "with holes filled",
-      "The surface itself, all its vertices where they are: each hole is closed by triangles that go on smoothly. "
-      "Possible where holes are all that is wrong with it."}}};
-/// Of a proxy, between which a person chooses.
+      "The surface itself, its vertices unchanged: each hole is filled with a smooth patch of triangles. "
+      "Works where holes are its only defect."}}};
+/// Range of a proxy's vertices that a person can choose.
 constexpr int kFewestChosen = 100, kMostChosen = 10000;
 
 }  // namespace
@@ -67,7 +67,9 @@ void Panels::draw_young_modulus(ViewerState& state, float scale) {
     set_item_width(scale);
     if (ImGui::InputDouble("Young's modulus", &value, 0.0, 0.0, "%.4g")) typed_modulus_ = value;
     const bool left = ImGui::IsItemDeactivatedAfterEdit(), active = ImGui::IsItemActive();
-    tooltip("Stiffness: force per area for a stretch by its own length. Displacements do not depend on it, forces do.");
+    tooltip(
+        "Stiffness: force per area that would stretch it by its own length. Displacements do not depend on it, forces "
+        "do.");
     if (left && typed_modulus_) state.set_young_modulus(*typed_modulus_);
     if (!active) typed_modulus_.reset();
 }
@@ -85,7 +87,7 @@ void Panels::draw_defects(const PanelContext& context) {
             const double radius = kFlightPart * (report.max_corner - report.min_corner).norm();
             state.camera.frame({place, radius}, context.layout.scene.aspect());
         }
-        tooltip("Goes to one of its places after another; F shows the whole body again.");
+        tooltip("Shows its places one after another; F shows the whole body again.");
         if (!defect.places.empty()) ImGui::SameLine();
         paragraph(defect.text, context.palette.bad);
         ImGui::PopID();

@@ -22,18 +22,18 @@ constexpr std::array<Choice<Field>, 13> kFields = {
       "each triangle and, where it is held, the traction."},
      {Field::first_principal, "first principal stress", "The largest tension in any direction; negative: pressure."},
      {Field::third_principal, "third principal stress", "The largest pressure in any direction, negative."},
-     {Field::stress_xx, "stress xx", "Force along x per area across x; tension is positive."},
-     {Field::stress_yy, "stress yy", "Force along y per area across y; tension is positive."},
-     {Field::stress_zz, "stress zz", "Force along z per area across z; tension is positive."},
-     {Field::stress_xy, "stress xy", "Shear: force along x per area across y."},
-     {Field::stress_yz, "stress yz", "Shear: force along y per area across z."},
-     {Field::stress_xz, "stress xz", "Shear: force along x per area across z."}}};
+     {Field::stress_xx, "stress xx", "Force along x per area on planes normal to x; tension is positive."},
+     {Field::stress_yy, "stress yy", "Force along y per area on planes normal to y; tension is positive."},
+     {Field::stress_zz, "stress zz", "Force along z per area on planes normal to z; tension is positive."},
+     {Field::stress_xy, "stress xy", "Shear: force along x per area on planes normal to y."},
+     {Field::stress_yz, "stress yz", "Shear: force along y per area on planes normal to z."},
+     {Field::stress_xz, "stress xz", "Shear: force along x per area on planes normal to z."}}};
 
 constexpr std::array<Choice<SurfaceMaterial>, 4> kMaterials = {
-    {{SurfaceMaterial::studio, "studio", "Lamps and a bright sky; colours of fields are truest."},
-     {SurfaceMaterial::clay, "clay", "Matt and soft: shape before shine."},
-     {SurfaceMaterial::wax, "wax", "Light goes under the surface, as in skin and rubber."},
-     {SurfaceMaterial::metal, "metal", "Mirrors a horizon: shows every dent."}}};
+    {{SurfaceMaterial::studio, "studio", "Studio lights; shows the colours of fields most faithfully."},
+     {SurfaceMaterial::clay, "clay", "Matt and soft: shows the shape without highlights."},
+     {SurfaceMaterial::wax, "wax", "Light scatters below the surface, as in skin and rubber."},
+     {SurfaceMaterial::metal, "metal", "Reflects a horizon: shows every dent."}}};
 
 void draw_range(ViewerState& state, float scale) {
     DisplaySettings& display = state.display;
@@ -105,7 +105,8 @@ void Panels::draw_display(const PanelContext& context) {
          {"forces", &DisplaySettings::arrows, "What the fixed part and every handle exert on the body."},
          {"grid", &DisplaySettings::grid, ""},
          {"defects", &DisplaySettings::defects,
-          "Rims of holes, what fills them where that is simulated, and edges of more or fewer than two triangles."},
+          "Rims of holes, the patches that fill them where those are simulated, and edges of more or fewer than two "
+          "triangles."},
          {"soft shadows", &DisplaySettings::soft_shadows,
           "Hollows are darker, and the body throws a shadow on the ground."}}};
     for (std::size_t i = 0; i < kSwitches.size(); ++i) {

@@ -71,7 +71,7 @@ void Panels::draw_export_menu(ViewerState& state) {
     for (const ExportKind& kind : kExports) {
         const bool possible = std::string(kind.ending) != ".vtu" || state.method->has_inside;
         if (ImGui::MenuItem(kind.label, nullptr, false, possible)) ask_export(state, kind.ending);
-        tooltip(possible ? kind.explanation : "This method has no tetrahedra: choose one of finite elements.");
+        tooltip(possible ? kind.explanation : "This method has no tetrahedra: choose a finite-element method.");
     }
     ImGui::EndMenu();
 }

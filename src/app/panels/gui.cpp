@@ -18,7 +18,7 @@ namespace elastolab {
 namespace {
 
 constexpr float kFontSize = 15.0f, kLargeFontSize = 20.0f;
-constexpr std::size_t kMostOthers = 2000;  ///< characters beside our own, whose pictures must fit into a texture
+constexpr std::size_t kMostOthers = 2000;  ///< characters beside our own, whose glyphs must fit into a texture
 
 /// Latin, Greek, and the punctuation, arrows and mathematical signs that the panels use.
 constexpr std::array<ImWchar, 11> kOwnCharacters = {0x0020, 0x00FF, 0x0370, 0x03FF, 0x2010, 0x2044,
@@ -141,9 +141,10 @@ ImFont* Gui::load_font(const std::optional<std::filesystem::path>& file, float s
     std::vector<std::pair<FontFile, std::vector<ImWchar>>> by_font;
     for (const auto& [character, its] : others_) {
         if (!its) continue;
+        const FontFile& its_file = *its;
         auto found =
-            std::find_if(by_font.begin(), by_font.end(), [&](const auto& entry) { return entry.first == *its; });
-        if (found == by_font.end()) found = by_font.insert(found, {*its, {}});
+            std::find_if(by_font.begin(), by_font.end(), [&](const auto& entry) { return entry.first == its_file; });
+        if (found == by_font.end()) found = by_font.insert(found, {its_file, {}});
         found->second.insert(found->second.end(), 2, static_cast<ImWchar>(character));  // a range of one
     }
     for (auto& [other, ranges] : by_font) {
@@ -218,7 +219,7 @@ void Gui::begin(std::span<const InputEvent> events, double dt) {
     close_menus_on_escape();
 }
 
-/// A menu or a list, no question.
+/// A menu or a list of choices, but not a question.
 bool Gui::menu_is_open() const {
     const ImVector<ImGuiPopupData>& open = ImGui::GetCurrentContext()->OpenPopupStack;
     if (open.empty() || wants_text()) return false;

@@ -32,7 +32,7 @@ public:
     Gui(const Gui&) = delete;
     Gui& operator=(const Gui&) = delete;
 
-    /// Fonts and measures for this scale of the user's (1: as the screen suggests). Between frames.
+    /// Sets fonts and sizes for the user's scale (1: as the screen suggests). Call it between frames.
     void set_scale(float scale);
     /// Characters that will be shown, in UTF-8: those of scripts beside Latin and Greek get their glyphs from an
     /// installed font, from the next frame on.
@@ -69,7 +69,7 @@ private:
     Fonts fonts_;
     float scale_ = 0.0f;
     std::map<char32_t, std::optional<FontFile>> others_;  ///< characters beside our own, and a font that has them
-    std::vector<char32_t> wanted_;                        ///< of them, those whose font is still to be found
+    std::vector<char32_t> wanted_;                        ///< those of them whose font is still to be found
     std::list<std::vector<ImWchar>> ranges_;              ///< of the fonts that are loaded
     bool popup_was_open_ = false;                         ///< before the events of this frame, which may have closed it
 };

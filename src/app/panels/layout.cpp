@@ -12,7 +12,7 @@ constexpr double kMenu = 23.0, kStatus = 27.0, kGap = 2.0;
 constexpr double kPanel = 320.0, kLeastPanel = 216.0, kPanelPart = 0.34;  ///< of the window
 constexpr double kLeastScene = 160.0;
 
-/// As wide as it was made, else by the window; 0 where it leaves no room for the scene.
+/// As wide as the person made it, else by the window's width; 0 where it leaves no room for the scene.
 double panel_width(double window, double scale, const DisplaySettings& display) {
     if (!display.panel) return 0.0;
     const double most = window - kLeastScene * scale, least = kLeastPanel * scale;

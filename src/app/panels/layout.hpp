@@ -19,7 +19,7 @@ Layout layout_of(const Eigen::Vector2i& window, float scale, const DisplaySettin
 /// The viewports for what is compared, within the part of the window that shows the scene.
 std::vector<SceneViewport> viewports_of(const ViewerState& state, const Viewport& scene);
 
-/// Of the legend's heading, which takes as many lines as it needs [pixels at scale 1].
+/// Width of the legend's heading, which takes as many lines as it needs [pixels at scale 1].
 constexpr double kLegendHeadingWidth = 104.0;
 /// The part of the last viewport's width, at its right, over which the legend stands; 0 when no field is shown, or when
 /// the viewport is so narrow that there is room above it.

@@ -95,7 +95,7 @@ std::vector<OverlayLine> card(const PanelContext& context, int vertex, const Pro
     };
     add("at " + vector_text(value.position));
     add("moved by " + vector_text(value.displacement));
-    add("which is " + number_text(value.displacement.norm()));
+    add("length " + number_text(value.displacement.norm()));
     const Field field = state.display.field;
     if (value.field && field != Field::displacement)
         add(field_title(field, state.compare.reference) + " " + number_text(*value.field));

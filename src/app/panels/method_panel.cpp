@@ -19,7 +19,7 @@ using State = MethodRunner::State;
 
 constexpr std::array<Choice<Mode>, 2> kModes = {
     {{Mode::on_demand, "on demand",
-      "One factorisation; columns of the inverse when a handle needs them. Soonest ready."},
+      "One factorisation; columns of the inverse when a handle needs them. Ready soonest."},
      {Mode::full, "K and inverse", "The stiffness K and its (bordered) inverse in memory, as the paper has it."}}};
 
 constexpr std::array<Choice<Update>, 3> kUpdates = {
@@ -32,7 +32,7 @@ constexpr std::array<Choice<Update>, 3> kUpdates = {
 constexpr std::array<Choice<FrameRule>, 2> kFrameRules = {
     {{FrameRule::drag_columns, "moving columns",
       "Three columns of the moving handle, found when it is grabbed: a frame "
-      "reads them once, the limit of memory bandwidth."},
+      "only reads them, as fast as memory allows."},
      {FrameRule::displace, "whole update", "Every frame goes through the update rule above, to see what it costs."}}};
 
 constexpr std::array<Choice<Tractions>, 3> kTractions = {
@@ -40,7 +40,8 @@ constexpr std::array<Choice<Tractions>, 3> kTractions = {
       "Forces per area may jump at the rim of a held patch, where they are "
       "singular. Most accurate."},
      {Tractions::restricted, "restricted", "Linear over a held patch, ending at its rim."},
-     {Tractions::continuous, "continuous", "As in the paper: they leak one ring onto the free surface."}}};
+     {Tractions::continuous, "continuous",
+      "As in the paper; they spill over one ring of triangles onto the free surface."}}};
 
 /// What a person wants to know first: does the body answer, is that the method's own answer, and when will it be.
 std::string state_words(const ViewerState& state, const Cost& cost) {
@@ -236,8 +237,8 @@ void Panels::draw_mode(const PanelContext& context) {
     if (state.choices.mode != Mode::on_demand) return;
     slider("complete up to", state.choices.complete_up_to, 0, 5000, "%d vertices", context.gui.scale());
     tooltip(
-        "Bodies of at most so many vertices get K and its inverse in the background, once they can be pulled. "
-        "After that a new handle is ready sooner.");
+        "For bodies of up to this many vertices, K and its inverse are computed in the background once they can be "
+        "pulled. After that a new handle is ready sooner.");
 }
 
 }  // namespace elastolab

@@ -34,7 +34,7 @@ struct Extremes {
 };
 Extremes extremes_of(const std::vector<float>& values);
 
-/// At points of the body: forces, extremes, probes, gizmos.
+/// Draws what is at points of the body: forces, extremes, probes, gizmos.
 void draw_marks(const PanelContext& context, ImDrawList& list, const SceneViewport& viewport);
 
 }  // namespace elastolab

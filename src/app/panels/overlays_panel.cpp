@@ -41,7 +41,7 @@ std::string source_words(const ViewerState& state, MethodKind kind) {
     if (!simulation.problem(kind).empty()) return text + kDash + "not available: see Method";
     if (simulation.previewing(kind)) return text;
     if (!runner.has_answer())
-        return kDash + std::string(simulation.proxies().running()   ? "making a coarse body for a first answer"
+        return kDash + std::string(simulation.proxies().running()   ? "making a coarse mesh for a first answer"
                                    : simulation.preparing_preview() ? "preparing a first answer"
                                    : runner.preparing()             ? "preparing the held vertices"
                                    : simulation.waiting()           ? "waiting"
@@ -111,7 +111,8 @@ void draw_legend(const PanelContext& context, ImDrawList& list) {
         list.AddRectFilled({x, top}, {x + width, bottom + 0.5f}, imgui_packed(map.sample((i + 0.5) / kSteps)));
     }
     list.AddRect({x, y}, {x + width, y + height}, imgui_packed(context.palette.border));
-    const auto [low, high] = state.shown.field_range(state.display);
+    const std::pair<double, double> range = state.shown.field_range(state.display);
+    const double low = range.first, high = range.second;
     const auto place_of = [&](double value) {
         const double t = high > low ? std::clamp((value - low) / (high - low), 0.0, 1.0) : 0.5;
         return y + height * (1.0f - static_cast<float>(t));

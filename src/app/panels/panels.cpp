@@ -45,7 +45,7 @@ void Panels::save_as(ViewerState& state) {
                  .folder = present.parent_path()});
 }
 
-/// Of a scene that is to be saved before it goes. Without a name it stays.
+/// Asks for the name of a scene that is to be saved before it is replaced; without a name it stays.
 void Panels::ask_name_of_unsaved(ViewerState& state) {
     files_.open({.title = "Save the scene",
                  .extensions = {".json"},
@@ -75,7 +75,7 @@ void Panels::ask_timings(ViewerState& state) {
                  }});
 }
 
-/// Of the proxy, where one is simulated, once it is there; of nothing until then.
+/// That on the proxy, where one is simulated, once it is there; nothing until then.
 const Cost& Panels::cost(const ViewerState& state, const Method& method) {
     const SurfaceMesh* surface = state.simulation.simulated_surface(method.kind, state.scene());
     if (costs_of_scene_ != state.scene_number()) costs_.clear();

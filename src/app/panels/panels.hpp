@@ -35,11 +35,11 @@ class Panels {
 public:
     void draw(const PanelContext& context);
 
-    /// Every text of a user's that may be shown: names of bodies, handles and files, messages.
+    /// Every text from the user that may be shown: names of bodies, handles and files, messages.
     void visit_user_texts(const ViewerState& state, const std::function<void(std::string_view)>& visit) const;
 
     void ask_open(ViewerState& state);
-    /// Over the scene's own file when it was written here already, else as save_as().
+    /// Overwrites the scene's own file if this session wrote it already, else as save_as().
     void save(ViewerState& state);
     void save_as(ViewerState& state);
     void ask_export(ViewerState& state, const std::string& ending);

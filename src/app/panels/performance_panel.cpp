@@ -24,7 +24,7 @@ constexpr std::array<Part, 5> kParts = {
      {"upload", &FrameTimes::upload_ms, "Positions, normals and colours, and handing them to OpenGL."},
      {"draw", &FrameTimes::draw_ms, "Drawing the scene (what the processor spends on it)."},
      {"panels", &FrameTimes::gui_ms, "These panels."},
-     {"frame", &FrameTimes::frame_ms, "All of it, with the exchange of buffers."}}};
+     {"frame", &FrameTimes::frame_ms, "Everything, with the swap of buffers."}}};
 
 void draw_frames(const PanelContext& context) {
     const FrameHistory& history = context.state.measurements.history;

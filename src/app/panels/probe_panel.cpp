@@ -21,7 +21,7 @@ void draw_series(const PanelContext& context, std::size_t probe) {
 
 }  // namespace
 
-/// The kept probes: value now, and over what happened since they were set.
+/// The kept probes: their values now, and their course over the last changes.
 void Panels::draw_probes(const PanelContext& context) {
     ViewerState& state = context.state;
     bool probing = state.tools.tool == Tool::probe;

@@ -84,7 +84,7 @@ bool draw_numbers(const char* label, double* values, int n, const char* format, 
     return ImGui::InputScalarN(label, ImGuiDataType_Double, values, n, nullptr, nullptr, format);
 }
 
-/// Where a handle was moved, turned and scaled to, to be typed.
+/// How a handle is moved, turned and scaled, as numbers that can be typed.
 void draw_placement(ViewerState& state, int handle, float scale) {
     LiveScene& scene = state.scene();
     const std::span<const int> vertices = scene.vertices(handle);
@@ -150,7 +150,7 @@ void draw_new_fixed_set(const PanelContext& context) {
     ViewerState& state = context.state;
     const bool begun = state.gestures.selected_fixed() == state.scene().n_fixed_sets();
     if (ImGui::Button("New fixed set")) begin_fixed_set(state);
-    tooltip("What brush and box take next becomes a set of its own, with a name.");
+    tooltip("The next stroke of the brush or box makes a new set, with a name of its own.");
     if (!begun || state.scene().n_fixed_sets() == 0) return;
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
@@ -176,7 +176,7 @@ void Panels::draw_name(const PanelContext& context, int owner, const std::string
         if (rename(typed))
             state.scene().commit();
         else
-            state.messages.error("\"" + typed + "\" cannot be its name: it is empty or taken. Type another.");
+            state.messages.error("\"" + typed + "\" cannot be used: the name is empty or taken. Type another.");
     }
 }
 
@@ -189,7 +189,7 @@ void Panels::draw_handle(const PanelContext& context, int handle) {
     draw_reaction(context.state.shown.body(context.state.method), scene.handle_name(handle), context.palette.text_dim);
 }
 
-/// The fixed sets, of which brush and box change the selected one, and what holds them all.
+/// The fixed sets, of which brush and box change the selected one, and the reaction of all of them together.
 void Panels::draw_fixed_sets(const PanelContext& context) {
     ViewerState& state = context.state;
     LiveScene& scene = state.scene();

@@ -14,7 +14,7 @@ struct QuestionAnswer {
 };
 
 /// The buttons in a row within a dialog, that of `choice` standing out. Left, right and Tab change the choice, Enter
-/// and Space take it, Esc takes `escape`. The number of the answer, when one was given.
+/// and Space take it, Esc takes `escape`. Returns the number of the answer, when one was given.
 std::optional<int> draw_answers(const PanelContext& context, std::span<const QuestionAnswer> answers, int& choice,
                                 int escape);
 

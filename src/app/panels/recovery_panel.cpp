@@ -36,7 +36,7 @@ void Panels::draw_recovery(const PanelContext& context) {
     if (!begin_question(kRecoveryTitle)) return;
     const AutosavedScene& left = state.recoverable.front();
     const std::string name = left.origin.empty() ? "a scene that was not saved yet" : left.origin.string();
-    ImGui::TextUnformatted("A viewer has ended without closing. It had unsaved changes of");
+    ImGui::TextUnformatted("A viewer ended unexpectedly, with unsaved changes of");
     ImGui::TextUnformatted(name.c_str());
     ImGui::Text("as of %s ago.", readable_seconds(std::max(0.0, seconds_since(left.time))).c_str());
     ImGui::Spacing();

@@ -26,7 +26,7 @@ std::vector<std::string> present_warnings(const ViewerState& state) {
     return warnings;
 }
 
-/// Of a window in which these paragraphs need no scroll bar.
+/// Height of a window in which these paragraphs need no scroll bar.
 float height_of(const std::vector<std::string>& paragraphs, float width) {
     const ImGuiStyle& style = ImGui::GetStyle();
     const float room = width - 2.0f * style.WindowPadding.x;
@@ -38,8 +38,8 @@ float height_of(const std::vector<std::string>& paragraphs, float width) {
 
 }  // namespace
 
-/// At the bottom of the side panel, so that nothing else in it moves when they come and go. While something is pressed
-/// or typed into, they stay as they are: it may be below. Returns their height.
+/// At the bottom of the side panel, so that nothing else in it moves when they come and go. While an item is pressed
+/// or typed into, they stay as they are, lest they cover it. Returns their height.
 float Panels::draw_warnings(const PanelContext& context) {
     const ViewerState& state = context.state;
     const std::pair<std::uint64_t, MethodKind> of(state.scene_number(), state.method);

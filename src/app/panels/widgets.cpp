@@ -11,7 +11,7 @@ namespace elastolab {
 
 namespace {
 
-constexpr float kLabelRoom = 112.0f, kLeastItem = 84.0f, kMostItem = 220.0f;  ///< beside an item, and of it
+constexpr float kLabelRoom = 112.0f, kLeastItem = 84.0f, kMostItem = 220.0f;  ///< widths: beside an item, and of it
 
 }  // namespace
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kMostLeaders = 64;
 
-/// All of a list, or as many as may lead, in equal steps.
+/// All of a list, or at most kMostLeaders of it, in equal steps.
 std::vector<int> some_of(const std::vector<int>& all) {
     const std::size_t step = (all.size() + kMostLeaders - 1) / kMostLeaders;
     std::vector<int> some;
@@ -19,7 +19,7 @@ std::vector<int> some_of(const std::vector<int>& all) {
     return some;
 }
 
-/// The nearer, the more; their sum is 1.
+/// Weights that are larger for nearer places; their sum is 1.
 std::vector<double> shares_by_distance(const Eigen::Vector3d& x, const Positions& places) {
     std::vector<double> shares;
     for (const auto& place : places.colwise()) shares.push_back(1.0 / (place - x).squaredNorm());
@@ -46,7 +46,7 @@ FillingShape::FillingShape(const Proxy& filled) : surface_(filled.surface) {
 void FillingShape::find_leaders(const Proxy& filled) {
     const Positions& shown = filled.shown->vertices;
     std::vector<int> rim;                        // of the shown surface
-    std::vector<int> own(vertices_.size(), -1);  // for each column of rest_: which of them it is
+    std::vector<int> own(vertices_.size(), -1);  // for each column of rest_: its vertex on the rim, or -1
     for (Eigen::Index v = 0; v < shown.cols(); ++v) {
         if (filled.places.distance[v] != 0.0 || filled.places.weights(0, v) != 1.0) continue;
         const auto place = std::lower_bound(vertices_.begin(), vertices_.end(), filled.places.nodes(0, v));

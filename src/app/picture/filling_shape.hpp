@@ -9,8 +9,8 @@
 
 namespace elastolab {
 
-/// What fills the holes of a surface that is simulated with its holes filled: the triangles that it has not itself, and
-/// their vertices. Immutable.
+/// What fills the holes of a surface that is simulated with its holes filled: the added triangles, and their vertices.
+/// Immutable.
 class FillingShape {
 public:
     /// `filled.is_filled()`.
@@ -21,13 +21,13 @@ public:
     const Triangles& triangles() const { return triangles_; }  ///< of the columns of rest()
     /// Its vertices, moved by `scale` times the displacements of all vertices of the filled surface, 3 * n [L].
     Positions displaced(const Eigen::VectorXd& of_surface, double scale) const;
-    /// The same where only the shown surface has been deformed: its vertices lie on the rims of the holes, and those
-    /// between follow them, the nearest most.
+    /// The same from the deformed shown surface alone: vertices on the rims of the holes are its own, and those between
+    /// follow them, the nearest most.
     Positions following(const Positions& shown) const;
 
 private:
-    /// A vertex, and where it is at rest from the middle of those on the rim that it follows, which are of the shown
-    /// surface. On the rim itself: that vertex alone.
+    /// A vertex: the shown vertices on the rim that it follows, and where it is at rest from their weighted mean. On
+    /// the rim: itself alone.
     struct Follower {
         std::vector<int> leaders;
         std::vector<double> shares;  ///< their sum is 1

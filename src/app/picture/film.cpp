@@ -18,9 +18,9 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kFramesPerSecond = 30;
-constexpr double kNearRest = 1e-6;  ///< of the deformation: a range of colours is divided by it
+constexpr double kNearRest = 1e-6;  ///< least part of the deformation, as the range of colours is divided by it
 
-/// ffmpeg counts where it reads '%'.
+/// ffmpeg reads '%' as the place of a frame's number.
 std::string frame_pattern(const fs::path& file) {
     std::string text;
     for (const char c : fs::path(file).replace_extension().string()) text += c == '%' ? "%%" : std::string(1, c);
@@ -41,12 +41,12 @@ fs::path frame_file(const fs::path& file, int frame) {
 }
 
 std::string video_obstacle() {
-    return find_program("ffmpeg") ? "" : "ffmpeg is not installed, which makes the video. The frames are written.";
+    return find_program("ffmpeg") ? "" : "ffmpeg, which makes the video, is not installed. The frames are written.";
 }
 
 fs::path make_video(const fs::path& file, Control& control) {
     const std::optional<fs::path> ffmpeg = find_program("ffmpeg");
-    const fs::path video = fs::path(file).replace_extension(".mp4");
+    fs::path video = fs::path(file).replace_extension(".mp4");
     if (!ffmpeg) throw Error(video.string() + ": ffmpeg is not installed. Install it; the frames are there.");
     const fs::path partial = fs::path(file).replace_extension(".partial.mp4");
     std::string log;
@@ -73,7 +73,7 @@ double pulled_part(int frame, int n_frames) {
     return 0.5 * (1.0 - std::cos(2.0 * std::numbers::pi * (frame - 1) / n_frames));
 }
 
-/// Elasticity is linear: a part of the pull moves everything by that part, and its colours are the same part of theirs.
+/// Elasticity is linear: a part of the pull scales all displacements, and all values that are coloured, by that part.
 void Film::draw(SceneRenderer& renderer, ViewerState& state, const Palette& palette, int frame) const {
     const CameraPose pose = state.camera.pose();
     const DisplaySettings display = state.display;

@@ -48,7 +48,7 @@ private:
 /// The video of a film: "name.png" -> "name.mp4", 30 frames a second, made by the ffmpeg that is installed. It
 /// takes its place once it is complete. Throws Error where there is no ffmpeg or it fails, Cancelled.
 std::filesystem::path make_video(const std::filesystem::path& file, Control& control);
-/// Why there is no video; empty where there is one.
+/// Why no video can be made; empty when one can.
 std::string video_obstacle();
 
 }  // namespace elastolab

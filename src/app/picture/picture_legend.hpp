@@ -17,7 +17,7 @@ struct PictureLegend {
     const ColourMap* colours = nullptr;
 };
 
-/// Of what the viewer shows now; nothing where no body is coloured by a field.
+/// The legend of what the viewer shows now; nothing where no body is coloured by a field.
 std::optional<PictureLegend> legend_of(const ViewerState& state);
 
 /// At the lower right, on a chip; `scale`: pixels for a length that is 1 on an ordinary screen. Throws Error when no

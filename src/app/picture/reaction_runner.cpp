@@ -17,7 +17,7 @@ ReactionRunner::Result ReactionRunner::solve(const Deformer& deformer, const Eig
     result.reactions = deformer.reactions(values);
     if (!result.reactions.forces.allFinite() || !result.reactions.moments.allFinite())
         throw SolveError(deformer.model().body().name +
-                         ": the reactions are too large for a number. Use a smaller motion or Young's modulus.");
+                         ": the reactions are beyond double precision. Use a smaller motion or Young's modulus.");
     result.seconds = watch.seconds();
     return result;
 }

@@ -16,7 +16,7 @@ namespace elastolab {
 
 namespace {
 
-/// What is changed of the state for a picture comes back.
+/// Restores what is changed in the state for a picture.
 class LookGuard {
 public:
     explicit LookGuard(ViewerState& state)

@@ -17,7 +17,7 @@ constexpr double kGizmoSize = 72.0;  ///< [logical pixels]
 constexpr float kPointSize = 6.0f, kActivePointSize = 8.0f, kHoverPointSize = 7.0f;
 constexpr int kBands = 10;
 constexpr double kGroundPart = 3.0, kShadowPart = 1.4;  ///< radii of the ground and of the shadow, of the scene's
-constexpr double kLeastDeformation = 0.01;              ///< of the scene's radius, from which on there is a ghost
+constexpr double kLeastDeformation = 0.01;              ///< of the scene's radius, from which a ghost is drawn
 constexpr int kMostHidden = 6000;    ///< vertices up to which points show through the body; more would cover it
 constexpr double kFullView = 800.0;  ///< width from which on points have their full size [logical pixels]
 
@@ -74,7 +74,7 @@ void SceneRenderer::upload(const ViewerState& state, const Palette& palette) {
     for (const ShownBody& body : state.shown.bodies()) upload_body(state, body, palette);
 }
 
-/// The edges at which the surface is not closed, by the numbers of the vertices that have any.
+/// The edges at which the surface is not closed, as numbers in the list of the vertices on them.
 void SceneRenderer::find_rim() {
     rim_ = unpaired_edges(mesh_->triangles);
     rim_vertices_.assign(rim_.data(), rim_.data() + rim_.size());
@@ -252,7 +252,7 @@ void SceneRenderer::draw_ghosts(const ViewerState& state, const SceneView& view,
     }
 }
 
-/// The background and the opaque body before it, as it is or cut open.
+/// The background, and the opaque body in front of it, whole or cut open.
 const SurfaceDrawing& SceneRenderer::draw_solid(const ViewerState& state, const SceneView& view, MethodKind solid,
                                                 const Palette& palette) {
     background_.draw(palette.background_top, palette.background_bottom);

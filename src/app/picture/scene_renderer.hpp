@@ -81,7 +81,7 @@ private:
     };
     struct Extent {
         bool axes = true;
-        const DepthBuffer* whole = nullptr;  ///< of what a tile belongs to
+        const DepthBuffer* whole = nullptr;  ///< the depths of the whole that a tile belongs to
     };
     Look look_of(const ViewerState& state, const SceneViewport& viewport, const Palette& palette,
                  double pixel_ratio) const;
@@ -105,7 +105,7 @@ private:
 
     std::uint64_t scene_number_ = 0;
     SceneFrame frame_;
-    Edges rim_;                      ///< of the vertices in:
+    Edges rim_;                      ///< as numbers in the list that follows
     std::vector<int> rim_vertices_;  ///< those of the mesh at which it is not closed
     std::map<MethodKind, BodyDrawing> drawings_;
     std::vector<Picture> pictures_;  ///< of the viewports, in their order

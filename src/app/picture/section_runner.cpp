@@ -13,12 +13,12 @@ namespace elastolab {
 
 namespace {
 
-/// Points at once, and seconds that the worker goes on before it shows what it has.
+/// Points at a time, and seconds that the worker goes on before it shows what it has.
 constexpr Eigen::Index kPointsAtOnce = 64;
 constexpr double kShowAfter = 0.2;
 /// Above so many unknowns a further column costs too much, and only the present motion is evaluated.
 constexpr int kManyUnknowns = 60000;
-/// Of a motion, that columns need not span.
+/// Part of a motion that columns need not span.
 constexpr double kNegligible = 1e-6;
 
 /// Points in an order in which any first few are spread over all.
@@ -84,7 +84,7 @@ std::shared_ptr<const SectionRunner::Basis> SectionRunner::make_basis(const Embe
         const Eigen::RowVector3d middle = shapes.rightCols<3>().colwise().mean();
         shapes.rightCols<3>().rowwise() -= middle;
         const double size = shapes.rightCols<3>().cwiseAbs().maxCoeff();
-        // Of a few vertices, or of some on a line, fewer motions are different.
+        // A few vertices, or vertices on one line, have fewer independent motions.
         const Eigen::MatrixXd all =
             size > 0.0 ? Eigen::MatrixXd(shapes.array().rowwise() / Eigen::RowVector4d(1, size, size, size).array())
                        : Eigen::MatrixXd(shapes.col(0));
@@ -95,14 +95,14 @@ std::shared_ptr<const SectionRunner::Basis> SectionRunner::make_basis(const Embe
             for (Eigen::Index axis = 0; axis < 3; ++axis)
                 for (Eigen::Index i = 0; i < n; ++i) motions(3 * (first + i) + axis, 3 * s + axis) = independent(i, s);
     }
-    // What these motions leave of the present one.
+    // The part of the present motion that these do not span.
     const Eigen::VectorXd left = values - motions * (motions.transpose() * values);
     const bool has_more = left.norm() > kNegligible * values.norm() || motions.cols() == 0;
     auto basis = std::make_shared<Basis>();
     basis->columns.resize(values.size(), motions.cols() + (has_more ? 1 : 0));
     basis->columns.leftCols(motions.cols()) = motions;
     if (has_more) basis->columns.rightCols(1) = left;
-    basis->inverse = basis->columns.transpose();  // orthogonal, but for the length of the last
+    basis->inverse = basis->columns.transpose();  // orthonormal, but for the length of the last
     if (const double square = left.squaredNorm(); has_more && square > 0.0) basis->inverse.bottomRows(1) /= square;
     return basis;
 }

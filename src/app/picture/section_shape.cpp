@@ -14,7 +14,7 @@ namespace {
 constexpr int kSweeps = 20;
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-/// The axis that the plane is across before it is turned, and those that follow.
+/// The plane's normal before it is turned (0 steps), and the axes that follow it in cyclic order.
 Eigen::Vector3d section_axis(const DisplaySettings& display, int steps) {
     return Eigen::Vector3d::Unit((display.section_axis + steps) % 3);
 }
@@ -89,7 +89,7 @@ Eigen::MatrixXd SectionShape::spread_from_rim(const Eigen::Ref<const Eigen::Matr
 }
 
 void SectionShape::fill(const std::vector<char>& known, Eigen::MatrixXd& inside) const {
-    // The rim is not known here: what is inside spreads among itself.
+    // The rim is not known here: values spread among the vertices inside only.
     Eigen::MatrixXd of_cap = Eigen::MatrixXd::Zero(inside.rows(), n_rim_ + n_inside());
     of_cap.rightCols(n_inside()) = inside;
     std::vector<char> all(static_cast<std::size_t>(n_rim_), 0);

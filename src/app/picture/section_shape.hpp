@@ -39,7 +39,7 @@ public:
     void fill(const std::vector<char>& known, Eigen::MatrixXd& inside) const;
 
 private:
-    /// values: columns for the vertices of the cap, of which some are known.
+    /// of_cap: columns for the vertices of the cap, of which some are known.
     void relax(std::vector<char> known, Eigen::MatrixXd& of_cap) const;
 
     std::shared_ptr<const SurfaceMesh> surface_;

@@ -39,7 +39,7 @@ std::vector<float> as_floats(const Eigen::VectorXd& numbers) {
     return {floats.begin(), floats.end()};
 }
 
-/// Rows of values at the simulated vertices, as the shown ones have them.
+/// Rows of values at the simulated vertices, carried to the shown ones.
 Eigen::MatrixXd shown_rows(const EmbeddedRunner& answer, const Eigen::MatrixXd& rows) {
     Eigen::MatrixXd shown(rows.rows(), answer.displacement().size() / 3);
     for (Eigen::Index i = 0; i < rows.rows(); ++i)
@@ -47,7 +47,7 @@ Eigen::MatrixXd shown_rows(const EmbeddedRunner& answer, const Eigen::MatrixXd& 
     return shown;
 }
 
-/// Of the model that answered: the material of the scene may be newer than its displacements.
+/// That of the model that answered: the scene's may be newer than the displacements.
 const Material& material_of(const EmbeddedRunner& answer) {
     return answer.runner().deformer()->model().body().material;
 }
@@ -118,7 +118,7 @@ void ShownBody::update_positions(const Sources& sources, double scale) {
     max_displacement_ = std::sqrt(u.colwise().squaredNorm().maxCoeff());
 }
 
-/// While a preview answers, which is another surface, the filling follows the rims of the holes.
+/// While a preview answers, which has another surface, the filling follows the rims of the holes.
 void ShownBody::update_filling(const Sources& sources, double scale) {
     const Proxy* proxy = sources.proxy;
     if (proxy == nullptr || !proxy->is_filled()) return filling_.reset();

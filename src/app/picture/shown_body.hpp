@@ -28,7 +28,7 @@ struct ShownReaction {
 /// How far one answer is from the reference, over all vertices.
 struct Difference {
     double max = 0.0, rms = 0.0;                    ///< [L]
-    double relative_max = 0.0, relative_rms = 0.0;  ///< to the same norm of the reference's displacements
+    double relative_max = 0.0, relative_rms = 0.0;  ///< over the same norm of the reference's displacements
     int worst_vertex = -1;
 };
 
@@ -70,7 +70,7 @@ public:
     /// One value a vertex for the chosen field; empty when there is none, or when it is not known yet.
     const std::vector<float>& values() const { return values_; }
     double largest_magnitude() const { return largest_magnitude_; }
-    /// Of every vertex, 3 x n and 6 x n [force / L^2]; without columns when not asked for, or not known yet.
+    /// For every vertex, 3 x n and 6 x n [force / L^2]; without columns when not asked for, or not known yet.
     const Eigen::MatrixXd& tractions() const { return shown_tractions_; }
     const Eigen::MatrixXd& stresses() const { return shown_stresses_; }
     bool is_coloured() const { return !values_.empty(); }

@@ -8,7 +8,7 @@ namespace elastolab {
 /// The camera as a scene file has it, and back. There and back again changes it by rounding only.
 ViewPoint view_point_of(const Camera& camera);
 void look_from(const ViewPoint& view, Camera& camera);
-/// Whether a camera there is as near to this ball as cameras come and go (Camera::zoom_to).
+/// Whether a camera there is within the distances to this ball that Camera::zoom_to allows.
 bool can_see(const ViewPoint& view, const SceneFrame& scene);
 
 }  // namespace elastolab

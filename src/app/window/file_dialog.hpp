@@ -17,7 +17,7 @@ public:
         std::string suggestion;               ///< name to save under; empty: an existing file is to be opened
         std::function<void(const std::filesystem::path&)> done;
         std::function<void()> cancelled = {};  ///< may be empty
-        std::filesystem::path folder = {};     ///< to begin in; empty: the one before
+        std::filesystem::path folder = {};     ///< to begin in; empty: the last one
     };
 
     void open(Purpose purpose);

@@ -59,7 +59,7 @@ std::optional<FontFile> outlines_with(FcPattern& font, char32_t character) {
 }  // namespace
 
 std::optional<fs::path> regular_font() {
-    if (const auto known = first_installed(kRegularFonts)) return known;
+    if (auto known = first_installed(kRegularFonts)) return known;
     const std::optional<FontFile> any = font_with(U'0');
     return any && any->index == 0 ? std::optional(any->path) : std::nullopt;
 }
@@ -81,7 +81,7 @@ std::optional<FontFile> font_with(char32_t character) {
     const FontSet sorted(FcFontSort(nullptr, wanted.get(), FcTrue, nullptr, &result));
     if (!sorted) return {};
     for (FcPattern* const found : std::span(sorted->fonts, static_cast<std::size_t>(sorted->nfont)))
-        if (const std::optional<FontFile> file = outlines_with(*found, character)) return file;
+        if (std::optional<FontFile> file = outlines_with(*found, character)) return file;
     return {};
 }
 

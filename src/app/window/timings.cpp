@@ -38,7 +38,7 @@ TimingsRecorder::TimingsRecorder(const std::filesystem::path& file)
 TimingsRecorder::~TimingsRecorder() {
     try {
         finish();
-    } catch (const std::exception&) {  // finish() tells those who ask
+    } catch (const std::exception&) {  // whoever needs to know calls finish()
     }
 }
 

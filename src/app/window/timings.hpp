@@ -34,7 +34,7 @@ public:
 
     void add(const FrameTimes& times);
     std::size_t size() const { return size_; }
-    /// Of the kept frames, oldest first.
+    /// One of the times, for the kept frames, oldest first.
     std::vector<float> series(double FrameTimes::*which) const;
     /// Fraction q in [0, 1] of the frames took no longer; 0 when there is none.
     double percentile(double FrameTimes::*which, double q) const;

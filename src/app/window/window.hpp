@@ -45,7 +45,7 @@ public:
     Eigen::Vector2i framebuffer_size() const;  ///< physical pixels
     float content_scale() const;               ///< suggested size of text: 1 on an ordinary screen
     void swap_buffers();
-    /// swap_buffers() does not wait for the screen's refresh any more. It does in a visible window unless told so.
+    /// From now on swap_buffers() does not wait for the screen's refresh, as it does in a visible window otherwise.
     void disable_vsync();
     void hide();
 

@@ -9,7 +9,7 @@ namespace elastolab {
 
 namespace {
 
-/// Of D's integrals, from which on another Poisson's ratio integrates anew: 1900 vertices.
+/// Bytes of D's integrals above which another Poisson's ratio integrates anew: 1900 vertices.
 constexpr std::uint64_t kMostKeptIntegrals = 512u << 20;
 
 bool same_integrals(const Method& a, const Method& b) { return integral_tolerance(a) == integral_tolerance(b); }
@@ -19,8 +19,8 @@ bool same_galerkin_system(const Method& a, const Method& b) {
            factorises_ahead(a) == factorises_ahead(b);
 }
 
-/// D's integrals for every Poisson's ratio: those that are there, or, when the ratio changes for the first time, made
-/// (for little more than those of one ratio), so that who turns it further integrates no more.
+/// D's integrals for every Poisson's ratio: those at hand or, when the ratio changes for the first time, made now (for
+/// little more than those of one ratio), so that further changes integrate nothing.
 std::shared_ptr<const HypersingularParts> parts_for_change(const GalerkinSystem& before, const Method& method,
                                                            StageTimes& stages, Control& control) {
     const auto n = static_cast<std::uint64_t>(before.size());

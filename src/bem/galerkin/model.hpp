@@ -11,7 +11,8 @@ namespace elastolab {
 /// constrained ones. A constrained vertex without a constrained triangle has a reaction and no traction.
 class GalerkinModel : public SolidModel {
 public:
-    /// before: a model of the same surface, of which is taken over what serves, or null. Throws SolveError, Cancelled.
+    /// before: a model of the same surface, from which all that still serves is taken over, or null. Throws SolveError,
+    /// Cancelled.
     GalerkinModel(const SurfaceMesh& surface, double poisson_ratio, const Method& method, const GalerkinModel* before,
                   Control& control);
 

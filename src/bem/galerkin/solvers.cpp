@@ -30,7 +30,8 @@ Eigen::MatrixXd GalerkinResponses::small_matrix(const std::vector<int>& nodes, c
     S.topRightCorner(n_loads, n_border) = F.leftCols(n_loads).transpose();
     S.bottomRightCorner(n_tractions, n_border) = F.rightCols(n_tractions).transpose();
     // Rows of the border and of the tractions have units of their own: with lengths far from 1 some would look like
-    // nothing beside others. They are zero on the right, so that any factor will do: in units of those of the vertices.
+    // nothing beside others. Their right sides are zero, so that any factor will do: they are made as large as those of
+    // the vertices.
     const auto scale_rows = [&](Eigen::Index first, Eigen::Index count) {
         const double own = count > 0 && n_loads > 0 ? S.block(first, 0, count, n_loads).cwiseAbs().maxCoeff() : 0.0;
         if (own > 0.0) S.middleRows(first, count) *= S.topLeftCorner(n_loads, n_loads).cwiseAbs().maxCoeff() / own;

@@ -56,8 +56,8 @@ ReducedSystem galerkin_reduced_system(const std::shared_ptr<const GalerkinSystem
                                       const std::vector<int>& vertices, const GalerkinTractions& tractions,
                                       Control& control);
 
-/// | D u + K^T t - R, K u - V t | over the same of absolute values, Euclidean, with integrals computed afresh.
-/// loads: as those of a solution.
+/// The larger of | D u + K^T t - R | and | K u - V t |, each over the same of absolute values, Euclidean, with
+/// integrals computed afresh. loads: as those of a solution.
 double galerkin_residual(const GalerkinSystem& system, const std::vector<int>& vertices,
                          const GalerkinTractions& tractions, const NodeSolution& solution, Control& control);
 

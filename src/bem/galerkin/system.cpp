@@ -23,8 +23,8 @@ std::uint64_t half_column_budget(Eigen::Index n, Mode mode) {
     return (64ull << 20) + (mode == Mode::on_demand ? matrix / 4 : matrix);
 }
 
-/// What the integrals leave in D of the rigid motions C of closed surfaces: D - left C^T - C left^T = P D P with
-/// P = I - C C^T.
+/// What D's integrals leave where D C should vanish, C the rigid motions of closed surfaces: D - left C^T - C left^T =
+/// P D P with P = I - C C^T.
 class RigidPart {
 public:
     RigidPart(const Eigen::MatrixXd& D, const Eigen::MatrixXd& C, Control& control) : C_(C), left_(C.rows(), C.cols()) {
@@ -33,7 +33,7 @@ public:
         });
         left_ -= 0.5 * C_ * (C_.transpose() * left_);
     }
-    /// Of P D P.
+    /// The mean of the diagonal of P D P.
     double mean_diagonal(const Eigen::MatrixXd& D) const {
         return (D.trace() - 2.0 * left_.cwiseProduct(C_).sum()) / static_cast<double>(D.rows());
     }

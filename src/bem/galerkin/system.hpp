@@ -17,7 +17,7 @@ namespace elastolab {
 
 /// The symmetric Galerkin equations of one solid with unit Young's modulus (docs/formulation.md section 7):
 ///   V t = K u  on the tractions of a constrained set,    D u + K^T t = R,   R zero at free vertices
-/// D is freed of what its integrals leave of the rigid motions C of each closed surface, and factorised once as
+/// D is projected so as to annihilate the rigid motions C of each closed surface to rounding, and factorised once as
 ///   D + a C C^T = L L^T,  so that its pseudo-inverse is  D^+ = (L L^T)^-1 - C C^T / a.
 /// R is the reaction: the derivative of the energy with respect to the prescribed displacements. Any thread may use it.
 class GalerkinSystem {
@@ -46,14 +46,14 @@ public:
     Columns half_responses(std::span<const int> vertices, const GalerkinTractions& tractions, Control& control) const;
     /// u <- D^+ Z q from y = (L^-1 Z) q and f = (C^T Z) q.
     void finish(Eigen::MatrixXd& y, const Eigen::MatrixXd& f) const;
-    /// G <- G - F^T F / a: the pseudo-inverse where (L^-1 Z)^T (L^-1 Z) is that of D + a C C^T.
+    /// a. With Y = L^-1 Z and F = C^T Z: Z^T D^+ Z = Y^T Y - F^T F / a.
     double shift() const { return shift_; }
 
     /// D and D^+; only in the mode `full`, else null.
     std::shared_ptr<const DenseOperators> dense() const { return dense_; }
 
 private:
-    /// D as it is integrated.
+    /// D as integrated, not yet projected.
     Eigen::MatrixXd integrals(Control& control) const;
     void complete(Eigen::MatrixXd D, StageTimes& stages, Control& control);
     std::vector<Columns::Block> compute(const std::vector<ColumnKey>& missing, Control& control) const;

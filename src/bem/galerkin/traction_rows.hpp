@@ -13,7 +13,7 @@ namespace elastolab {
 /// Rows of the boundary integral equation <tau, V t> = <tau, K u>, tested with tractions tau that are constant on each
 /// of n triangles; u in the hats of all V vertices, t constant on the same triangles. Node-major: row 3 i + component.
 struct TractionRows {
-    /// 3n x 3n: iint U(x, y) over pairs of the triangles [L^4 / force / L]; symmetric.
+    /// 3n x 3n: iint U(x, y) over pairs of the triangles [L^5 / force]; symmetric.
     Eigen::MatrixXd single_layer;
     /// 3n x 3V: iint phi(y) T(x, y), and half the mass matrix (the free term at the smooth points of a triangle) [L^2].
     /// Annihilates the rigid motions of every closed surface to the tolerance. T through Guenter's derivatives, by the

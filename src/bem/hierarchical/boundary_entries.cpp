@@ -48,7 +48,7 @@ struct Star {
                     corner[k] = range.contains(at) ? at - range.begin : -1;
                     if (corner[k] >= 0) first = std::min(first, at);
                 }
-                if (first != position) continue;  // came with that one
+                if (first != position) continue;  // came with the vertex at `first`
                 triangles.push_back(t);
                 corners.push_back(corner);
             }
@@ -189,9 +189,9 @@ void HypersingularEntries::fill_with(const PairIntegrals& integrals, PositionRan
     }
 }
 
-SingleLayerEntries::SingleLayerEntries(std::shared_ptr<const BoundaryPairs> pairs, std::vector<int> triangles,
-                                       std::shared_ptr<const ClusterTree> tree, const Material& material)
-    : PairEntries(std::move(pairs)), ordered_(in_order(triangles, *tree)), material_(material) {}
+SingleLayerEntries::SingleLayerEntries(std::shared_ptr<const BoundaryPairs> pairs, const std::vector<int>& triangles,
+                                       const ClusterTree& tree, const Material& material)
+    : PairEntries(std::move(pairs)), ordered_(in_order(triangles, tree)), material_(material) {}
 
 void SingleLayerEntries::fill_with(const PairIntegrals& integrals, PositionRange rows, PositionRange cols,
                                    Eigen::Ref<Eigen::MatrixXd> out) const {
@@ -218,11 +218,11 @@ void SingleLayerEntries::fill_with(const PairIntegrals& integrals, PositionRange
     }
 }
 
-DoubleLayerEntries::DoubleLayerEntries(std::shared_ptr<const BoundaryPairs> pairs, std::vector<int> triangles,
-                                       std::shared_ptr<const ClusterTree> triangle_tree,
-                                       std::shared_ptr<const ClusterTree> vertex_tree, const Material& material)
+DoubleLayerEntries::DoubleLayerEntries(std::shared_ptr<const BoundaryPairs> pairs, const std::vector<int>& triangles,
+                                       const ClusterTree& triangle_tree, std::shared_ptr<const ClusterTree> vertex_tree,
+                                       const Material& material)
     : PairEntries(std::move(pairs)),
-      ordered_(in_order(triangles, *triangle_tree)),
+      ordered_(in_order(triangles, triangle_tree)),
       vertex_tree_(std::move(vertex_tree)),
       nu_(material.poisson_ratio) {}
 

@@ -21,7 +21,7 @@ public:
 
     const Boundary& boundary() const { return *boundary_; }
     const PairIntegrals& integrals() const { return integrals_; }
-    /// To a hundred times the tolerance, for far blocks, which are approximated less exactly than that.
+    /// Integrals to a hundred times the tolerance, for far blocks, which are approximated less exactly than that.
     const PairIntegrals& far_integrals() const { return far_integrals_; }
     const TriangleGeometry& triangle(int t) const { return triangles_[static_cast<std::size_t>(t)]; }
     const Eigen::Matrix3d& curls(int t) const { return curls_[static_cast<std::size_t>(t)]; }
@@ -82,8 +82,8 @@ private:
 /// The single layer V between some triangles (bem/galerkin/traction_rows.hpp): item i of `tree` is triangles[i].
 class SingleLayerEntries : public PairEntries {
 public:
-    SingleLayerEntries(std::shared_ptr<const BoundaryPairs> pairs, std::vector<int> triangles,
-                       std::shared_ptr<const ClusterTree> tree, const Material& material);
+    SingleLayerEntries(std::shared_ptr<const BoundaryPairs> pairs, const std::vector<int>& triangles,
+                       const ClusterTree& tree, const Material& material);
 
 private:
     void fill_with(const PairIntegrals& integrals, PositionRange rows, PositionRange cols,
@@ -96,8 +96,8 @@ private:
 /// The double layer K with half the mass matrix: rows of some triangles, columns of all vertices.
 class DoubleLayerEntries : public PairEntries {
 public:
-    DoubleLayerEntries(std::shared_ptr<const BoundaryPairs> pairs, std::vector<int> triangles,
-                       std::shared_ptr<const ClusterTree> triangle_tree, std::shared_ptr<const ClusterTree> vertex_tree,
+    DoubleLayerEntries(std::shared_ptr<const BoundaryPairs> pairs, const std::vector<int>& triangles,
+                       const ClusterTree& triangle_tree, std::shared_ptr<const ClusterTree> vertex_tree,
                        const Material& material);
 
 private:

@@ -20,7 +20,7 @@ public:
     KeptClosePairs(const PairIntegrals& integrals, std::span<const TriangleGeometry> triangles, const ClusterTree& tree,
                    Control& control);
 
-    /// Of two triangles for which PairIntegrals::is_close.
+    /// The numbers of two triangles for which PairIntegrals::is_close.
     const Numbers& of(int t, int s) const;
 
 private:

@@ -57,8 +57,8 @@ struct ClusterPair {
     bool admissible = false;  ///< far enough apart for its block to be of low rank
 };
 
-/// Pairs that cover the whole matrix, each entry once. A pair is admissible when the smaller diameter of both boxes is
-/// at most `eta` times their distance.
+/// Pairs that cover the whole matrix, each entry once. A pair is admissible when the smaller of both boxes' diameters
+/// is at most `eta` times their distance.
 std::vector<ClusterPair> cover_matrix(const ClusterTree& rows, const ClusterTree& cols, double eta);
 /// The same for a symmetric matrix: of two pairs that mirror each other only the one with the later rows.
 std::vector<ClusterPair> cover_symmetric_matrix(const ClusterTree& tree, double eta);

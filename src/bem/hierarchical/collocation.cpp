@@ -15,7 +15,7 @@ namespace elastolab {
 
 namespace {
 
-/// Error of a far block over that of an integral, and at most; how near a far block may be. Displacements then differ
+/// Tolerance of a far block over that of an integral; its upper bound; eta of cover_matrix. Displacements then differ
 /// by 1e-7 from those of the dense matrix (cube of 2906 vertices, integrals to 1e-10); with smaller leaves and nearer
 /// blocks, which are in single precision, by 1e-6.
 constexpr double kFarError = 10000.0, kMostFarError = 1e-4, kEta = 2.5;

@@ -47,8 +47,8 @@ private:
 /// The equations of one constrained set (MixedProblem in bem/mixed_solver.hpp), with hierarchical matrices. Unknowns:
 /// the displacements of the free vertices, then the tractions in the order of their slots. Equations, one for each: at
 /// the free vertices, then at the constrained vertices whose hats carry tractions, then at the interior points. Rigid
-/// motions that the constraints leave free are shifted: solutions have none of them. (Then the discrete equations may
-/// contradict each other, and hold but for what these motions do to them, as by the bordered matrix.)
+/// motions that the constraints leave free are shifted: solutions have none of them. (The discrete equations may then
+/// be inconsistent; they hold up to a combination of these motions, as with the bordered matrix.)
 class CollocationProblem : public LinearOperator {
 public:
     /// constrained: vertices. Throws NotHeldError with `must_hold`, Cancelled.
@@ -106,7 +106,7 @@ private:
     mutable KeptAnswers answers_;
 };
 
-/// About the inverse of a collocation problem in two levels: overlapping patches of its points, each solved for by
+/// An approximate inverse of a collocation problem, in two levels: overlapping patches of its points, each solved by
 /// itself (restricted additive Schwarz, in single precision), and, before them, rigid motions and constant tractions of
 /// one or two dozen parts. Source: X.-C. Cai and M. Sarkis, SIAM J. Sci. Comput. 21 (1999).
 std::unique_ptr<const LinearOperator> make_collocation_preconditioner(const CollocationProblem& problem,

@@ -16,7 +16,7 @@ std::shared_ptr<const ClusterTree> cluster_points(const Positions& points) {
     return std::make_shared<const ClusterTree>(boxes, kItemsOfALeaf);
 }
 
-/// Entries of one layer; integrals in far blocks, which are approximated anyway, to a part of that.
+/// Entries of one layer; in far blocks, which are approximated anyway, integrals are less exact.
 class CollocationEntries : public BlockEntries {
 public:
     CollocationEntries(Layer layer, const Boundary& boundary, const Sources& sources, const ClusterTree& source_tree,
@@ -52,7 +52,7 @@ private:
     double tolerance_, far_tolerance_;
 };
 
-/// Of the error of a far block.
+/// Tolerance of the integrals in a far block over that of the block.
 constexpr double kFarIntegralError = 0.1;
 
 }  // namespace
@@ -98,7 +98,7 @@ Elements ClusteredElements::collect(std::span<const int> slots, const Number& nu
                 part.slots[k] = number(whole.slots[k]);
                 if (part.slots[k] >= 0) first = std::min(first, part.slots[k]);
             }
-            if (first == i) some.elements.push_back(part);  // else it came with that one
+            if (first == i) some.elements.push_back(part);  // else it came with the slot at `first`
         }
     return some;
 }

@@ -19,9 +19,9 @@ public:
 
     const std::shared_ptr<const ClusterTree>& tree() const { return tree_; }
     int n_slots() const { return elements_.n_slots; }
-    /// What carries the slots at these positions of the tree; slots count from the begin of the range.
+    /// The elements that carry the slots at these positions of the tree; slots count from the beginning of the range.
     Elements at(PositionRange range) const;
-    /// What carries these slots, which count from 0 in this order then.
+    /// The elements that carry these slots, renumbered from 0 in this order.
     Elements of(std::span<const int> slots) const;
 
 private:

@@ -9,7 +9,7 @@ namespace elastolab {
 /// constrained set leaves free. Mostly none.
 Eigen::MatrixXd unseen_motions(const Eigen::MatrixXd& motions, const std::vector<int>& items);
 
-/// X without what it has of the columns of N, which are orthonormal.
+/// Makes X orthogonal to the columns of N, which are orthonormal.
 void orthogonalise(Eigen::MatrixXd& X, const Eigen::MatrixXd& N);
 
 }  // namespace elastolab

@@ -63,7 +63,7 @@ struct HierarchicalMatrix::Block {
     Far U, V;
 
     bool is_near() const { return near.size() > 0; }
-    /// To Y what the block, or its transpose, makes of X.
+    /// Y += the block, or its transpose, times X, in the rows concerned.
     void add_product(const Eigen::MatrixXd& X, Eigen::MatrixXd& Y) const {
         const auto x = X.middleRows(3 * cols.begin, 3 * cols.size());
         auto y = Y.middleRows(3 * rows.begin, 3 * rows.size());

@@ -41,7 +41,7 @@ public:
 
     /// Entries of the rows and columns of these positions (ascending), of a symmetric matrix.
     Eigen::MatrixXd submatrix(const std::vector<int>& positions) const;
-    /// Z^T A Z of a symmetric matrix; Z is sparse, its rows 3 a position. Throws Cancelled.
+    /// Z^T A Z of a symmetric matrix; Z is sparse, with three rows for each position. Throws Cancelled.
     Eigen::MatrixXd galerkin_product(const Eigen::SparseMatrix<double, Eigen::RowMajor>& Z, Control& control) const;
 
     std::uint64_t memory_bytes() const;

@@ -7,8 +7,8 @@
 
 namespace elastolab {
 
-/// Answers of a linear problem that is solved by iteration: a question that is a combination of earlier ones is
-/// answered without one. Any thread may use it.
+/// Answers of a linear problem that is solved by iteration: a question that is a linear combination of earlier ones
+/// needs no further iteration. Any thread may use it.
 class KeptAnswers {
 public:
     /// questions: one a column. compute: answers to those that are new, as many columns, n_rows rows each.

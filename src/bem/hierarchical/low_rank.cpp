@@ -15,8 +15,8 @@ namespace {
 /// A direction of a pivot row is used only if the pivot is at least this part of what the row has anywhere: smaller
 /// pivots would multiply errors.
 constexpr double kLeastPivot = 0.1;
-/// Crosses below the tolerance in turn, groups of rows looked at, and rows in a group (which mostly cost what
-/// one costs), before the approximation is believed.
+/// Before the approximation is believed: consecutive crosses below the tolerance, groups of rows sampled, and rows in a
+/// group (which mostly cost what one costs).
 constexpr int kSmallCrosses = 2, kSamples = 3, kRowsTogether = 8;
 
 class CrossApproximation {

@@ -9,7 +9,7 @@ namespace elastolab {
 
 /// A solid by symmetric Galerkin boundary elements as GalerkinModel, for surfaces whose dense matrix would be too
 /// large: the operators are hierarchical, each constrained set is solved for by iteration. Memory and time grow a
-/// little faster than the number of vertices. Both updates are this one; on demand only.
+/// little faster than the number of vertices. The updates `direct` and `reduced` solve alike; on demand only.
 class HierarchicalGalerkinModel : public SolidModel {
 public:
     /// before: as in GalerkinModel. Throws SolveError, Cancelled.

@@ -44,7 +44,7 @@ std::vector<int> grown(PositionRange core, const std::vector<std::vector<int>>& 
     return all;
 }
 
-/// Weights of the cores at each vertex, that sum up to one: 1 in the core, smoothed.
+/// A partition of unity: weights of the cores at each vertex, 1 in the core, then smoothed.
 std::vector<std::vector<std::pair<int, double>>> weights_of(const std::vector<PositionRange>& cores,
                                                             const std::vector<std::vector<int>>& neighbours) {
     std::vector<std::vector<std::pair<int, double>>> weights(neighbours.size());

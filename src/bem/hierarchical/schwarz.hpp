@@ -34,7 +34,7 @@ private:
 
     std::vector<char> is_free_;
     std::vector<Patch> patches_;
-    Eigen::SparseMatrix<double, Eigen::RowMajor> coarse_;  ///< rigid motions of the patches, weighted to sum up
+    Eigen::SparseMatrix<double, Eigen::RowMajor> coarse_;  ///< rigid motions of the patches, times a partition of unity
     Eigen::LLT<Eigen::MatrixXd> coarse_factor_;
 };
 

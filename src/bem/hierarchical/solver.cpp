@@ -7,8 +7,8 @@ namespace elastolab {
 
 namespace {
 
-/// Of the residual, relative: prescribed displacements end at the rims in a jump, beside which a bend is small. And of
-/// that of the tractions inside, of which some dozens add up to less, at first and at most.
+/// Relative residual of the iteration: prescribed displacements end in a jump at the rims, beside which a bend is
+/// small. And of the solves for tractions inside it, some dozens of which add up to less: at first, and at most.
 constexpr double kIterationResidual = 1e-8, kInnerResidual = 1e-10, kMostInnerResidual = 1e-3;
 
 /// A preconditioner that stays orthogonal to the free motions.
@@ -33,7 +33,7 @@ private:
 
 class HierarchicalSolver::FreeBlock : public LinearOperator {
 public:
-    /// progress: of the iteration that this is the matrix of.
+    /// progress: of the iteration that this is the matrix for.
     FreeBlock(const HierarchicalSolver& solver, const IterationReport& progress, Control& control)
         : solver_(solver), progress_(progress), control_(control) {}
     Eigen::Index size() const override { return solver_.system_->size(); }

@@ -9,9 +9,9 @@ namespace elastolab {
 namespace {
 
 constexpr int kVerticesOfALeaf = 48;
-/// Error of a far block over that of an integral, and at most: the far field is a small part of D, whose entries fall
-/// with the cube of the distance. Displacements then differ by 3e-8 from those of the dense matrix (rabbit of 2500
-/// vertices, integrals to 1e-8), by 2e-7 at ten times as much and 1e-8 at a tenth.
+/// Tolerance of a far block over that of an integral, and its upper bound: the far field is a small part of D, whose
+/// entries fall with the cube of the distance. Displacements then differ by 3e-8 from those of the dense matrix (rabbit
+/// of 2500 vertices, integrals to 1e-8), by 2e-7 at ten times as much and 1e-8 at a tenth.
 constexpr double kFarTolerance = 1000.0, kMostFarTolerance = 1e-4;
 
 }  // namespace

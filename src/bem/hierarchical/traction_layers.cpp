@@ -110,8 +110,9 @@ private:
 };
 
 TractionLayers::TractionLayers(const std::shared_ptr<const BoundaryPairs>& pairs, const ClosedSurfaces& surfaces,
-                               const GalerkinTractions& tractions, std::shared_ptr<const ClusterTree> vertex_tree,
-                               const Material& material, const HierarchicalOptions& options, Control& control)
+                               const GalerkinTractions& tractions,
+                               const std::shared_ptr<const ClusterTree>& vertex_tree, const Material& material,
+                               const HierarchicalOptions& options, Control& control)
     : size_(tractions.size()), n_single_(3 * std::ssize(tractions.triangles)) {
     if (size_ == 0) return;
     std::vector<int> triangles = tractions.triangles;
@@ -121,9 +122,9 @@ TractionLayers::TractionLayers(const std::shared_ptr<const BoundaryPairs>& pairs
         triangles.insert(triangles.end(), all.begin(), all.end());
     }
     tree_ = pairs->cluster_triangles(triangles, kTrianglesOfALeaf);
-    const DoubleLayerEntries K(pairs, triangles, tree_, vertex_tree, material);
+    const DoubleLayerEntries K(pairs, triangles, *tree_, vertex_tree, material);
     K_ = std::make_unique<const HierarchicalMatrix>(tree_, vertex_tree, false, K, options, control);
-    const SingleLayerEntries V(pairs, triangles, tree_, material);
+    const SingleLayerEntries V(pairs, triangles, *tree_, material);
     V_ = std::make_unique<const HierarchicalMatrix>(tree_, tree_, true, V, options, control);
     if (size_ <= kMostFactorisedTractions) {
         factor_ = CholeskyFactorization(dense_single_layer(), "single-layer matrix", &control);

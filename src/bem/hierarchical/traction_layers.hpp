@@ -18,7 +18,7 @@ class TractionLayers {
 public:
     /// Throws SolveError, Cancelled.
     TractionLayers(const std::shared_ptr<const BoundaryPairs>& pairs, const ClosedSurfaces& surfaces,
-                   const GalerkinTractions& tractions, std::shared_ptr<const ClusterTree> vertex_tree,
+                   const GalerkinTractions& tractions, const std::shared_ptr<const ClusterTree>& vertex_tree,
                    const Material& material, const HierarchicalOptions& options, Control& control);
     ~TractionLayers();
 
@@ -38,7 +38,7 @@ private:
     class PatchSolves;
 
     Eigen::MatrixXd dense_single_layer() const;
-    /// Tractions on each triangle of the tree's order from the unknowns, and the transposed of that.
+    /// Tractions on each triangle of the tree's order from the unknowns, and the transpose of that.
     Eigen::MatrixXd spread(const Eigen::MatrixXd& t) const;
     Eigen::MatrixXd gather(const Eigen::MatrixXd& on_triangles) const;
 

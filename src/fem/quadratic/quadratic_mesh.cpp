@@ -86,7 +86,7 @@ TetMesh QuadraticMesh::split() const {
 }
 
 Eigen::Matrix<int, 10, Eigen::Dynamic> rejoined(const TetMesh& split) {
-    // Of the four at the corners: where the ten nodes are first seen.
+    // Where the ten nodes are first seen, in the four parts at the corners: part, corner of it.
     constexpr std::array<std::array<int, 2>, 10> kSeen = {
         {{0, 0}, {1, 1}, {2, 2}, {3, 3}, {0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
     Eigen::Matrix<int, 10, Eigen::Dynamic> elements(10, split.n_tetrahedra() / 8);

@@ -37,13 +37,14 @@ private:
     std::vector<int> nodes_;            ///< midpoint of each
 };
 
-/// The ten nodes of the elements out of the eight parts that each was split into.
+/// The ten nodes of each element, recovered from the eight parts that it was split into.
 Eigen::Matrix<int, 10, Eigen::Dynamic> rejoined(const TetMesh& split);
 
 /// Barycentric coordinates in an element of a point that has `weights` in one of its eight parts.
 Eigen::Vector4d in_whole(int part, const Eigen::Vector4d& weights);
 
-/// The shape functions of the ten nodes at barycentric coordinates, and their derivatives by each of these (10 x 4).
+/// The shape functions of the ten nodes at barycentric coordinates, and their derivatives with respect to each of these
+/// (10 x 4).
 Eigen::Matrix<double, 10, 1> quadratic_shapes(const Eigen::Vector4d& L);
 Eigen::Matrix<double, 10, 4> quadratic_slopes(const Eigen::Vector4d& L);
 

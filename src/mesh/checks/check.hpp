@@ -51,13 +51,14 @@ struct CheckedMesh {
 
 /// Inspects and repairs. Vertex numbers never change. Never throws on bad geometry: it reports.
 /// - fatal: no triangle, coordinates that are not finite (the mesh is returned without their triangles), open edges,
-///   edges of more than two triangles, vertices where parts of the surface only touch (a hinge), triangles without area, the same triangle twice, a one-sided surface,
-///   parts that enclose no volume, and vertices of no triangle (load_surface drops those).
+///   edges of more than two triangles, vertices where parts of the surface only touch (a hinge), triangles without
+///   area, the same triangle twice, a one-sided surface, parts that enclose no volume, and vertices of no triangle
+///   (load_surface drops those).
 /// - fatal for FEM, a warning for the others: parts of the surface that cross or touch. Found exactly.
 /// - repaired: triangles that face the other way than their neighbours, and closed surfaces that face the wrong way:
 ///   outward at even depth of nesting (solids), inward at odd depth (cavities).
 /// - warning: triangles of altitude below 1e-3 of the longest edge. Coordinates that were rounded when they were read
-///   (coarse_coordinates) are reported by who read them (mesh/input/import.hpp).
+///   (coarse_coordinates) are reported by the reader (mesh/input/import.hpp).
 /// The search for crossing triangles, which takes most of the time, can be cancelled: then throws Cancelled.
 CheckedMesh check_and_repair(SurfaceMesh mesh, Control& control);
 /// The same for callers that never cancel.

@@ -14,14 +14,16 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// The integrals of boundary elements over a triangle of altitude / longest edge a are right to about 10 eps / a^2.
+/// Altitude / longest edge. Boundary integrals lose (longest edge / altitude)^2 roundings, of extended precision below
+/// 0.01 (kSliverAltitude): they are right to 1e-12 at 1e-3 and to 1e-9 at 1e-4.
 constexpr double kSliver = 1e-3, kBadSliver = 1e-4, kNoArea = 1e-7;
 
 const char* sliver_advice(double thinnest) {
-    return thinnest < kBadSliver ? ", below a ten-thousandth, where boundary elements lose most of their digits. "
-                                   "Remesh the surface there."
-                                 : ", where boundary elements lose several digits. Remesh the surface there if the "
-                                   "result must be accurate.";
+    return thinnest < kBadSliver
+               ? ", below a ten-thousandth, where boundary elements keep fewer than nine "
+                 "digits. Remesh the surface there."
+               : ", where boundary elements keep nine to twelve digits. Remesh the surface there if the "
+                 "result must be more accurate.";
 }
 
 }  // namespace

@@ -117,7 +117,7 @@ void report_hinges(const SurfaceMesh& mesh, MeshReport& report) {
         if (is_hinge(mesh, v, around[v])) found.add(mesh.vertices.col(v));
     found.report_fatal(report, Defect::Kind::non_manifold_vertices, "vertex joins parts of the surface by a point only",
                        "vertices join parts of the surface by a point only",
-                       ", a hinge and not a solid. Separate the parts or join them by more.");
+                       ", a hinge and not a solid. Separate the parts or join them along an edge or a face.");
 }
 
 void report_duplicates(const SurfaceMesh& mesh, MeshReport& report) {

@@ -92,7 +92,7 @@ void repair_orientation(SurfaceMesh& mesh, const EdgeTable& edges, const Compone
     if (found.count() == 0) return;
     report.defects.push_back(found.build(Defect::Kind::inconsistent_orientation,
                                          "triangle faced the other way than its neighbours",
-                                         "triangles faced the other way than their neighbours", "; turned round."));
+                                         "triangles faced the other way than their neighbours", "; flipped."));
     report.defects.back().repaired = true;
 }
 
@@ -126,7 +126,7 @@ void repair_inside_out(SurfaceMesh& mesh, const Components& components, const Cr
                       ". Give them a thickness or remove them.");
     if (inside_out.count() == 0) return;
     report.defects.push_back(inside_out.build(Defect::Kind::inside_out, "closed surface was inside out",
-                                              "closed surfaces were inside out", "; turned round."));
+                                              "closed surfaces were inside out", "; flipped."));
     report.defects.back().repaired = true;
 }
 

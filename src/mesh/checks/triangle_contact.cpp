@@ -86,13 +86,13 @@ bool strangers_meet(const Corners& a, const Corners& b) {
     return false;
 }
 
-/// Common first corner. If they share more, then by convexity a segment from that corner to the edge opposite to it.
+/// For a common first corner. If they share more, then by convexity a segment from that corner to an edge opposite it.
 bool meet_beyond_corner(const Corners& a, const Corners& b) {
     const std::array<int, 3> sa = sides(b, a), sb = sides(a, b);
     return segment_meets(a[1], a[2], sa[1], sa[2], b) || segment_meets(b[1], b[2], sb[1], sb[2], a);
 }
 
-/// Common first and second corner: more only when they lie in one plane, on the same side of the edge.
+/// For common first and second corners. They share more only when they lie in one plane, on the same side of the edge.
 bool folded_over_edge(const Corners& a, const Corners& b) {
     if (orientation(a[0], a[1], a[2], b[2]) != 0) return false;
     const FlatCorners fa = without_axis(a, projection_axis(a)), fb = without_axis(b, projection_axis(a));

@@ -39,7 +39,7 @@ inline void begin_helper() {
     std::signal(SIGINT, SIG_IGN);
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     pollfd caller{STDIN_FILENO, 0, 0};
-    if (::poll(&caller, 1, 0) > 0) std::_Exit(kHelperMisused);  // it has died before it could be said above
+    if (::poll(&caller, 1, 0) > 0) std::_Exit(kHelperMisused);  // the caller had died before the request above
     const rlimit no_core{0, 0};
     ::setrlimit(RLIMIT_CORE, &no_core);
     std::ofstream("/proc/self/oom_score_adj") << 1000;

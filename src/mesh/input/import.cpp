@@ -42,7 +42,7 @@ void require_readable(const fs::path& file) {
 void require_known_format(const fs::path& file) {
     const std::string extension = lower_case(file.extension().string());
     if (!extension.empty() && is_mesh_format(extension.substr(1))) return;
-    fail(file, (extension.empty() ? "has no extension" : "is of no format that is read") +
+    fail(file, (extension.empty() ? "has no extension" : "has an unsupported format") +
                    std::string(". Export it as OBJ, PLY, OFF, STL or glTF."));
 }
 
@@ -94,7 +94,7 @@ private:
     std::size_t at_ = 0;
 };
 
-/// Whether what follows the header is what it says: asked before any memory is.
+/// Whether what follows the header is as long as it says: checked before any memory is asked for.
 bool agrees(const ImportReplyHeader& header, std::size_t size_of_rest) {
     if (header.magic != kImportMagic || header.n_vertices < 0 || header.n_triangles < 0 || header.text_size < 0)
         return false;

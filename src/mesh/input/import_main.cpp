@@ -44,7 +44,7 @@ std::string text_or_bytes(const fs::path& file) {
     std::optional<std::string> bytes = read_regular_file(file);
     if (!bytes) throw Refusal("is not a regular file, or cannot be read. Copy the mesh into one.");
     if (bytes->starts_with("\xff\xfe") || bytes->starts_with("\xfe\xff"))
-        throw Refusal("is a text of 16-bit characters. Save it as UTF-8.");
+        throw Refusal("is UTF-16 text. Save it as UTF-8.");
     if (bytes->starts_with("\xef\xbb\xbf")) bytes->erase(0, 3);  // the mark of UTF-8
     return std::move(*bytes);
 }

@@ -71,7 +71,7 @@ constexpr sock_filter load(std::size_t offset) {
     return BPF_STMT(BPF_LD | BPF_W | BPF_ABS, static_cast<std::uint32_t>(offset));
 }
 constexpr sock_filter answer(std::uint32_t action) { return BPF_STMT(BPF_RET | BPF_K, action); }
-/// Goes on by so many instructions more when the loaded number is (or, with JSET, has bits of) `value`, and when not.
+/// Skips if_true instructions when the loaded number is (or, with JSET, has bits of) `value`, else if_false.
 constexpr sock_filter jump(std::uint16_t test, std::uint32_t value, std::uint8_t if_true, std::uint8_t if_false) {
     return BPF_JUMP(static_cast<std::uint16_t>(BPF_JMP | test | BPF_K), value, if_true, if_false);
 }

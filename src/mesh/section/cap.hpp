@@ -12,9 +12,9 @@ struct Cap {
 };
 
 /// Fills the outline of an opened surface: what is inside it by the parity of crossings, holes and pieces included.
-/// Triangles are Delaunay; `edge` [L] is about as long as their edges are wanted. At least so many edges go into the
-/// width of the cap, and there are about max_inside points inside at most. Of a surface that is not closed, some cap
-/// or none.
+/// Triangles are Delaunay; `edge` [L] is about the length wanted of their edges. At least kEdgesAcrossCap edges go into
+/// the width of the cap, and about max_inside points at most lie inside. A surface that is not closed gets some cap or
+/// none.
 inline constexpr double kEdgesAcrossCap = 16.0;
 Cap make_cap(const SurfaceMesh& surface, const OpenedSurface& opened, const Plane& plane, double edge,
              int max_inside = 3000);

@@ -7,7 +7,7 @@
 namespace elastolab {
 
 /// A Delaunay triangulation of points with integer coordinates, one inserted after the other (A. Bowyer, D. F. Watson,
-/// The Computer Journal 24, 1981). All decisions are exact, so that nothing depends on how points lie.
+/// The Computer Journal 24, 1981). All decisions are exact, so that degenerate positions do no harm.
 class PlanarDelaunay {
 public:
     /// Coordinates are from 0 to this.
@@ -23,7 +23,7 @@ public:
     };
 
     PlanarDelaunay();
-    /// Its number, which is that of an earlier one at the same place.
+    /// Returns the number of the point; where an earlier one is at the same place, that of the earlier one.
     int insert(Point point);
     int n_points() const { return static_cast<int>(points_.size()); }
     /// Those with alive == false are no part of it.

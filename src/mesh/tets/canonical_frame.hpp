@@ -7,11 +7,11 @@
 
 namespace elastolab {
 
-/// A closed surface as it is independent of its place, size, numbering, and of mirrors and turns by right angles: the
-/// same body in any of these ways gives the same mesh, bit by bit, when they are exact (a factor other than a power of
-/// two and a translation are so but for rounding, which the grid below mostly swallows). A body that is symmetric
-/// itself may come out turned into itself. What depends on ties, such as the tetrahedra of points on one sphere, then
-/// does not depend on them either.
+/// A closed surface in a frame that does not depend on its place, size and numbering, nor on reflections and rotations
+/// by right angles: the same body after any of these gives the same mesh, bit by bit, where they are exact (scaling by
+/// other factors than powers of two, and translations, round, which the grid below mostly absorbs). A symmetric body
+/// may come out as one of its symmetric images. What depends on ties, such as the tetrahedra of points on one sphere,
+/// is then the same, too.
 ///
 /// The box around the body is centred and scaled to 1 along its longest side, its points are rounded to a grid, and one
 /// of the 48 axis permutations with signs is chosen by the body's shape.

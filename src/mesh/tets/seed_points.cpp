@@ -11,10 +11,10 @@ namespace {
 
 /// Cells are halved until they are no wider than so many wanted edges.
 constexpr double kWidestCell = 2.0;
-/// Where edges are wanted so many times as long as those of the surface near by a point may help, if it is so many
-/// lengths away from every part of the surface: TetGen takes none that lies on a facet.
+/// A point may help where the wanted edges are kGrown times as long as those of the surface near by, if it is
+/// kClearance of those lengths away from every part of the surface: TetGen takes none that lies on a facet.
 constexpr double kGrown = 1.6, kClearance = 1.7;
-/// Cells looked at, for each vertex, before it is given up.
+/// Cells looked at, for each vertex, before the search for points is given up.
 constexpr std::size_t kMostCells = 20;
 
 struct Box {

@@ -16,11 +16,11 @@ public:
     SizeField(const std::vector<double>& vertices, const std::vector<int>& triangles, double growth);
 
     double at(const double* point) const { return nearest(point).wanted; }
-    /// How many times that of the vertex that tells it.
+    /// The wanted length over h_v of the vertex v at which the minimum is attained.
     double grown(const double* point) const;
-    /// Whether every vertex is farther away than so many times its own length.
+    /// Whether every vertex v is farther away than lengths * h_v.
     bool is_clear(const double* point, double lengths) const { return is_clear(point, lengths, 0); }
-    /// The least of all.
+    /// The least h_v.
     double least() const { return nodes_.front().least; }
 
 private:
@@ -32,7 +32,7 @@ private:
     struct Sample {
         double point[3], size;
     };
-    /// The vertex that tells the length at a point.
+    /// The length wanted at a point, and h_v of the vertex at which the minimum is attained.
     struct Nearest {
         double wanted, own;
     };

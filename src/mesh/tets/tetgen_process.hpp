@@ -17,8 +17,8 @@ struct TetgenResult {
 /// What TetGen is to do.
 struct TetgenSettings {
     std::string switches;  ///< of its command line
-    /// Bound on a tetrahedron's volume, in units of the regular one whose edge the SizeField of this growth tells at
-    /// its middle; <= 0: no bound.
+    /// Bound on a tetrahedron's volume, in units of the regular one whose edge length the SizeField of this growth
+    /// gives at its middle; <= 0: no bound.
     double relative_volume = 0.0, growth = 0.0;
     bool seeded = false;  ///< begins with points inside, where there is a growth (seed_points.hpp)
 };

@@ -15,7 +15,8 @@ struct TetgenRequestHeader {
     std::array<char, 64> switches{};  ///< of TetGen's command line, zero-terminated
     std::int32_t n_vertices = 0, n_triangles = 0, n_holes = 0;
     std::int32_t seeded = 0;  ///< 1: begins with points inside (mesh/tets/seed_points.hpp); only with a growth
-    /// Bound on a tetrahedron's volume, in units of the regular one over the SizeField of this growth; 0: none.
+    /// Bound on a tetrahedron's volume, in units of the regular one with the edge length that the SizeField of this
+    /// growth gives; 0: none.
     double relative_volume = 0.0, growth = 0.0;
 };
 

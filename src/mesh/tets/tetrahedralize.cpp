@@ -111,9 +111,9 @@ double default_growth(int n_vertices) { return 0.35 * std::log(std::max(n_vertic
 TetMesh tetrahedralize(const SurfaceMesh& solid, const std::string& name, const TetOptions& options, Control& control) {
     std::string finding = obstacle(solid);
     if (!finding.empty()) throw MeshError(message(name, finding));
-    // TetGen's tolerances are absolute in places, so it sees every body in the unit box, and every body as it is
-    // whatever its numbering and orientation. The second attempt is for fine detail that the first tolerance, TetGen's
-    // own, takes for coincidence; it begins with the surface alone.
+    // TetGen's tolerances are absolute in places, so it sees every body in the unit box, and as the same whatever its
+    // numbering and orientation. The second attempt is for fine detail that the first tolerance, TetGen's own, takes
+    // for coincidence; it begins with the surface alone.
     struct Attempt {
         double tolerance;
         int grid_bits;

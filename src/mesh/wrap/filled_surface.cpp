@@ -64,7 +64,7 @@ FilledSurface fill_holes(const SurfaceMesh& shown, Control& control) {
         if (failure.empty() && checked.mesh.n_vertices() == n_vertices)
             return {std::move(checked.mesh), std::move(own), result.n_holes};
     }
-    throw MeshError("with its holes filled it is no solid either: " + failure + ". Choose a proxy.");
+    throw MeshError("even with its holes filled it is not a solid: " + failure + ". Choose a proxy.");
 }
 
 }  // namespace elastolab

@@ -13,12 +13,12 @@ namespace elastolab {
 
 namespace {
 
-/// Of the area of the surface: a larger cap is none.
+/// Fraction of the area of the surface above which a hole gets no cap.
 constexpr double kLargestCap = 0.1;
 
 using Rim = std::vector<int>;  ///< vertices, each joined to the next and the last to the first
 
-/// The closed walks along edges of one triangle that pass each vertex once.
+/// The closed walks along boundary edges (those of one triangle only) that pass each vertex once.
 std::vector<Rim> rims_of(const SurfaceMesh& surface) {
     const EdgeTable edges(surface);
     std::map<int, std::vector<int>> neighbours;

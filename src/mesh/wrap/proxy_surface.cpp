@@ -23,10 +23,10 @@ namespace elastolab {
 
 namespace {
 
-/// A wall of a wrap is thin where its other side is closer than so many offsets: two make an open sheet.
+/// A wall of a wrap is thin where its other side is closer than so many offsets: around an open sheet it is two.
 constexpr double kThinWall = 3.0;
 constexpr int kMostRepairs = 8;
-/// Part of a wrap's vertices on thin walls from which it is taken for one of open sheets.
+/// Fraction of a wrap's vertices on thin walls above which it is taken for one of open sheets.
 constexpr double kMostThin = 0.3;
 
 using CornerKey = std::array<std::array<double, 3>, 3>;
@@ -140,7 +140,7 @@ std::optional<SurfaceMesh> collapsed(const SurfaceMesh& sound, int n_vertices, C
 /// A wrap of so many vertices rounds what is finer than its triangles and bridges gaps of their size; one of this many
 /// times the vertices, with its edges collapsed, is far closer to the body and takes hardly longer.
 constexpr int kFinerWrap = 4;
-/// Factors within which wraps have the vertices wanted: another attempt takes as long as the wrap.
+/// Factors by which wraps may miss the number of vertices wanted: another attempt takes as long as the wrap.
 constexpr double kFinerWithin = 2.0, kWithin = 1.33;
 
 /// Surfaces of more vertices are wrapped even where they are sound: to collapse their edges takes several times longer.

@@ -19,7 +19,7 @@ struct ProxySurface {
     SurfaceMesh surface;  ///< closed, oriented, 2-manifold, without self-intersections: usable by every method
     Kind kind = Kind::wrapped;
     int n_capped_holes = 0;
-    double thin_part = 0.0;  ///< of its vertices, those of a wall as thin as the wrap can make it: open sheets
+    double thin_part = 0.0;  ///< fraction of its vertices on walls as thin as the wrap can make them: open sheets
     double thickness = 0.0;  ///< of such a wall [L]
 };
 

@@ -12,7 +12,7 @@ UnitFrame to_unit_size(SurfaceMesh& mesh) {
     const double size = box.isEmpty() ? 0.0 : box.diagonal().stableNorm();
     if (!(size > 0.0))
         throw MeshError("it has no three vertices that are not on a line. Choose a file with a surface.");
-    const UnitFrame frame{box.min() + 0.5 * box.diagonal(), size};
+    UnitFrame frame{box.min() + 0.5 * box.diagonal(), size};
     mesh.vertices = (mesh.vertices.colwise() - frame.centre) / size;
     return frame;
 }

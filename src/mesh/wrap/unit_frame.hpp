@@ -6,7 +6,7 @@
 
 namespace elastolab {
 
-/// x = scale y + centre takes a body of size 1 around the origin back to its place: geometric libraries have
+/// x = scale y + centre takes a body of size 1 around the origin back to its place: geometric libraries have absolute
 /// thresholds.
 struct UnitFrame {
     Eigen::Vector3d centre;

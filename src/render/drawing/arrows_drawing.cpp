@@ -20,8 +20,8 @@ constexpr float kHeadSlope = 2.6f;
 /// A vertex of the arrow. Its distance from the axis and its place along it are sums of lengths that arrow.vert knows.
 struct ShapeVertex {
     float cosine, sine;
-    float shaft_radii, head_radii;  ///< distance from the axis, in these
-    float necks, lengths;           ///< place along the axis, in lengths of the shaft and of all
+    float shaft_radii, head_radii;  ///< distance from the axis: so many of each radius
+    float necks, lengths;           ///< place along the axis: so many shafts and whole arrows
     float outward, forward;         ///< normal
 };
 

@@ -3,9 +3,9 @@
 #include <array>
 #include <Eigen/Core>
 
-#include "render/drawing/arrows_drawing.hpp"
 #include "render/camera.hpp"
 #include "render/colour.hpp"
+#include "render/drawing/arrows_drawing.hpp"
 
 namespace elastolab {
 
@@ -19,7 +19,7 @@ public:
     };
 
     explicit AxesGizmo(const std::array<Colour, 3>& colours);
-    /// Into the square `place` of the picture that `viewport` shows, over what is there. Last in a frame.
+    /// Draws into the square `place` of the picture that `viewport` shows, over what is there. Last in a frame.
     void draw(const Camera& camera, const Viewport& viewport, const Viewport& place, double pixel_ratio);
     static Labels labels(const Camera& camera, const Viewport& place);
 

@@ -9,7 +9,7 @@ namespace elastolab {
 
 namespace {
 
-/// The world axis across `normal` that the lines of the grid follow.
+/// The direction perpendicular to `normal` that the lines of the grid follow.
 Eigen::Vector3d first_axis(const Eigen::Vector3d& normal) {
     const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), across = x - normal * normal.x();
     return across.norm() > 0.1 ? Eigen::Vector3d(across.normalized()) : Eigen::Vector3d(normal.unitOrthogonal());

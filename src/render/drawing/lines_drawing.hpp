@@ -2,12 +2,12 @@
 
 #include <memory>
 
-#include "render/gl/arrays.hpp"
 #include "render/colour.hpp"
+#include "render/gl/arrays.hpp"
 #include "render/gl/gl_object.hpp"
+#include "render/gl/shader.hpp"
 #include "render/scene_frame.hpp"
 #include "render/scene_view.hpp"
-#include "render/gl/shader.hpp"
 
 namespace elastolab {
 
@@ -31,8 +31,8 @@ private:
     std::shared_ptr<ShaderProgram> shader_;
 };
 
-/// Antialiased lines, such as the rims of holes. They are drawn a pixel or two
-/// nearer to the eye than they are, so that they show on a surface that they lie on. Draw them after the surfaces.
+/// Antialiased lines, such as the rims of holes. They are drawn a pixel or two nearer to the eye than they are, so that
+/// they show on a surface that they lie on. Draw them after the surfaces.
 class LinesDrawing {
 public:
     explicit LinesDrawing(const Edges& edges);

@@ -9,7 +9,7 @@ namespace elastolab {
 namespace {
 
 constexpr int kDepthUnit = 0, kOpenUnit = 1;  // of textures
-constexpr int kBlendedCells = 2;              ///< beside a pixel's own, whose occlusion it takes part in
+constexpr int kBlendedCells = 2;              ///< on each side of a pixel's own, that its occlusion is blended from
 
 void draw_screen(const GlVertexArray& array, const GlState& state) {
     apply(state);

@@ -9,7 +9,7 @@
 namespace elastolab {
 
 struct OcclusionStyle {
-    double reach = 0.3;  ///< how far what covers a point may be, in scene radii
+    double reach = 0.3;  ///< how far away what covers a point may be, in scene radii
     double strength = 0.7;
 };
 
@@ -18,7 +18,7 @@ struct OcclusionStyle {
 class OcclusionDrawing {
 public:
     OcclusionDrawing();
-    /// Over what was drawn to `target`, to which draws go afterwards: after the opaque surfaces, before all else.
+    /// Darkens what was drawn to `target`, which stays bound: after the opaque surfaces, before all else.
     void draw(const SceneView& view, const Framebuffer& target, const OcclusionStyle& style = {});
     /// The same on a tile: as it would be in the whole picture, whose depths are gathered already.
     void draw_tile(const SceneView& view, const Framebuffer& tile, const DepthBuffer& whole,

@@ -12,8 +12,8 @@ namespace elastolab {
 class ShadowDrawing {
 public:
     ShadowDrawing();
-    /// Of `body` on the plane through the centre of `area`, across the unit vector `up`, as far as its radius. Draws
-    /// go elsewhere afterwards: bind what is to be drawn to.
+    /// Draws the shadow of `body` on the plane with unit normal `up` through the centre of `area`, up to its radius.
+    /// Another framebuffer is bound afterwards: bind the one to draw to.
     void update(const SurfaceDrawing& body, const SceneFrame& area, const Eigen::Vector3d& up);
     unsigned texture() const { return blurred_[1].texture(); }
 

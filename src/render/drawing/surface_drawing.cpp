@@ -13,7 +13,7 @@ namespace {
 constexpr unsigned kPosition = 0, kNormal = 1, kScalar = 2;  // locations in surface.vert
 constexpr int kMapUnit = 0, kTriangleUnit = 1;               // of textures
 
-/// How far a ghost is pushed away from the eye, of its distance: so that it does not flicker through what it touches.
+/// How far a ghost is pushed away from the eye, over its distance, so that it does not flicker where it touches others.
 constexpr float kGhostPush = 0.004f;
 
 void upload_map(const GlTexture& texture, const ColourMap& map) {

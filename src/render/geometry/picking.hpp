@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "render/gl/arrays.hpp"
 #include "render/camera.hpp"
+#include "render/gl/arrays.hpp"
 
 namespace elastolab {
 
@@ -14,7 +14,7 @@ struct PickHit {
     int triangle = -1;                                      ///< -1 when the ray misses and a vertex nearby was taken
     Eigen::Vector3d barycentric = Eigen::Vector3d::Zero();  ///< of the point in the triangle; zero without one
     Eigen::Vector3d point = Eigen::Vector3d::Zero();        ///< on the surface [L]; the vertex without a triangle
-    int vertex = -1;                                        ///< nearest on the screen, of the triangle if there is one
+    int vertex = -1;                                        ///< nearest on the screen; a corner of the triangle, if any
     double vertex_distance = 0.0;                           ///< of the vertex from the cursor [pixels]
 };
 

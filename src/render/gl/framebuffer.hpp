@@ -19,19 +19,19 @@ public:
     /// New storage when the size differs; the picture is then undefined.
     void resize(int width, int height);
 
-    /// This is a tile of a larger picture of that size, of which its bottom left corner is at (x, y).
+    /// This is a tile of a larger picture of that size; its bottom left corner is at (x, y) there.
     void be_tile_of(int width, int height, int x, int y) { whole_ = {x, y, width, height}; }
     bool is_tile() const { return whole_.width > 0; }
-    /// Draws go here from now on: to all of it, or of what it is a tile of.
+    /// Draws go here from now on; the viewport is all of it, or the whole picture that it is a tile of.
     void bind() const;
-    /// What was drawn, to texture().
+    /// Resolves what was drawn to texture().
     void resolve() const;
     /// Colours after resolve(), the bottom row first (v upward).
     unsigned texture() const { return texture_.id(); }
-    /// The depths of what was drawn, of one sample a pixel, to depth_texture(). Draws go here again afterwards.
+    /// Resolves the depths of what was drawn, one sample a pixel, to depth_texture(). Draws go here again afterwards.
     void resolve_depth() const;
     unsigned depth_texture() const { return depth_texture_.id(); }
-    /// Its place in what it is a tile of, or in itself: from the bottom left corner.
+    /// Its bottom left corner in the picture that it is a tile of; (0, 0) when it is none.
     Eigen::Vector2i place() const { return {whole_.x, whole_.y}; }
     /// resolve(), then a copy. Waits for the graphics card.
     Image read() const;
@@ -59,7 +59,7 @@ public:
     DepthBuffer(int width, int height);
     int width() const { return width_; }
     int height() const { return height_; }
-    /// What was drawn to this tile. Draws go there again afterwards.
+    /// Takes the depths of this tile. Draws go to it again afterwards.
     void take(const Framebuffer& tile);
     unsigned texture() const { return texture_.id(); }
 

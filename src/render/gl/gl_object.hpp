@@ -6,7 +6,7 @@
 
 namespace elastolab {
 
-/// Owns one name of OpenGL (3.3 core). Made, used and destroyed on the thread of the context, while that is current.
+/// Owns one OpenGL object (3.3 core). Made, used and destroyed on the thread of the context, while that is current.
 /// An empty one (0) is fine to destroy.
 template <void (*Destroy)(unsigned)>
 class GlObject {
@@ -71,7 +71,7 @@ struct GlAttribute {
 };
 void attach(const GlVertexArray& vertex_array, const GlBuffer& buffer, const GlAttribute& attribute);
 
-/// What a drawing needs of the fixed functions. Every drawing applies its own and leaves it; nothing is restored.
+/// The fixed-function state that a drawing needs. Every drawing sets its own and leaves it; nothing is restored.
 struct GlState {
     enum class Depth { ignored, nearer, nearer_or_equal, behind };
     enum class Cull { none, back, front };

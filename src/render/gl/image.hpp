@@ -21,7 +21,7 @@ struct Image {
 
 /// Throws Error when the file cannot be written; then what was there before is left alone.
 void write_png(const std::filesystem::path& path, const Image& image);
-/// Of width x height x `channels` bytes, 3 or 4.
+/// Writes width x height pixels of `channels` bytes each, 3 or 4.
 void write_png_channels(const std::filesystem::path& path, int width, int height, int channels,
                         const std::uint8_t* pixels);
 

@@ -10,7 +10,7 @@ TransparentImage matte(const Image& on_black, const Image& on_white) {
     TransparentImage image{on_black.width, on_black.height, {}};
     image.pixels.reserve(on_black.pixels.size() / 3 * 4);
     for (std::size_t i = 0; i + 2 < on_black.pixels.size(); i += 3) {
-        int seen_through = 255;  // the channel that tells most: light that is added hides nothing
+        int seen_through = 255;  // by the most opaque channel; light that is added hides nothing
         for (std::size_t c = 0; c < 3; ++c)
             seen_through = std::min(seen_through, on_white.pixels[i + c] - on_black.pixels[i + c]);
         const int opacity = 255 - std::clamp(seen_through, 0, 255);

@@ -14,8 +14,8 @@ struct TransparentImage {
     std::vector<std::uint8_t> pixels;  ///< 4 x width x height
 };
 
-/// The picture of which these two show what it looks like before black and before white: opacity is 1 minus their
-/// difference, whatever has been drawn and blended in between. Both have the same size.
+/// The picture that looks like these two over black and over white: its opacity is 1 minus their difference, whatever
+/// was drawn and blended in between. Both have the same size.
 TransparentImage matte(const Image& on_black, const Image& on_white);
 
 /// Throws Error when the file cannot be written; then what was there before is left alone.

@@ -33,7 +33,7 @@ std::string log_of(unsigned id, GetParameter get_parameter, GetLog get_log) {
     get_parameter(id, GL_INFO_LOG_LENGTH, &length);
     std::string log(static_cast<std::size_t>(length), '\0');
     get_log(id, length, nullptr, log.data());
-    return log.c_str();
+    return log.substr(0, log.find('\0'));
 }
 
 GlShader compiled(std::string_view file) {

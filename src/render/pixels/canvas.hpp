@@ -18,7 +18,7 @@ public:
     int width() const { return width_; }
     int height() const { return height_; }
 
-    /// One pixel, of which `cover` in [0, 1] is drawn on; the colour's opacity counts too.
+    /// Draws on one pixel, of which the part `cover` in [0, 1] is covered; the colour's opacity counts too.
     void blend(int x, int y, const Colour& colour, float cover);
     /// Edges and round corners are smoothed.
     void fill_rectangle(double left, double top, double right, double bottom, const Colour& colour,

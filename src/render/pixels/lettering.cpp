@@ -16,7 +16,7 @@ struct Lettering::Font {
     std::vector<unsigned char> bytes;
     stbtt_fontinfo info{};
 
-    /// Of a code point [units of the font].
+    /// Advance of a code point [units of the font].
     int advance(int code, int next) const {
         int width = 0, bearing = 0;
         stbtt_GetCodepointHMetrics(&info, code, &width, &bearing);

@@ -20,9 +20,9 @@ public:
     Lettering(const Lettering&) = delete;
     Lettering& operator=(const Lettering&) = delete;
 
-    /// Of one line of UTF-8 [pixels]; `size` is the height from the lowest to the highest letter.
+    /// Width of one line of UTF-8 [pixels]; `size` is the height from the lowest to the highest letter.
     double width(std::string_view text, double size) const;
-    /// From the left end of the line; `middle`: half the height of a digit above the base line.
+    /// Begins at `left`; `middle` is half the height of a digit above the baseline.
     void draw(Canvas& canvas, double left, double middle, std::string_view text, double size,
               const Colour& colour) const;
 

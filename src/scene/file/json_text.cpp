@@ -56,7 +56,7 @@ public:
 
     bool key(string_t& name) override {
         if (open_.back()->contains(name))
-            throw SceneError(json_message(file_, json_path(path(), name), "stands twice. Remove one of them."));
+            throw SceneError(json_message(file_, json_path(path(), name), "appears twice. Remove one of them."));
         key_ = name;
         (*open_.back())[name] = nullptr;
         return true;

@@ -97,7 +97,7 @@ BoxSelector read_box(const JsonNode& node) {
     for (int axis = 0; axis < 3; ++axis)
         if (box.min(axis) > box.max(axis))
             node.fail("min is above max along " + std::string(1, "xyz"[axis]) + " (" + exact(box.min(axis)) + " > " +
-                      exact(box.max(axis)) + "). Exchange them.");
+                      exact(box.max(axis)) + "). Swap them.");
     return box;
 }
 
@@ -158,7 +158,7 @@ Handle read_handle(const JsonNode& node) {
     handle.select = read_selector(node.at("select", "Say which vertices the handle moves."));
     const auto displacements = node.find("displacements");
     if (displacements && (node.has("matrix") || node.has("translate")))
-        node.fail("has displacements beside matrix or translate. Keep one kind of motion.");
+        node.fail("has both displacements and matrix or translate. Keep one kind of motion.");
     if (displacements) {
         handle.motion = read_displacements(*displacements);
         return handle;
@@ -170,7 +170,7 @@ Handle read_handle(const JsonNode& node) {
     return handle;
 }
 
-/// The last of these, which `node` holds, has a name that none before it has. `kind`: what they are.
+/// Requires that the last of `all`, read from `node`, has no earlier one's name. `kind`: what they are called.
 template <class Named>
 void require_new_name(const JsonNode& node, const std::vector<Named>& all, const std::string& kind) {
     const auto last = std::prev(all.end());
@@ -192,7 +192,7 @@ FixedSet read_fixed_set(const JsonNode& node) {
     return set;
 }
 
-/// A selector, or a list of sets, which have a "select" each, where selectors have a shape.
+/// A selector (or a list of them), or a list of sets, each with a "select" of its own.
 std::vector<FixedSet> read_fixed(const JsonNode& node) {
     const auto is_set = [](const JsonNode& member) {
         return member.is_object() && (member.has("select") || member.has("name"));

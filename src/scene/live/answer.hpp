@@ -24,7 +24,7 @@ public:
     /// 3*n_vertices [L]; zero until the first answer. version() grows with every change.
     virtual const Eigen::VectorXd& displacement() const = 0;
     virtual std::uint64_t version() const = 0;
-    /// What is to be said of the answer; of what is known by now.
+    /// What the person should know of the answer, as far as it is known by now.
     virtual Findings findings() const = 0;
 };
 

@@ -19,7 +19,7 @@ namespace elastolab {
 /// What a poll of a background job found.
 enum class JobEvent { none, finished, failed, cancelled };
 
-/// Of a running computation: what it is at, how far in [0, 1], and for how long.
+/// A running computation: its stage, its progress in [0, 1], and for how long it has run.
 struct JobStatus {
     const char* stage = "";
     double progress = 0.0;
@@ -54,7 +54,7 @@ public:
         next_ = ticket_;
         if (worker_runs_) return;
         worker_runs_ = true;
-        worker_ = std::jthread([this] { work_off(); });  // joins the one before, which has nothing left to do
+        worker_ = std::jthread([this] { work_off(); });  // joins the previous thread, which has nothing left to do
     }
 
     /// Asks the running computation to stop; it does so at its next checkpoint.
@@ -62,7 +62,7 @@ public:
         if (ticket_) ticket_->control.cancel();
     }
 
-    /// What has become of the computation, told once. After `finished` take() gives the result; after `failed`
+    /// What has become of the computation, reported once. After `finished` take() gives the result; after `failed`
     /// failure() says why.
     JobEvent poll() {
         if (!ticket_ || working()) return JobEvent::none;
@@ -83,11 +83,11 @@ public:
     }
 
     bool running() const { return ticket_ != nullptr; }
-    /// Whether the worker itself has not ended yet; without a poll().
+    /// Whether the worker has not ended yet; changes nothing, unlike poll().
     bool working() const {
         return ticket_ && ticket_->result.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
     }
-    /// Of the running computation; all zero when there is none.
+    /// That of the running computation; all zero when there is none.
     JobStatus status() const {
         if (!ticket_) return {};
         return {ticket_->control.stage(), ticket_->control.progress(), ticket_->watch.seconds()};
@@ -95,8 +95,8 @@ public:
     /// Seconds that the last computation took.
     double last_seconds() const { return last_seconds_; }
 
-    /// Gives away the result of the last computation that was finished: what it holds lives no longer than its users
-    /// want. As default-constructed before the first and after each call.
+    /// Hands over the result of the last finished computation, so that it lives no longer than its users want.
+    /// Default-constructed before the first one and after each call.
     Result take() { return std::exchange(result_, {}); }
     /// Why the last computation failed, for the user; empty when it did not.
     const std::string& failure() const { return failure_; }
@@ -105,7 +105,7 @@ private:
     /// One computation, shared by the watcher and the worker.
     struct Ticket {
         explicit Ticket(Work what) : work(std::move(what)), result(promise.get_future()) {}
-        /// On the worker. The inputs are let go before the watcher can know of the result.
+        /// On the worker. Releases the inputs before the watcher can see the result.
         void run() {
             try {
                 Result value = [&] {
@@ -149,7 +149,7 @@ private:
     std::mutex mutex_;  ///< for the next two
     std::shared_ptr<Ticket> next_;
     bool worker_runs_ = false;
-    std::jthread worker_;  ///< last: it ends before what it uses goes
+    std::jthread worker_;  ///< last: it ends before what it uses is destroyed
 };
 
 }  // namespace elastolab

@@ -117,7 +117,7 @@ double DragSolver::tolerance_of(int handle, const Eigen::Matrix3Xd& change) cons
     return kRounding * (change.cwiseAbs().maxCoeff() + start.cwiseAbs().maxCoeff());
 }
 
-/// What the columns at hand are to be multiplied with for this change of the handle; nothing when they do not span it.
+/// The factors of the columns at hand that give this change of the handle; nothing when they do not span it.
 std::optional<Eigen::VectorXd> DragSolver::parameters_of(int handle, const Eigen::Matrix3Xd& change) const {
     if (handle != handle_) return std::nullopt;
     const Eigen::MatrixXd parameters = change * fit_;  // 3 x shapes

@@ -17,8 +17,8 @@ public:
     /// handle_ends[i]: where the vertices of handle i end in the list of all handles' vertices (deformer->set()).
     DragSolver(std::shared_ptr<const Deformer> deformer, std::vector<int> handle_ends);
 
-    /// Solves ahead for these values, and for more of the motion that led to them from those before; without any, for
-    /// translations of the last handle. displace() has them at once when this is what comes. Throws SolveError,
+    /// Solves ahead for these values, and for further motion of the kind that led to them from the start; if that was
+    /// not of one handle, for translations of the last. displace() then needs no solve for these. Throws SolveError,
     /// Cancelled.
     void prepare(const Eigen::VectorXd& values, Control& control);
     /// Whether displace(values) needs no solve but one pass over the columns at hand.

@@ -29,7 +29,7 @@ void EmbeddedRunner::set_constraints(const Constraints& constraints) {
 }
 
 void EmbeddedRunner::prefetch(const Constraints& constraints) {
-    if (surface() == nullptr) return;  // on what it will be computed is not known yet
+    if (surface() == nullptr) return;  // it is not known yet which surface is computed on
     if (!carried_) return runner_.prefetch(constraints.set);
     prefetched_->set(constraints);
     runner_.prefetch(prefetched_->constraints().set);
@@ -47,7 +47,7 @@ const Eigen::VectorXd& EmbeddedRunner::displacement() const {
 
 Findings EmbeddedRunner::findings() const {
     Findings all = carried_ ? findings_of_proxy(carried_->proxy(), name_) : Findings{};
-    const Findings own = runner_.findings();
+    const Findings own = carried_ ? carried_->as_shown(runner_.findings()) : runner_.findings();
     all.insert(all.end(), own.begin(), own.end());
     return all;
 }

@@ -25,14 +25,14 @@ public:
     const MethodRunner& runner() const { return runner_; }
     /// Null when the shown surface itself is computed on.
     const Proxy* proxy() const { return carried_ ? &carried_->proxy() : nullptr; }
-    /// That the answer is computed on; null before set_body().
+    /// The surface that the answer is computed on; null before set_body().
     const SurfaceMesh* surface() const { return runner_.surface(); }
     /// Whether the answer is for this surface.
     bool shows(const SurfaceMesh& mesh) const { return (proxy() ? proxy()->shown.get() : surface()) == &mesh; }
-    /// That the answer is for: of surface().
+    /// The constraints that the answer is computed for: those of surface().
     const Constraints& constraints() const { return carried_ ? carried_->constraints() : shown_; }
 
-    /// Of the shown surface.
+    /// Those of the shown surface.
     void set_constraints(const Constraints& constraints) override;
     /// Constraints that may be asked for soon.
     void prefetch(const Constraints& constraints);
@@ -42,10 +42,10 @@ public:
     bool ready() const { return runner_.state() == MethodRunner::State::ready; }
     const Eigen::VectorXd& displacement() const override;
     std::uint64_t version() const override { return runner_.version(); }
-    /// Of the body that is computed on.
+    /// Findings of the body that is computed on, and of its proxy; point constraints are those of the shown surface.
     Findings findings() const override;
 
-    /// One value a vertex of surface(), as it is shown.
+    /// One value for each vertex of surface(), carried to the shown vertices.
     Eigen::VectorXd shown_values(const Eigen::VectorXd& of_surface) const;
 
 private:

@@ -7,7 +7,7 @@
 
 namespace elastolab {
 
-/// Bytes that a document takes, about: lists of vertices and their displacements, meshes not being part of it.
+/// Bytes that a document takes, roughly: its lists of vertices and displacements; meshes are not part of it.
 std::size_t bytes_of(const Document& document);
 
 /// The steps that led to a document, for undo and redo. The oldest are forgotten when there are more than a thousand,
@@ -16,7 +16,7 @@ class History {
 public:
     explicit History(Document start, std::size_t max_bytes = std::size_t{64} << 20);
 
-    /// Ends a step with this document; later steps that were undone are forgotten. A step that changed nothing is none.
+    /// Ends a step with this document; later steps that were undone are forgotten. One that changed nothing is no step.
     void commit(const Document& document);
     bool can_undo() const { return present_ > 0; }
     bool can_redo() const { return present_ + 1 < steps_.size(); }
@@ -24,7 +24,7 @@ public:
     const Document& undo() { return steps_[--present_].document; }
     const Document& redo() { return steps_[++present_].document; }
     const Document& present() const { return steps_[present_].document; }
-    /// Of all steps together, about.
+    /// Those of all steps together, roughly.
     std::size_t bytes() const;
 
 private:

@@ -83,7 +83,7 @@ std::vector<int> LiveScene::only_free(std::span<const int> vertices) const {
     return result;
 }
 
-/// "handle-0", "handle-1", ...: the first that nobody has.
+/// "handle-0", "handle-1", ...: the first that is not taken.
 std::string LiveScene::unused_handle_name() const {
     std::size_t n = 0;
     while (is_taken("handle-" + std::to_string(n))) ++n;
@@ -247,7 +247,7 @@ Constraints LiveScene::constraints_with_handle(std::span<const int> vertices) co
     return all;
 }
 
-/// The whole of it or, on an exception, nothing.
+/// Takes over the whole document or, on an exception, nothing of it.
 void LiveScene::become(Document document) {
     constraints_ = make_constraints(document, *surface_, file_);
     document_ = std::move(document);

@@ -45,7 +45,7 @@ public:
     const Constraints& constraints() const { return constraints_; }
     int n_handles() const { return static_cast<int>(document_.handles.size()); }
     int n_fixed_sets() const { return static_cast<int>(document_.fixed.size()); }
-    /// The vertices of a handle, or of the fixed part, all its sets (kFixed).
+    /// The vertices of a handle, or of all fixed sets together (kFixed).
     std::span<const int> vertices(int owner) const;
     std::span<const int> fixed_vertices(int set) const;
     int owner(int vertex) const { return owners_[static_cast<std::size_t>(vertex)]; }
@@ -60,7 +60,7 @@ public:
     /// Whether something but the method and its settings changed since the document was loaded or marked as saved.
     bool modified() const;
     void mark_saved() { saved_ = document_; }
-    /// Nothing that is there was ever saved by the person: it comes from a session that was cut short.
+    /// Nothing of it was ever saved by the person: it comes from a session that was cut short.
     void mark_unsaved() { saved_.reset(); }
 
     // Edits of the constrained set. Vertices that belong to others are left to them.
@@ -72,9 +72,9 @@ public:
     bool rename_handle(int handle, const std::string& name);
     /// Adds vertices to a fixed set, or, with n_fixed_sets(), makes a new one of them.
     void fix(std::span<const int> vertices, int set);
-    /// To the last of the sets; to a new one where there is none.
+    /// Adds them to the last set, or to a new one where there is none.
     void fix(std::span<const int> vertices) { fix(vertices, std::max(0, n_fixed_sets() - 1)); }
-    /// Takes vertices out of a fixed set, or out of all sets (kFixed). A set without any is gone.
+    /// Takes vertices out of a fixed set, or out of all sets (kFixed). A set left without any is removed.
     void unfix(std::span<const int> vertices, int set = kFixed);
     void remove_fixed_set(int set);
     /// False when the name is empty, or that of a handle or fixed set: then nothing changes.
@@ -86,7 +86,7 @@ public:
     void set_material(const Material& material);
     void set_proxy(const ProxyChoice& choice);
     void set_method(MethodKind kind, const MethodSettings& settings);
-    /// The scene begins with this method: no step of undo, and nothing that would have to be saved.
+    /// The scene begins with this method: not an undo step, and nothing that has to be saved.
     void start_with(MethodKind kind, const MethodSettings& settings);
 
     /// Ends a step; does nothing when it changed nothing.
@@ -96,8 +96,7 @@ public:
     void undo();
     void redo();
 
-    /// What an edit would make of the constraints: with these vertices (those that are free) as one more handle, at
-    /// rest.
+    /// The constraints as they would be with these vertices (those that are free) as one more handle, at rest.
     Constraints constraints_with_handle(std::span<const int> vertices) const;
 
 private:

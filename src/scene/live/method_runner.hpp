@@ -33,13 +33,13 @@ public:
     /// Forgets the body and all that belongs to it. May be called again and again: that is how its workers come to
     /// rest.
     void clear();
-    /// Of the body last set; null before.
+    /// The surface of the body last set; null before.
     const SurfaceMesh* surface() const { return models_.body().surface.get(); }
     /// Constraints belong to the body last set.
     void set_constraints(const Constraints& constraints) override { sets_.want(constraints); }
     void set_frame_rule(FrameRule rule);
     /// Seconds that poll() may solve for a new motion itself, judged by the last time; longer solves go to the worker,
-    /// and the answer before stays meanwhile.
+    /// and the previous answer stays meanwhile.
     void set_solve_budget(double seconds) { solve_budget_ = seconds; }
     void prefetch(const ConstrainedSet& set) { sets_.prefetch(set); }
 
@@ -74,9 +74,9 @@ public:
     const Method& method() const { return models_.method(); }
     /// What answers now (null before the first), for reactions and quality.
     const std::shared_ptr<const Deformer>& deformer() const { return sets_.current().deformer; }
-    /// Those that displacement() belongs to, as Deformer::displace takes them; empty before the first answer.
+    /// The values that displacement() belongs to, as Deformer::displace takes them; empty before the first answer.
     const Eigen::VectorXd& values() const { return values_; }
-    /// Whether displacement() is the solution for values(): false where there is none, and the answer before stands.
+    /// Whether displacement() is the solution for values(): false where there is none, and the previous answer stands.
     bool solved() const { return solved_; }
 
     /// Whether displacement() is what the scene asks for, by whichever model of this body and Poisson's ratio: a model
@@ -87,7 +87,7 @@ public:
     bool preparing() const { return sets_.preparing(); }
     bool completing() const { return models_.completing(); }
     bool has_inverse() const { return models_.has_inverse(); }
-    /// Of what runs now, what is waited for first.
+    /// That of the job that runs now; of several, the one that is waited for.
     JobStatus status() const;
     /// Seconds that the last preparation of a constrained set took.
     double prepare_seconds() const { return sets_.last_seconds(); }

@@ -24,7 +24,7 @@ public:
     void ask(const Body& body, const Method& method);
     /// Forgets the body and the model. May be called again and again: that is how its workers come to rest.
     void clear();
-    /// Takes over what the workers finished; true when model() is another one.
+    /// Takes over what the workers finished; true when model() has changed.
     bool poll();
 
     const Body& body() const { return body_; }  ///< last asked for
@@ -63,7 +63,7 @@ private:
     std::optional<Update> completion_tried_;
     std::string failure_;
     std::shared_ptr<const Model> model_;
-    // Last: their threads end before what they wake goes.
+    // Last: their threads end before what they wake is destroyed.
     ModelJob precompute_, completion_;
 };
 

@@ -42,7 +42,7 @@ void ProxyKeeper::begin() {
 }
 
 void ProxyKeeper::begin_proxies(bool needs_model, bool needs_preview) {
-    std::vector<int> sizes;  // made at once: their first steps are the same
+    std::vector<int> sizes;  // made together: their first steps are the same
     if (needs_model) sizes.push_back(choice_->n_vertices);
     if (needs_preview) sizes.push_back(n_preview_);
     job_.start(
@@ -55,7 +55,7 @@ void ProxyKeeper::begin_proxies(bool needs_model, bool needs_preview) {
         });
 }
 
-/// The preview is one of the filled surface, which is solid where the open one may be a shell.
+/// The preview is made of the filled surface, which is solid where the open one may be a shell.
 void ProxyKeeper::begin_filling(bool needs_preview) {
     job_.start([surface = surface_, report = report_, name = name_, choice = *choice_, n_preview = n_preview_,
                 filled = model_, needs_preview](Control& control) {
@@ -64,13 +64,13 @@ void ProxyKeeper::begin_filling(bool needs_preview) {
         try {
             if (!solid) solid = made.model = make_proxy(name, surface, report, choice, control);
         } catch (const MeshError& error) {
-            made.failure = error.what();  // and a preview of what is there answers
+            made.failure = error.what();  // the preview is made of the open surface then
         }
         if (!needs_preview) return made;
         try {
             made.preview = solid ? make_coarser_proxy(name, *solid, n_preview, control)
                                  : make_proxies(name, surface, report, std::span(&n_preview, 1), control).front();
-        } catch (const MeshError&) {  // it does without one
+        } catch (const MeshError&) {  // there is no preview then
         }
         return made;
     });

@@ -6,7 +6,7 @@ namespace elastolab {
 
 namespace {
 
-/// An answer that rests so long is worth checking.
+/// An answer that has rested this long is worth checking.
 constexpr double kRestSeconds = 0.7;
 Findings findings_at_rest(const Deformer& deformer, const Eigen::VectorXd& values, Control& control) {
     return findings_of_answer(deformer, deformer.answer(values, {.residual = true, .check = true}, control));

@@ -18,7 +18,7 @@ public:
     /// `wake` is called by the worker when poll() will find something.
     explicit RestCheck(std::function<void()> wake) : job_(std::move(wake)) {}
 
-    /// The answer is another one: what was found of the one before is forgotten.
+    /// The answer has changed: what was found of the previous one is forgotten.
     void restart();
     /// Takes over what was found. Once per frame.
     void poll();

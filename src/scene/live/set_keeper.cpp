@@ -133,7 +133,7 @@ SetKeeper::Event SetKeeper::use_or_prepare() {
     return event;
 }
 
-/// What is prefetched is mostly one more handle, that rests until it is pulled.
+/// A prefetched set mostly has one more handle, at rest until it is pulled.
 void SetKeeper::prepare_prefetched(const ConstrainedSet& set) {
     const auto n = static_cast<int>(set.handles.size());
     std::vector<int> ends = handle_ends_;
@@ -162,7 +162,7 @@ void SetKeeper::prepare(const ConstrainedSet& set, Eigen::VectorXd values, std::
     });
 }
 
-/// The motion goes on meanwhile: the columns that the worker brings serve what comes of it then.
+/// The motion goes on meanwhile: the columns that the worker brings serve its continuation.
 void SetKeeper::solve_on_worker() {
     if (!is_current() || solving()) return;
     preparing_set_ = wanted_set_;

@@ -28,8 +28,8 @@ struct PreparedSet {
     Findings findings = {};      ///< of the set
 };
 
-/// Keeps the constrained set that is wanted prepared on a worker thread, and motions within it that take long solved
-/// there. The set used before stays at hand. All members are for one thread.
+/// Prepares the wanted constrained set on a worker thread, and solves there for motions within it that take long. The
+/// set used before stays at hand. All members are for one thread.
 class SetKeeper {
 public:
     /// `wake` is called by the worker when poll() will find something.
@@ -39,7 +39,7 @@ public:
     const ConstrainedSet& wanted_set() const { return wanted_set_; }
     const Eigen::VectorXd& wanted_values() const { return wanted_values_; }
     const std::vector<int>& handle_ends() const { return handle_ends_; }
-    /// True when it is another rule.
+    /// True when the rule has changed.
     bool set_frame_rule(FrameRule rule);
     FrameRule frame_rule() const { return rule_; }
     /// Prepares a set that may be asked for soon, when there is nothing else to do.
@@ -51,8 +51,8 @@ public:
 
     enum class Event {
         none,
-        another_set,    ///< current() is another one: what was answered before is not of it
-        motion_solved,  ///< current().drag has the motion that was given to the worker, and what comes of it
+        another_set,    ///< current() has changed: earlier answers do not belong to it
+        motion_solved,  ///< current().drag has the motion that was given to the worker, and its continuation
         motion_failed   ///< see motion_failure()
     };
     /// Takes over what the worker finished and starts what is due.
@@ -100,7 +100,7 @@ private:
     ConstrainedSet preparing_set_;
     Eigen::VectorXd solving_values_;  ///< that the worker solves for within the present set
     std::string failure_, motion_failure_;
-    BackgroundJob<PreparedSet> job_;  // last: its thread ends before what it wakes goes
+    BackgroundJob<PreparedSet> job_;  // last: its thread ends before what it wakes is destroyed
 };
 
 }  // namespace elastolab

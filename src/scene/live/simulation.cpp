@@ -13,14 +13,14 @@ namespace {
 
 using State = MethodRunner::State;
 
-/// What nobody waits for may take so long by itself.
+/// Longest predicted time of a completion, which nobody waits for.
 constexpr double kMaxCompletionSeconds = 120.0;
 
-/// A body of no more vertices is ready before a person has looked at it.
+/// A body with no more vertices than this is ready before a person has looked at it.
 constexpr int kFewestToPreview = 300;
-/// Of a preview's surface: what a worker has ready within a second.
+/// Vertices of a preview's surface, which a worker has ready within a second.
 constexpr int kPreviewVertices = 700;
-/// A sound surface of no more vertices needs no coarser one.
+/// A sound surface with no more vertices than this needs no coarser one.
 constexpr int kMostToPreviewThemselves = 900;
 /// The preview's elements cannot take 1/2 itself.
 constexpr double kPreviewPoissonRatio = 0.49;
@@ -144,7 +144,7 @@ bool Simulation::update_method(Entry& entry, const LiveScene& scene, const Metho
         runner.clear();  // its turn has not come yet
         return runner.version() != before;
     }
-    // Two at a time would keep each other waiting: the preview's set is a matter of a moment.
+    // Two at a time would slow each other down, and the preview's set takes only a moment.
     entry.waits_for_preview = preparing_preview();
     runner.runner().set_frame_rule(choices.frame_rule);
     if (!entry.waits_for_preview) runner.set_constraints(scene.constraints());
@@ -152,7 +152,7 @@ bool Simulation::update_method(Entry& entry, const LiveScene& scene, const Metho
     return runner.version() != before;
 }
 
-/// The preview answers as long as it is ready and the method is not. Returns whether another one answers now.
+/// The preview answers as long as it is ready and the method is not. Returns whether the one that answers has changed.
 bool Simulation::choose_answer(Entry& entry) const {
     const bool before = entry.previewing;
     const bool ready = entry.runner->runner().answers() && !entry.waits_for_preview;

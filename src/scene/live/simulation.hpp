@@ -25,7 +25,7 @@ struct MethodChoices {
     /// While a method is being prepared, a coarse preview answers.
     bool preview = true;
 
-    /// Those of them that a scene remembers.
+    /// The choices that a scene remembers.
     MethodSettings settings() const { return {mode, tractions, update}; }
     void set(const MethodSettings& settings) {
         mode = settings.mode;
@@ -48,7 +48,7 @@ public:
     /// Brings every method of `shown` up to date with the scene; the first is served first. The next one begins its
     /// precomputation when the one before has its model. Returns whether any displacement changed.
     bool update(const LiveScene& scene, const std::vector<MethodKind>& shown, const MethodChoices& choices);
-    /// Prepares the methods of the last update for this set, that may be asked for soon.
+    /// Prepares the methods of the last update for this set, which may be asked for soon.
     void prefetch(const Constraints& constraints);
     /// Tries again what failed or was stopped.
     void retry(MethodKind kind);
@@ -63,15 +63,15 @@ public:
     /// How far the preview was from the method's answer when that came: rms over all vertices, relative to the
     /// answer's; nothing when there was none.
     std::optional<double> preview_error(MethodKind kind) const { return entries_[place(kind)].preview_error; }
-    /// The proxy that a method simulates, or the preview's; null while there is none.
+    /// The proxies: the one that methods simulate, and the preview's.
     const ProxyKeeper& proxies() const { return proxies_; }
     const EmbeddedRunner& preview() const { return preview_; }
     /// The surface that a method computes on in this scene; null while its proxy is not there.
     const SurfaceMesh* simulated_surface(MethodKind kind, const LiveScene& scene) const;
     /// Whether the proxy that a method needs is being made.
     bool making_proxy(MethodKind kind) const { return entries_[place(kind)].waits_for_proxy; }
-    /// Why a method cannot take this scene (a mesh or material that is not fit for it), else why it failed; empty when
-    /// neither.
+    /// Why a method cannot take this scene (a mesh or material that is not fit for it), or why it failed; empty
+    /// otherwise.
     std::string problem(MethodKind kind) const;
 
     bool preparing_preview() const;  ///< the preview cannot answer yet, and will by itself

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "base/parallel.hpp"
+#include "findings/solution.hpp"
 
 namespace elastolab {
 
@@ -23,7 +24,7 @@ bool same_set(const Constraints& a, const Constraints& b) {
         return x.begin == y.begin && x.end == y.end && x.name == y.name;
     };
     if (!std::equal(a.groups.begin(), a.groups.end(), b.groups.begin(), same_group)) return false;
-    // Which of a handle's neighbours follow it depends on whether its motion means something beside its own vertices.
+    // Which of a handle's neighbours follow it depends on whether its motion is defined away from its own vertices.
     return std::equal(a.motions.begin(), a.motions.end(), b.motions.begin(), b.motions.end(),
                       [](const Motion& x, const Motion& y) { return x.index() == y.index(); });
 }
@@ -40,6 +41,7 @@ void CarriedConstraints::set(const Constraints& shown) {
     if (!same) {
         choose_vertices();
         find_followers();
+        points_ = findings_of_points(*proxy_->shown, shown_.set);
         chosen_ = true;
     }
     carry_values();
@@ -85,7 +87,7 @@ std::vector<CarriedConstraints::Part> CarriedConstraints::parts() const {
     return parts;
 }
 
-/// Of every proxy vertex, the constrained part within reach that is nearest.
+/// For every proxy vertex, the nearest constrained part within reach.
 std::vector<CarriedConstraints::Nearest> CarriedConstraints::nearest_parts(const std::vector<Part>& parts) const {
     const Positions& vertices = proxy_->surface->vertices;
     std::vector<Nearest> nearest(static_cast<std::size_t>(vertices.cols()));
@@ -103,7 +105,7 @@ std::vector<CarriedConstraints::Nearest> CarriedConstraints::nearest_parts(const
     return nearest;
 }
 
-/// Where the proxy's vertices are the shown ones: those that are constrained themselves.
+/// Where the proxy has the shown vertices themselves: those that are constrained.
 std::vector<CarriedConstraints::Nearest> CarriedConstraints::same_vertices() const {
     const SurfacePlaces& places = proxy_->places;
     std::vector<Nearest> nearest(static_cast<std::size_t>(proxy_->surface->n_vertices()));
@@ -117,8 +119,8 @@ std::vector<CarriedConstraints::Nearest> CarriedConstraints::same_vertices() con
     return nearest;
 }
 
-/// How far the body follows a vertex without a whole triangle depends on the mesh: a part that has triangles has only
-/// their corners.
+/// How far the body follows a vertex without a whole triangle depends on the mesh: of a part that has whole
+/// triangles, only their corners are kept.
 void CarriedConstraints::leave_out_lone_vertices(std::vector<Nearest>& nearest) const {
     std::vector<bool> in_triangle(nearest.size(), false);
     std::vector<bool> has_triangle(shown_.groups.size(), false);
@@ -274,6 +276,12 @@ Eigen::VectorXd CarriedConstraints::displacement(const Eigen::VectorXd& of_proxy
         own += follower.share * (value_of(follower) - own);
     }
     return u;
+}
+
+Findings CarriedConstraints::as_shown(Findings of_proxy) const {
+    std::erase_if(of_proxy, [](const Finding& finding) { return finding.kind == FindingKind::point_constraint; });
+    of_proxy.insert(of_proxy.end(), points_.begin(), points_.end());
+    return of_proxy;
 }
 
 Eigen::VectorXd carried_values(const Proxy& proxy, const Eigen::VectorXd& of_proxy) {

@@ -17,7 +17,7 @@ namespace elastolab {
 /// surface: the triangles of which all corners are constrained, and single constrained vertices. It follows the same
 /// motion. A part that is smaller than the proxy's triangles holds the corners of the nearest one.
 ///
-/// Shown vertices follow their places on the proxy, but constrained ones go exactly where they were put; what is left
+/// Shown vertices follow their places on the proxy, but constrained ones go exactly where they were put; the difference
 /// between the two fades out around them within one edge of the proxy. Where the proxy is the shown surface with its
 /// holes filled, vertices are carried to themselves.
 class CarriedConstraints {
@@ -29,12 +29,15 @@ public:
     const Proxy& proxy() const { return *proxy_; }
     /// Carries them over; cheap when only values are new.
     void set(const Constraints& shown);
-    /// As of the last set(): for a body with the proxy's surface.
+    /// Those of the last set(), for a body with the proxy's surface.
     const Constraints& constraints() const { return carried_; }
 
-    /// Displacements of the shown vertices, 3 * n_shown [L], from those of the proxy's under constraints(), 3 *
+    /// Displacements of the shown vertices, 3 * n_shown [L], from those of the proxy under constraints(), 3 *
     /// n_proxy.
     Eigen::VectorXd displacement(const Eigen::VectorXd& of_proxy) const;
+
+    /// Findings of an answer under constraints(), for the shown constraints: point constraints are shown vertices.
+    Findings as_shown(Findings of_proxy) const;
 
 private:
     /// The constrained part of the shown surface that belongs to one group; its vertices are numbered anew.
@@ -69,6 +72,7 @@ private:
     std::shared_ptr<const Proxy> proxy_;
     VertexTriangles around_;  ///< of the shown surface
     Constraints shown_, carried_;
+    Findings points_;  ///< of the shown constraints
     bool chosen_ = false;
     std::vector<Eigen::Vector3i> origins_;         ///< of each carried handle vertex: places in its handle,
     std::vector<Eigen::Vector3d> origin_weights_;  ///< whose weighted mean is nearest to it

@@ -12,12 +12,12 @@ namespace elastolab {
 
 namespace {
 
-/// Part of a proxy's vertices from which it is told that they belong to thin walls.
+/// Share of a proxy's vertices on thin walls above which that is reported.
 constexpr double kManyThin = 0.05;
-/// Distances, in edges of the proxy, that are none.
+/// Distances up to this, in edges of the proxy, count as zero.
 constexpr double kRounding = 1e-9;
 
-/// A shown vertex that is one of `surface` is at a corner of a triangle; the others are where they are closest.
+/// A shown vertex that `surface` also has is at a corner of a triangle; the others are at their closest points.
 SurfacePlaces own_places(const SurfaceMesh& surface, const Positions& shown, const std::vector<int>& own,
                          Control& control) {
     SurfacePlaces places = closest_points(surface, shown, control);
@@ -38,7 +38,7 @@ SurfacePlaces own_places(const SurfaceMesh& surface, const Positions& shown, con
 std::shared_ptr<const Proxy> embedded(ProxySurface made, const std::shared_ptr<const SurfaceMesh>& shown,
                                       const MeshReport& report, Control& control, const std::vector<int>& own = {}) {
     auto proxy = std::make_shared<Proxy>();
-    // That of equal-sided triangles of the mean area.
+    // That of equilateral triangles of the mean area.
     proxy->edge = std::sqrt(4.0 / std::sqrt(3.0) * surface_area(made.surface) / made.surface.n_triangles());
     proxy->kind = made.kind;
     proxy->shown_is_sound = report.usable_for_fem();

@@ -13,8 +13,8 @@
 
 namespace elastolab {
 
-/// A closed surface that is simulated in place of the one that is shown, and how the shown one hangs on it. Where it is
-/// filled, it is the shown surface itself, every vertex of which that has a triangle is one of its own.
+/// A closed surface that is simulated in place of the shown one, and how the shown one is attached to it. A filled one
+/// is the shown surface with its holes closed: it has every shown vertex that belongs to a triangle.
 struct Proxy {
     std::shared_ptr<const SurfaceMesh> shown, surface;
     SurfacePlaces places;  ///< of the shown vertices on `surface`: they move with these points
@@ -34,12 +34,12 @@ std::vector<std::shared_ptr<const Proxy>> make_proxies(const std::string& name,
                                                        const MeshReport& report, std::span<const int> sizes,
                                                        Control& control);
 
-/// The one that a scene's choice asks for: of about its number of vertices, or the surface with its holes filled, which
-/// throws MeshError too when that is no solid.
+/// The one that a scene's choice asks for: with about its number of vertices, or the surface with its holes filled.
+/// Throws as make_proxies, and MeshError when the filled surface is no solid.
 std::shared_ptr<const Proxy> make_proxy(const std::string& name, const std::shared_ptr<const SurfaceMesh>& shown,
                                         const MeshReport& report, const ProxyChoice& choice, Control& control);
 
-/// One of about so many vertices of what `fine` simulates, for the same shown vertices. Throws as make_proxies.
+/// One of about `n_vertices` vertices, of what `fine` simulates, for the same shown vertices. Throws as make_proxies.
 std::shared_ptr<const Proxy> make_coarser_proxy(const std::string& name, const Proxy& fine, int n_vertices,
                                                 Control& control);
 

@@ -62,7 +62,7 @@ public:
     explicit CaseList(bool quick) : repeats_(repeats(quick)) {}
 
     void add(const std::string& part, const std::string& family, const std::string& variant, double nu, int size,
-             double weight, Work work) {
+             double weight, const Work& work) {
         const Row id =
             Row().set("part", part).set("problem", family).set("variant", variant).set("nu", nu).set("size", size);
         cases_.push_back({id, weight, [=, store = store_](Control& control) {

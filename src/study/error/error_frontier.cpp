@@ -13,7 +13,7 @@ namespace elastolab {
 
 namespace {
 
-/// Interpolated between the first mesh that is fine enough and the one before.
+/// Interpolated between the first mesh that is fine enough and the next coarser one.
 double reach(const std::vector<double>& error, const std::vector<double>& quantity, double target) {
     for (std::size_t i = 0; i < error.size(); ++i) {
         if (!(error[i] <= target)) continue;

@@ -22,7 +22,7 @@ std::vector<FrontierPoint> frontier(const Table& table, const std::string& time,
 /// The fastest at each target, in the order of problem, ratio and target.
 std::vector<FrontierPoint> fastest(const std::vector<FrontierPoint>& points);
 
-/// Those of the methods as they are by default: variants that are named as a method is.
+/// The points of the methods with default choices: variants that have a method's name.
 std::vector<FrontierPoint> defaults_of(const std::vector<FrontierPoint>& points);
 
 /// The errors that the frontier is asked for.

@@ -69,7 +69,7 @@ std::string seconds_at(const std::vector<FrontierPoint>& points, const FrontierP
     return found == points.end() ? "not reached" : duration(found->seconds);
 }
 
-/// The winner among these at a place, with its time; "-" where nobody gets there.
+/// The winner at the problem, ratio and target of `where`, with its time; "-" where none reaches the target.
 std::string winner_at(const std::vector<FrontierPoint>& winners, const FrontierPoint& where) {
     const auto found = std::find_if(winners.begin(), winners.end(), [&](const FrontierPoint& p) {
         return p.problem == where.problem && p.nu == where.nu && p.target == where.target;

@@ -19,8 +19,8 @@ struct OrganicBody {
     /// Base, then pull; and their displacements: base at rest, pull moved by `distance` along its direction [L].
     std::vector<int> constrained() const;
     Positions values(double distance) const;
-    /// The same with the pull turned by an angle [rad] about an axis across its direction through its middle,
-    /// linearised in no way: what a wrist does to what it holds.
+    /// The same with the pull turned by a finite angle [rad], as by a wrist, about an axis through its middle that is
+    /// perpendicular to its direction.
     Positions turned_values(double angle) const;
 };
 

@@ -54,7 +54,7 @@ struct Solution {
     int n_nodes = 0;
 };
 
-/// Forces of the nodes of a quadratic mesh on the vertices of its surface; a midpoint's go by halves to its ends.
+/// Nodal forces of a quadratic mesh, gathered at its surface vertices: a midpoint's go by halves to its edge's ends.
 Positions on_vertices(const QuadraticMesh& mesh, Positions at_nodes) {
     std::vector<char> moved(static_cast<std::size_t>(mesh.n_nodes()), 0);
     for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
@@ -67,7 +67,7 @@ Positions on_vertices(const QuadraticMesh& mesh, Positions at_nodes) {
     return at_nodes.leftCols(mesh.n_surface_vertices);
 }
 
-/// `inside`: bound on the volume of a tetrahedron, in units of the regular one over `edge`.
+/// `inside`: bound on the volume of a tetrahedron, in units of the regular one with this edge.
 TetMesh fill(const RefinedSurface& refined, double edge, double inside) {
     Control control;
     const double ratio = edge / mean_edge(refined.mesh);
@@ -121,8 +121,8 @@ double size_of(const Positions& u, const TruthProblem& problem) {
     return std::sqrt(sum);
 }
 
-/// On tetrahedra and on eight times as many, extrapolated. The second mesh has the shapes of the first, so that the
-/// error is exactly halved as the elements are, which two meshes by TetGen would not show.
+/// Solves on tetrahedra and on the same ones split in eight, and extrapolates. Both meshes have elements of the same
+/// shapes, so that the error is halved with the element size, which two meshes by TetGen would not show.
 Solution extrapolate(const RefinedSurface& refined, double edge, const TruthProblem& problem) {
     // Inside, elements may be larger than on the surface, where the solution is rough.
     constexpr double kInside = 4.0;
@@ -134,7 +134,7 @@ Solution extrapolate(const RefinedSurface& refined, double edge, const TruthProb
             after.n_nodes};
 }
 
-/// At the constrained vertices, in their order.
+/// The reactions at the constrained vertices, in their order.
 Reactions reactions_of(const Solution& solution, std::span<const int> constrained) {
     const std::vector<int> vertices(constrained.begin(), constrained.end());
     return {solution.forces(Eigen::all, vertices), solution.moments(Eigen::all, vertices)};

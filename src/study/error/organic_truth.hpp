@@ -30,8 +30,8 @@ struct TruthOptions {
 ///
 /// Along the rim the solution behaves like the square root of the distance, so that the error falls like the first
 /// power of the element size there, whatever the degree. The mesh is therefore graded towards the rim; then solved on
-/// its tetrahedra and on all of them split in eight, and extrapolated at this order. The estimated error is the change
-/// of the result from one round of grading less to the last, two to four times what is left.
+/// its tetrahedra and on all of them split in eight, and extrapolated at this order. The estimated error is how
+/// much the last round of grading changed the result, two to four times the error that is left.
 ///
 /// constrained  vertices, each a corner of a constrained triangle (asserted): a single point has no converged answer
 /// values       3 x constrained.size()

@@ -18,7 +18,7 @@ struct Problem {
     Eigen::VectorXd truth;                    ///< of all vertices, 3*n_vertices
     double truth_error = 0.0;                 ///< how far the truth itself may be off, relative; 0: exact
     std::optional<Reactions> reactions = {};  ///< true ones at the constrained vertices, where they are known
-    double truth_force_error = 0.0;           ///< how far those may be off, as force_error says it
+    double truth_force_error = 0.0;           ///< how far those may be off, as force_error() measures it
 
     Eigen::VectorXd values() const;
     /// Root mean square error over the free vertices, relative to that of their true displacements.
@@ -39,8 +39,8 @@ struct Problem {
 ///   torsion-irregular   the same, vertices moved at random on the surface
 ///   hollow-sphere       inner sphere displaced, outer free: curved everywhere, two surfaces
 ///   rabbit, potato, cactus   organic bodies pulled at a small patch; ...-turned: the patch turned by 20 degrees. Truth
-///   by quadratic FEM graded towards the rims,
-///                       refined and extrapolated, which shares no code with the three methods but the sparse solver
+///                       by quadratic FEM graded towards the rims, refined and extrapolated, which shares no code with
+///                       the paper's three methods but the sparse solver
 struct ProblemFamily {
     std::string name;
     std::string truth;  ///< how the truth is known, in words

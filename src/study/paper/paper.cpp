@@ -26,7 +26,7 @@ Body cube(int cells) { return study_body(make_box(cells), Material{1.0, 0.3}, "c
 
 Row share_cells(double share) { return Row().set("share", share); }
 
-/// Largest difference between the displacements of the ways, relative.
+/// Largest relative difference between the displacements of the updates.
 double disagreement(const std::vector<PaperUpdate>& updates) {
     double worst = 0.0;
     for (const PaperUpdate& update : updates)
@@ -72,8 +72,8 @@ int n_constrained_nodes(const SurfaceMesh& mesh, MethodKind kind, const std::vec
     return static_cast<int>(constrain_triangles(mesh, VertexTriangles(mesh), vertices).nodes.size());
 }
 
-/// A share of the vertices; for constant BEM as few as constrain that share of its nodes, the triangles: a lone vertex
-/// constrains all triangles around it.
+/// A share of the vertices. For constant BEM, whose nodes are triangles, as few vertices as constrain that share of
+/// them: a lone vertex constrains all triangles around it.
 std::vector<int> choose_vertices(const SurfaceMesh& mesh, MethodKind kind, double share, unsigned seed) {
     const int n = mesh.n_vertices();
     if (kind != kConstantBem) return choose_share(n, share, seed);
@@ -102,8 +102,8 @@ std::vector<int> choose_patches(const SurfaceMesh& mesh, double share) {
     return vertices;
 }
 
-/// On demand: BEM factorises ahead, FEM when a set is there; the columns of the known vertices when they are chosen;
-/// the drag response. Columns are kept whatever memory they take.
+/// On demand: BEM factorises ahead, FEM once a set is known; then the columns of the known vertices, and the drag
+/// response. Columns are kept whatever memory they take.
 std::vector<Row> measure_our_procedure(MethodKind kind, int cells, unsigned seed, Control& control) {
     const Body body = cube(cells);
     const int n = body.surface->n_vertices();
@@ -163,7 +163,7 @@ std::vector<Row> measure_artefact(MethodKind kind, int cells, Control& control) 
                 .set("face_error", artefact.on_faces)};
 }
 
-/// Cells along an edge of the cube, so that each method reaches the paper's sizes and the cheaper ones go on.
+/// Cells along an edge of the cube, so that each method reaches the paper's sizes and the cheaper ones go beyond.
 std::vector<int> sizes(MethodKind kind, bool paper_procedure, bool quick) {
     if (quick) return {2, 3, 4, 5, 6};
     std::vector<int> cells = {2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13};

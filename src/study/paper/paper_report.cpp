@@ -161,8 +161,9 @@ Claim eqn9_claim(const Table& table, const std::string& share) {
         };
         const std::string comma = method == kMethods.back() ? "" : ",";
         if (seconds("inverse") > seconds("eqn9")) holds_for.push_back(method);
-        measured += " " + times(seconds("inverse") / seconds("eqn9")) + " (" + method + ")" + comma;
-        factorised += " " + times(seconds("direct") / seconds("eqn9")) + " (" + method + ")" + comma;
+        const std::string whose = " (" + method + ")" + comma;
+        measured += " " + times(seconds("inverse") / seconds("eqn9")) + whose;
+        factorised += " " + times(seconds("direct") / seconds("eqn9")) + whose;
     }
     return {"Eqn. 9 makes a new set cheaper with " + percent(std::stod(share)) + " of the nodes known",
             verdict(holds_for, kMethods.size()),

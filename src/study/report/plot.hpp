@@ -39,7 +39,7 @@ std::string gnuplot_script(const Plot& plot, const std::string& csv);
 /// Runs gnuplot on NAME.gp in `folder`; needs no display. Returns what went wrong, empty when nothing did.
 std::string draw(const std::string& name, const std::filesystem::path& folder, Control& control);
 
-/// Colours by method or variant of one, the same in all studies.
+/// The colour of a method or of a variant of one, the same in all studies.
 int method_color(const std::string& method);
 
 }  // namespace elastolab

@@ -9,7 +9,7 @@
 
 namespace elastolab {
 
-/// README.md of a finished study in `folder`: machine, the command that gives it again, findings, plots, files.
+/// README.md of a finished study in `folder`: machine, the command that reproduces it, findings, plots, files.
 std::string report(const Study& study, const Conclusions& conclusions, const Table& table, const std::string& folder);
 
 /// A Markdown table: a title for each column, then the rows.
@@ -17,7 +17,7 @@ std::string markdown_table(const std::vector<std::string>& titles, const std::ve
 
 /// A number for people: three significant digits, "-" when it is not a number.
 std::string short_number(double value);
-/// A count for people that was computed: "1016", "-" when it is not a number.
+/// A computed count for people: "1016", "-" when it is not a number.
 std::string count(double value);
 /// A ratio for people: "4.2 times".
 std::string times(double value);

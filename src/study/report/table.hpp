@@ -52,7 +52,7 @@ std::string joined(const std::vector<std::string>& messages);
 
 /// Header, then a line for each row.
 void write_csv(std::ostream& out, const Table& table);
-/// What write_csv wrote. Throws Error, which names the line, when it is no such table or not all of it.
+/// Reads what write_csv wrote. Throws Error naming the line when it is no such table, or an incomplete one.
 Table read_csv(std::istream& in);
 
 }  // namespace elastolab

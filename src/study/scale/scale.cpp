@@ -15,8 +15,8 @@ namespace elastolab {
 
 namespace {
 
-/// A method in a mode, and the cubes that it is measured on, 82 cells being 40 346 vertices: the largest take some
-/// minutes on two cores, or fill a few gigabytes.
+/// A method in a mode, and the cubes that it is measured on (82 cells have 40 346 vertices): the largest take some
+/// minutes on two cores, or a few gigabytes.
 struct Growth {
     Method method;
     std::vector<int> cells;

@@ -15,8 +15,8 @@ namespace {
 
 const std::vector<std::string> kModes = {"on-demand", "full", "full-volume"};
 
-/// Where the large meshes begin, on which fixed costs no longer count: at 5000 vertices, from which on a method may
-/// keep its matrices otherwise, if three are as large; else the larger half of them.
+/// Index of the first large mesh, where fixed costs no longer count: at 5000 vertices, from where a method may store
+/// its matrices differently, if three meshes are that large; else where the larger half begins.
 std::size_t first_large(const Table& rows) {
     constexpr double kLarge = 5000.0;
     const std::vector<double> n = rows.numbers("vertices");
@@ -49,7 +49,7 @@ std::string growth_table(const Table& table) {
                           lines);
 }
 
-/// What is predicted. FEM on demand factorises when a set is known, and its prediction includes that.
+/// What a prediction is compared with. FEM on demand factorises when a set is known, and its prediction includes that.
 double measured(const Row& row, const std::string& of) {
     const std::optional<MethodKind> kind = parse_method_kind(row.text("method"));
     const bool with_set = kind && (*kind)->sparse && row.text("mode") == "on-demand";

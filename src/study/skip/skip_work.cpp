@@ -83,7 +83,7 @@ Seconds again_with(double E, double nu) {
     };
 }
 
-/// Another base for an existing model; each time for a fresh one, which has none of its columns yet.
+/// Another base for an existing model: each time a fresh one, which has none of the base's columns yet.
 double base_on_known_model(const SkipScene& scene) {
     ConstrainedSet other = scene.set;
     other.handles.push_back(other.base.back());
@@ -98,8 +98,8 @@ double base_on_known_model(const SkipScene& scene) {
     return median(seconds);
 }
 
-/// A handle moves to other vertices while the base stays; with the base named as such, or among the handles. Each time
-/// for a fresh model, which has none of the new handle's columns yet.
+/// A handle changes to other vertices while the base stays, given as the base or among the handles. Each time for a
+/// fresh model, which has none of the new handle's columns yet.
 Seconds handles_change(bool base_is_known) {
     return [=](const SkipScene& scene) {
         ConstrainedSet before = scene.set, after = scene.set;

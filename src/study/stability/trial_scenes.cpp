@@ -85,7 +85,7 @@ Problem irregular(double jitter) {
     return ends_prescribed(std::move(mesh), PureBending{kMaterial, 1.0}, 2.0);
 }
 
-/// Cells beside three faces are halved again and again, towards those faces: the largest cells stay what they are.
+/// The cells at three faces are halved again and again towards those faces; the largest cells stay as they are.
 Problem graded(double halvings) {
     constexpr int kCells = 4;
     const int n = static_cast<int>(halvings);

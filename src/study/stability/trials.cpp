@@ -19,7 +19,7 @@ namespace {
 /// What may be wrong with an answer.
 enum class Wrong { displacements, forces };
 
-/// Whether a finding says that these are wrong. What is only good to know, or right of the mesh but no reason for an
+/// Whether a finding says that these are wrong. One that is only good to know, or true of the mesh but no cause of an
 /// error, does not count.
 bool tells_of(const Finding& finding, Wrong what) {
     switch (finding.kind) {

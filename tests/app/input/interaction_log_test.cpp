@@ -73,9 +73,9 @@ TEST(InteractionLog, ErrorsNameFileLineFindingAndAWayForwardInOneLine) {
         {R"({"elastolab_interaction":1,"window":[800]})", "line 1: "},
         {kHeader + "\n{\"seconds\":1}\n", "line 2: "},
         {kHeader + "\n{\"seconds\":1,\"events\":[]}\n[1]\n", "line 3: "},
-        {kHeader + "\n{\"seconds\":1,\"events\":[[\"jump\",0,0,0,false,false,0]]}\n", "no event"},
+        {kHeader + "\n{\"seconds\":1,\"events\":[[\"jump\",0,0,0,false,false,0]]}\n", "not a known event"},
         {kHeader + "\n{\"seconds\":1,\"events\":[[\"key\",0,0,0,false,false]]}\n", "line 2: "},
-        {kHeader + "\n{\"seconds\":1,\"events\":[[\"key\",0,0,0,false,false,0,0]]}\n", "no event"},
+        {kHeader + "\n{\"seconds\":1,\"events\":[[\"key\",0,0,0,false,false,0,0]]}\n", "not a known event"},
         {kHeader + "\n{\"seconds\":1,\"events\":[[\"key\",0,0,\"x\",false,false,0]]}\n", "line 2: "},
     };
     for (const auto& [text, finding] : bad)

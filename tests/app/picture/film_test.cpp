@@ -95,7 +95,7 @@ TEST(Film, AFailedVideoTellsWhyAndLeavesNothing) {
 TEST(Film, WithoutFfmpegSaysSo) {
     const TemporaryFolder folder;
     const SearchPath path(folder.path().string());
-    EXPECT_THAT(video_obstacle(), HasSubstr("ffmpeg is not installed"));
+    EXPECT_THAT(video_obstacle(), HasSubstr("is not installed"));
     Control control;
     EXPECT_THROW(make_video(folder.path() / "turn.png", control), Error);
 }

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "base/blas.hpp"
+#include "bem/common.hpp"
 #include "bem/galerkin/hypersingular.hpp"
 #include "bem/galerkin/traction_rows.hpp"
 #include "bem/hierarchical/boundary_entries.hpp"
@@ -16,8 +17,9 @@
 namespace elastolab {
 namespace {
 
+using test::kUnitMaterial;
+
 constexpr double kIntegrals = 1e-8;
-const Material kMaterial{1.0, 0.3};
 
 /// A dense matrix over items in the order of trees.
 Eigen::MatrixXd reordered(const Eigen::MatrixXd& A, const ClusterTree& rows, const ClusterTree& cols) {
@@ -43,18 +45,18 @@ struct Problem {
         triangle_tree = pairs->cluster_triangles(triangles, 20);
         Control control;
         Eigen::MatrixXd dense(3 * tree->size(), 3 * tree->size());
-        assemble_hypersingular(*boundary, kMaterial, kIntegrals, dense, control);
+        assemble_hypersingular(*boundary, kUnitMaterial, kIntegrals, dense, control);
         D = reordered(dense, *tree, *tree);
-        const TractionRows rows = assemble_traction_rows(*boundary, triangles, kMaterial, kIntegrals, control);
+        const TractionRows rows = assemble_traction_rows(*boundary, triangles, kUnitMaterial, kIntegrals, control);
         V = reordered(rows.single_layer, *triangle_tree, *triangle_tree);
         K = reordered(rows.double_layer, *triangle_tree, *tree);
     }
     HypersingularEntries hypersingular(bool keep = false) const {
         Control control;
-        return {pairs, tree, kMaterial, keep ? pairs->keep_close_pairs(control) : nullptr};
+        return {pairs, tree, kUnitMaterial, keep ? pairs->keep_close_pairs(control) : nullptr};
     }
-    DoubleLayerEntries double_layer() const { return {pairs, triangles, triangle_tree, tree, kMaterial}; }
-    SingleLayerEntries single_layer() const { return {pairs, triangles, triangle_tree, kMaterial}; }
+    DoubleLayerEntries double_layer() const { return {pairs, triangles, *triangle_tree, tree, kUnitMaterial}; }
+    SingleLayerEntries single_layer() const { return {pairs, triangles, *triangle_tree, kUnitMaterial}; }
 };
 
 const Problem& problem() {

@@ -13,7 +13,8 @@ namespace elastolab {
 namespace {
 
 constexpr std::array kFreeForm = {"curv", "curv2", "surf", "deg", "cstype", "call", "csh"};
-/// Statements of numbers. In others a '\\' at the end may be that of a path, and must not swallow the next line.
+/// Ignored statements of numbers, which may be continued. In others a '\\' at the end may be that of a path, and must
+/// not swallow the next line.
 constexpr std::array kContinued = {"vt", "vn", "vp", "l", "p"};
 
 class ObjReader {
@@ -72,7 +73,7 @@ private:
         std::size_t count = 0;
         for (std::string_view word = next_in_statement(); !word.empty(); word = next_in_statement()) {
             const std::optional<double> number = to_double(word);
-            if (!number) refuse(in_quotes(word) + " is no number.");
+            if (!number) refuse(in_quotes(word) + " is not a number.");
             if (count == numbers.size()) refuse("a vertex has more than seven numbers.");
             numbers.at(count++) = *number;
         }
@@ -84,7 +85,7 @@ private:
     }
 
     double weight(double w) const {
-        if (w == 0.0) refuse("a vertex has weight 0, so it is at no place.");
+        if (w == 0.0) refuse("a vertex has weight 0, a point at infinity.");
         return w;
     }
 
@@ -113,8 +114,7 @@ private:
     /// Names, materials, normals and the like; but what a damaged file holds, or another format, is none of these.
     void ignore(std::string_view key) {
         const auto is_name = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.'; };
-        if (!std::all_of(key.begin(), key.end(), is_name))
-            refuse(in_quotes(key) + " begins no statement of an OBJ file.");
+        if (!std::all_of(key.begin(), key.end(), is_name)) refuse(in_quotes(key) + " is not an OBJ statement.");
         if (std::find(kFreeForm.begin(), kFreeForm.end(), key) != kFreeForm.end())
             throw Refusal("holds free-form curves or surfaces (" + in_quotes(key) +
                           "), which are not read. Export it as polygons.");

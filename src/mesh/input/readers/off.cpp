@@ -18,7 +18,7 @@ struct OffHeader {
     std::size_t body = 0;  ///< position of the first vertex
 
     std::size_t words_of_place() const { return is_homogeneous ? 4 : 3; }
-    /// Without colours: how many numbers these have is not said.
+    /// Colours count as four numbers; the header does not say how many they have.
     std::size_t words_of_vertex() const {
         return words_of_place() + (has_normals ? 3 : 0) + (has_texture ? 2 : 0) + (has_colours ? 4 : 0);
     }
@@ -78,7 +78,7 @@ private:
     std::size_t count(const char* what) {
         const std::string_view word = words_.next();
         const std::optional<std::int64_t> number = to_integer(word);
-        if (!number || *number < 0) refuse_damaged(in_quotes(word) + " is no number of " + what + ".");
+        if (!number || *number < 0) refuse_damaged(in_quotes(word) + " is not a number of " + what + ".");
         // A vertex or a face takes four bytes or more.
         if (static_cast<std::uint64_t>(*number) > words_.text().size())
             refuse_damaged("claims " + std::to_string(*number) + " " + what +
@@ -117,7 +117,7 @@ private:
 
     double number(std::string_view word) const {
         const std::optional<double> value = to_double(word);
-        if (!value) refuse_damaged(in_quotes(word) + line() + " is no number.");
+        if (!value) refuse_damaged(in_quotes(word) + line() + " is not a number.");
         return *value;
     }
 
@@ -131,7 +131,7 @@ private:
             if (k < header_.words_of_place()) place[static_cast<Eigen::Index>(k)] = value;
         }
         if (layout_.vertex_is_line) words_.skip_line();
-        if (place.w() == 0.0) refuse_damaged("vertex " + std::to_string(i) + " has weight 0, so it is at no place.");
+        if (place.w() == 0.0) refuse_damaged("vertex " + std::to_string(i) + " has weight 0, a point at infinity.");
         mesh_.vertices.emplace_back(place.w() == 1.0 ? place.head<3>().eval() : (place.head<3>() / place.w()).eval());
     }
 

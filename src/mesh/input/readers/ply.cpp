@@ -21,7 +21,7 @@ namespace {
 /// Vertex numbers are at most 64 bits, but doubles only hold 53: more than any mesh has.
 std::int64_t whole(double value) {
     if (!(std::abs(value) < 9e15) || value != std::floor(value))
-        refuse_damaged("has a vertex number or a length that is none.");
+        refuse_damaged("has an invalid vertex number or list length.");
     return static_cast<std::int64_t>(value);
 }
 
@@ -34,7 +34,7 @@ public:
         const std::string_view word = words_.next();
         if (word.empty()) refuse_damaged("ends before the last of the elements that its header counts.");
         const std::optional<double> number = to_double(word);
-        if (!number) refuse_damaged(in_quotes(word) + " is no number.");
+        if (!number) refuse_damaged(in_quotes(word) + " is not a number.");
         return *number;
     }
     void skip(PlyType type, std::int64_t count) {

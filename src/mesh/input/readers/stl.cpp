@@ -130,7 +130,7 @@ SurfaceMesh read_stl(std::string_view bytes) {
     if (is_text(bytes)) return triangulated(StlTextReader(bytes).read());
     if (bytes.size() < kHeaderSize) refuse_damaged("is too short for an STL file.");
     refuse_damaged("counts " + std::to_string(binary_count(bytes)) +
-                   " triangles in its header, but its size is not that of so many.");
+                   " triangles in its header, but its size does not match.");
 }
 
 }  // namespace elastolab
