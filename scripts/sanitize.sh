@@ -1,26 +1,31 @@
 #!/usr/bin/env bash
-# sanitize.sh [address|thread] [--quick]: builds and runs the test suite under the address and undefined-behaviour
+# sanitize.sh [address|thread] [--quick|LAYER...]: builds and runs the test suite under the address and undefined-behaviour
 # sanitizers, or under the thread sanitizer (clang, whose OpenMP runtime tells the sanitizer of its barriers).
 # Suppressions, for libraries that are not ours, are in tests/sanitizers.
-#   --quick  the layers that need no window, no study and no program alone, without tests that carry the label "slow"
+#   LAYER    the tests of these layers alone, without those that carry the label "slow"
+#   --quick  the layers that need no window, no study and no program
 set -euo pipefail
 cd "$(dirname "$0")/.."
-begin=$SECONDS preset=asan quick=
+begin=$SECONDS preset=asan layers=()
 for argument in "$@"; do
   case $argument in
     address) preset=asan ;;
     thread) preset=tsan ;;
-    --quick) quick=yes ;;
-    *) echo "usage: scripts/sanitize.sh [address|thread] [--quick]" >&2; exit 2 ;;
+    --quick) layers=(base elasticity mesh deform fem scene) ;;
+    *)
+      if [[ ! -d tests/$argument ]]; then
+        echo "usage: scripts/sanitize.sh [address|thread] [--quick|LAYER...]" >&2
+        exit 2
+      fi
+      layers+=("$argument") ;;
   esac
 done
 if [[ $preset == tsan ]]; then scripts/install.sh clang libomp-dev; else scripts/install.sh; fi
-if [[ -z $quick ]]; then
+if [[ ${#layers[@]} -eq 0 ]]; then
   scripts/build.sh "$preset"
   exec ctest --preset "$preset"
 fi
 
-layers=(base elasticity mesh deform fem scene)
 TARGETS="${layers[*]/%/_test}" scripts/build.sh "$preset" -DELASTOLAB_UNITY=ON
 built=$((SECONDS - begin))
 export ASAN_OPTIONS=detect_leaks=1:strict_string_checks=1 UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
