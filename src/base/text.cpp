@@ -42,6 +42,10 @@ bool is_control(std::string_view character) {
 
 }  // namespace
 
+std::string shortened(std::string_view text, std::size_t longest) {
+    return text.size() <= longest ? std::string(text) : std::string(text.substr(0, longest)) + "...";
+}
+
 std::string one_line(std::string_view text) {
     std::string line;
     line.reserve(text.size());

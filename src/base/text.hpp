@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <Eigen/Core>
 #include <string>
 #include <string_view>
@@ -12,6 +13,9 @@ namespace elastolab {
 
 /// `text` on one line, for messages that quote a user's data: control characters become spaces, broken UTF-8 a '?'.
 std::string one_line(std::string_view text);
+
+/// At most `longest` bytes of `text`, and "..." where some are left out: for messages that quote a user's data.
+std::string shortened(std::string_view text, std::size_t longest);
 
 /// ASCII letters in lower case, the rest as it is.
 std::string lower_case(std::string_view text);

@@ -7,11 +7,15 @@ namespace elastolab {
 
 namespace {
 
-double von_mises(const Eigen::Matrix3d& s) {
+double von_mises(const Eigen::Matrix3d& stress) {
+    // Squares of large stresses are beyond double precision.
+    const double scale = stress.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+    if (scale == 0.0) return 0.0;
+    const Eigen::Matrix3d s = stress / scale;
     const double axial =
         std::pow(s(0, 0) - s(1, 1), 2) + std::pow(s(1, 1) - s(2, 2), 2) + std::pow(s(2, 2) - s(0, 0), 2);
     const double shear = std::pow(s(0, 1), 2) + std::pow(s(1, 2), 2) + std::pow(s(0, 2), 2);
-    return std::sqrt(0.5 * axial + 3.0 * shear);
+    return scale * std::sqrt(0.5 * axial + 3.0 * shear);
 }
 
 /// Ascending. An iteration, not the closed form: that loses half the digits of equal eigenvalues.

@@ -32,6 +32,18 @@ TEST(Stress, ByHookesLawOfAStretchedBar) {
     EXPECT_TRUE(hooke(stretch.asDiagonal(), {1.0, 0.5}).allFinite());
 }
 
+TEST(Stress, IsMeasuredHoweverLargeOrSmallItIs) {
+    const Eigen::Matrix3d stress = Eigen::Vector3d(-4.0, 3.0, 1.0).asDiagonal();
+    for (const StressMeasure which :
+         {StressMeasure::von_mises, StressMeasure::first_principal, StressMeasure::third_principal})
+        for (const double size : {1e-200, 1e160, 1e300})
+            EXPECT_NEAR(measure(which, size * stress) / size, measure(which, stress), 1e-14) << size;
+    EXPECT_EQ(measure(StressMeasure::von_mises, Eigen::Matrix3d::Zero()), 0.0);
+    Eigen::Matrix3d broken = Eigen::Matrix3d::Zero();
+    broken(2, 1) = broken(1, 2) = std::nan("");
+    EXPECT_TRUE(std::isnan(measure(StressMeasure::von_mises, broken)));
+}
+
 TEST(Stress, HasMeasuresThatTurnsLeaveAlone) {
     const Eigen::Matrix3d turned = kTurn * Eigen::Vector3d(-4.0, 3.0, 1.0).asDiagonal() * kTurn.transpose();
     EXPECT_NEAR(measure(StressMeasure::first_principal, turned), 3.0, 1e-14);

@@ -94,6 +94,7 @@ void InteractionRecorder::finish() {
 InteractionLog load_interaction(const std::filesystem::path& file) {
     std::ifstream in(file);
     if (!in) throw SceneError(one_line(file.string() + ": cannot be read. Check the name of the interaction log."));
+    constexpr std::size_t kLongestReason = 200;  // it may quote a whole file of one line
     InteractionLog log;
     int number = 1;
     try {
@@ -103,7 +104,8 @@ InteractionLog load_interaction(const std::filesystem::path& file) {
         for (number = 2; std::getline(in, line); ++number) log.frames.push_back(frame_of(Json::parse(line)));
     } catch (const std::exception& error) {
         throw SceneError(one_line(file.string() + ": line " + std::to_string(number) + ": not an interaction log (" +
-                                  error.what() + "). Record one with elastolab view --record."));
+                                  shortened(error.what(), kLongestReason) +
+                                  "). Record one with elastolab view --record."));
     }
     return log;
 }

@@ -25,8 +25,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// Of what a message quotes: a name that a scene file gives, or what the helper says of the file.
+constexpr std::size_t kLongestText = 400;
+
 [[noreturn]] void fail(const fs::path& file, const std::string& finding) {
-    throw MeshError(one_line(file.string() + ": " + finding));
+    throw MeshError(one_line(shortened(file.string(), kLongestText) + ": " + finding));
 }
 
 void require_readable(const fs::path& file) {
@@ -107,12 +110,6 @@ bool within(const Triangles& triangles, int n_vertices) {
     return triangles.size() == 0 || (triangles.minCoeff() >= 0 && triangles.maxCoeff() < n_vertices);
 }
 
-/// The helper quotes the file: no more than a few lines, whatever it holds.
-std::string shortened(const std::string& text) {
-    constexpr std::size_t kLongest = 400;
-    return text.size() <= kLongest ? text : text.substr(0, kLongest) + "...";
-}
-
 /// Floats have 24 digits of base 2: a body far from the origin loses those that its distance takes.
 std::string precision_warning(const SurfaceMesh& mesh) {
     const Eigen::Vector3d low = mesh.vertices.rowwise().minCoeff(), high = mesh.vertices.rowwise().maxCoeff();
@@ -147,7 +144,7 @@ ImportedSurface import(const fs::path& file, Control& control) {
     reply.take(mesh.vertices);
     reply.take(mesh.triangles);
     reply.take(problem);
-    if (!problem.empty()) fail(file, shortened(problem));
+    if (!problem.empty()) fail(file, shortened(problem, kLongestText));
     if (mesh.n_triangles() == 0 || !within(mesh.triangles, mesh.n_vertices())) fail(file, meaning_of_end(status));
     ImportedSurface result{merged(mesh), {}};
     if (header.is_single_precision != 0) result.warning = precision_warning(result.mesh);

@@ -31,8 +31,7 @@ std::string parser_reason(const std::string& what) {
     else if (bracket != std::string::npos)
         reason = what.substr(bracket + 2);
     constexpr std::size_t kLongest = 200;  // it may quote a whole file of one line
-    if (reason.size() > kLongest) reason = reason.substr(0, kLongest) + "...";
-    return reason;
+    return shortened(reason, kLongest);
 }
 
 /// Receives the parser's events and builds the value; knows where it is, which the parser's own builder does not.

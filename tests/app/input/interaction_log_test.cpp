@@ -82,6 +82,7 @@ TEST(InteractionLog, ErrorsNameFileLineFindingAndAWayForwardInOneLine) {
         EXPECT_THAT(complaint(text), AllOf(HasSubstr("bad.log: line "), HasSubstr(finding), HasSubstr("--record"),
                                            Not(HasSubstr("\n"))));
     EXPECT_THROW(load_interaction("no-such-file.log"), SceneError);
+    EXPECT_LT(complaint("{\"" + std::string(10000, 'x') + "\\u").size(), 500U);  // does not quote all of the line
 }
 
 TEST(InteractionLog, RefusesCodesThatNoWindowReports) {
