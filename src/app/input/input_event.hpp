@@ -13,7 +13,7 @@ struct InputEvent {
     bool pressed = false;                              ///< button, key: down (or repeated) or up
     bool repeated = false;
     int modifiers = 0;
-    double seconds = 0.0;  ///< since the window was opened
+    double seconds = 0.0;  ///< Window::seconds()
 
     bool operator==(const InputEvent&) const = default;
 };

@@ -20,7 +20,7 @@ struct FrameTimes {
 /// One row of the timings file.
 struct FrameRecord {
     int frame = 0;
-    double time_s = 0.0;  ///< since the program began
+    double time_s = 0.0;  ///< Window::seconds()
     std::string method;
     int vertices = 0, constrained_vertices = 0, handle_vertices = 0;
     std::string state;  ///< "idle", "precomputing" or "ready"

@@ -51,7 +51,7 @@ Result wrap_once(const Oracle& oracle, double alpha) {
 
 /// The number of vertices of a wrap grows with its area over the square of alpha. The area is known only once there is
 /// a wrap, since what the triangles hide does not count: a coarse one tells it, and how many vertices go to a square of
-/// alpha. The finer one sees more of the surface, so that their number grows a little slower between the first two.
+/// alpha. From the first wrap to the second their number was measured to grow a little slower.
 Result wrap(const Soup& soup, int wanted, double within) {
     constexpr double kFirstExponent = 1.85;
     Oracle oracle;
