@@ -54,8 +54,8 @@ std::string slender_body(const Finding& finding) {
 std::string thin_wall(const Finding& finding) {
     return "boundary elements: the surface near " + place_of(finding) + " is only " + readable_number(finding.value) +
            " of a triangle's edge away from its other side. Walls and gaps that thin bend with errors " +
-           (finding.method->shows_averages ? "of 30 to 40 %. Refine there, or choose linear-bem."
-                                           : "of 5 to 20 %. Refine there, or compare with fem.");
+           (finding.method->shows_averages ? "of 35 to 45 %. Refine there, or choose linear-bem."
+                                           : "of 1 to 10 %. Refine there, or compare with fem.");
 }
 
 std::string contact(const Finding& finding) {

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <tuple>
+
 #include "elasticity/exact_fields.hpp"
 #include "findings/solution.hpp"
 #include "findings/words.hpp"
@@ -78,8 +80,13 @@ TEST(Findings, TellOfLockingFromWhereTheErrorHasDoubled) {
 }
 
 TEST(Findings, TellOfThinWalls) {
-    for (const auto& [kind, least] : {std::pair{kLinearBem, 0.03}, {kConstantBem, 0.3}}) {
-        EXPECT_GT(bending_error(plate(0.02), 0.3, make_method(kind)), least);
+    for (const auto& [kind, least, most] : {std::tuple{kLinearBem, 0.03, 0.1}, std::tuple{kConstantBem, 0.35, 0.45},
+                                            std::tuple{kGalerkinBem, 0.0, 0.02}}) {
+        for (const double thickness : {0.002, 0.02, 0.08}) {
+            const double error = bending_error(plate(thickness), 0.3, make_method(kind));
+            EXPECT_GT(error, least) << name(kind) << " " << thickness;
+            EXPECT_LT(error, most) << name(kind) << " " << thickness;
+        }
         EXPECT_THAT(warnings_of(plate(0.02), make_method(kind)), Contains(HasSubstr("thin bend")));
         EXPECT_THAT(warnings_of(make_box(2, {4, 4, 1}), make_method(kind)), Not(Contains(HasSubstr("thin bend"))));
     }
