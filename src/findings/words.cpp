@@ -47,8 +47,7 @@ std::string slender_body(const Finding& finding) {
     return "boundary elements: the body is " + readable_number(finding.value) +
            " times as long as it is thick. With two elements across, linear-bem is off by 9 % in the bending of a bar "
            "that is 20 times as long as it is thick, by 15 % at 40 times (constant-bem by more). Refine, or compare "
-           "with "
-           "fem.";
+           "with fem.";
 }
 
 std::string thin_wall(const Finding& finding) {
@@ -136,8 +135,7 @@ std::string words(const Finding& finding) {
             return weak_hold(finding);
         case FindingKind::free_motion:
             return "constraints: leave the body free to move as a whole; the smallest such motion is chosen. Constrain "
-                   "three "
-                   "vertices that are not on one line.";
+                   "three vertices that are not on one line.";
         case FindingKind::singular_though_held:
             return std::string(kSingularThoughHeld) + " The smallest solution is chosen.";
         case FindingKind::coarse_mesh:
