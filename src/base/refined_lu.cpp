@@ -62,9 +62,9 @@ RefinedLu::RefinedLu(Eigen::MatrixXd&& A, std::string name, Control* control)
     if (fits && matrix_.rows() >= kWorthwhile) factorise_single(norms.sum, control);
     if (reciprocal_condition_ < kSafeReciprocalCondition) {
         factors_.resize(0, 0);
-        exact_ = LuFactorization(std::move(matrix_), name_, control);
+        full_precision_ = LuFactorization(std::move(matrix_), name_, control);
         matrix_.resize(0, 0);
-        reciprocal_condition_ = exact_.reciprocal_condition();
+        reciprocal_condition_ = full_precision_.reciprocal_condition();
         return;
     }
     norm_ = largest_row_sum(matrix_);
@@ -112,7 +112,7 @@ bool RefinedLu::refine(const Eigen::MatrixXd& B, Eigen::MatrixXd& X) const {
 }
 
 Eigen::MatrixXd RefinedLu::solve(const Eigen::MatrixXd& B) const {
-    if (!is_single()) return exact_.solve(B);
+    if (!is_single()) return full_precision_.solve(B);
     Eigen::MatrixXd X = solve_single(B);
     return refine(B, X) ? X : fallback().solve(B);
 }

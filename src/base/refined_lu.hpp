@@ -27,7 +27,7 @@ public:
     RefinedLu(Eigen::MatrixXd&& A, std::string name, Control* control = nullptr);
     static std::uint64_t memory_bytes(Eigen::Index n) { return 12 * static_cast<std::uint64_t>(n * n); }
 
-    Eigen::Index size() const { return matrix_.rows() > 0 ? matrix_.rows() : exact_.size(); }
+    Eigen::Index size() const { return matrix_.rows() > 0 ? matrix_.rows() : full_precision_.size(); }
     Eigen::MatrixXd solve(const Eigen::MatrixXd& B) const;
     /// Reciprocal condition number in the 1-norm, estimated.
     double reciprocal_condition() const { return reciprocal_condition_; }
@@ -43,12 +43,12 @@ private:
     const LuFactorization& fallback() const;
 
     std::string name_;
-    Eigen::MatrixXd matrix_;  ///< empty when exact_ serves
+    Eigen::MatrixXd matrix_;  ///< empty when full_precision_ serves
     Eigen::MatrixXf factors_;
     std::vector<int> pivots_;
     double norm_ = 0.0;  ///< largest absolute row sum
     double reciprocal_condition_ = 0.0;
-    LuFactorization exact_;
+    LuFactorization full_precision_;
 
     struct Fallback {
         std::mutex mutex;

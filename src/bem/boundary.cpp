@@ -60,7 +60,7 @@ Sources centroid_sources(const Boundary& boundary) {
     return sources;
 }
 
-Sources interior_sources(const Boundary& boundary, std::span<const int> triangles) {
+Sources sources_inside(const Boundary& boundary, std::span<const int> triangles) {
     Sources sources;
     sources.points.resize(3, 3 * static_cast<Eigen::Index>(triangles.size()));
     Eigen::Index next = 0;

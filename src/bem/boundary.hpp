@@ -49,7 +49,7 @@ Sources vertex_sources(const Boundary& boundary);
 /// Every triangle's centroid (constant elements).
 Sources centroid_sources(const Boundary& boundary);
 /// Three interior points of each of these triangles, barycentric (2/3, 1/6, 1/6) and permuted: 3*triangles.size().
-Sources interior_sources(const Boundary& boundary, std::span<const int> triangles);
+Sources sources_inside(const Boundary& boundary, std::span<const int> triangles);
 
 /// Which shape functions are integrated over which triangle, and into which slot (block column) each goes.
 struct Elements {

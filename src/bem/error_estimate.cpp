@@ -42,7 +42,7 @@ std::vector<char> constrained_triangles(const SurfaceMesh& surface, const std::v
 }
 
 /// Marks those around the rims, and around constrained vertices without a constrained triangle.
-std::vector<char> triangles_to_halve(const SurfaceMesh& surface, const std::vector<int>& place,
+std::vector<char> triangles_to_split(const SurfaceMesh& surface, const std::vector<int>& place,
                                      const std::vector<char>& inside) {
     std::vector<char> marked = around_rim(unrefined(surface), inside);
     std::vector<char> lone(place.size(), 0);
@@ -64,7 +64,7 @@ RimProblem with_finer_rims(const SurfaceMesh& surface, std::span<const int> vert
         field.col(vertices[i]) = values.segment<3>(3 * static_cast<Eigen::Index>(i));
     }
     const std::vector<char> inside = constrained_triangles(surface, place);
-    RimProblem problem{refine_marked(unrefined(surface), triangles_to_halve(surface, place, inside)), {}, {}};
+    RimProblem problem{refine_marked(unrefined(surface), triangles_to_split(surface, place, inside)), {}, {}};
     const RefinedSurface& fine = problem.surface;
     std::vector<char> is_constrained(static_cast<std::size_t>(fine.mesh.n_vertices()), 0);
     for (const int v : vertices) is_constrained[static_cast<std::size_t>(v)] = 1;

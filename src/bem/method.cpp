@@ -33,7 +33,7 @@ constinit const MethodTraits kConstantBemTraits = {
     .K_takes_incompressible = false,
     .integral_tolerance = 1e-10,
     .integrates_boundary = true,
-    .error_to_tell = kErrorToTell,
+    .reported_error = kReportedError,
     .precompute = precompute<constant_element>,
     .predict = predict_constant_bem,
 };
@@ -50,7 +50,7 @@ constinit const MethodTraits kLinearBemTraits = {
     .chooses_tractions = true,
     .integral_tolerance = 1e-10,
     .integrates_boundary = true,
-    .error_to_tell = kErrorToTell,
+    .reported_error = kReportedError,
     .precompute = precompute<linear_element>,
     .predict = predict_linear_bem,
 };

@@ -82,7 +82,7 @@ MixedProblem::MixedProblem(const BemSystem& system, const TractionSpace& space, 
     at = free_nodes(partition);
     const Eigen::Index n_free = 3 * std::ssize(at), n = n_free + 3 * space.n_slots();
     for (const int node : collocated(space, nodes)) at.push_back(node);
-    const Sources points = interior_sources(system.boundary(), space.interior_triangles);
+    const Sources points = sources_inside(system.boundary(), space.interior_triangles);
     assert(3 * (std::ssize(at) + points.size()) == n);
     unknown.resize(n, n);
     const std::vector<Eigen::Index> moving(partition.constrained.begin() + 3 * n_base, partition.constrained.end());
@@ -170,7 +170,7 @@ double boundary_residual(const BemSystem& system, const TractionSpace& space, co
                          Control& control) {
     Balance balance;
     const Sources nodes = system.nodes().subset(collocated(space, range(0, system.n_nodes())));
-    const Sources points = interior_sources(system.boundary(), space.interior_triangles);
+    const Sources points = sources_inside(system.boundary(), space.interior_triangles);
     balance.add(system, space, solution, some_of(nodes, kSampledSources), control);
     balance.add(system, space, solution, some_of(points, kSampledSources), control);
     return balance.size > 0.0 ? std::sqrt(balance.off / balance.size) : 0.0;

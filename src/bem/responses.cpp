@@ -40,7 +40,7 @@ Eigen::MatrixXd BemResponses::small_matrix(const std::vector<int>& nodes, const 
 
 void BemResponses::add_closing(const Columns& columns, Eigen::Index first, Eigen::Ref<Eigen::MatrixXd> rows,
                                Control& control) const {
-    for_source_strips(interior_sources(system_->boundary(), space_.interior_triangles),
+    for_source_strips(sources_inside(system_->boundary(), space_.interior_triangles),
                       [&](int source, const Sources& strip) {
                           const Eigen::MatrixXd A = system_->double_layer(strip, control);
                           for (Eigen::Index c = 0; c < columns.cols(); c += kStripColumns) {
@@ -53,7 +53,7 @@ void BemResponses::add_closing(const Columns& columns, Eigen::Index first, Eigen
 
 void BemResponses::add_closing_of_border_and_loads(const Eigen::MatrixXd& rigid, Eigen::Ref<Eigen::MatrixXd> rows,
                                                    Control& control) const {
-    for_source_strips(interior_sources(system_->boundary(), space_.interior_triangles),
+    for_source_strips(sources_inside(system_->boundary(), space_.interior_triangles),
                       [&](int source, const Sources& strip) {
                           auto out = rows.middleRows(3 * source, 3 * strip.size());
                           out.rightCols(rigid.cols()).noalias() =

@@ -288,7 +288,7 @@ Deformer::Answer Deformer::answer(const Eigen::VectorXd& values, Wanted wanted, 
     answer.reactions = no_reactions(n_constrained);
     SolutionError error{{}, answer.reactions};
     if (wanted.residual) answer.residual = 0.0;
-    wanted.check = wanted.check && model_->method().kind->error_to_tell.has_value();
+    wanted.check = wanted.check && model_->method().kind->reported_error.has_value();
     for (std::size_t s = 0; s < solids_.size(); ++s) {
         const ConstrainedSolid* solid = solids_[s].solid.get();
         if (solid == nullptr) continue;

@@ -46,8 +46,8 @@ struct Cost {
     double seconds = 0.0;
 };
 
-/// MethodTraits::error_to_tell of methods whose estimate is of the size of the error: half the error that must be told.
-inline constexpr double kErrorToTell = 0.05;
+/// MethodTraits::reported_error of methods whose estimate is of the size of the error: half the error that must be told.
+inline constexpr double kReportedError = 0.05;
 
 /// Everything that code above the methods may know about one: a row of the table that src/methods collects. Every rule
 /// about methods is read from here, so that a new one is a folder with such a row.
@@ -77,7 +77,7 @@ struct MethodTraits {
     bool integrates_boundary = false;    ///< slivers, thin walls and slender bodies cost accuracy (src/findings)
     /// Estimated relative error of the worst vertex above which the user should know (of reactions, twice that); none
     /// where there is no estimate.
-    std::optional<double> error_to_tell = {};
+    std::optional<double> reported_error = {};
 
     /// Precomputes one solid of unit Young's modulus; `before`: a model of the same solid, by whatever method, from
     /// which all that still serves is taken over, or null. `name` is that of the body, for messages.

@@ -19,7 +19,7 @@ constinit const MethodTraits kLinearFemTraits = {
     .sparse = true,
     .takes_incompressible = false,
     .locks = true,
-    .error_to_tell = kErrorToTell,
+    .reported_error = kReportedError,
     .precompute = precompute_fem<ElementDegree::linear>,
     .predict = predict_linear_fem,
 };

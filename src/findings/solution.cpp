@@ -155,11 +155,11 @@ Findings findings_of_points(const SurfaceMesh& surface, const ConstrainedSet& se
 Findings findings_of_answer(const Deformer& deformer, const Deformer::Answer& answer) {
     const MethodKind method = deformer.model().method().kind;
     Findings findings = findings_of_volume(deformer, answer.displacements);
-    const bool has_limit = answer.check && method->error_to_tell;
-    if (has_limit && answer.check->relative_force_error > *method->error_to_tell)
+    const bool has_limit = answer.check && method->reported_error;
+    if (has_limit && answer.check->relative_force_error > *method->reported_error)
         findings.push_back(
             {.kind = FindingKind::coarse_forces, .value = answer.check->relative_force_error, .method = method});
-    if (has_limit && answer.check->relative_error > *method->error_to_tell)
+    if (has_limit && answer.check->relative_error > *method->reported_error)
         findings.push_back({.kind = FindingKind::coarse_mesh,
                             .value = answer.check->relative_error,
                             .method = method,

@@ -30,7 +30,7 @@ Findings findings_of_set(const Deformer& deformer);
 Findings findings_of_points(const SurfaceMesh& surface, const ConstrainedSet& set);
 
 /// Of an answer: it changes the volume of an incompressible solid, the mesh is too coarse for its displacements or
-/// its reactions (MethodTraits::error_to_tell), or it leaves a large residual.
+/// its reactions (MethodTraits::reported_error), or it leaves a large residual.
 Findings findings_of_answer(const Deformer& deformer, const Deformer::Answer& answer);
 
 }  // namespace elastolab

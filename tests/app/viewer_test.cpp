@@ -79,11 +79,11 @@ protected:
         const Eigen::Vector2d from(400, 240);
         InteractionRecorder recorder(folder.path() / "drag.log", {640, 480});
         const auto add = [&](InputEvent event) { recorder.add({.seconds = 0.0, .events = {event}}); };
-        using Kind = InputEvent::Kind;
-        add({.kind = Kind::cursor, .cursor = from});
-        add({.kind = Kind::button, .cursor = from, .pressed = true});
-        for (int i = 1; i <= 20; ++i) add({.kind = Kind::cursor, .cursor = from + Eigen::Vector2d(2.0 * i, -1.0 * i)});
-        add({.kind = Kind::button, .cursor = from + Eigen::Vector2d(40, -20)});
+        using Of = InputEvent::Kind;
+        add({.kind = Of::cursor, .cursor = from});
+        add({.kind = Of::button, .cursor = from, .pressed = true});
+        for (int i = 1; i <= 20; ++i) add({.kind = Of::cursor, .cursor = from + Eigen::Vector2d(2.0 * i, -1.0 * i)});
+        add({.kind = Of::button, .cursor = from + Eigen::Vector2d(40, -20)});
         recorder.finish();
         options.replay = folder.path() / "drag.log";
     }

@@ -54,7 +54,7 @@ TEST(BemAssembly, GivesNoTractionToARotationAtInteriorPoints) {
     const SurfaceMesh mesh = make_rabbit(300).surface;
     const Boundary boundary(mesh);
     const std::vector<int> triangles = {0, 5, 17, 100};
-    const Eigen::MatrixXd H = matrix(Layer::double_layer, boundary, interior_sources(boundary, triangles),
+    const Eigen::MatrixXd H = matrix(Layer::double_layer, boundary, sources_inside(boundary, triangles),
                                      vertex_elements(boundary), Material{1.0, 0.3}, 1e-14);
     const Eigen::VectorXd u = rigid_motion(mesh.vertices, Eigen::Vector3d::Zero(), {0.3, -0.5, 0.8});
     EXPECT_LT((H * u).norm(), 1e-13 * H.norm() * u.norm());

@@ -120,7 +120,7 @@ TEST(KilledBench, KeepsEveryFinishedCase) {
         {
             RunningProgram program(arguments, folder.path());
             // Half of them at its start, when it takes over the journal.
-            std::this_thread::sleep_for(Seconds(random.unit() * (i % 2 == 0 ? 0.05 : 1.0)));
+            std::this_thread::sleep_for(Seconds(random.unit() * (i % 2 == 0 ? 0.05 : 0.6)));
             if (program.ended()) break;
         }
         const std::set<std::string> now = finished_cases(journal);

@@ -71,7 +71,7 @@ std::string gltf(const std::string& buffer) {
            buffer + "\"}]}";
 }
 
-std::string finding(const std::filesystem::path& file) {
+std::string verdict(const std::filesystem::path& file) {
     try {
         load_surface(file);
     } catch (const MeshError& error) {
@@ -86,11 +86,11 @@ TEST(ImportHelper, ReadsWhatAFileNamesInItsFolderOnly) {
     const std::string bytes(reinterpret_cast<const char*>(points), sizeof(points));
     folder.write("own.bin", bytes);
     other.write("secret.bin", bytes);
-    EXPECT_EQ(finding(folder.write("own.gltf", gltf("own.bin"))), "accepted");
+    EXPECT_EQ(verdict(folder.write("own.gltf", gltf("own.bin"))), "accepted");
     const std::string elsewhere = "../" + other.path().filename().string() + "/secret.bin";
-    EXPECT_THAT(finding(folder.write("other.gltf", gltf(elsewhere))), HasSubstr("cannot be read"));
+    EXPECT_THAT(verdict(folder.write("other.gltf", gltf(elsewhere))), HasSubstr("cannot be read"));
     std::filesystem::create_symlink(other.path() / "secret.bin", folder.path() / "link.bin");
-    EXPECT_THAT(finding(folder.write("link.gltf", gltf("link.bin"))), HasSubstr("cannot be read"));
+    EXPECT_THAT(verdict(folder.write("link.gltf", gltf("link.bin"))), HasSubstr("cannot be read"));
 }
 
 TEST(ImportHelper, DoesNotWaitForPipes) {
@@ -98,8 +98,8 @@ TEST(ImportHelper, DoesNotWaitForPipes) {
     ASSERT_EQ(::mkfifo((folder.path() / "pipe.bin").c_str(), 0600), 0);
     ASSERT_EQ(::mkfifo((folder.path() / "pipe.mtl").c_str(), 0600), 0);
     // Waiting for a writer, it would be ended after its time only, and say so.
-    EXPECT_THAT(finding(folder.write("a.gltf", gltf("pipe.bin"))), HasSubstr("cannot be read as a mesh"));
-    EXPECT_EQ(finding(folder.write("a.obj", "mtllib pipe.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n")),
+    EXPECT_THAT(verdict(folder.write("a.gltf", gltf("pipe.bin"))), HasSubstr("cannot be read as a mesh"));
+    EXPECT_EQ(verdict(folder.write("a.obj", "mtllib pipe.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n")),
               "accepted");
 }
 
@@ -108,7 +108,7 @@ TEST(ImportHelper, QuotesLittleAndNoControlCodes) {
     std::string bell(5000, 'x');
     bell.insert(0, "\x1b]0;title\x07\x1b[31m\xc2\x9b");
     for (const std::string name : {"a.obj", "a.off", "a.ply", "a.stl", "a.gltf", "a.dae", "a.x"}) {
-        const std::string text = finding(folder.write(name, bell + "\nply " + bell + "\nv " + bell + " 1 1\n"));
+        const std::string text = verdict(folder.write(name, bell + "\nply " + bell + "\nv " + bell + " 1 1\n"));
         EXPECT_LT(text.size(), 600u) << name;
         for (const char* code : {"\x1b", "\x07", "\xc2\x9b", "\n"}) EXPECT_THAT(text, Not(HasSubstr(code))) << name;
     }
@@ -130,8 +130,8 @@ TEST(ImportHelper, ReadsAFileWhoseNameLeadsUpAndDown) {
 
 TEST(ImportHelper, ReadsFormatsOfItsListOnly) {
     const TemporaryFolder folder;
-    EXPECT_THAT(finding(folder.write("a.bvh", "HIERARCHY")), HasSubstr("has an unsupported format"));
-    EXPECT_THAT(finding(folder.write("mesh", "OFF")), HasSubstr("has no extension"));
+    EXPECT_THAT(verdict(folder.write("a.bvh", "HIERARCHY")), HasSubstr("has an unsupported format"));
+    EXPECT_THAT(verdict(folder.write("mesh", "OFF")), HasSubstr("has no extension"));
 }
 
 TEST(ImportHelper, WarnsOfCoordinatesThatAreCoarseForTheBody) {

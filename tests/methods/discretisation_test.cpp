@@ -14,7 +14,7 @@ namespace elastolab::test {
 namespace {
 
 /// A box held at one part and moved at another, and the same on a finer mesh that has all its vertices.
-struct Case {
+struct Example {
     std::string name;
     SurfaceMesh coarse, fine;
     std::function<bool(const Eigen::Vector3d&)> held, moved;
@@ -26,7 +26,7 @@ SurfaceMesh flattened(SurfaceMesh mesh, double thickness) {
     return mesh;
 }
 
-std::vector<Case> cases() {
+std::vector<Example> cases() {
     const auto left = [](const auto& x) { return x[0] < 1e-9; };
     const auto tip = [](double length) { return [length](const auto& x) { return x[0] > length - 1e-9; }; };
     const auto middle = [](const auto& x) { return x[0] > 3.9 && x[0] < 5.1; };
@@ -47,13 +47,13 @@ std::vector<Case> cases() {
              {0.0, 0.0, 1.6}}};
 }
 
-Eigen::VectorXd values_of(const Case& example, const SurfaceMesh& mesh, ConstrainedSet& set) {
+Eigen::VectorXd values_of(const Example& example, const SurfaceMesh& mesh, ConstrainedSet& set) {
     set = {vertices_where(mesh, example.held), vertices_where(mesh, example.moved)};
     return example.motion.replicate(std::ssize(set.handles), 1);
 }
 
 /// The largest error of a vertex of the coarse mesh, over the largest displacement, with the fine mesh for the truth.
-double true_error(const Case& example, const Eigen::VectorXd& u) {
+double true_error(const Example& example, const Eigen::VectorXd& u) {
     ConstrainedSet set;
     const Eigen::VectorXd values = values_of(example, example.fine, set);
     const Eigen::VectorXd truth =
@@ -70,7 +70,7 @@ double true_error(const Case& example, const Eigen::VectorXd& u) {
 }
 
 TEST(DiscretisationCheck, EstimatesTheLargestErrorWithinAFactorOfThree) {
-    for (const Case& example : cases())
+    for (const Example& example : cases())
         for (const Tractions tractions : {Tractions::discontinuous, Tractions::restricted}) {
             Control control;
             Deformer deformer(precomputed(make_body(example.coarse), make_method(kLinearBem, tractions)));
@@ -90,7 +90,7 @@ TEST(DiscretisationCheck, EstimatesTheLargestErrorWithinAFactorOfThree) {
 
 /// A coarse needle held at one end and bent in the middle: its free end, which nobody touches, follows too far.
 TEST(DiscretisationCheck, NamesTheFreeEndThatMovesTooFar) {
-    const Case example = cases()[3];
+    const Example example = cases()[3];
     Control control;
     Deformer deformer(precomputed(make_body(example.coarse), make_method(kLinearBem, Tractions::restricted)));
     ConstrainedSet set;
@@ -104,7 +104,7 @@ TEST(DiscretisationCheck, NamesTheFreeEndThatMovesTooFar) {
 }
 
 TEST(DiscretisationCheck, IsTheSameForAllUpdates) {
-    const Case example = cases()[0];
+    const Example example = cases()[0];
     ConstrainedSet set;
     const Eigen::VectorXd values = values_of(example, example.coarse, set);
     const auto check = [&](Mode mode, Update update, Tractions tractions, std::uint64_t column_memory) {
@@ -226,7 +226,7 @@ TEST(DiscretisationCheck, OfFemIsHalfAgainTheDifferenceToQuadraticFem) {
 
 /// One answer is what displace, reactions, residual and the check say one by one.
 TEST(DiscretisationCheck, IsPartOfAnAnswerThatSolvesOnce) {
-    const Case example = cases()[0];
+    const Example example = cases()[0];
     ConstrainedSet set;
     const Eigen::VectorXd values = values_of(example, example.coarse, set);
     for (const Method& method : method_variants()) {

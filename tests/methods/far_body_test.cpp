@@ -27,13 +27,13 @@ Body cube_at(const Eigen::Vector3d& centre) {
     return test::make_body(check_and_repair(load_surface(folder.path() / "cube.ply")).mesh);
 }
 
-struct Solution {
+struct FarSolution {
     Eigen::VectorXd displacement;
     Reactions reactions;
 };
 
 /// Bottom held, top pulled and bent.
-Solution solve(const std::shared_ptr<const Model>& model, const Eigen::Vector3d& centre) {
+FarSolution solve(const std::shared_ptr<const Model>& model, const Eigen::Vector3d& centre) {
     const SurfaceMesh& surface = *model->body().surface;
     ConstrainedSet set;
     set.base = test::vertices_where(surface, [&](const auto& p) { return p.z() - centre.z() == -0.5 * kSize; });
@@ -53,8 +53,8 @@ TEST(FarBody, DeformsAsTheSameBodyAtTheOrigin) {
     const Body near = cube_at(Eigen::Vector3d::Zero()), far = cube_at(kOffset);
     for (const Method& method : test::method_variants()) {
         SCOPED_TRACE(test::describe(method));
-        const Solution a = solve(test::precomputed(near, method), Eigen::Vector3d::Zero());
-        const Solution b = solve(test::precomputed(far, method), kOffset);
+        const FarSolution a = solve(test::precomputed(near, method), Eigen::Vector3d::Zero());
+        const FarSolution b = solve(test::precomputed(far, method), kOffset);
         constexpr double kTolerance = 1e-9;
         EXPECT_LT((a.displacement - b.displacement).norm(), kTolerance * a.displacement.norm());
         EXPECT_LT((a.reactions.forces - b.reactions.forces).norm(), kTolerance * a.reactions.forces.norm());

@@ -34,7 +34,7 @@ constinit const MethodTraits kGalerkinBemTraits = {
     .full_serves_sets = false,
     .integral_tolerance = 1e-8,
     .integrates_boundary = true,
-    .error_to_tell = kErrorToTell,
+    .reported_error = kReportedError,
     .precompute = precompute,
     .predict = predict_galerkin_bem,
 };

@@ -71,7 +71,7 @@ CollocationProblem::CollocationProblem(std::shared_ptr<const HierarchicalColloca
     at_.insert(at_.end(), collocated.begin(), collocated.end());
     sources_ = matrices_->at_vertices().sources().subset(at_);
     if (!space.interior_triangles.empty()) {
-        const Sources interior = interior_sources(matrices_->boundary(), space.interior_triangles);
+        const Sources interior = sources_inside(matrices_->boundary(), space.interior_triangles);
         sources_.append(interior);
         A_ = matrices_->seen_from(interior, control);
     }

@@ -24,7 +24,7 @@ constinit const MethodTraits kQuadraticFemTraits = {
     .has_inside = true,
     .sparse = true,
     .takes_incompressible = false,
-    .error_to_tell = kErrorToTell,
+    .reported_error = kReportedError,
     .precompute = precompute_fem<ElementDegree::quadratic>,
     .predict = predict_quadratic_fem,
 };

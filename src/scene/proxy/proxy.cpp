@@ -15,7 +15,7 @@ namespace {
 /// Share of a proxy's vertices on thin walls above which that is reported.
 constexpr double kManyThin = 0.05;
 /// Distances up to this, in edges of the proxy, count as zero.
-constexpr double kRounding = 1e-9;
+constexpr double kNoDistance = 1e-9;
 
 /// A shown vertex that `surface` also has is at a corner of a triangle; the others are at their closest points.
 SurfacePlaces own_places(const SurfaceMesh& surface, const Positions& shown, const std::vector<int>& own,
@@ -109,7 +109,7 @@ Findings findings_of_proxy(const Proxy& proxy, const std::string& name) {
                  .object = name}};
     const double largest = proxy.places.distance.maxCoeff();
     Findings findings = {{.kind = proxy.shown_is_sound ? FindingKind::chosen_proxy : FindingKind::proxy,
-                          .value = largest > kRounding * proxy.edge ? largest : 0.0,
+                          .value = largest > kNoDistance * proxy.edge ? largest : 0.0,
                           .first = proxy.surface->n_vertices(),
                           .object = name}};
     if (proxy.n_closed_holes > 0)

@@ -24,11 +24,11 @@ Method with_tractions(Tractions tractions) { return {.kind = kLinearBem, .tracti
 std::vector<int> up_to(int largest, bool quick) {
     std::vector<int> sizes;
     for (const int size : {2, 3, 4, 6, 8, 10, 12, 16, 20})
-        if (size <= (quick ? std::min(largest, 4) : largest)) sizes.push_back(size);
+        if (size <= (quick ? std::min(largest, 3) : largest)) sizes.push_back(size);
     return sizes;
 }
 
-Repeats repeats(bool quick) { return quick ? Repeats{0.05, 3} : Repeats{}; }
+Repeats repeats(bool quick) { return quick ? Repeats{0.02, 2} : Repeats{}; }
 
 std::vector<Variant> main_variants(bool quick) {
     return {{"fem", {.kind = kFem}, up_to(20, quick)},
