@@ -100,6 +100,27 @@ Eigen::MatrixXd CollocationProblem::product(const Eigen::MatrixXd& X) const {
     return rows;
 }
 
+Eigen::MatrixXd CollocationProblem::sparse_product(const SparseColumns& Z, Control& control) const {
+    SparseColumns displacements(3 * n_vertices(), Z.cols()), tractions(3 * n_slots(), Z.cols());
+    std::vector<Eigen::Triplet<double>> of_vertices, of_slots;
+    for (int row = 0; row < Z.rows(); ++row)
+        for (SparseColumns::InnerIterator entry(Z, row); entry; ++entry) {
+            const int number = row / 3, k = row % 3, column = static_cast<int>(entry.index());
+            if (number < n_free())
+                of_vertices.emplace_back(3 * free_[static_cast<std::size_t>(number)] + k, column, entry.value());
+            else
+                of_slots.emplace_back(row - 3 * n_free(), column, -traction_scale_ * entry.value());
+        }
+    displacements.setFromTriplets(of_vertices.begin(), of_vertices.end());
+    tractions.setFromTriplets(of_slots.begin(), of_slots.end());
+    Eigen::MatrixXd rows = G_->sparse_product(tractions, control);
+    const Eigen::Index n_at = 3 * std::ssize(at_);
+    rows.topRows(n_at) += rows_of(matrices_->at_vertices().sparse_product(displacements, control), at_);
+    if (A_) rows.bottomRows(rows.rows() - n_at) += A_->sparse_product(displacements, control);
+    if (!holds_the_body()) rows.noalias() += shift_ * (free_motions_.transpose() * displacements).eval();
+    return rows;
+}
+
 Eigen::MatrixXd CollocationProblem::right_side(const Eigen::MatrixXd& prescribed) const {
     Eigen::MatrixXd displacements = Eigen::MatrixXd::Zero(3 * n_vertices(), prescribed.cols());
     put_rows(prescribed, constrained_, displacements);
@@ -116,39 +137,25 @@ Eigen::MatrixXd CollocationProblem::assemble_answer(const Eigen::MatrixXd& presc
     return answer;
 }
 
-const Eigen::Matrix3d& CollocationProblem::free_term(int equation) const {
-    const int n_at = static_cast<int>(at_.size());
-    return equation < n_at ? matrices_->at_vertices().free_term(at_[static_cast<std::size_t>(equation)])
-                           : A_->free_term(equation - n_at);
-}
-
 Eigen::MatrixXd CollocationProblem::block(const std::vector<int>& numbers) const {
-    std::vector<int> vertices, slots;
-    for (const int number : numbers)
+    const int n_at = static_cast<int>(at_.size());
+    std::vector<int> vertices, slots, at, interior;
+    for (const int number : numbers) {
         if (number < n_free())
             vertices.push_back(free_[static_cast<std::size_t>(number)]);
         else
             slots.push_back(number - n_free());
-    const Sources sources = sources_.subset(numbers);
-    const Boundary& boundary = matrices_->boundary();
-    const auto integrate = [&](Layer layer, const Elements& elements, Eigen::Ref<Eigen::MatrixXd> out) {
-        integrate_block(layer, boundary, sources, elements, matrices_->material(), matrices_->tolerance(), out);
-    };
+        if (number < n_at)
+            at.push_back(at_[static_cast<std::size_t>(number)]);
+        else
+            interior.push_back(number - n_at);
+    }
     const Eigen::Index n = 3 * std::ssize(numbers), n_displacements = 3 * std::ssize(vertices);
     Eigen::MatrixXd A(n, n);
-    if (!vertices.empty())
-        integrate(Layer::double_layer, matrices_->elements().of(vertices), A.leftCols(n_displacements));
-    if (!slots.empty()) {
-        integrate(Layer::single_layer, loads_.of(slots), A.rightCols(n - n_displacements));
-        A.rightCols(n - n_displacements) *= -traction_scale_;
-    }
-    for (int row = 0; row < sources.size(); ++row)
-        for (const Sources::Weight& weight : sources.weights[static_cast<std::size_t>(row)]) {
-            const auto at = std::lower_bound(vertices.begin(), vertices.end(), weight.slot);
-            if (at != vertices.end() && *at == weight.slot)
-                A.block<3, 3>(3 * row, 3 * (at - vertices.begin())) +=
-                    weight.value * free_term(numbers[static_cast<std::size_t>(row)]);
-        }
+    A.topLeftCorner(3 * std::ssize(at), n_displacements) = matrices_->at_vertices().block(at, vertices);
+    if (!interior.empty())
+        A.bottomLeftCorner(3 * std::ssize(interior), n_displacements) = A_->block(interior, vertices);
+    A.rightCols(n - n_displacements) = -traction_scale_ * G_->block(numbers, slots);
     if (!holds_the_body())
         A.leftCols(n_displacements).noalias() +=
             rows_of(shift_, numbers) * rows_of(free_motions_, vertices).transpose();

@@ -57,6 +57,8 @@ public:
 
     Eigen::Index size() const override { return 3 * (std::ssize(free_) + loads_.n_slots()); }
     Eigen::MatrixXd product(const Eigen::MatrixXd& X) const override;
+    /// The same for columns that are zero in most places. Throws Cancelled.
+    Eigen::MatrixXd sparse_product(const SparseColumns& Z, Control& control) const;
     /// -A u for prescribed displacements of the constrained vertices.
     Eigen::MatrixXd right_side(const Eigen::MatrixXd& prescribed) const;
     /// Displacements of all vertices over the tractions of all slots, from a solution.
@@ -74,7 +76,6 @@ public:
 
 private:
     Eigen::MatrixXd equations(const Eigen::MatrixXd& displacements) const;
-    const Eigen::Matrix3d& free_term(int equation) const;
 
     std::shared_ptr<const HierarchicalCollocation> matrices_;
     std::vector<int> free_, constrained_;

@@ -55,7 +55,8 @@ public:
             const SerialBlas serial;
             parallel_blocks(static_cast<int>(patches_.size()), 1, control, [&](int p, int) {
                 auto& factor = factors_[static_cast<std::size_t>(p)];
-                factor.compute(layers.V_->submatrix(patches_[static_cast<std::size_t>(p)].positions).cast<float>());
+                const std::vector<int>& own = patches_[static_cast<std::size_t>(p)].positions;
+                factor.compute(layers.V_->submatrix(own, own).cast<float>());
                 if (factor.info() != Eigen::Success) throw not_positive_definite();
             });
         }
@@ -145,7 +146,7 @@ Eigen::MatrixXd TractionLayers::dense_single_layer() const {
             for (int i = 0; i < 3; ++i) rows.push_back(3 * item + i);
         }
     Eigen::MatrixXd V(size_, size_);
-    V(rows, rows) = V_->submatrix(positions);
+    V(rows, rows) = V_->submatrix(positions, positions);
     if (n_single_ == size_) return V;
     Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(size_, size_ - n_single_);
     unit.bottomRows(unit.cols()).setIdentity();

@@ -178,6 +178,18 @@ TEST(HierarchicalCollocation, BlocksOfThePreconditionerAreThoseOfTheMatrix) {
     EXPECT_LT((columns(rows, Eigen::all) - block).cwiseAbs().maxCoeff(), 1e-5 * block.cwiseAbs().maxCoeff());
 }
 
+TEST(HierarchicalCollocation, ColumnsWithFewEntriesAreMultipliedAsOthers) {
+    const CubeProblem cube(make_box(6), 0.3);
+    const CollocationProblem& A = *cube.problem;
+    std::vector<Eigen::Triplet<double>> entries;  // the last columns are tractions alone
+    for (int i = 0; i < A.size(); ++i) entries.emplace_back(i, i / 40, 1.0 + 0.1 * (i % 7));
+    SparseColumns Z(A.size(), A.size() / 40 + 1);
+    Z.setFromTriplets(entries.begin(), entries.end());
+    Control control;
+    const Eigen::MatrixXd truth = A.product(Eigen::MatrixXd(Z));
+    EXPECT_LT(off(A.sparse_product(Z, control), truth), 1e-9);
+}
+
 TEST(HierarchicalCollocation, TakesAFewIterationsWhateverTheSizesOfTriangles) {
     EXPECT_LE(CubeProblem(make_box(10), 0.3).iterations(), 14);
     EXPECT_LE(CubeProblem(make_box(10), 0.5).iterations(), 20);
