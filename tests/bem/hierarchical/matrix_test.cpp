@@ -136,6 +136,22 @@ TEST(CrossApproximation, FindsPartsThatItsPivotsDoNotLeadTo) {
     EXPECT_LT(A.rank(), 60);
 }
 
+/// A triangle or two have nothing that pivots could leave out.
+TEST(CrossApproximation, OfAFewRowsIsAsExactAsOfMany) {
+    const Problem& p = problem();
+    int n_blocks = 0;
+    for (const ClusterPair& pair : cover_matrix(*p.triangle_tree, *p.tree, 1.5)) {
+        const PositionRange all = p.triangle_tree->cluster(pair.row).range, c = p.tree->cluster(pair.col).range;
+        const PositionRange some{all.begin, all.begin + 1 + n_blocks % 5};
+        if (!pair.admissible || some.end > all.end || n_blocks++ > 100) continue;
+        const LowRankMatrix A = cross_approximation(p.double_layer(), some, c, 1e-5);
+        const Eigen::MatrixXd truth = p.K.block(3 * some.begin, 3 * c.begin, 3 * some.size(), 3 * c.size());
+        EXPECT_LT(relative(A.U * A.V.transpose(), truth), 1e-4) << some.size() << " rows, " << c.size() << " columns";
+        EXPECT_LE(A.rank(), 3 * some.size());
+    }
+    EXPECT_GT(n_blocks, 50);
+}
+
 TEST(CrossApproximation, OfNothingHasNoRank) {
     class Nothing : public BlockEntries {
         void fill(PositionRange, PositionRange, Eigen::Ref<Eigen::MatrixXd> out) const override { out.setZero(); }
