@@ -35,7 +35,8 @@ public:
     std::unique_ptr<const HierarchicalDoubleLayer> seen_from(Sources sources, Control& control) const;
     /// What a constrained set adds; see CollocationLoads. Throws Cancelled.
     std::shared_ptr<const CollocationLoads> loads_of(const TractionSpace& space, Control& control) const {
-        return living_.make(*this, space, control);
+        return living_.add(
+            [&](const auto& known) { return std::make_shared<const CollocationLoads>(*this, space, known, control); });
     }
     std::uint64_t memory_bytes() const { return H_.memory_bytes(); }
 
@@ -47,7 +48,7 @@ private:
     std::shared_ptr<const Eigen::MatrixXd> motions_;
     ClusteredElements elements_;
     HierarchicalDoubleLayer H_;
-    mutable LivingLoads living_;
+    mutable LivingLayers<CollocationLoads> living_;
 };
 
 /// The equations of one constrained set (MixedProblem in bem/mixed_solver.hpp), with hierarchical matrices. Unknowns:

@@ -4,6 +4,8 @@
 #include <numeric>
 #include <utility>
 
+#include "bem/hierarchical/places.hpp"
+
 namespace elastolab {
 
 namespace {
@@ -120,29 +122,6 @@ Eigen::MatrixXd HierarchicalLayer::product(const Eigen::MatrixXd& X) const {
 Eigen::MatrixXd HierarchicalLayer::sparse_product(const SparseColumns& Z, Control& control) const {
     return to_item_order(*sources_, matrix_.sparse_product(to_tree_order(*elements_, Z), control));
 }
-
-namespace {
-
-/// Where some items stand in a tree, ascending, and at which of these each item is.
-struct Places {
-    std::vector<int> positions;
-    std::vector<Eigen::Index> of_items;  ///< three rows each
-
-    Places(const ClusterTree& tree, std::span<const int> items) {
-        std::vector<std::pair<int, int>> placed;
-        for (std::size_t i = 0; i < items.size(); ++i)
-            placed.emplace_back(tree.positions()[static_cast<std::size_t>(items[i])], static_cast<int>(i));
-        std::sort(placed.begin(), placed.end());
-        of_items.resize(3 * items.size());
-        for (std::size_t p = 0; p < placed.size(); ++p) {
-            positions.push_back(placed[p].first);
-            for (std::size_t k = 0; k < 3; ++k)
-                of_items[3 * static_cast<std::size_t>(placed[p].second) + k] = static_cast<Eigen::Index>(3 * p + k);
-        }
-    }
-};
-
-}  // namespace
 
 Eigen::MatrixXd HierarchicalLayer::block(std::span<const int> sources, std::span<const int> slots) const {
     const Places rows(*sources_, sources), cols(*elements_, slots);

@@ -1,18 +1,15 @@
 #include "bem/hierarchical/collocation_loads.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 #include "bem/hierarchical/collocation.hpp"
 #include "bem/hierarchical/item_rows.hpp"
+#include "bem/hierarchical/places.hpp"
 
 namespace elastolab {
 
 namespace {
-
-/// Generations of one set: each costs some small blocks more.
-constexpr int kMostGenerations = 3;
 
 void append_slots(const TractionSpace::Block& block, Elements& elements) {
     for (Elements::Element element : block.elements) {
@@ -23,18 +20,6 @@ void append_slots(const TractionSpace::Block& block, Elements& elements) {
     elements.n_slots += block.n_slots;
 }
 
-/// Tractions of a set as those of all its generations: zero where it has none.
-SparseColumns spread_over(const SparseColumns& X, const std::vector<int>& slots, int n_slots) {
-    std::vector<Eigen::Triplet<double>> entries;
-    for (int row = 0; row < X.rows(); ++row)
-        for (SparseColumns::InnerIterator entry(X, row); entry; ++entry)
-            entries.emplace_back(3 * slots[static_cast<std::size_t>(row / 3)] + row % 3,
-                                 static_cast<int>(entry.index()), entry.value());
-    SparseColumns all(3 * n_slots, X.cols());
-    all.setFromTriplets(entries.begin(), entries.end());
-    return all;
-}
-
 /// How many slots of a space a generation and those before it have.
 int n_known(const LoadGeneration& generation, const TractionSpace& space) {
     int n = 0;
@@ -42,38 +27,6 @@ int n_known(const LoadGeneration& generation, const TractionSpace& space) {
         if (generation.slots.contains(block.key)) n += block.n_slots;
     return n;
 }
-
-/// The generation that leaves least to integrate, or null. What a set does not use of it costs time in every product,
-/// so at least half must be used.
-std::shared_ptr<const LoadGeneration> best_of(const std::vector<std::shared_ptr<const LoadGeneration>>& known,
-                                              const TractionSpace& space) {
-    std::shared_ptr<const LoadGeneration> best;
-    std::pair<int, int> best_cost{space.n_slots(), 0};
-    for (std::shared_ptr<const LoadGeneration> g : known)
-        for (; g; g = g->before) {
-            const int used = n_known(*g, space);
-            const std::pair cost{space.n_slots() - used, g->elements.n_slots};
-            const bool adds = cost.first > 0;
-            if (2 * used < g->elements.n_slots || g->depth + adds > kMostGenerations || !(cost < best_cost)) continue;
-            best = g;
-            best_cost = cost;
-        }
-    return best;
-}
-
-/// Of numbers, those in [begin, end): where they are, and less `begin`.
-struct Inside {
-    std::vector<Eigen::Index> places;  ///< three rows each
-    std::vector<int> numbers;
-
-    Inside(std::span<const int> all, int begin, int end) {
-        for (std::size_t i = 0; i < all.size(); ++i)
-            if (begin <= all[i] && all[i] < end) {
-                for (int k = 0; k < 3; ++k) places.push_back(3 * static_cast<Eigen::Index>(i) + k);
-                numbers.push_back(all[i] - begin);
-            }
-    }
-};
 
 std::vector<int> looked_up(std::span<const int> numbers, const std::vector<int>& table) {
     std::vector<int> values;
@@ -124,7 +77,8 @@ LoadGeneration::LoadGeneration(const HierarchicalCollocation& matrices, const Tr
 CollocationLoads::CollocationLoads(const HierarchicalCollocation& matrices, const TractionSpace& space,
                                    const std::vector<std::shared_ptr<const LoadGeneration>>& known, Control& control)
     : n_vertices_(matrices.elements().n_slots()) {
-    std::shared_ptr<const LoadGeneration> last = best_of(known, space);
+    std::shared_ptr<const LoadGeneration> last = best_generation(
+        known, space.n_slots(), [&](const LoadGeneration& generation) { return n_known(generation, space); });
     n_new_slots_ = space.n_slots() - (last ? n_known(*last, space) : 0);
     if (!last || n_new_slots_ > 0)
         last = std::make_shared<const LoadGeneration>(matrices, space, std::move(last), control);
@@ -220,21 +174,6 @@ std::uint64_t CollocationLoads::memory_bytes() const {
         bytes += g->columns->memory_bytes() + (g->rows ? g->rows->memory_bytes() : 0) +
                  (g->seen ? g->seen->memory_bytes() : 0);
     return bytes;
-}
-
-std::shared_ptr<const CollocationLoads> LivingLoads::make(const HierarchicalCollocation& matrices,
-                                                          const TractionSpace& space, Control& control) {
-    std::vector<std::shared_ptr<const LoadGeneration>> known;
-    {
-        const std::scoped_lock lock(mutex_);
-        std::erase_if(loads_, [](const auto& loads) { return loads.expired(); });
-        for (const auto& weak : loads_)
-            if (const auto loads = weak.lock()) known.push_back(loads->last_generation());
-    }
-    auto made = std::make_shared<const CollocationLoads>(matrices, space, known, control);
-    const std::scoped_lock lock(mutex_);
-    loads_.push_back(made);
-    return made;
 }
 
 }  // namespace elastolab

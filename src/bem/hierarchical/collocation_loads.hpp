@@ -4,12 +4,12 @@
 #include <Eigen/Core>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <span>
 #include <vector>
 
 #include "base/control.hpp"
 #include "bem/hierarchical/collocation_entries.hpp"
+#include "bem/hierarchical/generations.hpp"
 #include "bem/traction_space.hpp"
 #include "deform/columns.hpp"
 
@@ -22,6 +22,8 @@ struct LoadGeneration {
     /// Unknowns of `space` that no generation before has, and their interior points. before: or null. Throws Cancelled.
     LoadGeneration(const HierarchicalCollocation& matrices, const TractionSpace& space,
                    std::shared_ptr<const LoadGeneration> before, Control& control);
+
+    int n_items() const { return elements.n_slots; }
 
     std::shared_ptr<const LoadGeneration> before;
     int depth = 1;
@@ -74,18 +76,6 @@ private:
     int n_vertices_, n_new_slots_ = 0;
     std::vector<std::shared_ptr<const LoadGeneration>> generations_;  ///< oldest first
     std::vector<int> slots_, points_;                                 ///< of the set, among those of the generations
-};
-
-/// The loads that are in use, to build others upon. Any thread may use it.
-class LivingLoads {
-public:
-    /// Throws Cancelled.
-    std::shared_ptr<const CollocationLoads> make(const HierarchicalCollocation& matrices, const TractionSpace& space,
-                                                 Control& control);
-
-private:
-    std::mutex mutex_;
-    std::vector<std::weak_ptr<const CollocationLoads>> loads_;
 };
 
 }  // namespace elastolab

@@ -56,7 +56,10 @@ struct Problem {
         return {pairs, tree, kUnitMaterial, keep ? pairs->keep_close_pairs(control) : nullptr};
     }
     DoubleLayerEntries double_layer() const { return {pairs, triangles, *triangle_tree, tree, kUnitMaterial}; }
-    SingleLayerEntries single_layer() const { return {pairs, triangles, *triangle_tree, kUnitMaterial}; }
+    SingleLayerEntries single_layer() const {
+        const std::vector<int> ordered = in_order(triangles, *triangle_tree);
+        return {pairs, ordered, ordered, kUnitMaterial};
+    }
 };
 
 const Problem& problem() {
