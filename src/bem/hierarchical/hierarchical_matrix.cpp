@@ -251,7 +251,7 @@ Eigen::MatrixXd HierarchicalMatrix::sparse_product(const SparseColumns& Z, Contr
     assert(!symmetric_);
     struct Seen {
         std::vector<int> columns;
-        Eigen::MatrixXd values;  ///< V^T Z, or Z in the columns of a near block
+        Eigen::MatrixXd values;  ///< V^T Z of a far block
     };
     std::vector<Seen> seen(blocks_.size());
     const SerialBlas serial;
@@ -259,8 +259,7 @@ Eigen::MatrixXd HierarchicalMatrix::sparse_product(const SparseColumns& Z, Contr
         const Block& block = blocks_[static_cast<std::size_t>(b)];
         Seen& own = seen[static_cast<std::size_t>(b)];
         own.columns = columns_of(Z, block.cols);
-        own.values = compact(Z, block.cols, own.columns);
-        if (!block.is_near()) own.values = transposed_mixed_product(block.V, own.values);
+        if (!block.is_near()) own.values = transposed_mixed_product(block.V, compact(Z, block.cols, own.columns));
     });
     Eigen::MatrixXd Y = Eigen::MatrixXd::Zero(rows(), Z.cols());
     const auto& leaves = row_tree_->leaves();
@@ -273,9 +272,9 @@ Eigen::MatrixXd HierarchicalMatrix::sparse_product(const SparseColumns& Z, Contr
             const auto& [columns, values] = seen[static_cast<std::size_t>(side.block)];
             if (columns.empty()) continue;
             const Eigen::Index first = 3 * (range.begin - block.rows.begin);
-            Eigen::MatrixXd own = Eigen::MatrixXd::Zero(sum.rows(), values.cols());
+            Eigen::MatrixXd own(sum.rows(), std::ssize(columns));
             if (block.is_near())
-                own.noalias() = block.near.middleRows(first, sum.rows()) * values;
+                own.noalias() = block.near.middleRows(first, sum.rows()) * compact(Z, block.cols, columns);
             else
                 own.noalias() = block.U.middleRows(first, sum.rows()).cast<double>() * values;
             sum(Eigen::all, columns) += own;
