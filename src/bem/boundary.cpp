@@ -1,5 +1,7 @@
 #include "bem/boundary.hpp"
 
+#include <algorithm>
+#include <unordered_map>
 #include <utility>
 
 #include "elasticity/triangle_geometry.hpp"
@@ -80,6 +82,27 @@ Sources sources_inside(const Boundary& boundary, std::span<const int> triangles)
             sources.weights.push_back(weights);
         }
     return sources;
+}
+
+Elements merged(const Elements& elements) {
+    Elements result{elements.order, elements.n_slots, {}};
+    std::unordered_map<int, std::size_t> last_of_triangle;
+    for (const Elements::Element& element : elements.elements) {
+        const auto [entry, is_new] = last_of_triangle.try_emplace(element.triangle, result.elements.size());
+        const auto fits = [&](const Elements::Element& other) {
+            for (std::size_t k = 0; k < 3; ++k)
+                if (element.slots[k] >= 0 && other.slots[k] >= 0) return false;
+            return true;
+        };
+        if (is_new || !fits(result.elements[entry->second])) {
+            entry->second = result.elements.size();
+            result.elements.push_back(element);
+        } else {
+            auto& slots = result.elements[entry->second].slots;
+            for (std::size_t k = 0; k < 3; ++k) slots[k] = std::max(slots[k], element.slots[k]);
+        }
+    }
+    return result;
 }
 
 Elements vertex_elements(const Boundary& boundary) {

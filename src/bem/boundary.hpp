@@ -63,6 +63,10 @@ struct Elements {
     std::vector<Element> elements;
 };
 
+/// The same shape functions with as few elements as possible: what is integrated over a triangle serves all its
+/// corners.
+Elements merged(const Elements& elements);
+
 /// All triangles; slot = vertex number, hat functions.
 Elements vertex_elements(const Boundary& boundary);
 /// Slot = position of the triangle in the list, constant functions.

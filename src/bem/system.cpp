@@ -214,7 +214,7 @@ std::vector<Columns::Block> BemSystem::compute(const std::vector<const TractionS
         }
         Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(n + 6, 3 * (loads.n_slots + std::ssize(residuals)));
         if (loads.n_slots > 0)
-            assemble(Layer::single_layer, *boundary_, nodes_, loads, material_, tolerance_,
+            assemble(Layer::single_layer, *boundary_, nodes_, merged(loads), material_, tolerance_,
                      columns.topLeftCorner(n, 3 * loads.n_slots), control);
         for (std::size_t i = 0; i < residuals.size(); ++i)
             columns.block<3, 3>(3 * residuals[i], 3 * (loads.n_slots + static_cast<Eigen::Index>(i))).setIdentity();

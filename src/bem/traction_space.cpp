@@ -44,6 +44,10 @@ public:
     }
     int next_slot() const { return space_.elements.n_slots; }
     TractionSpace& space() { return space_; }
+    TractionSpace finished() {
+        space_.elements = merged(space_.elements);
+        return std::move(space_);
+    }
 
 private:
     const Boundary& boundary_;
@@ -137,7 +141,7 @@ TractionSpace constant_traction_space(const Boundary& boundary, const std::vecto
         }
         builder.add_block({{kConstant, t}, {{t, {0, -1, -1}}}, 1, t});
     }
-    return std::move(builder.space());
+    return builder.finished();
 }
 
 TractionSpace linear_traction_space(const Boundary& boundary, const VertexTriangles& triangles_of_vertex,
@@ -157,7 +161,7 @@ TractionSpace linear_traction_space(const Boundary& boundary, const VertexTriang
     for (int t = 0; t < boundary.n_triangles(); ++t)
         if (patch.by_itself[index(t)]) add_triangle(builder, boundary, patch, t);
     for (const int v : builder.space().dropped_collocation) builder.add_block({{kResidual, v}, {}, 0, -1});
-    return std::move(builder.space());
+    return builder.finished();
 }
 
 }  // namespace elastolab

@@ -9,6 +9,7 @@
 
 #include "base/blas.hpp"
 #include "bem/common.hpp"
+#include "bem/traction_space.hpp"
 #include "elasticity/exact_fields.hpp"
 #include "elasticity/rigid_motion.hpp"
 #include "mesh/primitives.hpp"
@@ -144,6 +145,35 @@ TEST(BemAssembly, SumsTheLinearFunctionsOfATriangleToTheConstantOne) {
         const Eigen::MatrixXd sum =
             linear.middleCols<3>(9 * k) + linear.middleCols<3>(9 * k + 3) + linear.middleCols<3>(9 * k + 6);
         EXPECT_LT((sum - constant.middleCols<3>(3 * k)).norm(), 1e-13 * constant.norm());
+    }
+}
+
+TEST(BemAssembly, IntegratesATriangleOnceForAllItsTractions) {
+    const SurfaceMesh mesh = make_sphere(6);
+    const Boundary boundary(mesh);
+    std::vector<int> held;
+    for (int v = 0; v < mesh.n_vertices(); ++v)
+        if (mesh.vertices(2, v) > 0.3) held.push_back(v);
+    for (const Tractions tractions : kAllTractions) {
+        const TractionSpace space = linear_traction_space(boundary, VertexTriangles(mesh), tractions, held);
+        std::vector<int> triangles;
+        for (const Elements::Element& element : space.elements.elements) triangles.push_back(element.triangle);
+        std::sort(triangles.begin(), triangles.end());
+        EXPECT_TRUE(std::adjacent_find(triangles.begin(), triangles.end()) == triangles.end());
+        Elements apart{Elements::Order::linear, 0, {}};  // as the blocks of the space have them
+        for (const TractionSpace::Block& block : space.blocks) {
+            for (Elements::Element element : block.elements) {
+                for (int& slot : element.slots)
+                    if (slot >= 0) slot += apart.n_slots;
+                apart.elements.push_back(element);
+            }
+            apart.n_slots += block.n_slots;
+        }
+        ASSERT_EQ(apart.n_slots, space.n_slots());
+        const Sources sources = vertex_sources(boundary);
+        const Eigen::MatrixXd truth = matrix(Layer::single_layer, boundary, sources, apart, Material{1.0, 0.3});
+        const Eigen::MatrixXd G = matrix(Layer::single_layer, boundary, sources, space.elements, Material{1.0, 0.3});
+        EXPECT_LT((G - truth).norm(), 1e-14 * truth.norm());
     }
 }
 

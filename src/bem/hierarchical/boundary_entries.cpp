@@ -26,12 +26,6 @@ Eigen::AlignedBox3d box_of(const Boundary& boundary, int triangle) {
     return box;
 }
 
-std::vector<int> in_order(const std::vector<int>& items, const ClusterTree& tree) {
-    std::vector<int> ordered;
-    for (const int item : tree.order()) ordered.push_back(items[static_cast<std::size_t>(item)]);
-    return ordered;
-}
-
 /// The triangles around the vertices of a range, each once, and where their corners are in it.
 struct Star {
     std::vector<int> triangles;
@@ -189,23 +183,30 @@ void HypersingularEntries::fill_with(const PairIntegrals& integrals, PositionRan
     }
 }
 
-SingleLayerEntries::SingleLayerEntries(std::shared_ptr<const BoundaryPairs> pairs, const std::vector<int>& triangles,
-                                       const ClusterTree& tree, const Material& material)
-    : PairEntries(std::move(pairs)), ordered_(in_order(triangles, tree)), material_(material) {}
+std::vector<int> in_order(const std::vector<int>& triangles, const ClusterTree& tree) {
+    std::vector<int> ordered;
+    for (const int item : tree.order()) ordered.push_back(triangles[static_cast<std::size_t>(item)]);
+    return ordered;
+}
+
+SingleLayerEntries::SingleLayerEntries(std::shared_ptr<const BoundaryPairs> pairs, std::vector<int> rows,
+                                       std::vector<int> cols, const Material& material)
+    : PairEntries(std::move(pairs)), rows_(std::move(rows)), cols_(std::move(cols)), material_(material) {}
 
 void SingleLayerEntries::fill_with(const PairIntegrals& integrals, PositionRange rows, PositionRange cols,
                                    Eigen::Ref<Eigen::MatrixXd> out) const {
     const bool swap = rows.size() < cols.size();  // the longer side fills the lanes; a pair is symmetric
     const PositionRange tests = swap ? cols : rows, fields = swap ? rows : cols;
+    const std::vector<int>&test_triangles = swap ? cols_ : rows_, &field_triangles = swap ? rows_ : cols_;
     const int lanes = integrals.lanes();
     const double factor = 1.0 / (16.0 * std::numbers::pi * material_.shear_modulus() * (1.0 - material_.poisson_ratio));
     for (int first = tests.begin; first < tests.end; first += lanes) {
         const int count = std::min(lanes, tests.end - first);
         const PairIntegrals::Pack pack = integrals.pack(
-            std::span(ordered_).subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(count)));
+            std::span(test_triangles).subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(count)));
         for (int f = fields.begin; f < fields.end; ++f) {
             double numbers[kPairNumbers * kMaxLanes];
-            integrals.integrate(pack, ordered_[static_cast<std::size_t>(f)], false, numbers);
+            integrals.integrate(pack, field_triangles[static_cast<std::size_t>(f)], false, numbers);
             for (int lane = 0; lane < count; ++lane) {
                 const auto q = [&](int k) { return factor * numbers[k * lanes + lane]; };
                 Eigen::Matrix3d block;

@@ -79,17 +79,21 @@ private:
     double alpha_, beta_;
 };
 
-/// The single layer V between some triangles (bem/galerkin/traction_rows.hpp): item i of `tree` is triangles[i].
+/// Some triangles in the order of a tree, item i of which is triangles[i].
+std::vector<int> in_order(const std::vector<int>& triangles, const ClusterTree& tree);
+
+/// The single layer V between some triangles and others, or the same (bem/galerkin/traction_rows.hpp).
 class SingleLayerEntries : public PairEntries {
 public:
-    SingleLayerEntries(std::shared_ptr<const BoundaryPairs> pairs, const std::vector<int>& triangles,
-                       const ClusterTree& tree, const Material& material);
+    /// rows, cols: triangle at each position.
+    SingleLayerEntries(std::shared_ptr<const BoundaryPairs> pairs, std::vector<int> rows, std::vector<int> cols,
+                       const Material& material);
 
 private:
     void fill_with(const PairIntegrals& integrals, PositionRange rows, PositionRange cols,
                    Eigen::Ref<Eigen::MatrixXd> out) const override;
 
-    std::vector<int> ordered_;  ///< triangle at each position
+    std::vector<int> rows_, cols_;
     Material material_;
 };
 

@@ -73,6 +73,20 @@ Eigen::MatrixXd to_item_order(const ClusterTree& tree, const Eigen::MatrixXd& by
     return by_item;
 }
 
+SparseColumns to_tree_order(const ClusterTree& tree, const SparseColumns& by_item) {
+    SparseColumns by_position(by_item.rows(), by_item.cols());
+    by_position.reserve(by_item.nonZeros());
+    for (int position = 0; position < tree.size(); ++position)
+        for (int k = 0; k < 3; ++k) {
+            by_position.startVec(3 * position + k);
+            const int row = 3 * tree.order()[static_cast<std::size_t>(position)] + k;
+            for (SparseColumns::InnerIterator entry(by_item, row); entry; ++entry)
+                by_position.insertBackByOuterInner(3 * position + k, entry.index()) = entry.value();
+        }
+    by_position.finalize();
+    return by_position;
+}
+
 namespace {
 
 class Cover {

@@ -2,10 +2,14 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <Eigen/SparseCore>
 #include <span>
 #include <vector>
 
 namespace elastolab {
+
+/// Columns with entries in few rows, of which there are three for each item of a cluster tree.
+using SparseColumns = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 /// Consecutive positions in the order of a cluster tree.
 struct PositionRange {
@@ -50,6 +54,7 @@ std::vector<PositionRange> clusters_up_to(const ClusterTree& tree, int n);
 /// Rows, three an item, from the order of the items to that of the tree and back.
 Eigen::MatrixXd to_tree_order(const ClusterTree& tree, const Eigen::MatrixXd& by_item);
 Eigen::MatrixXd to_item_order(const ClusterTree& tree, const Eigen::MatrixXd& by_position);
+SparseColumns to_tree_order(const ClusterTree& tree, const SparseColumns& by_item);
 
 /// A pair of clusters, one of rows and one of columns.
 struct ClusterPair {

@@ -62,32 +62,31 @@ CollocationProblem::CollocationProblem(std::shared_ptr<const HierarchicalColloca
       free_(without(all_numbers(n_vertices()), constrained)),
       constrained_(std::move(constrained)),
       at_(free_),
-      loads_(matrices_->boundary(), space.elements),
       traction_scale_(matrices_->material().shear_modulus() / mean_edge(matrices_->boundary().mesh())),
       free_motions_(unseen_motions(*matrices_->motions(), constrained_)) {
     if (must_hold && !holds_the_body()) throw NotHeldError();
     control.begin_stage("integrate tractions");
     const std::vector<int> collocated = without(constrained_, space.dropped_collocation);
     at_.insert(at_.end(), collocated.begin(), collocated.end());
-    sources_ = matrices_->at_vertices().sources().subset(at_);
-    if (!space.interior_triangles.empty()) {
-        const Sources interior = sources_inside(matrices_->boundary(), space.interior_triangles);
-        sources_.append(interior);
-        A_ = matrices_->seen_from(interior, control);
-    }
-    G_ = std::make_unique<const HierarchicalLayer>(Layer::single_layer, matrices_->boundary(), sources_, loads_,
-                                                   matrices_->material(), matrices_->tolerance(), matrices_->options(),
-                                                   control);
+    loads_ = matrices_->loads_of(space, control);
+    const Positions interior = sources_inside(matrices_->boundary(), space.interior_triangles).points;
+    points_.resize(3, std::ssize(at_) + interior.cols());
+    points_ << matrices_->boundary().mesh().vertices(Eigen::all, at_), interior;
     // A triangle holds the body: where there is one, with interior points or without, nothing is free.
-    assert(holds_the_body() || !A_);
+    assert(holds_the_body() || loads_->n_interior() == 0);
     shift_ = rows_of(free_motions_, at_);
+}
+
+Eigen::MatrixXd CollocationProblem::rows_of_equations(const Eigen::MatrixXd& everywhere) const {
+    Eigen::MatrixXd rows(size(), everywhere.cols());
+    rows << rows_of(everywhere, at_), everywhere.bottomRows(3 * loads_->n_interior());
+    return rows;
 }
 
 /// What displacements alone contribute.
 Eigen::MatrixXd CollocationProblem::equations(const Eigen::MatrixXd& displacements) const {
     Eigen::MatrixXd rows(size(), displacements.cols());
-    rows.topRows(3 * std::ssize(at_)) = rows_of(matrices_->at_vertices().product(displacements), at_);
-    if (A_) rows.bottomRows(size() - 3 * std::ssize(at_)) = A_->product(displacements);
+    rows << rows_of(matrices_->at_vertices().product(displacements), at_), loads_->double_layer(displacements);
     return rows;
 }
 
@@ -95,7 +94,28 @@ Eigen::MatrixXd CollocationProblem::product(const Eigen::MatrixXd& X) const {
     Eigen::MatrixXd displacements = Eigen::MatrixXd::Zero(3 * n_vertices(), X.cols());
     put_rows(X, free_, displacements);
     Eigen::MatrixXd rows = equations(displacements);
-    rows -= G_->product(traction_scale_ * X.bottomRows(3 * loads_.n_slots()));
+    rows -= rows_of_equations(loads_->single_layer(traction_scale_ * X.bottomRows(3 * n_slots())));
+    if (!holds_the_body()) rows.noalias() += shift_ * (free_motions_.transpose() * displacements).eval();
+    return rows;
+}
+
+Eigen::MatrixXd CollocationProblem::sparse_product(const SparseColumns& Z, Control& control) const {
+    SparseColumns displacements(3 * n_vertices(), Z.cols()), tractions(3 * n_slots(), Z.cols());
+    std::vector<Eigen::Triplet<double>> of_vertices, of_slots;
+    for (int row = 0; row < Z.rows(); ++row)
+        for (SparseColumns::InnerIterator entry(Z, row); entry; ++entry) {
+            const int number = row / 3, k = row % 3, column = static_cast<int>(entry.index());
+            if (number < n_free())
+                of_vertices.emplace_back(3 * free_[static_cast<std::size_t>(number)] + k, column, entry.value());
+            else
+                of_slots.emplace_back(row - 3 * n_free(), column, -traction_scale_ * entry.value());
+        }
+    displacements.setFromTriplets(of_vertices.begin(), of_vertices.end());
+    tractions.setFromTriplets(of_slots.begin(), of_slots.end());
+    Eigen::MatrixXd rows = rows_of_equations(loads_->single_layer(tractions, control));
+    const Eigen::Index n_at = 3 * std::ssize(at_);
+    rows.topRows(n_at) += rows_of(matrices_->at_vertices().sparse_product(displacements, control), at_);
+    rows.bottomRows(rows.rows() - n_at) += loads_->double_layer(displacements, control);
     if (!holds_the_body()) rows.noalias() += shift_ * (free_motions_.transpose() * displacements).eval();
     return rows;
 }
@@ -111,51 +131,35 @@ Eigen::MatrixXd CollocationProblem::assemble_answer(const Eigen::MatrixXd& presc
     put_rows(X, free_, displacements);
     orthogonalise(displacements, free_motions_);
     put_rows(prescribed, constrained_, displacements);
-    Eigen::MatrixXd answer(displacements.rows() + 3 * loads_.n_slots(), X.cols());
-    answer << displacements, traction_scale_ * X.bottomRows(3 * loads_.n_slots());
+    Eigen::MatrixXd answer(displacements.rows() + 3 * n_slots(), X.cols());
+    answer << displacements, traction_scale_ * X.bottomRows(3 * n_slots());
     return answer;
 }
 
-const Eigen::Matrix3d& CollocationProblem::free_term(int equation) const {
-    const int n_at = static_cast<int>(at_.size());
-    return equation < n_at ? matrices_->at_vertices().free_term(at_[static_cast<std::size_t>(equation)])
-                           : A_->free_term(equation - n_at);
-}
-
 Eigen::MatrixXd CollocationProblem::block(const std::vector<int>& numbers) const {
-    std::vector<int> vertices, slots;
-    for (const int number : numbers)
+    const int n_at = static_cast<int>(at_.size());
+    std::vector<int> vertices, slots, at, interior, everywhere;
+    for (const int number : numbers) {
         if (number < n_free())
             vertices.push_back(free_[static_cast<std::size_t>(number)]);
         else
             slots.push_back(number - n_free());
-    const Sources sources = sources_.subset(numbers);
-    const Boundary& boundary = matrices_->boundary();
-    const auto integrate = [&](Layer layer, const Elements& elements, Eigen::Ref<Eigen::MatrixXd> out) {
-        integrate_block(layer, boundary, sources, elements, matrices_->material(), matrices_->tolerance(), out);
-    };
+        if (number < n_at)
+            at.push_back(at_[static_cast<std::size_t>(number)]);
+        else
+            interior.push_back(number - n_at);
+        everywhere.push_back(number < n_at ? at.back() : n_vertices() + interior.back());
+    }
     const Eigen::Index n = 3 * std::ssize(numbers), n_displacements = 3 * std::ssize(vertices);
     Eigen::MatrixXd A(n, n);
-    if (!vertices.empty())
-        integrate(Layer::double_layer, matrices_->elements().of(vertices), A.leftCols(n_displacements));
-    if (!slots.empty()) {
-        integrate(Layer::single_layer, loads_.of(slots), A.rightCols(n - n_displacements));
-        A.rightCols(n - n_displacements) *= -traction_scale_;
-    }
-    for (int row = 0; row < sources.size(); ++row)
-        for (const Sources::Weight& weight : sources.weights[static_cast<std::size_t>(row)]) {
-            const auto at = std::lower_bound(vertices.begin(), vertices.end(), weight.slot);
-            if (at != vertices.end() && *at == weight.slot)
-                A.block<3, 3>(3 * row, 3 * (at - vertices.begin())) +=
-                    weight.value * free_term(numbers[static_cast<std::size_t>(row)]);
-        }
+    A.topLeftCorner(3 * std::ssize(at), n_displacements) = matrices_->at_vertices().block(at, vertices);
+    A.bottomLeftCorner(3 * std::ssize(interior), n_displacements) = loads_->double_layer_block(interior, vertices);
+    A.rightCols(n - n_displacements) = -traction_scale_ * loads_->single_layer_block(everywhere, slots);
     if (!holds_the_body())
         A.leftCols(n_displacements).noalias() +=
             rows_of(shift_, numbers) * rows_of(free_motions_, vertices).transpose();
     return A;
 }
-
-std::uint64_t CollocationProblem::memory_bytes() const { return (A_ ? A_->memory_bytes() : 0) + G_->memory_bytes(); }
 
 CollocationSolver::CollocationSolver(std::shared_ptr<const HierarchicalCollocation> matrices,
                                      const TractionSpace& space, const std::vector<int>& constrained, bool must_hold,

@@ -7,6 +7,7 @@
 
 #include "base/control.hpp"
 #include "bem/hierarchical/collocation_entries.hpp"
+#include "bem/hierarchical/collocation_loads.hpp"
 #include "bem/hierarchical/kept_answers.hpp"
 #include "bem/traction_space.hpp"
 #include "deform/linear_operator.hpp"
@@ -32,6 +33,11 @@ public:
     const HierarchicalDoubleLayer& at_vertices() const { return H_; }
     /// The double layer seen from other points.
     std::unique_ptr<const HierarchicalDoubleLayer> seen_from(Sources sources, Control& control) const;
+    /// What a constrained set adds; see CollocationLoads. Throws Cancelled.
+    std::shared_ptr<const CollocationLoads> loads_of(const TractionSpace& space, Control& control) const {
+        return living_.add(
+            [&](const auto& known) { return std::make_shared<const CollocationLoads>(*this, space, known, control); });
+    }
     std::uint64_t memory_bytes() const { return H_.memory_bytes(); }
 
 private:
@@ -42,6 +48,7 @@ private:
     std::shared_ptr<const Eigen::MatrixXd> motions_;
     ClusteredElements elements_;
     HierarchicalDoubleLayer H_;
+    mutable LivingLayers<CollocationLoads> living_;
 };
 
 /// The equations of one constrained set (MixedProblem in bem/mixed_solver.hpp), with hierarchical matrices. Unknowns:
@@ -55,8 +62,10 @@ public:
     CollocationProblem(std::shared_ptr<const HierarchicalCollocation> matrices, const TractionSpace& space,
                        std::vector<int> constrained, bool must_hold, Control& control);
 
-    Eigen::Index size() const override { return 3 * (std::ssize(free_) + loads_.n_slots()); }
+    Eigen::Index size() const override { return 3 * (std::ssize(free_) + n_slots()); }
     Eigen::MatrixXd product(const Eigen::MatrixXd& X) const override;
+    /// The same for columns that are zero in most places. Throws Cancelled.
+    Eigen::MatrixXd sparse_product(const SparseColumns& Z, Control& control) const;
     /// -A u for prescribed displacements of the constrained vertices.
     Eigen::MatrixXd right_side(const Eigen::MatrixXd& prescribed) const;
     /// Displacements of all vertices over the tractions of all slots, from a solution.
@@ -64,25 +73,25 @@ public:
 
     bool holds_the_body() const { return free_motions_.cols() == 0; }
     int n_vertices() const { return matrices_->elements().n_slots(); }
-    int n_slots() const { return loads_.n_slots(); }
+    int n_slots() const { return loads_->n_slots(); }
     int n_free() const { return static_cast<int>(free_.size()); }
     /// Where each equation is asked to hold.
-    const Positions& points() const { return sources_.points; }
+    const Positions& points() const { return points_; }
+    const CollocationLoads& loads() const { return *loads_; }
     /// The block of these equations and the unknowns of the same numbers (ascending).
     Eigen::MatrixXd block(const std::vector<int>& numbers) const;
-    std::uint64_t memory_bytes() const;
+    std::uint64_t memory_bytes() const { return loads_->memory_bytes(); }
 
 private:
     Eigen::MatrixXd equations(const Eigen::MatrixXd& displacements) const;
-    const Eigen::Matrix3d& free_term(int equation) const;
+    /// Of rows for all vertices and the interior points, those of the equations.
+    Eigen::MatrixXd rows_of_equations(const Eigen::MatrixXd& everywhere) const;
 
     std::shared_ptr<const HierarchicalCollocation> matrices_;
     std::vector<int> free_, constrained_;
     std::vector<int> at_;  ///< vertices of the first equations; interior points follow
-    Sources sources_;      ///< of all equations
-    ClusteredElements loads_;
-    std::unique_ptr<const HierarchicalDoubleLayer> A_;  ///< seen from the interior points, or null
-    std::unique_ptr<const HierarchicalLayer> G_;
+    std::shared_ptr<const CollocationLoads> loads_;
+    Positions points_;
     double traction_scale_;  ///< [force / L^2] over [L], so that tractions and displacements count alike
     Eigen::MatrixXd free_motions_, shift_;
 };

@@ -4,6 +4,8 @@
 #include <numeric>
 #include <utility>
 
+#include "bem/hierarchical/places.hpp"
+
 namespace elastolab {
 
 namespace {
@@ -117,6 +119,15 @@ Eigen::MatrixXd HierarchicalLayer::product(const Eigen::MatrixXd& X) const {
     return to_item_order(*sources_, matrix_.product(to_tree_order(*elements_, X)));
 }
 
+Eigen::MatrixXd HierarchicalLayer::sparse_product(const SparseColumns& Z, Control& control) const {
+    return to_item_order(*sources_, matrix_.sparse_product(to_tree_order(*elements_, Z), control));
+}
+
+Eigen::MatrixXd HierarchicalLayer::block(std::span<const int> sources, std::span<const int> slots) const {
+    const Places rows(*sources_, sources), cols(*elements_, slots);
+    return matrix_.submatrix(rows.positions, cols.positions)(rows.of_items, cols.of_items);
+}
+
 HierarchicalDoubleLayer::HierarchicalDoubleLayer(const Boundary& boundary, Sources sources,
                                                  const ClusteredElements& elements,
                                                  std::shared_ptr<const Eigen::MatrixXd> motions,
@@ -127,18 +138,44 @@ HierarchicalDoubleLayer::HierarchicalDoubleLayer(const Boundary& boundary, Sourc
       layer_(Layer::double_layer, boundary, sources_, elements, material, tolerance, options, control) {
     const Eigen::MatrixXd sums = layer_.product(Eigen::Matrix3d::Identity().replicate(elements.n_slots(), 1));
     for (int source = 0; source < sources_.size(); ++source) free_terms_.push_back(-sums.middleRows<3>(3 * source));
+    of_motions_ = layer_.product(*motions_);
 }
 
 Eigen::MatrixXd HierarchicalDoubleLayer::product(const Eigen::MatrixXd& U) const {
     Eigen::MatrixXd bent = U;
     bent.noalias() -= *motions_ * (motions_->transpose() * U).eval();
     Eigen::MatrixXd rows = layer_.product(bent);
+    add_free_terms(bent, rows);
+    return rows;
+}
+
+Eigen::MatrixXd HierarchicalDoubleLayer::sparse_product(const SparseColumns& U, Control& control) const {
+    const Eigen::MatrixXd shares = motions_->transpose() * U;
+    Eigen::MatrixXd rows = layer_.sparse_product(U, control);
+    rows.noalias() -= of_motions_ * shares;
+    Eigen::MatrixXd bent = U;
+    bent.noalias() -= *motions_ * shares;
+    add_free_terms(bent, rows);
+    return rows;
+}
+
+void HierarchicalDoubleLayer::add_free_terms(const Eigen::MatrixXd& U, Eigen::MatrixXd& rows) const {
     for (int source = 0; source < sources_.size(); ++source)
         for (const Sources::Weight& weight : sources_.weights[static_cast<std::size_t>(source)])
             if (weight.slot >= 0)
-                rows.middleRows<3>(3 * source) +=
-                    weight.value * (free_term(source) * bent.middleRows<3>(3 * weight.slot));
-    return rows;
+                rows.middleRows<3>(3 * source) += weight.value * (free_term(source) * U.middleRows<3>(3 * weight.slot));
+}
+
+Eigen::MatrixXd HierarchicalDoubleLayer::block(std::span<const int> sources, std::span<const int> slots) const {
+    Eigen::MatrixXd A = layer_.block(sources, slots);
+    for (std::size_t row = 0; row < sources.size(); ++row)
+        for (const Sources::Weight& weight : sources_.weights[static_cast<std::size_t>(sources[row])]) {
+            const auto at = std::lower_bound(slots.begin(), slots.end(), weight.slot);
+            if (at != slots.end() && *at == weight.slot)
+                A.block<3, 3>(3 * static_cast<Eigen::Index>(row), 3 * (at - slots.begin())) +=
+                    weight.value * free_term(sources[row]);
+        }
+    return A;
 }
 
 }  // namespace elastolab

@@ -43,6 +43,10 @@ public:
 
     /// Rows in the order of the sources, columns in that of the slots.
     Eigen::MatrixXd product(const Eigen::MatrixXd& X) const;
+    /// The same for columns that are zero in most places. Throws Cancelled.
+    Eigen::MatrixXd sparse_product(const SparseColumns& Z, Control& control) const;
+    /// Entries of these sources and slots, as exactly as the matrix has them.
+    Eigen::MatrixXd block(std::span<const int> sources, std::span<const int> slots) const;
     std::uint64_t memory_bytes() const { return matrix_.memory_bytes(); }
 
 private:
@@ -64,13 +68,20 @@ public:
     /// c(x) of each source.
     const Eigen::Matrix3d& free_term(int source) const { return free_terms_[static_cast<std::size_t>(source)]; }
     Eigen::MatrixXd product(const Eigen::MatrixXd& U) const;
+    /// The same for columns that are zero in most places. Throws Cancelled.
+    Eigen::MatrixXd sparse_product(const SparseColumns& U, Control& control) const;
+    /// Entries of these sources and slots (ascending).
+    Eigen::MatrixXd block(std::span<const int> sources, std::span<const int> slots) const;
     std::uint64_t memory_bytes() const { return layer_.memory_bytes(); }
 
 private:
+    void add_free_terms(const Eigen::MatrixXd& U, Eigen::MatrixXd& rows) const;
+
     Sources sources_;
     std::shared_ptr<const Eigen::MatrixXd> motions_;
     HierarchicalLayer layer_;
     std::vector<Eigen::Matrix3d> free_terms_;
+    Eigen::MatrixXd of_motions_;  ///< the layer times the rigid motions
 };
 
 }  // namespace elastolab

@@ -20,8 +20,6 @@ constexpr int kMostPoints = 4 * kPointsOfAPatch;  ///< after that: beside finer 
 constexpr int kParts = 16;                        ///< of the coarse level; more save hardly an iteration
 constexpr double kIndependent = 1e-6;
 
-using PartColumns = Eigen::SparseMatrix<double>;
-
 Eigen::AlignedBox3d box_around(const Positions& points, const ClusterTree& tree, PositionRange range) {
     Eigen::AlignedBox3d box;
     for (int position = range.begin; position < range.end; ++position)
@@ -71,7 +69,7 @@ Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns) {
 
 /// Rigid motions of the free vertices and constant tractions of each part: columns without rows in common, but for
 /// those of one part.
-PartColumns columns_of_parts(const CollocationProblem& problem, const ClusterTree& tree) {
+SparseColumns columns_of_parts(const CollocationProblem& problem, const ClusterTree& tree) {
     std::vector<Eigen::Triplet<double>> entries;
     int n_columns = 0;
     const auto add = [&](const std::vector<int>& numbers, const Eigen::MatrixXd& columns) {
@@ -99,7 +97,7 @@ PartColumns columns_of_parts(const CollocationProblem& problem, const ClusterTre
         add(vertices, motions);
         add(slots, Eigen::Matrix3d::Identity().replicate(std::ssize(slots), 1));
     }
-    PartColumns Z(problem.size(), n_columns);
+    SparseColumns Z(problem.size(), n_columns);
     Z.setFromTriplets(entries.begin(), entries.end());
     return Z;
 }
@@ -169,23 +167,23 @@ private:
     }
 
     void make_coarse_level(const CollocationProblem& problem, Control& control) {
-        constexpr Eigen::Index kCoarseColumns = 16;
+        constexpr Eigen::Index kCoarseColumns = 64;
+        const Eigen::SparseMatrix<double> by_columns = Z_;
         AZ_.resize(Z_.rows(), Z_.cols());
         Eigen::MatrixXd E(Z_.cols(), Z_.cols());
         for (Eigen::Index first = 0; first < Z_.cols(); first += kCoarseColumns) {
             const Eigen::Index count = std::min(kCoarseColumns, Z_.cols() - first);
-            const Eigen::MatrixXd some = problem.product(Eigen::MatrixXd(Z_.middleCols(first, count)));
+            const Eigen::MatrixXd some = problem.sparse_product(by_columns.middleCols(first, count), control);
             E.middleCols(first, count) = Z_.transpose() * some;
             AZ_.middleCols(first, count) = some.cast<float>();
             control.set_progress(static_cast<double>(first) / static_cast<double>(Z_.cols()));
-            control.checkpoint();
         }
         coarse_factor_ = LuFactorization(std::move(E), "coarse boundary equations");
     }
 
     Eigen::Index size_;
     std::vector<Patch> patches_;
-    PartColumns Z_;
+    SparseColumns Z_;
     Eigen::MatrixXf AZ_;
     LuFactorization coarse_factor_;
 };

@@ -1,6 +1,7 @@
 #include "bem/hierarchical/hierarchical_matrix.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <Eigen/SparseCore>
 
 #include "base/blas.hpp"
@@ -133,7 +134,6 @@ void HierarchicalMatrix::list_sides() {
         for (auto leaf = first; leaf != leaves.end() && row_tree_->cluster(*leaf).range.begin < range.end; ++leaf)
             row_sides_[static_cast<std::size_t>(leaf - leaves.begin())].push_back(side);
     };
-    if (!symmetric_) return;
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
         const Block& block = blocks_[b];
         list(block.rows, {static_cast<int>(b), false});
@@ -176,22 +176,22 @@ Eigen::MatrixXd HierarchicalMatrix::multiply(const Eigen::MatrixXd& X, bool tran
     return std::move(sums[0]);
 }
 
-Eigen::MatrixXd HierarchicalMatrix::submatrix(const std::vector<int>& positions) const {
-    const auto n = 3 * std::ssize(positions);
-    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n, n);
+Eigen::MatrixXd HierarchicalMatrix::submatrix(const std::vector<int>& row_positions,
+                                              const std::vector<int>& col_positions) const {
+    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(3 * std::ssize(row_positions), 3 * std::ssize(col_positions));
     const auto& leaves = row_tree_->leaves();
     for (std::size_t leaf = 0; leaf < leaves.size(); ++leaf) {
         const PositionRange range = row_tree_->cluster(leaves[leaf]).range;
-        const auto [first_row, last_row] = within(positions, range);
+        const auto [first_row, last_row] = within(row_positions, range);
         if (first_row == last_row) continue;
         for (const Side& side : row_sides_[leaf]) {
             const Block& block = blocks_[static_cast<std::size_t>(side.block)];
             const PositionRange own = side.transposed ? block.cols : block.rows;
             const PositionRange other = side.transposed ? block.rows : block.cols;
-            const auto [first_col, last_col] = within(positions, other);
+            const auto [first_col, last_col] = within(col_positions, other);
             if (first_col == last_col) continue;
-            const auto of_rows = scalar_rows(positions, first_row, last_row, own.begin);
-            const auto of_cols = scalar_rows(positions, first_col, last_col, other.begin);
+            const auto of_rows = scalar_rows(row_positions, first_row, last_row, own.begin);
+            const auto of_cols = scalar_rows(col_positions, first_col, last_col, other.begin);
             auto part = A.block(3 * first_row, 3 * first_col, std::ssize(of_rows), std::ssize(of_cols));
             if (!block.is_near()) {
                 const Far &left = side.transposed ? block.V : block.U, &right = side.transposed ? block.U : block.V;
@@ -209,8 +209,6 @@ Eigen::MatrixXd HierarchicalMatrix::submatrix(const std::vector<int>& positions)
 }
 
 namespace {
-
-using SparseColumns = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 /// Columns that Z has in the rows of a range, ascending.
 std::vector<int> columns_of(const SparseColumns& Z, PositionRange range) {
@@ -235,7 +233,56 @@ Eigen::MatrixXd project(const SparseColumns& Z, PositionRange range, const std::
     return product;
 }
 
+/// The rows of a range, of these columns alone.
+Eigen::MatrixXd compact(const SparseColumns& Z, PositionRange range, const std::vector<int>& columns) {
+    Eigen::MatrixXd own = Eigen::MatrixXd::Zero(3 * range.size(), std::ssize(columns));
+    for (int row = 0; row < 3 * range.size(); ++row)
+        for (SparseColumns::InnerIterator entry(Z, 3 * range.begin + row); entry; ++entry) {
+            const auto at = std::lower_bound(columns.begin(), columns.end(), entry.index());
+            own(row, at - columns.begin()) = entry.value();
+        }
+    return own;
+}
+
 }  // namespace
+
+/// First V^T Z of every far block, then the rows of each leaf: no two threads write the same ones.
+Eigen::MatrixXd HierarchicalMatrix::sparse_product(const SparseColumns& Z, Control& control) const {
+    assert(!symmetric_);
+    struct Seen {
+        std::vector<int> columns;
+        Eigen::MatrixXd values;  ///< V^T Z of a far block
+    };
+    std::vector<Seen> seen(blocks_.size());
+    const SerialBlas serial;
+    parallel_blocks(static_cast<int>(blocks_.size()), 1, control, [&](int b, int) {
+        const Block& block = blocks_[static_cast<std::size_t>(b)];
+        Seen& own = seen[static_cast<std::size_t>(b)];
+        own.columns = columns_of(Z, block.cols);
+        if (!block.is_near()) own.values = transposed_mixed_product(block.V, compact(Z, block.cols, own.columns));
+    });
+    Eigen::MatrixXd Y = Eigen::MatrixXd::Zero(rows(), Z.cols());
+    const auto& leaves = row_tree_->leaves();
+    parallel_blocks(static_cast<int>(leaves.size()), 1, control, [&](int leaf, int) {
+        const PositionRange range = row_tree_->cluster(leaves[static_cast<std::size_t>(leaf)]).range;
+        Eigen::MatrixXd sum(3 * range.size(), Z.cols());
+        sum.setZero();
+        for (const Side& side : row_sides_[static_cast<std::size_t>(leaf)]) {
+            const Block& block = blocks_[static_cast<std::size_t>(side.block)];
+            const auto& [columns, values] = seen[static_cast<std::size_t>(side.block)];
+            if (columns.empty()) continue;
+            const Eigen::Index first = 3 * (range.begin - block.rows.begin);
+            Eigen::MatrixXd own(sum.rows(), std::ssize(columns));
+            if (block.is_near())
+                own.noalias() = block.near.middleRows(first, sum.rows()) * compact(Z, block.cols, columns);
+            else
+                own.noalias() = block.U.middleRows(first, sum.rows()).cast<double>() * values;
+            sum(Eigen::all, columns) += own;
+        }
+        Y.middleRows(3 * range.begin, sum.rows()) = sum;
+    });
+    return Y;
+}
 
 /// What each block gives is computed in parallel, some at a time, and added in the order of the blocks.
 Eigen::MatrixXd HierarchicalMatrix::galerkin_product(const SparseColumns& Z, Control& control) const {

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <Eigen/Core>
-#include <Eigen/SparseCore>
 #include <memory>
 #include <vector>
 
@@ -38,11 +37,14 @@ public:
     /// A X and A^T X, for any number of columns at once.
     Eigen::MatrixXd product(const Eigen::MatrixXd& X) const;
     Eigen::MatrixXd transposed_product(const Eigen::MatrixXd& X) const;
+    /// A Z for columns that are zero in most clusters: each block takes part in the columns that it sees. Not of
+    /// symmetric matrices. Throws Cancelled.
+    Eigen::MatrixXd sparse_product(const SparseColumns& Z, Control& control) const;
 
-    /// Entries of the rows and columns of these positions (ascending), of a symmetric matrix.
-    Eigen::MatrixXd submatrix(const std::vector<int>& positions) const;
+    /// Entries at these positions of rows and of columns, both ascending.
+    Eigen::MatrixXd submatrix(const std::vector<int>& row_positions, const std::vector<int>& col_positions) const;
     /// Z^T A Z of a symmetric matrix; Z is sparse, with three rows for each position. Throws Cancelled.
-    Eigen::MatrixXd galerkin_product(const Eigen::SparseMatrix<double, Eigen::RowMajor>& Z, Control& control) const;
+    Eigen::MatrixXd galerkin_product(const SparseColumns& Z, Control& control) const;
 
     std::uint64_t memory_bytes() const;
 
@@ -56,7 +58,7 @@ private:
     std::shared_ptr<const ClusterTree> row_tree_, col_tree_;
     bool symmetric_;
     std::vector<Block> blocks_;
-    std::vector<std::vector<Side>> row_sides_;  ///< of each leaf, in the order of the blocks; of symmetric matrices
+    std::vector<std::vector<Side>> row_sides_;  ///< of each leaf, in the order of the blocks
 };
 
 }  // namespace elastolab

@@ -44,7 +44,7 @@ public:
     }
 
 private:
-    static constexpr int kUses = 3;  ///< of one row: each takes at least one of its three directions
+    static constexpr int kUses = 3;  ///< of one row: directions that were taken
 
     /// Size of the error that so many rows may have.
     double allowed(int n_rows) const { return tolerance_ * std::sqrt(norm_square_ * n_rows / rows_.size()); }
@@ -85,13 +85,15 @@ private:
                                                       Eigen::ComputeFullU | Eigen::ComputeFullV);
         const Eigen::Matrix3Xd along = pivot.matrixU().transpose() * R;
         int used = 0;
-        for (; used < 3; ++used) {
+        // What a row has left has no more directions than that; others would be rounding, and count as rank.
+        const int left = kUses - uses(row);
+        for (; used < left; ++used) {
             double most = 0.0;
             for (int j = 0; j < cols_.size(); ++j) most = std::max(most, along.row(used).segment<3>(3 * j).norm());
             if (!(pivot.singularValues()[used] >= kLeastPivot * most) || most == 0.0) break;
         }
-        uses(row) = used == 3 ? kUses : uses(row) + 1;
         if (used == 0) used = 1;  // the pivot was the largest block: its first direction is sound
+        uses(row) += used;
         last_column_ = residual_column(col);
         const Eigen::MatrixXd u = last_column_ * pivot.matrixV().leftCols(used) *
                                   pivot.singularValues().head(used).cwiseInverse().asDiagonal();

@@ -51,7 +51,8 @@ double hierarchical_residual(const HierarchicalSystem& system, const std::vector
         to_tree_order(*triangle_tree, Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values)));
     const HypersingularEntries D(system.pairs(), system.tree(), system.material());
     const DoubleLayerEntries K(system.pairs(), triangles, *triangle_tree, system.tree(), system.material());
-    const SingleLayerEntries V(system.pairs(), triangles, *triangle_tree, system.material());
+    const std::vector<int> ordered = in_order(triangles, *triangle_tree);
+    const SingleLayerEntries V(system.pairs(), ordered, ordered, system.material());
 
     const int n_rows = std::min(n, kSampleVertices), n_loads = static_cast<int>(triangles.size());
     EquationBalance forces(n_rows);

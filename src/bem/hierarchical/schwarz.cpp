@@ -123,7 +123,7 @@ SchwarzPreconditioner::SchwarzPreconditioner(const HierarchicalMatrix& D, const 
             Patch& patch = patches_[static_cast<std::size_t>(p)];
             patch.positions = grown(cores[static_cast<std::size_t>(p)], neighbours, is_free_);
             if (patch.positions.empty()) return;
-            patch.factor.compute(D.submatrix(patch.positions).cast<float>());
+            patch.factor.compute(D.submatrix(patch.positions, patch.positions).cast<float>());
             if (patch.factor.info() != Eigen::Success)
                 throw SolveError(
                     "hypersingular matrix: is not positive definite near a vertex. Check the mesh for slivers and thin "

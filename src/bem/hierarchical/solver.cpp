@@ -62,8 +62,7 @@ HierarchicalSolver::HierarchicalSolver(std::shared_ptr<const HierarchicalSystem>
     held_ = free_motions_.cols() == 0;
     if (!held_ && must_hold) throw NotHeldError();
     control.begin_stage("integrate tractions");
-    layers_ = std::make_unique<const TractionLayers>(system_->pairs(), system_->surfaces(), tractions, system_->tree(),
-                                                     system_->material(), system_->options(), control);
+    layers_ = std::make_unique<const TractionLayers>(*system_, tractions, control);
     control.begin_stage("precondition");
     preconditioner_ = std::make_unique<const SchwarzPreconditioner>(system_->matrix(), system_->boundary(),
                                                                     std::move(is_free), control);

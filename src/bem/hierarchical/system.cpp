@@ -40,4 +40,12 @@ Eigen::MatrixXd HierarchicalSystem::hypersingular(const Eigen::MatrixXd& X) cons
     return Y;
 }
 
+std::shared_ptr<const TriangleLayers> HierarchicalSystem::layers_of(const std::vector<int>& triangles,
+                                                                    Control& control) const {
+    return living_.add([&](const auto& known) {
+        return std::make_shared<const TriangleLayers>(LayerSource{pairs_, tree_, material_, options_}, triangles, known,
+                                                      control);
+    });
+}
+
 }  // namespace elastolab

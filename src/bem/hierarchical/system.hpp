@@ -41,6 +41,8 @@ public:
     const Eigen::MatrixXd& body_motions() const { return body_motions_; }
     /// P D P X with P = 1 - C C^T: freed of what integrals and approximation leave of the rigid motions.
     Eigen::MatrixXd hypersingular(const Eigen::MatrixXd& X) const;
+    /// V and K at some triangles; what living ones have is taken over. Throws Cancelled.
+    std::shared_ptr<const TriangleLayers> layers_of(const std::vector<int>& triangles, Control& control) const;
 
 private:
     std::shared_ptr<const BoundaryPairs> pairs_;
@@ -50,6 +52,7 @@ private:
     HierarchicalOptions options_;
     Eigen::MatrixXd surface_motions_, body_motions_;
     std::unique_ptr<const HierarchicalMatrix> D_;
+    mutable LivingLayers<TriangleLayers> living_;
 };
 
 /// Displacements and tractions of one constrained set by elimination of the tractions: the free block of

@@ -1,18 +1,20 @@
 #include "bem/hierarchical/traction_layers.hpp"
 
 #include <Eigen/Cholesky>
+#include <numeric>
 
 #include "base/blas.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "bem/cost.hpp"
+#include "bem/hierarchical/system.hpp"
 #include "deform/conjugate_gradients.hpp"
 
 namespace elastolab {
 
 namespace {
 
-constexpr int kTrianglesOfALeaf = 48, kTrianglesOfAPatch = 128;
+constexpr int kTrianglesOfAPatch = 128;
 
 SolveError not_positive_definite() {
     return SolveError("single-layer matrix: is not positive definite. Check the mesh for slivers.");
@@ -36,32 +38,32 @@ private:
 class TractionLayers::PatchSolves : public LinearOperator {
 public:
     explicit PatchSolves(const TractionLayers& layers, Control& control) : layers_(layers) {
-        const ClusterTree& tree = *layers.tree_;
         std::vector<Eigen::Triplet<double>> constants;
-        for (const PositionRange& range : clusters_up_to(tree, kTrianglesOfAPatch)) {
+        for (const std::vector<int>& cluster : layers.layers_->clusters(kTrianglesOfAPatch)) {
             Patch patch;
-            for (int position = range.begin; position < range.end; ++position)
-                if (const int item = tree.order()[static_cast<std::size_t>(position)]; 3 * item < layers.n_single_) {
-                    patch.positions.push_back(position);
+            for (const int number : cluster)
+                if (3 * number < layers.n_single_) {
+                    patch.numbers.push_back(number);
                     for (int i = 0; i < 3; ++i) {
-                        patch.rows.push_back(3 * item + i);
-                        constants.emplace_back(3 * position + i, 3 * static_cast<int>(patches_.size()) + i, 1.0);
+                        patch.rows.push_back(3 * number + i);
+                        constants.emplace_back(3 * number + i, 3 * static_cast<int>(patches_.size()) + i, 1.0);
                     }
                 }
-            if (!patch.positions.empty()) patches_.push_back(std::move(patch));
+            if (!patch.numbers.empty()) patches_.push_back(std::move(patch));
         }
         factors_.resize(patches_.size());
         {
             const SerialBlas serial;
             parallel_blocks(static_cast<int>(patches_.size()), 1, control, [&](int p, int) {
                 auto& factor = factors_[static_cast<std::size_t>(p)];
-                factor.compute(layers.V_->submatrix(patches_[static_cast<std::size_t>(p)].positions).cast<float>());
+                const std::vector<int>& own = patches_[static_cast<std::size_t>(p)].numbers;
+                factor.compute(layers.layers_->single_layer_block(own).cast<float>());
                 if (factor.info() != Eigen::Success) throw not_positive_definite();
             });
         }
-        Eigen::SparseMatrix<double, Eigen::RowMajor> Z(3 * tree.size(), 3 * std::ssize(patches_));
+        SparseColumns Z(3 * layers.layers_->n_triangles(), 3 * std::ssize(patches_));
         Z.setFromTriplets(constants.begin(), constants.end());
-        coarse_factor_.compute(layers.V_->galerkin_product(Z, control));
+        coarse_factor_.compute(layers.layers_->galerkin_product(Z, control));
         if (coarse_factor_.info() != Eigen::Success) throw not_positive_definite();
         Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(size(), size() - layers.n_single_);
         unit.bottomRows(unit.cols()).setIdentity();
@@ -86,14 +88,14 @@ public:
         coarse_factor_.solveInPlace(coarse);
         for (std::size_t p = 0; p < patches_.size(); ++p)
             Y(patches_[p].rows, Eigen::all) +=
-                coarse.middleRows<3>(3 * static_cast<Eigen::Index>(p)).replicate(std::ssize(patches_[p].positions), 1);
+                coarse.middleRows<3>(3 * static_cast<Eigen::Index>(p)).replicate(std::ssize(patches_[p].numbers), 1);
         Y.bottomRows(rigid_scale_.size()) = rigid_scale_.asDiagonal() * X.bottomRows(rigid_scale_.size());
         return Y;
     }
 
 private:
     struct Patch {
-        std::vector<int> positions;
+        std::vector<int> numbers;  ///< of its triangles
         std::vector<Eigen::Index> rows;
     };
     static Eigen::MatrixXd sums_of_blocks(const Eigen::MatrixXd& rows) {
@@ -109,23 +111,16 @@ private:
     Eigen::VectorXd rigid_scale_;
 };
 
-TractionLayers::TractionLayers(const std::shared_ptr<const BoundaryPairs>& pairs, const ClosedSurfaces& surfaces,
-                               const GalerkinTractions& tractions,
-                               const std::shared_ptr<const ClusterTree>& vertex_tree, const Material& material,
-                               const HierarchicalOptions& options, Control& control)
+TractionLayers::TractionLayers(const HierarchicalSystem& system, const GalerkinTractions& tractions, Control& control)
     : size_(tractions.size()), n_single_(3 * std::ssize(tractions.triangles)) {
     if (size_ == 0) return;
     std::vector<int> triangles = tractions.triangles;
     for (const int s : tractions.free_surfaces) {
-        const std::vector<int>& all = surfaces.triangles[static_cast<std::size_t>(s)];
-        rigid_.push_back(rigid_tractions(pairs->boundary(), all));
+        const std::vector<int>& all = system.surfaces().triangles[static_cast<std::size_t>(s)];
+        rigid_.push_back(rigid_tractions(system.boundary(), all));
         triangles.insert(triangles.end(), all.begin(), all.end());
     }
-    tree_ = pairs->cluster_triangles(triangles, kTrianglesOfALeaf);
-    const DoubleLayerEntries K(pairs, triangles, *tree_, vertex_tree, material);
-    K_ = std::make_unique<const HierarchicalMatrix>(tree_, vertex_tree, false, K, options, control);
-    const SingleLayerEntries V(pairs, triangles, *tree_, material);
-    V_ = std::make_unique<const HierarchicalMatrix>(tree_, tree_, true, V, options, control);
+    layers_ = system.layers_of(triangles, control);
     if (size_ <= kMostFactorisedTractions) {
         factor_ = CholeskyFactorization(dense_single_layer(), "single-layer matrix", &control);
     } else {
@@ -137,15 +132,10 @@ TractionLayers::TractionLayers(const std::shared_ptr<const BoundaryPairs>& pairs
 TractionLayers::~TractionLayers() = default;
 
 Eigen::MatrixXd TractionLayers::dense_single_layer() const {
-    std::vector<int> positions;
-    std::vector<Eigen::Index> rows;
-    for (int position = 0; position < tree_->size(); ++position)
-        if (const int item = tree_->order()[static_cast<std::size_t>(position)]; 3 * item < n_single_) {
-            positions.push_back(position);
-            for (int i = 0; i < 3; ++i) rows.push_back(3 * item + i);
-        }
+    std::vector<int> numbers(static_cast<std::size_t>(n_single_ / 3));
+    std::iota(numbers.begin(), numbers.end(), 0);
     Eigen::MatrixXd V(size_, size_);
-    V(rows, rows) = V_->submatrix(positions);
+    V.topLeftCorner(n_single_, n_single_) = layers_->single_layer_block(numbers);
     if (n_single_ == size_) return V;
     Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(size_, size_ - n_single_);
     unit.bottomRows(unit.cols()).setIdentity();
@@ -155,7 +145,7 @@ Eigen::MatrixXd TractionLayers::dense_single_layer() const {
 }
 
 Eigen::MatrixXd TractionLayers::spread(const Eigen::MatrixXd& t) const {
-    Eigen::MatrixXd all(3 * tree_->size(), t.cols());
+    Eigen::MatrixXd all(3 * layers_->n_triangles(), t.cols());
     all.topRows(n_single_) = t.topRows(n_single_);
     Eigen::Index from = n_single_, to = n_single_;
     for (const Eigen::MatrixXd& fields : rigid_) {
@@ -163,29 +153,32 @@ Eigen::MatrixXd TractionLayers::spread(const Eigen::MatrixXd& t) const {
         to += fields.rows();
         from += fields.cols();
     }
-    return to_tree_order(*tree_, all);
+    return all;
 }
 
 Eigen::MatrixXd TractionLayers::gather(const Eigen::MatrixXd& on_triangles) const {
-    const Eigen::MatrixXd all = to_item_order(*tree_, on_triangles);
-    Eigen::MatrixXd t(size_, all.cols());
-    t.topRows(n_single_) = all.topRows(n_single_);
+    Eigen::MatrixXd t(size_, on_triangles.cols());
+    t.topRows(n_single_) = on_triangles.topRows(n_single_);
     Eigen::Index from = n_single_, to = n_single_;
     for (const Eigen::MatrixXd& fields : rigid_) {
-        t.middleRows(to, fields.cols()) = fields.transpose() * all.middleRows(from, fields.rows());
+        t.middleRows(to, fields.cols()) = fields.transpose() * on_triangles.middleRows(from, fields.rows());
         from += fields.rows();
         to += fields.cols();
     }
     return t;
 }
 
-Eigen::MatrixXd TractionLayers::double_layer(const Eigen::MatrixXd& u) const { return gather(K_->product(u)); }
-
-Eigen::MatrixXd TractionLayers::transposed_double_layer(const Eigen::MatrixXd& t) const {
-    return K_->transposed_product(spread(t));
+Eigen::MatrixXd TractionLayers::double_layer(const Eigen::MatrixXd& u) const {
+    return gather(layers_->double_layer(u));
 }
 
-Eigen::MatrixXd TractionLayers::single_layer(const Eigen::MatrixXd& t) const { return gather(V_->product(spread(t))); }
+Eigen::MatrixXd TractionLayers::transposed_double_layer(const Eigen::MatrixXd& t) const {
+    return layers_->transposed_double_layer(spread(t));
+}
+
+Eigen::MatrixXd TractionLayers::single_layer(const Eigen::MatrixXd& t) const {
+    return gather(layers_->single_layer(spread(t)));
+}
 
 Eigen::MatrixXd TractionLayers::solve_single_layer(const Eigen::MatrixXd& b, double tolerance, Control& control) const {
     if (!operator_) {
@@ -198,7 +191,7 @@ Eigen::MatrixXd TractionLayers::solve_single_layer(const Eigen::MatrixXd& b, dou
 
 std::uint64_t TractionLayers::memory_bytes() const {
     if (size_ == 0) return 0;
-    return K_->memory_bytes() + V_->memory_bytes() + 8 * static_cast<std::uint64_t>(factor_.size() * factor_.size());
+    return layers_->memory_bytes() + 8 * static_cast<std::uint64_t>(factor_.size() * factor_.size());
 }
 
 }  // namespace elastolab

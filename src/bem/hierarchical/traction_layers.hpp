@@ -6,20 +6,19 @@
 
 #include "base/cholesky.hpp"
 #include "bem/galerkin/tractions.hpp"
-#include "bem/hierarchical/boundary_entries.hpp"
-#include "bem/hierarchical/hierarchical_matrix.hpp"
+#include "bem/hierarchical/triangle_layers.hpp"
 #include "deform/linear_operator.hpp"
 
 namespace elastolab {
+
+class HierarchicalSystem;
 
 /// V and K of the tractions of one constrained set (bem/galerkin/system.hpp), hierarchical. Tractions are in the order
 /// of GalerkinTractions, displacements in that of the vertices' cluster tree.
 class TractionLayers {
 public:
     /// Throws SolveError, Cancelled.
-    TractionLayers(const std::shared_ptr<const BoundaryPairs>& pairs, const ClosedSurfaces& surfaces,
-                   const GalerkinTractions& tractions, const std::shared_ptr<const ClusterTree>& vertex_tree,
-                   const Material& material, const HierarchicalOptions& options, Control& control);
+    TractionLayers(const HierarchicalSystem& system, const GalerkinTractions& tractions, Control& control);
     ~TractionLayers();
 
     Eigen::Index size() const { return size_; }
@@ -31,6 +30,8 @@ public:
     /// Cancelled.
     Eigen::MatrixXd solve_single_layer(const Eigen::MatrixXd& b, double tolerance, Control& control) const;
 
+    /// Null where there are no tractions.
+    const TriangleLayers* triangle_layers() const { return layers_.get(); }
     std::uint64_t memory_bytes() const;
 
 private:
@@ -38,14 +39,13 @@ private:
     class PatchSolves;
 
     Eigen::MatrixXd dense_single_layer() const;
-    /// Tractions on each triangle of the tree's order from the unknowns, and the transpose of that.
+    /// Tractions on each triangle from the unknowns, and the transpose of that.
     Eigen::MatrixXd spread(const Eigen::MatrixXd& t) const;
     Eigen::MatrixXd gather(const Eigen::MatrixXd& on_triangles) const;
 
     Eigen::Index size_ = 0, n_single_ = 0;
     std::vector<Eigen::MatrixXd> rigid_;  ///< fields of the surfaces without constrained triangles
-    std::shared_ptr<const ClusterTree> tree_;
-    std::unique_ptr<const HierarchicalMatrix> K_, V_;
+    std::shared_ptr<const TriangleLayers> layers_;
     CholeskyFactorization factor_;
     std::unique_ptr<const LinearOperator> operator_, patch_solves_;  ///< of V, where it is not factorised
 };

@@ -62,6 +62,26 @@ void expect_as_dense(const SurfaceMesh& mesh, const ConstrainedSet& set, const E
     EXPECT_LT(answers[1].residual.value(), 1e-7);
 }
 
+TEST(HierarchicalCollocation, AFurtherHandleOnAKeptBaseIsAnsweredAsByTheDenseMatrix) {
+    const OrganicBody body = make_rabbit(800);
+    const SurfaceMesh& mesh = body.surface;
+    const Eigen::Vector3d low = mesh.vertices.rowwise().minCoeff(), high = mesh.vertices.rowwise().maxCoeff();
+    std::vector<int> both = body.pull;
+    for (int v = 0; v < mesh.n_vertices(); ++v)
+        if (mesh.vertices(0, v) > low[0] + 0.93 * (high[0] - low[0]) &&
+            std::ranges::find(body.base, v) == body.base.end() && std::ranges::find(both, v) == both.end())
+            both.push_back(v);
+    ASSERT_GT(both.size(), body.pull.size() + 3);
+    const Eigen::VectorXd values = Eigen::Vector3d(0.1, -0.2, 0.15).replicate(std::ssize(both), 1);
+    const Eigen::VectorXd exact = displaced(precomputed(make_body(mesh), dense_linear()), {body.base, both}, values);
+    const auto model = precomputed(make_body(mesh), hierarchical_linear());
+    Control control;
+    Deformer before(model), after(model);
+    before.constrain({body.base, body.pull}, control);
+    after.constrain({body.base, both}, control);
+    EXPECT_LT(off(after.displace(values), exact), 1e-6);
+}
+
 class HierarchicalCollocationTractions : public testing::TestWithParam<Tractions> {};
 
 TEST_P(HierarchicalCollocationTractions, AgreesWithTheDenseMatrixOnAnOrganicBody) {
@@ -176,6 +196,18 @@ TEST(HierarchicalCollocation, BlocksOfThePreconditionerAreThoseOfTheMatrix) {
     for (std::size_t c = 0; c < rows.size(); ++c) units(rows[c], static_cast<Eigen::Index>(c)) = 1.0;
     const Eigen::MatrixXd columns = A.product(units);
     EXPECT_LT((columns(rows, Eigen::all) - block).cwiseAbs().maxCoeff(), 1e-5 * block.cwiseAbs().maxCoeff());
+}
+
+TEST(HierarchicalCollocation, ColumnsWithFewEntriesAreMultipliedAsOthers) {
+    const CubeProblem cube(make_box(6), 0.3);
+    const CollocationProblem& A = *cube.problem;
+    std::vector<Eigen::Triplet<double>> entries;  // the last columns are tractions alone
+    for (int i = 0; i < A.size(); ++i) entries.emplace_back(i, i / 40, 1.0 + 0.1 * (i % 7));
+    SparseColumns Z(A.size(), A.size() / 40 + 1);
+    Z.setFromTriplets(entries.begin(), entries.end());
+    Control control;
+    const Eigen::MatrixXd truth = A.product(Eigen::MatrixXd(Z));
+    EXPECT_LT(off(A.sparse_product(Z, control), truth), 1e-9);
 }
 
 TEST(HierarchicalCollocation, TakesAFewIterationsWhateverTheSizesOfTriangles) {

@@ -56,7 +56,10 @@ struct Problem {
         return {pairs, tree, kUnitMaterial, keep ? pairs->keep_close_pairs(control) : nullptr};
     }
     DoubleLayerEntries double_layer() const { return {pairs, triangles, *triangle_tree, tree, kUnitMaterial}; }
-    SingleLayerEntries single_layer() const { return {pairs, triangles, *triangle_tree, kUnitMaterial}; }
+    SingleLayerEntries single_layer() const {
+        const std::vector<int> ordered = in_order(triangles, *triangle_tree);
+        return {pairs, ordered, ordered, kUnitMaterial};
+    }
 };
 
 const Problem& problem() {
@@ -136,6 +139,22 @@ TEST(CrossApproximation, FindsPartsThatItsPivotsDoNotLeadTo) {
     EXPECT_LT(A.rank(), 60);
 }
 
+/// A triangle or two have nothing that pivots could leave out.
+TEST(CrossApproximation, OfAFewRowsIsAsExactAsOfMany) {
+    const Problem& p = problem();
+    int n_blocks = 0;
+    for (const ClusterPair& pair : cover_matrix(*p.triangle_tree, *p.tree, 1.5)) {
+        const PositionRange all = p.triangle_tree->cluster(pair.row).range, c = p.tree->cluster(pair.col).range;
+        const PositionRange some{all.begin, all.begin + 1 + n_blocks % 5};
+        if (!pair.admissible || some.end > all.end || n_blocks++ > 100) continue;
+        const LowRankMatrix A = cross_approximation(p.double_layer(), some, c, 1e-5);
+        const Eigen::MatrixXd truth = p.K.block(3 * some.begin, 3 * c.begin, 3 * some.size(), 3 * c.size());
+        EXPECT_LT(relative(A.U * A.V.transpose(), truth), 1e-4) << some.size() << " rows, " << c.size() << " columns";
+        EXPECT_LE(A.rank(), 3 * some.size());
+    }
+    EXPECT_GT(n_blocks, 50);
+}
+
 TEST(CrossApproximation, OfNothingHasNoRank) {
     class Nothing : public BlockEntries {
         void fill(PositionRange, PositionRange, Eigen::Ref<Eigen::MatrixXd> out) const override { out.setZero(); }
@@ -163,20 +182,43 @@ TEST(HierarchicalMatrix, ActsAsTheDenseOperators) {
     const Eigen::VectorXd a = Eigen::VectorXd::Random(D.cols()), b = Eigen::VectorXd::Random(D.cols());
     EXPECT_NEAR(a.dot(D.product(b).col(0)), b.dot(D.product(a).col(0)), 1e-12 * a.norm() * b.norm() * p.D.norm());
     EXPECT_LT(D.memory_bytes(), 8u * static_cast<unsigned>(p.D.size()));
+}
 
+/// Every n-th position, and the rows of a matrix that belong to them.
+struct Some {
     std::vector<int> positions;
-    for (int i = 3; i < p.tree->size(); i += 11) positions.push_back(i);
     std::vector<Eigen::Index> rows;
-    for (const int i : positions)
-        for (int k = 0; k < 3; ++k) rows.push_back(3 * i + k);
-    EXPECT_LT(relative(D.submatrix(positions), p.D(rows, rows)), 1e-5);
 
+    Some(int first, int n, int size) {
+        for (int i = first; i < size; i += n) {
+            positions.push_back(i);
+            for (int k = 0; k < 3; ++k) rows.push_back(3 * i + k);
+        }
+    }
+};
+
+/// 29 columns, each with entries in a few runs of 20 positions.
+SparseColumns sparse_columns(Eigen::Index n_rows) {
     std::vector<Eigen::Triplet<double>> entries;
-    for (int i = 0; i < D.rows(); ++i)
+    for (int i = 0; i < n_rows; ++i)
         for (int k = 0; k < 2; ++k) entries.emplace_back(i, (7 * (i / 60) + 3 * k + i % 3) % 29, 1.0 + 0.1 * (i % 13));
-    Eigen::SparseMatrix<double, Eigen::RowMajor> Z(D.rows(), 29);
+    SparseColumns Z(n_rows, 29);
     Z.setFromTriplets(entries.begin(), entries.end());
+    return Z;
+}
+
+TEST(HierarchicalMatrix, GivesPartsAndProductsWithSparseColumns) {
+    const Problem& p = problem();
+    Control control;
+    const HierarchicalOptions options{.tolerance = 1e-5};
+    const HierarchicalMatrix D(p.tree, p.tree, true, p.hypersingular(true), options, control);
+    const HierarchicalMatrix K(p.triangle_tree, p.tree, false, p.double_layer(), options, control);
+    const Some vertices(3, 11, p.tree->size()), triangles(1, 7, p.triangle_tree->size());
+    EXPECT_LT(relative(D.submatrix(vertices.positions, vertices.positions), p.D(vertices.rows, vertices.rows)), 1e-5);
+    EXPECT_LT(relative(K.submatrix(triangles.positions, vertices.positions), p.K(triangles.rows, vertices.rows)), 1e-5);
+    const SparseColumns Z = sparse_columns(D.rows());
     EXPECT_LT(relative(D.galerkin_product(Z, control), Z.transpose() * (p.D * Z)), 1e-5);
+    EXPECT_LT(relative(K.sparse_product(Z, control), p.K * Z), 1e-5);
 }
 
 TEST(HierarchicalMatrix, DoesNotDependOnTheNumberOfThreads) {

@@ -57,6 +57,20 @@ TEST(HierarchicalGalerkin, AgreesWithTheDenseMatrixOnAnOrganicBody) {
     EXPECT_LT(reactions.moments.rowwise().sum().norm(), 1e-6 * reactions.moments.colwise().norm().sum());
 }
 
+TEST(HierarchicalGalerkin, AFurtherHandleOnAKeptBaseIsAnsweredAsByTheDenseMatrix) {
+    const OrganicBody body = make_rabbit(600);
+    const Positions moved = body.values(0.3).rightCols(std::ssize(body.pull));
+    const Eigen::VectorXd values = moved.reshaped();
+    const Eigen::VectorXd exact =
+        displaced(precomputed(make_body(body.surface), dense()), {body.base, body.pull}, values);
+    const auto model = precomputed(make_body(body.surface), hierarchical());
+    Control control;
+    Deformer before(model), after(model);
+    before.constrain({body.base, {}}, control);
+    after.constrain({body.base, body.pull}, control);
+    EXPECT_LT(off(after.displace(values), exact), 1e-6);
+}
+
 TEST(HierarchicalGalerkin, AgreesWithTheDenseMatrixWhereTractionsAreIteratedToo) {
     const SurfaceMesh mesh = make_box(15);
     const auto held = vertices_where(mesh, [](const auto& x) { return x[0] < 0.9; });
