@@ -111,13 +111,25 @@ void draw_placement(ViewerState& state, int handle, float scale) {
     if (ended) scene.commit();
 }
 
-void draw_reaction(const ShownBody* shown, const std::string& name, const Colour& colour) {
-    if (shown == nullptr) return;
-    for (const ShownReaction& reaction : shown->reactions()) {
-        if (reaction.name != name) continue;
-        fact("force", number_text(reaction.force.norm()), colour);
-        fact("moment about its middle", number_text(reaction.moment_about_place().norm()), colour);
-    }
+/// A line under the row of a handle or fixed set. While nothing is known it stays, so that what is below keeps its
+/// place during a drag.
+void draw_reaction(const PanelContext& context, const std::string& name) {
+    const ViewerState& state = context.state;
+    if (!state.shown.wants_reactions()) return;
+    std::string line = "force and moment: not known", more;
+    if (const ShownBody* shown = state.shown.body(state.method))
+        for (const ShownReaction& reaction : shown->reactions()) {
+            if (reaction.name != name) continue;
+            const Eigen::Vector3d moment = reaction.moment_about_place();
+            line = "force " + number_text(reaction.force.norm()) + ", moment " + number_text(moment.norm());
+            more = "What it exerts on the body: force " + vector_text(reaction.force) +
+                   ", moment about its middle at rest " + vector_text(moment) + ".";
+        }
+    if (more.empty()) more = "Not solved for yet, or, on a simplified body, held together with the set beside it.";
+    ImGui::Indent();
+    ImGui::TextColored(imgui_colour(context.palette.text_dim), "%s", line.c_str());
+    tooltip(more.c_str());
+    ImGui::Unindent();
 }
 
 std::string vertices_text(const std::string& name, std::span<const int> vertices) {
@@ -180,16 +192,15 @@ void Panels::draw_name(const PanelContext& context, int owner, const std::string
     }
 }
 
-/// Name, placement and forces of the selected handle.
+/// Name and placement of the selected handle.
 void Panels::draw_handle(const PanelContext& context, int handle) {
     LiveScene& scene = context.state.scene();
     draw_name(context, handle, scene.handle_name(handle),
               [&](const std::string& name) { return scene.rename_handle(handle, name); });
     draw_placement(context.state, handle, context.gui.scale());
-    draw_reaction(context.state.shown.body(context.state.method), scene.handle_name(handle), context.palette.text_dim);
 }
 
-/// The fixed sets, of which brush and box change the selected one, and the reaction of all of them together.
+/// The fixed sets, of which brush and box change the selected one, and what each exerts.
 void Panels::draw_fixed_sets(const PanelContext& context) {
     ViewerState& state = context.state;
     LiveScene& scene = state.scene();
@@ -200,6 +211,7 @@ void Panels::draw_fixed_sets(const PanelContext& context) {
         const RowAnswer answer =
             draw_row(vertices_text(scene.fixed_name(set), scene.fixed_vertices(set)), selected,
                      selected ? context.palette.fixed_active : context.palette.fixed, context.gui.scale());
+        draw_reaction(context, scene.fixed_name(set));
         if (answer.clicked) state.gestures.select_fixed(selected ? -1 : set);
         if (selected)
             draw_name(context, LiveScene::kFixed - set, scene.fixed_name(set),
@@ -209,7 +221,6 @@ void Panels::draw_fixed_sets(const PanelContext& context) {
     }
     state.remove_fixed_set(removed);
     draw_new_fixed_set(context);
-    draw_reaction(state.shown.body(state.method), "fixed", context.palette.text_dim);
 }
 
 void Panels::draw_handles(const PanelContext& context) {
@@ -222,6 +233,7 @@ void Panels::draw_handles(const PanelContext& context) {
         const RowAnswer answer =
             draw_row(vertices_text(scene.handle_name(h), scene.vertices(h)), selected,
                      selected ? context.palette.active : context.palette.handle, context.gui.scale());
+        draw_reaction(context, scene.handle_name(h));
         if (answer.clicked) state.gestures.select_handle(selected ? -1 : h);
         if (selected) draw_handle(context, h);
         if (answer.removed) removed = h;

@@ -172,7 +172,7 @@ void SceneRenderer::upload_arrows(const ViewerState& state, const ShownBody& bod
     if (state.display.arrows && largest > 0.0)
         for (const ShownReaction& reaction : body.reactions()) {
             const Eigen::Vector3d vector = kArrowPart * frame_.radius / largest * reaction.force;
-            arrows.push_back({reaction.place, vector, reaction.name == "fixed" ? palette.fixed : palette.handle});
+            arrows.push_back({reaction.place, vector, reaction.fixed ? palette.fixed : palette.handle});
         }
     target.arrows.update(arrows, frame_);
 }

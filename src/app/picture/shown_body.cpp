@@ -71,6 +71,14 @@ std::vector<int> joined(const std::vector<int>& a, const std::vector<int>& b) {
     return all;
 }
 
+/// The groups whose reactions are told: every fixed set by itself, then the handles.
+std::vector<ConstraintGroup> told_groups(const Constraints& constraints) {
+    std::vector<ConstraintGroup> groups = constraints.fixed_sets;
+    groups.insert(groups.end(), constraints.groups.begin() + (constraints.has_fixed() ? 1 : 0),
+                  constraints.groups.end());
+    return groups;
+}
+
 }  // namespace
 
 ShownBody::Key ShownBody::key_of(const Sources& sources, const DisplaySettings& display) {
@@ -142,11 +150,14 @@ void ShownBody::update_reactions(const Sources& sources) {
     const Constraints &computed = answer.constraints(), &shown = sources.scene.constraints();
     if (constrained != joined(computed.set.base, computed.set.handles)) return;  // the new set is on its way
     const std::vector<int> shown_vertices = joined(shown.set.base, shown.set.handles);
-    for (std::size_t g = 0; g < std::min(computed.groups.size(), shown.groups.size()); ++g) {
-        const ConstraintGroup &group = computed.groups[g], &seen = shown.groups[g];
+    const std::vector<ConstraintGroup> groups = told_groups(computed), seen_groups = told_groups(shown);
+    for (std::size_t g = 0; g < std::min(groups.size(), seen_groups.size()); ++g) {
+        const ConstraintGroup &group = groups[g], &seen = seen_groups[g];
         const int n = group.end - group.begin;
+        if (n == 0) continue;
         const std::vector<int> vertices(shown_vertices.begin() + seen.begin, shown_vertices.begin() + seen.end);
-        reactions_.push_back({.name = group.name,
+        reactions_.push_back({.name = seen.name,
+                              .fixed = g < shown.fixed_sets.size(),
                               .force = reactions.forces.middleCols(group.begin, n).rowwise().sum(),
                               .moment = reactions.moments.middleCols(group.begin, n).rowwise().sum(),
                               .place = positions_(Eigen::all, vertices).rowwise().mean(),

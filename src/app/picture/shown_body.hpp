@@ -17,9 +17,10 @@
 
 namespace elastolab {
 
-/// Force and moment that the world exerts on the body through one handle or the fixed part, and where it is.
+/// Force and moment that the world exerts on the body through one handle or fixed set, and where it is.
 struct ShownReaction {
     std::string name;
+    bool fixed = false;                    ///< a fixed set
     Eigen::Vector3d force, moment, place;  ///< [force], [force * L] about the origin, mean position as shown [L]
     Eigen::Vector3d rest_place;            ///< mean position at rest [L]
     Eigen::Vector3d moment_about_place() const { return moment - rest_place.cross(force); }
@@ -76,6 +77,7 @@ public:
     bool is_coloured() const { return !values_.empty(); }
     double max_displacement() const { return max_displacement_; }
     const std::optional<Difference>& difference() const { return difference_; }
+    /// Of every fixed set, then of every handle; on a proxy not of a fixed set whose vertices there belong to others.
     const std::vector<ShownReaction>& reactions() const { return reactions_; }
     const std::optional<ShownSection>& section() const { return section_; }
     /// Where the method simulates the body with its holes filled.

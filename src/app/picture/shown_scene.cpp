@@ -55,7 +55,7 @@ void ShownScene::forget() {
 const ReactionRunner* ShownScene::reactions(const ShownAnswers& answers, MethodKind kind) {
     std::unique_ptr<ReactionRunner>& runner = reactions_[kind];
     if (!runner) runner = std::make_unique<ReactionRunner>(wake_);
-    if (!needs_reactions(answers)) {
+    if (!wants_reactions_) {
         runner->rest();
         return nullptr;
     }
@@ -86,6 +86,7 @@ const SectionRunner* ShownScene::inside(const ShownAnswers& answers, MethodKind 
 
 bool ShownScene::update(const ShownAnswers& answers) {
     const Stopwatch watch;
+    wants_reactions_ = needs_reactions(answers);
     section_ = section(answers);
     const double cutting_seconds = watch.seconds();
     const auto is_shown = [&](MethodKind kind) {
