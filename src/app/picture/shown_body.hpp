@@ -43,7 +43,8 @@ struct ShownSection {
 /// What fills the holes of the body, deformed with it.
 struct ShownFilling {
     std::shared_ptr<const FillingShape> shape;
-    Positions positions;  ///< of its vertices
+    Positions positions;        ///< of its vertices
+    std::vector<float> values;  ///< there, of the chosen field; empty where the body has none
 };
 
 /// What is seen of one method's answer; made anew only when the answer or the settings have changed.
@@ -55,10 +56,11 @@ public:
     struct Sources {
         const LiveScene& scene;
         const EmbeddedRunner& answer;
-        const Proxy* proxy = nullptr;  ///< that the method itself simulates, whoever answers; null when none
+        std::shared_ptr<const FillingShape> filling = {};  ///< where the body is simulated with its holes filled
         const EmbeddedRunner* reference = nullptr;         ///< what differences are to; null when there is none
         const ReactionRunner* reactions = nullptr;         ///< null when nothing is shown that needs them
-        std::shared_ptr<const SectionShape> section = {};  ///< when it is to be cut open
+        std::shared_ptr<const SectionShape> section = {};  ///< when it is to be cut open; of the filling's closed(),
+                                                           ///< where there is one
         const SectionRunner* inside = nullptr;             ///< what is known there; null when it is not cut open
         bool probed = false;                               ///< tractions and stresses of every vertex are asked for
     };
@@ -80,7 +82,7 @@ public:
     /// Of every fixed set, then of every handle; on a proxy not of a fixed set whose vertices there belong to others.
     const std::vector<ShownReaction>& reactions() const { return reactions_; }
     const std::optional<ShownSection>& section() const { return section_; }
-    /// Where the method simulates the body with its holes filled.
+    /// Where the body is simulated with its holes filled.
     const std::optional<ShownFilling>& filling() const { return filling_; }
     double section_seconds() const { return section_seconds_; }  ///< that its last update took
 
@@ -90,7 +92,7 @@ private:
         const SurfaceMesh* mesh = nullptr;
         std::uint64_t version = 0, reference_version = 0;
         const EmbeddedRunner *answer = nullptr, *reference = nullptr;
-        const Proxy* proxy = nullptr;
+        std::shared_ptr<const FillingShape> filling;
         Field field = Field::none;
         double scale = 1.0;
         const ReactionRunner* reactions = nullptr;
@@ -108,6 +110,8 @@ private:
     void update_section(const Sources& sources, const DisplaySettings& display);
     void colour_section(const SectionRunner* inside, Field field);
     void update_values(const Sources& sources, Field field);
+    void colour_filling(const Sources& sources, Field field);
+    Eigen::VectorXd simulated_values(const Sources& sources, Field field) const;
     void update_probed(const Sources& sources);
 
     MethodKind kind_;

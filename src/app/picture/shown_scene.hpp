@@ -73,6 +73,7 @@ public:
 private:
     ShownBody& body_of(MethodKind kind);
     const ReactionRunner* reactions(const ShownAnswers& answers, MethodKind kind);
+    void update_filling(const ShownAnswers& answers);
     std::shared_ptr<const SectionShape> section(const ShownAnswers& answers);
     const SectionRunner* inside(const ShownAnswers& answers, MethodKind kind);
     void sum_costs(double update_seconds);
@@ -81,6 +82,7 @@ private:
     std::function<void()> wake_;
     std::map<MethodKind, std::unique_ptr<ReactionRunner>> reactions_;
     bool wants_reactions_ = false;
+    std::shared_ptr<const FillingShape> filling_;  ///< null where no method simulates the body with its holes filled
     std::shared_ptr<const SectionShape> section_;
     std::map<MethodKind, std::unique_ptr<SectionRunner>> insides_;
     std::optional<SectionCost> section_cost_;
