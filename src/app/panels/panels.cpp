@@ -9,8 +9,6 @@ namespace elastolab {
 
 namespace {
 
-constexpr double kTallPanel = 840.0;  ///< [logical pixels]
-
 const std::vector<std::string> kMeshFiles = {".obj", ".ply", ".stl", ".off", ".gltf", ".glb"};
 
 std::vector<std::string> with_scenes(std::vector<std::string> extensions) {
@@ -150,6 +148,7 @@ void Panels::draw_side(const PanelContext& context) {
     for (const Section& section : sections) {
         ImGui::PushFont(context.gui.fonts().bold);
         ImGui::SetNextItemOpen(section.open, ImGuiCond_Once);
+        if (asks_name_ && section.draw == &Panels::draw_pull) ImGui::SetNextItemOpen(true);
         const bool open = ImGui::CollapsingHeader(section.title);
         ImGui::PopFont();
         if (!open) continue;
