@@ -82,19 +82,20 @@ const Colour& state_colour(const MethodRunner& runner, const Palette& palette) {
 }
 
 /// What choosing a method would mean now, before a slow one is begun.
-std::string button_words(const ViewerState& state, MethodKind kind, const Cost& cost) {
+std::string button_words(const ViewerState& state, MethodKind kind, const Cost& cost, std::uint64_t completed_bytes) {
     const MethodRunner& runner = state.simulation.runner(kind);
     if (runner.state() == State::ready) return "ready";
     if (cost.seconds <= 0.0) return "not begun";
-    const std::string price =
-        readable_seconds(cost.seconds) + ", " + readable_bytes(static_cast<double>(cost.memory_bytes));
+    std::string price = readable_seconds(cost.seconds) + ", " + readable_bytes(static_cast<double>(cost.memory_bytes));
+    if (completed_bytes > cost.memory_bytes)
+        price += ", with K and its inverse, which follow, " + readable_bytes(static_cast<double>(completed_bytes));
     if (cost.memory_bytes > available_memory_bytes()) return "takes " + price + ": does not fit into memory";
     return runner.precomputing() ? "takes " + price : "ready after about " + price;
 }
 
 /// A button for each method, underlined with how it is doing.
-template <class CostOf>
-void draw_buttons(const PanelContext& context, const CostOf& cost_of) {
+template <class CostOf, class CompletedOf>
+void draw_buttons(const PanelContext& context, const CostOf& cost_of, const CompletedOf& completed_of) {
     ViewerState& state = context.state;
     const float scale = context.gui.scale();
     float longest = 0.0f;
@@ -117,7 +118,9 @@ void draw_buttons(const PanelContext& context, const CostOf& cost_of) {
         if (ImGui::Button(title(kind).c_str(), {width, 1.45f * ImGui::GetFrameHeight()})) state.select_method(kind);
         if (active) ImGui::PopStyleColor(3);
         if (ImGui::IsItemHovered())
-            tooltip(("Key " + std::to_string(number) + ": " + button_words(state, kind, cost_of(kind))).c_str());
+            tooltip(
+                ("Key " + std::to_string(number) + ": " + button_words(state, kind, cost_of(kind), completed_of(kind)))
+                    .c_str());
         const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
         ImGui::GetWindowDrawList()->AddRectFilled(
             {low.x + 8.0f * scale, high.y - 5.0f * scale}, {high.x - 8.0f * scale, high.y - 2.5f * scale},
@@ -204,7 +207,7 @@ void Panels::draw_method(const PanelContext& context) {
     ViewerState& state = context.state;
     const Palette& palette = context.palette;
     const auto cost_of = [&](MethodKind kind) -> const Cost& { return cost(state, state.choices.of(kind)); };
-    draw_buttons(context, cost_of);
+    draw_buttons(context, cost_of, [&](MethodKind kind) { return memory_with_completion(state, kind); });
     MethodRunner& runner = state.simulation.runner(state.method);
     const Colour& colour = state.simulation.previewing(state.method) ? palette.good : state_colour(runner, palette);
     ImGui::TextColored(imgui_colour(colour), "%s", state_words(state, cost_of(state.method)).c_str());

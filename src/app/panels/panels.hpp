@@ -87,6 +87,7 @@ private:
     void draw_young_modulus(ViewerState& state, float scale);
     void open_primitive(ViewerState& state);
     const Cost& cost(const ViewerState& state, const Method& method);
+    std::uint64_t memory_with_completion(const ViewerState& state, MethodKind kind);
 
     FileDialog files_;
     struct ShownExample {
@@ -118,6 +119,7 @@ private:
     std::pair<std::uint64_t, MethodKind> warnings_of_;
     std::size_t n_flights_ = 0;                                     ///< to places of defects
     std::map<std::tuple<MethodKind, Mode, int, int>, Cost> costs_;  ///< by vertices and triangles of what is simulated
+    std::map<std::tuple<MethodKind, Mode, Update, int, int, int>, std::uint64_t> completed_bytes_;  ///< likewise
 };
 
 }  // namespace elastolab
