@@ -46,6 +46,16 @@ Json machine() {
     return {{"cpu", machine.cpu}, {"cores", machine.cores}, {"memory_bytes", machine.memory_bytes}};
 }
 
+Json vector(const Eigen::Vector3d& v) { return {finite_or_null(v.x()), finite_or_null(v.y()), finite_or_null(v.z())}; }
+
+Json fixed_sets(const std::vector<GroupReaction>& reactions) {
+    Json list = Json::array();
+    for (const GroupReaction& reaction : reactions)
+        list.push_back(
+            {{"name", reaction.name}, {"force", vector(reaction.force)}, {"moment", vector(reaction.moment)}});
+    return list;
+}
+
 Json tractions(const Method& method) {
     if (!method.kind->chooses_tractions) return nullptr;
     return std::string(name(method.tractions));
@@ -96,8 +106,8 @@ void print_displacement(std::ostream& out, const Eigen::Matrix3Xd& displacement)
     out << "  displacement  at most " << readable_number(largest, 4) << ", at vertex " << vertex << "\n";
 }
 
-void print_reaction(std::ostream& out, const GroupReaction& reaction) {
-    std::string label = one_line(reaction.name);
+void print_reaction(std::ostream& out, const GroupReaction& reaction, const std::string& kind = "") {
+    std::string label = kind + one_line(reaction.name);
     label.resize(std::max<std::size_t>(label.size(), 12), ' ');
     out << "  " << label << "  force " << readable_point(reaction.force) << ", moment "
         << readable_point(reaction.moment) << "\n";
@@ -128,6 +138,7 @@ void write_report(std::ostream& out, const Solution& solution) {
         {"predicted_memory_bytes", solution.predicted.memory_bytes},
         {"residual", solution.residual ? finite_or_null(*solution.residual) : Json(nullptr)},
         {"condition_estimate", finite_or_null(solution.condition_estimate)},
+        {"fixed_sets", fixed_sets(solution.fixed_reactions)},
         {"force_imbalance", finite_or_null(solution.imbalance.force)},
         {"moment_imbalance", finite_or_null(solution.imbalance.moment)},
         {"error_estimate",
@@ -146,6 +157,8 @@ void print_summary(std::ostream& out, const SolveRequest& request, const Solutio
     print_accuracy(out, solution);
     print_displacement(out, solution.displacement);
     for (const GroupReaction& reaction : solution.reactions) print_reaction(out, reaction);
+    if (solution.fixed_reactions.size() > 1)
+        for (const GroupReaction& reaction : solution.fixed_reactions) print_reaction(out, reaction, "fixed set ");
     for (const std::string& warning : solution.warnings()) out << "  warning       " << warning << "\n";
     out << "  kernels       BLAS " << blas_kernels() << ", " << thread_count() << " threads\n";
 }

@@ -36,6 +36,7 @@ struct ConstraintGroup {
     std::string name;
     int begin = 0;
     int end = 0;
+    bool operator==(const ConstraintGroup&) const = default;
 };
 
 /// What a scene prescribes, in the form that a Deformer takes.
@@ -44,7 +45,9 @@ struct Constraints {
     Eigen::VectorXd values;               ///< 3 * set.handles.size(), node-major [L]
     std::vector<Motion> motions;          ///< of every handle; `values` are what they do to its vertices
     std::vector<ConstraintGroup> groups;  ///< "fixed", all of it, first when there is one, then every handle
-    std::vector<ConstraintGroup> fixed_sets = {};  ///< the parts of "fixed", as the document lists them
+    /// The parts of "fixed", as the document lists them. One that is carried to a proxy may be left without vertices,
+    /// where others hold all of those near it.
+    std::vector<ConstraintGroup> fixed_sets = {};
 
     bool has_fixed() const { return groups.size() > motions.size(); }
 };

@@ -98,6 +98,9 @@ void apply(const Constraints& constraints, bool with_checks, Solution& solution,
                                     constraints.set.handles.end());
         solution.forces = answer.reactions.forces;
         solution.reactions = totals(constraints.groups, answer.reactions);
+        std::vector<ConstraintGroup> fixed_sets = constraints.fixed_sets;
+        std::erase_if(fixed_sets, [](const ConstraintGroup& set) { return set.begin == set.end; });
+        solution.fixed_reactions = totals(fixed_sets, answer.reactions);
         solution.residual = answer.residual;
         solution.imbalance = imbalance_of(solution.reactions, *solution.model->body().surface);
         add_imbalance(solution.imbalance, solution.model->method().kind, solution.findings);

@@ -58,6 +58,8 @@ struct Solution {
     std::vector<int> constrained;
     Eigen::Matrix3Xd forces;
     std::vector<GroupReaction> reactions;
+    /// Of each fixed set, without those whose vertices on a proxy all belong to others.
+    std::vector<GroupReaction> fixed_reactions;
     Imbalance imbalance;
     std::optional<double> error_estimate;        ///< of the displacement of the worst vertex, over the largest
     std::optional<double> force_error_estimate;  ///< of the reactions of the worst patch, over the largest

@@ -91,6 +91,13 @@ void RealWindow::type(const std::string& text) {
     key("Return");
 }
 
+void RealWindow::type_into(const Eigen::Vector2d& field, const std::string& text) {
+    click(field);
+    stroke("ctrl+a");
+    type(text);
+    settle();
+}
+
 void RealWindow::resize(int width, int height) {
     tell("windowsize " + id_ + " " + std::to_string(width) + " " + std::to_string(height));
 }

@@ -27,6 +27,8 @@ public:
     void stroke(const std::string& name);
     /// Types a text and Enter.
     void type(const std::string& text);
+    /// The same into the field at a place, instead of what it has; settles.
+    void type_into(const Eigen::Vector2d& field, const std::string& text);
     void resize(int width, int height);
     /// The cross of its title bar, and a file from a file manager.
     void close();

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
 #include "cli/program.hpp"
@@ -11,6 +12,7 @@ namespace {
 
 using test::ProgramRun;
 using test::run_program;
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -81,6 +83,49 @@ TEST_F(SolveTest, WritesForcesThatBalance) {
     }
 }
 
+/// A cube held at two faces, with names, one of them by a single vertex where `lone`.
+std::string two_fixed_sets(bool lone) {
+    std::string scene = test::cube_scene("fem");
+    const std::string fixed = R"("fixed": {"box": {"min": [0, 0, 0], "max": [0, 1, 1]}})";
+    const std::string other = lone ? R"({"vertices": [0]})" : R"({"box": {"min": [0, 0, 0], "max": [0, 0.4, 1]}})";
+    const std::string rest = lone ? R"({"box": {"min": [0.4, 0, 0], "max": [0.6, 1, 0]}})"
+                                  : R"({"box": {"min": [0, 0.6, 0], "max": [0, 1, 1]}})";
+    scene.replace(
+        scene.find(fixed), fixed.size(),
+        R"("fixed": [{"name": "near", "select": )" + other + R"(}, {"name": "far", "select": )" + rest + "}]");
+    return scene;
+}
+
+Eigen::Vector3d vector(const nlohmann::json& numbers) {
+    return {numbers[0].get<double>(), numbers[1].get<double>(), numbers[2].get<double>()};
+}
+
+TEST_F(SolveTest, TellsWhatEachFixedSetBears) {
+    for (const char* proxy : {"never", "always"})
+        for (const bool lone : {false, true}) {
+            SCOPED_TRACE(std::string(proxy) + (lone ? ", a lone vertex" : ""));
+            const ProgramRun run =
+                solve(two_fixed_sets(lone), {"--report", "r.json", "--forces", "f.csv", "--proxy", proxy});
+            const test::Table table = test::read_csv(file("f.csv"));
+            ASSERT_THAT(table.labels, ElementsAre("fixed", "right"));
+            const nlohmann::json sets = json("r.json")["fixed_sets"];
+            ASSERT_EQ(sets.size(), 2U);
+            EXPECT_EQ(sets[0]["name"], "near");
+            EXPECT_EQ(sets[1]["name"], "far");
+            EXPECT_THAT(run.out, AllOf(HasSubstr("fixed set near"), HasSubstr("fixed set far")));
+            const Eigen::Vector3d force = vector(sets[0]["force"]) + vector(sets[1]["force"]);
+            const Eigen::Vector3d moment = vector(sets[0]["moment"]) + vector(sets[1]["moment"]);
+            const double size = vector(sets[0]["force"]).norm() + vector(sets[1]["force"]).norm();
+            for (int axis = 0; axis < 3; ++axis) {
+                const auto column = static_cast<std::size_t>(axis);
+                EXPECT_NEAR(force[axis], table.rows[0][column], 1e-9 * size);
+                EXPECT_NEAR(moment[axis], table.rows[0][column + 3], 1e-9 * size);
+            }
+            EXPECT_GT(vector(sets[0]["force"]).norm(), 1e-3 * size);
+            EXPECT_GT(vector(sets[1]["force"]).norm(), 1e-3 * size);
+        }
+}
+
 TEST_F(SolveTest, MomentsOfBoundaryElementsBalanceBetterOnAFinerMesh) {
     for (const std::string method : {"constant-bem", "linear-bem"}) {  // collocation balances them only in the limit
         SCOPED_TRACE(method);
@@ -149,6 +194,7 @@ TEST_F(SolveTest, WritesAReportWithEveryKey) {
                                            "seconds",
                                            "peak_memory_bytes",
                                            "predicted_memory_bytes",
+                                           "fixed_sets",
                                            "force_imbalance",
                                            "moment_imbalance",
                                            "error_estimate",

@@ -121,6 +121,30 @@ TEST(CarriedConstraints, APartSmallerThanATriangleHoldsTheNearestOne) {
     EXPECT_THAT(carried.constraints().set.handles.size(), testing::AllOf(testing::Ge(1u), testing::Le(4u)));
 }
 
+TEST(CarriedConstraints, EveryFixedSetHasItsPartOfTheProxy) {
+    Document document = bar(AffineMotion{});
+    const std::vector<int> spot = {kBar.triangles(0, kBar.n_triangles() / 2)};  // smaller than a triangle of the proxy
+    document.fixed = {{.name = "left", .select = slab(-9, 0.3)},
+                      {.name = "spot", .select = {VertexSelector{spot}}},
+                      {.name = "right", .select = slab(3.5, 3.75)}};
+    CarriedConstraints carried(proxy_of(kBar, 300));
+    carried.set(make_constraints(document, kBar, "s.json"));
+    const Constraints& c = carried.constraints();
+    const Positions& x = carried.proxy().surface->vertices;
+    ASSERT_THAT(c.fixed_sets, testing::SizeIs(3));
+    EXPECT_EQ(c.fixed_sets.front().begin, 0);
+    EXPECT_EQ(c.fixed_sets.back().end, std::ssize(c.set.base));
+    EXPECT_EQ(c.groups[0], (ConstraintGroup{"fixed", 0, static_cast<int>(c.set.base.size())}));
+    const std::array<double, 3> middle = {0.15, kBar.vertices(0, spot[0]), 3.6};
+    for (std::size_t s = 0; s < 3; ++s) {
+        const ConstraintGroup& set = c.fixed_sets[s];
+        EXPECT_EQ(set.name, document.fixed[s].name);
+        EXPECT_LT(set.begin, set.end) << set.name;
+        for (int i = set.begin; i < set.end; ++i)
+            EXPECT_NEAR(x(0, c.set.base[static_cast<std::size_t>(i)]), middle[s], 0.15 + carried.proxy().edge);
+    }
+}
+
 TEST(CarriedConstraints, APointIsToldOfByTheVertexThatIsShown) {
     const auto proxy = proxy_of(kBar, 300);
     const auto points_told = [&](std::vector<int> pulled) {

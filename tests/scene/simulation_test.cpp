@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 
+#include "findings/cost.hpp"
 #include "methods/registry.hpp"
 #include "simulation_bench.hpp"
 
@@ -24,6 +25,23 @@ TEST_P(EveryMethod, ShowsWhatAFreshComputationSays) {
     scene.set_motion(0, AffineMotion{.translate = {0.1, 0.02, 0}});
     bench.settle(scene);
     expect_near(bench.runner(GetParam()).displacement(), truth(scene, bench.choices.of(GetParam())));
+}
+
+TEST_P(EveryMethod, SaysBeforehandWhetherItIsCompletedAndWhatThatTakes) {
+    const LiveScene scene = cube();
+    Bench bench({GetParam()});
+    const std::optional<Method> completion = completion_of(scene.mesh(), GetParam(), bench.choices);
+    bench.settle(scene);
+    EXPECT_EQ(completion.has_value(), bench.runner(GetParam()).has_inverse());
+    if (completion) {
+        EXPECT_EQ(bench.runner(GetParam()).model()->method().mode, completion->mode);
+        EXPECT_GE(predict_cost(scene.mesh(), *completion).memory_bytes,
+                  bench.runner(GetParam()).model()->facts().memory_bytes);
+    }
+    bench.choices.complete_up_to = scene.mesh().n_vertices() - 1;
+    EXPECT_FALSE(completion_of(scene.mesh(), GetParam(), bench.choices));
+    bench.choices = {.mode = Mode::full};
+    EXPECT_FALSE(completion_of(scene.mesh(), GetParam(), bench.choices)) << "it is computed so at once";
 }
 
 /// An empty list of prescribed values is an answer as good as any other.

@@ -115,7 +115,7 @@ void Gestures::press_body(GestureContext& context, const PickHit& hit) {
     }
     const int owner = context.scene.owner(hit.vertex);
     if (owner == LiveScene::kFixed) {
-        selected_fixed_ = context.scene.fixed_set_of(hit.vertex);
+        select_fixed(context.scene.fixed_set_of(hit.vertex));
         hint_ = "This vertex is fixed. Free it with the brush (B) and Shift.";
         action_ = Action::blocked;  // turning the view would look as if the body had been pulled
     } else if (owner != LiveScene::kNobody) {

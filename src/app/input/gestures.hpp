@@ -76,11 +76,19 @@ public:
     void clear_hover() { hover_ = {}; }
     /// The handle that was grabbed last (or chosen), for the panel and for removal; -1: none.
     int selected_handle() const { return selected_; }
-    void select_handle(int handle) { selected_ = handle; }
+    void select_handle(int handle) {
+        selected_ = handle;
+        if (handle >= 0) fixed_is_latest_ = false;
+    }
     /// The fixed set that brush and box change: -1: add to the last one, and free vertices of all; n_fixed_sets(): a
     /// new one, from the next stroke on.
     int selected_fixed() const { return selected_fixed_; }
-    void select_fixed(int set) { selected_fixed_ = set; }
+    void select_fixed(int set) {
+        selected_fixed_ = set;
+        fixed_is_latest_ = set >= 0;
+    }
+    /// Of a handle and a fixed set that are both selected, whether the fixed set was selected last.
+    bool fixed_is_latest() const { return fixed_is_latest_; }
     /// The box that is being drawn: two corners [pixels].
     std::optional<std::pair<Eigen::Vector2d, Eigen::Vector2d>> box() const;
     const Eigen::Vector2d& cursor() const { return cursor_; }
@@ -163,6 +171,7 @@ private:
     std::optional<GizmoDrag> gizmo_drag_;
     DisplaySettings plane_before_;  ///< as it was taken hold of
     int selected_ = -1, selected_fixed_ = -1;
+    bool fixed_is_latest_ = false;
     double last_press_seconds_ = -1.0;
     Eigen::Vector2d last_press_ = Eigen::Vector2d::Zero();
     bool frame_requested_ = false;

@@ -33,7 +33,7 @@ Eigen::Vector3d in_steps(const Eigen::Vector3d& shift, bool along_a_line, double
 
 void Gestures::begin_pull(GestureContext& context, int handle, Grabbed grabbed, const PickHit& hit) {
     action_ = Action::pull;
-    selected_ = handle;
+    select_handle(handle);
     pull_ = {};
     pull_.handle = handle;
     pull_.grabbed = grabbed;

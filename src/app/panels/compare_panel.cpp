@@ -5,6 +5,7 @@
 
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
+#include "base/text.hpp"
 #include "methods/registry.hpp"
 
 namespace elastolab {
@@ -84,6 +85,13 @@ void Panels::draw_compare(const PanelContext& context) {
     if (ImGui::Checkbox("colour by difference", &coloured))
         state.display.field = coloured ? Field::difference : Field::none;
     draw_differences(context);
+    std::uint64_t bytes = 0;
+    for (const MethodKind kind : state.shown_kinds()) bytes += memory_with_completion(state, kind);
+    fact("memory of their models", bytes > 0 ? "up to " + readable_bytes(static_cast<double>(bytes)) : "\u2013",
+         context.palette.text_dim);
+    tooltip(
+        "While they are made, with K and its inverse where these follow by themselves. What is held and pulled, and "
+        "estimates of the error, come on top of it.");
 }
 
 }  // namespace elastolab

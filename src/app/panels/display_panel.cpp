@@ -115,8 +115,6 @@ void Panels::draw_display(const PanelContext& context) {
         tooltip(kSwitches[i].explanation);
     }
     draw_section(display, scale);
-    if (const std::string& problem = context.state.shown.section_failure(context.state.method); !problem.empty())
-        ImGui::TextWrapped("%s", problem.c_str());
     bool light = !display.dark;
     if (ImGui::Checkbox("light theme", &light)) display.dark = !light;
 }

@@ -12,6 +12,10 @@ struct Layout {
     Viewport menu, panel, scene, status;
 };
 
+/// Heights from which a side panel has room for more than what is used most, and for what is selected as well [logical
+/// pixels].
+inline constexpr double kTallPanel = 840.0, kVeryTallPanel = 940.0;
+
 /// For a window of this size and panels of this scale. In a window too small for both, the scene comes first.
 /// `display`: whether there is a panel, and how wide it was made.
 Layout layout_of(const Eigen::Vector2i& window, float scale, const DisplaySettings& display = {});

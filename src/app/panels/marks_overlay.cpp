@@ -14,10 +14,6 @@ namespace {
 
 constexpr double kRadians = std::numbers::pi / 180.0;  ///< of a degree
 
-std::string vector_text(const Eigen::Vector3d& v) {
-    return "(" + number_text(v.x()) + ", " + number_text(v.y()) + ", " + number_text(v.z()) + ")";
-}
-
 /// A ring at a vertex with words beside it, which turn to the left where there is no room.
 void draw_mark(const PanelContext& context, ImDrawList& list, const Viewport& viewport, const Eigen::Vector3d& place,
                const Colour& colour, const std::string& text) {
@@ -135,7 +131,7 @@ void draw_probes(const PanelContext& context, ImDrawList& list, const Viewport& 
 void draw_forces(const PanelContext& context, ImDrawList& list, const Viewport& viewport, const ShownBody& body) {
     for (const ShownReaction& reaction : body.reactions())
         draw_mark(context, list, viewport, reaction.place,
-                  reaction.name == "fixed" ? context.palette.fixed : context.palette.handle,
+                  reaction.fixed ? context.palette.fixed : context.palette.handle,
                   reaction.name + ": force " + number_text(reaction.force.norm()) + ", moment " +
                       number_text(reaction.moment_about_place().norm()));
 }

@@ -17,16 +17,29 @@ void draw_recent(ViewerState& state) {
     ImGui::EndMenu();
 }
 
-void draw_edit(ViewerState& state) {
+}  // namespace
+
+void Panels::draw_edit(ViewerState& state) {
     if (!ImGui::BeginMenu("Edit")) return;
-    const int selected = state.gestures.selected_handle();
+    const LiveScene& scene = state.scene();
+    const std::string name = state.selected_name(), quoted = name.empty() ? "the selection" : "\"" + name + "\"";
     if (ImGui::MenuItem("Undo", "Ctrl+Z", false, state.scene().can_undo())) state.undo();
     if (ImGui::MenuItem("Redo", "Ctrl+Y", false, state.scene().can_redo())) state.redo();
     ImGui::Separator();
-    if (ImGui::MenuItem("Remove the selected handle", "Del", false, selected >= 0)) state.remove_handle(selected);
-    if (ImGui::MenuItem("Remove all handles", "Shift+Del", false, state.scene().n_handles() > 0)) state.clear_handles();
+    if (ImGui::MenuItem("Select the next handle", "H", false, scene.n_handles() > 0)) state.select_next_handle();
+    if (ImGui::MenuItem("Select the next fixed set", "J", false, scene.n_fixed_sets() > 0))
+        state.select_next_fixed_set();
+    if (ImGui::MenuItem("New fixed set", "Shift+N")) state.begin_fixed_set();
+    ImGui::Separator();
+    if (ImGui::MenuItem(("Rename " + quoted + "###rename").c_str(), "F2", false, !name.empty()))
+        rename_selection(state);
+    if (ImGui::MenuItem(("Remove " + quoted + "###remove").c_str(), "Del", false, !name.empty()))
+        state.remove_selection();
+    if (ImGui::MenuItem("Remove all handles", "Shift+Del", false, scene.n_handles() > 0)) state.clear_handles();
     ImGui::EndMenu();
 }
+
+namespace {
 
 void draw_directions(ViewerState& state) {
     struct Direction {
@@ -47,6 +60,8 @@ void draw_directions(ViewerState& state) {
 void draw_view(ViewerState& state) {
     if (!ImGui::BeginMenu("View")) return;
     if (ImGui::MenuItem("Frame the body", "F")) state.frame_body();
+    if (ImGui::MenuItem("Frame the selection", "Shift+F", false, state.selection().has_value()))
+        state.frame_selection();
     draw_directions(state);
     ImGui::Separator();
     for (const auto& [label, axis] : {std::pair{"Y is up", 1}, std::pair{"Z is up", 2}})

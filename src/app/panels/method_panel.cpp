@@ -81,37 +81,21 @@ const Colour& state_colour(const MethodRunner& runner, const Palette& palette) {
     }
 }
 
-/// Which method would be ready far sooner than one that takes long; empty when none.
-template <class CostOf>
-std::string sooner_words(const ViewerState& state, const CostOf& cost_of) {
-    constexpr double kLong = 4.0, kFarSooner = 3.0;  // seconds; times
-    const double own = cost_of(state.method).seconds;
-    if (state.simulation.runner(state.method).state() != State::precomputing || own < kLong) return "";
-    const auto seconds = [&](MethodKind kind) {
-        const double predicted = cost_of(kind).seconds;
-        return predicted > 0.0 && state.simulation.problem(kind).empty() ? predicted : own;
-    };
-    const std::span<const MethodKind> all = all_methods();
-    const MethodKind best =
-        *std::min_element(all.begin(), all.end(), [&](MethodKind a, MethodKind b) { return seconds(a) < seconds(b); });
-    if (kFarSooner * seconds(best) > own) return "";
-    return title(best) + " would be ready in about " + readable_seconds(seconds(best));
-}
-
 /// What choosing a method would mean now, before a slow one is begun.
-std::string button_words(const ViewerState& state, MethodKind kind, const Cost& cost) {
+std::string button_words(const ViewerState& state, MethodKind kind, const Cost& cost, std::uint64_t completed_bytes) {
     const MethodRunner& runner = state.simulation.runner(kind);
     if (runner.state() == State::ready) return "ready";
     if (cost.seconds <= 0.0) return "not begun";
-    const std::string price =
-        readable_seconds(cost.seconds) + ", " + readable_bytes(static_cast<double>(cost.memory_bytes));
+    std::string price = readable_seconds(cost.seconds) + ", " + readable_bytes(static_cast<double>(cost.memory_bytes));
+    if (completed_bytes > cost.memory_bytes)
+        price += ", with K and its inverse, which follow, " + readable_bytes(static_cast<double>(completed_bytes));
     if (cost.memory_bytes > available_memory_bytes()) return "takes " + price + ": does not fit into memory";
     return runner.precomputing() ? "takes " + price : "ready after about " + price;
 }
 
 /// A button for each method, underlined with how it is doing.
-template <class CostOf>
-void draw_buttons(const PanelContext& context, const CostOf& cost_of) {
+template <class CostOf, class CompletedOf>
+void draw_buttons(const PanelContext& context, const CostOf& cost_of, const CompletedOf& completed_of) {
     ViewerState& state = context.state;
     const float scale = context.gui.scale();
     float longest = 0.0f;
@@ -134,7 +118,9 @@ void draw_buttons(const PanelContext& context, const CostOf& cost_of) {
         if (ImGui::Button(title(kind).c_str(), {width, 1.45f * ImGui::GetFrameHeight()})) state.select_method(kind);
         if (active) ImGui::PopStyleColor(3);
         if (ImGui::IsItemHovered())
-            tooltip(("Key " + std::to_string(number) + ": " + button_words(state, kind, cost_of(kind))).c_str());
+            tooltip(
+                ("Key " + std::to_string(number) + ": " + button_words(state, kind, cost_of(kind), completed_of(kind)))
+                    .c_str());
         const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
         ImGui::GetWindowDrawList()->AddRectFilled(
             {low.x + 8.0f * scale, high.y - 5.0f * scale}, {high.x - 8.0f * scale, high.y - 2.5f * scale},
@@ -143,11 +129,25 @@ void draw_buttons(const PanelContext& context, const CostOf& cost_of) {
     ImGui::PopStyleVar();
 }
 
-/// How far a worker is with the model, or with a set of held vertices, and a button that stops it. The row is there
-/// when nothing works, too, so that nothing below moves.
+/// Whether a method has stopped and will not begin again by itself.
+bool must_be_begun(const ViewerState& state) {
+    const Simulation& simulation = state.simulation;
+    const State now = simulation.runner(state.method).state();
+    const bool will_begin =
+        now == State::idle && simulation.problem(state.method).empty() &&
+        (simulation.waiting() || simulation.preparing_preview() || simulation.making_proxy(state.method));
+    return (now == State::idle || now == State::failed) && !will_begin;
+}
+
+/// How far a worker is with the model, or with a set of held vertices, and a button that stops it, or one that begins
+/// again. The row is there when nothing works, too, so that nothing below moves.
 void draw_progress(const PanelContext& context, MethodRunner& runner) {
     const float button = 60.0f * context.gui.scale(), height = ImGui::GetFrameHeight();
     const bool works = runner.precomputing() || runner.completing() || runner.state() == State::preparing;
+    if (!works && must_be_begun(context.state)) {
+        if (ImGui::Button("Compute")) context.state.simulation.retry(context.state.method);
+        return;
+    }
     if (!works) {
         const std::optional<double> error = context.state.simulation.preview_error(context.state.method);
         const std::string text =
@@ -163,50 +163,61 @@ void draw_progress(const PanelContext& context, MethodRunner& runner) {
     if (ImGui::Button("Cancel", {button, 0.0f})) runner.cancel();
 }
 
-/// What is there of the model: unknowns, and whether K and its inverse are.
-std::string readiness(const MethodRunner& runner) {
-    if (!runner.model()) return "";
-    const ModelFacts& facts = runner.model()->facts();
-    std::string text = count_text(facts.n_degrees_of_freedom) + " unknowns, " +
-                       readable_bytes(static_cast<double>(facts.memory_bytes));
-    if (facts.n_tetrahedra > 0) text += ", " + count_text(facts.n_tetrahedra) + " tetrahedra";
-    if (runner.completing()) return text + "; completing K and its inverse";
-    return text + (runner.has_inverse() ? "; K and its inverse are ready" : "; columns on demand");
+const char* update_label(Update update) {
+    for (const Choice<Update>& choice : kUpdates)
+        if (choice.value == update) return choice.label;
+    return "";
+}
+
+/// What is there of the model, in rows that are there before it is.
+void draw_model(const PanelContext& context, const MethodRunner& runner) {
+    const Colour& dim = context.palette.text_dim;
+    const std::shared_ptr<const Model>& model = runner.model();
+    const auto told = [&](const auto& of) { return model ? of(model->facts()) : std::string("\u2013"); };
+    fact("unknowns", told([](const ModelFacts& f) { return count_text(f.n_degrees_of_freedom); }), dim);
+    fact("memory", told([](const ModelFacts& f) { return readable_bytes(static_cast<double>(f.memory_bytes)); }), dim);
+    if (context.state.method->has_inside)
+        fact("tetrahedra", told([](const ModelFacts& f) { return count_text(f.n_tetrahedra); }), dim);
+    fact("K and its inverse", runner.completing() ? "being completed" : runner.has_inverse() ? "ready" : "\u2013", dim);
+    fact("answers by", model ? update_label(model->method().update) : "\u2013", dim);
+    tooltip(
+        "Eqn. 9 needs K and its inverse: until they are completed, or with that mode, the collapsed form answers, "
+        "which gives the same displacements.");
 }
 
 }  // namespace
+
+/// Which method would be ready far sooner than one that takes long; empty when none.
+std::string Panels::sooner_words(const ViewerState& state) {
+    constexpr double kLong = 4.0, kFarSooner = 3.0;  // seconds; times
+    const double own = cost(state, state.choices.of(state.method)).seconds;
+    if (state.simulation.runner(state.method).state() != State::precomputing || own < kLong) return "";
+    const auto seconds = [&](MethodKind kind) {
+        const double predicted = cost(state, state.choices.of(kind)).seconds;
+        return predicted > 0.0 && state.simulation.problem(kind).empty() ? predicted : own;
+    };
+    const std::span<const MethodKind> all = all_methods();
+    const MethodKind best =
+        *std::min_element(all.begin(), all.end(), [&](MethodKind a, MethodKind b) { return seconds(a) < seconds(b); });
+    if (kFarSooner * seconds(best) > own) return "";
+    return title(best) + " would be ready in about " + readable_seconds(seconds(best));
+}
 
 void Panels::draw_method(const PanelContext& context) {
     ViewerState& state = context.state;
     const Palette& palette = context.palette;
     const auto cost_of = [&](MethodKind kind) -> const Cost& { return cost(state, state.choices.of(kind)); };
-    draw_buttons(context, cost_of);
+    draw_buttons(context, cost_of, [&](MethodKind kind) { return memory_with_completion(state, kind); });
     MethodRunner& runner = state.simulation.runner(state.method);
     const Colour& colour = state.simulation.previewing(state.method) ? palette.good : state_colour(runner, palette);
     ImGui::TextColored(imgui_colour(colour), "%s", state_words(state, cost_of(state.method)).c_str());
-    if (const std::string text = sooner_words(state, cost_of); !text.empty()) paragraph(text, palette.text_dim);
     draw_progress(context, runner);
-    if (runner.state() == State::idle || runner.state() == State::failed) {
-        const std::string problem = state.simulation.problem(state.method);
-        if (!problem.empty()) paragraph(problem, palette.bad);
-        const Simulation& simulation = state.simulation;
-        const bool will_begin =
-            runner.state() == State::idle && problem.empty() &&
-            (simulation.waiting() || simulation.preparing_preview() || simulation.making_proxy(state.method));
-        if (!will_begin && ImGui::Button("Compute")) state.simulation.retry(state.method);
-    }
-
     if (!ImGui::TreeNode("How it computes")) return;
-    if (const std::string text = readiness(runner); !text.empty()) paragraph(text, palette.text_dim);
+    draw_model(context, runner);
     draw_mode(context);
     const float scale = context.gui.scale();
     set_item_width(scale);
     choose<Update>("update", state.choices.update, kUpdates);
-    if (state.choices.update == Update::eqn9 && runner.model() && runner.model()->method().update != Update::eqn9)
-        paragraph(
-            "Eqn. 9 needs K and its inverse: until they are completed, or with that mode, the collapsed form answers, "
-            "which gives the same displacements.",
-            palette.text_dim);
     set_item_width(scale);
     choose<FrameRule>("each frame", state.choices.frame_rule, kFrameRules);
     set_item_width(scale);

@@ -38,7 +38,7 @@ std::string source_words(const ViewerState& state, MethodKind kind) {
     }
     if (simulation.making_proxy(kind)) return text + kDash + progress(simulation.proxies().status());
     if (runner.precomputing()) return text + kDash + progress(runner.status());
-    if (!simulation.problem(kind).empty()) return text + kDash + "not available: see Method";
+    if (!simulation.problem(kind).empty()) return text + kDash + "not available";
     if (simulation.previewing(kind)) return text;
     if (!runner.has_answer())
         return kDash + std::string(simulation.proxies().running()   ? "making a coarse mesh for a first answer"
@@ -51,8 +51,8 @@ std::string source_words(const ViewerState& state, MethodKind kind) {
     return proxy ? kDash + ("on a proxy of " + count_text(proxy->surface->n_vertices()) + " vertices") : "";
 }
 
-/// Whose answer a viewport shows, how it is doing, and how far it is from the reference.
-void draw_title(const PanelContext& context, ImDrawList& list, const SceneViewport& viewport) {
+/// Whose answer a viewport shows, how it is doing, how far it is from the reference, and what else is to be said.
+void draw_title(const PanelContext& context, ImDrawList& list, const SceneViewport& viewport, const std::string& more) {
     const ViewerState& state = context.state;
     const Palette& palette = context.palette;
     const float size = ImGui::GetFontSize(), margin = kMargin * context.gui.scale();
@@ -70,6 +70,7 @@ void draw_title(const PanelContext& context, ImDrawList& list, const SceneViewpo
                    number_text(100.0 * shown->difference()->relative_max) + " %";
         if (!note.empty()) lines.push_back({context.gui.fonts().regular, size, palette.text, note});
     }
+    if (!more.empty()) lines.push_back({context.gui.fonts().regular, size, palette.text_dim, more});
     draw_lines(context, list, im_point(viewport.place.x + margin, viewport.place.y + margin),
                std::max(40.0f, static_cast<float>(viewport.place.width) - 2.0f * margin), lines);
 }
@@ -212,10 +213,11 @@ void draw_messages(const PanelContext& context) {
 
 void Panels::draw_overlays(const PanelContext& context) {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    const std::string sooner = sooner_words(context.state);
     for (const SceneViewport& viewport : context.state.shown.viewports) {
         const Viewport& v = viewport.place;
         list.PushClipRect(im_point(v.x, v.y), im_point(v.x + v.width, v.y + v.height));
-        draw_title(context, list, viewport);
+        draw_title(context, list, viewport, viewport.kinds.front() == context.state.method ? sooner : "");
         draw_axes_letters(context, list, viewport);
         draw_marks(context, list, viewport);
         list.PopClipRect();

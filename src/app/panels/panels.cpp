@@ -9,8 +9,6 @@ namespace elastolab {
 
 namespace {
 
-constexpr double kTallPanel = 840.0;  ///< [logical pixels]
-
 const std::vector<std::string> kMeshFiles = {".obj", ".ply", ".stl", ".off", ".gltf", ".glb"};
 
 std::vector<std::string> with_scenes(std::vector<std::string> extensions) {
@@ -78,7 +76,10 @@ void Panels::ask_timings(ViewerState& state) {
 /// That on the proxy, where one is simulated, once it is there; nothing until then.
 const Cost& Panels::cost(const ViewerState& state, const Method& method) {
     const SurfaceMesh* surface = state.simulation.simulated_surface(method.kind, state.scene());
-    if (costs_of_scene_ != state.scene_number()) costs_.clear();
+    if (costs_of_scene_ != state.scene_number()) {
+        costs_.clear();
+        completed_bytes_.clear();
+    }
     costs_of_scene_ = state.scene_number();
     if (surface == nullptr) {
         static const Cost kUnknown;
@@ -88,6 +89,19 @@ const Cost& Panels::cost(const ViewerState& state, const Method& method) {
         costs_.try_emplace({method.kind, method.mode, surface->n_vertices(), surface->n_triangles()});
     if (is_new) place->second = predict_cost(*surface, method);
     return place->second;
+}
+
+/// What a method's model will take with what is completed by itself; 0 where that is not known.
+std::uint64_t Panels::memory_with_completion(const ViewerState& state, MethodKind kind) {
+    const SurfaceMesh* surface = state.simulation.simulated_surface(kind, state.scene());
+    if (surface == nullptr) return 0;
+    const std::uint64_t own = cost(state, state.choices.of(kind)).memory_bytes;
+    const MethodChoices& choices = state.choices;
+    const auto [place, is_new] = completed_bytes_.try_emplace(
+        {kind, choices.mode, choices.update, choices.complete_up_to, surface->n_vertices(), surface->n_triangles()});
+    if (!is_new) return place->second;
+    const std::optional<Method> completion = completion_of(*surface, kind, choices);
+    return place->second = completion ? std::max(own, cost(state, *completion).memory_bytes) : own;
 }
 
 void Panels::draw(const PanelContext& context) {
@@ -150,6 +164,7 @@ void Panels::draw_side(const PanelContext& context) {
     for (const Section& section : sections) {
         ImGui::PushFont(context.gui.fonts().bold);
         ImGui::SetNextItemOpen(section.open, ImGuiCond_Once);
+        if (asks_name_ && section.draw == &Panels::draw_pull) ImGui::SetNextItemOpen(true);
         const bool open = ImGui::CollapsingHeader(section.title);
         ImGui::PopFont();
         if (!open) continue;

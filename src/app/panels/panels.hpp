@@ -46,6 +46,8 @@ public:
     void ask_screenshot(ViewerState& state);
     void ask_probes(ViewerState& state);
     void ask_timings(ViewerState& state);
+    /// Opens the panel at the name of the selected handle or fixed set, so that another one can be typed.
+    void rename_selection(ViewerState& state);
 
 private:
     // One file each: menu_panel.cpp, method_panel.cpp, ...
@@ -58,9 +60,12 @@ private:
     void draw_pull(const PanelContext& context);
     void draw_fixed_sets(const PanelContext& context);
     void draw_handles(const PanelContext& context);
-    void draw_handle(const PanelContext& context, int handle);
-    void draw_name(const PanelContext& context, int owner, const std::string& name,
-                   const std::function<bool(const std::string&)>& rename);
+    void draw_held(const PanelContext& context);
+    void draw_name(const PanelContext& context);
+    void draw_selection(const PanelContext& context);
+    void draw_edit(ViewerState& state);
+    void scroll_to(const ViewerState& state, const ViewerState::Selection& row) const;
+    std::string sooner_words(const ViewerState& state);
     void draw_probes(const PanelContext& context);
     void draw_compare(const PanelContext& context);
     void draw_display(const PanelContext& context);
@@ -82,6 +87,7 @@ private:
     void draw_young_modulus(ViewerState& state, float scale);
     void open_primitive(ViewerState& state);
     const Cost& cost(const ViewerState& state, const Method& method);
+    std::uint64_t memory_with_completion(const ViewerState& state, MethodKind kind);
 
     FileDialog files_;
     struct ShownExample {
@@ -97,15 +103,23 @@ private:
     int unsaved_choice_ = 0;  ///< which button of the question Enter presses
     std::string primitive_ = "cube";
     int resolution_ = 13;
-    std::optional<double> typed_modulus_;     ///< Young's modulus while it is typed
-    std::optional<int> proxy_vertices_;       ///< while the slider is held
-    std::map<int, std::string> typed_names_;  ///< of handles, or kFixed and below of fixed sets, while they are typed
-    bool side_fits_ = true;                   ///< the side panel's content did, in the last frame
+    std::optional<double> typed_modulus_;                                       ///< Young's modulus while it is typed
+    std::optional<int> proxy_vertices_;                                         ///< while the slider is held
+    std::optional<std::pair<ViewerState::Selection, std::string>> typed_name_;  ///< while it is typed
+    bool asks_name_ = false;                        ///< the field for it is to be typed into
+    std::optional<ViewerState::Selection> listed_;  ///< as the list was last scrolled to it
+    bool side_fits_ = true;                         ///< the side panel's content did, in the last frame
     std::uint64_t costs_of_scene_ = 0;
-    std::vector<std::string> warnings_;  ///< as they are shown, of this scene and method:
+    struct Warning {
+        std::string text;
+        bool is_problem = false;  ///< there is no answer, or a part of it is missing
+    };
+    static std::vector<Warning> present_warnings(const ViewerState& state);
+    std::vector<Warning> warnings_;  ///< as they are shown, of this scene and method:
     std::pair<std::uint64_t, MethodKind> warnings_of_;
     std::size_t n_flights_ = 0;                                     ///< to places of defects
     std::map<std::tuple<MethodKind, Mode, int, int>, Cost> costs_;  ///< by vertices and triangles of what is simulated
+    std::map<std::tuple<MethodKind, Mode, Update, int, int, int>, std::uint64_t> completed_bytes_;  ///< likewise
 };
 
 }  // namespace elastolab

@@ -12,11 +12,16 @@ namespace {
 void draw_series(const PanelContext& context, std::size_t probe) {
     const Probes& probes = context.state.probes;
     const std::vector<float> series = probes.series(probe);
-    if (series.size() < 2) return;
-    const auto [low, high] = std::minmax_element(series.begin(), series.end());
-    const std::string range = number_text(*low) + " to " + number_text(*high);
-    ImGui::PlotLines("##series", series.data(), static_cast<int>(series.size()), 0, range.c_str(), std::min(0.0f, *low),
-                     *high, {ImGui::GetContentRegionAvail().x, 40.0f * context.gui.scale()});
+    float low = 0.0f, high = 0.0f;
+    std::string range = "its course, once it changes";
+    if (series.size() >= 2) {
+        const auto [lowest, highest] = std::minmax_element(series.begin(), series.end());
+        range = number_text(*lowest) + " to " + number_text(*highest);
+        low = std::min(0.0f, *lowest);
+        high = *highest;
+    }
+    ImGui::PlotLines("##series", series.data(), static_cast<int>(series.size()), 0, range.c_str(), low, high,
+                     {ImGui::GetContentRegionAvail().x, 40.0f * context.gui.scale()});
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <imgui_stdlib.h>
 
 #include <array>
+#include <utility>
 
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
@@ -84,40 +85,56 @@ bool draw_numbers(const char* label, double* values, int n, const char* format, 
     return ImGui::InputScalarN(label, ImGuiDataType_Double, values, n, nullptr, nullptr, format);
 }
 
-/// How a handle is moved, turned and scaled, as numbers that can be typed.
-void draw_placement(ViewerState& state, int handle, float scale) {
+/// How a handle is moved, turned and scaled, as numbers that can be typed. The fields are there where nothing can be
+/// typed, too, so that nothing below them moves during a drag.
+void draw_placement(ViewerState& state, std::optional<int> handle, float scale) {
     LiveScene& scene = state.scene();
-    const std::span<const int> vertices = scene.vertices(handle);
-    const Positions rest = scene.mesh().vertices(Eigen::all, std::vector<int>(vertices.begin(), vertices.end()));
-    const Motion& motion = scene.document().handles[static_cast<std::size_t>(handle)].motion;
-    const std::optional<Placement> present = placement_of(motion, rest);
-    const Eigen::Vector3d moved = mean_displacement(motion, rest);
+    const Motion motion = handle ? scene.document().handles[static_cast<std::size_t>(*handle)].motion : Motion{};
+    const std::vector<int> vertices =
+        handle ? std::vector(scene.vertices(*handle).begin(), scene.vertices(*handle).end()) : std::vector<int>{};
+    const Positions rest = scene.mesh().vertices(Eigen::all, vertices);
+    const std::optional<Placement> present = handle ? placement_of(motion, rest) : std::nullopt;
+    const Eigen::Vector3d moved = handle ? mean_displacement(motion, rest) : Eigen::Vector3d::Zero();
     Placement typed = present.value_or(Placement{.move = moved});
     bool ended = false;
+    ImGui::BeginDisabled(!handle);
     if (draw_numbers("move", typed.move.data(), 3, "%.4g", scale))
-        scene.set_motion(handle, translated(motion, typed.move - moved));
+        scene.set_motion(*handle, translated(motion, typed.move - moved));
     ended = ImGui::IsItemDeactivatedAfterEdit();
     tooltip("Of the middle of the handle along x, y and z [mesh units].");
-    if (present && vertices.size() > 1) {
-        if (draw_numbers("turn", typed.turn.data(), 3, "%.4g\u00b0", scale))
-            scene.set_motion(handle, motion_of(typed, rest));
-        ended = ended || ImGui::IsItemDeactivatedAfterEdit();
-        tooltip("About the middle of the handle: about x, then y, then z [degrees].");
-        if (draw_numbers("scale", &typed.scale, 1, "%.4g", scale) && typed.scale > 0.0)
-            scene.set_motion(handle, motion_of(typed, rest));
-        ended = ended || ImGui::IsItemDeactivatedAfterEdit();
-        tooltip("About the middle of the handle.");
-    }
+    ImGui::EndDisabled();
+    ImGui::BeginDisabled(!present || vertices.size() < 2);
+    if (draw_numbers("turn", typed.turn.data(), 3, "%.4g\u00b0", scale))
+        scene.set_motion(*handle, motion_of(typed, rest));
+    ended = ended || ImGui::IsItemDeactivatedAfterEdit();
+    tooltip("About the middle of the handle: about x, then y, then z [degrees].");
+    if (draw_numbers("scale", &typed.scale, 1, "%.4g", scale) && typed.scale > 0.0)
+        scene.set_motion(*handle, motion_of(typed, rest));
+    ended = ended || ImGui::IsItemDeactivatedAfterEdit();
+    tooltip("About the middle of the handle.");
+    ImGui::EndDisabled();
     if (ended) scene.commit();
 }
 
-void draw_reaction(const ShownBody* shown, const std::string& name, const Colour& colour) {
-    if (shown == nullptr) return;
-    for (const ShownReaction& reaction : shown->reactions()) {
-        if (reaction.name != name) continue;
-        fact("force", number_text(reaction.force.norm()), colour);
-        fact("moment about its middle", number_text(reaction.moment_about_place().norm()), colour);
-    }
+/// A line under the row of a handle or fixed set. While nothing is known it stays, so that what is below keeps its
+/// place during a drag.
+void draw_reaction(const PanelContext& context, const std::string& name) {
+    const ViewerState& state = context.state;
+    if (!state.shown.wants_reactions()) return;
+    std::string line = "force and moment: not known", more;
+    if (const ShownBody* shown = state.shown.body(state.method))
+        for (const ShownReaction& reaction : shown->reactions()) {
+            if (reaction.name != name) continue;
+            const Eigen::Vector3d moment = reaction.moment_about_place();
+            line = "force " + number_text(reaction.force.norm()) + ", moment " + number_text(moment.norm());
+            more = "What it exerts on the body: force " + vector_text(reaction.force) +
+                   ", moment about its middle at rest " + vector_text(moment) + ".";
+        }
+    if (more.empty()) more = "Not solved for yet, or, on a simplified body, held together with the set beside it.";
+    ImGui::Indent();
+    ImGui::TextColored(imgui_colour(context.palette.text_dim), "%s", line.c_str());
+    tooltip(more.c_str());
+    ImGui::Unindent();
 }
 
 std::string vertices_text(const std::string& name, std::span<const int> vertices) {
@@ -140,56 +157,69 @@ RowAnswer draw_row(const std::string& text, bool selected, const Colour& colour,
     return {clicked, ImGui::SmallButton("remove")};
 }
 
-/// Begins a fixed set that the next stroke makes, with a tool that makes strokes.
-void begin_fixed_set(ViewerState& state) {
-    state.gestures.select_fixed(state.scene().n_fixed_sets());
-    if (state.tools.tool != Tool::box) state.tools.tool = Tool::brush;
+bool is_very_tall(const PanelContext& context) {
+    return context.layout.panel.height >= kVeryTallPanel * context.gui.scale();
 }
 
-void draw_new_fixed_set(const PanelContext& context) {
-    ViewerState& state = context.state;
-    const bool begun = state.gestures.selected_fixed() == state.scene().n_fixed_sets();
-    if (ImGui::Button("New fixed set")) begin_fixed_set(state);
-    tooltip("The next stroke of the brush or box makes a new set, with a name of its own.");
-    if (!begun || state.scene().n_fixed_sets() == 0) return;
-    ImGui::SameLine();
-    ImGui::AlignTextToFramePadding();
-    ImGui::TextColored(imgui_colour(context.palette.fixed_active), "now brush or box");
+/// Whether another button with this label fits beside the last one.
+bool fits_beside(const char* label) {
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float end = ImGui::GetItemRectMax().x - ImGui::GetWindowPos().x + style.ItemSpacing.x;
+    return end + ImGui::CalcTextSize(label).x + 2.0f * style.FramePadding.x < ImGui::GetContentRegionMax().x;
 }
 
 }  // namespace
 
-/// A text field for the name of a handle or a fixed set; `rename` says whether it takes the name.
-void Panels::draw_name(const PanelContext& context, int owner, const std::string& name,
-                       const std::function<bool(const std::string&)>& rename) {
+void Panels::rename_selection(ViewerState& state) {
+    if (!state.selection()) return;
+    state.display.panel = true;
+    asks_name_ = true;
+}
+
+/// A text field for the name of the selected handle or fixed set.
+void Panels::draw_name(const PanelContext& context) {
     ViewerState& state = context.state;
-    const auto kept = typed_names_.find(owner);
-    std::string typed = kept == typed_names_.end() ? name : kept->second;
+    LiveScene& scene = state.scene();
+    const std::optional<ViewerState::Selection> chosen = state.selection();
+    const std::string name = state.selected_name();
+    std::string typed = typed_name_ && typed_name_->first == chosen ? typed_name_->second : name;
+    ImGui::BeginDisabled(!chosen);
     set_item_width(context.gui.scale());
+    if (std::exchange(asks_name_, false)) ImGui::SetKeyboardFocusHere();
     const bool entered = ImGui::InputText("name", &typed, ImGuiInputTextFlags_EnterReturnsTrue);
-    if (ImGui::IsItemActive())
-        typed_names_[owner] = typed;
-    else
-        typed_names_.erase(owner);
+    ImGui::EndDisabled();
+    typed_name_.reset();
+    if (ImGui::IsItemActive() && chosen) typed_name_ = {*chosen, typed};
     typed = one_line(typed);
-    if ((entered || ImGui::IsItemDeactivatedAfterEdit()) && typed != name) {
-        if (rename(typed))
-            state.scene().commit();
-        else
-            state.messages.error("\"" + typed + "\" cannot be used: the name is empty or taken. Type another.");
-    }
+    if (!chosen || !(entered || ImGui::IsItemDeactivatedAfterEdit()) || typed == name) return;
+    const bool taken =
+        chosen->fixed ? scene.rename_fixed_set(chosen->number, typed) : scene.rename_handle(chosen->number, typed);
+    if (taken)
+        scene.commit();
+    else
+        state.messages.error("\"" + typed + "\" cannot be used: the name is empty or taken. Type another.");
 }
 
-/// Name, placement and forces of the selected handle.
-void Panels::draw_handle(const PanelContext& context, int handle) {
-    LiveScene& scene = context.state.scene();
-    draw_name(context, handle, scene.handle_name(handle),
-              [&](const std::string& name) { return scene.rename_handle(handle, name); });
-    draw_placement(context.state, handle, context.gui.scale());
-    draw_reaction(context.state.shown.body(context.state.method), scene.handle_name(handle), context.palette.text_dim);
+/// Name and placement of the selected handle or fixed set.
+void Panels::draw_selection(const PanelContext& context) {
+    const std::optional<ViewerState::Selection> chosen = context.state.selection();
+    ImGui::SetNextItemOpen(is_very_tall(context), ImGuiCond_Once);
+    if (asks_name_) ImGui::SetNextItemOpen(true);
+    const std::string heading = chosen ? "Selected: " + context.state.selected_name() : "Nothing selected";
+    if (!ImGui::TreeNodeEx((heading + "###selection").c_str(), ImGuiTreeNodeFlags_NoTreePushOnOpen)) return;
+    ImGui::PushID(chosen ? (chosen->fixed ? LiveScene::kFixed - chosen->number : chosen->number) : -1);
+    draw_name(context);
+    const bool is_handle = chosen && !chosen->fixed;
+    draw_placement(context.state, is_handle ? std::optional(chosen->number) : std::nullopt, context.gui.scale());
+    ImGui::PopID();
 }
 
-/// The fixed sets, of which brush and box change the selected one, and the reaction of all of them together.
+/// The row that was drawn last comes into sight when it has become the selection.
+void Panels::scroll_to(const ViewerState& state, const ViewerState::Selection& row) const {
+    if (state.selection() == row && listed_ != row) ImGui::SetScrollHereY();
+}
+
+/// The fixed sets, of which brush and box change the selected one, and what each exerts.
 void Panels::draw_fixed_sets(const PanelContext& context) {
     ViewerState& state = context.state;
     LiveScene& scene = state.scene();
@@ -200,16 +230,15 @@ void Panels::draw_fixed_sets(const PanelContext& context) {
         const RowAnswer answer =
             draw_row(vertices_text(scene.fixed_name(set), scene.fixed_vertices(set)), selected,
                      selected ? context.palette.fixed_active : context.palette.fixed, context.gui.scale());
+        scroll_to(state, {true, set});
+        draw_reaction(context, scene.fixed_name(set));
         if (answer.clicked) state.gestures.select_fixed(selected ? -1 : set);
-        if (selected)
-            draw_name(context, LiveScene::kFixed - set, scene.fixed_name(set),
-                      [&](const std::string& name) { return scene.rename_fixed_set(set, name); });
         if (answer.removed) removed = set;
         ImGui::PopID();
     }
     state.remove_fixed_set(removed);
-    draw_new_fixed_set(context);
-    draw_reaction(state.shown.body(state.method), "fixed", context.palette.text_dim);
+    if (state.gestures.selected_fixed() == scene.n_fixed_sets())
+        ImGui::TextColored(imgui_colour(context.palette.fixed_active), "new fixed set: now brush or box");
 }
 
 void Panels::draw_handles(const PanelContext& context) {
@@ -222,26 +251,43 @@ void Panels::draw_handles(const PanelContext& context) {
         const RowAnswer answer =
             draw_row(vertices_text(scene.handle_name(h), scene.vertices(h)), selected,
                      selected ? context.palette.active : context.palette.handle, context.gui.scale());
+        scroll_to(state, {false, h});
+        draw_reaction(context, scene.handle_name(h));
         if (answer.clicked) state.gestures.select_handle(selected ? -1 : h);
-        if (selected) draw_handle(context, h);
         if (answer.removed) removed = h;
         ImGui::PopID();
     }
     state.remove_handle(removed);
-    if (scene.n_handles() == 0)
-        paragraph("No handle yet: press on the body and pull.", context.palette.text_dim);
-    else if (ImGui::Button("Remove all handles"))
-        state.clear_handles();
+    if (scene.n_handles() == 0) paragraph("No handle yet: press on the body and pull.", context.palette.text_dim);
+}
+
+/// What is fixed and what is pulled, in a list of its own height: a drag adds to it and takes from it, and nothing
+/// below is to move.
+void Panels::draw_held(const PanelContext& context) {
+    ViewerState& state = context.state;
+    const float lines = is_very_tall(context) ? 4.5f : 3.5f;  // half a line shows that there are more
+    const float height = lines * ImGui::GetTextLineHeightWithSpacing() + 2.0f * ImGui::GetStyle().WindowPadding.y;
+    const std::optional<ViewerState::Selection> chosen = state.selection();
+    if (ImGui::BeginChild("held", {0.0f, height}, true)) {
+        draw_fixed_sets(context);
+        draw_handles(context);
+    }
+    ImGui::EndChild();
+    listed_ = chosen;
+    if (ImGui::Button("New fixed set")) state.begin_fixed_set();
+    tooltip("Shift+N: the next stroke of the brush or box makes a new set, with a name of its own.");
+    if (fits_beside("Remove all handles")) ImGui::SameLine();
+    ImGui::BeginDisabled(state.scene().n_handles() == 0);
+    if (ImGui::Button("Remove all handles")) state.clear_handles();
+    ImGui::EndDisabled();
 }
 
 void Panels::draw_pull(const PanelContext& context) {
     ViewerState& state = context.state;
     draw_tools(state, context.gui.scale());
     draw_patch(context);
-    draw_fixed_sets(context);
-    draw_handles(context);
-    if (const std::string& problem = state.shown.reaction_failure(state.method); !problem.empty())
-        paragraph(problem, context.palette.bad);
+    draw_held(context);
+    draw_selection(context);
 }
 
 }  // namespace elastolab

@@ -17,26 +17,30 @@ namespace {
 
 constexpr float kMostOfPanel = 0.3f;  ///< of its height; more is scrolled to
 
-/// The warnings of the present answer, with the body's file in place of its whole path.
-std::vector<std::string> present_warnings(const ViewerState& state) {
-    const std::string& name = state.scene().name();
-    std::vector<std::string> warnings = words(state.simulation.embedded(state.method).findings());
-    for (std::string& text : warnings)
-        if (text.starts_with(name)) text.replace(0, name.size(), std::filesystem::path(name).filename().string());
-    return warnings;
-}
-
-/// Height of a window in which these paragraphs need no scroll bar.
-float height_of(const std::vector<std::string>& paragraphs, float width) {
+/// Height of a paragraph in a window of this width.
+float height_of(const std::string& paragraph, float width) {
     const ImGuiStyle& style = ImGui::GetStyle();
     const float room = width - 2.0f * style.WindowPadding.x;
-    float height = 2.0f * style.WindowPadding.y - style.ItemSpacing.y;
-    for (const std::string& text : paragraphs)
-        height += ImGui::CalcTextSize(text.c_str(), nullptr, false, room).y + style.ItemSpacing.y;
-    return height;
+    return ImGui::CalcTextSize(paragraph.c_str(), nullptr, false, room).y + style.ItemSpacing.y;
 }
 
 }  // namespace
+
+/// What has failed, then the warnings of the present answer, with the body's file in place of its whole path.
+std::vector<Panels::Warning> Panels::present_warnings(const ViewerState& state) {
+    std::vector<Warning> warnings;
+    for (const std::string& problem :
+         {state.simulation.problem(state.method), state.shown.reaction_failure(state.method),
+          state.shown.section_failure(state.method)})
+        if (!problem.empty()) warnings.push_back({problem, true});
+    for (const std::string& text : words(state.simulation.embedded(state.method).findings()))
+        warnings.push_back({text, false});
+    const std::string& name = state.scene().name();
+    for (Warning& warning : warnings)
+        if (warning.text.starts_with(name))
+            warning.text.replace(0, name.size(), std::filesystem::path(name).filename().string());
+    return warnings;
+}
 
 /// At the bottom of the side panel, so that nothing else in it moves when they come and go. While an item is pressed
 /// or typed into, they stay as they are, lest they cover it. Returns their height.
@@ -50,8 +54,9 @@ float Panels::draw_warnings(const PanelContext& context) {
     if (warnings_.empty()) return 0.0f;
     const Viewport& panel = context.layout.panel;
     const auto width = static_cast<float>(panel.width), bottom = static_cast<float>(panel.y + panel.height);
-    const float height =
-        std::ceil(std::min(height_of(warnings_, width), kMostOfPanel * static_cast<float>(panel.height)));
+    float wanted = 2.0f * ImGui::GetStyle().WindowPadding.y - ImGui::GetStyle().ItemSpacing.y;
+    for (const Warning& warning : warnings_) wanted += height_of(warning.text, width);
+    const float height = std::ceil(std::min(wanted, kMostOfPanel * static_cast<float>(panel.height)));
     ImGui::SetNextWindowPos({static_cast<float>(panel.x), bottom - height});
     ImGui::SetNextWindowSize({width, height});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0f);
@@ -61,7 +66,8 @@ float Panels::draw_warnings(const PanelContext& context) {
                      ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoFocusOnAppearing);
     ImGui::PopStyleColor();
     ImGui::PopStyleVar();
-    for (const std::string& text : warnings_) paragraph(text, context.palette.busy);
+    for (const Warning& warning : warnings_)
+        paragraph(warning.text, warning.is_problem ? context.palette.bad : context.palette.busy);
     ImGui::End();
     return height;
 }

@@ -24,6 +24,10 @@ std::string count_text(long long count) {
 
 std::string number_text(double value) { return std::abs(value) < 1e-300 ? "0" : readable_number(value, 3); }
 
+std::string vector_text(const Eigen::Vector3d& v) {
+    return "(" + number_text(v.x()) + ", " + number_text(v.y()) + ", " + number_text(v.z()) + ")";
+}
+
 ImVec4 imgui_colour(const Colour& colour, float opacity) { return {colour.r, colour.g, colour.b, colour.a * opacity}; }
 
 unsigned imgui_packed(const Colour& colour, float opacity) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <span>
 #include <string>
 
@@ -10,9 +11,10 @@ struct ImVec4;
 
 namespace elastolab {
 
-/// Numbers for people: "12 480", "0.0123". Bytes and seconds: base/text.hpp.
+/// Numbers for people: "12 480", "0.0123", "(1, 0, 0.5)". Bytes and seconds: base/text.hpp.
 std::string count_text(long long count);
 std::string number_text(double value);
+std::string vector_text(const Eigen::Vector3d& v);
 
 ImVec4 imgui_colour(const Colour& colour, float opacity = 1.0f);
 unsigned imgui_packed(const Colour& colour, float opacity = 1.0f);

@@ -41,6 +41,7 @@ FillingShape::FillingShape(const Proxy& filled) : surface_(filled.surface) {
         vertex = static_cast<int>(std::lower_bound(vertices_.begin(), vertices_.end(), vertex) - vertices_.begin());
     rest_ = surface_->vertices(Eigen::all, vertices_);
     find_leaders(filled);
+    close(*filled.shown);
 }
 
 void FillingShape::find_leaders(const Proxy& filled) {
@@ -65,15 +66,50 @@ void FillingShape::find_leaders(const Proxy& filled) {
     }
 }
 
-Positions FillingShape::following(const Positions& shown) const {
-    Positions result = rest_;
+void FillingShape::close(const SurfaceMesh& shown) {
+    std::vector<Eigen::Index> extra;  // vertices that the shown surface does not have
     for (std::size_t v = 0; v < followers_.size(); ++v) {
-        const Follower& follower = followers_[v];
-        Eigen::Vector3d place = follower.offset;
-        for (std::size_t i = 0; i < follower.leaders.size(); ++i)
-            place += follower.shares[i] * shown.col(follower.leaders[i]);
-        result.col(static_cast<Eigen::Index>(v)) = place;
+        const bool is_own = followers_[v].leaders.size() == 1;
+        places_.push_back(is_own ? followers_[v].leaders.front() : shown.n_vertices() + static_cast<int>(extra.size()));
+        if (!is_own) extra.push_back(static_cast<Eigen::Index>(v));
     }
+    SurfaceMesh closed;
+    closed.vertices.resize(3, shown.vertices.cols() + std::ssize(extra));
+    closed.vertices << shown.vertices, rest_(Eigen::all, extra);
+    closed.triangles.resize(3, shown.triangles.cols() + triangles_.cols());
+    closed.triangles << shown.triangles, triangles_;
+    for (int& vertex : closed.triangles.rightCols(triangles_.cols()).reshaped())
+        vertex = places_[static_cast<std::size_t>(vertex)];
+    closed_ = std::make_shared<const SurfaceMesh>(std::move(closed));
+}
+
+Eigen::MatrixXd FillingShape::joined(const Eigen::Ref<const Eigen::MatrixXd>& of_shown,
+                                     const Eigen::Ref<const Eigen::MatrixXd>& of_filling) const {
+    Eigen::MatrixXd all(of_shown.rows(), closed_->n_vertices());
+    all.leftCols(of_shown.cols()) = of_shown;
+    for (Eigen::Index v = 0; v < of_filling.cols(); ++v)
+        if (const int place = places_[static_cast<std::size_t>(v)]; place >= of_shown.cols())
+            all.col(place) = of_filling.col(v);
+    return all;
+}
+
+Eigen::MatrixXd FillingShape::taken(const Eigen::Ref<const Eigen::MatrixXd>& of_surface) const {
+    return of_surface(Eigen::all, vertices_);
+}
+
+Eigen::MatrixXd FillingShape::spread(const Eigen::Ref<const Eigen::MatrixXd>& of_shown) const {
+    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(of_shown.rows(), rest_.cols());
+    for (std::size_t v = 0; v < followers_.size(); ++v)
+        for (std::size_t i = 0; i < followers_[v].leaders.size(); ++i)
+            result.col(static_cast<Eigen::Index>(v)) +=
+                followers_[v].shares[i] * of_shown.col(followers_[v].leaders[i]);
+    return result;
+}
+
+Positions FillingShape::following(const Positions& shown) const {
+    Positions result = spread(shown);
+    for (std::size_t v = 0; v < followers_.size(); ++v)
+        result.col(static_cast<Eigen::Index>(v)) += followers_[v].offset;
     return result;
 }
 

@@ -90,12 +90,8 @@ void SceneRenderer::upload_body(const ViewerState& state, const ShownBody& body,
     const bool is_new = target.revision != body.revision();
     if (is_new) {
         target.revision = body.revision();
-        target.surface.update(body.positions(), frame_);
+        upload_surface(body.positions(), body.values(), target.surface);
         if (rim_.cols() > 0) target.rim->update(Positions(body.positions()(Eigen::all, rim_vertices_)), frame_);
-        if (body.values().empty())
-            target.surface.clear_scalars();
-        else
-            target.surface.set_vertex_scalars(body.values());
         upload_section(body, target);
         upload_filling(body, target);
     }
@@ -116,21 +112,34 @@ void SceneRenderer::upload_section(const ShownBody& body, BodyDrawing& target) {
         target.section.emplace(section.shape->rest(), section.shape->triangles());
         target.section_shape = section.shape;
     }
-    target.section->update(section.positions, frame_);
-    if (section.values.empty())
-        target.section->clear_scalars();
-    else
-        target.section->set_vertex_scalars(section.values);
+    upload_surface(section.positions, section.values, *target.section);
 }
 
+/// Where the body is cut open, what is left of it there.
 void SceneRenderer::upload_filling(const ShownBody& body, BodyDrawing& target) {
     if (!body.filling()) return target.filling.reset();
-    const ShownFilling& filling = *body.filling();
-    if (!target.filling || target.filling_shape != filling.shape) {
-        target.filling.emplace(filling.shape->rest(), filling.shape->triangles());
-        target.filling_shape = filling.shape;
+    const std::optional<ShownSection>& section = body.section();
+    const ShownFilling& whole = *body.filling();
+    const Triangles& triangles = section ? section->shape->filling() : whole.shape->triangles();
+    if (triangles.cols() == 0) return target.filling.reset();
+    const std::shared_ptr<const void> shape = section ? std::shared_ptr<const void>(section->shape) : whole.shape;
+    if (!target.filling || target.filling_shape != shape) {
+        target.filling.emplace(section ? section->shape->rest() : whole.shape->rest(), triangles);
+        target.filling_shape = shape;
     }
-    target.filling->update(filling.positions, frame_);
+    if (section)
+        upload_surface(section->positions, section->values, *target.filling);
+    else
+        upload_surface(whole.positions, whole.values, *target.filling);
+}
+
+void SceneRenderer::upload_surface(const Positions& positions, const std::vector<float>& values,
+                                   SurfaceDrawing& target) {
+    target.update(positions, frame_);
+    if (values.empty())
+        target.clear_scalars();
+    else
+        target.set_vertex_scalars(values);
 }
 
 void SceneRenderer::upload_points(const ViewerState& state, const ShownBody& body, BodyDrawing& target,
@@ -172,7 +181,7 @@ void SceneRenderer::upload_arrows(const ViewerState& state, const ShownBody& bod
     if (state.display.arrows && largest > 0.0)
         for (const ShownReaction& reaction : body.reactions()) {
             const Eigen::Vector3d vector = kArrowPart * frame_.radius / largest * reaction.force;
-            arrows.push_back({reaction.place, vector, reaction.name == "fixed" ? palette.fixed : palette.handle});
+            arrows.push_back({reaction.place, vector, reaction.fixed ? palette.fixed : palette.handle});
         }
     target.arrows.update(arrows, frame_);
 }
@@ -216,13 +225,16 @@ void SceneRenderer::draw_ground(const ViewerState& state, const SceneView& view,
     ground_.draw(view, area, up, style);
 }
 
-/// What closes the holes of what is simulated: faint, so that the surface is still seen to be open.
-void SceneRenderer::draw_filling(const ViewerState& state, const SceneView& view, BodyDrawing& body,
+/// What closes the holes of what is simulated: faint, so that the surface is still seen to be open; less so where it
+/// has the colours of a field.
+void SceneRenderer::draw_filling(const ViewerState& state, const SceneView& view, MethodKind kind,
                                  const Palette& palette) {
-    if (!state.display.defects || !body.filling || body.section) return;
-    SurfaceStyle style;
-    style.colour = style.inside = palette.bad;  // as the rims of the holes
-    style.opacity = 0.10f;
+    BodyDrawing& body = drawing(kind);
+    if (!state.display.defects || !body.filling) return;
+    SurfaceStyle style = surface_style(state, kind, palette);
+    style.colour = palette.bad;  // as the rims of the holes
+    style.opacity = state.display.field == Field::none ? 0.10f : 0.85f;
+    style.feature_edges = false;
     style.wireframe = state.display.wireframe;
     style.wire = palette.bad;
     style.wire_opacity = 0.40f;
@@ -276,7 +288,7 @@ void SceneRenderer::draw_viewport(const ViewerState& state, const SceneViewport&
     if (state.display.soft_shadows && extent.whole != nullptr) occlusion_.draw_tile(view, target, *extent.whole);
     if (state.display.soft_shadows && !target.is_tile()) occlusion_.draw(view, target);
     if (state.display.grid || state.display.soft_shadows) draw_ground(state, view, palette, body, target);
-    draw_filling(state, view, main, palette);
+    draw_filling(state, view, viewport.kinds.front(), palette);
     draw_ghosts(state, view, viewport, palette);
     if (state.display.defects && main.rim)
         main.rim->draw(view, {.colour = palette.bad, .width = 1.8f, .hidden_opacity = 0.25f});

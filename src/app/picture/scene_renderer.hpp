@@ -52,8 +52,8 @@ private:
         std::optional<SurfaceDrawing> section;
         std::optional<LinesDrawing> rim;  ///< where the surface is not closed
         std::shared_ptr<const SectionShape> section_shape;
-        std::optional<SurfaceDrawing> filling;  ///< of its holes
-        std::shared_ptr<const FillingShape> filling_shape;
+        std::optional<SurfaceDrawing> filling;      ///< of its holes
+        std::shared_ptr<const void> filling_shape;  ///< whose triangles it has: of the filling, or of the section
         PointsDrawing points;
         ArrowsDrawing arrows;
         std::uint64_t revision = 0;
@@ -90,6 +90,7 @@ private:
     void upload_body(const ViewerState& state, const ShownBody& body, const Palette& palette);
     void upload_section(const ShownBody& body, BodyDrawing& target);
     void upload_filling(const ShownBody& body, BodyDrawing& target);
+    void upload_surface(const Positions& positions, const std::vector<float>& values, SurfaceDrawing& target);
     void upload_points(const ViewerState& state, const ShownBody& body, BodyDrawing& target, const Palette& palette);
     void upload_arrows(const ViewerState& state, const ShownBody& body, BodyDrawing& target, const Palette& palette);
     void draw_viewport(const ViewerState& state, const SceneViewport& viewport, const Palette& palette,
@@ -98,7 +99,7 @@ private:
                                      const Palette& palette);
     void draw_ground(const ViewerState& state, const SceneView& view, const Palette& palette,
                      const SurfaceDrawing& body, const Framebuffer& target);
-    void draw_filling(const ViewerState& state, const SceneView& view, BodyDrawing& body, const Palette& palette);
+    void draw_filling(const ViewerState& state, const SceneView& view, MethodKind kind, const Palette& palette);
     void draw_ghosts(const ViewerState& state, const SceneView& view, const SceneViewport& viewport,
                      const Palette& palette);
     SurfaceStyle surface_style(const ViewerState& state, MethodKind kind, const Palette& palette) const;

@@ -41,7 +41,7 @@ Plane section_plane(const Positions& rest, const DisplaySettings& display) {
     return display.section_flip ? Plane{-plane.normal, -plane.offset} : plane;
 }
 
-SectionShape::SectionShape(std::shared_ptr<const SurfaceMesh> surface, const Plane& plane)
+SectionShape::SectionShape(std::shared_ptr<const SurfaceMesh> surface, const Plane& plane, int n_filling)
     : surface_(std::move(surface)), plane_(plane) {
     const OpenedSurface opened = open_surface(*surface_, plane);
     const Cap cap = make_cap(*surface_, opened, plane, mean_edge(*surface_));
@@ -60,9 +60,14 @@ SectionShape::SectionShape(std::shared_ptr<const SurfaceMesh> surface, const Pla
     between_ = {Triangles(3, n_cut + n_rim_), Eigen::Matrix3Xd(3, n_cut + n_rim_)};
     between_.nodes << opened.vertices.nodes(Eigen::all, cut), cap.rim.nodes;
     between_.weights << opened.vertices.weights(Eigen::all, cut), cap.rim.weights;
-    triangles_.resize(3, opened.triangles.cols() + cap.triangles.cols());
-    for (Eigen::Index t = 0; t < opened.triangles.cols(); ++t)
-        for (int i = 0; i < 3; ++i) triangles_(i, t) = skin[static_cast<std::size_t>(opened.triangles(i, t))];
+    Triangles all = opened.triangles;
+    for (int& vertex : all.reshaped()) vertex = skin[static_cast<std::size_t>(vertex)];
+    const auto first_filling =
+        std::lower_bound(opened.origins.begin(), opened.origins.end(), surface_->n_triangles() - n_filling);
+    const auto n_skin = first_filling - opened.origins.begin();
+    filling_ = all.rightCols(all.cols() - n_skin);
+    triangles_.resize(3, n_skin + cap.triangles.cols());
+    triangles_.leftCols(n_skin) = all.leftCols(n_skin);
     triangles_.rightCols(cap.triangles.cols()) = cap.triangles.array() + (n + static_cast<int>(n_cut));
     rest_ = joined(surface_->vertices, inside_);
     around_.resize(static_cast<std::size_t>(n_rim_ + n_inside()));

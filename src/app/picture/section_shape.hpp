@@ -17,13 +17,16 @@ Eigen::Matrix<double, 3, 2> section_hinges(const DisplaySettings& display);
 
 /// A body at rest, cut open and closed by a cap. Vertices are, in this order: those of the whole surface (some of no
 /// triangle any more), those on cut edges and on the cap's rim, and those inside the body. Skin and cap share none.
+/// Where the surface is closed by what fills its holes, those triangles come last and stay apart.
 class SectionShape {
 public:
-    SectionShape(std::shared_ptr<const SurfaceMesh> surface, const Plane& plane);
+    /// The last `n_filling` triangles of the surface fill its holes.
+    SectionShape(std::shared_ptr<const SurfaceMesh> surface, const Plane& plane, int n_filling = 0);
 
     const Plane& plane() const { return plane_; }
     const std::shared_ptr<const SurfaceMesh>& surface() const { return surface_; }
-    const Triangles& triangles() const { return triangles_; }
+    const Triangles& triangles() const { return triangles_; }  ///< of skin and cap
+    const Triangles& filling() const { return filling_; }      ///< what is left of that; of the same vertices
     const Positions& rest() const { return rest_; }
     /// The vertices inside, 3 x n.
     const Positions& inside() const { return inside_; }
@@ -47,7 +50,7 @@ private:
     Anchors between_;  ///< vertices on cut edges, then those on the rim
     Eigen::Index n_rim_ = 0;
     Positions inside_, rest_;
-    Triangles triangles_;
+    Triangles triangles_, filling_;
     std::vector<std::vector<int>> around_;  ///< for each vertex of the cap those next to it; rim first
 };
 

@@ -39,6 +39,10 @@ std::vector<float> as_floats(const Eigen::VectorXd& numbers) {
     return {floats.begin(), floats.end()};
 }
 
+Eigen::MatrixXd as_row(const std::vector<float>& values) {
+    return Eigen::Map<const Eigen::RowVectorXf>(values.data(), std::ssize(values)).cast<double>();
+}
+
 /// Rows of values at the simulated vertices, carried to the shown ones.
 Eigen::MatrixXd shown_rows(const EmbeddedRunner& answer, const Eigen::MatrixXd& rows) {
     Eigen::MatrixXd shown(rows.rows(), answer.displacement().size() / 3);
@@ -71,6 +75,20 @@ std::vector<int> joined(const std::vector<int>& a, const std::vector<int>& b) {
     return all;
 }
 
+/// Whether an answer is one of the filled surface, so that it says where the filling is.
+bool answers(const EmbeddedRunner& answer, const FillingShape& filling) {
+    return answer.surface() == filling.surface().get() &&
+           answer.runner().displacement().size() == filling.surface()->vertices.size();
+}
+
+/// The groups whose reactions are told: every fixed set by itself, then the handles.
+std::vector<ConstraintGroup> told_groups(const Constraints& constraints) {
+    std::vector<ConstraintGroup> groups = constraints.fixed_sets;
+    groups.insert(groups.end(), constraints.groups.begin() + (constraints.has_fixed() ? 1 : 0),
+                  constraints.groups.end());
+    return groups;
+}
+
 }  // namespace
 
 ShownBody::Key ShownBody::key_of(const Sources& sources, const DisplaySettings& display) {
@@ -80,7 +98,7 @@ ShownBody::Key ShownBody::key_of(const Sources& sources, const DisplaySettings& 
             .reference_version = differs ? sources.reference->version() : 0,
             .answer = &sources.answer,
             .reference = differs ? sources.reference : nullptr,
-            .proxy = sources.proxy,
+            .filling = sources.filling,
             .field = display.field,
             .scale = display.deformation_scale,
             .reactions = sources.reactions,
@@ -102,6 +120,7 @@ bool ShownBody::update(const Sources& sources, const DisplaySettings& display) {
     update_reactions(sources);
     update_difference(sources);
     update_values(sources, display.field);
+    colour_filling(sources, display.field);
     update_probed(sources);
     const Stopwatch watch;
     update_section(sources, display);
@@ -120,14 +139,11 @@ void ShownBody::update_positions(const Sources& sources, double scale) {
 
 /// While a preview answers, which has another surface, the filling follows the rims of the holes.
 void ShownBody::update_filling(const Sources& sources, double scale) {
-    const Proxy* proxy = sources.proxy;
-    if (proxy == nullptr || !proxy->is_filled()) return filling_.reset();
-    if (!filling_ || filling_->shape->surface() != proxy->surface)
-        filling_ = ShownFilling{std::make_shared<const FillingShape>(*proxy), {}};
-    const FillingShape& shape = *filling_->shape;
+    if (!sources.filling) return filling_.reset();
+    const FillingShape& shape = *sources.filling;
     const Eigen::VectorXd& u = sources.answer.runner().displacement();
-    const bool is_own = sources.answer.proxy() == proxy && u.size() == proxy->surface->vertices.size();
-    filling_->positions = is_own ? shape.displaced(u, scale) : shape.following(positions_);
+    filling_ = ShownFilling{
+        sources.filling, answers(sources.answer, shape) ? shape.displaced(u, scale) : shape.following(positions_), {}};
 }
 
 void ShownBody::update_reactions(const Sources& sources) {
@@ -142,11 +158,14 @@ void ShownBody::update_reactions(const Sources& sources) {
     const Constraints &computed = answer.constraints(), &shown = sources.scene.constraints();
     if (constrained != joined(computed.set.base, computed.set.handles)) return;  // the new set is on its way
     const std::vector<int> shown_vertices = joined(shown.set.base, shown.set.handles);
-    for (std::size_t g = 0; g < std::min(computed.groups.size(), shown.groups.size()); ++g) {
-        const ConstraintGroup &group = computed.groups[g], &seen = shown.groups[g];
+    const std::vector<ConstraintGroup> groups = told_groups(computed), seen_groups = told_groups(shown);
+    for (std::size_t g = 0; g < std::min(groups.size(), seen_groups.size()); ++g) {
+        const ConstraintGroup &group = groups[g], &seen = seen_groups[g];
         const int n = group.end - group.begin;
+        if (n == 0) continue;
         const std::vector<int> vertices(shown_vertices.begin() + seen.begin, shown_vertices.begin() + seen.end);
-        reactions_.push_back({.name = group.name,
+        reactions_.push_back({.name = seen.name,
+                              .fixed = g < shown.fixed_sets.size(),
                               .force = reactions.forces.middleCols(group.begin, n).rowwise().sum(),
                               .moment = reactions.moments.middleCols(group.begin, n).rowwise().sum(),
                               .place = positions_(Eigen::all, vertices).rowwise().mean(),
@@ -165,19 +184,20 @@ void ShownBody::update_section(const Sources& sources, const DisplaySettings& di
     if (!sources.section || sources.section->is_empty()) return;  // all cut away: the whole body says more
     const SectionShape& shape = *sources.section;
     const SectionRunner* inside = sources.inside && sources.inside->ready() ? sources.inside : nullptr;
+    const Positions whole = filling_ ? Positions(filling_->shape->joined(positions_, filling_->positions)) : positions_;
     Positions within = shape.inside();
     if (inside)
         within += display.deformation_scale * inside->displacements();
     else
-        within += shape.spread_from_rim(positions_ - shape.surface()->vertices);
-    section_ = ShownSection{sources.section, shape.joined(positions_, within), {}};
+        within += shape.spread_from_rim(whole - shape.surface()->vertices);
+    section_ = ShownSection{sources.section, shape.joined(whole, within), {}};
     if (!values_.empty()) colour_section(inside, display.field);
 }
 
 void ShownBody::colour_section(const SectionRunner* inside, Field field) {
     const SectionShape& shape = *section_->shape;
-    const Eigen::MatrixXd surface =
-        Eigen::Map<const Eigen::RowVectorXf>(values_.data(), std::ssize(values_)).cast<double>();
+    Eigen::MatrixXd surface = as_row(values_);
+    if (filling_) surface = filling_->shape->joined(surface, as_row(filling_->values));
     Eigen::MatrixXd within = Eigen::MatrixXd::Constant(1, shape.n_inside(), std::numeric_limits<double>::quiet_NaN());
     if (largest_magnitude_ == 0.0) within.setZero();  // at rest
     if (inside && field == Field::displacement) within = inside->displacements().colwise().norm();
@@ -195,19 +215,38 @@ void ShownBody::update_values(const Sources& sources, Field field) {
     if (field == Field::none || answer.displacement().size() != positions_.size()) return;
     const Eigen::VectorXd& u = answer.displacement();
     if (field == Field::displacement) values_ = magnitudes(columns(u));
-    if (field == Field::traction && tractions_.cols() > 0)
-        values_ = as_floats(answer.shown_values(tractions_.colwise().norm().transpose()));
     if (field == Field::difference) {
         if (comparable(answer, sources.reference))
             values_ = magnitudes(columns(u) - columns(sources.reference->displacement()));
         else
             values_.assign(static_cast<std::size_t>(positions_.cols()), 0.0f);
     }
-    if (const auto which = stress_of(field); which && tractions_.cols() > 0)
-        values_ = as_floats(answer.shown_values(surface_stress_measure(*which, *answer.surface(), material_of(answer),
-                                                                       answer.runner().displacement(), tractions_)));
+    if (field == Field::traction || stress_of(field))
+        if (const Eigen::VectorXd simulated = simulated_values(sources, field); simulated.size() > 0)
+            values_ = as_floats(answer.shown_values(simulated));
     for (const float value : values_)
         largest_magnitude_ = std::max(largest_magnitude_, std::abs(static_cast<double>(value)));
+}
+
+/// The field at the vertices of the surface that is simulated; empty where it is not known there.
+Eigen::VectorXd ShownBody::simulated_values(const Sources& sources, Field field) const {
+    const EmbeddedRunner& answer = sources.answer;
+    const Eigen::VectorXd& u = answer.runner().displacement();
+    if (field == Field::displacement) return columns(u).colwise().norm();
+    if (field == Field::traction && tractions_.cols() > 0) return tractions_.colwise().norm();
+    if (const auto which = stress_of(field); which && tractions_.cols() > 0)
+        return surface_stress_measure(*which, *answer.surface(), material_of(answer), u, tractions_);
+    const bool differs = field == Field::difference && comparable(answer, sources.reference);
+    if (!differs || sources.reference->surface() != answer.surface()) return {};
+    return (columns(u) - columns(sources.reference->runner().displacement())).colwise().norm();
+}
+
+void ShownBody::colour_filling(const Sources& sources, Field field) {
+    if (!filling_ || values_.empty()) return;
+    const FillingShape& shape = *filling_->shape;
+    const Eigen::VectorXd own = answers(sources.answer, shape) ? simulated_values(sources, field) : Eigen::VectorXd();
+    const Eigen::MatrixXd values = own.size() > 0 ? shape.taken(own.transpose()) : shape.spread(as_row(values_));
+    filling_->values = as_floats(values.row(0).transpose());
 }
 
 void ShownBody::update_probed(const Sources& sources) {

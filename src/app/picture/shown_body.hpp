@@ -17,9 +17,10 @@
 
 namespace elastolab {
 
-/// Force and moment that the world exerts on the body through one handle or the fixed part, and where it is.
+/// Force and moment that the world exerts on the body through one handle or fixed set, and where it is.
 struct ShownReaction {
     std::string name;
+    bool fixed = false;                    ///< a fixed set
     Eigen::Vector3d force, moment, place;  ///< [force], [force * L] about the origin, mean position as shown [L]
     Eigen::Vector3d rest_place;            ///< mean position at rest [L]
     Eigen::Vector3d moment_about_place() const { return moment - rest_place.cross(force); }
@@ -42,7 +43,8 @@ struct ShownSection {
 /// What fills the holes of the body, deformed with it.
 struct ShownFilling {
     std::shared_ptr<const FillingShape> shape;
-    Positions positions;  ///< of its vertices
+    Positions positions;        ///< of its vertices
+    std::vector<float> values;  ///< there, of the chosen field; empty where the body has none
 };
 
 /// What is seen of one method's answer; made anew only when the answer or the settings have changed.
@@ -54,10 +56,11 @@ public:
     struct Sources {
         const LiveScene& scene;
         const EmbeddedRunner& answer;
-        const Proxy* proxy = nullptr;  ///< that the method itself simulates, whoever answers; null when none
+        std::shared_ptr<const FillingShape> filling = {};  ///< where the body is simulated with its holes filled
         const EmbeddedRunner* reference = nullptr;         ///< what differences are to; null when there is none
         const ReactionRunner* reactions = nullptr;         ///< null when nothing is shown that needs them
-        std::shared_ptr<const SectionShape> section = {};  ///< when it is to be cut open
+        std::shared_ptr<const SectionShape> section = {};  ///< when it is to be cut open; of the filling's closed(),
+                                                           ///< where there is one
         const SectionRunner* inside = nullptr;             ///< what is known there; null when it is not cut open
         bool probed = false;                               ///< tractions and stresses of every vertex are asked for
     };
@@ -76,9 +79,10 @@ public:
     bool is_coloured() const { return !values_.empty(); }
     double max_displacement() const { return max_displacement_; }
     const std::optional<Difference>& difference() const { return difference_; }
+    /// Of every fixed set, then of every handle; on a proxy not of a fixed set whose vertices there belong to others.
     const std::vector<ShownReaction>& reactions() const { return reactions_; }
     const std::optional<ShownSection>& section() const { return section_; }
-    /// Where the method simulates the body with its holes filled.
+    /// Where the body is simulated with its holes filled.
     const std::optional<ShownFilling>& filling() const { return filling_; }
     double section_seconds() const { return section_seconds_; }  ///< that its last update took
 
@@ -88,7 +92,7 @@ private:
         const SurfaceMesh* mesh = nullptr;
         std::uint64_t version = 0, reference_version = 0;
         const EmbeddedRunner *answer = nullptr, *reference = nullptr;
-        const Proxy* proxy = nullptr;
+        std::shared_ptr<const FillingShape> filling;
         Field field = Field::none;
         double scale = 1.0;
         const ReactionRunner* reactions = nullptr;
@@ -106,6 +110,8 @@ private:
     void update_section(const Sources& sources, const DisplaySettings& display);
     void colour_section(const SectionRunner* inside, Field field);
     void update_values(const Sources& sources, Field field);
+    void colour_filling(const Sources& sources, Field field);
+    Eigen::VectorXd simulated_values(const Sources& sources, Field field) const;
     void update_probed(const Sources& sources);
 
     MethodKind kind_;

@@ -46,6 +46,7 @@ std::pair<double, double> ShownScene::field_range(const DisplaySettings& display
 
 void ShownScene::forget() {
     bodies_.clear();
+    filling_.reset();
     section_.reset();
     for (const auto& [kind, runner] : insides_) runner->rest();
     for (const auto& [kind, runner] : reactions_) runner->rest();
@@ -55,7 +56,7 @@ void ShownScene::forget() {
 const ReactionRunner* ShownScene::reactions(const ShownAnswers& answers, MethodKind kind) {
     std::unique_ptr<ReactionRunner>& runner = reactions_[kind];
     if (!runner) runner = std::make_unique<ReactionRunner>(wake_);
-    if (!needs_reactions(answers)) {
+    if (!wants_reactions_) {
         runner->rest();
         return nullptr;
     }
@@ -63,13 +64,25 @@ const ReactionRunner* ShownScene::reactions(const ShownAnswers& answers, MethodK
     return runner.get();
 }
 
-/// The body cut open at rest; made anew only for another plane or body.
+/// What fills the holes of the body. Methods that simulate it so share one filled surface.
+void ShownScene::update_filling(const ShownAnswers& answers) {
+    const Proxy* filled = nullptr;
+    for (const MethodKind kind : answers.kinds)
+        if (const Proxy* proxy = answers.simulation.embedded(kind).proxy(); proxy != nullptr && proxy->is_filled())
+            filled = proxy;
+    if (filled == nullptr || filled->shown != answers.scene.shared_mesh()) return filling_.reset();
+    if (!filling_ || filling_->surface() != filled->surface) filling_ = std::make_shared<const FillingShape>(*filled);
+}
+
+/// The body cut open at rest, with its holes filled where it is simulated so; made anew only for another plane or body.
 std::shared_ptr<const SectionShape> ShownScene::section(const ShownAnswers& answers) {
     if (!answers.display.section) return nullptr;
-    const std::shared_ptr<const SurfaceMesh>& surface = answers.scene.shared_mesh();
-    const Plane plane = section_plane(surface->vertices, answers.display);
+    const std::shared_ptr<const SurfaceMesh>& shown = answers.scene.shared_mesh();
+    const std::shared_ptr<const SurfaceMesh>& surface = filling_ ? filling_->closed() : shown;
+    const Plane plane = section_plane(shown->vertices, answers.display);
+    const int n_filling = surface->n_triangles() - shown->n_triangles();
     if (!section_ || section_->surface() != surface || section_->plane() != plane)
-        section_ = std::make_shared<const SectionShape>(surface, plane);
+        section_ = std::make_shared<const SectionShape>(surface, plane, n_filling);
     return section_;
 }
 
@@ -86,6 +99,8 @@ const SectionRunner* ShownScene::inside(const ShownAnswers& answers, MethodKind 
 
 bool ShownScene::update(const ShownAnswers& answers) {
     const Stopwatch watch;
+    wants_reactions_ = needs_reactions(answers);
+    update_filling(answers);
     section_ = section(answers);
     const double cutting_seconds = watch.seconds();
     const auto is_shown = [&](MethodKind kind) {
@@ -104,7 +119,7 @@ bool ShownScene::update(const ShownAnswers& answers) {
         seconds += of_inside.seconds();
         const ShownBody::Sources sources{.scene = answers.scene,
                                          .answer = answers.simulation.answer(kind),
-                                         .proxy = answers.simulation.embedded(kind).proxy(),
+                                         .filling = filling_,
                                          .reference = answers.simulation.previewing(kind) ? nullptr : answers.reference,
                                          .reactions = reactions(answers, kind),
                                          .section = section_,

@@ -46,6 +46,8 @@ public:
     const ShownBody* body(MethodKind kind) const;
     /// Why forces, tractions and stresses of this method are not known; empty when they are or will be.
     const std::string& reaction_failure(MethodKind kind) const;
+    /// Whether something is shown that needs them, so that they are known as soon as they can be.
+    bool wants_reactions() const { return wants_reactions_; }
     /// The range of the colours.
     std::pair<double, double> field_range(const DisplaySettings& display) const;
 
@@ -71,6 +73,7 @@ public:
 private:
     ShownBody& body_of(MethodKind kind);
     const ReactionRunner* reactions(const ShownAnswers& answers, MethodKind kind);
+    void update_filling(const ShownAnswers& answers);
     std::shared_ptr<const SectionShape> section(const ShownAnswers& answers);
     const SectionRunner* inside(const ShownAnswers& answers, MethodKind kind);
     void sum_costs(double update_seconds);
@@ -78,6 +81,8 @@ private:
     std::vector<ShownBody> bodies_;  ///< of every method on the screen
     std::function<void()> wake_;
     std::map<MethodKind, std::unique_ptr<ReactionRunner>> reactions_;
+    bool wants_reactions_ = false;
+    std::shared_ptr<const FillingShape> filling_;  ///< null where no method simulates the body with its holes filled
     std::shared_ptr<const SectionShape> section_;
     std::map<MethodKind, std::unique_ptr<SectionRunner>> insides_;
     std::optional<SectionCost> section_cost_;

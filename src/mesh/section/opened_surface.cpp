@@ -23,8 +23,11 @@ public:
     }
 
     OpenedSurface run() {
-        for (int t = 0; t < surface_.n_triangles(); ++t) add(t);
         OpenedSurface opened;
+        for (int t = 0; t < surface_.n_triangles(); ++t) {
+            add(t);
+            opened.origins.resize(triangles_.size(), t);
+        }
         opened.vertices = {Triangles(3, std::ssize(anchors_)), Eigen::Matrix3Xd(3, std::ssize(anchors_))};
         for (std::size_t i = 0; i < anchors_.size(); ++i) {
             opened.vertices.nodes.col(static_cast<Eigen::Index>(i)) = anchors_[i].nodes;

@@ -31,8 +31,9 @@ struct OpenedSurface {
     struct Segment {
         int from, to, triangle;  ///< triangle of the whole surface
     };
-    Anchors vertices;     ///< whole vertices, then points on cut edges
-    Triangles triangles;  ///< whole ones and parts, counter-clockwise seen from outside
+    Anchors vertices;          ///< whole vertices, then points on cut edges
+    Triangles triangles;       ///< whole ones and parts, counter-clockwise seen from outside
+    std::vector<int> origins;  ///< for each of these, the triangle of the whole surface; they only grow
     std::vector<Segment> outline;
 };
 

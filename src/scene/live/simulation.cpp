@@ -25,14 +25,16 @@ constexpr int kMostToPreviewThemselves = 900;
 /// The preview's elements cannot take 1/2 itself.
 constexpr double kPreviewPoissonRatio = 0.49;
 
-bool worth_completing(const SurfaceMesh& mesh, const Method& method, int complete_up_to) {
-    if (mesh.n_vertices() > complete_up_to) return false;
-    Method full = method;
-    full.mode = Mode::full;
-    return predict_cost(mesh, full).seconds <= kMaxCompletionSeconds;
-}
-
 }  // namespace
+
+std::optional<Method> completion_of(const SurfaceMesh& mesh, MethodKind kind, const MethodChoices& choices) {
+    const bool can_be = kind->full_serves_sets && has(kind, Mode::full) && has(kind, choices.update);
+    if (choices.mode != Mode::on_demand || !can_be || mesh.n_vertices() > choices.complete_up_to) return std::nullopt;
+    Method full = choices.of(kind);
+    full.mode = Mode::full;
+    if (predict_cost(mesh, full).seconds > kMaxCompletionSeconds) return std::nullopt;
+    return full;
+}
 
 Method MethodChoices::of(MethodKind kind) const {
     Method method{.kind = kind, .mode = mode, .tractions = tractions, .update = update};
@@ -214,7 +216,7 @@ void Simulation::complete_one(const MethodChoices& choices) {
     if (busy()) return;
     for (const MethodKind kind : shown_) {
         if (!runner(kind).may_complete(choices.update)) continue;  // far cheaper to ask than what it would cost
-        if (!worth_completing(*embedded(kind).surface(), choices.of(kind), choices.complete_up_to)) continue;
+        if (!completion_of(*embedded(kind).surface(), kind, choices)) continue;
         runner(kind).complete(choices.update);
         if (runner(kind).completing()) return;
     }

@@ -36,6 +36,10 @@ struct MethodChoices {
     Method of(MethodKind kind) const;
 };
 
+/// What a worker completes a kind's model to by itself, with K and its inverse, once the methods on the screen are
+/// ready; nothing where it leaves the model as it is, which is as choices.of(kind). `mesh` is what is simulated.
+std::optional<Method> completion_of(const SurfaceMesh& mesh, MethodKind kind, const MethodChoices& choices);
+
 /// The answers of several methods to one scene, each on the scene's surface or, where the method cannot use that, on a
 /// proxy of it. Methods that nobody looks at are not computed; their last answers are kept, so that switching back is
 /// instant. While a method's model or a new constrained set of it is being prepared, a coarse preview answers in its

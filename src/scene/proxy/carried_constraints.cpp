@@ -20,10 +20,7 @@ constexpr int kVerticesAtATime = 4096;
 
 bool same_set(const Constraints& a, const Constraints& b) {
     if (a.set.base != b.set.base || a.set.handles != b.set.handles || a.groups.size() != b.groups.size()) return false;
-    const auto same_group = [](const ConstraintGroup& x, const ConstraintGroup& y) {
-        return x.begin == y.begin && x.end == y.end && x.name == y.name;
-    };
-    if (!std::equal(a.groups.begin(), a.groups.end(), b.groups.begin(), same_group)) return false;
+    if (a.groups != b.groups || a.fixed_sets != b.fixed_sets) return false;
     // Which of a handle's neighbours follow it depends on whether its motion is defined away from its own vertices.
     return std::equal(a.motions.begin(), a.motions.end(), b.motions.begin(), b.motions.end(),
                       [](const Motion& x, const Motion& y) { return x.index() == y.index(); });
@@ -68,7 +65,6 @@ std::vector<CarriedConstraints::Part> CarriedConstraints::parts() const {
         for (std::size_t i = 0; i < vertices.size(); ++i) {
             group_of[static_cast<std::size_t>(vertices[i])] = g;
             member_of[static_cast<std::size_t>(vertices[i])] = static_cast<int>(i);
-            parts[g].members.push_back(static_cast<int>(i));
             triangles[g].push_back(Eigen::Vector3i::Constant(static_cast<int>(i)));  // a vertex by itself
         }
     }
@@ -99,7 +95,7 @@ std::vector<CarriedConstraints::Nearest> CarriedConstraints::nearest_parts(const
             const SurfacePoint found = closest(vertices.col(v), near);
             near = found.triangle;
             Nearest& present = nearest[static_cast<std::size_t>(v)];
-            if (found.distance <= reach && found.distance < present.point.distance) present = {g, found};
+            if (found.distance <= reach && found.distance < present.point.distance) present = {g, found, 0};
         }
     }
     return nearest;
@@ -114,7 +110,7 @@ std::vector<CarriedConstraints::Nearest> CarriedConstraints::same_vertices() con
         for (std::size_t i = 0; i < vertices.size(); ++i)
             if (const int v = vertices[i]; places.distance[v] == 0.0 && places.weights(0, v) == 1.0)
                 nearest[static_cast<std::size_t>(places.nodes(0, v))] = {
-                    g, {static_cast<int>(i), Vector3d::UnitX(), 0.0}};  // the vertex by itself: see parts()
+                    g, {static_cast<int>(i), Vector3d::UnitX(), 0.0}, 0};  // the vertex by itself: see parts()
     }
     return nearest;
 }
@@ -135,10 +131,32 @@ void CarriedConstraints::leave_out_lone_vertices(std::vector<Nearest>& nearest) 
             nearest[v].group = kNoGroup;
 }
 
+/// A vertex of the proxy belongs to the fixed set of the shown vertex that it is nearest to.
+void CarriedConstraints::divide_fixed(const Part& fixed, std::vector<Nearest>& nearest) const {
+    for (Nearest& of : nearest) {
+        if (of.group != 0) continue;
+        Index corner = 0;
+        of.point.weights.maxCoeff(&corner);
+        const int member = fixed.surface.triangles(corner, of.point.triangle);
+        while (shown_.fixed_sets[of.fixed_set].end <= member) ++of.fixed_set;
+    }
+}
+
+/// The vertices of one fixed set, each by itself.
+CarriedConstraints::Part CarriedConstraints::fixed_part(const ConstraintGroup& set) const {
+    const auto base = shown_.set.base.begin();
+    Part part;
+    part.surface.vertices = proxy_->shown->vertices(Eigen::all, std::vector<int>(base + set.begin, base + set.end));
+    part.surface.triangles =
+        Eigen::RowVectorXi::LinSpaced(set.end - set.begin, 0, set.end - set.begin - 1).replicate<3, 1>();
+    return part;
+}
+
 /// A part that is too small to have a vertex of the proxy gets the corners of the nearest triangle, or the nearest
 /// vertex if it is hardly more than a point itself.
-void CarriedConstraints::hold_nearest(const Part& part, std::size_t group, std::vector<Nearest>& nearest) const {
-    if (std::any_of(nearest.begin(), nearest.end(), [&](const Nearest& n) { return n.group == group; })) return;
+void CarriedConstraints::hold_nearest(const Part& part, const Nearest& owner, std::vector<Nearest>& nearest) const {
+    const auto is_held = [&](const Nearest& n) { return n.group == owner.group && n.fixed_set == owner.fixed_set; };
+    if (std::any_of(nearest.begin(), nearest.end(), is_held)) return;
     const SurfaceMesh& surface = *proxy_->surface;
     const Vector3d middle = part.surface.vertices.rowwise().mean();
     const SurfacePoint place = ClosestPoint(surface)(middle);
@@ -146,34 +164,52 @@ void CarriedConstraints::hold_nearest(const Part& part, std::size_t group, std::
     Eigen::Vector3i::Map(corners.data()) = surface.triangles.col(place.triangle);
     const auto distance = [&](int v) { return (surface.vertices.col(v) - middle).norm(); };
     std::sort(corners.begin(), corners.end(), [&](int a, int b) { return distance(a) < distance(b); });
-    if (part.members.size() < 3) corners.resize(1);
+    if (part.surface.n_vertices() < 3) corners.resize(1);
     for (const int v : corners) {
         Nearest& present = nearest[static_cast<std::size_t>(v)];
-        if (present.group == kNoGroup) present = {group, ClosestPoint(part.surface)(surface.vertices.col(v))};
+        if (present.group == kNoGroup)
+            present = {owner.group, ClosestPoint(part.surface)(surface.vertices.col(v)), owner.fixed_set};
     }
+}
+
+/// For every proxy vertex, what it belongs to.
+std::vector<CarriedConstraints::Nearest> CarriedConstraints::owners(const std::vector<Part>& constrained) const {
+    const bool fills = proxy_->is_filled();
+    std::vector<Nearest> nearest = fills ? same_vertices() : nearest_parts(constrained);
+    if (!fills) leave_out_lone_vertices(nearest);
+    if (shown_.has_fixed()) divide_fixed(constrained.front(), nearest);
+    if (fills) return nearest;
+    for (std::size_t s = 0; s < shown_.fixed_sets.size(); ++s)
+        hold_nearest(fixed_part(shown_.fixed_sets[s]), {.group = 0, .fixed_set = s}, nearest);
+    for (std::size_t g = shown_.has_fixed() ? 1 : 0; g < constrained.size(); ++g)
+        hold_nearest(constrained[g], {.group = g}, nearest);
+    return nearest;
 }
 
 void CarriedConstraints::choose_vertices() {
     const std::vector<Part> constrained = parts();
-    std::vector<Nearest> nearest = proxy_->is_filled() ? same_vertices() : nearest_parts(constrained);
-    if (!proxy_->is_filled()) {
-        leave_out_lone_vertices(nearest);
-        for (std::size_t g = 0; g < constrained.size(); ++g) hold_nearest(constrained[g], g, nearest);
-    }
-
+    const std::vector<Nearest> nearest = owners(constrained);
     carried_ = {};
     carried_.groups = shown_.groups;
+    carried_.fixed_sets = shown_.fixed_sets;
+    const std::size_t first_handle = shown_.has_fixed() ? 1 : 0;
+    for (std::size_t s = 0; s < shown_.fixed_sets.size(); ++s) {
+        carried_.fixed_sets[s].begin = static_cast<int>(carried_.set.base.size());
+        for (std::size_t v = 0; v < nearest.size(); ++v)
+            if (first_handle == 1 && nearest[v].group == 0 && nearest[v].fixed_set == s)
+                carried_.set.base.push_back(static_cast<int>(v));
+        carried_.fixed_sets[s].end = static_cast<int>(carried_.set.base.size());
+    }
+    auto end = static_cast<int>(carried_.set.base.size());
+    if (first_handle == 1) carried_.groups[0] = {shown_.groups[0].name, 0, end};
     origins_.clear();
     origin_weights_.clear();
-    int end = 0;
-    for (std::size_t g = 0; g < constrained.size(); ++g) {
-        const bool in_base = g == 0 && shown_.has_fixed();
+    for (std::size_t g = first_handle; g < constrained.size(); ++g) {
         carried_.groups[g].begin = end;
         for (std::size_t v = 0; v < nearest.size(); ++v) {
             if (nearest[v].group != g) continue;
             ++end;
-            (in_base ? carried_.set.base : carried_.set.handles).push_back(static_cast<int>(v));
-            if (in_base) continue;
+            carried_.set.handles.push_back(static_cast<int>(v));
             origins_.push_back(constrained[g].surface.triangles.col(nearest[v].point.triangle));
             origin_weights_.push_back(nearest[v].point.weights);
         }

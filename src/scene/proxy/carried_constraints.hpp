@@ -15,7 +15,8 @@ namespace elastolab {
 ///
 /// A vertex of the proxy is constrained when it is within kReach mean edges of the constrained part of the shown
 /// surface: the triangles of which all corners are constrained, and single constrained vertices. It follows the same
-/// motion. A part that is smaller than the proxy's triangles holds the corners of the nearest one.
+/// motion. A handle or fixed set that is smaller than the proxy's triangles holds the corners of the nearest one. Of
+/// the fixed part, a vertex of the proxy belongs to the set of the shown vertex that it is nearest to.
 ///
 /// Shown vertices follow their places on the proxy, but constrained ones go exactly where they were put; the difference
 /// between the two fades out around them within one edge of the proxy. Where the proxy is the shown surface with its
@@ -42,8 +43,7 @@ public:
 private:
     /// The constrained part of the shown surface that belongs to one group; its vertices are numbered anew.
     struct Part {
-        SurfaceMesh surface;
-        std::vector<int> members;  ///< for each vertex, its place in the group
+        SurfaceMesh surface;  ///< its vertices in the order of the group
     };
     /// A shown vertex that is constrained (share 1) or near one that is.
     struct Follower {
@@ -57,13 +57,17 @@ private:
     struct Nearest {
         std::size_t group = kNoGroup;
         SurfacePoint point{-1, Eigen::Vector3d::Zero(), std::numeric_limits<double>::infinity()};
+        std::size_t fixed_set = 0;  ///< where the group is the fixed part
     };
     std::vector<int> vertices_of(const Constraints& constraints, std::size_t group) const;
     std::vector<Part> parts() const;
     std::vector<Nearest> nearest_parts(const std::vector<Part>& parts) const;
     std::vector<Nearest> same_vertices() const;
     void leave_out_lone_vertices(std::vector<Nearest>& nearest) const;
-    void hold_nearest(const Part& part, std::size_t group, std::vector<Nearest>& nearest) const;
+    void divide_fixed(const Part& fixed, std::vector<Nearest>& nearest) const;
+    Part fixed_part(const ConstraintGroup& set) const;
+    void hold_nearest(const Part& part, const Nearest& owner, std::vector<Nearest>& nearest) const;
+    std::vector<Nearest> owners(const std::vector<Part>& constrained) const;
     void choose_vertices();
     void find_followers();
     void carry_values();

@@ -1,6 +1,9 @@
 // What fills the holes of a body that is simulated so, as it is shown.
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <Eigen/Geometry>
+
 #include "app/stage.hpp"
 #include "mesh/input/export.hpp"
 #include "mesh/primitives.hpp"
@@ -10,6 +13,7 @@ namespace elastolab {
 namespace {
 
 constexpr double kRounding = 1e-9;
+constexpr double kVault = 0.1;  ///< the smooth filling's area beyond that of a plane one
 
 /// A cube without the triangles of its top.
 SurfaceMesh open_box() {
@@ -60,25 +64,37 @@ double gap_at_rim(const FillingShape& shape, const Positions& filling, const Pos
     return largest;
 }
 
-TEST(ShownFilling, ClosesTheHoleAndFollowsTheBody) {
-    const test::TemporaryFolder folder;
-    save_surface(folder.path() / "open.obj", open_box());
-    Document document = test::cube_document(3);
-    document.mesh = MeshFile{(folder.path() / "open.obj").string()};
-    document.proxy.use = ProxyUse::fill;
-    test::Stage stage(2);
-    stage.open(document);
-    stage.settle();
-    const LiveScene& scene = stage.scene();
-    std::vector<int> right;
-    for (int v = 0; v < scene.mesh().n_vertices(); ++v)
-        if (scene.mesh().vertices(0, v) > 0.99) right.push_back(v);
-    stage.scene().add_handle(right);
-    stage.scene().set_motion(0, AffineMotion{.translate = {0.1, 0, 0.2}});
+/// An open box, simulated with its hole filled and pulled at its right side.
+class FilledBox : public testing::Test {
+protected:
+    FilledBox() {
+        save_surface(folder_.path() / "open.obj", open_box());
+        Document document = test::cube_document(3);
+        document.mesh = MeshFile{(folder_.path() / "open.obj").string()};
+        document.proxy.use = ProxyUse::fill;
+        stage.open(document);
+        stage.settle();
+        std::vector<int> right;
+        for (int v = 0; v < stage.scene().mesh().n_vertices(); ++v)
+            if (stage.scene().mesh().vertices(0, v) > 0.99) right.push_back(v);
+        stage.scene().add_handle(right);
+        stage.scene().set_motion(0, AffineMotion{.translate = {0.1, 0, 0.2}});
+        stage.settle();
+    }
+    const ShownBody& body() { return *stage.state.shown.body(stage.state.method); }
+
+private:
+    const test::TemporaryFolder folder_;
+
+protected:
+    test::Stage stage{2};
+};
+
+TEST_F(FilledBox, ClosesTheHoleAndFollowsTheBody) {
     stage.state.display.deformation_scale = 1.5;
     stage.settle();
-
-    const ShownBody& body = *stage.state.shown.body(stage.state.method);
+    const LiveScene& scene = stage.scene();
+    const ShownBody& body = this->body();
     ASSERT_TRUE(body.filling());
     const FillingShape& shape = *body.filling()->shape;
     EXPECT_EQ(shape.triangles().cols() + scene.mesh().n_triangles(), shape.surface()->n_triangles());
@@ -88,8 +104,71 @@ TEST(ShownFilling, ClosesTheHoleAndFollowsTheBody) {
     EXPECT_LT(gap_at_rim(shape, body.filling()->positions, scene.mesh().vertices, body.positions()), kRounding);
 }
 
+TEST_F(FilledBox, HasTheColoursOfTheFieldThatIsShown) {
+    EXPECT_TRUE(body().filling()->values.empty());
+    for (const Field field : {Field::displacement, Field::traction, Field::von_mises}) {
+        stage.state.display.field = field;
+        stage.settle();
+        const ShownFilling seen = *body().filling();
+        ASSERT_EQ(std::ssize(seen.values), seen.positions.cols());
+        // At the rim they are those of the body, and nowhere far from them.
+        const float largest = *std::max_element(seen.values.begin(), seen.values.end());
+        EXPECT_GT(largest, 0.0f);
+        EXPECT_LE(largest, 1.2 * body().largest_magnitude());
+        for (Eigen::Index v = 0; v < seen.positions.cols(); ++v) {
+            Eigen::Index near = 0;
+            const double distance =
+                (body().positions().colwise() - seen.positions.col(v)).colwise().norm().minCoeff(&near);
+            if (distance < kRounding) {
+                EXPECT_NEAR(seen.values[static_cast<std::size_t>(v)], body().values()[static_cast<std::size_t>(near)],
+                            1e-5 * body().largest_magnitude());
+            }
+        }
+    }
+    stage.state.display.field = Field::displacement;
+    stage.settle();
+    const ShownFilling& seen = *body().filling();
+    const Positions moved = seen.positions - seen.shape->rest();
+    for (Eigen::Index v = 0; v < moved.cols(); ++v)
+        EXPECT_NEAR(seen.values[static_cast<std::size_t>(v)], moved.col(v).norm(), 1e-6);
+}
+
+double area(const Positions& vertices, const Triangles& triangles) {
+    double sum = 0.0;
+    for (const auto& t : triangles.colwise()) {
+        const Eigen::Vector3d a = vertices.col(t[0]), b = vertices.col(t[1]), c = vertices.col(t[2]);
+        sum += 0.5 * (b - a).cross(c - a).norm();
+    }
+    return sum;
+}
+
+TEST_F(FilledBox, IsCutOpenWithTheBodyWhichIsClosedByIt) {
+    stage.state.display.field = Field::displacement;
+    stage.state.display.section = true;
+    stage.state.display.section_axis = 1;
+    stage.state.display.section_place = 0.45;
+    stage.settle();
+    ASSERT_TRUE(body().section());
+    const ShownSection& section = *body().section();
+    const SectionShape& shape = *section.shape;
+    ASSERT_EQ(section.positions.cols(), shape.rest().cols());
+    EXPECT_EQ(std::ssize(section.values), shape.rest().cols());
+    // The first vertices are those of the surface, which can be pointed at.
+    EXPECT_EQ(section.positions.leftCols(body().positions().cols()), body().positions());
+    // Skin and cap on one side, nothing but the top on the other, which is a little vaulted: 0.45 deep.
+    EXPECT_NEAR(area(shape.rest(), shape.triangles()), 1.0 + 1.0 + 3 * 0.45, kVault);
+    EXPECT_NEAR(area(shape.rest(), shape.filling()), 0.45, kVault);
+    EXPECT_GT(shape.rest()(Eigen::all, shape.filling().reshaped()).row(2).minCoeff(), 0.98);
+    const double low = shape.inside().row(2).minCoeff(), high = shape.inside().row(2).maxCoeff();
+    EXPECT_GT(high, 0.9) << "the cap reaches the filling; from " << low;
+    // And it is left whole when the body is.
+    stage.state.display.section = false;
+    stage.settle();
+    EXPECT_NEAR(area(body().filling()->shape->rest(), body().filling()->shape->triangles()), 1.0, kVault);
+}
+
 /// As a preview's answer would have it, which knows nothing of the filling.
-TEST(ShownFilling, FollowsTheRimWhereNothingElseIsKnown) {
+TEST(FillingShape, FollowsTheRimWhereNothingElseIsKnown) {
     const auto shown = std::make_shared<const SurfaceMesh>(open_box());
     const Proxy proxy = filled_box(shown);
     const FillingShape shape(proxy);
@@ -102,7 +181,7 @@ TEST(ShownFilling, FollowsTheRimWhereNothingElseIsKnown) {
     EXPECT_LT((followed - shape.rest()).row(2).maxCoeff(), 0.41);
 }
 
-TEST(ShownFilling, IsNoneWhereTheBodyIsSimulatedItself) {
+TEST(FillingShape, IsNoneWhereTheBodyIsSimulatedItself) {
     test::Stage stage(2);
     stage.settle();
     EXPECT_FALSE(stage.state.shown.body(stage.state.method)->filling());

@@ -96,6 +96,29 @@ TEST_F(ShownBodyTest, ReactionsBalance) {
     EXPECT_LT(moment.norm(), 1e-6 * size);
 }
 
+TEST_F(ShownBodyTest, EveryFixedSetHasAForceOfItsOwn) {
+    state.method = kFem;
+    state.display.arrows = true;
+    std::vector<int> upper;
+    for (const int v : stage.scene().vertices(LiveScene::kFixed))
+        if (stage.scene().mesh().vertices(2, v) > 0.5) upper.push_back(v);
+    stage.settle();
+    const Eigen::Vector3d before = shown(kFem).reactions()[0].force;
+    stage.scene().unfix(upper);
+    stage.scene().fix(upper, 1);
+    stage.scene().rename_fixed_set(1, "upper");
+    stage.settle();
+    const auto& told = shown(kFem).reactions();
+    ASSERT_THAT(told, SizeIs(3));
+    EXPECT_EQ(told[0].name, "fixed");
+    EXPECT_EQ(told[1].name, "upper");
+    EXPECT_TRUE(told[1].fixed);
+    EXPECT_FALSE(told[2].fixed);
+    EXPECT_GT(told[1].place.z(), told[0].place.z());
+    EXPECT_LT((told[0].force + told[1].force - before).norm(), 1e-9 * before.norm());
+    EXPECT_GT((told[0].force - told[1].force).norm(), 1e-3 * before.norm());
+}
+
 TEST_F(ShownBodyTest, AMotionWithoutASolutionIsToldAndEndsNothing) {
     for (const MethodKind kind : all_methods())
         for (const Field field : {Field::traction, Field::von_mises}) {

@@ -1,11 +1,10 @@
 // The plane that cuts the body open, moved and turned with the mouse in a real window.
 #include <gtest/gtest.h>
-#include <stb_image.h>
 
 #include <cmath>
 #include <Eigen/Geometry>
-#include <memory>
 
+#include "app/pixels.hpp"
 #include "app/real_window.hpp"
 #include "app/screen.hpp"
 #include "app/stage.hpp"
@@ -16,27 +15,9 @@ namespace {
 
 using Kind = GizmoPart::Kind;
 
-const Eigen::Vector2i kSize(1000, 900);
+const Eigen::Vector2i kSize(1000, 940);
 const Eigen::Vector3d kMiddle(0.5, 0.5, 0.5);
 constexpr double kNear = 0.03;  ///< of the cube: some pixels of the mouse and of the line where it is cut
-
-/// The colours of a PNG file.
-class Pixels {
-public:
-    explicit Pixels(const std::filesystem::path& file)
-        : bytes_(stbi_load(file.c_str(), &width_, &height_, nullptr, 3), stbi_image_free) {}
-    /// 0 to 255; black outside.
-    Eigen::Vector3i at(const Eigen::Vector2d& pixel) const {
-        const auto x = static_cast<int>(pixel.x()), y = static_cast<int>(pixel.y());
-        if (!bytes_ || x < 0 || y < 0 || x >= width_ || y >= height_) return Eigen::Vector3i::Zero();
-        const stbi_uc* place = bytes_.get() + 3 * (std::ptrdiff_t{y} * width_ + x);
-        return {place[0], place[1], place[2]};
-    }
-
-private:
-    int width_ = 0, height_ = 0;
-    std::unique_ptr<stbi_uc, void (*)(void*)> bytes_;
-};
 
 /// A cube that nothing holds, so that it stays at rest and has no marks.
 class RealCut : public testing::Test {
@@ -51,9 +32,9 @@ protected:
                            "--picture-size", text(place.width) + "x" + text(place.height)},
                           folder_.path());
         window.settle();
-        window.click({24, 641});  // no wireframe
+        window.click({24, 740});  // no wireframe
         window.settle();
-        window.click({24, 786});  // "cut open"
+        window.click({24, 885});  // "cut open"
         window.settle();
         window.drag(from, to);
         window.settle();

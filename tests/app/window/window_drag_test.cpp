@@ -4,8 +4,10 @@
 #include <chrono>
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <thread>
 
+#include "app/pixels.hpp"
 #include "app/real_window.hpp"
 #include "app/screen.hpp"
 #include "app/stage.hpp"
@@ -118,19 +120,21 @@ TEST(RealGizmo, MovesAndTurnsTheChosenHandle) {
     EXPECT_LT(motion.matrix.row(0).norm() + motion.matrix.col(0).norm(), 1e-9);  // about x
 }
 
+// Places in the panel of a window of 1000 x 1000 pixels.
+const Eigen::Vector2d kSecondRow(60, 492), kRemoveFirst(261, 471), kNewFixedSet(58, 585), kName(90, 635),
+    kMove(38, 664);
+const Eigen::Vector2d kWithBrush(0, -58);  // which has fewer settings than pulling
+
 /// The row of a handle in the panel chooses it; its name and numbers are typed, from field to field by the Tab key.
 TEST(RealPanel, AHandleIsNamedMovedAndTurnedByTyping) {
     const TemporaryFolder folder;
     save_cube_with_handle(folder.path() / "cube.json");
-    RealWindow window({"cube.json", "--size", "1000x900", "--scene-out", "out.json"}, folder.path());
+    RealWindow window({"cube.json", "--size", "1000x1000", "--scene-out", "out.json"}, folder.path());
     window.settle();
-    window.click({60, 510});
+    window.click(kSecondRow);
     window.settle();
-    window.click({90, 535});
-    window.stroke("ctrl+a");
-    window.type("tip");
-    window.settle();
-    window.click({38, 564});  // along x
+    window.type_into(kName, "tip");
+    window.click(kMove);  // along x
     window.stroke("ctrl+a");
     for (const char* key : {"0", "period", "2", "5", "Tab", "Tab", "Tab", "Tab", "Tab", "3", "0"}) window.stroke(key);
     window.type("");
@@ -147,22 +151,89 @@ TEST(RealPanel, AHandleIsNamedMovedAndTurnedByTyping) {
     EXPECT_LT((motion.matrix - (turn - Eigen::Matrix3d::Identity())).norm(), 1e-6) << motion.matrix;
 }
 
+/// What is selected is named after F2, whether it is a handle or a fixed set, and removed by Del.
+TEST(RealPanel, KeysNameAndRemoveWhatIsSelected) {
+    const TemporaryFolder folder;
+    Document document = cube_document(4);
+    for (const double x : {0.5, 1.0})
+        document.handles.push_back(
+            {.name = "", .select = {PlaneSelector{{x, 0, 0}, {1, 0, 0}, 1e-9}}, .motion = AffineMotion{}});
+    save_scene(folder.path() / "cube.json", document);
+    RealWindow window({"cube.json", "--size", "800x600", "--scene-out", "out.json"}, folder.path());
+    window.settle();
+    const auto name_selection = [&](const std::string& name) {
+        window.stroke("F2");
+        window.settle();
+        window.type(name);
+        window.settle();
+    };
+    window.stroke("h");
+    name_selection("middle");
+    window.stroke("j");
+    name_selection("wall");
+    window.stroke("h");
+    window.stroke("Delete");
+    window.settle();
+    ASSERT_EQ(window.quit().exit_code, 0);
+    const Document left = load_scene(folder.path() / "out.json");
+    ASSERT_EQ(left.handles.size(), 1u);
+    EXPECT_EQ(left.handles[0].name, "middle");
+    ASSERT_EQ(left.fixed.size(), 1u);
+    EXPECT_EQ(left.fixed[0].name, "wall");
+}
+
+/// Where the bars that head the sections of the panel begin and end: right of everything else in it.
+std::vector<int> bars(const std::filesystem::path& picture) {
+    const Pixels pixels(picture);
+    std::vector<int> places;
+    for (int y = 30; y < 960; ++y)
+        if (pixels.at({299, y}) != pixels.at({299, y - 1})) places.push_back(y);
+    return places;
+}
+
+/// The panel of a cube after what was done with its window: before, while and after something is pulled.
+TEST(RealPanel, NothingInItMovesDuringADrag) {
+    const TemporaryFolder folder;
+    save_scene(folder.path() / "cube.json", cube_document(4));
+    const Screen screen(folder.path() / "cube.json", {1000, 1000});
+    const auto bars_after = [&](const std::function<void(RealWindow&)>& action) {
+        RealWindow window({"cube.json", "--size", "1000x1000", "--scene-out", "out.json", "--screenshot", "panel.png"},
+                          folder.path());
+        window.settle();
+        action(window);
+        EXPECT_EQ(window.wait().exit_code, 0);
+        return bars(folder.path() / "panel.png");
+    };
+    const std::vector<int> at_rest = bars_after([](RealWindow& window) { window.close(); });
+    EXPECT_GE(at_rest.size(), 6u);
+    const Eigen::Vector2d from = screen.pixel({0.75, 0.25, 1}), to = from + Eigen::Vector2d(20, -30);
+    EXPECT_EQ(at_rest, bars_after([&](RealWindow& window) {
+                  window.move(from);
+                  window.press();
+                  for (const double part : {0.3, 0.6, 1.0}) window.move(from + part * (to - from));
+                  window.settle();
+                  window.close();
+              }));
+    EXPECT_EQ(at_rest, bars_after([&](RealWindow& window) {
+                  window.drag(from, to);
+                  window.settle();
+                  window.close();
+              }));
+}
+
 /// The button begins a set, a stroke of the brush makes it, its name is typed, and the set that was there is removed.
 TEST(RealPanel, AFixedSetIsBegunPaintedNamedAndAnotherRemoved) {
     const TemporaryFolder folder;
     save_cube_with_handle(folder.path() / "cube.json");
-    const Screen screen(folder.path() / "cube.json", {1000, 900});
-    RealWindow window({"cube.json", "--size", "1000x900", "--scene-out", "out.json"}, folder.path());
+    const Screen screen(folder.path() / "cube.json", {1000, 1000});
+    RealWindow window({"cube.json", "--size", "1000x1000", "--scene-out", "out.json"}, folder.path());
     window.settle();
-    window.click({58, 486});
+    window.click(kNewFixedSet);
     window.settle();
     window.drag(screen.pixel({0.25, 0.5, 1}), screen.pixel({0.75, 0.5, 1}));
     window.settle();
-    window.click({90, 449});
-    window.stroke("ctrl+a");
-    window.type("clamp");
-    window.settle();
-    window.click({273, 403});
+    window.type_into(kName + kWithBrush, "clamp");
+    window.click(kRemoveFirst + kWithBrush);
     window.settle();
     ASSERT_EQ(window.quit().exit_code, 0);
 
@@ -182,17 +253,14 @@ TEST(RealPanel, AFixedSetIsBegunPaintedNamedAndAnotherRemoved) {
 TEST(RealPanel, AWarningDoesNotMoveWhatIsToBeClicked) {
     const TemporaryFolder folder;
     save_scene(folder.path() / "cube.json", cube_document(4));
-    const Screen screen(folder.path() / "cube.json", {1000, 900});
-    RealWindow window({"cube.json", "--size", "1000x900", "--scene-out", "out.json"}, folder.path());
+    const Screen screen(folder.path() / "cube.json", {1000, 1000});
+    RealWindow window({"cube.json", "--size", "1000x1000", "--scene-out", "out.json"}, folder.path());
     window.settle();
     for (int i = 0; i < 20; ++i) window.key("bracketleft");
     const Eigen::Vector2d from = screen.pixel({0.75, 0.25, 1});
     window.drag(from, from + Eigen::Vector2d(20, -30));
     window.settle();
-    window.click({90, 535});
-    window.stroke("ctrl+a");
-    window.type("tip");
-    window.settle();
+    window.type_into(kName, "tip");
     ASSERT_EQ(window.quit().exit_code, 0);
     const Document left = load_scene(folder.path() / "out.json");
     ASSERT_EQ(left.handles.size(), 1u);
