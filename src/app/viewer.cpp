@@ -7,20 +7,18 @@
 #include <utility>
 
 #include "app/autosave.hpp"
+#include "app/input/dispatch.hpp"
 #include "app/input/interaction_log.hpp"
-#include "app/input/shortcuts.hpp"
 #include "app/panels/gui.hpp"
 #include "app/panels/layout.hpp"
 #include "app/panels/panels.hpp"
-#include "app/picture/film.hpp"
 #include "app/picture/palette.hpp"
-#include "app/picture/scene_picture.hpp"
+#include "app/picture/pictures.hpp"
 #include "app/picture/scene_renderer.hpp"
 #include "app/picture/view_point.hpp"
 #include "app/viewer_outputs.hpp"
 #include "app/viewer_state.hpp"
 #include "app/window/window.hpp"
-#include "app/window/window_picture.hpp"
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
 #include "base/timer.hpp"
@@ -56,7 +54,7 @@ public:
                    .visible = !options.hidden}),
           gui_(window_),
           state_([] { Window::wake(); }),
-          film_([] { Window::wake(); }),
+          pictures_([] { Window::wake(); }),
           autosave_([] { Window::wake(); }) {
         if (options.n_frames > 0 || options.hidden) window_.disable_vsync();
         if (nobody_watches() || !options.scene_out.empty()) state_.unsaved.never_ask();  // that keeps the changes
@@ -78,8 +76,9 @@ public:
             keep_scene();
         }
         draw_last_picture();
-        write_pictures();
-        write_outputs(options_, state_, picture_);
+        if (!options_.picture.empty() && nobody_watches() && !replay_) state_.frame_in_viewports(true);  // as deformed
+        pictures_.take_at_end(options_, renderer_, state_, palette());
+        write_outputs(options_, state_, pictures_.last());
         autosave_.clear();
         end_workers();
     }
@@ -123,7 +122,7 @@ private:
     }
 
     double timeout() const {
-        if (film_.running()) return 0.0;
+        if (pictures_.filming()) return 0.0;
         if (held_back()) return kProgressSeconds;
         if (options_.n_frames > 0 || pending_frames_ > 0 || !queue_.empty()) return 0.0;
         if (replay_ && !replay_->done() && !state_.simulation.busy()) return 0.0;
@@ -155,7 +154,7 @@ private:
             state_.open(file);
             pending_frames_ = kSettlingFrames;  // for the question that it may raise
         }
-        if (film_.poll(state_) || film_.running()) pending_frames_ = kSettlingFrames;
+        if (pictures_.poll(state_) || pictures_.filming()) pending_frames_ = kSettlingFrames;
         const bool damaged = window_.take_damage();
         if (!queue_.empty() || damaged || state_.simulation.busy() || computing()) pending_frames_ = kSettlingFrames;
         if (message_seconds_ >= 0.0 || gui_.wants_text()) pending_frames_ = std::max(pending_frames_, 1);
@@ -212,31 +211,6 @@ private:
         }
     }
 
-    void dispatch(const std::vector<InputEvent>& events) {
-        GestureContext context = state_.gesture_context();
-        for (const InputEvent& event : events) {
-            const bool is_text = event.kind == InputEvent::Kind::text;
-            if (is_text && event.code == '?' && !gui_.wants_keys()) state_.show_help = !state_.show_help;
-            if (event.kind == InputEvent::Kind::key && !gui_.wants_keys() && !state_.gestures.pulling() &&
-                run_shortcut(event, state_, panels_)) {
-                context.targets = state_.gesture_context().targets;
-                continue;
-            }
-            // Keys that were held over the scene may be let go anywhere.
-            const bool lets_go =
-                event.kind == InputEvent::Kind::focus || (event.kind == InputEvent::Kind::key && !event.pressed);
-            const bool for_panels =
-                gui_.wants_mouse() && state_.gestures.action() == Gestures::Action::none && !lets_go;
-            if (for_panels)
-                state_.gestures.clear_hover();
-            else
-                state_.gestures.handle(event, context);
-        }
-        if (state_.gestures.take_frame_request()) state_.frame_body();
-        if (const auto vertex = state_.gestures.take_probed()) state_.probes.toggle(*vertex);
-        if (state_.gestures.animate(Window::seconds(), context)) pending_frames_ = kSettlingFrames;
-    }
-
     const Palette& palette() const { return state_.display.dark ? dark_palette() : light_palette(); }
 
     void draw_frame() {
@@ -254,7 +228,7 @@ private:
 
         part = {};
         guarded([&] {
-            dispatch(events);
+            if (dispatch(events, Window::seconds(), gui_, state_, panels_)) pending_frames_ = kSettlingFrames;
             state_.update_displacements();
         });
         times.update_ms = 1e3 * part.seconds();
@@ -276,8 +250,9 @@ private:
         if (!guarded([&] { panels_.draw({state_, gui_, layout, palette()}); })) gui_.recover();
         gui_.end();
         times.gui_ms += 1e3 * part.seconds();
-        take_screenshots();
-        take_pictures();
+        if (!options_.screenshot.empty() && is_last_frame()) pictures_.keep_last(window_);
+        pictures_.take_of_window(state_, window_);
+        pictures_.take_of_scene(renderer_, state_, palette(), window_);
         window_.swap_buffers();
         times.frame_ms = 1e3 * whole.seconds();
         end_frame(times, now);
@@ -307,54 +282,6 @@ private:
 
     bool replay_over() const { return replay_ && replay_->done() && pending_frames_ <= 1 && !state_.simulation.busy(); }
 
-    void take_screenshots() {
-        if (!options_.screenshot.empty() && is_last_frame()) picture_ = window_picture(window_.framebuffer_size());
-        if (!state_.requests.screenshot) return;
-        const std::filesystem::path file = *std::exchange(state_.requests.screenshot, std::nullopt);
-        try {
-            write_png(file, window_picture(window_.framebuffer_size()));
-            state_.messages.note("Saved " + file.string());
-        } catch (const Error& error) {
-            state_.messages.error(error.what());
-        }
-    }
-
-    /// What was asked for, and one frame of a film.
-    void take_pictures() {
-        if (std::exchange(state_.requests.stop_pictures, false)) {
-            film_.stop();
-            state_.pictures_under_way.reset();
-        }
-        try {
-            if (const auto request = std::exchange(state_.requests.picture, std::nullopt)) take_picture(*request);
-            if (film_.running()) film_.step(renderer_, state_, palette());
-        } catch (const Error& error) {
-            state_.messages.error(error.what());
-        }
-        bind_window(window_.framebuffer_size().x(), window_.framebuffer_size().y());
-    }
-
-    void take_picture(const PictureRequest& request) {
-        if (request.n_frames > 0) return film_.start(request);
-        write_picture(request.file, renderer_, state_, palette(), request.size,
-                      {request.transparent, request.legend ? legend_of(state_) : std::nullopt});
-        state_.messages.note("Saved " + request.file.string());
-    }
-
-    /// The pictures that the command line asks for, at the end.
-    void write_pictures() {
-        if (options_.picture.empty()) return;
-        if (nobody_watches() && !replay_) state_.frame_in_viewports(true);  // as it is deformed by now
-        const PictureRequest request{.file = options_.picture,
-                                     .size = options_.picture_size,
-                                     .transparent = options_.transparent,
-                                     .legend = options_.legend,
-                                     .n_frames = options_.film_frames,
-                                     .kind = options_.film};
-        take_picture(request);
-        while (film_.running()) film_.step(renderer_, state_, palette());
-    }
-
     void end_frame(const FrameTimes& times, double now) {
         state_.measurements.last_frame = times;
         state_.measurements.history.add(times);
@@ -373,7 +300,7 @@ private:
 
     /// Closed by hand: one more frame, for the picture. Where it fails the other outputs are written all the same.
     void draw_last_picture() {
-        if (options_.screenshot.empty() || picture_ || window_.size().minCoeff() <= 0) return;
+        if (options_.screenshot.empty() || pictures_.last() || window_.size().minCoeff() <= 0) return;
         try {
             draw_frame();
         } catch (const std::exception&) {  // write_outputs() reports that there is no picture
@@ -383,11 +310,11 @@ private:
     /// A worker inside a library call that cannot be interrupted must not keep a closed window's process alive:
     /// everything that was to be written is.
     void end_workers() {
-        film_.stop();
+        pictures_.stop();
         state_.cancel_workers();
         window_.hide();
         const Stopwatch waiting;
-        while ((state_.stopping() || film_.working()) && waiting.seconds() < kPatienceSeconds)
+        while ((state_.stopping() || pictures_.working()) && waiting.seconds() < kPatienceSeconds)
             std::this_thread::sleep_for(std::chrono::milliseconds(5));
         if (state_.stopping()) std::_Exit(EXIT_SUCCESS);
     }
@@ -400,13 +327,12 @@ private:
     ViewerState state_;
     SceneRenderer renderer_;
     Panels panels_;
-    Film film_;
+    Pictures pictures_;
     Autosave autosave_;
     std::vector<InputEvent> queue_;
     int pending_frames_ = kSettlingFrames;
     double last_frame_seconds_ = 0.0, message_seconds_ = -1.0;
     const Palette* styled_palette_ = nullptr;
-    std::optional<Image> picture_;  ///< of the last frame
 };
 
 }  // namespace

@@ -6,7 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
-#include "cli/proxy_json.hpp"
+#include "cli/json_parts.hpp"
 #include "findings/cost.hpp"
 #include "methods/registry.hpp"
 
@@ -80,13 +80,9 @@ void print_costs(std::ostream& out, const std::vector<MethodCost>& costs, bool f
     }
 }
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-Json vector(const Eigen::Vector3d& x) { return Json::array({number(x.x()), number(x.y()), number(x.z())}); }
-
 Json to_json(const Defect& defect) {
     Json places = Json::array();
-    for (const Eigen::Vector3d& place : defect.places) places.push_back(vector(place));
+    for (const Eigen::Vector3d& place : defect.places) places.push_back(vector_json(place));
     return {{"kind", name(defect.kind)},
             {"count", defect.count},
             {"repaired", defect.repaired},
@@ -102,7 +98,7 @@ Json to_json(const MethodCost& row) {
     json["simulates"] = row.cost ? Json(row.on_proxy ? "proxy" : "surface") : Json(nullptr);
     json["degrees_of_freedom"] = row.cost ? Json(row.cost->degrees_of_freedom) : Json(nullptr);
     json["memory_bytes"] = row.cost ? Json(row.cost->memory_bytes) : Json(nullptr);
-    json["seconds"] = row.cost ? number(row.cost->seconds) : Json(nullptr);
+    json["seconds"] = row.cost ? finite_or_null(row.cost->seconds) : Json(nullptr);
     return json;
 }
 
@@ -184,14 +180,14 @@ void write_info(std::ostream& out, const MeshInfo& info) {
         {"components", report.n_components},
         {"solids", report.n_solids},
         {"closed", report.closed},
-        {"volume", number(report.volume)},
-        {"area", number(report.area)},
-        {"min", vector(report.min_corner)},
-        {"max", vector(report.max_corner)},
-        {"shortest_edge", number(report.shortest_edge)},
-        {"mean_edge", number(report.mean_edge)},
-        {"longest_edge", number(report.longest_edge)},
-        {"smallest_altitude_ratio", number(report.smallest_altitude_ratio)},
+        {"volume", finite_or_null(report.volume)},
+        {"area", finite_or_null(report.area)},
+        {"min", vector_json(report.min_corner)},
+        {"max", vector_json(report.max_corner)},
+        {"shortest_edge", finite_or_null(report.shortest_edge)},
+        {"mean_edge", finite_or_null(report.mean_edge)},
+        {"longest_edge", finite_or_null(report.longest_edge)},
+        {"smallest_altitude_ratio", finite_or_null(report.smallest_altitude_ratio)},
         {"defects", list(report.defects)},
         {"usable", report.usable()},
         {"usable_for_fem", report.usable_for_fem()},

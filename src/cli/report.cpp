@@ -8,15 +8,13 @@
 #include "base/machine.hpp"
 #include "base/memory.hpp"
 #include "base/text.hpp"
-#include "cli/proxy_json.hpp"
+#include "cli/json_parts.hpp"
 
 namespace elastolab {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 /// One time for each stage, those that ran for several solids summed, and "total" at the end.
 StageTimes summed(const StageTimes& stages) {
@@ -46,13 +44,12 @@ Json machine() {
     return {{"cpu", machine.cpu}, {"cores", machine.cores}, {"memory_bytes", machine.memory_bytes}};
 }
 
-Json vector(const Eigen::Vector3d& v) { return {finite_or_null(v.x()), finite_or_null(v.y()), finite_or_null(v.z())}; }
-
 Json fixed_sets(const std::vector<GroupReaction>& reactions) {
     Json list = Json::array();
     for (const GroupReaction& reaction : reactions)
-        list.push_back(
-            {{"name", reaction.name}, {"force", vector(reaction.force)}, {"moment", vector(reaction.moment)}});
+        list.push_back({{"name", reaction.name},
+                        {"force", vector_json(reaction.force)},
+                        {"moment", vector_json(reaction.moment)}});
     return list;
 }
 

@@ -27,7 +27,7 @@ wrapped=(
   '(.*/)?tetgen\.h|^mesh/[a-z_/]*\.cpp$'
   'CGAL/|^mesh/wrap/(cgal_mesh\.hpp|hole_filling\.cpp|wrap_main\.cpp)$'
   '(.*/)?cholmod|^fem/[a-z_/]*\.cpp$'
-  'nlohmann/|^(scene/file/json_(text|node)\.hpp|cli/proxy_json\.hpp|(scene|study|cli|app)/[a-z_/]*\.cpp)$'
+  'nlohmann/|^(scene/file/json_(text|node)\.hpp|cli/json_parts\.hpp|(scene|study|cli|app)/[a-z_/]*\.cpp)$'
   'CLI/|^cli/[a-z_/]*\.cpp$'
   '(GL|GLES2|GLES3|glad|EGL|epoxy)/|^(render|app)/[a-z_/]*\.(cpp|hpp)$'
   'GLFW/|^(app|cli)/[a-z_/]*\.(cpp|hpp)$'

@@ -63,7 +63,7 @@ TEST(Sandbox, LeavesReadingAFolderAndNothingElse) {
     EXPECT_FALSE(trying([&] { return opens(outside, O_RDONLY); }));
 }
 
-std::string gltf(const std::string& buffer) {
+std::string gltf_with(const std::string& buffer) {
     return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
         "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
         "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],
@@ -86,11 +86,11 @@ TEST(ImportHelper, ReadsWhatAFileNamesInItsFolderOnly) {
     const std::string bytes(reinterpret_cast<const char*>(points), sizeof(points));
     folder.write("own.bin", bytes);
     other.write("secret.bin", bytes);
-    EXPECT_EQ(verdict(folder.write("own.gltf", gltf("own.bin"))), "accepted");
+    EXPECT_EQ(verdict(folder.write("own.gltf", gltf_with("own.bin"))), "accepted");
     const std::string elsewhere = "../" + other.path().filename().string() + "/secret.bin";
-    EXPECT_THAT(verdict(folder.write("other.gltf", gltf(elsewhere))), HasSubstr("cannot be read"));
+    EXPECT_THAT(verdict(folder.write("other.gltf", gltf_with(elsewhere))), HasSubstr("cannot be read"));
     std::filesystem::create_symlink(other.path() / "secret.bin", folder.path() / "link.bin");
-    EXPECT_THAT(verdict(folder.write("link.gltf", gltf("link.bin"))), HasSubstr("cannot be read"));
+    EXPECT_THAT(verdict(folder.write("link.gltf", gltf_with("link.bin"))), HasSubstr("cannot be read"));
 }
 
 TEST(ImportHelper, DoesNotWaitForPipes) {
@@ -98,7 +98,7 @@ TEST(ImportHelper, DoesNotWaitForPipes) {
     ASSERT_EQ(::mkfifo((folder.path() / "pipe.bin").c_str(), 0600), 0);
     ASSERT_EQ(::mkfifo((folder.path() / "pipe.mtl").c_str(), 0600), 0);
     // Waiting for a writer, it would be ended after its time only, and say so.
-    EXPECT_THAT(verdict(folder.write("a.gltf", gltf("pipe.bin"))), HasSubstr("cannot be read as a mesh"));
+    EXPECT_THAT(verdict(folder.write("a.gltf", gltf_with("pipe.bin"))), HasSubstr("cannot be read as a mesh"));
     EXPECT_EQ(verdict(folder.write("a.obj", "mtllib pipe.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n")),
               "accepted");
 }
@@ -120,7 +120,7 @@ TEST(ImportHelper, ReadsAFileWhoseNameLeadsUpAndDown) {
     std::filesystem::create_directory(folder.path() / "sub");
     const float points[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
     folder.write("own.bin", std::string(reinterpret_cast<const char*>(points), sizeof(points)));
-    folder.write("own.gltf", gltf("own.bin"));
+    folder.write("own.gltf", gltf_with("own.bin"));
     Control control;
     EXPECT_EQ(import_surface(folder.path() / "sub" / ".." / "own.gltf", control).mesh.n_triangles(), 1);
     const std::filesystem::path relative = std::filesystem::relative(folder.path() / "own.gltf");
@@ -140,7 +140,7 @@ TEST(ImportHelper, WarnsOfCoordinatesThatAreCoarseForTheBody) {
     const auto warning = [&] {
         folder.write("own.bin", std::string(reinterpret_cast<const char*>(points), sizeof(points)));
         Control control;
-        return import_surface(folder.write("own.gltf", gltf("own.bin")), control).warning;
+        return import_surface(folder.write("own.gltf", gltf_with("own.bin")), control).warning;
     };
     EXPECT_EQ(warning(), "");
     for (float& x : points) x += 1000.0f;

@@ -76,7 +76,7 @@ TEST(Studies, EndInFilesWhateverTheCases) {
     const TemporaryFolder folder;
     const std::vector<std::pair<std::string, std::string>> some = {{"paper", "fem 2"},
                                                                    {"error", "bending linear-bem 0.3 2"},
-                                                                   {"stability", "share 0 fem"},
+                                                                   {"stability", "edits 100 fem"},
                                                                    {"scale", "on-demand 3"},
                                                                    {"skip", "young fem"}};
     for (const auto& [name, one] : some) {

@@ -191,7 +191,7 @@ NodeSolution CollocationSolver::solve_watched(const Eigen::MatrixXd& prescribed,
         }
         return answers;
     };
-    const Eigen::MatrixXd answer = answers_.get(prescribed, n + 3 * problem_.n_slots(), iterate);
+    const Eigen::MatrixXd answer = recycled_.get(prescribed, n + 3 * problem_.n_slots(), iterate);
     NodeSolution solution{answer.topRows(n), {}};
     if (want_loads) solution.loads = answer.bottomRows(answer.rows() - n);
     return solution;

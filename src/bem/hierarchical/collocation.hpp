@@ -8,7 +8,7 @@
 #include "base/control.hpp"
 #include "bem/hierarchical/collocation_entries.hpp"
 #include "bem/hierarchical/collocation_loads.hpp"
-#include "bem/hierarchical/kept_answers.hpp"
+#include "bem/hierarchical/recycled_solutions.hpp"
 #include "bem/traction_space.hpp"
 #include "deform/linear_operator.hpp"
 #include "deform/node_solver.hpp"
@@ -112,7 +112,7 @@ public:
 private:
     CollocationProblem problem_;
     std::unique_ptr<const LinearOperator> preconditioner_;
-    mutable KeptAnswers answers_;
+    mutable RecycledSolutions recycled_;
 };
 
 /// An approximate inverse of a collocation problem, in two levels: overlapping patches of its points, each solved by

@@ -112,8 +112,8 @@ Eigen::MatrixXd HierarchicalSolver::iterate(const Eigen::MatrixXd& prescribed, C
 }
 
 Eigen::MatrixXd HierarchicalSolver::displacements(const Eigen::MatrixXd& prescribed, Control& control) const {
-    return answers_.get(prescribed, system_->size(),
-                        [&](const Eigen::MatrixXd& new_ones) { return iterate(new_ones, control); });
+    return recycled_.get(prescribed, system_->size(),
+                         [&](const Eigen::MatrixXd& new_ones) { return iterate(new_ones, control); });
 }
 
 NodeSolution HierarchicalSolver::solve(const Eigen::MatrixXd& prescribed, bool want_loads) const {

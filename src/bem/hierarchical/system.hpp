@@ -10,7 +10,7 @@
 #include "bem/galerkin/tractions.hpp"
 #include "bem/hierarchical/boundary_entries.hpp"
 #include "bem/hierarchical/hierarchical_matrix.hpp"
-#include "bem/hierarchical/kept_answers.hpp"
+#include "bem/hierarchical/recycled_solutions.hpp"
 #include "bem/hierarchical/schwarz.hpp"
 #include "bem/hierarchical/traction_layers.hpp"
 #include "deform/method.hpp"
@@ -88,7 +88,7 @@ private:
     std::unique_ptr<const TractionLayers> layers_;
     std::unique_ptr<const SchwarzPreconditioner> preconditioner_;
     Eigen::MatrixXd free_motions_;  ///< rigid motions that the constraints leave, orthonormal; mostly none
-    mutable KeptAnswers answers_;
+    mutable RecycledSolutions recycled_;
 };
 
 /// As galerkin_residual, over a sample of the equations, with entries computed afresh.

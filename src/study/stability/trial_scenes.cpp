@@ -336,7 +336,7 @@ const std::vector<TrialGroup>& trial_groups(bool quick) {
         std::vector<TrialGroup> groups = all_groups();
         for (TrialGroup& group : groups) {  // the middle and the last level
             const std::vector<double> levels = group.levels;
-            const bool costly = group.name == "graded";
+            const bool costly = group.name == "graded" || group.name == "plate" || group.name == "slivers";
             group.levels = {levels[levels.size() / 2]};
             if (!costly) group.levels.push_back(levels.back());
         }

@@ -9,7 +9,7 @@
 #include "bem/cost.hpp"
 #include "bem/hierarchical/cases.hpp"
 #include "bem/hierarchical/collocation.hpp"
-#include "bem/hierarchical/kept_answers.hpp"
+#include "bem/hierarchical/recycled_solutions.hpp"
 #include "bem/method.hpp"
 #include "bem/model.hpp"
 #include "deform/gmres.hpp"
@@ -250,8 +250,8 @@ TEST(HierarchicalCollocation, IsChosenForLargeSurfacesOnDemandAndCancelled) {
     EXPECT_THROW(model->constrain(held, {}, control), Cancelled);
 }
 
-TEST(KeptAnswers, ACombinationOfQuestionsIsNotComputed) {
-    KeptAnswers kept;
+TEST(RecycledSolutions, ACombinationOfRightHandSidesIsNotComputed) {
+    RecycledSolutions kept;
     int computed = 0;
     const Eigen::MatrixXd map = Eigen::MatrixXd::Random(5, 3);
     const auto compute = [&](const Eigen::MatrixXd& questions) -> Eigen::MatrixXd {
