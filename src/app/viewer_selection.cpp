@@ -49,14 +49,18 @@ void ViewerState::frame_selection() {
 }
 
 void ViewerState::select_next_handle() {
+    finish_gesture();
     if (const int n = scene_->n_handles(); n > 0) gestures.select_handle((gestures.selected_handle() + 1) % n);
 }
 
 void ViewerState::select_next_fixed_set() {
-    if (const int n = scene_->n_fixed_sets(); n > 0) gestures.select_fixed((gestures.selected_fixed() + 1) % n);
+    finish_gesture();
+    const int n = scene_->n_fixed_sets(), next = gestures.selected_fixed() + 1;
+    if (n > 0) gestures.select_fixed(next < n ? next : 0);  // a set that was only begun is behind the last
 }
 
 void ViewerState::begin_fixed_set() {
+    finish_gesture();
     gestures.select_fixed(scene_->n_fixed_sets());
     if (tools.tool != Tool::box) tools.tool = Tool::brush;
 }

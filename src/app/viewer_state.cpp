@@ -174,9 +174,9 @@ std::string ViewerState::selected_fixed_name() const {
 void ViewerState::take_step(const std::string& selected_fixed_set) {
     take_method();
     gestures.select_handle(-1);
-    gestures.select_fixed(-1);
+    gestures.keep_fixed(-1);
     for (int set = 0; set < scene_->n_fixed_sets(); ++set)
-        if (scene_->fixed_name(set) == selected_fixed_set) gestures.select_fixed(set);
+        if (scene_->fixed_name(set) == selected_fixed_set) gestures.keep_fixed(set);
 }
 
 void ViewerState::undo() {

@@ -63,7 +63,7 @@ struct Elements {
     std::vector<Element> elements;
 };
 
-/// The same shape functions with as few elements as possible: what is integrated over a triangle serves all its
+/// The same shape functions with one element a triangle where their slots do not collide: what is integrated over a triangle serves all its
 /// corners.
 Elements merged(const Elements& elements);
 

@@ -103,11 +103,22 @@ void print_displacement(std::ostream& out, const Eigen::Matrix3Xd& displacement)
     out << "  displacement  at most " << readable_number(largest, 4) << ", at vertex " << vertex << "\n";
 }
 
-void print_reaction(std::ostream& out, const GroupReaction& reaction, const std::string& kind = "") {
-    std::string label = kind + one_line(reaction.name);
-    label.resize(std::max<std::size_t>(label.size(), 12), ' ');
-    out << "  " << label << "  force " << readable_point(reaction.force) << ", moment "
-        << readable_point(reaction.moment) << "\n";
+/// The sum over all fixed sets, what each of several has of it, and each handle.
+void print_reactions(std::ostream& out, const Solution& solution) {
+    std::vector<std::pair<std::string, const GroupReaction*>> lines;
+    for (const GroupReaction& reaction : solution.reactions) {
+        lines.emplace_back(one_line(reaction.name), &reaction);
+        if (lines.size() > 1 || solution.fixed_reactions.size() < 2) continue;
+        for (const GroupReaction& part : solution.fixed_reactions)
+            lines.emplace_back("  of " + one_line(part.name), &part);
+    }
+    std::size_t width = 12;
+    for (const auto& line : lines) width = std::max(width, line.first.size());
+    for (auto& [label, reaction] : lines) {
+        label.resize(width, ' ');
+        out << "  " << label << "  force " << readable_point(reaction->force) << ", moment "
+            << readable_point(reaction->moment) << "\n";
+    }
 }
 
 }  // namespace
@@ -153,9 +164,7 @@ void print_summary(std::ostream& out, const SolveRequest& request, const Solutio
     print_memory(out, solution);
     print_accuracy(out, solution);
     print_displacement(out, solution.displacement);
-    for (const GroupReaction& reaction : solution.reactions) print_reaction(out, reaction);
-    if (solution.fixed_reactions.size() > 1)
-        for (const GroupReaction& reaction : solution.fixed_reactions) print_reaction(out, reaction, "fixed set ");
+    print_reactions(out, solution);
     for (const std::string& warning : solution.warnings()) out << "  warning       " << warning << "\n";
     out << "  kernels       BLAS " << blas_kernels() << ", " << thread_count() << " threads\n";
 }

@@ -112,7 +112,7 @@ TEST_F(SolveTest, TellsWhatEachFixedSetBears) {
             ASSERT_EQ(sets.size(), 2U);
             EXPECT_EQ(sets[0]["name"], "near");
             EXPECT_EQ(sets[1]["name"], "far");
-            EXPECT_THAT(run.out, AllOf(HasSubstr("fixed set near"), HasSubstr("fixed set far")));
+            EXPECT_THAT(run.out, AllOf(HasSubstr("  of near"), HasSubstr("  of far ")));
             const Eigen::Vector3d force = vector(sets[0]["force"]) + vector(sets[1]["force"]);
             const Eigen::Vector3d moment = vector(sets[0]["moment"]) + vector(sets[1]["moment"]);
             const double size = vector(sets[0]["force"]).norm() + vector(sets[1]["force"]).norm();

@@ -163,7 +163,7 @@ TEST(InteriorField, OfConstantBoundaryElementsConvergesWithFirstOrder) { expect_
 TEST(InteriorField, OfFemConvergesWithItsElements) {
     // Tetrahedra do not halve as evenly as triangles do. The facets of a sphere are what is left with quadratic ones.
     expect_orders(kFem, 3, 3, 0.9, 0.9);
-    expect_orders(kQuadraticFem, 3, 3, 1.5, 1.5);
+    expect_orders(kQuadraticFem, 3, 4, 1.5, 1.5);
 }
 
 TEST(InteriorField, OfBoundaryElementsDoesNotBlowUpTowardsTheSurface) {

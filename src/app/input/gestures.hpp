@@ -84,9 +84,11 @@ public:
     /// new one, from the next stroke on.
     int selected_fixed() const { return selected_fixed_; }
     void select_fixed(int set) {
-        selected_fixed_ = set;
+        keep_fixed(set);
         fixed_is_latest_ = set >= 0;
     }
+    /// The same set under a new number: which selection is the latest stays.
+    void keep_fixed(int set) { selected_fixed_ = set; }
     /// Of a handle and a fixed set that are both selected, whether the fixed set was selected last.
     bool fixed_is_latest() const { return fixed_is_latest_; }
     /// The box that is being drawn: two corners [pixels].

@@ -86,8 +86,13 @@ void Panels::draw_compare(const PanelContext& context) {
         state.display.field = coloured ? Field::difference : Field::none;
     draw_differences(context);
     std::uint64_t bytes = 0;
-    for (const MethodKind kind : state.shown_kinds()) bytes += memory_with_completion(state, kind);
-    fact("memory of their models", bytes > 0 ? "up to " + readable_bytes(static_cast<double>(bytes)) : "\u2013",
+    bool is_known = true;
+    for (const MethodKind kind : state.shown_kinds()) {
+        const std::uint64_t own = memory_with_completion(state, kind);
+        bytes += own;
+        is_known = is_known && own > 0;
+    }
+    fact("memory of their models", is_known ? "up to " + readable_bytes(static_cast<double>(bytes)) : "\u2013",
          context.palette.text_dim);
     tooltip(
         "While they are made, with K and its inverse where these follow by themselves. What is held and pulled, and "

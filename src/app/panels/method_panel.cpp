@@ -190,8 +190,9 @@ void draw_model(const PanelContext& context, const MethodRunner& runner) {
 /// Which method would be ready far sooner than one that takes long; empty when none.
 std::string Panels::sooner_words(const ViewerState& state) {
     constexpr double kLong = 4.0, kFarSooner = 3.0;  // seconds; times
+    if (state.simulation.runner(state.method).state() != State::precomputing) return "";
     const double own = cost(state, state.choices.of(state.method)).seconds;
-    if (state.simulation.runner(state.method).state() != State::precomputing || own < kLong) return "";
+    if (own < kLong) return "";
     const auto seconds = [&](MethodKind kind) {
         const double predicted = cost(state, state.choices.of(kind)).seconds;
         return predicted > 0.0 && state.simulation.problem(kind).empty() ? predicted : own;

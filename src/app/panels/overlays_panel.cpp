@@ -38,7 +38,7 @@ std::string source_words(const ViewerState& state, MethodKind kind) {
     }
     if (simulation.making_proxy(kind)) return text + kDash + progress(simulation.proxies().status());
     if (runner.precomputing()) return text + kDash + progress(runner.status());
-    if (!simulation.problem(kind).empty()) return text + kDash + "not available";
+    if (!simulation.problem(kind).empty()) return text + kDash + "not available: see the warnings (P: panel)";
     if (simulation.previewing(kind)) return text;
     if (!runner.has_answer())
         return kDash + std::string(simulation.proxies().running()   ? "making a coarse mesh for a first answer"

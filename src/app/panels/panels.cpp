@@ -86,7 +86,7 @@ const Cost& Panels::cost(const ViewerState& state, const Method& method) {
         return kUnknown;
     }
     const auto [place, is_new] =
-        costs_.try_emplace({method.kind, method.mode, surface->n_vertices(), surface->n_triangles()});
+        costs_.try_emplace({method.kind, method.mode, method.update, surface->n_vertices(), surface->n_triangles()});
     if (is_new) place->second = predict_cost(*surface, method);
     return place->second;
 }

@@ -104,11 +104,11 @@ void draw_placement(ViewerState& state, std::optional<int> handle, float scale) 
     tooltip("Of the middle of the handle along x, y and z [mesh units].");
     ImGui::EndDisabled();
     ImGui::BeginDisabled(!present || vertices.size() < 2);
-    if (draw_numbers("turn", typed.turn.data(), 3, "%.4g\u00b0", scale))
+    if (draw_numbers("turn", typed.turn.data(), 3, present ? "%.4g\u00b0" : "\u2013", scale))
         scene.set_motion(*handle, motion_of(typed, rest));
     ended = ended || ImGui::IsItemDeactivatedAfterEdit();
     tooltip("About the middle of the handle: about x, then y, then z [degrees].");
-    if (draw_numbers("scale", &typed.scale, 1, "%.4g", scale) && typed.scale > 0.0)
+    if (draw_numbers("scale", &typed.scale, 1, present ? "%.4g" : "\u2013", scale) && typed.scale > 0.0)
         scene.set_motion(*handle, motion_of(typed, rest));
     ended = ended || ImGui::IsItemDeactivatedAfterEdit();
     tooltip("About the middle of the handle.");
@@ -130,7 +130,11 @@ void draw_reaction(const PanelContext& context, const std::string& name) {
             more = "What it exerts on the body: force " + vector_text(reaction.force) +
                    ", moment about its middle at rest " + vector_text(moment) + ".";
         }
-    if (more.empty()) more = "Not solved for yet, or, on a simplified body, held together with the set beside it.";
+    if (more.empty())
+        more =
+            "Not solved for yet; or, on a simplified body, held together with the set beside it; or it could not be "
+            "solved for, "
+            "as the warnings below say then.";
     ImGui::Indent();
     ImGui::TextColored(imgui_colour(context.palette.text_dim), "%s", line.c_str());
     tooltip(more.c_str());

@@ -26,7 +26,7 @@ public:
     const Plane& plane() const { return plane_; }
     const std::shared_ptr<const SurfaceMesh>& surface() const { return surface_; }
     const Triangles& triangles() const { return triangles_; }  ///< of skin and cap
-    const Triangles& filling() const { return filling_; }      ///< what is left of that; of the same vertices
+    const Triangles& filling() const { return filling_; }      ///< what is left of the filling; of the same vertices
     const Positions& rest() const { return rest_; }
     /// The vertices inside, 3 x n.
     const Positions& inside() const { return inside_; }

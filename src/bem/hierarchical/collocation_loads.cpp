@@ -128,12 +128,12 @@ Eigen::MatrixXd CollocationLoads::single_layer_block(std::span<const int> rows, 
     const std::vector<int> columns = looked_up(slots, slots_);
     Eigen::MatrixXd A(3 * std::ssize(rows), 3 * std::ssize(slots));
     for (const auto& g : generations_) {
-        const Inside its(columns, g->first_slot, g->elements.n_slots);
-        const Inside upper(in_chain, 0, n_vertices_ + g->interior.size());
+        const NumbersWithin its(columns, g->first_slot, g->elements.n_slots);
+        const NumbersWithin upper(in_chain, 0, n_vertices_ + g->interior.size());
         A(upper.places, its.places) = g->columns->block(upper.numbers, its.numbers);
         if (!g->rows) continue;
-        const Inside earlier(columns, 0, g->first_slot);
-        const Inside lower(in_chain, n_vertices_ + g->first_point, n_vertices_ + g->interior.size());
+        const NumbersWithin earlier(columns, 0, g->first_slot);
+        const NumbersWithin lower(in_chain, n_vertices_ + g->first_point, n_vertices_ + g->interior.size());
         A(lower.places, earlier.places) = g->rows->block(lower.numbers, earlier.numbers);
     }
     return A;
@@ -162,7 +162,7 @@ Eigen::MatrixXd CollocationLoads::double_layer_block(std::span<const int> interi
     Eigen::MatrixXd A(3 * std::ssize(interior), 3 * std::ssize(vertices));
     for (const auto& g : generations_) {
         if (!g->seen) continue;
-        const Inside its(in_chain, g->first_point, g->interior.size());
+        const NumbersWithin its(in_chain, g->first_point, g->interior.size());
         A(its.places, Eigen::all) = g->seen->block(its.numbers, vertices);
     }
     return A;

@@ -32,7 +32,6 @@ public:
     Eigen::Index rows() const { return 3 * row_tree_->size(); }
     Eigen::Index cols() const { return 3 * col_tree_->size(); }
     const ClusterTree& row_tree() const { return *row_tree_; }
-    const ClusterTree& col_tree() const { return *col_tree_; }
 
     /// A X and A^T X, for any number of columns at once.
     Eigen::MatrixXd product(const Eigen::MatrixXd& X) const;

@@ -26,7 +26,7 @@ public:
           rows_(rows),
           cols_(cols),
           tolerance_(tolerance),
-          uses_(static_cast<std::size_t>(rows.size()), 0) {}
+          taken_(static_cast<std::size_t>(rows.size()), 0) {}
 
     LowRankMatrix run() {
         U_.resize(3 * rows_.size(), 0);
@@ -44,12 +44,12 @@ public:
     }
 
 private:
-    static constexpr int kUses = 3;  ///< of one row: directions that were taken
+    static constexpr int kDirections = 3;  ///< that one row can give
 
     /// Size of the error that so many rows may have.
     double allowed(int n_rows) const { return tolerance_ * std::sqrt(norm_square_ * n_rows / rows_.size()); }
     Eigen::Index limit() const { return 3 * std::min(rows_.size(), cols_.size()); }
-    int& uses(int row) { return uses_[static_cast<std::size_t>(row)]; }
+    int& taken(int row) { return taken_[static_cast<std::size_t>(row)]; }
 
     Eigen::MatrixXd residual_rows(PositionRange some) const {
         Eigen::MatrixXd values(3 * some.size(), 3 * cols_.size());
@@ -78,7 +78,7 @@ private:
             }
         last_column_ = {};
         if (!(largest > 0.0)) {
-            uses(row) = kUses;
+            taken(row) = kDirections;
             return 0.0;
         }
         const Eigen::JacobiSVD<Eigen::Matrix3d> pivot(R.middleCols<3>(3 * col),
@@ -86,14 +86,14 @@ private:
         const Eigen::Matrix3Xd along = pivot.matrixU().transpose() * R;
         int used = 0;
         // What a row has left has no more directions than that; others would be rounding, and count as rank.
-        const int left = kUses - uses(row);
+        const int left = kDirections - taken(row);
         for (; used < left; ++used) {
             double most = 0.0;
             for (int j = 0; j < cols_.size(); ++j) most = std::max(most, along.row(used).segment<3>(3 * j).norm());
             if (!(pivot.singularValues()[used] >= kLeastPivot * most) || most == 0.0) break;
         }
         if (used == 0) used = 1;  // the pivot was the largest block: its first direction is sound
-        uses(row) += used;
+        taken(row) += used;
         last_column_ = residual_column(col);
         const Eigen::MatrixXd u = last_column_ * pivot.matrixV().leftCols(used) *
                                   pivot.singularValues().head(used).cwiseInverse().asDiagonal();
@@ -130,7 +130,7 @@ private:
         int best = -1;
         double largest = -1.0;
         for (int i = 0; i < rows_.size(); ++i) {
-            if (uses(i) >= kUses) continue;
+            if (taken(i) >= kDirections) continue;
             const double size = last_column_.size() > 0 ? last_column_.middleRows<3>(3 * i).squaredNorm() : 0.0;
             if (size > largest) {
                 largest = size;
@@ -159,7 +159,8 @@ private:
             int worst = -1;
             double largest = 3.0 * allowed(1);
             for (int i = 0; i < some.size(); ++i)
-                if (const double size = R.middleRows<3>(3 * i).norm(); size > largest && uses(some.begin + i) < kUses) {
+                if (const double size = R.middleRows<3>(3 * i).norm();
+                    size > largest && taken(some.begin + i) < kDirections) {
                     largest = size;
                     worst = some.begin + i;
                 }
@@ -171,7 +172,7 @@ private:
     const BlockEntries& entries_;
     PositionRange rows_, cols_;
     double tolerance_, norm_square_ = 0.0;
-    std::vector<int> uses_;
+    std::vector<int> taken_;
     Eigen::MatrixXd U_, V_, last_column_;
     Eigen::Index rank_ = 0;
     int samples_ = 0;

@@ -29,11 +29,11 @@ struct Places {
 };
 
 /// Of some numbers those in [begin, end): which of them they are (three rows each), and by how much above `begin`.
-struct Inside {
+struct NumbersWithin {
     std::vector<Eigen::Index> places;
     std::vector<int> numbers;
 
-    Inside(std::span<const int> all, int begin, int end) {
+    NumbersWithin(std::span<const int> all, int begin, int end) {
         for (std::size_t i = 0; i < all.size(); ++i)
             if (begin <= all[i] && all[i] < end) {
                 for (int k = 0; k < 3; ++k) places.push_back(3 * static_cast<Eigen::Index>(i) + k);

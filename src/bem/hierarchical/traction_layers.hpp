@@ -31,7 +31,6 @@ public:
     Eigen::MatrixXd solve_single_layer(const Eigen::MatrixXd& b, double tolerance, Control& control) const;
 
     /// Null where there are no tractions.
-    const TriangleLayers* triangle_layers() const { return layers_.get(); }
     std::uint64_t memory_bytes() const;
 
 private:

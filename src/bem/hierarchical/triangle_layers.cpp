@@ -111,12 +111,12 @@ Eigen::MatrixXd TriangleLayers::single_layer_block(std::span<const int> numbers)
     std::vector<int> items;
     for (const int number : numbers) items.push_back(items_[static_cast<std::size_t>(number)]);
     Eigen::MatrixXd A(3 * std::ssize(items), 3 * std::ssize(items));
-    std::vector<Inside> inside;
+    std::vector<NumbersWithin> inside;
     std::vector<Places> places;
     for (const auto& g : generations_) {
         inside.emplace_back(items, g->first_item, g->n_items());
         places.emplace_back(*g->tree, inside.back().numbers);
-        const Inside& own = inside.back();
+        const NumbersWithin& own = inside.back();
         const Places& at = places.back();
         A(own.places, own.places) = g->V->submatrix(at.positions, at.positions)(at.of_items, at.of_items);
         for (std::size_t e = 0; e < g->V_earlier.size(); ++e) {

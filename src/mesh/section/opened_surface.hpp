@@ -33,7 +33,7 @@ struct OpenedSurface {
     };
     Anchors vertices;          ///< whole vertices, then points on cut edges
     Triangles triangles;       ///< whole ones and parts, counter-clockwise seen from outside
-    std::vector<int> origins;  ///< for each of these, the triangle of the whole surface; they only grow
+    std::vector<int> origins;  ///< for each of these, the triangle of the whole surface; ascending
     std::vector<Segment> outline;
 };
 

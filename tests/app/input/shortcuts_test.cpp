@@ -106,6 +106,19 @@ TEST_F(Shortcuts, AFixedSetIsBegunWithABrush) {
     EXPECT_EQ(stage.state.tools.tool, Tool::brush);
     EXPECT_EQ(stage.state.gestures.selected_fixed(), stage.scene().n_fixed_sets());
     EXPECT_FALSE(stage.state.selection()) << "it is not there yet";
+    press(GLFW_KEY_J);
+    EXPECT_EQ(stage.state.gestures.selected_fixed(), 0) << "from there to the first";
+}
+
+TEST_F(Shortcuts, DeleteAfterAnUndoneHandleLeavesTheSetOfTheBrush) {
+    press(GLFW_KEY_J);
+    stage.scene().add_handle(std::vector<int>{stage.vertex_near({1, 1, 1})});
+    stage.scene().commit();
+    press(GLFW_KEY_H);
+    press(GLFW_KEY_Z, GLFW_MOD_CONTROL);
+    EXPECT_EQ(stage.state.gestures.selected_fixed(), 0);
+    press(GLFW_KEY_DELETE);
+    EXPECT_EQ(stage.scene().n_fixed_sets(), 1);
 }
 
 TEST_F(Shortcuts, BracketsChangeThePatchDownToASingleVertex) {

@@ -140,7 +140,7 @@ TEST(CrossApproximation, FindsPartsThatItsPivotsDoNotLeadTo) {
 }
 
 /// A triangle or two have nothing that pivots could leave out.
-TEST(CrossApproximation, OfAFewRowsIsAsExactAsOfMany) {
+TEST(CrossApproximation, OfAFewRowsKeepsItsTolerance) {
     const Problem& p = problem();
     int n_blocks = 0;
     for (const ClusterPair& pair : cover_matrix(*p.triangle_tree, *p.tree, 1.5)) {
