@@ -3,6 +3,7 @@
 #include <cmath>
 #include <Eigen/Geometry>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "mesh/measures.hpp"
@@ -117,6 +118,20 @@ TEST(Section, OfAnOpenSurfaceDoesNoHarm) {
     for (const double offset : {-0.5, 0.0, 0.3}) {
         const HalfSolid kept = half(open, {Vector3d(1, 1, 1).normalized(), offset}, 0.2);
         EXPECT_TRUE(kept.cap.vertices.allFinite());
+    }
+}
+
+/// Its outline encloses nothing by the signs of its segments, whatever it is by parity.
+TEST(Section, OfSidesThatFaceOppositeWaysHasNoMorePointsThanItMay) {
+    SurfaceMesh mixed = make_box(4);
+    for (int t = 0; t < mixed.n_triangles(); ++t)
+        if (centroid(mixed, t).z() < 0.99) std::swap(mixed.triangles(1, t), mixed.triangles(2, t));
+    const Plane plane{Vector3d::UnitY(), 0.45};
+    for (const int most : {30, 300, 3000}) {
+        const Cap cap = make_cap(mixed, open_surface(mixed, plane), plane, 0.25, most);
+        EXPECT_LE(cap.inside.cols(), most);
+        EXPECT_GT(cap.inside.cols(), most / 3);
+        EXPECT_NEAR(surface_area({vertices_of(mixed, cap), cap.triangles}), 1.0, 1e-6);
     }
 }
 

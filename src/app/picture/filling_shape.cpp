@@ -5,6 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "mesh/measures.hpp"
+
 namespace elastolab {
 
 namespace {
@@ -26,6 +28,12 @@ std::vector<double> shares_by_distance(const Eigen::Vector3d& x, const Positions
     const double sum = std::accumulate(shares.begin(), shares.end(), 0.0);
     for (double& share : shares) share /= sum;
     return shares;
+}
+
+/// Whether two triangles of the same corners go round the same way.
+bool same_way(const TrianglePoints& one, const TrianglePoints& other) {
+    if (one.a == other.a) return one.b == other.b;
+    return one.a == other.b ? one.b == other.c : one.b == other.a;
 }
 
 }  // namespace
@@ -80,6 +88,10 @@ void FillingShape::close(const SurfaceMesh& shown) {
     closed.triangles << shown.triangles, triangles_;
     for (int& vertex : closed.triangles.rightCols(triangles_.cols()).reshaped())
         vertex = places_[static_cast<std::size_t>(vertex)];
+    // The filled surface faces outward, which an open one need not.
+    for (int t = 0; t < shown.n_triangles(); ++t)
+        if (!same_way(triangle_points(shown, t), triangle_points(*surface_, t)))
+            std::swap(closed.triangles(1, t), closed.triangles(2, t));
     closed_ = std::make_shared<const SurfaceMesh>(std::move(closed));
 }
 

@@ -20,7 +20,7 @@ public:
     const Positions& rest() const { return rest_; }
     const Triangles& triangles() const { return triangles_; }  ///< of the columns of rest()
     /// The shown surface with its holes filled: its vertices, then those of the filling that are not its own; its
-    /// triangles, then the filling's.
+    /// triangles, then the filling's. All face outward, whichever way the shown ones do.
     const std::shared_ptr<const SurfaceMesh>& closed() const { return closed_; }
     /// Values of the vertices of closed(), as columns, from those of the shown surface and of the filling.
     Eigen::MatrixXd joined(const Eigen::Ref<const Eigen::MatrixXd>& of_shown,

@@ -47,6 +47,11 @@ Viewport gizmo_place(const Viewport& viewport) {
     return {viewport.x + 8.0, viewport.y + viewport.height - kGizmoSize - 8.0, kGizmoSize, kGizmoSize};
 }
 
+float filling_opacity(const ViewerState& state, MethodKind kind) {
+    const ShownBody* shown = state.shown.body(kind);
+    return shown != nullptr && shown->is_coloured() ? 0.85f : 0.10f;
+}
+
 SceneRenderer::SceneRenderer() = default;
 
 SceneRenderer::BodyDrawing& SceneRenderer::drawing(MethodKind kind) {
@@ -225,15 +230,14 @@ void SceneRenderer::draw_ground(const ViewerState& state, const SceneView& view,
     ground_.draw(view, area, up, style);
 }
 
-/// What closes the holes of what is simulated: faint, so that the surface is still seen to be open; less so where it
-/// has the colours of a field.
+/// What closes the holes of what is simulated.
 void SceneRenderer::draw_filling(const ViewerState& state, const SceneView& view, MethodKind kind,
                                  const Palette& palette) {
     BodyDrawing& body = drawing(kind);
     if (!state.display.defects || !body.filling) return;
     SurfaceStyle style = surface_style(state, kind, palette);
     style.colour = palette.bad;  // as the rims of the holes
-    style.opacity = state.display.field == Field::none ? 0.10f : 0.85f;
+    style.opacity = filling_opacity(state, kind);
     style.feature_edges = false;
     style.wireframe = state.display.wireframe;
     style.wire = palette.bad;

@@ -123,4 +123,8 @@ private:
 /// Where the axes are drawn in a viewport [logical pixels].
 Viewport gizmo_place(const Viewport& viewport);
 
+/// Of what closes the holes of what is simulated: faint, so that the surface is still seen to be open; less so where it
+/// has the colours of a field.
+float filling_opacity(const ViewerState& state, MethodKind kind);
+
 }  // namespace elastolab

@@ -81,6 +81,13 @@ bool answers(const EmbeddedRunner& answer, const FillingShape& filling) {
            answer.runner().displacement().size() == filling.surface()->vertices.size();
 }
 
+/// Null where there is none of that name.
+const ConstraintGroup* find_group(const std::vector<ConstraintGroup>& groups, const std::string& name) {
+    const auto found =
+        std::find_if(groups.begin(), groups.end(), [&](const auto& group) { return group.name == name; });
+    return found == groups.end() ? nullptr : &*found;
+}
+
 /// The groups whose reactions are told: every fixed set by itself, then the handles.
 std::vector<ConstraintGroup> told_groups(const Constraints& constraints) {
     std::vector<ConstraintGroup> groups = constraints.fixed_sets;
@@ -158,16 +165,19 @@ void ShownBody::update_reactions(const Sources& sources) {
     const Constraints &computed = answer.constraints(), &shown = sources.scene.constraints();
     if (constrained != joined(computed.set.base, computed.set.handles)) return;  // the new set is on its way
     const std::vector<int> shown_vertices = joined(shown.set.base, shown.set.handles);
-    const std::vector<ConstraintGroup> groups = told_groups(computed), seen_groups = told_groups(shown);
-    for (std::size_t g = 0; g < std::min(groups.size(), seen_groups.size()); ++g) {
-        const ConstraintGroup &group = groups[g], &seen = seen_groups[g];
-        const int n = group.end - group.begin;
-        if (n == 0) continue;
+    const std::vector<ConstraintGroup> seen_groups = told_groups(shown);
+    for (std::size_t g = 0; g < seen_groups.size(); ++g) {
+        const ConstraintGroup& seen = seen_groups[g];
+        const bool fixed = g < shown.fixed_sets.size();
+        // An answer of an earlier set may have others, or the same in other places.
+        const ConstraintGroup* group = find_group(fixed ? computed.fixed_sets : computed.groups, seen.name);
+        if (group == nullptr || group->begin == group->end) continue;
+        const int n = group->end - group->begin;
         const std::vector<int> vertices(shown_vertices.begin() + seen.begin, shown_vertices.begin() + seen.end);
         reactions_.push_back({.name = seen.name,
-                              .fixed = g < shown.fixed_sets.size(),
-                              .force = reactions.forces.middleCols(group.begin, n).rowwise().sum(),
-                              .moment = reactions.moments.middleCols(group.begin, n).rowwise().sum(),
+                              .fixed = fixed,
+                              .force = reactions.forces.middleCols(group->begin, n).rowwise().sum(),
+                              .moment = reactions.moments.middleCols(group->begin, n).rowwise().sum(),
                               .place = positions_(Eigen::all, vertices).rowwise().mean(),
                               .rest_place = sources.scene.mesh().vertices(Eigen::all, vertices).rowwise().mean()});
     }

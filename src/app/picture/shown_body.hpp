@@ -79,7 +79,8 @@ public:
     bool is_coloured() const { return !values_.empty(); }
     double max_displacement() const { return max_displacement_; }
     const std::optional<Difference>& difference() const { return difference_; }
-    /// Of every fixed set, then of every handle; on a proxy not of a fixed set whose vertices there belong to others.
+    /// Of every fixed set, then of every handle, as far as the answer knows them by their names; on a proxy not of a
+    /// fixed set whose vertices there belong to others.
     const std::vector<ShownReaction>& reactions() const { return reactions_; }
     const std::optional<ShownSection>& section() const { return section_; }
     /// Where the body is simulated with its holes filled.

@@ -82,10 +82,40 @@ private:
         }
         low_ = low;
         size_ = rim_.empty() ? 0.0 : (high - low).maxCoeff();
+        if (!(size_ > 0.0)) return;
         area = std::clamp(std::abs(area), 1e-6 * size_ * size_, size_ * size_);
         // A point of a triangular grid has sqrt(3)/2 edge^2 to itself.
         const double finest = std::sqrt(area / (0.866 * std::max(1, max_inside)));
         edge_ = std::max({std::min(edge, std::sqrt(area) / kEdgesAcrossCap), finest, 1e-3 * size_});
+        // Where sides face opposite ways their areas cancel, though the outline encloses much by parity.
+        const double most = std::max(1, max_inside);
+        for (double n = n_grid_points(); n > most; n = n_grid_points()) edge_ *= 1.01 * std::sqrt(n / most);
+    }
+
+    /// Rows of the triangular grid that may meet the outline, and where one does: from and to in turns.
+    double row_height() const { return std::sqrt(0.75) * edge_; }
+    std::int64_t first_row() const { return static_cast<std::int64_t>(std::floor(low_.y() / row_height())); }
+    std::int64_t last_row() const { return static_cast<std::int64_t>(std::ceil((low_.y() + size_) / row_height())); }
+    static double shift_of(std::int64_t row) { return row % 2 == 0 ? 0.0 : 0.5; }
+    std::vector<double> crossings(double y) const {
+        std::vector<double> all;
+        for (const Segment& s : segments_) {
+            const Point2 &a = at(s.from), &b = at(s.to);
+            if ((a.y() <= y) != (b.y() <= y)) all.push_back(a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
+        }
+        std::sort(all.begin(), all.end());
+        return all;
+    }
+
+    /// Points of the grid inside, however near to the rim.
+    double n_grid_points() const {
+        double n = 0.0;
+        for (std::int64_t row = first_row(); row <= last_row(); ++row) {
+            const std::vector<double> ends = crossings(static_cast<double>(row) * row_height());
+            for (std::size_t i = 0; i + 1 < ends.size(); i += 2)
+                n += std::ceil(ends[i + 1] / edge_ - shift_of(row)) - std::ceil(ends[i] / edge_ - shift_of(row));
+        }
+        return n;
     }
 
     /// A point of a segment, which lies in one triangle of the surface.
@@ -122,24 +152,17 @@ private:
 
     /// Points of a triangular grid that is at rest in space, inside and away from the rim.
     void find_inside() {
-        const double height = std::sqrt(0.75) * edge_;
-        const auto first = static_cast<std::int64_t>(std::floor(low_.y() / height));
-        const auto last = static_cast<std::int64_t>(std::ceil((low_.y() + size_) / height));
-        for (std::int64_t row = first; row <= last; ++row) {
-            const double y = static_cast<double>(row) * height;
-            std::vector<double> crossings;
+        for (std::int64_t row = first_row(); row <= last_row(); ++row) {
+            const double y = static_cast<double>(row) * row_height();
+            const std::vector<double> ends = crossings(y);
             std::vector<const Segment*> close;
             for (const Segment& s : segments_) {
                 const Point2 &a = at(s.from), &b = at(s.to);
                 if (std::min(a.y(), b.y()) < y + edge_ && std::max(a.y(), b.y()) > y - edge_) close.push_back(&s);
-                if ((a.y() <= y) != (b.y() <= y))
-                    crossings.push_back(a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
             }
-            std::sort(crossings.begin(), crossings.end());
-            const double shift = row % 2 == 0 ? 0.0 : 0.5;
-            for (std::size_t i = 0; i + 1 < crossings.size(); i += 2)
-                for (double k = std::ceil(crossings[i] / edge_ - shift); (k + shift) * edge_ < crossings[i + 1];
-                     k += 1.0) {
+            const double shift = shift_of(row);
+            for (std::size_t i = 0; i + 1 < ends.size(); i += 2)
+                for (double k = std::ceil(ends[i] / edge_ - shift); (k + shift) * edge_ < ends[i + 1]; k += 1.0) {
                     const Point2 p((k + shift) * edge_, y);
                     const bool free = std::none_of(close.begin(), close.end(), [&](const Segment* s) {
                         return distance(p, at(s->from), at(s->to)) < kFromRim * edge_;

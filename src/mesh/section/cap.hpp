@@ -13,8 +13,8 @@ struct Cap {
 
 /// Fills the outline of an opened surface: what is inside it by the parity of crossings, holes and pieces included.
 /// Triangles are Delaunay; `edge` [L] is about the length wanted of their edges. At least kEdgesAcrossCap edges go into
-/// the width of the cap, and about max_inside points at most lie inside. A surface that is not closed gets some cap or
-/// none.
+/// the width of the cap, and max_inside points at most (one at least) lie inside. A surface that is not closed gets
+/// some cap or none.
 inline constexpr double kEdgesAcrossCap = 16.0;
 Cap make_cap(const SurfaceMesh& surface, const OpenedSurface& opened, const Plane& plane, double edge,
              int max_inside = 3000);

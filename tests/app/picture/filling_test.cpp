@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <Eigen/Geometry>
 
+#include "app/picture/scene_renderer.hpp"
 #include "app/stage.hpp"
 #include "mesh/input/export.hpp"
+#include "mesh/measures.hpp"
 #include "mesh/primitives.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -48,6 +50,11 @@ Proxy filled_box(const std::shared_ptr<const SurfaceMesh>& shown) {
             .kind = ProxySurface::Kind::filled};
 }
 
+SurfaceMesh turned_inside_out(SurfaceMesh mesh) {
+    mesh.triangles.row(1).swap(mesh.triangles.row(2));
+    return mesh;
+}
+
 /// How far the filling is from the body at the rim of the hole, whose vertices both have.
 double gap_at_rim(const FillingShape& shape, const Positions& filling, const Positions& rest, const Positions& body) {
     double largest = 0.0;
@@ -67,8 +74,8 @@ double gap_at_rim(const FillingShape& shape, const Positions& filling, const Pos
 /// An open box, simulated with its hole filled and pulled at its right side.
 class FilledBox : public testing::Test {
 protected:
-    FilledBox() {
-        save_surface(folder_.path() / "open.obj", open_box());
+    explicit FilledBox(const SurfaceMesh& open = open_box()) {
+        save_surface(folder_.path() / "open.obj", open);
         Document document = test::cube_document(3);
         document.mesh = MeshFile{(folder_.path() / "open.obj").string()};
         document.proxy.use = ProxyUse::fill;
@@ -82,6 +89,12 @@ protected:
         stage.settle();
     }
     const ShownBody& body() { return *stage.state.shown.body(stage.state.method); }
+    void cut_open() {
+        stage.state.display.section = true;
+        stage.state.display.section_axis = 1;
+        stage.state.display.section_place = 0.45;
+        stage.settle();
+    }
 
 private:
     const test::TemporaryFolder folder_;
@@ -115,15 +128,17 @@ TEST_F(FilledBox, HasTheColoursOfTheFieldThatIsShown) {
         const float largest = *std::max_element(seen.values.begin(), seen.values.end());
         EXPECT_GT(largest, 0.0f);
         EXPECT_LE(largest, 1.2 * body().largest_magnitude());
+        int n_rim = 0;
         for (Eigen::Index v = 0; v < seen.positions.cols(); ++v) {
             Eigen::Index near = 0;
             const double distance =
                 (body().positions().colwise() - seen.positions.col(v)).colwise().norm().minCoeff(&near);
-            if (distance < kRounding) {
-                EXPECT_NEAR(seen.values[static_cast<std::size_t>(v)], body().values()[static_cast<std::size_t>(near)],
-                            1e-5 * body().largest_magnitude());
-            }
+            if (distance > kRounding) continue;
+            EXPECT_NEAR(seen.values[static_cast<std::size_t>(v)], body().values()[static_cast<std::size_t>(near)],
+                        1e-5 * body().largest_magnitude());
+            ++n_rim;
         }
+        EXPECT_EQ(n_rim, 12) << "around the top";
     }
     stage.state.display.field = Field::displacement;
     stage.settle();
@@ -131,6 +146,19 @@ TEST_F(FilledBox, HasTheColoursOfTheFieldThatIsShown) {
     const Positions moved = seen.positions - seen.shape->rest();
     for (Eigen::Index v = 0; v < moved.cols(); ++v)
         EXPECT_NEAR(seen.values[static_cast<std::size_t>(v)], moved.col(v).norm(), 1e-6);
+}
+
+TEST_F(FilledBox, IsFaintUntilItHasColours) {
+    const auto opacity = [&] { return filling_opacity(stage.state, stage.state.method); };
+    const float faint = opacity();
+    EXPECT_LT(faint, 0.2f);
+    stage.state.display.field = Field::traction;
+    stage.frame();
+    ASSERT_FALSE(body().is_coloured()) << "its first values are the worker's";
+    EXPECT_EQ(opacity(), faint);
+    stage.settle();
+    ASSERT_TRUE(body().is_coloured());
+    EXPECT_GT(opacity(), 0.5f);
 }
 
 double area(const Positions& vertices, const Triangles& triangles) {
@@ -144,10 +172,7 @@ double area(const Positions& vertices, const Triangles& triangles) {
 
 TEST_F(FilledBox, IsCutOpenWithTheBodyWhichIsClosedByIt) {
     stage.state.display.field = Field::displacement;
-    stage.state.display.section = true;
-    stage.state.display.section_axis = 1;
-    stage.state.display.section_place = 0.45;
-    stage.settle();
+    cut_open();
     ASSERT_TRUE(body().section());
     const ShownSection& section = *body().section();
     const SectionShape& shape = *section.shape;
@@ -165,6 +190,30 @@ TEST_F(FilledBox, IsCutOpenWithTheBodyWhichIsClosedByIt) {
     stage.state.display.section = false;
     stage.settle();
     EXPECT_NEAR(area(body().filling()->shape->rest(), body().filling()->shape->triangles()), 1.0, kVault);
+}
+
+/// The same from a file whose triangles face inward.
+class InsideOutFilledBox : public FilledBox {
+protected:
+    InsideOutFilledBox() : FilledBox(turned_inside_out(open_box())) {}
+};
+
+TEST_F(InsideOutFilledBox, IsClosedAndCutOpenLikeAnyOther) {
+    const SurfaceMesh& shown = stage.scene().mesh();
+    ASSERT_LT(area_vector(triangle_points(shown, 0)).dot(centroid(shown, 0) - Eigen::Vector3d::Constant(0.5)), 0.0)
+        << "as in its file";
+    EXPECT_NEAR(enclosed_volume(*body().filling()->shape->closed()), 1.0, kVault);
+    cut_open();
+    ASSERT_TRUE(body().section());
+    const SectionShape& shape = *body().section()->shape;
+    EXPECT_NEAR(area(shape.rest(), shape.triangles()), 1.0 + 1.0 + 3 * 0.45, kVault);
+    EXPECT_LE(shape.inside().cols(), 1000) << "a grid of 16 edges across";
+}
+
+TEST(FillingShape, FacesOutwardAllOverWhereTheOpenSurfaceFacesInward) {
+    Proxy proxy = filled_box(std::make_shared<const SurfaceMesh>(open_box()));
+    proxy.shown = std::make_shared<const SurfaceMesh>(turned_inside_out(*proxy.shown));
+    EXPECT_NEAR(enclosed_volume(*FillingShape(proxy).closed()), 1.0, kRounding);
 }
 
 /// As a preview's answer would have it, which knows nothing of the filling.

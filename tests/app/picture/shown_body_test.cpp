@@ -119,6 +119,32 @@ TEST_F(ShownBodyTest, EveryFixedSetHasAForceOfItsOwn) {
     EXPECT_GT((told[0].force - told[1].force).norm(), 1e-3 * before.norm());
 }
 
+TEST_F(ShownBodyTest, WhileTheAnswerIsOfAnEarlierSetForcesKeepTheirNames) {
+    state.method = kFem;
+    state.display.arrows = true;
+    std::vector<int> upper;
+    for (const int v : stage.scene().vertices(LiveScene::kFixed))
+        if (stage.scene().mesh().vertices(2, v) > 0.5) upper.push_back(v);
+    stage.scene().unfix(upper);
+    stage.scene().fix(upper, 1);
+    stage.settle();
+    const std::vector<ShownReaction> before = shown(kFem).reactions();
+    ASSERT_THAT(before, SizeIs(3));
+    ASSERT_GT((before[1].force - before[0].force).norm(), 1e-3 * before[0].force.norm());
+    stage.scene().remove_fixed_set(0);
+    state.update_picture();  // no displacements yet
+    const auto& told = shown(kFem).reactions();
+    ASSERT_THAT(told, SizeIs(2));
+    for (std::size_t i : {0, 1}) {
+        EXPECT_EQ(told[i].name, before[i + 1].name);
+        EXPECT_EQ(told[i].fixed, before[i + 1].fixed);
+        EXPECT_EQ(told[i].force, before[i + 1].force);
+    }
+    stage.scene().rename_handle(0, "another");
+    state.update_picture();
+    EXPECT_THAT(shown(kFem).reactions(), SizeIs(1)) << "the answer knows none of that name";
+}
+
 TEST_F(ShownBodyTest, AMotionWithoutASolutionIsToldAndEndsNothing) {
     for (const MethodKind kind : all_methods())
         for (const Field field : {Field::traction, Field::von_mises}) {
