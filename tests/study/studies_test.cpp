@@ -72,6 +72,16 @@ TEST(Studies, GiveTheSameNumbersForTheSameSeed) {
     }
 }
 
+TEST(Trials, KnowTheReactionOfEveryConstrainedVertexOrOfNone) {
+    for (const TrialGroup& group : trial_groups(true))
+        for (const double level : group.levels) {
+            const Problem problem = group.make(level);
+            if (!problem.reactions) continue;
+            EXPECT_EQ(problem.reactions->forces.cols(), std::ssize(problem.constrained)) << group.name << " " << level;
+            EXPECT_EQ(problem.reactions->moments.cols(), std::ssize(problem.constrained)) << group.name << " " << level;
+        }
+}
+
 TEST(Studies, EndInFilesWhateverTheCases) {
     const TemporaryFolder folder;
     const std::vector<std::pair<std::string, std::string>> some = {{"paper", "fem 2"},

@@ -185,6 +185,15 @@ Problem share(double part) {
     for (const int v : choose_numbers(n, static_cast<int>(part * n), 3))
         if (std::find(problem.constrained.begin(), problem.constrained.end(), v) == problem.constrained.end())
             problem.constrained.push_back(v);
+    if (problem.reactions) {  // those at the random ones are none: they are held where they would be by themselves
+        const auto widen = [&](Eigen::Matrix3Xd& columns) {
+            const Eigen::Index before = columns.cols();
+            columns.conservativeResize(3, std::ssize(problem.constrained));
+            columns.rightCols(columns.cols() - before).setZero();
+        };
+        widen(problem.reactions->forces);
+        widen(problem.reactions->moments);
+    }
     return problem;
 }
 
