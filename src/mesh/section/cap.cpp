@@ -89,7 +89,11 @@ private:
         edge_ = std::max({std::min(edge, std::sqrt(area) / kEdgesAcrossCap), finest, 1e-3 * size_});
         // Where sides face opposite ways their areas cancel, though the outline encloses much by parity.
         const double most = std::max(1, max_inside);
-        for (double n = n_grid_points(); n > most; n = n_grid_points()) edge_ *= 1.01 * std::sqrt(n / most);
+        double n = n_grid_points();
+        while (n > most) {
+            edge_ *= 1.01 * std::sqrt(n / most);
+            n = n_grid_points();
+        }
     }
 
     /// Rows of the triangular grid that may meet the outline, and where one does: from and to in turns.
