@@ -34,9 +34,11 @@ protected:
         window->wait();
         window.reset();
     }
-    /// Starts the next viewer, answers its question with these keys, and ends it. What it had then.
-    Document next_session(const std::vector<std::string>& keys) {
-        RealWindow next({"--size", "1000x700", "--scene-out", "out.json"}, folder.path());
+    /// Starts the next viewer with this scene, answers its question with these keys, and ends it. What it had then.
+    Document next_session(const std::vector<std::string>& keys, const std::vector<std::string>& scene = {"cube.json"}) {
+        std::vector<std::string> arguments{"--size", "1000x700", "--scene-out", "out.json"};
+        arguments.insert(arguments.end(), scene.begin(), scene.end());
+        RealWindow next(arguments, folder.path());
         next.settle();
         for (const std::string& key : keys) {
             next.key(key);
@@ -62,7 +64,7 @@ protected:
 TEST_F(RecoveryWindow, WhatAKilledOneHadIsOfferedAndRecovered) {
     start_and_pull();
     kill_it();
-    const Document recovered = next_session({"Return"});
+    const Document recovered = next_session({"Return"}, {});
     ASSERT_EQ(recovered.handles.size(), 1u);
     EXPECT_GT(std::get<AffineMotion>(recovered.handles[0].motion).translate.norm(), 0.01);
     EXPECT_TRUE(kept().empty()) << "that session has ended as it should";
