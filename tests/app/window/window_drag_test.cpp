@@ -285,7 +285,8 @@ TEST(RealDragOfAScan, MovesWithTheMouseAtOnceAndIsWhatSolveComputes) {
         n_vertices += 3;
     }
     scan.close();
-    RealWindow window({"scan.obj", "--size", "1000x700", "--scene-out", "out.json", "--mesh-out", "out.obj"},
+    folder.write("scan.json", R"({"elastolab": 1, "mesh": {"file": "scan.obj"}, "proxy": {"vertices": 700}})");
+    RealWindow window({"scan.json", "--size", "1000x700", "--scene-out", "out.json", "--mesh-out", "out.obj"},
                       folder.path());
     const Screen screen(folder.path() / "scan.obj");
     const Eigen::Vector2d from = screen.pixel(Eigen::Vector3d(0.4, 0.4, 0.75)), to = from + Eigen::Vector2d(60, -40);
