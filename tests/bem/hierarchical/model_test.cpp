@@ -161,6 +161,10 @@ TEST(HierarchicalGalerkin, KeepsAnswersForCombinationsOfThem) {
     EXPECT_THROW(deformer.displace(Eigen::VectorXd::LinSpaced(3 * n, 0.0, 1.0), control), Cancelled);
 }
 
+TEST(HierarchicalGalerkin, AnswersToALooserToleranceFirstAndGoesOnFromThere) {
+    expect_first_answer_and_the_rest(dense(), hierarchical());
+}
+
 TEST(HierarchicalGalerkin, IsChosenForLargeSurfacesOnDemand) {
     // 1260 and 3500 vertices.
     const SurfaceMesh small = make_torus(15), large = make_torus(25);
