@@ -113,6 +113,8 @@ public:
                                Control& control) const override;
     bool iterates() const override { return true; }
 
+    const CollocationProblem& problem() const { return problem_; }
+
 private:
     /// Displacements over tractions.
     Eigen::MatrixXd iterate(const Eigen::MatrixXd& prescribed, const Eigen::MatrixXd& start, double tolerance,
