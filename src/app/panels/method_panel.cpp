@@ -61,7 +61,7 @@ std::string state_words(const ViewerState& state, const Cost& cost) {
         case State::preparing:
             return previewing ? "preview; exact answer on its way" : "preparing what is held and pulled";
         case State::ready:
-            return "ready: pulls are instant";
+            return runner.refined() ? "ready: pulls are instant" : "ready to a residual of 1e-4, being refined";
         case State::failed:
             return "failed";
     }
