@@ -15,6 +15,7 @@ std::string stage_words(std::string_view stage) {
                                                                   {"factorise", "factorising"},
                                                                   {"precondition", "preconditioning"},
                                                                   {"constrain", "preparing what is held"},
+                                                                  {"refine", "refining the answer"},
                                                                   {"solve", "solving"},
                                                                   {"check", "checking"}};
     const auto found = words.find(stage);

@@ -73,13 +73,16 @@ ExportSource export_source(const LiveScene& scene, const EmbeddedRunner& answer)
                         .deformer = nullptr,
                         .values = {},
                         .displacement = answer.displacement(),
-                        .simulated_displacement = {}};
+                        .simulated_displacement = {},
+                        .carried = {}};
     const MethodRunner& runner = answer.runner();
     if (!answer.has_answer() || !answer.shows(scene.mesh()) || !runner.solved()) return source;
     if (answer.proxy() != nullptr) source.proxy = std::make_shared<const Proxy>(*answer.proxy());
     source.deformer = runner.deformer();
     source.values = runner.values();
     source.simulated_displacement = runner.displacement();
+    source.refined = runner.refined();
+    if (!source.refined && answer.carried() != nullptr) source.carried = *answer.carried();
     return source;
 }
 
@@ -90,6 +93,15 @@ void write_moved_mesh(const fs::path& file, const ExportSource& source) {
     if (source.displacement.size() == mesh.vertices.size())
         mesh.vertices += Eigen::Map<const Eigen::Matrix3Xd>(source.displacement.data(), 3, mesh.vertices.cols());
     save_surface(file, mesh);
+}
+
+/// What is shown first is not what is written.
+ExportSource refined(ExportSource source, Control& control) {
+    source.simulated_displacement = source.deformer->displace(source.values, control);
+    source.displacement =
+        source.carried ? source.carried->displacement(source.simulated_displacement) : source.simulated_displacement;
+    source.refined = true;
+    return source;
 }
 
 SolvedBody solved_body(const ExportSource& source) {
@@ -108,6 +120,7 @@ SolvedBody solved_body(const ExportSource& source) {
 }  // namespace
 
 void write_export(const fs::path& file, const ExportSource& source, Control& control) {
+    if (!source.refined) return write_export(file, refined(source, control), control);
     if (source.deformer && is_field_file(file)) return save_field_file(file, solved_body(source), control);
     if (is_field_file(file) && !(file.extension() == ".ply"))
         throw Error(file.string() + ": there is no answer to write yet. Wait until the method is ready.");

@@ -38,6 +38,8 @@ struct ExportSource {
     std::shared_ptr<const Proxy> proxy;        ///< null: shown itself is simulated
     std::shared_ptr<const Deformer> deformer;  ///< null: there is no answer yet
     Eigen::VectorXd values, displacement, simulated_displacement;
+    bool refined = true;                        ///< else displacements are solved for again, to kSolveTolerance
+    std::optional<CarriedConstraints> carried;  ///< to the shown vertices, where that is so and there is a proxy
 };
 ExportSource export_source(const LiveScene& scene, const EmbeddedRunner& answer);
 

@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 void ViewerState::export_mesh(const fs::path& file) {
     const bool is_preview = simulation.previewing(method);
     ExportSource source = export_source(*scene_, simulation.answer(method));
-    if (!is_field_file(file)) {  // the work of a frame
+    if (!is_field_file(file) && source.refined) {  // the work of a frame
         attempt([&] {
             Control never_cancelled;
             write_export(file, source, never_cancelled);

@@ -84,6 +84,15 @@ Sources sources_inside(const Boundary& boundary, std::span<const int> triangles)
     return sources;
 }
 
+void append(Elements& elements, std::span<const Elements::Element> more, int n_slots) {
+    for (Elements::Element element : more) {
+        for (int& slot : element.slots)
+            if (slot >= 0) slot += elements.n_slots;
+        elements.elements.push_back(element);
+    }
+    elements.n_slots += n_slots;
+}
+
 Elements merged(const Elements& elements) {
     Elements result{elements.order, elements.n_slots, {}};
     std::unordered_map<int, std::size_t> last_of_triangle;

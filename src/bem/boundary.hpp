@@ -63,8 +63,11 @@ struct Elements {
     std::vector<Element> elements;
 };
 
-/// The same shape functions with one element a triangle where their slots do not collide: what is integrated over a triangle serves all its
-/// corners.
+/// Adds elements with n_slots slots of their own, which come after those that are there.
+void append(Elements& elements, std::span<const Elements::Element> more, int n_slots);
+
+/// The same shape functions with one element a triangle where their slots do not collide: what is integrated over a
+/// triangle serves all its corners.
 Elements merged(const Elements& elements);
 
 /// All triangles; slot = vertex number, hat functions.

@@ -117,7 +117,7 @@ NodeSolution solve_by_galerkin(const RimProblem& problem, double poisson_ratio, 
             std::make_shared<const HierarchicalSystem>(fine, poisson_ratio, reference_method(), stages, control);
         const GalerkinTractions tractions(fine, system->surfaces(), problem.vertices);
         return HierarchicalSolver(system, problem.vertices, tractions, true, control)
-            .solve_watched(problem.values, true, control);
+            .solve_watched(problem.values, true, kSolveTolerance, control);
     }
     const GalerkinSystem system(std::make_shared<const Boundary>(fine), poisson_ratio, reference_method(), nullptr,
                                 stages, control);

@@ -204,12 +204,7 @@ std::vector<Columns::Block> BemSystem::compute(const std::vector<const TractionS
         std::vector<int> residuals;
         std::size_t end = begin;
         for (; end < missing.size() && 3 * (loads.n_slots + std::ssize(residuals)) < kRightSidesAtOnce; ++end) {
-            for (Elements::Element element : missing[end]->elements) {
-                for (int& slot : element.slots)
-                    if (slot >= 0) slot += loads.n_slots;
-                loads.elements.push_back(element);
-            }
-            loads.n_slots += missing[end]->n_slots;
+            append(loads, missing[end]->elements, missing[end]->n_slots);
             if (missing[end]->n_slots == 0) residuals.push_back(missing[end]->key.back());
         }
         Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(n + 6, 3 * (loads.n_slots + std::ssize(residuals)));

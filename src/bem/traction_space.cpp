@@ -26,12 +26,7 @@ public:
     }
 
     void add_block(TractionSpace::Block block) {
-        for (Elements::Element element : block.elements) {
-            for (int& slot : element.slots)
-                if (slot >= 0) slot += space_.elements.n_slots;
-            space_.elements.elements.push_back(element);
-        }
-        space_.elements.n_slots += block.n_slots;
+        append(space_.elements, block.elements, block.n_slots);
         space_.blocks.push_back(std::move(block));
     }
 

@@ -27,7 +27,7 @@ Eigen::MatrixXd conjugate_gradients(const LinearOperator& A, const LinearOperato
                                     const Eigen::MatrixXd& B, const IterationOptions& options, const char* name,
                                     Control& control, IterationReport* report) {
     // Columns of unit size: whatever the units, no square over- or underflows.
-    Eigen::MatrixXd X = Eigen::MatrixXd::Zero(B.rows(), B.cols()), R = B;
+    Eigen::MatrixXd R = B;
     Eigen::RowVectorXd size(B.cols());
     std::vector<char> done(static_cast<std::size_t>(B.cols()), 0);
     for (Eigen::Index c = 0; c < B.cols(); ++c) {
@@ -37,6 +37,9 @@ Eigen::MatrixXd conjugate_gradients(const LinearOperator& A, const LinearOperato
         else
             done[static_cast<std::size_t>(c)] = 1;
     }
+    Eigen::MatrixXd X = scaled_start(options.start, B.rows(), size);
+    if (report != nullptr) *report = {0, 1.0};  // of the right side itself, whose product is to be exact
+    if (!X.isZero(0.0)) R -= A.product(X);
     const auto worst = [&] {
         double largest = 0.0;
         for (Eigen::Index c = 0; c < B.cols(); ++c) {

@@ -9,13 +9,14 @@
 namespace elastolab {
 
 struct IterationOptions {
-    double tolerance = 1e-8;  ///< of the residual, relative to the right side, Euclidean, for each column
+    double tolerance = kSolveTolerance;  ///< of the residual, relative to the right side, Euclidean, for each column
+    Eigen::MatrixXd start = {};          ///< what may be near X; empty: zero
     int max_iterations = 1000;
 };
 
 /// X with A X = B for A symmetric positive definite (or semidefinite, with B in its range), by conjugate gradients, all
 /// columns at once: each has its own iteration, but they share the products. `preconditioner`: symmetric positive
-/// definite, about A^-1. Starts at zero. `report` is kept up to date: an operator may read there how exact a product
+/// definite, about A^-1. `report` is kept up to date: an operator may read there how exact a product
 /// must be, since errors in late products matter less (Simoncini and Szyld 2003, van den Eshof and Sleijpen 2004).
 /// Tells `control` its progress, and may be cancelled in every iteration. Throws SolveError naming `name` when the
 /// tolerance is not reached, Cancelled.

@@ -176,20 +176,25 @@ Eigen::MatrixXd Deformer::displace_all(const Eigen::MatrixXd& values) const {
     return displace_all(values, control);
 }
 
-Eigen::MatrixXd Deformer::displace_all(const Eigen::MatrixXd& values, Control& control) const {
+Eigen::MatrixXd Deformer::displace_all(const Eigen::MatrixXd& values, Control& control, double tolerance) const {
     assert(values.rows() == 3 * std::ssize(set_.handles));
     Eigen::MatrixXd u = Eigen::MatrixXd::Zero(3 * model_->facts().n_vertices, values.cols());
     for (std::size_t s = 0; s < solids_.size(); ++s)
         if (const ConstrainedSolid* solid = solids_[s].solid.get())
-            place(s, solid->displacements(solid->solve(solids_[s].values(values), false, control)), u);
+            place(s, solid->displacements(solid->solve(solids_[s].values(values), false, tolerance, control)), u);
     require_finite(u);
     return u;
 }
 
 Eigen::VectorXd Deformer::displace(const Eigen::VectorXd& values) const { return displace_all(values); }
 
-Eigen::VectorXd Deformer::displace(const Eigen::VectorXd& values, Control& control) const {
-    return displace_all(values, control);
+Eigen::VectorXd Deformer::displace(const Eigen::VectorXd& values, Control& control, double tolerance) const {
+    return displace_all(values, control, tolerance);
+}
+
+bool Deformer::iterates() const {
+    return std::any_of(solids_.begin(), solids_.end(),
+                       [](const SolidState& state) { return state.solid && state.solid->iterates(); });
 }
 
 DragResponse Deformer::drag_response(const Eigen::VectorXd& values, const Eigen::MatrixXd& basis) const {
@@ -197,11 +202,11 @@ DragResponse Deformer::drag_response(const Eigen::VectorXd& values, const Eigen:
     return drag_response(values, basis, control);
 }
 
-DragResponse Deformer::drag_response(const Eigen::VectorXd& values, const Eigen::MatrixXd& basis,
-                                     Control& control) const {
+DragResponse Deformer::drag_response(const Eigen::VectorXd& values, const Eigen::MatrixXd& basis, Control& control,
+                                     double tolerance) const {
     Eigen::MatrixXd all(values.size(), basis.cols() + 1);
     all << values, basis;
-    const Eigen::MatrixXd u = displace_all(all, control);
+    const Eigen::MatrixXd u = displace_all(all, control, tolerance);
     return {u.col(0), u.rightCols(basis.cols())};
 }
 
@@ -245,7 +250,8 @@ std::shared_ptr<const InteriorField> Deformer::inside(const Eigen::MatrixXd& val
         for (const int v : part.vertices) part_of_vertex[static_cast<std::size_t>(v)] = static_cast<int>(s);
         parts.push_back({nullptr, part.origin, part.scale});
         if (const ConstrainedSolid* solid = solids_[s].solid.get())
-            parts.back().field = solid->inside(solid->solve(solids_[s].values(values), true, control), control);
+            parts.back().field =
+                solid->inside(solid->solve(solids_[s].values(values), true, kSolveTolerance, control), control);
     }
     const Body& body = model_->body();
     std::vector<int> part_of_triangle;
@@ -292,7 +298,7 @@ Deformer::Answer Deformer::answer(const Eigen::VectorXd& values, Wanted wanted, 
     for (std::size_t s = 0; s < solids_.size(); ++s) {
         const ConstrainedSolid* solid = solids_[s].solid.get();
         if (solid == nullptr) continue;
-        NodeSolution solution = solid->solve(solids_[s].values(unit_values), true, control);
+        NodeSolution solution = solid->solve(solids_[s].values(unit_values), true, kSolveTolerance, control);
         add_reactions(s, solid->reactions(solution), answer.reactions);
         if (wanted.residual) answer.residual = std::max(*answer.residual, solid->residual(solution, control));
         if (wanted.check) {

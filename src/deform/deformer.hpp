@@ -10,6 +10,7 @@
 
 #include "base/control.hpp"
 #include "deform/interior_field.hpp"
+#include "deform/iteration.hpp"
 #include "deform/model.hpp"
 
 namespace elastolab {
@@ -81,18 +82,24 @@ public:
     /// 3*set().handles.size(), node-major, in the order of set().handles. A solid with no constrained vertex rests.
     /// Throws SolveError when the result is not finite.
     Eigen::VectorXd displace(const Eigen::VectorXd& values) const;
-    /// The same where solving may take long (large surfaces by iteration): tells its progress. Throws Cancelled.
-    Eigen::VectorXd displace(const Eigen::VectorXd& values, Control& control) const;
+    /// The same where solving may take long (large surfaces by iteration, to this relative residual): tells its
+    /// progress. Throws Cancelled.
+    Eigen::VectorXd displace(const Eigen::VectorXd& values, Control& control, double tolerance = kSolveTolerance) const;
 
     /// The same for many columns of values at once: 3*n_vertices x values.cols().
     Eigen::MatrixXd displace_all(const Eigen::MatrixXd& values) const;
-    Eigen::MatrixXd displace_all(const Eigen::MatrixXd& values, Control& control) const;
+    Eigen::MatrixXd displace_all(const Eigen::MatrixXd& values, Control& control,
+                                 double tolerance = kSolveTolerance) const;
+    /// Whether solutions depend on that tolerance: else they are as exact as rounding lets them be. What is solved for
+    /// to a small one starts from what is known to a larger one.
+    bool iterates() const;
 
     /// Response to motions of some handles: `values` are the present ones (as in displace), each column of `basis`
     /// (same rows) a motion; for a rigid translation three columns that repeat the unit vectors at the handle's
     /// vertices. rest = displace(values).
     DragResponse drag_response(const Eigen::VectorXd& values, const Eigen::MatrixXd& basis) const;
-    DragResponse drag_response(const Eigen::VectorXd& values, const Eigen::MatrixXd& basis, Control& control) const;
+    DragResponse drag_response(const Eigen::VectorXd& values, const Eigen::MatrixXd& basis, Control& control,
+                               double tolerance = kSolveTolerance) const;
 
     /// Reactions at the base vertices, then at the handle vertices, for these values.
     Reactions reactions(const Eigen::VectorXd& values) const;

@@ -126,7 +126,8 @@ Eigen::MatrixXd gmres(const LinearOperator& A, const LinearOperator& preconditio
                       const GmresOptions& options, const char* name, Control& control, IterationReport* report) {
     Eigen::RowVectorXd size;
     const Eigen::MatrixXd unit = normalised(B, size);  // whatever the units, no square over- or underflows
-    Eigen::MatrixXd X = Eigen::MatrixXd::Zero(B.rows(), B.cols()), R = unit;
+    Eigen::MatrixXd X = scaled_start(options.start, B.rows(), size), R = unit;
+    if (!X.isZero(0.0)) R -= A.product(X);
     int iterations = 0;
     double residual = largest_size(R);
     if (!std::isfinite(residual)) give_up_iteration(name, residual);

@@ -4,6 +4,7 @@
 
 #include "base/control.hpp"
 #include "base/error.hpp"
+#include "deform/iteration.hpp"
 
 namespace elastolab {
 
@@ -37,10 +38,14 @@ public:
 
     /// prescribed  3*n_constrained_nodes x m, in the order of the constrained nodes
     virtual NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const = 0;
-    /// The same; where it iterates, it tells its progress and can be cancelled. Throws SolveError, Cancelled.
-    virtual NodeSolution solve_watched(const Eigen::MatrixXd& prescribed, bool want_loads, Control&) const {
+    /// The same; where it iterates, to this relative residual, it tells its progress and can be cancelled. Throws
+    /// SolveError, Cancelled.
+    virtual NodeSolution solve_watched(const Eigen::MatrixXd& prescribed, bool want_loads, double /*tolerance*/,
+                                       Control&) const {
         return solve(prescribed, want_loads);
     }
+    /// False where solutions are as exact as rounding lets them be, whatever the tolerance.
+    virtual bool iterates() const { return false; }
 
     /// Condition number of the system that is solved, 1-norm, estimated.
     double condition() const { return condition_; }

@@ -26,14 +26,15 @@ ConstrainedSolid::ConstrainedSolid(int n_vertices, ConstrainedNodes nodes, std::
       solver_(std::move(solver)),
       checks_(std::move(checks)) {}
 
-NodeSolution ConstrainedSolid::solve(const Eigen::MatrixXd& values, bool want_loads, Control& control) const {
+NodeSolution ConstrainedSolid::solve(const Eigen::MatrixXd& values, bool want_loads, double tolerance,
+                                     Control& control) const {
     assert(values.rows() == nodes_.prescribe.cols());
-    return solver_->solve_watched(nodes_.prescribe * values, want_loads, control);
+    return solver_->solve_watched(nodes_.prescribe * values, want_loads, tolerance, control);
 }
 
 NodeSolution ConstrainedSolid::solve(const Eigen::MatrixXd& values, bool want_loads) const {
     Control control;
-    return solve(values, want_loads, control);
+    return solve(values, want_loads, kSolveTolerance, control);
 }
 
 Eigen::MatrixXd ConstrainedSolid::displacements(NodeSolution&& solution) const {

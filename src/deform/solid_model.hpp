@@ -62,8 +62,9 @@ public:
                      SolutionChecks checks);
 
     /// values: 3*n_constrained x m, base (zero) first, then handles.
-    NodeSolution solve(const Eigen::MatrixXd& values, bool want_loads, Control& control) const;
+    NodeSolution solve(const Eigen::MatrixXd& values, bool want_loads, double tolerance, Control& control) const;
     NodeSolution solve(const Eigen::MatrixXd& values, bool want_loads) const;
+    bool iterates() const { return solver_->iterates(); }
     /// Displacements of the vertices out of a solution, 3*n_vertices x m.
     Eigen::MatrixXd displacements(NodeSolution&& solution) const;
     /// Forces and moments at the constrained vertices, for the first column of a solution with loads.

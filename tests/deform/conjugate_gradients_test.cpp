@@ -45,6 +45,27 @@ TEST(ConjugateGradients, AgreeWithAFactorisationForColumnsOfAnySize) {
     EXPECT_DOUBLE_EQ(control.progress(), 1.0);
 }
 
+TEST(ConjugateGradients, GoOnFromWhatIsKnownLessExactly) {
+    const Eigen::MatrixXd A = positive_definite(60);
+    Eigen::MatrixXd B = Eigen::MatrixXd::Random(60, 3);
+    B.col(1) *= 1e200;
+    B.col(2).setZero();
+    const Eigen::MatrixXd truth = A.llt().solve(B);
+    const DenseOperator matrix(A), scaled(A.diagonal().cwiseInverse().asDiagonal());
+    Control control;
+    IterationReport first, rest, all, none;
+    const Eigen::MatrixXd coarse = conjugate_gradients(matrix, scaled, B, {.tolerance = 1e-4}, "A", control, &first);
+    const Eigen::MatrixXd X = conjugate_gradients(matrix, scaled, B, {.start = coarse}, "A", control, &rest);
+    conjugate_gradients(matrix, scaled, B, {}, "A", control, &all);
+    EXPECT_GT(first.iterations, 3);
+    EXPECT_LT(rest.iterations, all.iterations);
+    for (int c = 0; c < 2; ++c)
+        EXPECT_LT((X.col(c) - truth.col(c)).stableNorm(), 1e-5 * truth.col(c).stableNorm()) << c;
+    EXPECT_EQ(X.col(2), Eigen::VectorXd::Zero(60));
+    conjugate_gradients(matrix, scaled, B, {.start = truth}, "A", control, &none);
+    EXPECT_EQ(none.iterations, 0);
+}
+
 TEST(ConjugateGradients, NeedOneIterationWithTheInverse) {
     const Eigen::MatrixXd A = positive_definite(30);
     Control control;

@@ -67,6 +67,24 @@ TEST(Gmres, SolvesWhatIsNotSymmetricColumnByColumn) {
     EXPECT_LE(report.residual, 1e-12);
 }
 
+TEST(Gmres, GoesOnFromWhatIsKnownLessExactly) {
+    const int n = 60;
+    const Eigen::MatrixXd A = skewed(n), B = right_sides(n), truth = A.partialPivLu().solve(B);
+    const Dense dense(A), diagonal(A.diagonal().cwiseInverse().asDiagonal());
+    Control control;
+    IterationReport first, rest, all, none;
+    const Eigen::MatrixXd coarse = gmres(dense, diagonal, B, {.tolerance = 1e-4}, "test", control, &first);
+    const Eigen::MatrixXd X = gmres(dense, diagonal, B, {.start = coarse}, "test", control, &rest);
+    gmres(dense, diagonal, B, {}, "test", control, &all);
+    EXPECT_GT(first.iterations, 3);
+    EXPECT_LE(rest.iterations + 2, all.iterations);
+    for (int c = 0; c < 2; ++c)
+        EXPECT_LT((X.col(c) - truth.col(c)).stableNorm(), 1e-6 * truth.col(c).stableNorm()) << c;
+    EXPECT_EQ(X.col(2).cwiseAbs().maxCoeff(), 0.0);
+    gmres(dense, diagonal, B, {.start = truth}, "test", control, &none);
+    EXPECT_EQ(none.iterations, 0);
+}
+
 TEST(Gmres, BeginsAnewWhenItsBasisIsUsedUp) {
     const int n = 60;
     const Eigen::MatrixXd A = skewed(n), B = right_sides(n).leftCols(1), truth = A.partialPivLu().solve(B);

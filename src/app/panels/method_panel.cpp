@@ -61,7 +61,8 @@ std::string state_words(const ViewerState& state, const Cost& cost) {
         case State::preparing:
             return previewing ? "preview; exact answer on its way" : "preparing what is held and pulled";
         case State::ready:
-            return "ready: pulls are instant";
+            if (runner.refined()) return "ready: pulls are instant";
+            return "ready, exact to " + number_text(runner.tolerance()) + (runner.refining() ? "; being refined" : "");
         case State::failed:
             return "failed";
     }

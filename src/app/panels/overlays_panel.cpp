@@ -47,8 +47,9 @@ std::string source_words(const ViewerState& state, MethodKind kind) {
                                    : simulation.waiting()           ? "waiting"
                                                                     : "not computed");
     const Proxy* proxy = simulation.embedded(kind).proxy();
-    if (proxy != nullptr && proxy->is_filled()) return kDash + std::string("holes filled");
-    return proxy ? kDash + ("on a proxy of " + count_text(proxy->surface->n_vertices()) + " vertices") : "";
+    if (!runner.refined()) text = kDash + std::string("exact to ") + number_text(runner.tolerance());
+    if (proxy != nullptr && proxy->is_filled()) return text + kDash + "holes filled";
+    return proxy ? text + kDash + "on a proxy of " + count_text(proxy->surface->n_vertices()) + " vertices" : text;
 }
 
 /// Whose answer a viewport shows, how it is doing, how far it is from the reference, and what else is to be said.

@@ -65,6 +65,7 @@ void ReactionRunner::poll() {
 void ReactionRunner::update(const MethodRunner& runner) {
     poll();
     if (latest_.surface && latest_.surface.get() != runner.surface()) forget();
+    if (runner.refining()) return;  // by the iteration that these need too, which keeps its solutions
     const std::shared_ptr<const Deformer>& deformer = runner.deformer();
     if (!deformer || runner.values().size() != 3 * std::ssize(deformer->set().handles)) return;
     const bool same_set = deformer_.lock() == deformer;

@@ -198,6 +198,7 @@ void SectionRunner::update(const EmbeddedRunner& answer, const std::shared_ptr<c
     if (same && (job_.running() || !failure_.empty())) return;
     const bool spanned = latest_ && spans(*latest_->basis, values);
     if (same && spanned && latest_->n_known == shape->n_inside()) return;
+    if (runner.refining()) return;  // by the iteration that these need too, which keeps its solutions
     Columns next;
     if (spanned) {
         next = *latest_;

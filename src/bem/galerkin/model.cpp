@@ -99,8 +99,8 @@ std::uint64_t GalerkinModel::check_memory(std::span<const int> base, std::span<c
 void GalerkinModel::visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const {
     const auto dense = system_->dense();
     if (!dense) return;
-    visit({"D", dense->K, {kNodalStiffness}});
-    visit({"Dplus", dense->D(), {kNodalCompliance}});
+    visit({"D", dense->D, {kNodalStiffness}});
+    visit({"Dplus", dense->pseudo_inverse, {kNodalCompliance}});
 }
 
 }  // namespace elastolab

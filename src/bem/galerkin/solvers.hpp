@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bem/galerkin/system.hpp"
+#include "deform/dense_solvers.hpp"
 #include "deform/node_solver.hpp"
 #include "deform/reduced_solver.hpp"
 

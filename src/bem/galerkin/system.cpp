@@ -211,9 +211,7 @@ void GalerkinSystem::finish(Eigen::MatrixXd& y, const Eigen::MatrixXd& f) const 
 
 void GalerkinSystem::complete(Eigen::MatrixXd D, StageTimes& stages, Control& control) {
     const Stage stage("D^+", control, stages);
-    auto dense = std::make_shared<DenseOperators>();
-    const Eigen::Index n = size(), n_border = surfaces_.rigid.cols();
-    dense->Khatinv = Eigen::MatrixXd::Zero(n + n_border, n + n_border);
+    const Eigen::Index n = size();
     Eigen::MatrixXd inverse = Eigen::MatrixXd::Identity(n, n);
     constexpr Eigen::Index kAtOnce = 384;
     for (Eigen::Index first = 0; first < n; first += kAtOnce) {
@@ -222,11 +220,7 @@ void GalerkinSystem::complete(Eigen::MatrixXd D, StageTimes& stages, Control& co
         control.checkpoint();
     }
     inverse.noalias() -= surfaces_.rigid * surfaces_.rigid.transpose() / shift_;
-    dense->Khatinv.topLeftCorner(n, n) = inverse;
-    dense->Khatinv.topRightCorner(n, n_border) = surfaces_.rigid;
-    dense->Khatinv.bottomLeftCorner(n_border, n) = surfaces_.rigid.transpose();
-    dense->K = std::move(D);
-    dense_ = std::move(dense);
+    dense_ = std::make_shared<const DenseHypersingular>(DenseHypersingular{std::move(D), std::move(inverse)});
 }
 
 std::uint64_t GalerkinSystem::memory_bytes() const {

@@ -10,10 +10,14 @@
 #include "bem/galerkin/hypersingular.hpp"
 #include "bem/galerkin/tractions.hpp"
 #include "deform/columns.hpp"
-#include "deform/dense_solvers.hpp"
 #include "deform/method.hpp"
 
 namespace elastolab {
+
+/// The hypersingular matrix and its pseudo-inverse.
+struct DenseHypersingular {
+    Eigen::MatrixXd D, pseudo_inverse;  ///< 3V square, zero for rigid motions of each closed surface
+};
 
 /// The symmetric Galerkin equations of one solid with unit Young's modulus (docs/formulation.md section 7):
 ///   V t = K u  on the tractions of a constrained set,    D u + K^T t = R,   R zero at free vertices
@@ -49,8 +53,8 @@ public:
     /// a. With Y = L^-1 Z and F = C^T Z: Z^T D^+ Z = Y^T Y - F^T F / a.
     double shift() const { return shift_; }
 
-    /// D and D^+; only in the mode `full`, else null.
-    std::shared_ptr<const DenseOperators> dense() const { return dense_; }
+    /// Only in the mode `full`, else null.
+    std::shared_ptr<const DenseHypersingular> dense() const { return dense_; }
 
 private:
     /// D as integrated, not yet projected.
@@ -67,7 +71,7 @@ private:
     std::shared_ptr<const HypersingularParts> parts_;
     double shift_ = 1.0;
     CholeskyFactorization factor_;
-    std::shared_ptr<const DenseOperators> dense_;
+    std::shared_ptr<const DenseHypersingular> dense_;
     std::unique_ptr<ColumnCache> cache_;
 };
 

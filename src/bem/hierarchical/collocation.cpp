@@ -21,7 +21,6 @@ namespace {
 constexpr double kFarError = 10000.0, kMostFarError = 1e-4, kEta = 2.5;
 /// Columns that are iterated for at once: each has a basis of its own.
 constexpr Eigen::Index kColumnsIterated = 4;
-constexpr double kGmresResidual = 1e-8;
 
 std::vector<int> without(const std::vector<int>& numbers, const std::vector<int>& left_out) {
     std::vector<int> sorted = left_out, kept;
@@ -136,6 +135,12 @@ Eigen::MatrixXd CollocationProblem::assemble_answer(const Eigen::MatrixXd& presc
     return answer;
 }
 
+Eigen::MatrixXd CollocationProblem::unknowns_of(const Eigen::MatrixXd& answer) const {
+    Eigen::MatrixXd X(size(), answer.cols());
+    X << rows_of(answer, free_), answer.bottomRows(3 * n_slots()) / traction_scale_;
+    return X;
+}
+
 Eigen::MatrixXd CollocationProblem::block(const std::vector<int>& numbers) const {
     const int n_at = static_cast<int>(at_.size());
     std::vector<int> vertices, slots, at, interior, everywhere;
@@ -174,24 +179,31 @@ CollocationSolver::~CollocationSolver() = default;
 
 NodeSolution CollocationSolver::solve(const Eigen::MatrixXd& prescribed, bool want_loads) const {
     Control control;
-    return solve_watched(prescribed, want_loads, control);
+    return solve_watched(prescribed, want_loads, kSolveTolerance, control);
 }
 
-NodeSolution CollocationSolver::solve_watched(const Eigen::MatrixXd& prescribed, bool want_loads,
+Eigen::MatrixXd CollocationSolver::iterate(const Eigen::MatrixXd& prescribed, const Eigen::MatrixXd& start,
+                                           double tolerance, Control& control) const {
+    Eigen::MatrixXd answers(start.rows(), prescribed.cols());
+    for (Eigen::Index first = 0; first < prescribed.cols(); first += kColumnsIterated) {
+        const Eigen::Index count = std::min(kColumnsIterated, prescribed.cols() - first);
+        const Eigen::MatrixXd some = prescribed.middleCols(first, count);
+        const Eigen::MatrixXd X =
+            gmres(problem_, *preconditioner_, problem_.right_side(some),
+                  {.tolerance = tolerance, .start = problem_.unknowns_of(start.middleCols(first, count))},
+                  "boundary equations", control);
+        answers.middleCols(first, count) = problem_.assemble_answer(some, X);
+    }
+    return answers;
+}
+
+NodeSolution CollocationSolver::solve_watched(const Eigen::MatrixXd& prescribed, bool want_loads, double tolerance,
                                               Control& control) const {
     const Eigen::Index n = 3 * problem_.n_vertices();
-    const auto iterate = [&](const Eigen::MatrixXd& new_ones) {
-        Eigen::MatrixXd answers(n + 3 * problem_.n_slots(), new_ones.cols());
-        for (Eigen::Index first = 0; first < new_ones.cols(); first += kColumnsIterated) {
-            const Eigen::Index count = std::min(kColumnsIterated, new_ones.cols() - first);
-            const Eigen::MatrixXd some = new_ones.middleCols(first, count);
-            const Eigen::MatrixXd X = gmres(problem_, *preconditioner_, problem_.right_side(some),
-                                            {.tolerance = kGmresResidual}, "boundary equations", control);
-            answers.middleCols(first, count) = problem_.assemble_answer(some, X);
-        }
-        return answers;
-    };
-    const Eigen::MatrixXd answer = recycled_.get(prescribed, n + 3 * problem_.n_slots(), iterate);
+    const Eigen::MatrixXd answer = recycled_.get(prescribed, n + 3 * problem_.n_slots(), tolerance,
+                                                 [&](const Eigen::MatrixXd& new_ones, const Eigen::MatrixXd& start) {
+                                                     return iterate(new_ones, start, tolerance, control);
+                                                 });
     NodeSolution solution{answer.topRows(n), {}};
     if (want_loads) solution.loads = answer.bottomRows(answer.rows() - n);
     return solution;

@@ -70,6 +70,8 @@ public:
     Eigen::MatrixXd right_side(const Eigen::MatrixXd& prescribed) const;
     /// Displacements of all vertices over the tractions of all slots, from a solution.
     Eigen::MatrixXd assemble_answer(const Eigen::MatrixXd& prescribed, const Eigen::MatrixXd& X) const;
+    /// The solution that such an answer is made of.
+    Eigen::MatrixXd unknowns_of(const Eigen::MatrixXd& answer) const;
 
     bool holds_the_body() const { return free_motions_.cols() == 0; }
     int n_vertices() const { return matrices_->elements().n_slots(); }
@@ -107,9 +109,17 @@ public:
     ~CollocationSolver() override;
 
     NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const override;
-    NodeSolution solve_watched(const Eigen::MatrixXd& prescribed, bool want_loads, Control& control) const override;
+    NodeSolution solve_watched(const Eigen::MatrixXd& prescribed, bool want_loads, double tolerance,
+                               Control& control) const override;
+    bool iterates() const override { return true; }
+
+    const CollocationProblem& problem() const { return problem_; }
 
 private:
+    /// Displacements over tractions.
+    Eigen::MatrixXd iterate(const Eigen::MatrixXd& prescribed, const Eigen::MatrixXd& start, double tolerance,
+                            Control& control) const;
+
     CollocationProblem problem_;
     std::unique_ptr<const LinearOperator> preconditioner_;
     mutable RecycledSolutions recycled_;

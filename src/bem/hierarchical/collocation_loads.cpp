@@ -11,15 +11,6 @@ namespace elastolab {
 
 namespace {
 
-void append_slots(const TractionSpace::Block& block, Elements& elements) {
-    for (Elements::Element element : block.elements) {
-        for (int& slot : element.slots)
-            if (slot >= 0) slot += elements.n_slots;
-        elements.elements.push_back(element);
-    }
-    elements.n_slots += block.n_slots;
-}
-
 /// How many slots of a space a generation and those before it have.
 int n_known(const LoadGeneration& generation, const TractionSpace& space) {
     int n = 0;
@@ -53,8 +44,8 @@ LoadGeneration::LoadGeneration(const HierarchicalCollocation& matrices, const Tr
     Elements added{elements.order, 0, {}};
     for (const TractionSpace::Block& block : space.blocks) {
         if (block.n_slots == 0 || !slots.try_emplace(block.key, elements.n_slots).second) continue;
-        append_slots(block, elements);
-        append_slots(block, added);
+        append(elements, block.elements, block.n_slots);
+        append(added, block.elements, block.n_slots);
     }
     std::vector<int> triangles;
     for (const int t : space.interior_triangles)
@@ -86,8 +77,7 @@ CollocationLoads::CollocationLoads(const HierarchicalCollocation& matrices, cons
         for (int s = 0; s < block.n_slots; ++s) slots_.push_back(last->slots.at(block.key) + s);
     for (const int t : space.interior_triangles)
         for (int k = 0; k < 3; ++k) points_.push_back(last->points.at(t) + k);
-    for (; last; last = last->before) generations_.push_back(last);
-    std::reverse(generations_.begin(), generations_.end());
+    generations_ = chain_of(std::move(last));
 }
 
 /// multiply(layer, some rows of tractions): of each generation; summed, and gathered for the set.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <mutex>
 #include <utility>
@@ -9,6 +10,15 @@ namespace elastolab {
 
 /// Generations of one set: each costs some small blocks more.
 constexpr int kMostGenerations = 3;
+
+/// A generation and those before it, oldest first.
+template <class Generation>
+std::vector<std::shared_ptr<const Generation>> chain_of(std::shared_ptr<const Generation> last) {
+    std::vector<std::shared_ptr<const Generation>> chain;
+    for (; last; last = last->before) chain.push_back(last);
+    std::reverse(chain.begin(), chain.end());
+    return chain;
+}
 
 /// Of some generations and those before them (members: before, depth, n_items(), those of all before included), the one
 /// that leaves least of `n_wanted` items to compute, or null. n_known: how many of the wanted a generation has. What a

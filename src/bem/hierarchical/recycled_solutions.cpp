@@ -20,46 +20,61 @@ Eigen::MatrixXd beside(const Eigen::MatrixXd& left, const Eigen::MatrixXd& right
 
 }  // namespace
 
-Eigen::MatrixXd RecycledSolutions::get(const Eigen::MatrixXd& right_hand_sides, Eigen::Index n_rows,
-                                       const std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)>& compute) {
-    Eigen::MatrixXd solutions(n_rows, right_hand_sides.cols());
-    const std::vector<Eigen::Index> others = combine(right_hand_sides, solutions);
+Eigen::MatrixXd RecycledSolutions::get(const Eigen::MatrixXd& right_hand_sides, Eigen::Index n_rows, double tolerance,
+                                       const Compute& compute) {
+    Eigen::MatrixXd solutions = Eigen::MatrixXd::Zero(n_rows, right_hand_sides.cols());
+    const Columns others = combine(right_hand_sides, tolerance, solutions);
     if (others.empty()) return solutions;
-    const Eigen::MatrixXd new_sides = right_hand_sides(Eigen::all, others), computed = compute(new_sides);
+    const Eigen::MatrixXd new_sides = right_hand_sides(Eigen::all, others);
+    const Eigen::MatrixXd computed = compute(new_sides, solutions(Eigen::all, others));
     solutions(Eigen::all, others) = computed;
-    keep(new_sides, computed);
+    if (new_sides.allFinite() && computed.allFinite()) {
+        const std::scoped_lock lock(mutex_);
+        kept_[tolerance].add(new_sides, computed);
+    }
     return solutions;
 }
 
-std::vector<Eigen::Index> RecycledSolutions::combine(const Eigen::MatrixXd& right_hand_sides,
-                                                     Eigen::MatrixXd& solutions) {
-    const std::scoped_lock lock(mutex_);
-    std::vector<Eigen::Index> others;
-    Eigen::MatrixXd shares(right_hand_sides_.cols(), right_hand_sides.cols()), missed = -right_hand_sides;
-    if (shares.rows() > 0) {
-        shares = solve_minimum_norm(right_hand_sides_, right_hand_sides, kCombined).X;
-        missed.noalias() += right_hand_sides_ * shares;
-    }
+/// Returns the columns that are not known to the tolerance; there, solutions are what is known most exactly.
+RecycledSolutions::Columns RecycledSolutions::combine(const Eigen::MatrixXd& right_hand_sides, double tolerance,
+                                                      Eigen::MatrixXd& solutions) {
+    Columns others;
     for (Eigen::Index c = 0; c < right_hand_sides.cols(); ++c)
-        if (!(missed.col(c).stableNorm() <=
-              kCombined * right_hand_sides.col(c).stableNorm()))  // nor if it is not finite
-            others.push_back(c);
-        else if (shares.rows() > 0)
-            solutions.col(c) = solutions_ * shares.col(c);
-        else
-            solutions.col(c).setZero();
+        if (!right_hand_sides.col(c).isZero(0.0)) others.push_back(c);
+    const std::scoped_lock lock(mutex_);
+    const auto first_coarse = kept_.upper_bound(tolerance);
+    for (auto kept = kept_.begin(); kept != first_coarse; ++kept)
+        others = kept->second.combine(right_hand_sides, others, solutions);
+    Columns unknown = others;
+    for (auto kept = first_coarse; kept != kept_.end(); ++kept)
+        unknown = kept->second.combine(right_hand_sides, unknown, solutions);
     return others;
 }
 
-void RecycledSolutions::keep(const Eigen::MatrixXd& right_hand_sides, const Eigen::MatrixXd& solutions) {
-    if (!right_hand_sides.allFinite() || !solutions.allFinite()) return;
-    const std::scoped_lock lock(mutex_);
-    if (right_hand_sides_.cols() + solutions.cols() <= kMostKept) {
-        right_hand_sides_ = beside(right_hand_sides_, right_hand_sides);
-        solutions_ = beside(solutions_, solutions);
-    } else if (solutions.cols() <= kMostKept) {
-        right_hand_sides_ = right_hand_sides;
-        solutions_ = solutions;
+RecycledSolutions::Columns RecycledSolutions::Kept::combine(const Eigen::MatrixXd& sides, const Columns& columns,
+                                                            Eigen::MatrixXd& answers) const {
+    if (columns.empty()) return {};
+    const Eigen::MatrixXd wanted = sides(Eigen::all, columns);
+    const Eigen::MatrixXd shares = solve_minimum_norm(right_hand_sides, wanted, kCombined).X;
+    const Eigen::MatrixXd missed = right_hand_sides * shares - wanted;
+    Columns others;
+    for (Eigen::Index c = 0; c < wanted.cols(); ++c) {
+        const Eigen::Index column = columns[static_cast<std::size_t>(c)];
+        if (missed.col(c).stableNorm() <= kCombined * wanted.col(c).stableNorm())
+            answers.col(column) = solutions * shares.col(c);
+        else  // or it is not finite
+            others.push_back(column);
+    }
+    return others;
+}
+
+void RecycledSolutions::Kept::add(const Eigen::MatrixXd& sides, const Eigen::MatrixXd& answers) {
+    if (right_hand_sides.cols() + sides.cols() <= kMostKept) {
+        right_hand_sides = beside(right_hand_sides, sides);
+        solutions = beside(solutions, answers);
+    } else if (sides.cols() <= kMostKept) {
+        right_hand_sides = sides;
+        solutions = answers;
     }
 }
 

@@ -2,26 +2,39 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <map>
 #include <mutex>
 #include <vector>
 
 namespace elastolab {
 
 /// Solutions of a linear problem that is solved by iteration: a right-hand side that is a linear combination of earlier
-/// ones needs no further iteration. Any thread may use it.
+/// ones needs no further iteration. Those known less exactly than asked for are what the next iteration starts from.
+/// Any thread may use it.
 class RecycledSolutions {
 public:
-    /// right_hand_sides: one a column. compute: solutions for those that are new, as many columns, n_rows rows each.
-    Eigen::MatrixXd get(const Eigen::MatrixXd& right_hand_sides, Eigen::Index n_rows,
-                        const std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)>& compute);
+    /// Solutions for these right-hand sides, one a column, from start, which is near them or zero.
+    using Compute =
+        std::function<Eigen::MatrixXd(const Eigen::MatrixXd& right_hand_sides, const Eigen::MatrixXd& start)>;
+
+    /// right_hand_sides: one a column. compute: solutions to this tolerance for those that are new, n_rows rows each.
+    Eigen::MatrixXd get(const Eigen::MatrixXd& right_hand_sides, Eigen::Index n_rows, double tolerance,
+                        const Compute& compute);
 
 private:
-    /// Fills the columns that are combinations; returns the numbers of the others.
-    std::vector<Eigen::Index> combine(const Eigen::MatrixXd& right_hand_sides, Eigen::MatrixXd& solutions);
-    void keep(const Eigen::MatrixXd& right_hand_sides, const Eigen::MatrixXd& solutions);
+    using Columns = std::vector<Eigen::Index>;
+    /// Of one tolerance.
+    struct Kept {
+        Eigen::MatrixXd right_hand_sides, solutions;
+        /// Fills those of these columns of solutions that are combinations; returns the others.
+        Columns combine(const Eigen::MatrixXd& right_hand_sides, const Columns& columns,
+                        Eigen::MatrixXd& solutions) const;
+        void add(const Eigen::MatrixXd& right_hand_sides, const Eigen::MatrixXd& solutions);
+    };
+    Columns combine(const Eigen::MatrixXd& right_hand_sides, double tolerance, Eigen::MatrixXd& solutions);
 
     std::mutex mutex_;
-    Eigen::MatrixXd right_hand_sides_, solutions_;
+    std::map<double, Kept> kept_;  ///< by tolerance
 };
 
 }  // namespace elastolab

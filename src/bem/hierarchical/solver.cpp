@@ -7,9 +7,9 @@ namespace elastolab {
 
 namespace {
 
-/// Relative residual of the iteration: prescribed displacements end in a jump at the rims, beside which a bend is
-/// small. And of the solves for tractions inside it, some dozens of which add up to less: at first, and at most.
-constexpr double kIterationResidual = 1e-8, kInnerResidual = 1e-10, kMostInnerResidual = 1e-3;
+/// Relative residual of the solves for tractions inside an iteration, some dozens of which add up to less than its
+/// tolerance: over that, at first; and at most.
+constexpr double kInnerOverTolerance = 0.01, kMostInnerResidual = 1e-3;
 
 /// A preconditioner that stays orthogonal to the free motions.
 class Projected : public LinearOperator {
@@ -33,12 +33,12 @@ private:
 
 class HierarchicalSolver::FreeBlock : public LinearOperator {
 public:
-    /// progress: of the iteration that this is the matrix for.
-    FreeBlock(const HierarchicalSolver& solver, const IterationReport& progress, Control& control)
-        : solver_(solver), progress_(progress), control_(control) {}
+    /// inner: residual of the first solves for tractions; progress: of the iteration that this is the matrix for.
+    FreeBlock(const HierarchicalSolver& solver, double inner, const IterationReport& progress, Control& control)
+        : solver_(solver), inner_(inner), progress_(progress), control_(control) {}
     Eigen::Index size() const override { return solver_.system_->size(); }
     Eigen::MatrixXd product(const Eigen::MatrixXd& X) const override {
-        const double inner = kInnerResidual / std::clamp(progress_.residual, kInnerResidual / kMostInnerResidual, 1.0);
+        const double inner = inner_ / std::clamp(progress_.residual, inner_ / kMostInnerResidual, 1.0);
         Eigen::MatrixXd Y = solver_.operate(X, inner, control_);
         solver_.zero_constrained(Y);
         return Y;
@@ -46,6 +46,7 @@ public:
 
 private:
     const HierarchicalSolver& solver_;
+    const double inner_;
     const IterationReport& progress_;
     Control& control_;
 };
@@ -95,35 +96,41 @@ Eigen::MatrixXd HierarchicalSolver::operate(const Eigen::MatrixXd& u, double inn
     return f;
 }
 
-Eigen::MatrixXd HierarchicalSolver::iterate(const Eigen::MatrixXd& prescribed, Control& control) const {
+Eigen::MatrixXd HierarchicalSolver::iterate(const Eigen::MatrixXd& prescribed, Eigen::MatrixXd start, double tolerance,
+                                            Control& control) const {
+    const double inner = kInnerOverTolerance * tolerance;
     Eigen::MatrixXd u = Eigen::MatrixXd::Zero(system_->size(), prescribed.cols());
     for (std::size_t i = 0; i < positions_.size(); ++i)
         u.middleRows<3>(3 * positions_[i]) = prescribed.middleRows<3>(3 * static_cast<Eigen::Index>(i));
-    Eigen::MatrixXd right = -operate(u, kInnerResidual, control);
+    Eigen::MatrixXd right = -operate(u, inner, control);
     zero_constrained(right);
+    zero_constrained(start);
     orthogonalise(right, free_motions_);
     IterationReport progress;
-    const FreeBlock free_block(*this, progress, control);
+    const FreeBlock free_block(*this, inner, progress, control);
     const Projected preconditioner(*preconditioner_, free_motions_);
-    u += conjugate_gradients(free_block, preconditioner, right, {.tolerance = kIterationResidual},
+    u += conjugate_gradients(free_block, preconditioner, right, {.tolerance = tolerance, .start = std::move(start)},
                              "Galerkin matrix of the free vertices", control, &progress);
     orthogonalise(u, free_motions_);
     return u;
 }
 
-Eigen::MatrixXd HierarchicalSolver::displacements(const Eigen::MatrixXd& prescribed, Control& control) const {
-    return recycled_.get(prescribed, system_->size(),
-                         [&](const Eigen::MatrixXd& new_ones) { return iterate(new_ones, control); });
+Eigen::MatrixXd HierarchicalSolver::displacements(const Eigen::MatrixXd& prescribed, double tolerance,
+                                                  Control& control) const {
+    return recycled_.get(prescribed, system_->size(), tolerance,
+                         [&](const Eigen::MatrixXd& new_ones, const Eigen::MatrixXd& start) {
+                             return iterate(new_ones, start, tolerance, control);
+                         });
 }
 
 NodeSolution HierarchicalSolver::solve(const Eigen::MatrixXd& prescribed, bool want_loads) const {
     Control control;
-    return solve_watched(prescribed, want_loads, control);
+    return solve_watched(prescribed, want_loads, kSolveTolerance, control);
 }
 
-NodeSolution HierarchicalSolver::solve_watched(const Eigen::MatrixXd& prescribed, bool want_loads,
+NodeSolution HierarchicalSolver::solve_watched(const Eigen::MatrixXd& prescribed, bool want_loads, double tolerance,
                                                Control& control) const {
-    const Eigen::MatrixXd u = displacements(prescribed, control);
+    const Eigen::MatrixXd u = displacements(prescribed, tolerance, control);
     NodeSolution solution{to_item_order(*system_->tree(), u), {}};
     for (std::size_t i = 0; i < vertices_.size(); ++i)
         solution.displacements.middleRows<3>(3 * vertices_[i]) =
@@ -131,7 +138,7 @@ NodeSolution HierarchicalSolver::solve_watched(const Eigen::MatrixXd& prescribed
     if (!want_loads) return solution;
     Eigen::MatrixXd f = system_->hypersingular(u), t(layers_->size(), u.cols());
     if (layers_->size() > 0) {
-        t = tractions_of(u, kInnerResidual, control);
+        t = tractions_of(u, kInnerOverTolerance * tolerance, control);
         f += transposed_double_layer(t);
     }
     const Eigen::MatrixXd reactions = rows_of(f, positions_);

@@ -67,7 +67,9 @@ public:
 
     /// loads: reactions at the vertices, then tractions.
     NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const override;
-    NodeSolution solve_watched(const Eigen::MatrixXd& prescribed, bool want_loads, Control& control) const override;
+    NodeSolution solve_watched(const Eigen::MatrixXd& prescribed, bool want_loads, double tolerance,
+                               Control& control) const override;
+    bool iterates() const override { return true; }
 
     const TractionLayers& layers() const { return *layers_; }
 
@@ -75,8 +77,9 @@ private:
     class FreeBlock;
 
     /// Displacements in the order of the tree.
-    Eigen::MatrixXd displacements(const Eigen::MatrixXd& prescribed, Control& control) const;
-    Eigen::MatrixXd iterate(const Eigen::MatrixXd& prescribed, Control& control) const;
+    Eigen::MatrixXd displacements(const Eigen::MatrixXd& prescribed, double tolerance, Control& control) const;
+    Eigen::MatrixXd iterate(const Eigen::MatrixXd& prescribed, Eigen::MatrixXd start, double tolerance,
+                            Control& control) const;
     Eigen::MatrixXd operate(const Eigen::MatrixXd& u, double inner, Control& control) const;
     Eigen::MatrixXd double_layer(Eigen::MatrixXd u) const;
     Eigen::MatrixXd transposed_double_layer(const Eigen::MatrixXd& t) const;

@@ -22,6 +22,8 @@ public:
     ~TractionLayers();
 
     Eigen::Index size() const { return size_; }
+    /// Triangles that were integrated for this set.
+    int n_new_triangles() const { return layers_ ? layers_->n_new_triangles() : 0; }
     /// K u, K^T t, V t
     Eigen::MatrixXd double_layer(const Eigen::MatrixXd& u) const;
     Eigen::MatrixXd transposed_double_layer(const Eigen::MatrixXd& t) const;

@@ -17,14 +17,6 @@ int n_known_triangles(const TriangleGeneration& generation, const std::vector<in
     return static_cast<int>(std::ranges::count_if(triangles, [&](int t) { return generation.items.contains(t); }));
 }
 
-/// Generations of a chain, oldest first.
-std::vector<const TriangleGeneration*> chain_of(const TriangleGeneration* last) {
-    std::vector<const TriangleGeneration*> chain;
-    for (; last != nullptr; last = last->before.get()) chain.push_back(last);
-    std::reverse(chain.begin(), chain.end());
-    return chain;
-}
-
 /// Rows of a generation, in the order of its tree.
 Eigen::MatrixXd tree_rows(const Eigen::MatrixXd& all, const TriangleGeneration& g) {
     return to_tree_order(*g.tree, all.middleRows(3 * g.first_item, 3 * g.tree->size()));
@@ -55,7 +47,7 @@ TriangleGeneration::TriangleGeneration(const LayerSource& source, const std::vec
     K = make(source.vertex_tree, false,
              DoubleLayerEntries(source.pairs, added, *tree, source.vertex_tree, source.material));
     V = make(tree, true, SingleLayerEntries(source.pairs, ordered, ordered, source.material));
-    for (const TriangleGeneration* g : chain_of(before.get()))
+    for (const auto& g : chain_of(before))
         V_earlier.push_back(
             make(g->tree, false, SingleLayerEntries(source.pairs, ordered, g->ordered, source.material)));
 }
@@ -69,8 +61,7 @@ TriangleLayers::TriangleLayers(const LayerSource& source, const std::vector<int>
     if (!last || n_new_ > 0)
         last = std::make_shared<const TriangleGeneration>(source, triangles, std::move(last), control);
     for (const int t : triangles) items_.push_back(last->items.at(t));
-    for (; last; last = last->before) generations_.push_back(last);
-    std::reverse(generations_.begin(), generations_.end());
+    generations_ = chain_of(std::move(last));
 }
 
 Eigen::MatrixXd TriangleLayers::spread(const Eigen::MatrixXd& t) const {

@@ -28,7 +28,7 @@ Eigen::MatrixXd motion_shapes(const Positions& rest, bool affine) {
 DragSolver::DragSolver(std::shared_ptr<const Deformer> deformer, std::vector<int> handle_ends)
     : deformer_(std::move(deformer)), handle_ends_(std::move(handle_ends)) {}
 
-void DragSolver::prepare(const Eigen::VectorXd& values, Control& control) {
+void DragSolver::prepare(const Eigen::VectorXd& values, double tolerance, Control& control) {
     int handle = kNone;
     bool affine = false;
     if (has_start(values)) {
@@ -40,9 +40,14 @@ void DragSolver::prepare(const Eigen::VectorXd& values, Control& control) {
         }
     }
     if (handle < 0) handle = static_cast<int>(handle_ends_.size()) - 1;
-    if (handle < 0) return start(values, control);
+    if (handle < 0) return start(values, tolerance, control);
     start_values_ = values;
-    grab(handle, affine, control);
+    grab(handle, affine, tolerance, control);
+}
+
+void DragSolver::refine(Control& control) {
+    if (handle_ == kNone) return start(start_values_, kSolveTolerance, control);
+    grab(handle_, shapes_.rows() > 1, kSolveTolerance, control);
 }
 
 bool DragSolver::has(const Eigen::VectorXd& values) const {
@@ -54,19 +59,19 @@ bool DragSolver::has(const Eigen::VectorXd& values) const {
 
 void DragSolver::displace(const Eigen::VectorXd& values, Eigen::VectorXd& u) {
     Control control;
-    if (!has_start(values)) start(values, control);
+    if (!has_start(values)) start(values, kSolveTolerance, control);
     const Eigen::VectorXd change = values - start_values_;
     const int handle = changed_handle(change);
     if (handle >= 0) {
         const Eigen::Matrix3Xd moved = part_of(handle, change);
         std::optional<Eigen::VectorXd> parameters = parameters_of(handle, moved);
         for (int affine = 0; affine <= 1 && !parameters; ++affine) {
-            grab(handle, affine == 1, control);
+            grab(handle, affine == 1, kSolveTolerance, control);
             parameters = parameters_of(handle, moved);
         }
         if (parameters) return response_.displace(*parameters, u);
     }
-    if (handle != kNone) start(values, control);
+    if (handle != kNone) start(values, kSolveTolerance, control);
     u = response_.rest;
 }
 
@@ -90,13 +95,14 @@ Eigen::Matrix3Xd DragSolver::part_of(int handle, const Eigen::VectorXd& change) 
         .middleCols(begin_of(handle), size_of(handle));
 }
 
-void DragSolver::start(const Eigen::VectorXd& values, Control& control) {
+void DragSolver::start(const Eigen::VectorXd& values, double tolerance, Control& control) {
     start_values_ = values;
     handle_ = kNone;
-    response_ = {deformer_->displace(values, control), {}};
+    response_ = {deformer_->displace(values, control, tolerance), {}};
+    tolerance_ = tolerance;
 }
 
-void DragSolver::grab(int handle, bool affine, Control& control) {
+void DragSolver::grab(int handle, bool affine, double tolerance, Control& control) {
     const Positions& all = deformer_->model().body().surface->vertices;
     Positions rest(3, size_of(handle));
     for (int i = 0; i < size_of(handle); ++i)
@@ -108,7 +114,8 @@ void DragSolver::grab(int handle, bool affine, Control& control) {
         for (Eigen::Index axis = 0; axis < 3; ++axis)
             for (int i = 0; i < size_of(handle); ++i)
                 basis(3 * (begin_of(handle) + i) + axis, 3 * s + axis) = shapes_(s, i);
-    response_ = deformer_->drag_response(start_values_, basis, control);
+    response_ = deformer_->drag_response(start_values_, basis, control, tolerance);
+    tolerance_ = tolerance;
     handle_ = handle;
 }
 

@@ -18,13 +18,18 @@ public:
     DragSolver(std::shared_ptr<const Deformer> deformer, std::vector<int> handle_ends);
 
     /// Solves ahead for these values, and for further motion of the kind that led to them from the start; if that was
-    /// not of one handle, for translations of the last. displace() then needs no solve for these. Throws SolveError,
-    /// Cancelled.
-    void prepare(const Eigen::VectorXd& values, Control& control);
+    /// not of one handle, for translations of the last. displace() then needs no solve for these. tolerance: relative
+    /// residual, where the method iterates (Deformer::iterates). Throws SolveError, Cancelled.
+    void prepare(const Eigen::VectorXd& values, double tolerance, Control& control);
+    /// Solves anew for what is at hand, from there, to kSolveTolerance. Throws SolveError, Cancelled.
+    void refine(Control& control);
+    /// Of what is at hand.
+    double tolerance() const { return tolerance_; }
     /// Whether displace(values) needs no solve but one pass over the columns at hand.
     bool has(const Eigen::VectorXd& values) const;
 
-    /// u <- the displacements for `values` (as Deformer::displace takes them). Throws SolveError.
+    /// u <- the displacements for `values` (as Deformer::displace takes them); what is not at hand is solved for to
+    /// kSolveTolerance. Throws SolveError.
     void displace(const Eigen::VectorXd& values, Eigen::VectorXd& u);
 
 private:
@@ -35,14 +40,15 @@ private:
     Eigen::Matrix3Xd part_of(int handle, const Eigen::VectorXd& change) const;
     int begin_of(int handle) const { return handle == 0 ? 0 : handle_ends_[static_cast<std::size_t>(handle) - 1]; }
     int size_of(int handle) const { return handle_ends_[static_cast<std::size_t>(handle)] - begin_of(handle); }
-    void start(const Eigen::VectorXd& values, Control& control);
-    void grab(int handle, bool affine, Control& control);
+    void start(const Eigen::VectorXd& values, double tolerance, Control& control);
+    void grab(int handle, bool affine, double tolerance, Control& control);
     double tolerance_of(int handle, const Eigen::Matrix3Xd& change) const;
     std::optional<Eigen::VectorXd> parameters_of(int handle, const Eigen::Matrix3Xd& change) const;
 
     std::shared_ptr<const Deformer> deformer_;
     std::vector<int> handle_ends_;
     Eigen::VectorXd start_values_;
+    double tolerance_ = kSolveTolerance;
     int handle_ = kNone;      ///< whose columns response_ holds
     Eigen::MatrixXd shapes_;  ///< 1 or 4 x vertices of the handle: 1, and the scaled rest position about its mean
     Eigen::MatrixXd fit_;     ///< vertices x 1 or 4, pseudo-inverse of shapes_

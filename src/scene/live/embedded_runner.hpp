@@ -27,6 +27,8 @@ public:
     const Proxy* proxy() const { return carried_ ? &carried_->proxy() : nullptr; }
     /// The surface that the answer is computed on; null before set_body().
     const SurfaceMesh* surface() const { return runner_.surface(); }
+    /// How the answer is carried to the shown vertices; null when the shown surface itself is computed on.
+    const CarriedConstraints* carried() const { return carried_ ? &*carried_ : nullptr; }
     /// Whether the answer is for this surface.
     bool shows(const SurfaceMesh& mesh) const { return (proxy() ? proxy()->shown.get() : surface()) == &mesh; }
     /// The constraints that the answer is computed for: those of surface().

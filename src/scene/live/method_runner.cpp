@@ -47,6 +47,7 @@ void MethodRunner::poll() {
 void MethodRunner::handle(SetKeeper::Event event) {
     switch (event) {
         case SetKeeper::Event::another_set:
+        case SetKeeper::Event::refined:
             up_to_date_ = false;
             break;
         case SetKeeper::Event::motion_failed:
@@ -97,6 +98,9 @@ void MethodRunner::drag() {
 
 void MethodRunner::take_values(bool solved) {
     values_ = sets_.wanted_values();
+    const std::optional<DragSolver>& columns = sets_.current().drag;
+    const bool by_columns = sets_.frame_rule() == FrameRule::drag_columns && columns;
+    tolerance_ = by_columns ? columns->tolerance() : kSolveTolerance;
     up_to_date_ = true;
     solved_ = solved;
     ++version_;
@@ -105,7 +109,7 @@ void MethodRunner::take_values(bool solved) {
 
 void MethodRunner::check_at_rest() {
     check_.poll();
-    if (unchecked()) check_.begin_at_rest(deformer(), values_);
+    if (unchecked() && refined()) check_.begin_at_rest(deformer(), values_);
 }
 
 Findings MethodRunner::findings() const {

@@ -78,6 +78,12 @@ public:
     const Eigen::VectorXd& values() const { return values_; }
     /// Whether displacement() is the solution for values(): false where there is none, and the previous answer stands.
     bool solved() const { return solved_; }
+    /// Relative residual of displacement(), where the method iterates: kFirstTolerance at first, and kSolveTolerance
+    /// once it is refined.
+    double tolerance() const { return tolerance_; }
+    bool refined() const { return tolerance_ <= kSolveTolerance; }
+    /// Whether it is being refined.
+    bool refining() const { return sets_.refining(); }
 
     /// Whether displacement() is what the scene asks for, by whichever model of this body and Poisson's ratio: a model
     /// with its inverse is prepared while the one without it answers.
@@ -108,6 +114,7 @@ private:
     double solve_budget_ = 0.03;
     bool up_to_date_ = false;  ///< values_ were tried under the present set
     bool solved_ = false;
+    double tolerance_ = kSolveTolerance;
     Eigen::VectorXd values_, displacement_;
     std::uint64_t version_ = 0;
 };

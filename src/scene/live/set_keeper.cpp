@@ -21,12 +21,14 @@ std::vector<int> ends_of_handles(const Constraints& constraints) {
     return ends;
 }
 
+double first_tolerance(const Deformer& deformer) { return deformer.iterates() ? kFirstTolerance : kSolveTolerance; }
+
 /// Where no columns are kept, a grab would integrate and take seconds: the worker solves, not the watcher.
 void solve_ahead(PreparedSet& prepared, const std::vector<int>& ends, const Eigen::VectorXd& values, Control& control) {
     const Stopwatch watch;
     try {
         DragSolver drag(prepared.deformer, ends);
-        drag.prepare(values, control);
+        drag.prepare(values, first_tolerance(*prepared.deformer), control);
         prepared.drag = std::move(drag);
     } catch (const SolveError&) {
         // These values have no solution; the frame that asks for them says so, if they are still wanted then.
@@ -42,6 +44,7 @@ void SetKeeper::want(const Constraints& constraints) {
         failure_.clear();
     }
     handle_ends_ = ends_of_handles(constraints);
+    if (wanted_values_.size() != constraints.values.size() || wanted_values_ != constraints.values) may_refine_ = true;
     wanted_values_ = constraints.values;
 }
 
@@ -87,6 +90,10 @@ SetKeeper::Event SetKeeper::take_finished() {
     switch (job_.poll()) {
         case JobEvent::finished: {
             PreparedSet prepared = job_.take();
+            if (prepared.deformer == current_.deformer && refining_) {
+                current_.drag = std::move(prepared.drag);
+                return Event::refined;
+            }
             if (prepared.deformer == current_.deformer) {
                 current_.drag = std::move(prepared.drag);
                 current_.solve_seconds = prepared.solve_seconds;
@@ -96,20 +103,25 @@ SetKeeper::Event SetKeeper::take_finished() {
             return Event::none;
         }
         case JobEvent::failed:
-            if (!same_as_wanted(preparing_set_)) return Event::none;  // a prefetch: nobody asked for it yet
-            if (is_current()) {
-                if (solving_values_ != wanted_values_) return Event::none;  // the motion went on: that is tried next
-                motion_failure_ = job_.failure();
-                current_.drag.reset();
-                return Event::motion_failed;
-            }
-            failure_ = job_.failure();
-            return Event::none;
+            return take_failure();
         case JobEvent::cancelled:
         case JobEvent::none:
             break;
     }
     return Event::none;
+}
+
+SetKeeper::Event SetKeeper::take_failure() {
+    if (!same_as_wanted(preparing_set_)) return Event::none;  // a prefetch: nobody asked for it yet
+    if (!is_current()) {
+        failure_ = job_.failure();
+        return Event::none;
+    }
+    if (refining_) may_refine_ = false;
+    if (solving_values_ != wanted_values_) return Event::none;  // the motion went on: that is tried next
+    motion_failure_ = job_.failure();
+    current_.drag.reset();
+    return Event::motion_failed;
 }
 
 SetKeeper::Event SetKeeper::use_or_prepare() {
@@ -125,6 +137,8 @@ SetKeeper::Event SetKeeper::use_or_prepare() {
     if (!is_current()) {
         if (failure_.empty() && !(job_.running() && same_as_wanted(preparing_set_)))
             prepare(wanted_set_, wanted_values_, handle_ends_);
+    } else if (may_refine_ && !job_.running() && current_.drag && current_.drag->tolerance() > kSolveTolerance) {
+        refine_on_worker();
     } else if (prefetch_ && !job_.running()) {
         if (!same_as_wanted(*prefetch_) && !(spare_.deformer && same(spare_.deformer->set(), *prefetch_)))
             prepare_prefetched(*prefetch_);
@@ -147,6 +161,7 @@ void SetKeeper::prepare_prefetched(const ConstrainedSet& set) {
 
 void SetKeeper::prepare(const ConstrainedSet& set, Eigen::VectorXd values, std::vector<int> ends) {
     preparing_set_ = set;
+    refining_ = false;
     const bool drags = rule_ == FrameRule::drag_columns;
     job_.start([model = model_, set, drags, values = std::move(values), ends = std::move(ends)](Control& control) {
         auto deformer = std::make_shared<Deformer>(model);
@@ -166,6 +181,7 @@ void SetKeeper::prepare(const ConstrainedSet& set, Eigen::VectorXd values, std::
 void SetKeeper::solve_on_worker() {
     if (!is_current() || solving()) return;
     preparing_set_ = wanted_set_;
+    refining_ = false;
     solving_values_ = wanted_values_;
     motion_failure_.clear();
     DragSolver drag = current_.drag ? *current_.drag : DragSolver(current_.deformer, handle_ends_);
@@ -173,14 +189,29 @@ void SetKeeper::solve_on_worker() {
         [deformer = current_.deformer, drag = std::move(drag), values = wanted_values_](Control& control) mutable {
             control.begin_stage("solve");
             const Stopwatch watch;
-            drag.prepare(values, control);
+            drag.prepare(values, first_tolerance(*deformer), control);
             return PreparedSet{.deformer = deformer, .drag = std::move(drag), .solve_seconds = watch.seconds()};
         });
+}
+
+void SetKeeper::refine_on_worker() {
+    preparing_set_ = wanted_set_;
+    refining_ = true;
+    solving_values_ = wanted_values_;
+    job_.start([deformer = current_.deformer, drag = *current_.drag](Control& control) mutable {
+        control.begin_stage("refine");
+        drag.refine(control);
+        return PreparedSet{.deformer = deformer, .drag = std::move(drag)};
+    });
 }
 
 SetKeeper::Event SetKeeper::cancel() {
     if (!job_.running()) return Event::none;
     job_.cancel();
+    if (refining_) {
+        may_refine_ = false;
+        return Event::none;
+    }
     if (!same_as_wanted(preparing_set_)) return Event::none;  // a prefetch
     if (is_current()) {
         motion_failure_ = "The answer to this motion was stopped. Retry, or pull on.";

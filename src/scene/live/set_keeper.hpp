@@ -28,8 +28,9 @@ struct PreparedSet {
     Findings findings = {};      ///< of the set
 };
 
-/// Prepares the wanted constrained set on a worker thread, and solves there for motions within it that take long. The
-/// set used before stays at hand. All members are for one thread.
+/// Prepares the wanted constrained set on a worker thread, and solves there for motions within it that take long. Where
+/// the method iterates, columns to kFirstTolerance come first, and are refined to kSolveTolerance when there is nothing
+/// else to do for the set. The set used before stays at hand. All members are for one thread.
 class SetKeeper {
 public:
     /// `wake` is called by the worker when poll() will find something.
@@ -52,6 +53,7 @@ public:
     enum class Event {
         none,
         another_set,    ///< current() has changed: earlier answers do not belong to it
+        refined,        ///< current().drag has the same to kSolveTolerance
         motion_solved,  ///< current().drag has the motion that was given to the worker, and its continuation
         motion_failed   ///< see motion_failure()
     };
@@ -68,11 +70,17 @@ public:
 
     /// Solves for the wanted values within the present set.
     void solve_on_worker();
-    bool solving() const { return job_.running() && is_current() && same_as_wanted(preparing_set_); }
+    bool solving() const { return job_.running() && !refining_ && is_current() && same_as_wanted(preparing_set_); }
+    /// Whether the worker refines what current() answers with.
+    bool refining() const { return job_.running() && refining_; }
 
-    /// Stops what runs. Event: motion_failed when a motion that was waited for is given up.
+    /// Stops what runs; what is not refined stays so until the next motion. Event: motion_failed when a motion that was
+    /// waited for is given up.
     Event cancel();
-    void retry() { failure_.clear(); }
+    void retry() {
+        failure_.clear();
+        may_refine_ = true;
+    }
     bool preparing() const { return job_.running(); }
     bool working() const { return job_.working(); }
     JobStatus status() const { return job_.status(); }
@@ -85,6 +93,8 @@ private:
     Event take_finished();
     Event use_or_prepare();
     void prepare(const ConstrainedSet& set, Eigen::VectorXd values, std::vector<int> ends);
+    void refine_on_worker();
+    Event take_failure();
     void prepare_prefetched(const ConstrainedSet& set);
     bool same_as_wanted(const ConstrainedSet& set) const;
 
@@ -98,6 +108,7 @@ private:
     PreparedSet current_;
     PreparedSet spare_;  ///< of the same model: prefetched, or the one used before
     ConstrainedSet preparing_set_;
+    bool refining_ = false, may_refine_ = true;
     Eigen::VectorXd solving_values_;  ///< that the worker solves for within the present set
     std::string failure_, motion_failure_;
     BackgroundJob<PreparedSet> job_;  // last: its thread ends before what it wakes is destroyed

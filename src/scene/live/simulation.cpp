@@ -166,7 +166,11 @@ bool Simulation::choose_answer(Entry& entry) const {
         entry.previewing = has_preview_ && preview_.has_answer();
     if (entry.previewing || !ready) {
         if (entry.previewing) entry.preview_error.reset();
-    } else if (before && preview_.runner().answers()) {
+        return entry.previewing != before;
+    }
+    entry.replaced_preview = before || entry.replaced_preview;
+    if (entry.replaced_preview && entry.runner->runner().refined() && preview_.runner().answers()) {
+        entry.replaced_preview = false;
         const Eigen::VectorXd& exact = entry.runner->displacement();
         const Eigen::VectorXd& coarse = preview_.displacement();
         if (exact.size() == coarse.size() && !exact.isZero(0.0))
@@ -242,8 +246,9 @@ bool Simulation::waiting() const {
 }
 
 bool Simulation::busy() const {
-    return waiting() || preparing_preview() ||
-           std::any_of(shown_.begin(), shown_.end(), [&](MethodKind kind) { return runner(kind).completing(); });
+    return waiting() || preparing_preview() || std::any_of(shown_.begin(), shown_.end(), [&](MethodKind kind) {
+               return runner(kind).refining() || runner(kind).completing();
+           });
 }
 
 bool Simulation::checking() const {

@@ -170,7 +170,7 @@ double area(const Positions& vertices, const Triangles& triangles) {
     return sum;
 }
 
-TEST_F(FilledBox, IsCutOpenWithTheBodyWhichIsClosedByIt) {
+TEST_F(FilledBox, ShowsItsFillingAndItsInsideWhereItIsCutOpen) {
     stage.state.display.field = Field::displacement;
     cut_open();
     ASSERT_TRUE(body().section());

@@ -49,4 +49,26 @@ inline void expect_rigid_motion_without_force(const SurfaceMesh& mesh, const Met
     EXPECT_LT(answer.residual.value(), 1e-6);
 }
 
+/// `iterating` answers to a looser tolerance first, and then, from there, as `exact` does. A cancelled control stops
+/// every iteration: what answers all the same needs none.
+inline void expect_first_answer_and_the_rest(const Method& exact, const Method& iterating) {
+    const SurfaceMesh mesh = make_box(8);
+    const ConstrainedSet set{vertices_where(mesh, [](const auto& x) { return x[0] < 1e-9; }),
+                             vertices_where(mesh, [](const auto& x) { return x[0] > 1.0 - 1e-9 && x[1] < 0.3; })};
+    const Eigen::VectorXd values = Eigen::Vector3d(0.1, -0.2, 0.15).replicate(std::ssize(set.handles), 1);
+    const Eigen::VectorXd truth = displaced(precomputed(make_body(mesh), exact), set, values);
+    Deformer deformer(precomputed(make_body(mesh), iterating));
+    Control control, cancelled;
+    cancelled.cancel();
+    deformer.constrain(set, control);
+    EXPECT_TRUE(deformer.iterates());
+    const Eigen::VectorXd first = deformer.displace(values, control, kFirstTolerance);
+    EXPECT_LT(off(first, truth), 1e-3);
+    EXPECT_GT(off(first, truth), 2e-6) << "iterated for nothing";
+    EXPECT_EQ(deformer.displace(values, cancelled, kFirstTolerance), first);
+    EXPECT_THROW(deformer.displace(values, cancelled), Cancelled) << "the first answer passes for the refined one";
+    EXPECT_LT(off(deformer.displace(values, control), truth), 1e-6);
+    EXPECT_LT(off(deformer.displace(values, cancelled, kFirstTolerance), truth), 1e-6);
+}
+
 }  // namespace elastolab::test

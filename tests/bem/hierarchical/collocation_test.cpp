@@ -74,12 +74,23 @@ TEST(HierarchicalCollocation, AFurtherHandleOnAKeptBaseIsAnsweredAsByTheDenseMat
     ASSERT_GT(both.size(), body.pull.size() + 3);
     const Eigen::VectorXd values = Eigen::Vector3d(0.1, -0.2, 0.15).replicate(std::ssize(both), 1);
     const Eigen::VectorXd exact = displaced(precomputed(make_body(mesh), dense_linear()), {body.base, both}, values);
-    const auto model = precomputed(make_body(mesh), hierarchical_linear());
     Control control;
-    Deformer before(model), after(model);
-    before.constrain({body.base, body.pull}, control);
-    after.constrain({body.base, both}, control);
-    EXPECT_LT(off(after.displace(values), exact), 1e-6);
+    const auto boundary = std::make_shared<const Boundary>(mesh);
+    const auto matrices = std::make_shared<const HierarchicalCollocation>(boundary, Material{1.0, 0.3}, 1e-10, control);
+    const VertexTriangles around(mesh);
+    const auto solver_of = [&](const std::vector<int>& held) {
+        const TractionSpace space = linear_traction_space(*boundary, around, Tractions::discontinuous, held);
+        return CollocationSolver(matrices, space, held, true, control);
+    };
+    const CollocationSolver before = solver_of(joined(body.base, body.pull)),
+                            after = solver_of(joined(body.base, both));
+    const CollocationLoads &first = before.problem().loads(), &second = after.problem().loads();
+    EXPECT_EQ(first.n_new_slots(), first.n_slots());
+    EXPECT_GT(second.n_new_slots(), 0);
+    EXPECT_LT(second.n_new_slots(), second.n_slots() / 2) << "what is kept is integrated again";
+    Eigen::VectorXd prescribed = Eigen::VectorXd::Zero(3 * std::ssize(body.base) + values.size());
+    prescribed.tail(values.size()) = values;
+    EXPECT_LT(off(after.solve(prescribed, false).displacements, exact), 1e-6);
 }
 
 class HierarchicalCollocationTractions : public testing::TestWithParam<Tractions> {};
@@ -254,26 +265,54 @@ TEST(RecycledSolutions, ACombinationOfRightHandSidesIsNotComputed) {
     RecycledSolutions kept;
     int computed = 0;
     const Eigen::MatrixXd map = Eigen::MatrixXd::Random(5, 3);
-    const auto compute = [&](const Eigen::MatrixXd& questions) -> Eigen::MatrixXd {
+    const auto compute = [&](const Eigen::MatrixXd& questions, const Eigen::MatrixXd&) -> Eigen::MatrixXd {
         computed += static_cast<int>(questions.cols());
         return map * questions;
     };
-    EXPECT_EQ(kept.get(Eigen::Vector3d::Zero(), 5, compute).norm(), 0.0);
+    EXPECT_EQ(kept.get(Eigen::Vector3d::Zero(), 5, 1e-8, compute).norm(), 0.0);
     EXPECT_EQ(computed, 0);
-    kept.get(Eigen::Vector3d(1.0, 2.0, 0.0), 5, compute);
-    kept.get(Eigen::Vector3d(0.0, 1.0, 0.0), 5, compute);
+    kept.get(Eigen::Vector3d(1.0, 2.0, 0.0), 5, 1e-8, compute);
+    kept.get(Eigen::Vector3d(0.0, 1.0, 0.0), 5, 1e-8, compute);
     EXPECT_EQ(computed, 2);
     const Eigen::Vector3d combination(3.0, -1.0, 0.0), other(0.0, 0.0, 1.0);
     Eigen::MatrixXd both(3, 2);
     both << combination, other;
-    const Eigen::MatrixXd answers = kept.get(both, 5, compute);
+    const Eigen::MatrixXd answers = kept.get(both, 5, 1e-8, compute);
     EXPECT_EQ(computed, 3);
     EXPECT_LT((answers - map * both).norm(), 1e-12);
     const Eigen::Vector3d nothing = Eigen::Vector3d::Constant(std::nan(""));
-    EXPECT_FALSE(kept.get(nothing, 5, compute).allFinite()) << "is computed";
+    EXPECT_FALSE(kept.get(nothing, 5, 1e-8, compute).allFinite()) << "is computed";
     EXPECT_EQ(computed, 4);
-    for (int i = 0; i < 40; ++i) kept.get(Eigen::Vector3d(1.0, 0.1 * i, 2.0), 5, compute);
+    for (int i = 0; i < 40; ++i) kept.get(Eigen::Vector3d(1.0, 0.1 * i, 2.0), 5, 1e-8, compute);
     EXPECT_EQ(computed, 4) << "three answers span all questions";
+}
+
+TEST(RecycledSolutions, WhatIsKnownLessExactlyIsAStart) {
+    RecycledSolutions kept;
+    std::vector<Eigen::Vector3d> starts;
+    const auto twice = [&](double error) {
+        return [&starts, error](const Eigen::MatrixXd& questions, const Eigen::MatrixXd& start) -> Eigen::MatrixXd {
+            for (Eigen::Index c = 0; c < start.cols(); ++c) starts.emplace_back(start.col(c));
+            return (2.0 + error) * questions;
+        };
+    };
+    const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY();
+    kept.get(x, 3, 1e-4, twice(1e-4));
+    kept.get(y, 3, 1e-8, twice(0.0));
+    ASSERT_EQ(starts.size(), 2u);
+    EXPECT_EQ(starts[0], Eigen::Vector3d::Zero()) << "nothing is known";
+    EXPECT_LT((kept.get(3.0 * x, 3, 1e-4, twice(0.0)) - 6.0003 * x).norm(), 1e-9);
+    EXPECT_LT((kept.get(y, 3, 1e-4, twice(0.0)) - 2.0 * y).norm(), 1e-9) << "more exact than it need be";
+    EXPECT_EQ(starts.size(), 2u);
+    EXPECT_LT((kept.get(3.0 * x, 3, 1e-8, twice(0.0)) - 6.0 * x).norm(), 1e-9);
+    ASSERT_EQ(starts.size(), 3u);
+    EXPECT_LT((starts[2] - 6.0003 * x).norm(), 1e-9);
+    EXPECT_LT((kept.get(x, 3, 1e-4, twice(0.0)) - 2.0 * x).norm(), 1e-9) << "the best that is known";
+    EXPECT_EQ(starts.size(), 3u);
+}
+
+TEST(HierarchicalCollocation, AnswersToALooserToleranceFirstAndGoesOnFromThere) {
+    expect_first_answer_and_the_rest(dense_linear(), hierarchical_linear());
 }
 
 }  // namespace

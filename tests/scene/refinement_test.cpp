@@ -1,0 +1,84 @@
+// Answers of a method that iterates: to a looser tolerance first, then refined behind it.
+
+#include <gmock/gmock.h>
+
+#include "iterating_method.hpp"
+#include "simulation_bench.hpp"
+
+namespace elastolab {
+namespace {
+
+using namespace testing_simulation;
+
+double relative_difference(const Eigen::VectorXd& u, const Eigen::VectorXd& truth) {
+    return (u - truth).cwiseAbs().maxCoeff() / truth.cwiseAbs().maxCoeff();
+}
+
+struct Refinement : testing::Test {
+    LiveScene scene = pulled_cube(8);
+    Eigen::VectorXd expected = truth(scene, {.kind = kLinearBem});  // by a factorisation
+    MethodRunner runner{[] {}};
+
+    Refinement() { runner.set_body(scene.body(kLinearBem), test::iterating_linear_bem()); }
+    template <class Condition>
+    void poll_until(const Condition& condition) {
+        test::wait_for([&] {
+            runner.set_constraints(scene.constraints());
+            runner.poll();
+            return condition();
+        });
+    }
+};
+
+TEST_F(Refinement, FollowsAFirstAnswerWithoutAJump) {
+    poll_until([&] { return runner.answers(); });
+    EXPECT_EQ(runner.state(), State::ready);
+    EXPECT_FALSE(runner.refined());
+    EXPECT_TRUE(runner.refining());
+    EXPECT_EQ(runner.tolerance(), kFirstTolerance);
+    EXPECT_LT(relative_difference(runner.displacement(), expected), 1e-3);
+    EXPECT_GT(relative_difference(runner.displacement(), expected), 2e-6) << "iterated for nothing";
+    const Deformer* deformer = runner.deformer().get();
+    const std::uint64_t version = runner.version();
+    poll_until([&] { return runner.answers() && runner.refined(); });
+    EXPECT_LT(relative_difference(runner.displacement(), expected), 1e-6);
+    EXPECT_EQ(runner.deformer().get(), deformer);
+    EXPECT_GT(runner.version(), version);
+    EXPECT_FALSE(runner.refining());
+}
+
+TEST_F(Refinement, ServesFurtherMotionsToo) {
+    poll_until([&] { return runner.answers() && runner.refined(); });
+    scene.set_motion(0, AffineMotion{.translate = {0.2, -0.1, 0.1}});
+    poll_until([&] { return runner.answers(); });
+    EXPECT_TRUE(runner.refined()) << "the same columns";
+    EXPECT_LT(relative_difference(runner.displacement(), truth(scene, {.kind = kLinearBem})), 1e-6);
+}
+
+TEST_F(Refinement, WaitsForMotionsThatTakeLong) {
+    runner.set_solve_budget(0.0);
+    poll_until([&] { return runner.answers() && runner.refined(); });
+    scene.set_motion(0, AffineMotion{.matrix = 0.2 * Eigen::Matrix3d::Identity(), .translate = {0.1, 0.0, 0.0}});
+    poll_until([&] { return runner.answers(); });
+    EXPECT_FALSE(runner.refined());
+    poll_until([&] { return runner.answers() && runner.refined(); });
+    EXPECT_LT(relative_difference(runner.displacement(), truth(scene, {.kind = kLinearBem})), 1e-6);
+}
+
+TEST_F(Refinement, ThatIsStoppedLeavesTheFirstAnswer) {
+    poll_until([&] { return runner.answers(); });
+    ASSERT_TRUE(runner.refining());
+    runner.cancel();
+    poll_until([&] { return !runner.refining(); });
+    for (int frame = 0; frame < 3; ++frame) poll_until([] { return true; });
+    EXPECT_FALSE(runner.refining());
+    EXPECT_FALSE(runner.refined());
+    EXPECT_EQ(runner.state(), State::ready);
+    EXPECT_LT(relative_difference(runner.displacement(), expected), 1e-3);
+    runner.retry();
+    poll_until([&] { return runner.answers() && runner.refined(); });
+    EXPECT_LT(relative_difference(runner.displacement(), expected), 1e-6);
+}
+
+}  // namespace
+}  // namespace elastolab
