@@ -129,14 +129,15 @@ private:
         if (computing() || state_.simulation.busy()) return kProgressSeconds;
         if (state_.simulation.checking()) return kCheckSeconds;
         if (message_seconds_ >= 0.0) return std::max(message_seconds_, 0.01);
-        const double keeping = autosave_.due_in(Window::seconds());
+        const double keeping = state_.gestures.pulling() ? -1.0 : autosave_.due_in(Window::seconds());
         if (!gui_.wants_text()) return keeping;
         return keeping < 0.0 ? kCaretSeconds : std::min(kCaretSeconds, keeping);
     }
 
-    /// A copy of what is not saved, for the case that this process is killed.
+    /// A copy of what is not saved, for the case that this process is killed. Not in the midst of a pull, which would
+    /// be kept as it began until the next copy is due.
     void keep_scene() {
-        if (nobody_watches()) return;
+        if (nobody_watches() || state_.gestures.pulling()) return;
         if (std::optional<AutosavedScene> recovered = state_.take_recovered()) autosave_.adopt(std::move(*recovered));
         autosave_.update(
             {.revision = state_.scene().revision() + (state_.scene_number() << 32),

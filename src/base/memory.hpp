@@ -7,6 +7,9 @@ namespace elastolab {
 /// Largest resident set of this process so far [bytes].
 std::uint64_t peak_memory_bytes();
 
+/// The resident set of this process now [bytes]; 0 where the system does not tell.
+std::uint64_t resident_memory_bytes();
+
 /// Memory that can still be taken without swapping [bytes], as the system estimates it (and as a control
 /// group and the limit of the address space allow).
 std::uint64_t available_memory_bytes();

@@ -85,18 +85,12 @@ void Panels::draw_compare(const PanelContext& context) {
     if (ImGui::Checkbox("colour by difference", &coloured))
         state.display.field = coloured ? Field::difference : Field::none;
     draw_differences(context);
-    std::uint64_t bytes = 0;
-    bool is_known = true;
-    for (const MethodKind kind : state.shown_kinds()) {
-        const std::uint64_t own = memory_with_completion(state, kind);
-        bytes += own;
-        is_known = is_known && own > 0;
-    }
-    fact("memory of their models", is_known ? "up to " + readable_bytes(static_cast<double>(bytes)) : "\u2013",
+    const std::uint64_t bytes = memory_of_comparison(state);
+    fact("memory, at most", bytes > 0 ? readable_bytes(static_cast<double>(bytes)) : "\u2013",
          context.palette.text_dim);
     tooltip(
-        "While they are made, with K and its inverse where these follow by themselves. What is held and pulled, and "
-        "estimates of the error, come on top of it.");
+        "Of the program: with every model while it is made, K and its inverse where these follow by themselves, what "
+        "is held and pulled, and estimates of the error.");
 }
 
 }  // namespace elastolab

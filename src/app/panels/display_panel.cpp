@@ -114,9 +114,11 @@ void Panels::draw_display(const PanelContext& context) {
         ImGui::Checkbox(kSwitches[i].label, &(display.*kSwitches[i].value));
         tooltip(kSwitches[i].explanation);
     }
-    draw_section(display, scale);
+    ImGui::SameLine(0.5f * ImGui::GetWindowContentRegionMax().x);
     bool light = !display.dark;
     if (ImGui::Checkbox("light theme", &light)) display.dark = !light;
+    tooltip("T");
+    draw_section(display, scale);
 }
 
 }  // namespace elastolab

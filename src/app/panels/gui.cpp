@@ -162,6 +162,9 @@ std::size_t Gui::n_for_one_frame(std::span<const InputEvent> events) {
     std::vector<std::pair<InputEvent::Kind, int>> changed;
     for (std::size_t i = 0; i < events.size(); ++i) {
         const InputEvent& event = events[i];
+        const auto is_button = [](const auto& of) { return of.first == InputEvent::Kind::button; };
+        if (event.kind == InputEvent::Kind::cursor && std::any_of(changed.begin(), changed.end(), is_button))
+            return i;  // the button counts where the cursor was
         if (event.kind != InputEvent::Kind::button && event.kind != InputEvent::Kind::key) continue;
         const std::pair key(event.kind, event.code);
         if (std::find(changed.begin(), changed.end(), key) != changed.end()) return i;

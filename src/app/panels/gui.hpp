@@ -52,7 +52,8 @@ public:
     /// Logical pixels for a length that is 1 on an ordinary screen.
     float scale() const { return scale_; }
 
-    /// How many of these events one frame can take: a press and its release must not fall into the same frame.
+    /// How many of these events one frame can take: a press and its release must not fall into the same frame,
+    /// nor a press or release and what the cursor does after it.
     static std::size_t n_for_one_frame(std::span<const InputEvent> events);
 
 private:

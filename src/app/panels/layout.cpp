@@ -11,6 +11,7 @@ namespace {
 constexpr double kMenu = 23.0, kStatus = 27.0, kGap = 2.0;
 constexpr double kPanel = 320.0, kLeastPanel = 216.0, kPanelPart = 0.34;  ///< of the window
 constexpr double kLeastScene = 160.0;
+constexpr double kShortPanel = 690.0;
 
 /// As wide as the person made it, else by the window's width; 0 where it leaves no room for the scene.
 double panel_width(double window, double scale, const DisplaySettings& display) {
@@ -34,6 +35,8 @@ Layout layout_of(const Eigen::Vector2i& window, float scale, const DisplaySettin
             .scene = {panel, menu, w - panel, middle},
             .status = {0, h - status, w, status}};
 }
+
+bool is_short(const Layout& layout, double scale) { return layout.panel.height < kShortPanel * scale; }
 
 std::vector<SceneViewport> viewports_of(const ViewerState& state, const Viewport& scene) {
     const std::vector<MethodKind> kinds = state.shown_kinds();

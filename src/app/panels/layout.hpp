@@ -15,6 +15,8 @@ struct Layout {
 /// Heights from which a side panel has room for more than what is used most, and for what is selected as well [logical
 /// pixels].
 inline constexpr double kTallPanel = 840.0, kVeryTallPanel = 940.0;
+/// Whether the headings of all sections would not fit beside what is used most.
+bool is_short(const Layout& layout, double scale);
 
 /// For a window of this size and panels of this scale. In a window too small for both, the scene comes first.
 /// `display`: whether there is a panel, and how wide it was made.

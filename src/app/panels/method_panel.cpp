@@ -105,6 +105,7 @@ void draw_buttons(const PanelContext& context, const CostOf& cost_of, const Comp
     const int per_row = std::clamp(static_cast<int>((room + gap) / (longest + 4.0f * scale + gap)), 1, 3);
     const auto n = static_cast<float>(per_row);
     const float width = (room - (n - 1.0f) * gap) / n;
+    const float height = (is_short(context.layout, scale) ? 1.15f : 1.45f) * ImGui::GetFrameHeight();
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {2.0f * scale, ImGui::GetStyle().FramePadding.y});  // long names
     int number = 0;
     for (const MethodKind kind : all_methods()) {
@@ -116,7 +117,7 @@ void draw_buttons(const PanelContext& context, const CostOf& cost_of, const Comp
             ImGui::PushStyleColor(ImGuiCol_ButtonHovered, imgui_colour(colour));
             ImGui::PushStyleColor(ImGuiCol_Text, imgui_colour(dark_palette().wire));
         }
-        if (ImGui::Button(title(kind).c_str(), {width, 1.45f * ImGui::GetFrameHeight()})) state.select_method(kind);
+        if (ImGui::Button(title(kind).c_str(), {width, height})) state.select_method(kind);
         if (active) ImGui::PopStyleColor(3);
         if (ImGui::IsItemHovered())
             tooltip(

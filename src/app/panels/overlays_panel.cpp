@@ -5,6 +5,7 @@
 #include <cfloat>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/panels/overlays.hpp"
@@ -52,28 +53,38 @@ std::string source_words(const ViewerState& state, MethodKind kind) {
     return proxy ? text + kDash + "on a proxy of " + count_text(proxy->surface->n_vertices()) + " vertices" : text;
 }
 
+/// How far a compared method is from the reference, on the average and at most; of the reference itself that it is
+/// that. Empty where nothing is compared.
+std::pair<std::string, std::string> difference_words(const ViewerState& state, MethodKind kind) {
+    const ShownBody* shown = state.shown.body(kind);
+    if (!state.comparing() || shown == nullptr) return {};
+    if (!shown->difference()) return {kind == state.compare.reference ? "reference" : "", ""};
+    return {"rms " + number_text(100.0 * shown->difference()->relative_rms) + " %",
+            "largest " + number_text(100.0 * shown->difference()->relative_max) + " %"};
+}
+
 /// Whose answer a viewport shows, how it is doing, how far it is from the reference, and what else is to be said.
 void draw_title(const PanelContext& context, ImDrawList& list, const SceneViewport& viewport, const std::string& more) {
     const ViewerState& state = context.state;
     const Palette& palette = context.palette;
     const float size = ImGui::GetFontSize(), margin = kMargin * context.gui.scale();
+    const float width = std::max(40.0f, static_cast<float>(viewport.place.width) - 2.0f * margin);
     std::vector<OverlayLine> lines;
     for (const MethodKind kind : viewport.kinds) {
         const bool first = lines.empty();
         lines.push_back({first ? context.gui.fonts().large : context.gui.fonts().regular, first ? 1.35f * size : size,
                          mix(palette.body(kind), palette.text, state.display.dark ? 0.35 : 0.6),
                          title(kind) + source_words(state, kind)});
-        const ShownBody* shown = state.shown.body(kind);
-        if (!state.comparing() || shown == nullptr) continue;
-        std::string note = kind == state.compare.reference ? "reference" : "";
-        if (shown->difference())
-            note = "rms " + number_text(100.0 * shown->difference()->relative_rms) + " %   largest " +
-                   number_text(100.0 * shown->difference()->relative_max) + " %";
-        if (!note.empty()) lines.push_back({context.gui.fonts().regular, size, palette.text, note});
+        const auto [rms, largest] = difference_words(state, kind);
+        if (rms.empty()) continue;
+        const std::string both = rms + (largest.empty() ? "" : "   ") + largest;
+        const bool fits = ImGui::CalcTextSize(both.c_str()).x <= width;
+        if (!first) lines.back().text += ":  " + both;
+        if (first) lines.push_back({context.gui.fonts().regular, size, palette.text, fits ? both : rms});
+        if (first && !fits) lines.push_back({context.gui.fonts().regular, size, palette.text, largest});
     }
     if (!more.empty()) lines.push_back({context.gui.fonts().regular, size, palette.text_dim, more});
-    draw_lines(context, list, im_point(viewport.place.x + margin, viewport.place.y + margin),
-               std::max(40.0f, static_cast<float>(viewport.place.width) - 2.0f * margin), lines);
+    draw_lines(context, list, im_point(viewport.place.x + margin, viewport.place.y + margin), width, lines);
 }
 
 void draw_axes_letters(const PanelContext& context, ImDrawList& list, const SceneViewport& viewport) {

@@ -2,7 +2,10 @@
 
 #include <imgui.h>
 
+#include <array>
+
 #include "app/panels/widgets.hpp"
+#include "base/memory.hpp"
 #include "base/text.hpp"
 
 namespace elastolab {
@@ -104,7 +107,31 @@ std::uint64_t Panels::memory_with_completion(const ViewerState& state, MethodKin
     return place->second = completion ? std::max(own, cost(state, *completion).memory_bytes) : own;
 }
 
+/// What the present set of a method takes and, while it is made, the estimate of its error; 0 before there is a set.
+std::uint64_t Panels::memory_of_set(const MethodRunner& runner) {
+    const std::shared_ptr<const Deformer>& deformer = runner.deformer();
+    if (!deformer) return 0;
+    SetMemory& known = set_bytes_[&runner];
+    if (known.of.lock() != deformer) {
+        known.of = deformer;
+        known.bytes = deformer->predict_memory(deformer->set()) + deformer->predict_check_memory(deformer->set());
+    }
+    return known.bytes;
+}
+
+/// Of all methods that are compared, and of the program itself, at most; 0 where that is not known.
+std::uint64_t Panels::memory_of_comparison(const ViewerState& state) {
+    std::uint64_t sum = program_bytes_;
+    for (const MethodKind kind : state.shown_kinds()) {
+        const std::uint64_t model = memory_with_completion(state, kind);
+        if (model == 0) return 0;
+        sum += model + memory_of_set(state.simulation.runner(kind));
+    }
+    return sum;
+}
+
 void Panels::draw(const PanelContext& context) {
+    if (program_bytes_ == 0) program_bytes_ = resident_memory_bytes();
     draw_menu(context);
     draw_side(context);
     draw_status(context);
@@ -114,6 +141,7 @@ void Panels::draw(const PanelContext& context) {
     draw_picture(context);
     draw_picture_progress(context);
     files_.draw(context.gui.scale());
+    draw_name_alone(context);
     draw_recovery(context);
     draw_unsaved(context);
 }
@@ -145,36 +173,60 @@ void Panels::draw_side(const PanelContext& context) {
     ImGui::PopStyleColor();
     ImGui::PopStyleVar();
     side_fits_ = ImGui::GetScrollMaxY() <= 0.0f;
-    struct Section {
-        const char* title;
-        void (Panels::*draw)(const PanelContext&);
-        bool open;
-    };
-    // Those used most come first, and the others are open where there is room.
-    const bool tall = place.height >= kTallPanel * context.gui.scale();
-    const Section sections[] = {
-        {"Method", &Panels::draw_method, true},
-        {"Pull", &Panels::draw_pull, true},
-        {"Show", &Panels::draw_display, tall},
-        {"Body", &Panels::draw_body, tall},
-        {"Compare", &Panels::draw_compare, tall},
-        {"Probes", &Panels::draw_probes, false},
-        {"Performance", &Panels::draw_performance, false},
-    };
-    for (const Section& section : sections) {
-        ImGui::PushFont(context.gui.fonts().bold);
-        ImGui::SetNextItemOpen(section.open, ImGuiCond_Once);
-        if (asks_name_ && section.draw == &Panels::draw_pull) ImGui::SetNextItemOpen(true);
-        const bool open = ImGui::CollapsingHeader(section.title);
-        ImGui::PopFont();
-        if (!open) continue;
-        ImGui::PushID(section.title);
-        (this->*section.draw)(context);
-        ImGui::PopID();
-        ImGui::Dummy({0.0f, 4.0f * context.gui.scale()});
-    }
+    draw_sections(context);
     ImGui::End();
     draw_splitter(context);
+}
+
+/// Those used most come first, and the others are open where there is room. Where there is little, the method comes
+/// first and the others share what is left, so that each is one click away.
+void Panels::draw_sections(const PanelContext& context) {
+    const bool tall = context.layout.panel.height >= kTallPanel * context.gui.scale();
+    const std::array<Section, 7> sections = {{{"Method", &Panels::draw_method, true},
+                                              {"Pull", &Panels::draw_pull, true},
+                                              {"Show", &Panels::draw_display, tall},
+                                              {"Body", &Panels::draw_body, tall},
+                                              {"Compare", &Panels::draw_compare, tall},
+                                              {"Probes", &Panels::draw_probes, false},
+                                              {"Performance", &Panels::draw_performance, false}}};
+    if (is_short(context.layout, context.gui.scale())) {
+        draw_folding(context, sections.front());
+        draw_tabs(context, std::span(sections).subspan(1));
+    } else {
+        for (const Section& section : sections) draw_folding(context, section);
+    }
+}
+
+void Panels::draw_folding(const PanelContext& context, const Section& section) {
+    ImGui::PushFont(context.gui.fonts().bold);
+    ImGui::SetNextItemOpen(section.open, ImGuiCond_Once);
+    if (asks_name_ && section.draw == &Panels::draw_pull) ImGui::SetNextItemOpen(true);
+    const bool open = ImGui::CollapsingHeader(section.title);
+    ImGui::PopFont();
+    if (!open) return;
+    ImGui::PushID(section.title);
+    (this->*section.draw)(context);
+    ImGui::PopID();
+    ImGui::Dummy({0.0f, 4.0f * context.gui.scale()});
+}
+
+/// Buttons in place of headings, for one section at a time.
+void Panels::draw_tabs(const PanelContext& context, std::span<const Section> sections) {
+    std::vector<Segment> tabs;
+    for (const Section& section : sections) tabs.push_back({section.title, ""});
+    for (std::size_t i = 0; i < sections.size(); ++i)
+        if (asks_name_ && sections[i].draw == &Panels::draw_pull) tab_ = i;
+    const Palette& palette = context.palette;
+    ImGui::PushFont(context.gui.fonts().bold);
+    ImGui::PushStyleColor(ImGuiCol_Button, ImVec4());
+    const auto chosen = draw_segments({palette.border, palette.text}, tabs, tab_);
+    ImGui::PopStyleColor();
+    ImGui::PopFont();
+    if (chosen) tab_ = *chosen;
+    ImGui::Separator();
+    ImGui::PushID(sections[tab_].title);
+    (this->*sections[tab_].draw)(context);
+    ImGui::PopID();
 }
 
 /// The panel's edge, which can be moved.

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -50,18 +51,29 @@ public:
     void rename_selection(ViewerState& state);
 
 private:
+    /// A part of the side panel.
+    struct Section {
+        const char* title;
+        void (Panels::*draw)(const PanelContext&);
+        bool open;  ///< at first
+    };
     // One file each: menu_panel.cpp, method_panel.cpp, ...
     void draw_menu(const PanelContext& context);
     void draw_side(const PanelContext& context);
+    void draw_sections(const PanelContext& context);
+    void draw_folding(const PanelContext& context, const Section& section);
+    void draw_tabs(const PanelContext& context, std::span<const Section> sections);
     void draw_splitter(const PanelContext& context);
     void draw_method(const PanelContext& context);
     void draw_mode(const PanelContext& context);
     void draw_body(const PanelContext& context);
     void draw_pull(const PanelContext& context);
+    void draw_tool_settings(const PanelContext& context);
     void draw_fixed_sets(const PanelContext& context);
     void draw_handles(const PanelContext& context);
     void draw_held(const PanelContext& context);
-    void draw_name(const PanelContext& context);
+    bool draw_name(const PanelContext& context);
+    void draw_name_alone(const PanelContext& context);
     void draw_selection(const PanelContext& context);
     void draw_edit(ViewerState& state);
     void scroll_to(const ViewerState& state, const ViewerState::Selection& row) const;
@@ -88,6 +100,8 @@ private:
     void open_primitive(ViewerState& state);
     const Cost& cost(const ViewerState& state, const Method& method);
     std::uint64_t memory_with_completion(const ViewerState& state, MethodKind kind);
+    std::uint64_t memory_of_set(const MethodRunner& runner);
+    std::uint64_t memory_of_comparison(const ViewerState& state);
 
     FileDialog files_;
     struct ShownExample {
@@ -108,6 +122,8 @@ private:
     std::optional<std::pair<ViewerState::Selection, std::string>> typed_name_;  ///< while it is typed
     bool asks_name_ = false;                        ///< the field for it is to be typed into
     std::optional<ViewerState::Selection> listed_;  ///< as the list was last scrolled to it
+    std::size_t tab_ = 0;                           ///< of the sections of a short panel
+    float tool_settings_height_ = 0.0f;             ///< of those for pulling
     bool side_fits_ = true;                         ///< the side panel's content did, in the last frame
     std::uint64_t costs_of_scene_ = 0;
     struct Warning {
@@ -121,6 +137,12 @@ private:
     std::map<std::tuple<MethodKind, Mode, Update, int, int>, Cost>
         costs_;  ///< by vertices and triangles of what is simulated
     std::map<std::tuple<MethodKind, Mode, Update, int, int, int>, std::uint64_t> completed_bytes_;  ///< likewise
+    struct SetMemory {
+        std::weak_ptr<const Deformer> of;
+        std::uint64_t bytes = 0;
+    };
+    std::map<const MethodRunner*, SetMemory> set_bytes_;
+    std::uint64_t program_bytes_ = 0;  ///< of the program before it has computed anything
 };
 
 }  // namespace elastolab

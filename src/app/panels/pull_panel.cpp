@@ -2,9 +2,9 @@
 
 #include <imgui_stdlib.h>
 
-#include <array>
 #include <utility>
 
+#include "app/panels/overlays.hpp"
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
 #include "base/text.hpp"
@@ -12,72 +12,6 @@
 namespace elastolab {
 
 namespace {
-
-constexpr std::array<Choice<PullMode>, 7> kPullModes = {
-    {{PullMode::plane, "in the screen", "Follows the cursor in the plane of the screen."},
-     {PullMode::normal, "along the normal", "Along the normal of the surface; also with Shift."},
-     {PullMode::axis_x, "along x", "Also with X held down."},
-     {PullMode::axis_y, "along y", "Also with Y held down."},
-     {PullMode::axis_z, "along z", "Also with Z held down."},
-     {PullMode::turn, "turn", "Turns what is pulled about its middle; also with Ctrl or R."},
-     {PullMode::scale, "scale", "Up larger, down smaller; also with Alt or S."}}};
-
-constexpr std::array<Choice<GizmoAxes>, 3> kGizmoAxes = {
-    {{GizmoAxes::world, "of the world", "The gizmo moves and turns along x, y and z."},
-     {GizmoAxes::surface, "of the surface", "Its third axis is the normal of the surface at the handle."},
-     {GizmoAxes::own, "of the handle", "Those of the world, turned as the handle was."}}};
-
-void draw_tools(ViewerState& state, float scale) {
-    const auto tool = [&](const char* label, Tool value, const char* explanation) {
-        if (ImGui::RadioButton(label, state.tools.tool == value)) state.tools.tool = value;
-        tooltip(explanation);
-    };
-    tool("pull", Tool::pull, "V: grab a patch of the body and pull it.");
-    ImGui::SameLine();
-    tool("fix: brush", Tool::brush,
-         "B: hold vertices where they are; with Shift, let them go. A click takes one vertex.");
-    ImGui::SameLine();
-    tool("fix: box", Tool::box, "N: the same for all vertices in a box on the screen.");
-    ImGui::SameLine();
-    if (ImGui::GetContentRegionAvail().x < ImGui::CalcTextSize("probe").x + 2.0f * ImGui::GetFrameHeight())
-        ImGui::NewLine();
-    tool("probe", Tool::probe, "I: shows the values at the vertex under the cursor; a click keeps it (see Probes).");
-    if (state.tools.tool == Tool::pull) {
-        set_item_width(scale);
-        choose<PullMode>("movement", state.tools.pull_mode, kPullModes);
-        ImGui::Checkbox("gizmo", &state.tools.gizmo);
-        tooltip("Arrows and rings at the selected handle: drag one to move or turn it; with Ctrl in steps.");
-        ImGui::SameLine();
-        ImGui::Checkbox("snap", &state.tools.snap);
-        tooltip(("Pulls go in steps of " + number_text(snap_length(state.scene())) +
-                 " mesh units, 15\u00b0 and 10 %. On the gizmo also with Ctrl.")
-                    .c_str());
-        if (state.tools.gizmo) {
-            set_item_width(scale);
-            choose<GizmoAxes>("axes", state.tools.gizmo_axes, kGizmoAxes);
-        }
-    } else if (state.tools.tool == Tool::brush) {
-        slider("brush", state.tools.brush_pixels, 4.0, 120.0, "%.0f pixels", scale);
-    } else if (state.tools.tool == Tool::box) {
-        bool through = state.tools.box_reach == Reach::through;
-        if (ImGui::Checkbox("through the body", &through))
-            state.tools.box_reach = through ? Reach::through : Reach::visible;
-        tooltip("Vertices on the far side, too.");
-    }
-}
-
-void draw_patch(const PanelContext& context) {
-    ViewerState& state = context.state;
-    const double largest = 0.5 * (state.scene().report().max_corner - state.scene().report().min_corner).norm();
-    slider("patch radius", state.tools.patch_radius, 0.0, largest, "%.3g", context.gui.scale());
-    tooltip(
-        "The part of the surface that a press takes hold of, in mesh units; keys [ and ]. A single vertex (0) is a "
-        "point load: how far the body follows then depends on the mesh, and no two methods agree.");
-    bool springs = state.tools.release == Release::spring_back;
-    if (ImGui::Checkbox("let go on release", &springs))
-        state.tools.release = springs ? Release::spring_back : Release::pin;
-    tooltip("Released patches spring back. Otherwise they stay where they were put and hold the body there.");
-}
 
 /// Numbers with a label to their right; true while they are typed.
 bool draw_numbers(const char* label, double* values, int n, const char* format, float scale) {
@@ -180,8 +114,8 @@ void Panels::rename_selection(ViewerState& state) {
     asks_name_ = true;
 }
 
-/// A text field for the name of the selected handle or fixed set.
-void Panels::draw_name(const PanelContext& context) {
+/// A text field for the name of the selected handle or fixed set; true when the typing has ended.
+bool Panels::draw_name(const PanelContext& context) {
     ViewerState& state = context.state;
     LiveScene& scene = state.scene();
     const std::optional<ViewerState::Selection> chosen = state.selection();
@@ -195,13 +129,27 @@ void Panels::draw_name(const PanelContext& context) {
     typed_name_.reset();
     if (ImGui::IsItemActive() && chosen) typed_name_ = {*chosen, typed};
     typed = one_line(typed);
-    if (!chosen || !(entered || ImGui::IsItemDeactivatedAfterEdit()) || typed == name) return;
+    const bool ended = entered || ImGui::IsItemDeactivated();
+    if (!chosen || !(entered || ImGui::IsItemDeactivatedAfterEdit()) || typed == name) return ended;
     const bool taken =
         chosen->fixed ? scene.rename_fixed_set(chosen->number, typed) : scene.rename_handle(chosen->number, typed);
     if (taken)
         scene.commit();
     else
         state.messages.error("\"" + typed + "\" cannot be used: the name is empty or taken. Type another.");
+    return ended;
+}
+
+/// The same over the scene, where the window has no room for the panel.
+void Panels::draw_name_alone(const PanelContext& context) {
+    constexpr const char* kTitle = "Rename";
+    const bool has_panel = context.layout.panel.width > 0.0;
+    if (asks_name_ && !has_panel) ImGui::OpenPopup(kTitle);
+    const Viewport& scene = context.layout.scene;
+    ImGui::SetNextWindowPos(im_point(scene.center().x(), scene.center().y()), ImGuiCond_Always, {0.5f, 0.5f});
+    if (!ImGui::BeginPopup(kTitle, ImGuiWindowFlags_NoMove)) return;
+    if (draw_name(context) || has_panel) ImGui::CloseCurrentPopup();
+    ImGui::EndPopup();
 }
 
 /// Name and placement of the selected handle or fixed set.
@@ -223,17 +171,19 @@ void Panels::scroll_to(const ViewerState& state, const ViewerState::Selection& r
     if (state.selection() == row && listed_ != row) ImGui::SetScrollHereY();
 }
 
-/// The fixed sets, of which brush and box change the selected one, and what each exerts.
+/// The fixed sets, and what each exerts. Brush and box change the one that was selected last, which stays bright when a
+/// handle is selected after it.
 void Panels::draw_fixed_sets(const PanelContext& context) {
     ViewerState& state = context.state;
     LiveScene& scene = state.scene();
     int removed = -1;
     for (int set = 0; set < scene.n_fixed_sets(); ++set) {
         ImGui::PushID(LiveScene::kFixed - set);
-        const bool selected = set == state.gestures.selected_fixed();
+        const bool selected = state.selection() == ViewerState::Selection{true, set};
+        const bool brushed = set == state.gestures.selected_fixed();
         const RowAnswer answer =
             draw_row(vertices_text(scene.fixed_name(set), scene.fixed_vertices(set)), selected,
-                     selected ? context.palette.fixed_active : context.palette.fixed, context.gui.scale());
+                     brushed ? context.palette.fixed_active : context.palette.fixed, context.gui.scale());
         scroll_to(state, {true, set});
         draw_reaction(context, scene.fixed_name(set));
         if (answer.clicked) state.gestures.select_fixed(selected ? -1 : set);
@@ -251,7 +201,7 @@ void Panels::draw_handles(const PanelContext& context) {
     int removed = -1;
     for (int h = 0; h < scene.n_handles(); ++h) {
         ImGui::PushID(h);
-        const bool selected = h == state.gestures.selected_handle();
+        const bool selected = state.selection() == ViewerState::Selection{false, h};
         const RowAnswer answer =
             draw_row(vertices_text(scene.handle_name(h), scene.vertices(h)), selected,
                      selected ? context.palette.active : context.palette.handle, context.gui.scale());
@@ -269,7 +219,8 @@ void Panels::draw_handles(const PanelContext& context) {
 /// below is to move.
 void Panels::draw_held(const PanelContext& context) {
     ViewerState& state = context.state;
-    const float lines = is_very_tall(context) ? 4.5f : 3.5f;  // half a line shows that there are more
+    const float lines = is_very_tall(context) ? 4.5f : is_short(context.layout, context.gui.scale()) ? 2.5f : 3.5f;
+    // Half a line shows that there are more.
     const float height = lines * ImGui::GetTextLineHeightWithSpacing() + 2.0f * ImGui::GetStyle().WindowPadding.y;
     const std::optional<ViewerState::Selection> chosen = state.selection();
     if (ImGui::BeginChild("held", {0.0f, height}, true)) {
@@ -287,9 +238,7 @@ void Panels::draw_held(const PanelContext& context) {
 }
 
 void Panels::draw_pull(const PanelContext& context) {
-    ViewerState& state = context.state;
-    draw_tools(state, context.gui.scale());
-    draw_patch(context);
+    draw_tool_settings(context);
     draw_held(context);
     draw_selection(context);
 }

@@ -1,5 +1,8 @@
 #include <imgui.h>
 
+#include <algorithm>
+#include <span>
+
 #include "app/input/shortcuts.hpp"
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
@@ -75,14 +78,20 @@ void Panels::draw_help(const PanelContext& context) {
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
     const float scale = context.gui.scale();
     ImGui::SetNextWindowPos({0.5f * screen.x, 0.5f * screen.y}, ImGuiCond_Always, {0.5f, 0.5f});
-    ImGui::SetNextWindowSize({std::min(820.0f * scale, screen.x), std::min(520.0f * scale, screen.y)});
+    const std::span<const Shortcut> keys = shortcuts();
+    const std::size_t beside_mouse = (keys.size() - gesture_help().size()) / 2;  // so that both columns end alike
+    const float rows = static_cast<float>(keys.size() - beside_mouse) + 1.0f;
+    const float height = rows * ImGui::GetTextLineHeightWithSpacing() + 2.0f * ImGui::GetFrameHeight();
+    ImGui::SetNextWindowSize({std::min(820.0f * scale, screen.x), std::min(height, screen.y)});
     if (ImGui::Begin("Mouse and keys", &context.state.show_help,
                      ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove)) {
+        const auto keys_of = [](const Shortcut& shortcut) { return shortcut.keys; };
         if (ImGui::BeginTable("help", 2, ImGuiTableFlags_SizingStretchSame)) {
             ImGui::TableNextColumn();
             draw_help_list("mouse", context, gesture_help(), [](const GestureHelp& help) { return help.gesture; });
+            draw_help_list("more keys", context, keys.last(beside_mouse), keys_of);
             ImGui::TableNextColumn();
-            draw_help_list("keys", context, shortcuts(), [](const Shortcut& shortcut) { return shortcut.keys; });
+            draw_help_list("keys", context, keys.first(keys.size() - beside_mouse), keys_of);
             ImGui::EndTable();
         }
     }

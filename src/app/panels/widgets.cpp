@@ -13,6 +13,41 @@ namespace {
 
 constexpr float kLabelRoom = 112.0f, kLeastItem = 84.0f, kMostItem = 220.0f;  ///< widths: beside an item, and of it
 
+/// The width that these segments leave free in a row [pixels]; negative where they do not fit.
+float left_in_row(std::span<const Segment> segments) {
+    const float spacing = ImGui::GetStyle().ItemSpacing.x;
+    float left = ImGui::GetContentRegionAvail().x + spacing;
+    for (const Segment& segment : segments) left -= ImGui::CalcTextSize(segment.label).x + spacing;
+    return left;
+}
+
+/// How many segments to put into a row, so that all rows have about as many and `padding` is beside each label.
+std::size_t segments_per_row(std::span<const Segment> segments, float padding) {
+    const auto fits = [&](std::size_t per_row) {
+        for (std::size_t first = 0; first < segments.size(); first += per_row) {
+            const auto row = segments.subspan(first, std::min(per_row, segments.size() - first));
+            if (left_in_row(row) < padding * static_cast<float>(row.size())) return false;
+        }
+        return true;
+    };
+    std::size_t n_rows = 1;
+    const auto per_row = [&] { return (segments.size() + n_rows - 1) / n_rows; };
+    while (per_row() > 1 && !fits(per_row())) ++n_rows;
+    return per_row();
+}
+
+bool draw_segment(const SegmentColours& colours, const Segment& segment, float width, bool chosen) {
+    if (chosen) {
+        for (const ImGuiCol colour : {ImGuiCol_Button, ImGuiCol_ButtonHovered, ImGuiCol_ButtonActive})
+            ImGui::PushStyleColor(colour, imgui_colour(colours.face));
+        ImGui::PushStyleColor(ImGuiCol_Text, imgui_colour(colours.text));
+    }
+    const bool clicked = ImGui::Button(segment.label, {width, 0.0f});
+    if (chosen) ImGui::PopStyleColor(4);
+    tooltip(segment.explanation);
+    return clicked;
+}
+
 }  // namespace
 
 std::string count_text(long long count) {
@@ -56,6 +91,26 @@ void fact(const char* label, const std::string& value, const Colour& label_colou
     const float width = ImGui::CalcTextSize(value.c_str()).x;
     ImGui::SameLine(std::max(ImGui::GetContentRegionMax().x - width, ImGui::CalcTextSize(label).x + 24.0f));
     ImGui::TextUnformatted(value.c_str());
+}
+
+std::optional<std::size_t> draw_segments(const SegmentColours& colours, std::span<const Segment> segments,
+                                         std::size_t chosen) {
+    std::optional<std::size_t> clicked;
+    const float padding = ImGui::GetStyle().FramePadding.x;
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0.0f, ImGui::GetStyle().FramePadding.y});
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0.5f * padding, ImGui::GetStyle().ItemSpacing.y});
+    const std::size_t per_row = segments_per_row(segments, padding);
+    for (std::size_t first = 0; first < segments.size(); first += per_row) {
+        const auto row = segments.subspan(first, std::min(per_row, segments.size() - first));
+        const float beside = std::max(0.0f, left_in_row(row)) / static_cast<float>(row.size());
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            const float width = ImGui::CalcTextSize(row[i].label).x + beside;
+            if (i > 0) ImGui::SameLine();
+            if (draw_segment(colours, row[i], width, first + i == chosen)) clicked = first + i;
+        }
+    }
+    ImGui::PopStyleVar(2);
+    return clicked;
 }
 
 void set_item_width(float scale) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -25,6 +27,19 @@ void tooltip(const char* text);
 void paragraph(const std::string& text, const Colour& colour);
 /// Label left, value right, in one line.
 void fact(const char* label, const std::string& value, const Colour& label_colour);
+/// One of several things that exclude each other.
+struct Segment {
+    const char* label;
+    const char* explanation;
+};
+/// Colours of the segment that is chosen.
+struct SegmentColours {
+    Colour face, text;
+};
+/// Buttons that fill a row, as wide as their labels need, or several rows where one is too short; that with the number
+/// `chosen` stands out. Which one was clicked.
+std::optional<std::size_t> draw_segments(const SegmentColours& colours, std::span<const Segment> segments,
+                                         std::size_t chosen);
 /// Width for items whose label stands to their right.
 void set_item_width(float scale);
 

@@ -64,6 +64,8 @@ Palette make_light() {
             .bodies = {hex(0x86aedb), hex(0xe0a873), hex(0x8ac7a6), hex(0xbea3dc), hex(0xdc9ab6), hex(0xc7c886)}};
 }
 
+constexpr float kUnderText = 0.5f;  ///< opacity of the accent where text stands over it
+
 void set_measures(ImGuiStyle& style, float scale) {
     style.WindowPadding = {12, 10};
     style.FramePadding = {8, 4};
@@ -107,16 +109,18 @@ void apply_style(const Palette& palette, float scale) {
     c[ImGuiCol_TextDisabled] = vec4(palette.text_dim);
     c[ImGuiCol_WindowBg] = c[ImGuiCol_MenuBarBg] = vec4(palette.panel);
     c[ImGuiCol_ChildBg] = vec4(palette.panel, 0.0f);
-    c[ImGuiCol_PopupBg] = vec4(palette.panel, 0.98f);
+    c[ImGuiCol_PopupBg] = vec4(palette.panel);
     c[ImGuiCol_Border] = c[ImGuiCol_Separator] = vec4(palette.border);
     c[ImGuiCol_BorderShadow] = {0, 0, 0, 0};
     c[ImGuiCol_TitleBg] = c[ImGuiCol_TitleBgActive] = c[ImGuiCol_TitleBgCollapsed] = vec4(palette.panel_raised);
     c[ImGuiCol_ScrollbarBg] = vec4(palette.panel, 0.0f);
     c[ImGuiCol_ScrollbarGrab] = vec4(palette.border);
     c[ImGuiCol_FrameBgHovered] = c[ImGuiCol_ButtonHovered] = c[ImGuiCol_HeaderHovered] = vec4(palette.border);
-    for (const ImGuiCol_ i : {ImGuiCol_CheckMark, ImGuiCol_SliderGrab, ImGuiCol_SliderGrabActive, ImGuiCol_PlotLines,
-                              ImGuiCol_PlotHistogram, ImGuiCol_SeparatorActive, ImGuiCol_SeparatorHovered})
+    for (const ImGuiCol_ i :
+         {ImGuiCol_CheckMark, ImGuiCol_PlotLines, ImGuiCol_SeparatorActive, ImGuiCol_SeparatorHovered})
         c[i] = vec4(palette.accent);
+    for (const ImGuiCol_ i : {ImGuiCol_SliderGrab, ImGuiCol_SliderGrabActive, ImGuiCol_PlotHistogram})
+        c[i] = vec4(palette.accent, kUnderText);
     for (const ImGuiCol_ i : {ImGuiCol_FrameBgActive, ImGuiCol_ButtonActive, ImGuiCol_HeaderActive,
                               ImGuiCol_ScrollbarGrabHovered, ImGuiCol_ScrollbarGrabActive})
         c[i] = vec4(palette.accent, 0.7f);

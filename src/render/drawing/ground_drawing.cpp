@@ -49,7 +49,9 @@ void GroundDrawing::draw(const SceneView& view, const SceneFrame& area, const Ei
     shader_->set("shadow_part", static_cast<float>(style.shadow_part));
     shader_->set("shadow_opacity", style.shadow == 0 ? 0.0f : static_cast<float>(style.shadow_opacity));
     glBindVertexArray(array_.id());
+    glEnable(GL_DEPTH_CLAMP);  // it reaches before the nearest plane of depth, which is laid at the body
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+    glDisable(GL_DEPTH_CLAMP);
     glBindVertexArray(0);
 }
 

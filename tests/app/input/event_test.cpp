@@ -15,8 +15,13 @@ const InputEvent kMove{.kind = Kind::cursor};
 std::size_t n_of(const std::vector<InputEvent>& events) { return Gui::n_for_one_frame(events); }
 
 TEST(EventsOfAFrame, APressAndItsReleaseFallIntoDifferentFrames) {
-    EXPECT_EQ(n_of({kMove, button(true), kMove, button(false), kMove}), 3u);
+    EXPECT_EQ(n_of({kMove, kMove, button(true), button(false)}), 3u);
     EXPECT_EQ(n_of({key(true, 65), key(false, 65)}), 1u);
+}
+
+TEST(EventsOfAFrame, AButtonCountsWhereTheCursorWas) {
+    EXPECT_EQ(n_of({kMove, button(true), kMove, button(false), kMove}), 2u);
+    EXPECT_EQ(n_of({button(false), kMove}), 1u);
 }
 
 TEST(EventsOfAFrame, DifferentKeysAndButtonsDoNotDisturbEachOther) {

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <stb_image.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <memory>
 
@@ -48,6 +49,31 @@ TEST_F(ScenePicture, IsTheSameInTilesAndWhole) {
     EXPECT_EQ(whole.height, 333);
     EXPECT_GT(largest_difference(whole, Image{501, 333, std::vector<std::uint8_t>(whole.pixels.size(), 20)}), 50);
     EXPECT_LE(largest_difference(whole, tiles), kDither);
+}
+
+/// In a tall view it is seen nearer to the eye than all of the body, where its lines fade away.
+TEST_F(ScenePicture, HasAGroundThatEndsNowhereAtOnce) {
+    constexpr int kFaint = 8;
+    const Eigen::Vector2i size(240, 800);
+    const SceneFrame body = stage.state.camera.scene();
+    stage.state.camera.frame(body, 0.3);
+    stage.state.camera.orbit(0.0, -72.0, {0, 0, 240, 800});  // lower
+    stage.state.display.soft_shadows = false;
+    const Image with = scene_picture(renderer, stage.state, palette, size);
+    stage.state.display.grid = false;
+    const Image without = scene_picture(renderer, stage.state, palette, size);
+    const auto row_of = [](const Image& image, std::ptrdiff_t row) {
+        const std::ptrdiff_t length = std::ssize(image.pixels) / image.height;
+        const auto begin = image.pixels.begin() + row * length;
+        return Image{image.width, 1, {begin, begin + length}};
+    };
+    std::vector<int> lines;  // by row, as strong as they are
+    for (int row = size.y() / 2; row < size.y(); ++row)
+        lines.push_back(largest_difference(row_of(with, row), row_of(without, row)));
+    while (!lines.empty() && lines.back() <= kDither) lines.pop_back();
+    ASSERT_FALSE(lines.empty());
+    EXPECT_LT(lines.size(), static_cast<std::size_t>(size.y()) / 2) << "all of it is seen";
+    EXPECT_LE(lines.back(), kFaint) << testing::PrintToString(lines);
 }
 
 /// What covers a point may be tiles away.
