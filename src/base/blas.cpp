@@ -45,6 +45,7 @@ void prepare_parallel_libraries(char** argv) {
     };
     if (is_outdated(blas_kernels())) set_where_unset("OPENBLAS_CORETYPE", fitting_kernels());
     set_where_unset("OMP_WAIT_POLICY", "passive");
+    set_where_unset("OPENBLAS_THREAD_TIMEOUT", "12");  // its threads look for more work for 2^12 cycles, not for 2^26
     set_where_unset("GLIBC_TUNABLES", "glibc.malloc.hugetlb=1");
     if (changed) execv("/proc/self/exe", argv);  // on failure all is slower, and reports say which kernels run
 }

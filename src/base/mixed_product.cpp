@@ -2,28 +2,13 @@
 
 #include <algorithm>
 
-#include "base/instruction_set.hpp"
-#include "base/mixed_product_kernels.hpp"
+#include "base/column_kernels.hpp"
 
 namespace elastolab {
-
-#if defined(__x86_64__)
-extern const MixedProductKernels kAvx2MixedProductKernels;
-extern const MixedProductKernels kAvx512MixedProductKernels;
-#endif
 
 namespace {
 
 constexpr Eigen::Index kRowsAtOnce = 1024;  ///< so few that their part of X or Y stays in the L1 cache
-
-const MixedProductKernels& mixed_kernels() {
-#if defined(__x86_64__)
-    static const InstructionSet set = best_instruction_set();
-    if (set == InstructionSet::avx512) return kAvx512MixedProductKernels;
-    if (set == InstructionSet::avx2) return kAvx2MixedProductKernels;
-#endif
-    return kMixedProductKernels;
-}
 
 }  // namespace
 
@@ -31,8 +16,8 @@ void add_mixed_product(const Eigen::Ref<const Eigen::MatrixXf>& A, const Eigen::
                        Eigen::Ref<Eigen::MatrixXd> Y) {
     for (Eigen::Index first = 0; first < A.rows(); first += kRowsAtOnce)
         for (Eigen::Index c = 0; c < X.cols(); ++c)
-            mixed_kernels().add(A.data() + first, A.outerStride(), std::min(kRowsAtOnce, A.rows() - first), A.cols(),
-                                X.col(c).data(), Y.col(c).data() + first);
+            column_kernels().add(A.data() + first, A.outerStride(), std::min(kRowsAtOnce, A.rows() - first), A.cols(),
+                                 X.col(c).data(), Y.col(c).data() + first);
 }
 
 Eigen::MatrixXd transposed_mixed_product(const Eigen::Ref<const Eigen::MatrixXf>& A,
@@ -40,8 +25,8 @@ Eigen::MatrixXd transposed_mixed_product(const Eigen::Ref<const Eigen::MatrixXf>
     Eigen::MatrixXd Y = Eigen::MatrixXd::Zero(A.cols(), X.cols());
     for (Eigen::Index first = 0; first < A.rows(); first += kRowsAtOnce)
         for (Eigen::Index c = 0; c < X.cols(); ++c)
-            mixed_kernels().add_transposed(A.data() + first, A.outerStride(), std::min(kRowsAtOnce, A.rows() - first),
-                                           A.cols(), X.col(c).data() + first, Y.col(c).data());
+            column_kernels().add_transposed(A.data() + first, A.outerStride(), std::min(kRowsAtOnce, A.rows() - first),
+                                            A.cols(), X.col(c).data() + first, Y.col(c).data());
     return Y;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <Eigen/Geometry>
 
+#include "base/column_sum.hpp"
 #include "base/error.hpp"
 #include "base/memory.hpp"
 #include "base/text.hpp"
@@ -79,9 +80,7 @@ struct Deformer::SolidState {
 };
 
 void DragResponse::displace(const Eigen::VectorXd& parameters, Eigen::VectorXd& u) const {
-    assert(parameters.size() == X.cols());
-    // Evaluated by packets in one pass; a call of the BLAS would cost more than the work on a small body.
-    u = rest + X.lazyProduct(parameters);
+    column_sum(rest, X, parameters, u);
 }
 
 Deformer::Deformer(std::shared_ptr<const Model> model) : model_(std::move(model)), solids_(model_->parts().size()) {}

@@ -6,8 +6,11 @@
 
 namespace elastolab {
 
-/// One column x (or result) of base/mixed_product.hpp; A by columns, `stride` apart.
-struct MixedProductKernels {
+/// What base/mixed_product.hpp and base/column_sum.hpp do for one column x (or result); A by columns, `stride` apart.
+struct ColumnKernels {
+    /// y[rows] = rest + A x, which does not overlap them
+    void (*sum)(const double* rest, const double* A, std::ptrdiff_t stride, std::ptrdiff_t rows, std::ptrdiff_t cols,
+                const double* x, double* y);
     /// y[rows] += A x
     void (*add)(const float* A, std::ptrdiff_t stride, std::ptrdiff_t rows, std::ptrdiff_t cols, const double* x,
                 double* y);
@@ -16,11 +19,32 @@ struct MixedProductKernels {
                            const double* x, double* y);
 };
 
+/// Those that were compiled for this CPU.
+const ColumnKernels& column_kernels();
+
 // NOLINTBEGIN(misc-definitions-in-headers): each source compiles its own.
 namespace {
 
 /// Columns of A taken together: y (for A^T: x) is then read from the cache a fourth as often.
 constexpr std::ptrdiff_t kColumnsAtOnce = 4;
+
+void sum_columns(const double* rest, const double* A, std::ptrdiff_t stride, std::ptrdiff_t rows, std::ptrdiff_t cols,
+                 const double* x, double* y) {
+    std::ptrdiff_t c = 0;
+    for (; c + 3 <= cols; c += 3, rest = y) {  // a motion has a column for each of its three directions
+        const double *a0 = A + c * stride, *a1 = a0 + stride, *a2 = a1 + stride;
+        const double x0 = x[c], x1 = x[c + 1], x2 = x[c + 2];
+#pragma omp simd
+        for (std::ptrdiff_t r = 0; r < rows; ++r) y[r] = rest[r] + (a0[r] * x0 + a1[r] * x1 + a2[r] * x2);
+    }
+    for (; c < cols; ++c, rest = y) {
+        const double* a = A + c * stride;
+#pragma omp simd
+        for (std::ptrdiff_t r = 0; r < rows; ++r) y[r] = rest[r] + a[r] * x[c];
+    }
+    if (cols == 0)
+        for (std::ptrdiff_t r = 0; r < rows; ++r) y[r] = rest[r];
+}
 
 void add_columns(const float* A, std::ptrdiff_t stride, std::ptrdiff_t rows, std::ptrdiff_t cols, const double* x,
                  double* y) {
@@ -66,7 +90,7 @@ void add_dot_products(const float* A, std::ptrdiff_t stride, std::ptrdiff_t rows
     }
 }
 
-constexpr MixedProductKernels kMixedProductKernels = {add_columns, add_dot_products};
+constexpr ColumnKernels kPlainColumnKernels = {sum_columns, add_columns, add_dot_products};
 
 }  // namespace
 // NOLINTEND(misc-definitions-in-headers)
