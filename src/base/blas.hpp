@@ -12,7 +12,7 @@ namespace elastolab {
 ///                      that OpenBLAS's threads and other workers want: whole precomputations of small bodies took 2 to
 ///                      10 times as long, in steps of the scheduler's 4 ms
 ///   OPENBLAS_THREAD_TIMEOUT  12: OpenBLAS's threads sleep as well, after some microseconds instead of 27 ms. Alone the
-///                      program is as fast; beside others it takes up to a third less of the processors
+///                      program is as fast; beside others it takes up to 40 % less of the processors
 ///   GLIBC_TUNABLES     huge pages for large matrices (glibc.malloc.hugetlb=1): a tenth less time at 1000 vertices
 void prepare_parallel_libraries(char** argv);
 

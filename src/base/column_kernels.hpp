@@ -8,7 +8,7 @@ namespace elastolab {
 
 /// What base/mixed_product.hpp and base/column_sum.hpp do for one column x (or result); A by columns, `stride` apart.
 struct ColumnKernels {
-    /// y[rows] = rest + A x, which does not overlap them
+    /// y[rows] = rest + A x; y overlaps none of them
     void (*sum)(const double* rest, const double* A, std::ptrdiff_t stride, std::ptrdiff_t rows, std::ptrdiff_t cols,
                 const double* x, double* y);
     /// y[rows] += A x
@@ -21,6 +21,9 @@ struct ColumnKernels {
 
 /// Those that were compiled for this CPU.
 const ColumnKernels& column_kernels();
+
+/// Rows for one call: so few that their part of x or y stays in the L1 cache.
+constexpr std::ptrdiff_t kRowsAtOnce = 1024;
 
 // NOLINTBEGIN(misc-definitions-in-headers): each source compiles its own.
 namespace {

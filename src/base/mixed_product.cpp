@@ -6,12 +6,6 @@
 
 namespace elastolab {
 
-namespace {
-
-constexpr Eigen::Index kRowsAtOnce = 1024;  ///< so few that their part of X or Y stays in the L1 cache
-
-}  // namespace
-
 void add_mixed_product(const Eigen::Ref<const Eigen::MatrixXf>& A, const Eigen::Ref<const Eigen::MatrixXd>& X,
                        Eigen::Ref<Eigen::MatrixXd> Y) {
     for (Eigen::Index first = 0; first < A.rows(); first += kRowsAtOnce)
