@@ -82,6 +82,38 @@ struct Shape {
     B f;
 };
 
+/// What the edges, of normal m and direction t in the plane of the triangle, add to moments of rho rho.
+template <class B>
+struct EdgeSum2 {
+    B xx = B(0.0), xy = B(0.0), yy = B(0.0);
+
+    /// m (m a + t b), which is symmetric once summed over the edges.
+    template <class S>
+    void add(const S& mx, const S& my, const S& tx, const S& ty, const B& a, const B& b) {
+        xx += (mx * mx) * a + (mx * tx) * b;
+        xy += (mx * my) * a + (mx * ty) * b;
+        yy += (my * my) * a + (my * ty) * b;
+    }
+};
+
+/// The same of rho rho rho.
+template <class B>
+struct EdgeSum3 {
+    B xxx = B(0.0), xxy = B(0.0), xyy = B(0.0), yyy = B(0.0);
+
+    /// m (m m mm + (m t + t m) mt + t t tt).
+    template <class S>
+    void add(const S& mx, const S& my, const S& tx, const S& ty, const B& mm, const B& mt, const B& tt) {
+        const B Wxx = (mx * mx) * mm + (2.0 * mx * tx) * mt + (tx * tx) * tt;
+        const B Wxy = (mx * my) * mm + (mx * ty + tx * my) * mt + (tx * ty) * tt;
+        const B Wyy = (my * my) * mm + (2.0 * my * ty) * mt + (ty * ty) * tt;
+        xxx += mx * Wxx;
+        xxy += mx * Wxy;
+        xyy += my * Wxy;
+        yyy += my * Wyy;
+    }
+};
+
 /// Moments of 1/r and rho.../r^3 over the triangle: everything that the single layer needs.
 template <class B>
 struct SingleMoments {
@@ -96,7 +128,8 @@ struct SingleMoments {
         M.z_omega = v.z * solid_angle(T, v);
         M.I = -M.z_omega;
         M.Nx = M.Ny = M.Jx = M.Jy = zero;
-        B sxx = zero, sxy = zero, syy = zero, s111 = zero, s112 = zero, s122 = zero, s222 = zero;
+        EdgeSum2<B> S;
+        EdgeSum3<B> W;
         for (int i = 0; i < 3; ++i) {
             const EdgeTerms<B> e = edge_terms(T, v, i);
             const auto tx = T.tx[i], ty = T.ty[i], mx = ty, my = -tx;
@@ -104,31 +137,22 @@ struct SingleMoments {
             M.I += hL;
             M.Nx -= mx * e.L;
             M.Ny -= my * e.L;
-            sxx += (mx * mx) * hL + (mx * tx) * e.dr;
-            sxy += (mx * my) * hL + (mx * ty) * e.dr;
-            syy += (my * my) * hL + (my * ty) * e.dr;
+            S.add(mx, my, tx, ty, hL, e.dr);
             if constexpr (kHats) {
                 const B j = 0.5 * (e.dsr + R2L);
                 M.Jx += mx * j;
                 M.Jy += my * j;
-                const B mm = e.h * hL, mt = e.h * e.dr, tt = 0.5 * (e.dsr - R2L);
-                const B Wxx = (mx * mx) * mm + (2.0 * mx * tx) * mt + (tx * tx) * tt;
-                const B Wxy = (mx * my) * mm + (mx * ty + tx * my) * mt + (tx * ty) * tt;
-                const B Wyy = (my * my) * mm + (2.0 * my * ty) * mt + (ty * ty) * tt;
-                s111 += mx * Wxx;
-                s112 += mx * Wxy;
-                s122 += my * Wxy;
-                s222 += my * Wyy;
+                W.add(mx, my, tx, ty, e.h * hL, e.h * e.dr, 0.5 * (e.dsr - R2L));
             }
         }
-        M.Qxx = M.I - sxx;
-        M.Qxy = -sxy;
-        M.Qyy = M.I - syy;
+        M.Qxx = M.I - S.xx;
+        M.Qxy = -S.xy;
+        M.Qyy = M.I - S.yy;
         if constexpr (kHats) {
-            M.T111 = 2.0 * M.Jx - s111;
-            M.T112 = M.Jy - s112;
-            M.T122 = M.Jx - s122;
-            M.T222 = 2.0 * M.Jy - s222;
+            M.T111 = 2.0 * M.Jx - W.xxx;
+            M.T112 = M.Jy - W.xxy;
+            M.T122 = M.Jx - W.xyy;
+            M.T222 = 2.0 * M.Jy - W.yyy;
         }
         return M;
     }
@@ -160,8 +184,9 @@ struct DoubleMoments {
         M.omega = solid_angle(T, v);
         B I = -v.z * M.omega;
         M.Nx = M.Ny = zero;
-        B hC = zero, mxC = zero, myC = zero, qxx = zero, qxy = zero, qyy = zero, yxx = zero, yxy = zero, yyy = zero;
-        B s111 = zero, s112 = zero, s122 = zero, s222 = zero;
+        B hC = zero, mxC = zero, myC = zero;
+        EdgeSum2<B> Q, Y;
+        EdgeSum3<B> V;
         for (int i = 0; i < 3; ++i) {
             const EdgeTerms<B> e = edge_terms(T, v, i);
             const auto tx = T.tx[i], ty = T.ty[i], mx = ty, my = -tx;
@@ -171,40 +196,29 @@ struct DoubleMoments {
             hC += hc;
             mxC += mx * e.C;
             myC += my * e.C;
-            yxx += (mx * mx) * hc + (mx * tx) * e.D;
-            yxy += (mx * my) * hc + (mx * ty) * e.D;
-            yyy += (my * my) * hc + (my * ty) * e.D;
+            Y.add(mx, my, tx, ty, hc, e.D);
             if constexpr (kHats) {
                 const B hL = e.h * e.L;
                 I += hL;
-                qxx += (mx * mx) * hL + (mx * tx) * e.dr;
-                qxy += (mx * my) * hL + (mx * ty) * e.dr;
-                qyy += (my * my) * hL + (my * ty) * e.dr;
-                const B mm = e.h * hc, mt = e.h * e.D, tt = e.L - e.R2 * e.C;
-                const B Vxx = (mx * mx) * mm + (2.0 * mx * tx) * mt + (tx * tx) * tt;
-                const B Vxy = (mx * my) * mm + (mx * ty + tx * my) * mt + (tx * ty) * tt;
-                const B Vyy = (my * my) * mm + (2.0 * my * ty) * mt + (ty * ty) * tt;
-                s111 += mx * Vxx;
-                s112 += mx * Vxy;
-                s122 += my * Vxy;
-                s222 += my * Vyy;
+                Q.add(mx, my, tx, ty, hL, e.dr);
+                V.add(mx, my, tx, ty, e.h * hc, e.h * e.D, e.L - e.R2 * e.C);
             }
         }
         const B z2 = v.z * v.z;
         M.Pzz = M.omega + v.z * hC;
         M.Px = -z2 * mxC;
         M.Py = -z2 * myC;
-        M.Yxx = M.omega - v.z * yxx;
-        M.Yxy = -v.z * yxy;
-        M.Yyy = M.omega - v.z * yyy;
+        M.Yxx = M.omega - v.z * Y.xx;
+        M.Yxy = -v.z * Y.xy;
+        M.Yyy = M.omega - v.z * Y.yy;
         if constexpr (kHats) {
-            M.Qxx = I - qxx;
-            M.Qxy = -qxy;
-            M.Qyy = I - qyy;
-            M.R111 = 2.0 * M.Nx - s111;
-            M.R112 = M.Ny - s112;
-            M.R122 = M.Nx - s122;
-            M.R222 = 2.0 * M.Ny - s222;
+            M.Qxx = I - Q.xx;
+            M.Qxy = -Q.xy;
+            M.Qyy = I - Q.yy;
+            M.R111 = 2.0 * M.Nx - V.xxx;
+            M.R112 = M.Ny - V.xxy;
+            M.R122 = M.Nx - V.xyy;
+            M.R222 = 2.0 * M.Ny - V.yyy;
         }
         return M;
     }
