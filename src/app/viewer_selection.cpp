@@ -45,7 +45,7 @@ void ViewerState::frame_selection() {
     const double extent = (at.colwise() - middle).colwise().norm().maxCoeff();
     const double diagonal = (scene_->report().max_corner - scene_->report().min_corner).norm();
     camera.frame({middle, std::max(kAroundSelection * extent, kLeastOfBody * diagonal)},
-                 shown.viewports.empty() ? 1.3 : shown.viewports.front().place.aspect());
+                 shown.viewports.empty() ? 1.3 : shown.viewports.front().place.free_aspect());
 }
 
 void ViewerState::select_next_handle() {

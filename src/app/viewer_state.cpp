@@ -80,7 +80,7 @@ void ViewerState::frame_body() {
         points.conservativeResize(Eigen::NoChange, points.cols() + positions->cols());
         points.rightCols(positions->cols()) = *positions;
     }
-    camera.fit(points, shown.viewports.empty() ? 1.3 : shown.viewports.front().place.aspect());
+    camera.fit(points, shown.viewports.empty() ? 1.3 : shown.viewports.front().place.free_aspect());
 }
 
 void ViewerState::frame_in_viewports(bool first_time) {

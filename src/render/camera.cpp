@@ -32,13 +32,9 @@ Eigen::Vector3d across(const Eigen::Vector3d& direction) {
 
 }  // namespace
 
-Eigen::Vector2d Camera::middle_of(const Viewport& viewport) const {
-    return viewport.center() - Eigen::Vector2d(0.5 * covered_ * viewport.width, 0.0);
-}
-
 /// Eye coordinates, at depth 1, of what a pixel shows.
 Eigen::Vector3d Camera::eye_direction(const Eigen::Vector2d& pixel, const Viewport& viewport) const {
-    const Eigen::Vector2d offset = (pixel - middle_of(viewport)) * slope_per_pixel(viewport);
+    const Eigen::Vector2d offset = (pixel - viewport.center()) * slope_per_pixel(viewport);
     return {offset.x(), -offset.y(), -1.0};
 }
 
@@ -50,15 +46,15 @@ Eigen::Matrix4d Camera::view() const {
     return matrix;
 }
 
-Eigen::Matrix4d Camera::projection(double aspect, double unit) const {
+Eigen::Matrix4d Camera::projection(const Viewport& viewport, double unit) const {
     const double depth = (eye() - scene_.center).dot(backward());
     const double least = kNearestPlane * pose_.distance;
     const double near = std::max(depth - kInFront * scene_.radius, least) / unit;
     const double far = std::max((depth + kBehind * scene_.radius) / unit, 2.0 * near);
     const double scale = 1.0 / std::tan(0.5 * kFieldOfView);
     Eigen::Matrix4d matrix = Eigen::Matrix4d::Zero();
-    matrix(0, 0) = scale / aspect;
-    matrix(0, 2) = covered_;  // half of it, times the width, which is 2 in clip coordinates
+    matrix(0, 0) = scale / viewport.aspect();
+    matrix(0, 2) = viewport.covered / viewport.width;  // half of it, times the width, which is 2 in clip coordinates
     matrix(1, 1) = scale;
     matrix(2, 2) = -(far + near) / (far - near);
     matrix(2, 3) = -2.0 * far * near / (far - near);
@@ -95,7 +91,7 @@ void Camera::zoom_to(const Eigen::Vector2d& cursor, double factor, const Eigen::
 
 void Camera::fit(const PositionsView& points, double aspect) {
     constexpr double kMargin = 0.86;  // of half the picture
-    const double slope_y = kMargin * std::tan(0.5 * kFieldOfView), slope_x = slope_y * aspect * (1.0 - covered_);
+    const double slope_y = kMargin * std::tan(0.5 * kFieldOfView), slope_x = slope_y * aspect;
     const Eigen::Matrix3d axes = pose_.orientation.toRotationMatrix();
     const Eigen::Vector3d origin = points.col(0);
     const Eigen::Matrix3Xd local = axes.transpose() * (points.colwise() - origin);
@@ -115,7 +111,7 @@ void Camera::fit(const PositionsView& points, double aspect) {
 }
 
 void Camera::frame(const SceneFrame& ball, double aspect) {
-    const double half = std::atan(std::tan(0.5 * kFieldOfView) * std::min(aspect * (1.0 - covered_), 1.0));
+    const double half = std::atan(std::tan(0.5 * kFieldOfView) * std::min(aspect, 1.0));
     pose_.target = ball.center;
     pose_.distance = kFrameMargin * ball.radius / std::sin(half);
 }
@@ -160,7 +156,7 @@ Ray Camera::ray(const Eigen::Vector2d& cursor, const Viewport& viewport) const {
 ProjectedPoint Camera::project(const Eigen::Vector3d& point, const Viewport& viewport) const {
     const Eigen::Vector3d seen = pose_.orientation.conjugate() * (point - eye());
     const double depth = -seen.z(), per_slope = 1.0 / slope_per_pixel(viewport);
-    return {middle_of(viewport) + Eigen::Vector2d(seen.x(), -seen.y()) * (per_slope / depth), depth};
+    return {viewport.center() + Eigen::Vector2d(seen.x(), -seen.y()) * (per_slope / depth), depth};
 }
 
 Eigen::Vector3d Camera::unproject(const Eigen::Vector2d& pixel, double depth, const Viewport& viewport) const {

@@ -49,15 +49,11 @@ public:
     Eigen::Vector3d up() const { return pose_.orientation * Eigen::Vector3d::UnitY(); }
     Eigen::Vector3d backward() const { return pose_.orientation * Eigen::Vector3d::UnitZ(); }
 
-    /// Something covers this share of every viewport's width, at its right: the view is then centred in the rest.
-    void set_covered(double part) { covered_ = part; }
-    double covered() const { return covered_; }
-
     /// World to eye coordinates (x right, y up, z backward) [L].
     Eigen::Matrix4d view() const;
     /// Eye to clip coordinates, for eye coordinates in units of `unit` [L]. The depth range holds a few scene radii
     /// around the scene, and stays clear of the eye.
-    Eigen::Matrix4d projection(double aspect, double unit = 1.0) const;
+    Eigen::Matrix4d projection(const Viewport& viewport, double unit = 1.0) const;
 
     /// A drag of the cursor by (dx, dy) pixels turns the view about the target: sideways about the up axis, up and
     /// down until it looks along that axis. The height of the viewport is half a turn.
@@ -67,9 +63,10 @@ public:
     /// Comes closer by `factor` > 1, or goes back by factor < 1. The point under the cursor in the plane through
     /// `anchor` parallel to the screen stays there. The distance stays within 1e-4 to 1e3 scene radii.
     void zoom_to(const Eigen::Vector2d& cursor, double factor, const Eigen::Vector3d& anchor, const Viewport& viewport);
-    /// Puts this ball in the middle, as large as fits. Keeps the orientation.
+    /// Puts this ball in the middle, as large as fits into a free part of a viewport of this aspect. Keeps the
+    /// orientation.
     void frame(const SceneFrame& ball, double aspect);
-    /// Moves and comes as near as these points (one column each) allow, with a margin. Keeps the orientation.
+    /// Moves and comes as near as these points (one column each) allow there, with a margin. Keeps the orientation.
     void fit(const PositionsView& points, double aspect);
     /// Turns about the target to look from there.
     void set_view(ViewDirection from);
@@ -89,14 +86,11 @@ public:
     double pixel_size(double depth, const Viewport& viewport) const;
 
 private:
-    /// Where the viewing direction appears.
-    Eigen::Vector2d middle_of(const Viewport& viewport) const;
     Eigen::Vector3d eye_direction(const Eigen::Vector2d& pixel, const Viewport& viewport) const;
 
     CameraPose pose_;
     SceneFrame scene_;
     Eigen::Vector3d up_axis_ = Eigen::Vector3d::UnitZ();
-    double covered_ = 0.0;
 };
 
 }  // namespace elastolab

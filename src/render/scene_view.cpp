@@ -8,7 +8,7 @@ SceneView::SceneView(const Camera& camera, const Viewport& viewport, double pixe
     : unit_(camera.scene()),
       to_eye_(camera.pose().orientation.conjugate().toRotationMatrix()),
       eye_(camera.eye()),
-      projection_(camera.projection(viewport.aspect(), unit_.radius).cast<float>()),
+      projection_(camera.projection(viewport, unit_.radius).cast<float>()),
       size_(Eigen::Vector2d(viewport.width * pixel_ratio, viewport.height * pixel_ratio).cast<float>()),
       pixel_ratio_(static_cast<float>(pixel_ratio)),
       pixel_slope_(static_cast<float>(camera.pixel_size(1.0, viewport) / pixel_ratio)),

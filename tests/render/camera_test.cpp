@@ -36,6 +36,13 @@ private:
     std::mt19937 engine_{7};
 };
 
+/// kPlace, of whose width this part is covered.
+Viewport partly_covered(double part) {
+    Viewport place = kPlace;
+    place.covered = part * place.width;
+    return place;
+}
+
 double distance(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return (a - b).norm(); }
 
 TEST(Camera, ProjectsEveryPointOfARayToItsPixel) {
@@ -55,25 +62,25 @@ TEST(Camera, ProjectsEveryPointOfARayToItsPixel) {
 TEST(Camera, UnprojectsWhatItProjects) {
     Random random;
     for (const SceneFrame& ball : scenes()) {
-        Camera camera = camera_at(ball, kPlace);
-        camera.set_covered(random(0.0, 0.3));
+        const Camera camera = camera_at(ball, kPlace);
+        const Viewport place = partly_covered(random(0.0, 0.3));
         const Eigen::Vector3d point = random.point(ball);
-        const ProjectedPoint seen = camera.project(point, kPlace);
-        EXPECT_LT((camera.unproject(seen.pixel, seen.depth, kPlace) - point).norm(), kTight * ball.radius);
+        const ProjectedPoint seen = camera.project(point, place);
+        EXPECT_LT((camera.unproject(seen.pixel, seen.depth, place) - point).norm(), kTight * ball.radius);
     }
 }
 
 TEST(Camera, AgreesWithItsMatrices) {
     Random random;
     for (const SceneFrame& ball : scenes()) {
-        Camera camera = camera_at(ball, kPlace);
-        camera.set_covered(random(0.0, 0.3));
+        const Camera camera = camera_at(ball, kPlace);
+        const Viewport place = partly_covered(random(0.0, 0.3));
         const Eigen::Vector3d point = random.point(ball);
-        const Eigen::Vector4d clip = camera.projection(kPlace.aspect()) * camera.view() * point.homogeneous();
+        const Eigen::Vector4d clip = camera.projection(place) * camera.view() * point.homogeneous();
         const Eigen::Vector3d ndc = clip.head<3>() / clip.w();
         const Eigen::Vector2d pixel(kPlace.x + 0.5 * (1.0 + ndc.x()) * kPlace.width,
                                     kPlace.y + 0.5 * (1.0 - ndc.y()) * kPlace.height);
-        EXPECT_LT(distance(camera.project(point, kPlace).pixel, pixel), 1e-6);
+        EXPECT_LT(distance(camera.project(point, place).pixel, pixel), 1e-6);
         EXPECT_LT(std::abs(ndc.z()), 1.0);
     }
 }
@@ -212,11 +219,10 @@ TEST(Camera, KeepsABodyClearOfWhatCoversTheRightOfTheViewport) {
     Camera camera;
     camera.set_scene({Eigen::Vector3d::Zero(), 2.0});
     camera.set_view(ViewDirection::isometric);
-    camera.set_covered(0.2);
     std::srand(7);
     const Eigen::Matrix3Xd points = Eigen::Vector3d(1, 2, 0.3).asDiagonal() * Eigen::Matrix3Xd::Random(3, 50);
-    const Viewport viewport{0, 0, 600, 500};
-    camera.fit(points, viewport.aspect());
+    const Viewport viewport{0, 0, 600, 500, 120};
+    camera.fit(points, viewport.free_aspect());
     for (const auto& point : points.colwise()) {
         const double x = camera.project(point, viewport).pixel.x();
         EXPECT_GT(x, 0.0);

@@ -12,6 +12,8 @@ constexpr double kMenu = 23.0, kStatus = 27.0, kGap = 2.0;
 constexpr double kPanel = 320.0, kLeastPanel = 216.0, kPanelPart = 0.34;  ///< of the window
 constexpr double kLeastScene = 160.0;
 constexpr double kShortPanel = 690.0;
+constexpr double kLegendWidth = kLegendHeadingWidth + 26.0;  // with the chip's margins
+constexpr double kMostOfScene = 0.3;                         // of its width, for the legend
 
 /// As wide as the person made it, else by the window's width; 0 where it leaves no room for the scene.
 double panel_width(double window, double scale, const DisplaySettings& display) {
@@ -21,6 +23,10 @@ double panel_width(double window, double scale, const DisplaySettings& display) 
     const double wanted =
         display.panel_width > 0.0 ? display.panel_width * scale : std::min(kPanel * scale, kPanelPart * window);
     return std::round(std::clamp(wanted, least, most));
+}
+
+double legend_width(const DisplaySettings& display, const Viewport& scene, double scale) {
+    return display.field == Field::none ? 0.0 : std::min(kLegendWidth * scale, kMostOfScene * scene.width);
 }
 
 }  // namespace
@@ -38,29 +44,29 @@ Layout layout_of(const Eigen::Vector2i& window, float scale, const DisplaySettin
 
 bool is_short(const Layout& layout, double scale) { return layout.panel.height < kShortPanel * scale; }
 
-std::vector<SceneViewport> viewports_of(const ViewerState& state, const Viewport& scene) {
+std::vector<SceneViewport> viewports_of(const ViewerState& state, const Viewport& scene, double scale) {
     const std::vector<MethodKind> kinds = state.shown_kinds();
-    if (state.compare.mode != CompareMode::side_by_side) return {{scene, kinds}};
+    const double legend = legend_width(state.display, scene, scale);
+    if (state.compare.mode != CompareMode::side_by_side) {
+        std::vector<SceneViewport> one = {{scene, kinds}};
+        one.front().place.covered = legend;
+        return one;
+    }
     // In the order of all methods, so that a switch does not make them jump.
     std::vector<SceneViewport> viewports;
     for (const MethodKind kind : all_methods())
         if (std::find(kinds.begin(), kinds.end(), kind) != kinds.end()) viewports.push_back({scene, {kind}});
     const auto n = static_cast<double>(viewports.size());
-    const double width = std::max(1.0, (scene.width - kGap * (n - 1.0)) / n);
+    const double width = std::max(1.0, (scene.width - legend - kGap * (n - 1.0)) / n);
     for (std::size_t i = 0; i < viewports.size(); ++i) {
         viewports[i].place.x = scene.x + static_cast<double>(i) * (width + kGap);
         viewports[i].place.width = width;
     }
+    if (!viewports.empty()) {
+        viewports.back().place.width += legend;
+        viewports.back().place.covered = legend;
+    }
     return viewports;
-}
-
-double legend_part(const ViewerState& state, float scale) {
-    constexpr double kLegendWidth = kLegendHeadingWidth + 26.0, kMostPart = 0.3;  // with the chip's margins
-    constexpr double kNarrow = 0.75;  // a body as wide as this viewport ends above the legend
-    if (state.display.field == Field::none || state.shown.viewports.empty()) return 0.0;
-    const Viewport& last = state.shown.viewports.back().place;
-    if (last.aspect() < kNarrow) return 0.0;
-    return std::min(kLegendWidth * scale / last.width, kMostPart);
 }
 
 }  // namespace elastolab

@@ -22,13 +22,11 @@ bool is_short(const Layout& layout, double scale);
 /// `display`: whether there is a panel, and how wide it was made.
 Layout layout_of(const Eigen::Vector2i& window, float scale, const DisplaySettings& display = {});
 
-/// The viewports for what is compared, within the part of the window that shows the scene.
-std::vector<SceneViewport> viewports_of(const ViewerState& state, const Viewport& scene);
-
 /// Width of the legend's heading, which takes as many lines as it needs [pixels at scale 1].
 constexpr double kLegendHeadingWidth = 104.0;
-/// The part of the last viewport's width, at its right, over which the legend stands; 0 when no field is shown, or when
-/// the viewport is so narrow that there is room above it.
-double legend_part(const ViewerState& state, float scale);
+
+/// The viewports for what is compared, within the part of the window that shows the scene. When a field is shown, the
+/// last one is wider by what its legend covers. `scale`: of the legend.
+std::vector<SceneViewport> viewports_of(const ViewerState& state, const Viewport& scene, double scale = 1.0);
 
 }  // namespace elastolab

@@ -20,10 +20,10 @@ namespace {
 class LookGuard {
 public:
     explicit LookGuard(ViewerState& state)
-        : state_(state), pose_(state.camera.pose()), covered_(state.camera.covered()), grid_(state.display.grid) {}
+        : state_(state), pose_(state.camera.pose()), viewports_(state.shown.viewports), grid_(state.display.grid) {}
     ~LookGuard() {
         state_.camera.set_pose(pose_);
-        state_.camera.set_covered(covered_);
+        state_.shown.viewports = viewports_;
         state_.display.grid = grid_;
     }
     LookGuard(const LookGuard&) = delete;
@@ -32,7 +32,7 @@ public:
 private:
     ViewerState& state_;
     CameraPose pose_;
-    double covered_;
+    std::vector<SceneViewport> viewports_;
     bool grid_;
 };
 
@@ -112,7 +112,7 @@ Image scene_picture(SceneRenderer& renderer, ViewerState& state, const Palette& 
         const auto right = static_cast<int>(std::lround((place.x + place.width - all.x) * scale_x));
         const auto bottom = static_cast<int>(std::lround((place.y + place.height - all.y) * scale_y));
         const Area area{left, top, std::max(1, right - left), std::max(1, bottom - top)};
-        viewport.place = {0.0, 0.0, area.width / pixel_ratio, area.height / pixel_ratio};
+        viewport.place = {0.0, 0.0, area.width / pixel_ratio, area.height / pixel_ratio, place.covered};
         std::optional<DepthBuffer> depths;  // occlusion reaches over the borders of tiles
         if (state.display.soft_shadows && is_tiled(area, largest_tile)) {
             depths.emplace(area.width, area.height);
@@ -139,7 +139,8 @@ void write_picture(const std::filesystem::path& file, SceneRenderer& renderer, V
         write_png(file, picture);
     };
     const LookGuard guard(state);
-    if (!options.legend) state.camera.set_covered(0.0);
+    if (!options.legend)
+        for (SceneViewport& viewport : state.shown.viewports) viewport.place.covered = 0.0;
     if (!options.transparent) return finish(scene_picture(renderer, state, palette, size));
     state.display.grid = false;  // it has no edge
     const auto before = [&](float grey) {

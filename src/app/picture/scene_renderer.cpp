@@ -317,6 +317,7 @@ SceneRenderer::Look SceneRenderer::look_of(const ViewerState& state, const Scene
     look.pixel_ratio = pixel_ratio;
     look.width = viewport.place.width;
     look.height = viewport.place.height;
+    look.covered = viewport.place.covered;
     look.display = state.display;
     look.range = state.shown.field_range(state.display);
     look.hover = state.gestures.hover();

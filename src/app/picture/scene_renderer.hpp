@@ -65,7 +65,7 @@ private:
         std::vector<std::uint64_t> body_revisions;
         Eigen::Vector3d camera_target, camera_up, camera_scene;
         Eigen::Vector4d camera_turn;
-        double camera_distance = 0.0, pixel_ratio = 0.0, width = 0.0, height = 0.0;
+        double camera_distance = 0.0, pixel_ratio = 0.0, width = 0.0, height = 0.0, covered = 0.0;
         DisplaySettings display;
         std::pair<double, double> range;
         Hover hover;

@@ -13,12 +13,15 @@ constexpr double kLargestPlain = 1e5, kSmallestPlain = 1e-3;  // beyond these, n
 
 int exponent_of(double value) { return static_cast<int>(std::floor(std::log10(std::abs(value)) + 1e-9)); }
 
-/// `value` with the digits that its neighbours at distance `step` need; `largest` decides whether all get exponents.
+/// `value` with the digits that its neighbours at distance `step` need; `largest` decides whether all get exponents,
+/// then all the same one.
 std::string tick_text(double value, double step, double largest) {
     if (value == 0.0) return "0";
     if (largest < kLargestPlain && largest >= kSmallestPlain)
         return formatted("%.*f", std::clamp(-exponent_of(step), 0, 12), value);
-    return formatted("%.*e", std::clamp(exponent_of(value) - exponent_of(step), 0, 12), value);
+    const int exponent = exponent_of(largest);
+    return formatted("%.*fe%+03d", std::clamp(exponent - exponent_of(step), 0, 12), value / std::pow(10.0, exponent),
+                     exponent);
 }
 
 }  // namespace

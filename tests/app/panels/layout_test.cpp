@@ -76,6 +76,24 @@ TEST(Viewports, OfAComparisonSideBySideShareTheWidthInTheOrderOfAllMethods) {
     EXPECT_NEAR(viewports[2].place.x + viewports[2].place.width, 1280.0, 1e-9);
 }
 
+/// Whatever is compared, the legend stands over no body: its strip is free, and all bodies have the same room.
+TEST(Viewports, KeepTheStripOfTheLegendFree) {
+    test::Stage stage(2);
+    const Viewport scene{272, 23, 528, 550};
+    for (const CompareMode mode : {CompareMode::off, CompareMode::ghosts, CompareMode::side_by_side}) {
+        stage.state.compare.mode = mode;
+        stage.state.display.field = Field::displacement;
+        const auto viewports = viewports_of(stage.state, scene);
+        const Viewport& last = viewports.back().place;
+        EXPECT_EQ(last.covered, kLegendHeadingWidth + 26.0);
+        EXPECT_NEAR(last.x + last.width, 800.0, 1e-9);
+        for (const SceneViewport& viewport : viewports)
+            EXPECT_NEAR(viewport.place.free_aspect(), last.free_aspect(), 1e-12);
+        stage.state.display.field = Field::none;
+        EXPECT_EQ(viewports_of(stage.state, scene).back().place.covered, 0.0);
+    }
+}
+
 TEST(Viewports, OfGhostsLieOverEachOtherTheActiveMethodFirst) {
     test::Stage stage(2);
     stage.state.compare.mode = CompareMode::ghosts;

@@ -28,6 +28,7 @@ TEST(Legend, HasRoundNumbers) {
 
 TEST(Legend, UsesExponentsForVeryLargeAndVerySmallNumbers) {
     EXPECT_THAT(texts(0.0, 2.4e7, 3), ElementsAre("0", "1e+07", "2e+07"));
+    EXPECT_THAT(texts(0.0, 1.6e5, 4), ElementsAre("0", "0.5e+05", "1.0e+05", "1.5e+05"));
     EXPECT_THAT(texts(1e-9, 3e-9, 2), ElementsAre("1e-09", "2e-09", "3e-09"));
     EXPECT_THAT(texts(1.0e6, 1.2e6, 2), ElementsAre("1.0e+06", "1.1e+06", "1.2e+06"));
 }
