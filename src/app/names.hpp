@@ -11,6 +11,10 @@ namespace elastolab {
 /// For headings: the name of a method with a capital ("Linear BEM"), made from its name in scene files.
 std::string title(MethodKind kind);
 
+/// `text` with every method called as on its button: "Choose Galerkin BEM or FEM." for "Choose galerkin-bem or fem.".
+/// Parts of longer words ("fem.obj", "my-fem") stay.
+std::string with_titles(std::string text);
+
 /// What a worker is doing, for people, from the name of the stage in reports ("tetrahedralize": "making tetrahedra").
 std::string stage_words(std::string_view stage);
 

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/names.hpp"
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
 #include "findings/words.hpp"
@@ -26,7 +27,8 @@ float height_of(const std::string& paragraph, float width) {
 
 }  // namespace
 
-/// What has failed, then the warnings of the present answer, with the body's file in place of its whole path.
+/// What has failed, then the warnings of the present answer, with the body's file in place of its whole path, and
+/// methods called as on their buttons.
 std::vector<Panels::Warning> Panels::present_warnings(const ViewerState& state) {
     std::vector<Warning> warnings;
     for (const std::string& problem :
@@ -38,7 +40,10 @@ std::vector<Panels::Warning> Panels::present_warnings(const ViewerState& state) 
     const std::string& name = state.scene().name();
     for (Warning& warning : warnings)
         if (warning.text.starts_with(name))
-            warning.text.replace(0, name.size(), std::filesystem::path(name).filename().string());
+            warning.text =
+                std::filesystem::path(name).filename().string() + with_titles(warning.text.substr(name.size()));
+        else
+            warning.text = with_titles(warning.text);
     return warnings;
 }
 
