@@ -106,6 +106,10 @@ private:
         }
         if (options_.method) state_.start_with(*options_.method);
         if (options_.field) state_.display.field = *options_.field;
+        if (options_.cut_axis) {
+            state_.display.section = true;
+            state_.display.section_axis = *options_.cut_axis;
+        }
         state_.update_displacements();  // begins the precomputation
     }
 
@@ -259,12 +263,17 @@ private:
         end_frame(times, now);
     }
 
-    /// Lays out the viewports; when their number changes, the body is made to fit again.
+    /// Lays out the viewports. When their number changes, the body is made to fit again; when their width does, what
+    /// filled it still does.
     void arrange(const Layout& layout) {
+        const auto width = [&] { return std::min(1.0, state_.shown.viewports.front().place.free_aspect()); };
         const std::size_t before = state_.shown.viewports.size();
-        state_.shown.viewports = viewports_of(state_, layout.scene);
-        state_.camera.set_covered(legend_part(state_, gui_.scale()));
-        if (state_.shown.viewports.size() != before) state_.frame_in_viewports(before == 0);
+        const double width_before = before > 0 ? width() : 1.0;
+        state_.shown.viewports = viewports_of(state_, layout.scene, gui_.scale());
+        if (state_.shown.viewports.size() != before) return state_.frame_in_viewports(before == 0);
+        CameraPose pose = state_.camera.pose();
+        pose.distance *= width_before / width();
+        state_.camera.set_pose(pose);
     }
 
     void prepare_look() {

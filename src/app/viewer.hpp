@@ -21,9 +21,10 @@ struct ViewerOptions {
     std::filesystem::path picture;              ///< likewise: of the scene alone, or the frames of a film
     Eigen::Vector2i picture_size{1920, 1080};
     bool transparent = false;
-    bool legend = false;         ///< and with the colour bar
-    std::optional<Field> field;  ///< that colours the body from the start
-    int film_frames = 0;         ///< 0: a single picture
+    bool legend = false;          ///< and with the colour bar
+    std::optional<Field> field;   ///< that colours the body from the start
+    std::optional<int> cut_axis;  ///< 0, 1 or 2: cut open through its middle across this axis, from the start
+    int film_frames = 0;          ///< 0: a single picture
     FilmKind film = FilmKind::turn;
     std::optional<Eigen::Vector2i> size;  ///< of the window [logical pixels]
     bool hidden = false;

@@ -21,7 +21,7 @@ constexpr const char* kInterrupted = "Interrupted; no picture, scene or mesh was
 /// What the command line says, word for word.
 struct ViewWords {
     std::string input, method, screenshot, timings, replay, record, scene_out, mesh_out, size, picture, picture_size,
-        field;
+        field, cut;
     int frames = 0, threads = 0, turntable = 0, pull_film = 0;
     bool hidden = false, transparent = false, legend = false;
 };
@@ -63,6 +63,7 @@ ViewerOptions options_of(const ViewWords& words) {
     options.transparent = words.transparent;
     options.legend = words.legend;
     options.field = parse_field(words.field);
+    if (!words.cut.empty()) options.cut_axis = words.cut.front() - 'x';
     if (words.legend && words.field.empty() && words.replay.empty())
         throw UsageError("--legend: no field colours the body. Add --field NAME.");
     options.film_frames = std::max(words.turntable, words.pull_film);
@@ -82,6 +83,8 @@ Command add_view_command(CLI::App& program) {
     parser->add_option("input", words->input, "scene file (.json) or mesh")->check(path);
     parser->add_option("--method", words->method, "default: the scene's own")->check(CLI::IsMember(method_names()));
     parser->add_option("--field", words->field, "field that colours the body")->check(CLI::IsMember(field_names()));
+    parser->add_option("--cut", words->cut, "cuts the body open through its middle, across this axis")
+        ->check(CLI::IsMember({"x", "y", "z"}));
     parser->add_option("--frames", words->frames, "quit after so many frames")->check(CLI::Range(1, 1000000000));
     parser->add_option("--screenshot", words->screenshot, "PNG of the last frame")->check(path);
     parser->add_option("--timings", words->timings, "CSV: records frame timings from the start")->check(path);

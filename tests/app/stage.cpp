@@ -20,6 +20,13 @@ Document cube_document(int cells) {
     return document;
 }
 
+Document cube_document_with_handle(int cells) {
+    Document document = cube_document(cells);
+    document.handles.push_back(
+        {.name = "end", .select = {PlaneSelector{{1, 0, 0}, {1, 0, 0}, 1e-9}}, .motion = AffineMotion{}});
+    return document;
+}
+
 std::string test_name(MethodKind kind) {
     std::string text(name(kind));
     std::replace(text.begin(), text.end(), '-', '_');

@@ -10,6 +10,8 @@ namespace elastolab::test {
 
 /// A cube of this many cells, held at x = 0.
 Document cube_document(int cells);
+/// The same with its face at x = 1 as the handle "end", at rest.
+Document cube_document_with_handle(int cells);
 
 /// For the names of tests that run with each method.
 std::string test_name(MethodKind kind);

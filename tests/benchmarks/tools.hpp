@@ -53,6 +53,12 @@ inline void compare(
     if (target > 0.0) state.counters["target"] = target;
 }
 
+/// 1016 vertices, the size of the paper's largest cubes.
+inline const SurfaceMesh& cube() {
+    static const SurfaceMesh mesh = make_box(13);
+    return mesh;
+}
+
 /// A round body of 4 cells^2 + 2 vertices with bumps.
 inline SurfaceMesh make_lump(int cells) {
     SurfaceMesh mesh = make_sphere(cells);

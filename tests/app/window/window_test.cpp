@@ -6,6 +6,7 @@
 #include <set>
 #include <thread>
 
+#include "app/pixels.hpp"
 #include "app/real_window.hpp"
 #include "app/stage.hpp"
 #include "scene/file/scene_file.hpp"
@@ -46,6 +47,15 @@ std::set<std::string> methods_in(const std::filesystem::path& file) {
         methods.insert(line);
     }
     return methods;
+}
+
+/// The part of a picture of 160 x 120 pixels that is not as its corner.
+double drawn_share(const std::filesystem::path& file) {
+    const Pixels pixels(file);
+    int drawn = 0;
+    for (int y = 0; y < 120; ++y)
+        for (int x = 0; x < 160; ++x) drawn += pixels.at({x, y}) != pixels.at({0, 0});
+    return drawn / (160.0 * 120.0);
 }
 
 TEST_F(RealProgram, MethodsSwitchWhileTheyArePrecomputed) {
@@ -157,6 +167,23 @@ TEST_F(RealProgram, FilmsThePullFromRestAndBack) {
     EXPECT_NE(frames[0], frames[1]);
     EXPECT_NE(frames[1], frames[2]);
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "film-0005.png"));
+}
+
+TEST_F(RealProgram, CutsTheBodyOpenFromTheStart) {
+    const auto drawn_part = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words = {"view",      save_cube(3), "--hidden",       "--frames", "2",
+                                          "--picture", "cut.png",    "--picture-size", "160x120",  "--transparent"};
+        words.insert(words.end(), more.begin(), more.end());
+        const ProgramRun run = run_program(words, folder.path());
+        EXPECT_EQ(run.exit_code, 0) << run.err;
+        return drawn_share(folder.path() / "cut.png");
+    };
+    const double whole = drawn_part({});
+    for (const char* axis : {"x", "y", "z"}) {
+        const double half = drawn_part({"--cut", axis, "--field", "von-mises"});
+        EXPECT_LT(half, 0.95 * whole) << axis;
+        EXPECT_GT(half, 0.3 * whole) << axis;
+    }
 }
 
 TEST_F(RealProgram, AnIdleWindowUsesNoProcessor) {
