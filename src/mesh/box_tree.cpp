@@ -2,48 +2,59 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
-#include "mesh/checks/nesting.hpp"
 #include "mesh/measures.hpp"
 
 namespace elastolab {
 
 using Eigen::AlignedBox3d;
 
-namespace {
-
-double longest_edge_of(const SurfaceMesh& mesh, std::span<const int> triangles) {
-    double longest = 0.0;
-    for (const int t : triangles) {
+/// What of a triangle a node is made from.
+struct BoxTree::Item {
+    Item(const SurfaceMesh& mesh, int t) : triangle(t) {
         const TrianglePoints p = triangle_points(mesh, t);
-        longest = std::max({longest, (p.b - p.a).norm(), (p.c - p.b).norm(), (p.a - p.c).norm()});
+        for (const Eigen::Vector3d* corner : {&p.a, &p.b, &p.c}) box.extend(*corner);
+        sum = p.a + p.b + p.c;
+        longest_edge = std::max({(p.b - p.a).norm(), (p.c - p.b).norm(), (p.a - p.c).norm()});
     }
-    return longest;
+    AlignedBox3d box;
+    Eigen::Vector3d sum;  ///< of the corners
+    double longest_edge;
+    int triangle;
+};
+
+BoxTree::BoxTree(const SurfaceMesh& mesh, std::vector<int> triangles) {
+    if (triangles.empty()) return;
+    std::vector<Item> items;
+    items.reserve(triangles.size());
+    for (const int t : triangles) items.emplace_back(mesh, t);
+    build(items, 0, static_cast<int>(items.size()));
+    triangles_ = std::move(triangles);
+    boxes_.reserve(items.size());
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        triangles_[i] = items[i].triangle;
+        boxes_.push_back(items[i].box);
+    }
 }
 
-}  // namespace
-
-BoxTree::BoxTree(const SurfaceMesh& mesh, std::vector<int> triangles) : triangles_(std::move(triangles)) {
-    if (triangles_.empty()) return;
-    build(mesh, 0, static_cast<int>(triangles_.size()));
-    for (const int t : triangles_) boxes_.push_back(bounding_box(mesh, std::array{t}));
-}
-
-int BoxTree::build(const SurfaceMesh& mesh, int begin, int end) {
+int BoxTree::build(std::vector<Item>& items, int begin, int end) {
     constexpr int kLeaf = 4;
-    const auto first = triangles_.begin() + begin, last = triangles_.begin() + end, middle = first + (end - begin) / 2;
+    const auto first = items.begin() + begin, last = items.begin() + end;
     const int index = static_cast<int>(nodes_.size());
-    nodes_.push_back({bounding_box(mesh, {first, last}), longest_edge_of(mesh, {first, last}), begin, end});
+    Node node{.box = {}, .longest_edge = 0.0, .begin = begin, .end = end};
+    for (auto item = first; item != last; ++item) {
+        node.box.extend(item->box);
+        node.longest_edge = std::max(node.longest_edge, item->longest_edge);
+    }
+    nodes_.push_back(node);
     if (end - begin <= kLeaf) return index;
     Eigen::Index axis = 0;
-    nodes_.back().box.sizes().maxCoeff(&axis);
-    const auto center = [&](int t) {
-        const auto v = mesh.triangles.col(t);
-        return mesh.vertices(axis, v[0]) + mesh.vertices(axis, v[1]) + mesh.vertices(axis, v[2]);
-    };
-    std::nth_element(first, middle, last, [&](int s, int t) { return center(s) < center(t); });
+    node.box.sizes().maxCoeff(&axis);
     const int cut = begin + (end - begin) / 2;
-    const int left = build(mesh, begin, cut), right = build(mesh, cut, end);
+    std::nth_element(first, items.begin() + cut, last,
+                     [&](const Item& a, const Item& b) { return a.sum[axis] < b.sum[axis]; });
+    const int left = build(items, begin, cut), right = build(items, cut, end);
     nodes_[static_cast<std::size_t>(index)].left = left;
     nodes_[static_cast<std::size_t>(index)].right = right;
     return index;

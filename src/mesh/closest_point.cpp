@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -45,12 +46,13 @@ SurfacePoint closest_in_triangle(const Vector3d& point, const SurfaceMesh& mesh,
     const auto place = [&](const Vector3d& w) -> Vector3d { return w[0] * p.a + w[1] * p.b + w[2] * p.c; };
     const Vector3d n = area_vector(p);
     const double area = n.squaredNorm();
-    SurfacePoint result{triangle, Vector3d::Zero(), std::numeric_limits<double>::infinity()};
+    SurfacePoint result{triangle, Vector3d::Zero(), 0.0};
+    double least = std::numeric_limits<double>::infinity();  // squared
     const auto offer = [&](const Vector3d& weights) {
-        const double distance = (place(weights) - point).norm();
-        if (!(distance < result.distance)) return;
+        const double squared = (place(weights) - point).squaredNorm();
+        if (!(squared < least)) return;
         result.weights = weights;
-        result.distance = distance;
+        least = squared;
     };
     if (area > 0.0) {
         const Vector3d weights = Vector3d(n.dot((p.c - p.b).cross(point - p.b)), n.dot((p.a - p.c).cross(point - p.c)),
@@ -58,8 +60,9 @@ SurfacePoint closest_in_triangle(const Vector3d& point, const SurfaceMesh& mesh,
                                  area;
         if (weights.minCoeff() >= 0.0) offer(weights / weights.sum());
     }
-    if (result.distance == std::numeric_limits<double>::infinity())
+    if (least == std::numeric_limits<double>::infinity())
         for (int i = 0; i < 3; ++i) offer(closest_on_edge(point, p, i));
+    result.distance = std::sqrt(least);
     return result;
 }
 

@@ -22,7 +22,7 @@ struct Soup {
 
 struct Result {
     Mesh mesh;
-    double offset = 0.0;
+    double alpha = 0.0, offset = 0.0;
     int n_holes = 0;  ///< that were filled
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/parallel.hpp"
 #include "mesh/checks/defects.hpp"
 #include "mesh/closest_point.hpp"
 #include "mesh/measures.hpp"
@@ -23,8 +25,9 @@ namespace elastolab {
 
 namespace {
 
-/// A wall of a wrap is thin where its other side is closer than so many offsets: around an open sheet it is two.
-constexpr double kThinWall = 3.0;
+/// A wall of a wrap is thin where its other side is closer than so many offsets: around an open sheet it is two. A
+/// rough wrap has to be surer: what is thin beside its offset need not be beside that of a finer one.
+constexpr double kThinWall = 3.0, kThinRoughWall = 2.3;
 constexpr int kMostRepairs = 8;
 /// Fraction of a wrap's vertices on thin walls above which it is taken for one of open sheets.
 constexpr double kMostThin = 0.3;
@@ -64,6 +67,17 @@ SurfaceMesh solid_triangles(const SurfaceMesh& shown) {
     return {shown.vertices, shown.triangles(Eigen::all, kept)};
 }
 
+/// Vertices of a wrap whose other side is closer than this.
+std::vector<bool> thin_walls(const SurfaceMesh& wrap, double thickness, Control& control) {
+    std::vector<bool> thin;
+    for (const double wall : wall_thickness(wrap, 1.5 * thickness, control)) thin.push_back(wall < thickness);
+    return thin;
+}
+
+double part_of(const std::vector<bool>& chosen) {
+    return static_cast<double>(std::count(chosen.begin(), chosen.end(), true)) / static_cast<double>(chosen.size());
+}
+
 /// Moves the vertices of a wrap onto the surface that it was made around.
 class Settling {
 public:
@@ -82,16 +96,11 @@ public:
             if (!take_back_damaged()) return moved_;
         return wrap_;
     }
-    double thin_part() const {
-        return static_cast<double>(std::count(thin_.begin(), thin_.end(), true)) / static_cast<double>(thin_.size());
-    }
+    double thin_part() const { return part_of(thin_); }
 
 private:
     /// Where the other side is near, both would come down on the same sheet.
-    void find_thin(Control& control) {
-        const std::vector<double> walls = wall_thickness(wrap_, (kThinWall + 1.0) * offset_, control);
-        for (const double wall : walls) thin_.push_back(wall < kThinWall * offset_);
-    }
+    void find_thin(Control& control) { thin_ = thin_walls(wrap_, kThinWall * offset_, control); }
 
     bool take_back_damaged() {
         std::vector<int> damaged;
@@ -146,12 +155,16 @@ constexpr double kFinerWithin = 2.0, kWithin = 1.33;
 /// Surfaces of more vertices are wrapped even where they are sound: to collapse their edges takes several times longer.
 constexpr int kMostCollapsed = 100000;
 
-/// The settled wrap, or the wrap itself where settling did not keep it sound.
-ProxySurface wrapped_once(const SurfaceMesh& closed, int n_vertices, double within, Control& control) {
-    WrapResult wrap = alpha_wrap(closed, n_vertices, within, control);
-    if (!wrap.failure.empty())
-        throw MeshError("no closed surface could be made around it (" + wrap.failure +
-                        "). Mend the file, or choose another.");
+WrapResult succeeded(WrapResult wrap) {
+    if (wrap.failure.empty()) return wrap;
+    throw MeshError("no closed surface could be made around it (" + wrap.failure +
+                    "). Mend the file, or choose another.");
+}
+
+/// The settled wrap, or the wrap itself where settling did not keep it sound. `known`: a rough one.
+ProxySurface wrapped_once(const SurfaceMesh& closed, int n_vertices, double within, const WrapResult& known,
+                          Control& control) {
+    WrapResult wrap = succeeded(alpha_wrap(closed, n_vertices, within, known, control));
     Settling settling(wrap.surface, wrap.offset, closed, control);
     ProxySurface proxy{.surface = settling.settle(), .kind = ProxySurface::Kind::wrapped};
     proxy.thin_part = settling.thin_part();
@@ -160,28 +173,47 @@ ProxySurface wrapped_once(const SurfaceMesh& closed, int n_vertices, double with
     return proxy;
 }
 
+/// make(size) for each size, beside each other: most of it is work of helper processes.
+template <class Make>
+std::vector<ProxySurface> of_each(std::span<const int> sizes, Control& control, const Make& make) {
+    std::vector<ProxySurface> proxies(sizes.size());
+    parallel_blocks(static_cast<int>(sizes.size()), 1, control, [&](int begin, int end) {
+        for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
+            proxies[i] = make(sizes[i]);
+    });
+    return proxies;
+}
+
+/// Of the body's diagonal, which is 1: a wrap of some hundred vertices, for a tenth of what one for a proxy takes.
+constexpr double kRoughAlpha = 1.0 / 12.0;
+
 /// Open sheets are as thick as the wrap is coarse, and have to be: a finer one would make them too thin for its own
 /// triangles.
 std::vector<ProxySurface> wrapped(const SurfaceMesh& closed, std::span<const int> sizes, Control& control) {
-    const ProxySurface fine = wrapped_once(closed, kFinerWrap * std::ranges::max(sizes), kFinerWithin, control);
-    std::vector<ProxySurface> proxies;
-    for (const int n_vertices : sizes) {
-        auto coarse = fine.thin_part <= kMostThin ? collapsed(fine.surface, n_vertices, control) : std::nullopt;
-        proxies.push_back(coarse ? fine : wrapped_once(closed, n_vertices, kWithin, control));
-        if (coarse) proxies.back().surface = std::move(*coarse);
-    }
-    return proxies;
+    const WrapResult rough = succeeded(alpha_wrap(closed, kRoughAlpha, control));
+    std::optional<ProxySurface> fine;
+    if (part_of(thin_walls(rough.surface, kThinRoughWall * rough.offset, control)) <= kMostThin)
+        fine = wrapped_once(closed, kFinerWrap * std::ranges::max(sizes), kFinerWithin, rough, control);
+    const bool collapses = fine && fine->thin_part <= kMostThin;
+    return of_each(sizes, control, [&](int n_vertices) {
+        auto coarse = collapses ? collapsed(fine->surface, n_vertices, control) : std::nullopt;
+        if (!coarse) return wrapped_once(closed, n_vertices, kWithin, rough, control);
+        ProxySurface proxy = *fine;
+        proxy.surface = std::move(*coarse);
+        return proxy;
+    });
 }
 
 /// Nothing when some could not be made.
 std::vector<ProxySurface> collapsed_to(const SurfaceMesh& sound, std::span<const int> sizes, Control& control) {
-    std::vector<ProxySurface> proxies;
-    for (const int n_vertices : sizes) {
+    std::atomic<bool> failed{false};
+    auto proxies = of_each(sizes, control, [&](int n_vertices) {
         auto surface = sound.n_vertices() > n_vertices ? collapsed(sound, n_vertices, control) : sound;
-        if (!surface) return {};
-        proxies.push_back({.surface = std::move(*surface), .kind = ProxySurface::Kind::collapsed});
-    }
-    return proxies;
+        if (!surface) failed = true;
+        return ProxySurface{.surface = surface ? std::move(*surface) : SurfaceMesh{},
+                            .kind = ProxySurface::Kind::collapsed};
+    });
+    return failed ? std::vector<ProxySurface>{} : proxies;
 }
 
 /// The surface itself, or its closed form, when every method can use it.

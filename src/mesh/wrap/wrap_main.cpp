@@ -43,28 +43,21 @@ Soup read_soup(const WrapRequestHeader& request) {
 constexpr double kOffset = 0.1;
 
 Result wrap_once(const Oracle& oracle, double alpha) {
-    Result result{{}, kOffset * alpha, 0};
+    Result result{{}, alpha, kOffset * alpha, 0};
     CGAL::Alpha_wraps_3::internal::Alpha_wrap_3<Oracle> wrapper(oracle);
     wrapper(alpha, result.offset, result.mesh);
     return result;
 }
 
-/// The number of vertices of a wrap grows with its area over the square of alpha. The area is known only once there is
-/// a wrap, since what the triangles hide does not count: a coarse one tells it, and how many vertices go to a square of
-/// alpha. From the first wrap to the second their number was measured to grow a little slower.
-Result wrap(const Soup& soup, int wanted, double within) {
-    constexpr double kFirstExponent = 1.85;
+/// The number of vertices of a wrap grows with its area over the square of alpha.
+Result wrap(const Soup& soup, const WrapRequestHeader& request) {
     Oracle oracle;
     oracle.add_triangle_soup(soup.points, soup.triangles, CGAL::parameters::default_values());
-    const CGAL::Bbox_3 box = CGAL::bbox_3(soup.points.begin(), soup.points.end());
-    const double diagonal = std::hypot(box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin());
-    double alpha = diagonal / 12.0;
-    Result result;
-    for (int attempt = 0; attempt < 4; ++attempt) {
-        result = wrap_once(oracle, alpha);
-        const double ratio = static_cast<double>(result.mesh.number_of_vertices()) / wanted;
-        if (ratio == 0.0 || (ratio > 1.0 / within && ratio < within)) break;
-        alpha *= std::clamp(std::pow(ratio, 1.0 / (attempt == 0 ? kFirstExponent : 2.0)), 0.1, 4.0);
+    Result result = wrap_once(oracle, request.alpha);
+    for (int attempt = 1; attempt < 3 && request.wanted_vertices > 0; ++attempt) {
+        const double ratio = static_cast<double>(result.mesh.number_of_vertices()) / request.wanted_vertices;
+        if (ratio == 0.0 || (ratio > 1.0 / request.within && ratio < request.within)) break;
+        result = wrap_once(oracle, result.alpha * std::clamp(std::sqrt(ratio), 0.1, 4.0));
     }
     return result;
 }
@@ -109,6 +102,7 @@ void answer(const Result& result) {
     reply.n_vertices = static_cast<std::int32_t>(vertices.size() / 3);
     reply.n_triangles = static_cast<std::int32_t>(triangles.size() / 3);
     reply.n_holes = result.n_holes;
+    reply.alpha = result.alpha;
     reply.offset = result.offset;
     write_bytes(&reply, sizeof(reply));
     write_bytes(vertices.data(), vertices.size() * sizeof(double));
@@ -118,7 +112,7 @@ void answer(const Result& result) {
 Result result_of(const WrapRequestHeader& request, const Soup& soup) {
     switch (request.task) {
         case WrapTask::wrap:
-            return wrap(soup, request.wanted_vertices, request.within);
+            return wrap(soup, request);
         case WrapTask::collapse:
             return collapse(soup, request.wanted_vertices);
         case WrapTask::fill_smooth:
@@ -148,7 +142,7 @@ int main() {
     begin_helper();
     WrapRequestHeader request;
     read_bytes(&request, sizeof(request));
-    if (request.magic != kWrapMagic || request.n_triangles < 1 || request.wanted_vertices < 4) return kHelperMisused;
+    if (request.magic != kWrapMagic || request.n_triangles < 1) return kHelperMisused;
     const Soup soup = read_soup(request);
     try {
         answer(result_of(request, soup));

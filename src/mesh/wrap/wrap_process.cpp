@@ -2,6 +2,8 @@
 
 #include <sys/wait.h>
 
+#include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <cstddef>
 #include <cstring>
@@ -53,6 +55,7 @@ WrapResult run_wrap(const WrapRequestHeader& request, const SurfaceMesh& surface
         result.failure = "nothing is left of the surface";
         return result;
     }
+    result.alpha = header.alpha;
     result.offset = header.offset;
     result.n_holes = header.n_holes;
     result.surface.vertices.resize(3, header.n_vertices);
@@ -66,8 +69,19 @@ WrapResult run_wrap(const WrapRequestHeader& request, const SurfaceMesh& surface
 
 }  // namespace
 
-WrapResult alpha_wrap(const SurfaceMesh& triangles, int n_vertices, double within, Control& control) {
-    return run_wrap({.task = WrapTask::wrap, .wanted_vertices = n_vertices, .within = within}, triangles, control);
+WrapResult alpha_wrap(const SurfaceMesh& triangles, double alpha, Control& control) {
+    return run_wrap({.task = WrapTask::wrap, .alpha = alpha}, triangles, control);
+}
+
+/// The number of vertices grows with the wrap's area over the square of alpha, from one wrap to a finer one a little
+/// slower, as was measured. The area is known only once there is a wrap, since what the triangles hide does not count.
+WrapResult alpha_wrap(const SurfaceMesh& triangles, int n_vertices, double within, const WrapResult& known,
+                      Control& control) {
+    constexpr double kExponent = 1.85;
+    const double ratio = static_cast<double>(known.surface.n_vertices()) / n_vertices;
+    const double alpha = known.alpha * std::clamp(std::pow(ratio, 1.0 / kExponent), 0.1, 4.0);
+    return run_wrap({.task = WrapTask::wrap, .wanted_vertices = n_vertices, .alpha = alpha, .within = within},
+                    triangles, control);
 }
 
 WrapResult collapse_edges(const SurfaceMesh& surface, int n_vertices, Control& control) {

@@ -10,17 +10,21 @@ namespace elastolab {
 /// A surface that was made to stand for another.
 struct WrapResult {
     SurfaceMesh surface;
-    double offset = 0.0;  ///< distance of its vertices from the other's triangles [L]; 0 when collapsed
+    double alpha = 0.0;   ///< of a wrap: into openings narrower than about this it does not go [L]
+    double offset = 0.0;  ///< of a wrap: distance of its vertices from the other's triangles [L]
     int n_holes = 0;      ///< that were filled
     std::string failure;  ///< empty on success; else what went wrong
 };
 
-/// A closed, oriented 2-manifold without self-intersections around any triangles, of so many vertices within that
-/// factor if four attempts reach it: the alpha wrap of CGAL (C. Portaneri, M. Rouxel-Labbe, M. Hemmer, D.
-/// Cohen-Steiner, P. Alliez, Alpha wrapping with an offset, ACM Trans. Graph. 41, 2022), in a process of its own.
-/// Coordinates are finite and at most 1e3 or so; triangles without area do not count. Throws MeshError only when the
-/// helper program is missing; Cancelled.
-WrapResult alpha_wrap(const SurfaceMesh& triangles, int n_vertices, double within, Control& control);
+/// A closed, oriented 2-manifold without self-intersections around any triangles: the alpha wrap of CGAL (C. Portaneri,
+/// M. Rouxel-Labbe, M. Hemmer, D. Cohen-Steiner, P. Alliez, Alpha wrapping with an offset, ACM Trans. Graph. 41, 2022),
+/// in a process of its own. Coordinates are finite and at most 1e3 or so; triangles without area do not count. Throws
+/// MeshError only when the helper program is missing; Cancelled.
+WrapResult alpha_wrap(const SurfaceMesh& triangles, double alpha, Control& control);
+/// The same of so many vertices within that factor if three attempts reach it. `known`: an earlier wrap of the same
+/// triangles, which tells how many vertices go to a square of alpha.
+WrapResult alpha_wrap(const SurfaceMesh& triangles, int n_vertices, double within, const WrapResult& known,
+                      Control& control);
 
 /// A closed manifold surface with edges collapsed until it has so many vertices, its volume kept (P. Lindstrom, G.
 /// Turk, Fast and memory efficient polygonal simplification, 1998), in the same process. Parts of the result may cross.

@@ -6,7 +6,7 @@ namespace elastolab {
 
 /// What the caller and the helper program elastolab-wrap say to each other over a socket, in the byte order of the
 /// machine. Both are built together; `magic` catches a helper of another version.
-constexpr std::uint64_t kWrapMagic = 0x656c617374'77'0003;
+constexpr std::uint64_t kWrapMagic = 0x656c617374'77'0004;
 
 enum class WrapTask : std::int32_t {
     wrap,         ///< alpha wrap of any triangles
@@ -20,14 +20,15 @@ struct WrapRequestHeader {
     std::uint64_t magic = kWrapMagic;
     WrapTask task = WrapTask::wrap;
     std::int32_t n_vertices = 0, n_triangles = 0, wanted_vertices = 0;
-    double within = 1.0;  ///< a wrap has wanted_vertices within this factor
+    double alpha = 0.0;   ///< of a wrap: of its first attempt [L]
+    double within = 1.0;  ///< a wrap has wanted_vertices, unless these are 0, within this factor
 };
 
 /// Followed by n_vertices x 3 doubles and n_triangles x 3 ints. No triangle: it could not be done.
 struct WrapReplyHeader {
     std::uint64_t magic = kWrapMagic;
     std::int32_t n_vertices = 0, n_triangles = 0, n_holes = 0, unused = 0;
-    double offset = 0.0;  ///< distance of the wrap's vertices from the surface [L]
+    double alpha = 0.0, offset = 0.0;  ///< of a wrap; the distance of its vertices from the surface [L]
 };
 
 }  // namespace elastolab
