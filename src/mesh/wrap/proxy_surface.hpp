@@ -26,9 +26,9 @@ struct ProxySurface {
 /// Makes proxies of any triangles, one of about each of these numbers of vertices. Small holes are closed. A surface
 /// that every method can use then has its edges collapsed, or is taken as it is when it has no more vertices than are
 /// wanted; everything else is wrapped, the vertices of the wrap are moved back onto the surface where that keeps it
-/// sound, and its edges are collapsed. Vertices that are not finite, and their triangles, do not count. Takes about a
-/// second for 100 000 triangles. Throws MeshError when there are no three vertices off a line, or when it cannot be
-/// done; Cancelled.
+/// sound, and its edges are collapsed. Vertices that are not finite, and their triangles, do not count. Takes one to
+/// three seconds for 100 000 triangles. Throws MeshError when there are no three vertices off a line, or when it cannot
+/// be done; Cancelled.
 std::vector<ProxySurface> make_proxy_surfaces(const SurfaceMesh& shown, const MeshReport& report,
                                               std::span<const int> sizes, Control& control);
 
