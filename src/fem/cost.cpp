@@ -52,6 +52,9 @@ struct FactorEstimate {
     }
 };
 
+/// Until TetGen's process runs [s].
+constexpr double kStart = 0.005;
+
 /// On demand, first set included. `elements_work`: what is done for nodes and tetrahedra, in flops of a product.
 Cost predict_sparse(const FactorEstimate& factor, double unknowns, double elements_work) {
     Cost cost{static_cast<std::int64_t>(unknowns), 0, 0.0};
@@ -60,12 +63,12 @@ Cost predict_sparse(const FactorEstimate& factor, double unknowns, double elemen
     cost.memory_bytes =
         static_cast<std::uint64_t>(10.5 * factor.entries + 4.0 * 13.0 * factor.nonzeros + 200.0 * unknowns + 8e6);
     // Measured: half the speed of a product; copies, the estimate of the condition and the first columns by entries.
-    cost.seconds = (2.0 * factor.flops + 1000.0 * factor.entries + elements_work) / product_speed();
+    cost.seconds = kStart + (2.4 * factor.flops + 1500.0 * factor.entries + elements_work) / product_speed();
     return cost;
 }
 
 /// TetGen, assembly and ordering, for a node [flops of a product].
-constexpr double kNodeWork = 3e6;
+constexpr double kNodeWork = 5e6;
 
 }  // namespace
 

@@ -118,6 +118,25 @@ TEST(ProxySurface, ASmallHoleIsClosedAndASheetGetsAThickness) {
     EXPECT_LT(wall.thickness, 0.2);
 }
 
+/// A bowl and a plate are as thin beside a rough wrap: the bowl has one side, and becomes as thick as its wraps are
+/// coarse; the plate has two, and keeps its thickness.
+TEST(ProxySurface, ABowlBecomesAWallAndAThinPlateStaysAsThinAsItIs) {
+    const SurfaceMesh bowl = with_hole(make_sphere(16), {0, 0, 1}, 0.3);
+    const CheckedMesh checked = check_and_repair(bowl);
+    Control control;
+    const std::array sizes = {1500, 400};
+    const std::vector<ProxySurface> walls = make_proxy_surfaces(checked.mesh, checked.report, sizes, control);
+    for (const ProxySurface& wall : walls) EXPECT_GT(wall.thin_part, 0.5);
+    EXPECT_GT(walls[1].thickness, 1.5 * walls[0].thickness);
+
+    SurfaceMesh plate = make_box(16);
+    plate.vertices.row(2) *= 0.01;
+    const ProxySurface proxy = proxy_of(joined(plate, moved(scaled(make_sphere(4), 0.03), {0.5, 0.5, 0.005})), 1500);
+    EXPECT_EQ(proxy.kind, ProxySurface::Kind::wrapped);
+    EXPECT_LT(proxy.thin_part, 0.1);
+    EXPECT_NEAR(enclosed_volume(proxy.surface), 0.01, 0.001);
+}
+
 /// A search among thousands of triangles in one place takes minutes.
 TEST(ProxySurface, TrianglesThatRepeatOthersChangeNothing) {
     const SurfaceMesh once = sheet(3);

@@ -67,8 +67,7 @@ void draw_reaction(const PanelContext& context, const std::string& name) {
     if (more.empty())
         more =
             "Not solved for yet; or, on a simplified body, held together with the set beside it; or it could not be "
-            "solved for, "
-            "as the warnings below say then.";
+            "solved for, as the warnings below say then.";
     ImGui::Indent();
     ImGui::TextColored(imgui_colour(context.palette.text_dim), "%s", line.c_str());
     tooltip(more.c_str());

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "base/text.hpp"
 
@@ -57,7 +58,13 @@ std::string count_text(long long count) {
     return digits;
 }
 
-std::string number_text(double value) { return std::abs(value) < 1e-300 ? "0" : readable_number(value, 3); }
+std::string number_text(double value) {
+    constexpr double kLeastPlain = 999.5, kLargestPlain = 99950.0;  // between these "%.3g" has an exponent
+    if (std::abs(value) < 1e-300) return "0";
+    const std::string digits = readable_number(value, 3);
+    const bool is_plain = std::abs(value) >= kLeastPlain && std::abs(value) < kLargestPlain;
+    return is_plain ? formatted("%.0f", std::stod(digits)) : digits;
+}
 
 std::string vector_text(const Eigen::Vector3d& v) {
     return "(" + number_text(v.x()) + ", " + number_text(v.y()) + ", " + number_text(v.z()) + ")";
