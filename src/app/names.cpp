@@ -1,7 +1,8 @@
 #include "app/names.hpp"
 
+#include <cctype>
+#include <cstddef>
 #include <map>
-#include <regex>
 
 #include "methods/registry.hpp"
 
@@ -10,10 +11,18 @@ namespace elastolab {
 std::string title(MethodKind kind) { return std::string(kind->label); }
 
 std::string with_titles(std::string text) {
-    for (const MethodKind kind : all_methods()) {
-        const std::regex whole_word("(^|[^\\w./-])" + std::string(kind->name) + R"((?![\w/-]|\.\w))");
-        text = std::regex_replace(text, whole_word, "$1" + title(kind));
-    }
+    const auto is_in_word = [](char c) {
+        return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '/' || c == '-';
+    };
+    const auto stands_alone = [&](std::size_t begin, std::size_t end) {
+        if (begin > 0 && (is_in_word(text[begin - 1]) || text[begin - 1] == '.')) return false;
+        if (end == text.size()) return true;
+        const bool is_ending = text[end] == '.' && end + 1 < text.size() && is_in_word(text[end + 1]);
+        return !is_in_word(text[end]) && !is_ending;
+    };
+    for (const MethodKind kind : all_methods())
+        for (std::size_t at = text.find(kind->name); at != std::string::npos; at = text.find(kind->name, at + 1))
+            if (stands_alone(at, at + kind->name.size())) text.replace(at, kind->name.size(), kind->label);
     return text;
 }
 

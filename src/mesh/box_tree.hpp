@@ -36,7 +36,7 @@ private:
     int build(std::vector<Item>& items, int begin, int end);
     bool visit_pairs_of(int place, const std::function<bool(int, int)>& visit) const;
 
-    std::vector<int> triangles_;  // in the order of the leaves
+    std::vector<int> triangles_;              // in the order of the leaves
     std::vector<Eigen::AlignedBox3d> boxes_;  // of triangles, in the order of triangles_
     std::vector<Node> nodes_;                 // the root first
 };
