@@ -18,6 +18,7 @@ drag() {
     x = 800; y = 400
     if (probed) {
       key(73); event("cursor", x, y, "false"); event("button", x, y, "true"); event("button", x, y, "false"); key(86)
+      seconds = 2  # later, so that it is no double click
     }
     event("cursor", x, y, "false"); event("button", x, y, "true")
     for (i = 1; i <= 300; ++i) event("cursor", x + 80 * sin(0.02 * i), y - 40 * sin(0.05 * i), "false")
@@ -28,7 +29,7 @@ drag() {
       printf "{\"seconds\":0,\"events\":[[\"key\",0,0,%d,%s,false,0]]}\n", code, down ? "true" : "false"
   }
   function event(kind, x, y, pressed) {
-    printf "{\"seconds\":0,\"events\":[[\"%s\",%.3f,%.3f,0,%s,false,0]]}\n", kind, x, y, pressed
+    printf "{\"seconds\":%d,\"events\":[[\"%s\",%.3f,%.3f,0,%s,false,0]]}\n", seconds, kind, x, y, pressed
   }'
 }
 drag 0 > "$folder/drag.log"
