@@ -1,6 +1,7 @@
 // The scenes that come with the program, as pictures in a menu.
 #include <imgui.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <exception>
 
@@ -10,8 +11,17 @@ namespace elastolab {
 
 namespace {
 
-constexpr int kColumns = 4;
+constexpr int kMostColumns = 4;
 constexpr float kPictureWidth = 150.0f, kPictureHeight = 100.0f, kPictureGap = 6.0f;
+
+/// As many as fit between the menu that is being drawn and the right edge of the window: a wider one would come up
+/// under the cursor, where the click that is to open it chooses a scene.
+std::size_t columns_beside_menu(float scale) {
+    const float room = ImGui::GetIO().DisplaySize.x - ImGui::GetWindowPos().x - ImGui::GetWindowWidth() -
+                       2.0f * ImGui::GetStyle().WindowPadding.x;
+    const auto columns = static_cast<int>(room / ((kPictureWidth + kPictureGap) * scale));
+    return static_cast<std::size_t>(std::clamp(columns, 1, kMostColumns));
+}
 
 }  // namespace
 
@@ -30,6 +40,7 @@ void Panels::load_examples() {
 }
 
 void Panels::draw_examples(ViewerState& state, float scale) {
+    const std::size_t columns = columns_beside_menu(scale);
     if (!ImGui::BeginMenu("Examples")) return;
     load_examples();
     if (examples_.empty()) ImGui::TextDisabled("They are not installed.");
@@ -37,7 +48,7 @@ void Panels::draw_examples(ViewerState& state, float scale) {
     const ImVec2 size{picture.x, picture.y + ImGui::GetTextLineHeightWithSpacing()};
     for (std::size_t i = 0; i < examples_.size(); ++i) {
         const auto& [example, texture] = examples_[i];
-        if (i % kColumns > 0) ImGui::SameLine(0.0f, kPictureGap * scale);
+        if (i % columns > 0) ImGui::SameLine(0.0f, kPictureGap * scale);
         const ImVec2 at = ImGui::GetCursorScreenPos();
         if (ImGui::Selectable(("##" + example.name).c_str(), false, 0, size)) state.open(example.scene);
         ImDrawList& list = *ImGui::GetWindowDrawList();

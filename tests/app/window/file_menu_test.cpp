@@ -21,10 +21,10 @@ constexpr double kExamples = 83.0, kPicture = 194.0;  ///< heights of menu entri
 
 class FileMenu : public testing::Test {
 protected:
-    FileMenu() {
+    explicit FileMenu(const std::string& size = "1000x700") {
         save_scene(folder.path() / "cube.json", cube_document(2));
         window.emplace(
-            std::vector<std::string>{"cube.json", "--size", "1000x700", "--method", "fem", "--scene-out", "out.json"},
+            std::vector<std::string>{"cube.json", "--size", size, "--method", "fem", "--scene-out", "out.json"},
             folder.path());
         window->settle();
     }
@@ -54,6 +54,21 @@ TEST_F(FileMenu, OpensAnExampleByItsPicture) {
     EXPECT_EQ(all.front().name, "beam twist");
     EXPECT_EQ(load_scene(folder.path() / "out.json"), load_scene(all.front().scene));
     for (const Example& example : all) EXPECT_FALSE(example.picture.empty()) << example.name;
+}
+
+class FileMenuOfASmallWindow : public FileMenu {
+protected:
+    FileMenuOfASmallWindow() : FileMenu("800x600") {}
+};
+
+/// The pictures come up beside the cursor, not under it.
+TEST_F(FileMenuOfASmallWindow, TheClickThatOpensTheExamplesChoosesNone) {
+    choose(kExamples);
+    window->key("Escape");
+    window->key("Escape");
+    window->settle();
+    end();
+    EXPECT_EQ(load_scene(folder.path() / "out.json"), cube_document(2));
 }
 
 TEST_F(FileMenu, WritesAPictureOfTheSceneAlone) {
