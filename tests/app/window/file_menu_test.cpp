@@ -61,9 +61,11 @@ protected:
     FileMenuOfASmallWindow() : FileMenu("800x600") {}
 };
 
-/// The pictures come up beside the cursor, not under it.
-TEST_F(FileMenuOfASmallWindow, TheClickThatOpensTheExamplesChoosesNone) {
+/// The pictures come up beside the cursor, not under it, where a click after they have come up would choose one.
+TEST_F(FileMenuOfASmallWindow, AClickOnTheEntryOfTheExamplesChoosesNone) {
     choose(kExamples);
+    window->click({60, kExamples});
+    window->settle();
     window->key("Escape");
     window->key("Escape");
     window->settle();
