@@ -99,7 +99,7 @@ struct EdgeSum2 {
 /// The same of rho rho rho.
 template <class B>
 struct EdgeSum3 {
-    B xxx = B(0.0), xxy = B(0.0), xyy = B(0.0), yyy = B(0.0);
+    B s111 = B(0.0), s112 = B(0.0), s122 = B(0.0), s222 = B(0.0);
 
     /// m (m m mm + (m t + t m) mt + t t tt).
     template <class S>
@@ -107,10 +107,10 @@ struct EdgeSum3 {
         const B Wxx = (mx * mx) * mm + (2.0 * mx * tx) * mt + (tx * tx) * tt;
         const B Wxy = (mx * my) * mm + (mx * ty + tx * my) * mt + (tx * ty) * tt;
         const B Wyy = (my * my) * mm + (2.0 * my * ty) * mt + (ty * ty) * tt;
-        xxx += mx * Wxx;
-        xxy += mx * Wxy;
-        xyy += my * Wxy;
-        yyy += my * Wyy;
+        s111 += mx * Wxx;
+        s112 += mx * Wxy;
+        s122 += my * Wxy;
+        s222 += my * Wyy;
     }
 };
 
@@ -149,10 +149,10 @@ struct SingleMoments {
         M.Qxy = -S.xy;
         M.Qyy = M.I - S.yy;
         if constexpr (kHats) {
-            M.T111 = 2.0 * M.Jx - W.xxx;
-            M.T112 = M.Jy - W.xxy;
-            M.T122 = M.Jx - W.xyy;
-            M.T222 = 2.0 * M.Jy - W.yyy;
+            M.T111 = 2.0 * M.Jx - W.s111;
+            M.T112 = M.Jy - W.s112;
+            M.T122 = M.Jx - W.s122;
+            M.T222 = 2.0 * M.Jy - W.s222;
         }
         return M;
     }
@@ -215,10 +215,10 @@ struct DoubleMoments {
             M.Qxx = I - Q.xx;
             M.Qxy = -Q.xy;
             M.Qyy = I - Q.yy;
-            M.R111 = 2.0 * M.Nx - V.xxx;
-            M.R112 = M.Ny - V.xxy;
-            M.R122 = M.Nx - V.xyy;
-            M.R222 = 2.0 * M.Ny - V.yyy;
+            M.R111 = 2.0 * M.Nx - V.s111;
+            M.R112 = M.Ny - V.s112;
+            M.R122 = M.Nx - V.s122;
+            M.R222 = 2.0 * M.Ny - V.s222;
         }
         return M;
     }
