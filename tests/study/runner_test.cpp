@@ -177,15 +177,35 @@ Row origin(int seed) { return Row().set("study", std::string("tiny")).set("seed"
 
 TEST(Journal, DropsACaseWhoseRowsAreNotAllThere) {
     const TemporaryFolder folder;
-    folder.write("j.csv", "study=tiny,seed=1\nrow,one,x,1\ndone,one\nrow,two,x,2\n");
+    folder.write("j.csv", "study=tiny,seed=1\nrow,one,x,1\ndone,one,1\nrow,two,x,2\n");
     EXPECT_EQ(Journal(folder.path() / "j.csv", origin(1)).n_finished(), 1);
     folder.write("j.csv", "study=tiny,seed=1\nrow,one,x,1\ndone,o");
     EXPECT_EQ(Journal(folder.path() / "j.csv", origin(1)).n_finished(), 0);
 }
 
+TEST(Journal, ComputesAgainWhatIsDamagedAndSaysSo) {
+    using std::string_literals::operator""s;
+    const std::string header = "study=tiny,seed=1\n", second = "row,two,x,2\ndone,two,1\n";
+    for (const std::string& first :
+         {"\0\0\0\0\0\0\0\0row,one,x,1\ndone,one,1\n"s,  // a block that was never written
+          "row,one,x,1\ndone,one,2\n"s, "row,one,x\ndone,one,1\n"s, "done,one,1\n"s, "row,one,x,1\ndone,one\n"s}) {
+        const TemporaryFolder folder;
+        folder.write("j.csv", header + first + second);
+        const Journal journal(folder.path() / "j.csv", origin(1));
+        EXPECT_FALSE(journal.find("one")) << first;
+        EXPECT_TRUE(journal.find("two")) << first;
+        EXPECT_THAT(journal.notice(), HasSubstr("computed again")) << first;
+    }
+    const TemporaryFolder folder;
+    folder.write("j.csv", header + "row,one,x,1\ndone,one,1\ndone,one,1\n");
+    const Journal doubled(folder.path() / "j.csv", origin(1));
+    ASSERT_TRUE(doubled.find("one"));
+    EXPECT_EQ(doubled.find("one")->size(), 1U);
+}
+
 TEST(Journal, SetsAsideTheCasesOfAnotherRunAndSaysSo) {
     const TemporaryFolder folder;
-    const std::string of_seed_1 = "study=tiny,seed=1\nrow,one,x,1\ndone,one\n";
+    const std::string of_seed_1 = "study=tiny,seed=1\nrow,one,x,1\ndone,one,1\n";
     folder.write("j.csv", of_seed_1);
     folder.write("j-1.csv", "is taken");
     const Journal journal(folder.path() / "j.csv", origin(2));
@@ -207,12 +227,12 @@ TEST(Journal, SaysNothingWhenNothingIsLost) {
 /// and renamed is another file afterwards, and the old one is whole as long as somebody holds it.
 TEST(Journal, IsRewrittenBesideTheOldOne) {
     const TemporaryFolder folder;
-    const std::string text = "study=tiny,seed=1\nrow,one,x,1\ndone,one\nrow,tw";
+    const std::string text = "study=tiny,seed=1\nrow,one,x,1\ndone,one,1\nrow,tw";
     const auto file = folder.write("j.csv", text);
     std::filesystem::create_hard_link(file, folder.path() / "held");
     { const Journal journal(file, origin(1)); }
     EXPECT_EQ(read_text(folder.path() / "held"), text);
-    EXPECT_EQ(read_text(file), "study=tiny,seed=1\nrow,one,x,1\ndone,one\n");
+    EXPECT_EQ(read_text(file), "study=tiny,seed=1\nrow,one,x,1\ndone,one,1\n");
 }
 
 TEST(StudyProgress, EstimatesTheTimeLeftFromTheWeightDone) {

@@ -8,7 +8,8 @@ namespace elastolab {
 
 namespace {
 
-// A line for each row: "row", key, column, text, column, text, ...; after the last of a case: "done", key.
+// A line for each row: "row", key, column, text, column, text, ...; after the last of a case: "done", key, number of
+// its rows.
 constexpr const char* kRow = "row";
 constexpr const char* kDone = "done";
 
@@ -26,6 +27,8 @@ std::string difference(const std::vector<std::string>& theirs, const std::vector
         if (theirs[i] != ours[i]) words.push_back(theirs[i] + ", now " + ours[i]);
     return joined(words);
 }
+
+bool has_zeros(const std::string& line) { return line.find('\0') != std::string::npos; }
 
 /// NAME-1.csv for NAME.csv, or the first number that is not taken.
 std::filesystem::path free_name_beside(const std::filesystem::path& file) {
@@ -60,23 +63,34 @@ void Journal::read(const std::vector<std::string>& fingerprint) {
     std::error_code error;
     std::filesystem::rename(file_, aside, error);
     if (error) throw Error(file_.string() + ": cannot be set aside (" + error.message() + "). Move it elsewhere.");
-    notice_ = file_.string() + ": its " + std::to_string(finished_.size()) + " finished cases are of another run (" +
-              difference(theirs, fingerprint) + "). They are kept as " + aside.filename().string() +
-              "; this run begins anew.";
+    notice_ += (notice_.empty() ? "" : " ") + file_.string() + ": its " + std::to_string(finished_.size()) +
+               " finished cases are of another run (" + difference(theirs, fingerprint) + "). They are kept as " +
+               aside.filename().string() + "; this run begins anew.";
     finished_.clear();
 }
 
 void Journal::read_cases(std::istream& in) {
     std::string line;
     std::map<std::string, std::vector<Row>> open;
-    while (std::getline(in, line)) {
+    int n_damaged = 0;
+    while (std::getline(in, line) && !in.eof()) {  // a last line without an end was being written
         const std::vector<std::string> fields = csv_fields(line);
-        if (in.eof() || fields.size() < 2) return;  // the last line has no end: it was being written
-        if (fields[0] == kDone) finished_[fields[1]] = std::move(open[fields[1]]);
-        if (fields[0] != kRow) continue;
-        Row& row = open[fields[1]].emplace_back();
-        for (std::size_t i = 2; i + 1 < fields.size(); i += 2) row.set(fields[i], fields[i + 1]);
+        const bool is_row = fields.size() >= 2 && fields[0] == kRow && fields.size() % 2 == 0;
+        const bool is_done = fields.size() == 3 && fields[0] == kDone;
+        if (has_zeros(line) || !(is_row || is_done)) {
+            ++n_damaged;
+        } else if (is_row) {
+            Row& row = open[fields[1]].emplace_back();
+            for (std::size_t i = 2; i < fields.size(); i += 2) row.set(fields[i], fields[i + 1]);
+        } else if (auto rows = open.extract(fields[1]); rows && std::to_string(rows.mapped().size()) == fields[2]) {
+            finished_[fields[1]] = std::move(rows.mapped());
+        } else {
+            ++n_damaged;  // rows are missing, or the case was done before
+        }
     }
+    if (n_damaged > 0)
+        notice_ = file_.string() + ": " + std::to_string(n_damaged) +
+                  " lines are damaged. The cases that they belong to are computed again.";
 }
 
 std::optional<std::vector<Row>> Journal::find(const std::string& key) const {
@@ -102,7 +116,7 @@ void Journal::write(std::ostream& out, const std::string& key, const std::vector
         }
         out << csv_line(fields) << '\n';
     }
-    out << csv_line({kDone, key}) << '\n';
+    out << csv_line({kDone, key, std::to_string(rows.size())}) << '\n';
 }
 
 void Journal::remove() {

@@ -12,11 +12,12 @@
 namespace elastolab {
 
 /// The finished cases of an unfinished study, in a file: a case's rows are there completely or not at all, so that a
-/// stopped or crashed study resumes where it was.
+/// stopped or crashed study resumes where it was. Lines that are damaged count as not there.
 class Journal {
 public:
     /// `origin`: whatever must be the same for rows to be worth keeping. A file with finished cases of another origin
-    /// is kept under another name, which notice() says. Throws Error when the file cannot be written.
+    /// is kept under another name; notice() says so, and which lines are damaged. Throws Error when the file
+    /// cannot be written.
     Journal(std::filesystem::path file, const Row& origin);
 
     /// For the person who runs the study; mostly empty.
