@@ -9,6 +9,9 @@ namespace {
 /// Columns that are kept, and what a combination of them may miss.
 constexpr Eigen::Index kMostKept = 16;
 constexpr double kCombined = 1e-12;
+/// Errors of the kept solutions add up in a combination, by their shares. Shares that would make them larger than this
+/// many times the tolerance come from right-hand sides that are nearly parallel: such a combination is solved for.
+constexpr double kMostAmplified = 8.0;
 
 /// The columns of two matrices side by side; the first may be empty.
 Eigen::MatrixXd beside(const Eigen::MatrixXd& left, const Eigen::MatrixXd& right) {
@@ -57,10 +60,12 @@ RecycledSolutions::Columns RecycledSolutions::Kept::combine(const Eigen::MatrixX
     const Eigen::MatrixXd wanted = sides(Eigen::all, columns);
     const Eigen::MatrixXd shares = solve_minimum_norm(right_hand_sides, wanted, kCombined).X;
     const Eigen::MatrixXd missed = right_hand_sides * shares - wanted;
+    const Eigen::RowVectorXd errors = right_hand_sides.colwise().stableNorm() * shares.cwiseAbs();
     Columns others;
     for (Eigen::Index c = 0; c < wanted.cols(); ++c) {
         const Eigen::Index column = columns[static_cast<std::size_t>(c)];
-        if (missed.col(c).stableNorm() <= kCombined * wanted.col(c).stableNorm())
+        const double size = wanted.col(c).stableNorm();
+        if (missed.col(c).stableNorm() <= kCombined * size && errors[c] <= kMostAmplified * size)
             answers.col(column) = solutions * shares.col(c);
         else  // or it is not finite
             others.push_back(column);

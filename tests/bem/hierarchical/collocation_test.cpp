@@ -287,6 +287,25 @@ TEST(RecycledSolutions, ACombinationOfRightHandSidesIsNotComputed) {
     EXPECT_EQ(computed, 4) << "three answers span all questions";
 }
 
+TEST(RecycledSolutions, NearlyParallelRightHandSidesDoNotAmplifyErrors) {
+    constexpr double kTolerance = 1e-8;
+    for (const double angle : {1e-2, 1e-4, 1e-6}) {
+        RecycledSolutions kept;
+        // Solutions of x = b that are as wrong as the tolerance allows, in a direction of their own each time.
+        int computed = 0;
+        const auto nearly = [&](const Eigen::MatrixXd& sides, const Eigen::MatrixXd&) -> Eigen::MatrixXd {
+            Eigen::MatrixXd answers = sides;
+            for (Eigen::Index c = 0; c < sides.cols(); ++c)
+                answers.col(c)[computed++ % 3] += kTolerance * sides.col(c).norm();
+            return answers;
+        };
+        kept.get(Eigen::Vector3d(1.0, 0.0, 0.0), 3, kTolerance, nearly);
+        kept.get(Eigen::Vector3d(1.0, angle, 0.0), 3, kTolerance, nearly);
+        const Eigen::Vector3d y = Eigen::Vector3d::UnitY();
+        EXPECT_LT((kept.get(y, 3, kTolerance, nearly) - y).norm(), 10.0 * kTolerance) << angle;
+    }
+}
+
 TEST(RecycledSolutions, WhatIsKnownLessExactlyIsAStart) {
     RecycledSolutions kept;
     std::vector<Eigen::Vector3d> starts;
