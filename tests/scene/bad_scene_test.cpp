@@ -176,13 +176,25 @@ INSTANTIATE_TEST_SUITE_P(
     case_name);
 
 TEST(BadScene, IsRefusedWhenItIsNestedWithoutEnd) {
-    const std::string deep = "{\"elastolab\": 1, \"fixed\": " + std::string(100000, '[');
+    std::string deep = R"({"elastolab": 1, "fixed": )";
+    deep.append(100000, '[');
     EXPECT_THAT(complaint(deep), HasSubstr("nested deeper"));
 }
 
 TEST(BadScene, QuotesNoMoreThanALineHolds) {
-    const std::string text = R"({"elastolab": ")" + std::string(100000, 'x') + "\"}";
+    std::string text = R"({"elastolab": ")";
+    text.append(100000, 'x').append("\"}");
     EXPECT_LT(complaint(text).size(), 200U);
+    std::string key = R"({"elastolab": 1, ")";
+    key.append(1000000, 'k').append("\": 1}");
+    EXPECT_LT(complaint(key).size(), 500U);
+}
+
+TEST(BadScene, WithAHundredThousandKeysIsRefusedLikeAnyOther) {
+    std::string text = R"({"elastolab": 1)";
+    for (int i = 0; i < 300000; ++i) text += ", \"key" + std::to_string(i) + "\": 0";
+    EXPECT_THAT(complaint(text + "}"), HasSubstr("/key0: is not a key that belongs here"));
+    EXPECT_THAT(complaint(text + R"(, "key7": 0})"), HasSubstr("/key7: appears twice"));
 }
 
 }  // namespace

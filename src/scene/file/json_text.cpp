@@ -1,6 +1,7 @@
 #include "scene/file/json_text.hpp"
 
 #include <algorithm>
+#include <unordered_set>
 #include <vector>
 
 #include "base/error.hpp"
@@ -54,10 +55,9 @@ public:
     bool end_array() override { return close(); }
 
     bool key(string_t& name) override {
-        if (open_.back()->contains(name))
+        if (!names_.back().insert(name).second)
             throw SceneError(json_message(file_, json_path(path(), name), "appears twice. Remove one of them."));
         key_ = name;
-        (*open_.back())[name] = nullptr;
         return true;
     }
 
@@ -71,7 +71,9 @@ private:
         if (open_.empty()) return &(root_ = std::move(value));
         Json& parent = *open_.back();
         if (parent.is_array()) return &parent.emplace_back(std::move(value));
-        return &(parent[key_] = std::move(value));
+        // An ordered object looks for a key by comparing it with all others; this one is known to be new.
+        auto& members = static_cast<Json::object_t::Container&>(parent.get_ref<Json::object_t&>());
+        return &members.emplace_back(key_, std::move(value)).second;
     }
     bool add(Json value) {
         place(std::move(value));
@@ -82,10 +84,12 @@ private:
             throw SceneError(file_ + ": nested deeper than " + std::to_string(kDeepest) + " levels. Flatten it.");
         if (!open_.empty()) keys_.push_back(open_.back()->is_array() ? std::to_string(open_.back()->size()) : key_);
         open_.push_back(place(std::move(value)));
+        names_.emplace_back();
         return true;
     }
     bool close() {
         open_.pop_back();
+        names_.pop_back();
         if (!keys_.empty()) keys_.pop_back();
         return true;
     }
@@ -99,6 +103,7 @@ private:
     const std::string& file_;
     Json root_;
     std::vector<Json*> open_;  ///< containers from the root to the present one; a parent does not grow meanwhile
+    std::vector<std::unordered_set<std::string>> names_;  ///< of the members of each so far
     std::vector<std::string> keys_;
     std::string key_;
 };
@@ -148,7 +153,8 @@ std::string json_path(const std::string& path, std::string_view key) {
 }
 
 std::string json_message(const std::string& file, const std::string& path, const std::string& finding) {
-    return one_line(file + ": " + (path.empty() ? "" : path + ": ") + finding);
+    constexpr std::size_t kLongest = 200;  // a key may be as long as its file
+    return one_line(file + ": " + (path.empty() ? "" : shortened(path, kLongest) + ": ") + finding);
 }
 
 }  // namespace elastolab
