@@ -3,6 +3,7 @@
 #include <semaphore.h>
 #include <unistd.h>
 
+#include <array>
 #include <cassert>
 #include <cerrno>
 #include <csignal>
@@ -15,6 +16,9 @@
 namespace elastolab {
 
 namespace {
+
+/// What ends a program that is waited for no longer: Ctrl-C, kill, a closed terminal.
+constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP};
 
 std::atomic<Control*> watched{nullptr};
 std::atomic<int> last_signal{SIGINT};
@@ -73,13 +77,11 @@ InterruptGuard::InterruptGuard(Control& control, std::string last_words, std::fu
     sem_init(&bell, 0, 0);
     watcher_ = std::thread([this] { watch(); });
     watched = &control;
-    std::signal(SIGINT, on_signal);
-    std::signal(SIGTERM, on_signal);
+    for (const int signal : kSignals) std::signal(signal, on_signal);
 }
 
 InterruptGuard::~InterruptGuard() {
-    std::signal(SIGINT, SIG_DFL);
-    std::signal(SIGTERM, SIG_DFL);
+    for (const int signal : kSignals) std::signal(signal, SIG_DFL);
     watched = nullptr;
     over_ = true;
     sem_post(&bell);

@@ -29,7 +29,7 @@ int complain(const std::string& text, int exit_code) {
 }
 
 int run(int argc, char** argv) {
-    CLI::App program("Elastolab: elastic bodies by FEM, constant BEM and linear BEM.", "elastolab");
+    CLI::App program("Elastolab: elastic bodies by finite and boundary elements.", "elastolab");
     program.set_version_flag("--version", "elastolab " ELASTOLAB_VERSION);
     program.require_subcommand(0, 1);
     const std::vector<Command> commands = {add_view_command(program), add_solve_command(program),

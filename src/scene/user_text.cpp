@@ -1,5 +1,6 @@
 #include "scene/user_text.hpp"
 
+#include <filesystem>
 #include <new>
 #include <system_error>
 
@@ -15,8 +16,12 @@ std::string user_text(const std::exception& error) {
     if (const auto* system = dynamic_cast<const std::system_error*>(&error);
         system != nullptr && system->code() == std::errc::resource_unavailable_try_again)
         return "No further thread can be started: this process is at the limit of its memory or of its threads. Raise "
-               "it "
-               "(ulimit -v, ulimit -u), or use fewer threads.";
+               "it (ulimit -v, ulimit -u), or use fewer threads.";
+    if (const auto* file = dynamic_cast<const std::filesystem::filesystem_error*>(&error)) {
+        if (std::error_code gone; std::filesystem::current_path(gone).empty())
+            return "The working directory does not exist any more. Change to another folder and start again.";
+        return one_line(file->path1().string() + ": " + file->code().message() + ". Check the path.");
+    }
     return "Internal error: " + one_line(error.what()) + ". Please report it.";
 }
 

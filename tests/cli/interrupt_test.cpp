@@ -73,7 +73,7 @@ TEST(InterruptGuard, CancelsAndLetsTheComputationReturn) {
 
 /// A library that does not return must not keep the program: it ends, and leaves no half file and no helper behind.
 TEST(InterruptGuard, EndsAComputationThatDoesNotReturn) {
-    for (const int signal : {SIGINT, SIGTERM}) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
         const test::TemporaryFolder folder;
         folder.write("out.csv", "before");
         const int code = exit_code_of([&] {
@@ -128,7 +128,7 @@ TEST_F(DuringImport, AnInterruptIsHeard) {
     folder_.write("scene.json", R"({"elastolab": 1, "mesh": {"file": "large.obj"}})");
     for (const std::vector<std::string>& arguments :
          std::vector<std::vector<std::string>>{{"info", "large.obj"}, {"info", "scene.json"}, {"solve", "scene.json"}})
-        for (const int signal : {SIGINT, SIGTERM}) {
+        for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
             start(arguments);
             kill(program_->id(), signal);
             const test::ProgramRun run = program_->wait();

@@ -64,6 +64,18 @@ Eigen::Vector2i window_size_of(const Json& header) {
     return {integer(size.at(0), 1, kMaxWindow), integer(size.at(1), 1, kMaxWindow)};
 }
 
+/// The next line, of a length that a frame can have: a device may have no end of line at all.
+bool next_line(std::istream& in, std::string& line) {
+    constexpr std::size_t kLongest = 1 << 20;
+    line.clear();
+    char c = 0;
+    while (in.get(c) && c != '\n') {
+        if (line.size() == kLongest) throw std::runtime_error("is longer than a frame can be");
+        line += c;
+    }
+    return static_cast<bool>(in) || !line.empty();
+}
+
 }  // namespace
 
 InteractionRecorder::InteractionRecorder(const std::filesystem::path& file, const Eigen::Vector2i& window_size)
@@ -99,9 +111,9 @@ InteractionLog load_interaction(const std::filesystem::path& file) {
     int number = 1;
     try {
         std::string line;
-        if (!std::getline(in, line)) throw std::runtime_error("is empty");
+        if (!next_line(in, line)) throw std::runtime_error("is empty");
         log.window_size = window_size_of(Json::parse(line));
-        for (number = 2; std::getline(in, line); ++number) log.frames.push_back(frame_of(Json::parse(line)));
+        for (number = 2; next_line(in, line); ++number) log.frames.push_back(frame_of(Json::parse(line)));
     } catch (const std::exception& error) {
         throw SceneError(one_line(file.string() + ": line " + std::to_string(number) + ": not an interaction log (" +
                                   shortened(error.what(), kLongestReason) +

@@ -85,6 +85,8 @@ TEST(InteractionLog, ErrorsNameFileLineFindingAndAWayForwardInOneLine) {
     EXPECT_LT(complaint("{\"" + std::string(10000, 'x') + "\\u").size(), 500U);  // does not quote all of the line
 }
 
+TEST(InteractionLog, RefusesADeviceWithoutAnEndOfLine) { EXPECT_THROW(load_interaction("/dev/zero"), SceneError); }
+
 TEST(InteractionLog, RefusesCodesThatNoWindowReports) {
     for (const char* code : {"-2", "5000000000", "1e300"})
         EXPECT_THAT(complaint(kHeader + "\n{\"seconds\":1,\"events\":[[\"button\",0,0," + code + ",true,false,0]]}\n"),
