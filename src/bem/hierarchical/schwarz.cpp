@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <Eigen/Eigenvalues>
+#include <iterator>
 
 #include "base/blas.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "bem/hierarchical/free_motions.hpp"
+#include "bem/hierarchical/item_rows.hpp"
 
 namespace elastolab {
 
@@ -15,6 +19,7 @@ constexpr int kCoreVertices = 96;  ///< at most, of a patch before it grows
 constexpr int kRings = 1;          ///< by how many it grows
 constexpr int kSmoothings = 2;     ///< of the weights of the rigid motions
 constexpr double kCoarseShift = 1e-9;
+constexpr double kNoEnergy = 1e-10;  ///< of a loose motion, over the largest of a patch's
 
 /// Vertices with an edge in common with each, by position in the tree.
 std::vector<std::vector<int>> neighbours_of(const SurfaceMesh& mesh, const ClusterTree& tree) {
@@ -108,12 +113,51 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> coarse_motions(const SurfaceMesh& m
     return Z;
 }
 
+/// The vertices of each closed surface, by position in the tree, ascending: where its motions are not zero.
+std::vector<std::vector<int>> positions_of_surfaces(const Eigen::MatrixXd& surface_motions) {
+    std::vector<std::vector<int>> positions(static_cast<std::size_t>(surface_motions.cols() / 6));
+    for (std::size_t s = 0; s < positions.size(); ++s)
+        for (Eigen::Index p = 0; p < surface_motions.rows() / 3; ++p)
+            if (!surface_motions.block<3, 6>(3 * p, 6 * static_cast<Eigen::Index>(s)).isZero(0.0))
+                positions[s].push_back(static_cast<int>(p));
+    return positions;
+}
+
+/// A closed surface that a patch has all of, but for so many vertices at most, may move in it without energy.
+constexpr std::ptrdiff_t kMostOutside = 8;
+
+/// Adds an energy to the rigid motions of closed surfaces that vanish outside these positions: D has none for them.
+void regularise(Eigen::MatrixXd& D, const std::vector<int>& patch, const std::vector<std::vector<int>>& surfaces,
+                const Eigen::MatrixXd& surface_motions) {
+    for (std::size_t s = 0; s < surfaces.size(); ++s) {
+        std::vector<int> outside;
+        std::set_difference(surfaces[s].begin(), surfaces[s].end(), patch.begin(), patch.end(),
+                            std::back_inserter(outside));
+        if (std::ssize(outside) > kMostOutside || outside.size() == surfaces[s].size()) continue;
+        const auto motions = surface_motions.middleCols<6>(6 * static_cast<Eigen::Index>(s));
+        const Eigen::MatrixXd unseen = rows_of(unseen_motions(motions, outside), patch);
+        D.noalias() += D.diagonal().mean() * unseen * unseen.transpose();
+    }
+}
+
+/// Combinations of motions of unit energy, of those with more than rounding leaves.
+Eigen::MatrixXd of_unit_energy(const Eigen::MatrixXd& motions, const Eigen::MatrixXd& energies, double rounding) {
+    if (motions.cols() == 0) return motions;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 * (energies + energies.transpose()));
+    const Eigen::Index n_with = (eigen.eigenvalues().array() > rounding).count();
+    return motions * eigen.eigenvectors().rightCols(n_with) *
+           eigen.eigenvalues().tail(n_with).cwiseSqrt().cwiseInverse().asDiagonal();
+}
+
 }  // namespace
 
 SchwarzPreconditioner::SchwarzPreconditioner(const HierarchicalMatrix& D, const Boundary& boundary,
-                                             std::vector<char> is_free, Control& control)
+                                             std::vector<char> is_free, const Eigen::MatrixXd& surface_motions,
+                                             const Eigen::MatrixXd& loose, const Eigen::MatrixXd& loose_energies,
+                                             Control& control)
     : is_free_(std::move(is_free)) {
     const ClusterTree& tree = D.row_tree();
+    const std::vector<std::vector<int>> surfaces = positions_of_surfaces(surface_motions);
     const std::vector<PositionRange> cores = clusters_up_to(tree, kCoreVertices);
     const auto neighbours = neighbours_of(boundary.mesh(), tree);
     patches_.resize(cores.size());
@@ -123,7 +167,9 @@ SchwarzPreconditioner::SchwarzPreconditioner(const HierarchicalMatrix& D, const 
             Patch& patch = patches_[static_cast<std::size_t>(p)];
             patch.positions = grown(cores[static_cast<std::size_t>(p)], neighbours, is_free_);
             if (patch.positions.empty()) return;
-            patch.factor.compute(D.submatrix(patch.positions, patch.positions).cast<float>());
+            Eigen::MatrixXd own = D.submatrix(patch.positions, patch.positions);
+            regularise(own, patch.positions, surfaces, surface_motions);
+            patch.factor.compute(own.cast<float>());
             if (patch.factor.info() != Eigen::Success)
                 throw SolveError(
                     "hypersingular matrix: is not positive definite near a vertex. Check the mesh for slivers and thin "
@@ -132,8 +178,14 @@ SchwarzPreconditioner::SchwarzPreconditioner(const HierarchicalMatrix& D, const 
     }
     coarse_ = coarse_motions(boundary.mesh(), tree, cores, neighbours, is_free_);
     Eigen::MatrixXd E = D.galerkin_product(coarse_, control);
-    // Motions of patches that are constrained as a whole are zero; those of a body that is not held cost no energy.
-    E.diagonal().array() += kCoarseShift * E.diagonal().maxCoeff();
+    // Motions of patches that are constrained as a whole are zero, loose ones cost no energy.
+    const double largest = E.diagonal().maxCoeff();
+    E.diagonal().array() += kCoarseShift * largest;
+    loose_ = of_unit_energy(loose, loose_energies, kNoEnergy * largest);
+    if (loose.cols() > 0) {
+        const Eigen::MatrixXd seen = coarse_.transpose() * loose;
+        E.noalias() += (largest * static_cast<double>(loose.cols()) / seen.squaredNorm()) * seen * seen.transpose();
+    }
     coarse_factor_.compute(E);
     if (coarse_factor_.info() != Eigen::Success)
         throw SolveError("hypersingular matrix: is not positive definite. Check the mesh for slivers and thin walls.");
@@ -142,6 +194,7 @@ SchwarzPreconditioner::SchwarzPreconditioner(const HierarchicalMatrix& D, const 
 Eigen::MatrixXd SchwarzPreconditioner::product(const Eigen::MatrixXd& X) const {
     const SerialBlas serial;
     Eigen::MatrixXd Y = coarse_ * coarse_factor_.solve(coarse_.transpose() * X);
+    if (loose_.cols() > 0) Y.noalias() += loose_ * (loose_.transpose() * X).eval();
     std::vector<Eigen::MatrixXf> answers(patches_.size());
     Control control;
     parallel_blocks(static_cast<int>(patches_.size()), 1, control, [&](int p, int) {

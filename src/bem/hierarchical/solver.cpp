@@ -11,6 +11,18 @@ namespace {
 /// tolerance: over that, at first; and at most.
 constexpr double kInnerOverTolerance = 0.01, kMostInnerResidual = 1e-3;
 
+/// Rigid motions of closed surfaces, each by itself, that vanish at these positions: the hypersingular operator knows
+/// nothing of them.
+Eigen::MatrixXd loose_motions(const Eigen::MatrixXd& surface_motions, const std::vector<int>& positions) {
+    Eigen::MatrixXd loose(surface_motions.rows(), 0);
+    for (Eigen::Index first = 0; first < surface_motions.cols(); first += 6) {
+        const Eigen::MatrixXd unseen = unseen_motions(surface_motions.middleCols<6>(first), positions);
+        loose.conservativeResize(Eigen::NoChange, loose.cols() + unseen.cols());
+        loose.rightCols(unseen.cols()) = unseen;
+    }
+    return loose;
+}
+
 /// A preconditioner that stays orthogonal to the free motions.
 class Projected : public LinearOperator {
 public:
@@ -65,8 +77,12 @@ HierarchicalSolver::HierarchicalSolver(std::shared_ptr<const HierarchicalSystem>
     control.begin_stage("integrate tractions");
     layers_ = std::make_unique<const TractionLayers>(*system_, tractions, control);
     control.begin_stage("precondition");
-    preconditioner_ = std::make_unique<const SchwarzPreconditioner>(system_->matrix(), system_->boundary(),
-                                                                    std::move(is_free), control);
+    const Eigen::MatrixXd loose = loose_motions(system_->surface_motions(), positions_);
+    Eigen::MatrixXd energies(loose.cols(), loose.cols());
+    if (loose.cols() > 0) energies = loose.transpose() * operate(loose, kMostInnerResidual, control);
+    preconditioner_ =
+        std::make_unique<const SchwarzPreconditioner>(system_->matrix(), system_->boundary(), std::move(is_free),
+                                                      system_->surface_motions(), loose, energies, control);
 }
 
 void HierarchicalSolver::zero_constrained(Eigen::MatrixXd& rows) const {

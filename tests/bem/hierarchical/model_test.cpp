@@ -134,6 +134,50 @@ TEST(HierarchicalGalerkin, AHollowSphereIsPulledAsByTheDenseMatrix) {
     EXPECT_LT(off(displaced(precomputed(make_body(mesh), hierarchical()), set, pull), truth), 1e-6);
 }
 
+/// `mesh` with a cavity around `middle`, of this shape.
+void add_cavity(SurfaceMesh& mesh, SurfaceMesh cavity, const Eigen::Vector3d& middle) {
+    const int n = mesh.n_vertices();
+    cavity.triangles.row(1).swap(cavity.triangles.row(2));  // its normals point into it
+    Positions vertices(3, n + cavity.n_vertices());
+    vertices << mesh.vertices, cavity.vertices.colwise() + middle;
+    Triangles triangles(3, mesh.n_triangles() + cavity.n_triangles());
+    triangles << mesh.triangles, (cavity.triangles.array() + n).matrix();
+    mesh.vertices = std::move(vertices);
+    mesh.triangles = std::move(triangles);
+}
+
+SurfaceMesh tetrahedron(double size) {
+    SurfaceMesh mesh;
+    mesh.vertices = size * (Positions(3, 4) << 1, -1, -1, 1, 1, -1, 1, -1, 1, 1, -1, -1).finished();
+    mesh.triangles = (Triangles(3, 4) << 0, 0, 0, 1, 2, 1, 3, 3, 1, 3, 2, 2).finished();
+    return mesh;
+}
+
+/// Such a small closed surface is all within one subdomain of the preconditioner, where the hypersingular operator
+/// annihilates its rigid motions.
+TEST(HierarchicalGalerkin, SmallCavitiesAreAnsweredAsByTheDenseMatrix) {
+    struct Case {
+        const char* name;
+        std::vector<SurfaceMesh> cavities;
+    };
+    const SurfaceMesh octahedron = make_sphere(1, 0.1), of_18 = make_sphere(2, 0.1), of_66 = make_sphere(4, 0.1);
+    for (const Case& its : {Case{"4 vertices", {tetrahedron(0.05)}}, Case{"6", {octahedron}}, Case{"18", {of_18}},
+                            Case{"66", {of_66}}, Case{"four", {tetrahedron(0.05), octahedron, of_18, of_66}}}) {
+        SurfaceMesh mesh = make_sphere(10);
+        double x = -0.45;
+        for (const SurfaceMesh& cavity : its.cavities) {
+            add_cavity(mesh, cavity, {x, 0.1, 0.2});
+            x += 0.3;
+        }
+        ConstrainedSet set;
+        set.base = vertices_where(mesh, [](const auto& p) { return p[2] < -0.7; });
+        set.handles = vertices_where(mesh, [](const auto& p) { return p[2] > 0.8; });
+        const Eigen::VectorXd pull = Eigen::Vector3d(0.1, 0.05, 0.2).replicate(std::ssize(set.handles), 1);
+        const Eigen::VectorXd truth = displaced(precomputed(make_body(mesh), dense()), set, pull);
+        EXPECT_LT(off(displaced(precomputed(make_body(mesh), hierarchical()), set, pull), truth), 1e-6) << its.name;
+    }
+}
+
 TEST(HierarchicalGalerkin, ABodyThatIsNotHeldMovesLeastOrIsRefused) {
     const SurfaceMesh mesh = make_sphere(8);
     const Eigen::Vector3d pull(1.0, 2.0, 3.0);
