@@ -6,7 +6,7 @@
 
 namespace elastolab {
 
-/// The report as JSON, with the keys that the README lists. A number that is not finite becomes null.
+/// The report as JSON, with the keys that docs/reference.md lists. A number that is not finite becomes null.
 void write_report(std::ostream& out, const Solution& solution);
 
 /// A compact summary for people.

@@ -13,7 +13,7 @@ struct GaussRule {
     std::array<double, kMaxPoints> weights{};
 };
 
-/// Rules with 3 (degree 2), 7 (degree 5) and 16 points (degree 8). Source: README reference [13].
+/// Rules with 3 (degree 2), 7 (degree 5) and 16 points (degree 8). Source: docs/formulation.md [13].
 const GaussRule& gauss_rule_3();
 const GaussRule& gauss_rule_7();
 const GaussRule& gauss_rule_16();

@@ -10,7 +10,7 @@ namespace elastolab {
 ///   U = [ (3-4nu) I + e e^T ] / (16 pi mu (1-nu) r),   r = |y - x|,  e = (y - x) / r
 /// x, y    source and field point [L];  x != y (asserted);  poisson_ratio <= 1/2
 /// returns 3 x 3, symmetric [L / force], entry (i, j) is displacement component j for a force along axis i
-/// Source: README reference [1].
+/// Source: docs/formulation.md [1].
 Eigen::Matrix3d kelvin_displacement(const Eigen::Vector3d& x, const Eigen::Vector3d& y, const Material& material);
 
 /// Kelvin traction kernel: traction at y, on the plane with normal n, due to a unit point force at x in a full space.
@@ -19,7 +19,7 @@ Eigen::Matrix3d kelvin_displacement(const Eigen::Vector3d& x, const Eigen::Vecto
 /// n       unit normal at y, pointing out of the body
 /// returns 3 x 3 [1/L^2], entry (i, j) is traction component j for a force along axis i
 /// Over a closed surface around x, T integrates to -I.
-/// Source: README reference [1].
+/// Source: docs/formulation.md [1].
 Eigen::Matrix3d kelvin_traction(const Eigen::Vector3d& x, const Eigen::Vector3d& y, const Eigen::Vector3d& n,
                                 double nu);
 

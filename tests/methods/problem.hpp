@@ -34,7 +34,7 @@ inline std::vector<Method> method_variants(Mode mode = Mode::on_demand, Update u
     return methods;
 }
 
-/// Prints a measured figure among the lines of the test run, for people and for the README's table.
+/// Prints a measured figure among the lines of the test run, for people and for docs/results.md.
 inline void print_measured(const std::string& what, double value) {
     std::printf("[ measured ] %s: %.3g\n", what.c_str(), value);
 }

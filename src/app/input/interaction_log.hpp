@@ -22,8 +22,8 @@ struct InteractionLog {
     std::vector<LoggedFrame> frames;
 };
 
-/// Writes an interaction log (README, "Record and replay"): JSON lines, a header and one line for each frame. The file
-/// appears under its name when it is complete, that is with finish() or at the end.
+/// Writes an interaction log (docs/reference.md, "Files of the viewer"): JSON lines, a header and one line for each
+/// frame. The file appears under its name when it is complete, that is with finish() or at the end.
 class InteractionRecorder {
 public:
     /// Throws Error when the file cannot be written.

@@ -44,8 +44,8 @@ private:
     std::size_t size_ = 0, next_ = 0;
 };
 
-/// Writes the timings CSV (README, "Frame timings"): a row for every frame that was drawn. The file appears under its
-/// name when it is complete, that is with finish() or at the end.
+/// Writes the timings CSV (docs/reference.md, "Files of the viewer"): a row for every frame that was drawn. The file
+/// appears under its name when it is complete, that is with finish() or at the end.
 class TimingsRecorder {
 public:
     /// Throws Error when the file cannot be written.

@@ -14,7 +14,7 @@ inline constexpr int kSceneVersion = 1;
 /// Whether a file is called like a scene (.json, .JSON) and not like a mesh.
 bool is_scene_file(const std::filesystem::path& file);
 
-/// Reads a scene file (README, "Scene files"). Strict: everything that is not understood is an error.
+/// Reads a scene file (docs/reference.md, "Scene files"). Strict: everything that is not understood is an error.
 /// Throws SceneError in one line: the file, the JSON path (or line and column), the finding and a way forward.
 Document load_scene(const std::filesystem::path& file);
 
