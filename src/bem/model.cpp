@@ -111,7 +111,7 @@ SolutionChecks BemModel::checks(const TractionSpace& space, std::vector<int> ver
         return std::make_shared<const BoundaryField>(boundary, nu, std::move(u), std::move(tractions));
     };
     checks.reference = [boundary = system_->shared_boundary(), nu = poisson_ratio_, vertices = std::move(vertices)](
-                           const Eigen::VectorXd& values, Control& control) {
+                           const Eigen::VectorXd& values, const NodeSolution&, Control& control) {
         return galerkin_reference(boundary->mesh(), nu, vertices, values, control);
     };
     return checks;

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <deque>
 #include <Eigen/Geometry>
+#include <mutex>
 
 #include "base/column_sum.hpp"
 #include "base/error.hpp"
@@ -79,11 +81,34 @@ struct Deformer::SolidState {
     }
 };
 
+/// The equilibria that were found last.
+class Deformer::Memory {
+public:
+    std::shared_ptr<const Equilibrium> find(const Eigen::VectorXd& values) const {
+        const std::scoped_lock lock(mutex_);
+        for (const auto& known : equilibria_)
+            if (known->values.size() == values.size() && known->values == values) return known;
+        return nullptr;
+    }
+    void add(std::shared_ptr<const Equilibrium> found) {
+        const std::scoped_lock lock(mutex_);
+        std::erase_if(equilibria_, [&](const auto& known) { return known->values == found->values; });
+        equilibria_.push_front(std::move(found));
+        if (equilibria_.size() > kRemembered) equilibria_.pop_back();
+    }
+
+private:
+    static constexpr std::size_t kRemembered = 3;
+    mutable std::mutex mutex_;
+    std::deque<std::shared_ptr<const Equilibrium>> equilibria_;
+};
+
 void DragResponse::displace(const Eigen::VectorXd& parameters, Eigen::VectorXd& u) const {
     column_sum(rest, X, parameters, u);
 }
 
-Deformer::Deformer(std::shared_ptr<const Model> model) : model_(std::move(model)), solids_(model_->parts().size()) {}
+Deformer::Deformer(std::shared_ptr<const Model> model)
+    : model_(std::move(model)), solids_(model_->parts().size()), memory_(std::make_unique<Memory>()) {}
 Deformer::~Deformer() = default;
 Deformer::Deformer(Deformer&&) noexcept = default;
 Deformer& Deformer::operator=(Deformer&&) noexcept = default;
@@ -153,6 +178,7 @@ void Deformer::constrain(ConstrainedSet set, Control& control) {
     solids_ = std::move(solids);
     set_ = std::move(set);
     quality_ = quality;
+    memory_ = std::make_unique<Memory>();
 }
 
 void Deformer::place(std::size_t part, Eigen::MatrixXd&& own, Eigen::MatrixXd& all) const {
@@ -175,20 +201,66 @@ Eigen::MatrixXd Deformer::displace_all(const Eigen::MatrixXd& values) const {
     return displace_all(values, control);
 }
 
-Eigen::MatrixXd Deformer::displace_all(const Eigen::MatrixXd& values, Control& control, double tolerance) const {
+double Deformer::unit_of(std::size_t part) const { return linear() ? 1.0 : model_->parts()[part].scale; }
+
+Approach Deformer::remembered(const Eigen::VectorXd& values, const Approach& approach) const {
+    if (linear() || approach.start || approach.path.cols() > 0) return approach;
+    return {memory_->find(values), {}};
+}
+
+NodeSolution Deformer::solve(std::size_t part, const Eigen::MatrixXd& values, const Eigen::MatrixXd& changes,
+                             bool want_loads, const Approach& approach, double tolerance, Control& control) const {
+    const SolidState& state = solids_[part];
+    const double unit = unit_of(part);
+    const auto own = [&](const Eigen::MatrixXd& all) -> Eigen::MatrixXd {
+        if (all.cols() == 0) return {};
+        return unit == 1.0 ? state.values(all) : Eigen::MatrixXd(unit * state.values(all));
+    };
+    const NodeTask task{own(values), own(changes), approach.start ? approach.start->solids[part].get() : nullptr,
+                        own(approach.path), want_loads};
+    try {
+        return state.solid->solve(task, tolerance, control);
+    } catch (const NoEquilibriumError& error) {
+        const Model::Part& of = model_->parts()[part];
+        const Eigen::Vector3d place = error.place() / of.scale + of.origin;
+        throw NoEquilibriumError(model_->body().name + ": " + error.what() + " The body is crushed most near " +
+                                     readable_point(place) + ". Pull less far, or in smaller steps.",
+                                 place);
+    }
+}
+
+Deformer::Displaced Deformer::displace_by(const Eigen::MatrixXd& values, const Eigen::MatrixXd& changes,
+                                          double tolerance, const Approach& approach, Control& control) const {
     assert(values.rows() == 3 * std::ssize(set_.handles));
-    Eigen::MatrixXd u = Eigen::MatrixXd::Zero(3 * model_->facts().n_vertices, values.cols());
-    for (std::size_t s = 0; s < solids_.size(); ++s)
-        if (const ConstrainedSolid* solid = solids_[s].solid.get())
-            place(s, solid->displacements(solid->solve(solids_[s].values(values), false, tolerance, control)), u);
-    require_finite(u);
-    return u;
+    const Approach from = values.cols() == 1 ? remembered(values.col(0), approach) : approach;
+    Displaced result{Eigen::MatrixXd::Zero(3 * model_->facts().n_vertices, values.cols() + changes.cols()), nullptr};
+    auto found = std::make_shared<Equilibrium>();
+    for (std::size_t s = 0; s < solids_.size(); ++s) {
+        found->solids.emplace_back(nullptr);
+        if (!solids_[s].solid) continue;
+        NodeSolution solution = solve(s, values, changes, false, from, tolerance, control);
+        found->solids.back() = solution.state;
+        Eigen::MatrixXd own = solids_[s].solid->displacements(std::move(solution));
+        if (unit_of(s) != 1.0) own /= unit_of(s);
+        place(s, std::move(own), result.u);
+    }
+    require_finite(result.u);
+    if (linear() || values.cols() == 0) return result;
+    found->values = values.rightCols<1>();
+    result.equilibrium = std::move(found);
+    if (tolerance <= kSolveTolerance) memory_->add(result.equilibrium);
+    return result;
+}
+
+Eigen::MatrixXd Deformer::displace_all(const Eigen::MatrixXd& values, Control& control, double tolerance) const {
+    return displace_by(values, {}, tolerance, {}, control).u;
 }
 
 Eigen::VectorXd Deformer::displace(const Eigen::VectorXd& values) const { return displace_all(values); }
 
-Eigen::VectorXd Deformer::displace(const Eigen::VectorXd& values, Control& control, double tolerance) const {
-    return displace_all(values, control, tolerance);
+Eigen::VectorXd Deformer::displace(const Eigen::VectorXd& values, Control& control, double tolerance,
+                                   const Approach& approach) const {
+    return displace_by(values, {}, tolerance, approach, control).u;
 }
 
 bool Deformer::iterates() const {
@@ -202,11 +274,9 @@ DragResponse Deformer::drag_response(const Eigen::VectorXd& values, const Eigen:
 }
 
 DragResponse Deformer::drag_response(const Eigen::VectorXd& values, const Eigen::MatrixXd& basis, Control& control,
-                                     double tolerance) const {
-    Eigen::MatrixXd all(values.size(), basis.cols() + 1);
-    all << values, basis;
-    const Eigen::MatrixXd u = displace_all(all, control, tolerance);
-    return {u.col(0), u.rightCols(basis.cols())};
+                                     double tolerance, const Approach& approach) const {
+    Displaced displaced = displace_by(values, basis, tolerance, approach, control);
+    return {displaced.u.col(0), displaced.u.rightCols(basis.cols()), std::move(displaced.equilibrium)};
 }
 
 void Deformer::add_reactions(std::size_t part, Reactions own, Reactions& sum) const {
@@ -215,8 +285,9 @@ void Deformer::add_reactions(std::size_t part, Reactions own, Reactions& sum) co
     // stiffness times displacement, [E L] [L].
     const Eigen::Vector3d& origin = model_->parts()[part].origin;
     const double unit = 1.0 / model_->parts()[part].scale;
-    own.forces *= unit;
-    own.moments *= unit * unit;
+    const double displacement = 1.0 / unit_of(part);  // of those that are scaled too
+    own.forces *= unit * displacement;
+    own.moments *= unit * unit * displacement;
     for (Eigen::Index i = 0; i < own.forces.cols(); ++i) own.moments.col(i) += origin.cross(own.forces.col(i).eval());
     Eigen::Index column = 0;
     const auto place_at = [&](Eigen::Index target) {
@@ -247,10 +318,11 @@ std::shared_ptr<const InteriorField> Deformer::inside(const Eigen::MatrixXd& val
     for (std::size_t s = 0; s < solids_.size(); ++s) {
         const Model::Part& part = model_->parts()[s];
         for (const int v : part.vertices) part_of_vertex[static_cast<std::size_t>(v)] = static_cast<int>(s);
-        parts.push_back({nullptr, part.origin, part.scale});
-        if (const ConstrainedSolid* solid = solids_[s].solid.get())
-            parts.back().field =
-                solid->inside(solid->solve(solids_[s].values(values), true, kSolveTolerance, control), control);
+        parts.push_back({nullptr, part.origin, part.scale, !linear()});
+        if (const ConstrainedSolid* solid = solids_[s].solid.get()) {
+            const Approach from = values.cols() == 1 ? remembered(values.col(0), {}) : Approach{};
+            parts.back().field = solid->inside(solve(s, values, {}, true, from, kSolveTolerance, control), control);
+        }
     }
     const Body& body = model_->body();
     std::vector<int> part_of_triangle;
@@ -280,36 +352,43 @@ std::optional<DiscretisationCheck> Deformer::check_of(const Answer& answer, cons
         std::max(force > 0.0 ? force_off / force : 0.0, kShearForces * u_error * shear_over_stretch(model_->body()))};
 }
 
-Deformer::Answer Deformer::answer(const Eigen::VectorXd& values, Wanted wanted, Control& control) const {
+Deformer::Answer Deformer::answer(const Eigen::VectorXd& values, Wanted wanted, Control& control,
+                                  const Approach& approach) const {
     // Residuals and errors square numbers: for values of order one these are far from over- and underflow. The problem
-    // is linear, and a power of two rounds nothing.
-    const int exponent = exponent_of(values);
+    // is linear, and a power of two rounds nothing. Where it is not linear, its solids have order one by themselves.
+    const int exponent = linear() ? exponent_of(values) : 0;
     const Eigen::VectorXd unit_values = values * std::ldexp(1.0, -exponent);
     const double unit = std::ldexp(1.0, exponent);
+    const Approach from = remembered(values, approach);
     const Eigen::Index n = 3 * model_->facts().n_vertices;
     const Eigen::Index n_constrained = std::ssize(set_.base) + std::ssize(set_.handles);
     Eigen::MatrixXd u = Eigen::MatrixXd::Zero(n, 1), off = u;
     Answer answer;
     answer.reactions = no_reactions(n_constrained);
     SolutionError error{{}, answer.reactions};
+    auto found = std::make_shared<Equilibrium>();
+    found->values = values;
     if (wanted.residual) answer.residual = 0.0;
     wanted.check = wanted.check && model_->method().kind->reported_error.has_value();
     for (std::size_t s = 0; s < solids_.size(); ++s) {
+        found->solids.emplace_back(nullptr);
         const ConstrainedSolid* solid = solids_[s].solid.get();
         if (solid == nullptr) continue;
-        NodeSolution solution = solid->solve(solids_[s].values(unit_values), true, kSolveTolerance, control);
+        NodeSolution solution = solve(s, unit_values, {}, true, from, kSolveTolerance, control);
+        found->solids.back() = solution.state;
         add_reactions(s, solid->reactions(solution), answer.reactions);
         if (wanted.residual) answer.residual = std::max(*answer.residual, solid->residual(solution, control));
         if (wanted.check) {
-            std::optional<SolutionError> own = solid->error(solids_[s].values(unit_values), solution, control);
+            std::optional<SolutionError> own =
+                solid->error(unit_of(s) * solids_[s].values(unit_values), solution, control);
             wanted.check = own.has_value();
             if (own) {
                 error.to_better = own->to_better;
-                place(s, own->displacements, off);
+                place(s, own->displacements / unit_of(s), off);
                 add_reactions(s, std::move(own->reactions), error.reactions);
             }
         }
-        place(s, solid->displacements(std::move(solution)), u);
+        place(s, solid->displacements(std::move(solution)) / unit_of(s), u);
     }
     answer.displacements = u.col(0);
     error.displacements = off.col(0);
@@ -317,11 +396,27 @@ Deformer::Answer Deformer::answer(const Eigen::VectorXd& values, Wanted wanted, 
     answer.displacements *= unit;
     answer.reactions.forces *= unit;
     answer.reactions.moments *= unit;
+    if (!linear()) remember(std::move(found), answer);
     require_finite(answer.displacements);
     if (!answer.reactions.forces.allFinite() || !answer.reactions.moments.allFinite())
         throw SolveError(model_->body().name +
                          ": forces are beyond double precision. Choose a smaller Young's modulus, or smaller motions.");
     return answer;
+}
+
+void Deformer::remember(std::shared_ptr<const Equilibrium> found, Answer& answer) const {
+    EquilibriumFacts sum;
+    for (std::size_t s = 0; s < solids_.size(); ++s) {
+        if (!found->solids[s]) continue;
+        const EquilibriumFacts facts = found->solids[s]->facts();
+        sum.iterations += facts.iterations;
+        sum.energy += facts.energy * model_->body().material.young_modulus / std::pow(model_->parts()[s].scale, 3);
+        sum.largest_stretch = std::max(sum.largest_stretch, facts.largest_stretch);
+        sum.stable = sum.stable && facts.stable;
+    }
+    answer.facts = sum;
+    memory_->add(found);
+    answer.equilibrium = std::move(found);
 }
 
 }  // namespace elastolab

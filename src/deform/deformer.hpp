@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/control.hpp"
+#include "deform/equilibrium.hpp"
 #include "deform/interior_field.hpp"
 #include "deform/iteration.hpp"
 #include "deform/model.hpp"
@@ -26,6 +27,9 @@ struct ConstrainedSet {
 struct DragResponse {
     Eigen::VectorXd rest;  ///< 3*n_vertices [L]
     Eigen::MatrixXd X;     ///< 3*n_vertices x n_parameters
+    /// Of methods that are not linear: the equilibrium at `rest`, from which the next one may begin. X is then the
+    /// tangent there, and displacements are right to second order in the parameters.
+    std::shared_ptr<const Equilibrium> equilibrium = nullptr;
 
     /// u <- rest + X * parameters: one pass over the columns of X, the whole cost of a frame.
     void displace(const Eigen::VectorXd& parameters, Eigen::VectorXd& u) const;
@@ -58,6 +62,17 @@ struct SolutionError;
 
 /// Displacements of a Model for one constrained set at a time. Owned by one thread, others may call its const members
 /// while it is not changed; several may share a Model.
+///
+/// Of methods that are not linear (MethodTraits::linear) an answer is an equilibrium, found by iteration:
+///   - `values` are displacements as ever. Which equilibrium is found depends on the Approach: from rest along the
+///     shortest rotation of each handle unless it says otherwise. Only displace_all and inside have several columns of
+///     values, each an equilibrium of its own, found in their order.
+///   - drag_response is the equilibrium at `values` and the columns of its tangent; it brings the `equilibrium` that
+///     the next drag_response starts from.
+///   - An equilibrium that was found is remembered (the last few of a set). Asked again for exactly its values, without
+///     an Approach, by displace, reactions, answer, residual, discretisation_check or inside, it is taken and nothing
+///     is solved.
+///   - No equilibrium: NoEquilibriumError, a SolveError that says where the body is crushed.
 class Deformer {
 public:
     explicit Deformer(std::shared_ptr<const Model> model);
@@ -84,7 +99,8 @@ public:
     Eigen::VectorXd displace(const Eigen::VectorXd& values) const;
     /// The same where solving may take long (large surfaces by iteration, to this relative residual): tells its
     /// progress. Throws Cancelled.
-    Eigen::VectorXd displace(const Eigen::VectorXd& values, Control& control, double tolerance = kSolveTolerance) const;
+    Eigen::VectorXd displace(const Eigen::VectorXd& values, Control& control, double tolerance = kSolveTolerance,
+                             const Approach& approach = {}) const;
 
     /// The same for many columns of values at once: 3*n_vertices x values.cols().
     Eigen::MatrixXd displace_all(const Eigen::MatrixXd& values) const;
@@ -99,7 +115,9 @@ public:
     /// vertices. rest = displace(values).
     DragResponse drag_response(const Eigen::VectorXd& values, const Eigen::MatrixXd& basis) const;
     DragResponse drag_response(const Eigen::VectorXd& values, const Eigen::MatrixXd& basis, Control& control,
-                               double tolerance = kSolveTolerance) const;
+                               double tolerance = kSolveTolerance, const Approach& approach = {}) const;
+    /// Whether displacements are linear in `values`.
+    bool linear() const { return model_->method().kind->linear; }
 
     /// Reactions at the base vertices, then at the handle vertices, for these values.
     Reactions reactions(const Eigen::VectorXd& values) const;
@@ -108,15 +126,17 @@ public:
     struct Answer {
         Eigen::VectorXd displacements = {};
         Reactions reactions = {};
-        std::optional<double> residual = {};            ///< when asked for
-        std::optional<DiscretisationCheck> check = {};  ///< when asked for, and where there is one
+        std::optional<double> residual = {};                       ///< when asked for
+        std::optional<DiscretisationCheck> check = {};             ///< when asked for, and where there is one
+        std::shared_ptr<const Equilibrium> equilibrium = nullptr;  ///< of methods that are not linear
+        std::optional<EquilibriumFacts> facts = {};                ///< likewise, of all solids together
     };
     /// What an answer is to tell besides displacements and reactions.
     struct Wanted {
         bool residual = false;
         bool check = false;
     };
-    Answer answer(const Eigen::VectorXd& values, Wanted wanted, Control& control) const;
+    Answer answer(const Eigen::VectorXd& values, Wanted wanted, Control& control, const Approach& approach = {}) const;
 
     /// How far displacements and reactions for these values may be off because the mesh is coarse: the difference to a
     /// second, better answer. Boundary elements: symmetric Galerkin, the triangles along the rims of the constrained
@@ -142,6 +162,22 @@ public:
 
 private:
     struct SolidState;
+    class Memory;
+    /// Solutions of a solid for these values (and, of the first column, changes), in its own units.
+    NodeSolution solve(std::size_t part, const Eigen::MatrixXd& values, const Eigen::MatrixXd& changes, bool want_loads,
+                       const Approach& approach, double tolerance, Control& control) const;
+    struct Displaced {
+        Eigen::MatrixXd u;
+        std::shared_ptr<const Equilibrium> equilibrium;
+    };
+    Displaced displace_by(const Eigen::MatrixXd& values, const Eigen::MatrixXd& changes, double tolerance,
+                          const Approach& approach, Control& control) const;
+    /// The approach that answers for these values: one that begins with the remembered equilibrium, where there is one.
+    Approach remembered(const Eigen::VectorXd& values, const Approach& approach) const;
+    /// Of methods that are not linear.
+    void remember(std::shared_ptr<const Equilibrium> found, Answer& answer) const;
+    /// Displacements in the solid over those in the body: solids of methods that are not linear need true ones.
+    double unit_of(std::size_t part) const;
     /// A part's share of a set, not yet constrained.
     SolidState split(const ConstrainedSet& set, const Model::Part& part) const;
     void require_memory(const ConstrainedSet& set) const;
@@ -156,6 +192,7 @@ private:
     ConstrainedSet set_;
     std::vector<SolidState> solids_;  ///< one for each part of the model
     SolutionQuality quality_;
+    std::unique_ptr<Memory> memory_;  ///< equilibria found
 };
 
 }  // namespace elastolab

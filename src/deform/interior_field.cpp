@@ -37,11 +37,13 @@ InteriorValues BodyField::at(const Positions& points, Control& control) const {
         if (!part.field || members[p].empty()) continue;
         const Positions own = part.scale * (points(Eigen::all, members[p]).colwise() - part.origin);
         const InteriorValues values = part.field->at(own, control);
-        // The solid's coordinates are those of the body times a factor, its displacements are not.
-        const double unit = young_modulus_ * part.scale;
+        // The solid's coordinates are those of the body times a factor; most displacements are not, so that their
+        // gradients are too small.
+        const double length = part.scaled_displacements ? 1.0 / part.scale : 1.0;
+        const double unit = young_modulus_ * part.scale * length;
         for (std::size_t i = 0; i < members[p].size(); ++i) {
             const auto k = static_cast<Eigen::Index>(i);
-            all.displacements.middleRows<3>(3 * members[p][i]) = values.displacements.middleRows<3>(3 * k);
+            all.displacements.middleRows<3>(3 * members[p][i]) = length * values.displacements.middleRows<3>(3 * k);
             all.stresses.middleRows<6>(6 * members[p][i]) = unit * values.stresses.middleRows<6>(6 * k);
         }
     }

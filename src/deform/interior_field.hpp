@@ -17,8 +17,9 @@ struct InteriorValues {
     Eigen::MatrixXd stresses;       ///< 6n x m [force / L^2]: StressNumbers of the points one below the other
 };
 
-/// Displacements and stresses inside a body, for m solutions at once: linear in the prescribed values, so that those of
-/// a drag are a sum over its columns. Immutable; any thread may use it.
+/// Displacements and stresses inside a body, for m solutions at once: of linear methods linear in the prescribed
+/// values, so that those of a drag are a sum over its columns. Others have Cauchy stresses. Immutable; any thread may
+/// use it.
 class InteriorField {
 public:
     virtual ~InteriorField() = default;
@@ -35,6 +36,8 @@ public:
         std::shared_ptr<const InteriorField> field;  ///< of unit Young's modulus; null: the solid rests
         Eigen::Vector3d origin;                      ///< as in Model::Part
         double scale = 1.0;
+        /// The field has displacements in its own coordinates, not in those of the body.
+        bool scaled_displacements = false;
     };
     /// part_of_triangle: for each triangle of the body's surface, the number of its solid.
     BodyField(std::shared_ptr<const SurfaceMesh> surface, std::vector<int> part_of_triangle, std::vector<Part> parts,

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/text.hpp"
+
 namespace elastolab {
 
 namespace {
@@ -10,6 +12,7 @@ namespace {
 constexpr std::array<std::string_view, 3> kModeNames = {"on-demand", "full", "full-volume"};
 constexpr std::array<std::string_view, 3> kTractionNames = {"discontinuous", "restricted", "continuous"};
 constexpr std::array<std::string_view, 3> kUpdateNames = {"direct", "eqn9", "reduced"};
+constexpr std::array<std::string_view, 2> kElementNames = {"quadratic", "linear"};
 
 template <class Choice, std::size_t n>
 std::optional<Choice> choice_in(const std::array<Choice, n>& choices, std::string_view text) {
@@ -26,6 +29,10 @@ std::string_view name(Update update) { return kUpdateNames[static_cast<std::size
 std::optional<Mode> parse_mode(std::string_view text) { return choice_in(kAllModes, text); }
 std::optional<Tractions> parse_tractions(std::string_view text) { return choice_in(kAllTractions, text); }
 std::optional<Update> parse_update(std::string_view text) { return choice_in(kAllUpdates, text); }
+std::string_view name(ElementDegree elements) {
+    return elements == ElementDegree::quadratic ? kElementNames[0] : kElementNames[1];
+}
+std::optional<ElementDegree> parse_elements(std::string_view text) { return choice_in(kAllElements, text); }
 
 bool has(MethodKind kind, Mode mode) {
     return std::find(kind->modes.begin(), kind->modes.end(), mode) != kind->modes.end();
@@ -49,6 +56,10 @@ std::string refusal(const Method& method, double poisson_ratio) {
         return say(update, std::string(traits.label) + " does not offer it. Choose the update reduced.");
     if (method.update == Update::eqn9 && method.mode == Mode::on_demand)
         return say(update, "needs K and its inverse in memory. Choose the mode full.");
+    if (poisson_ratio > traits.largest_poisson_ratio)
+        return say("poisson_ratio", std::string(traits.label) + " takes values up to " +
+                                        readable_number(traits.largest_poisson_ratio, 6) +
+                                        ". Lower it, or choose linear-bem, which takes 0.5.");
     if (poisson_ratio < 0.5) return {};
     if (!traits.takes_incompressible)
         return say("poisson_ratio", std::string(traits.label) +

@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "deform/element_degree.hpp"
+
 namespace elastolab {
 
 class Control;
@@ -36,6 +38,7 @@ enum class Update { direct, eqn9, reduced };
 inline constexpr std::array kAllModes = {Mode::on_demand, Mode::full, Mode::full_volume};
 inline constexpr std::array kAllTractions = {Tractions::discontinuous, Tractions::restricted, Tractions::continuous};
 inline constexpr std::array kAllUpdates = {Update::direct, Update::eqn9, Update::reduced};
+inline constexpr std::array kAllElements = {ElementDegree::quadratic, ElementDegree::linear};
 
 /// What a precomputation would take, before it is begun. Seconds are an estimate from the arithmetic it needs and from
 /// the speed of this machine's matrix product, measured once; memory is what the model's arrays add up to. What a
@@ -46,7 +49,8 @@ struct Cost {
     double seconds = 0.0;
 };
 
-/// MethodTraits::reported_error of methods whose estimate is of the size of the error: half the error that must be told.
+/// MethodTraits::reported_error of methods whose estimate is of the size of the error: half the error that must be
+/// told.
 inline constexpr double kReportedError = 0.05;
 
 /// Everything that code above the methods may know about one: a row of the table that src/methods collects. Every rule
@@ -65,12 +69,17 @@ struct MethodTraits {
 
     std::span<const Mode> modes;
     std::span<const Update> updates;
+    /// Displacements are linear in the prescribed values. False: they are equilibria of large deformations, each found
+    /// by iteration from another (Approach in deform/equilibrium.hpp), and there may be several for the same values.
+    bool linear = true;
     bool chooses_tractions = false;      ///< Method::tractions means something
+    bool chooses_elements = false;       ///< Method::elements means something
     bool has_inside = false;             ///< nodes inside: the surface must be one that tetrahedra can fill
     bool full_serves_sets = true;        ///< the mode full makes constrained sets faster than on demand
     bool sparse = false;                 ///< the matrix factorised on demand is sparse
     bool shows_averages = false;         ///< nodes are triangles; a vertex is shown at the mean of those around it
     bool takes_incompressible = true;    ///< Poisson's ratio 1/2 itself
+    double largest_poisson_ratio = 0.5;  ///< refused beyond
     bool K_takes_incompressible = true;  ///< so do K and the updates that need it (direct and eqn9 in the mode full)
     bool locks = false;                  ///< errors grow without bound as Poisson's ratio nears 1/2
     double integral_tolerance = 0.0;     ///< Method::integral_tolerance where it is not chosen
@@ -98,6 +107,7 @@ struct Method {
     Mode mode = Mode::on_demand;
     Tractions tractions = Tractions::discontinuous;
     Update update = Update::reduced;
+    ElementDegree elements = ElementDegree::quadratic;  ///< nonlinear FEM: ten nodes or four
     /// BEM: relative error allowed to a boundary integral; decides which rule is used where. 0: that of the method
     /// (MethodTraits::integral_tolerance).
     double integral_tolerance = 0.0;
@@ -131,5 +141,7 @@ std::string_view name(Update update);
 std::optional<Mode> parse_mode(std::string_view text);
 std::optional<Tractions> parse_tractions(std::string_view text);
 std::optional<Update> parse_update(std::string_view text);
+std::string_view name(ElementDegree elements);
+std::optional<ElementDegree> parse_elements(std::string_view text);
 
 }  // namespace elastolab

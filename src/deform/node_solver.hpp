@@ -1,9 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 
 #include "base/control.hpp"
 #include "base/error.hpp"
+#include "deform/equilibrium.hpp"
 #include "deform/iteration.hpp"
 
 namespace elastolab {
@@ -29,6 +31,19 @@ struct NodeSolution {
     Eigen::MatrixXd displacements;  ///< 3*n_nodes x m [L]
     Eigen::MatrixXd loads;          ///< 3*n_load_slots x m, for unit Young's modulus: nodal forces (FEM) or the
                                     ///< coefficients of the tractions (BEM); empty unless asked for
+    Eigen::MatrixXd prescribed;     ///< what it is a solution for, of methods that are not linear; else empty
+    std::shared_ptr<const NodeState> state = nullptr;  ///< of the last column, of methods that are not linear
+};
+
+/// What a node solver is asked for at once.
+struct NodeTask {
+    Eigen::MatrixXd prescribed;  ///< 3*n_constrained_nodes x m, in the order of the constrained nodes
+    /// 3*n_constrained_nodes x k: changes of the first column of `prescribed`; wanted are the derivatives of its
+    /// solution along them.
+    Eigen::MatrixXd changes = {};
+    const NodeState* start = nullptr;  ///< as in Approach; null: rest
+    Eigen::MatrixXd path = {};         ///< as in Approach, of the constrained nodes
+    bool want_loads = false;
 };
 
 /// Displacements of all nodes from those prescribed at the constrained ones. Immutable.
@@ -44,6 +59,16 @@ public:
                                        Control&) const {
         return solve(prescribed, want_loads);
     }
+    /// Solutions for the columns of `prescribed`, then the derivatives along those of `changes`. A method that is
+    /// linear has nothing to begin from, and its derivatives are solutions.
+    virtual NodeSolution solve_task(const NodeTask& task, double tolerance, Control& control) const {
+        if (task.changes.cols() == 0) return solve_watched(task.prescribed, task.want_loads, tolerance, control);
+        Eigen::MatrixXd all(task.prescribed.rows(), task.prescribed.cols() + task.changes.cols());
+        all << task.prescribed, task.changes;
+        return solve_watched(all, task.want_loads, tolerance, control);
+    }
+    /// Whether displacements are linear in what is prescribed.
+    virtual bool linear() const { return true; }
     /// False where solutions are as exact as rounding lets them be, whatever the tolerance.
     virtual bool iterates() const { return false; }
 

@@ -26,10 +26,21 @@ ConstrainedSolid::ConstrainedSolid(int n_vertices, ConstrainedNodes nodes, std::
       solver_(std::move(solver)),
       checks_(std::move(checks)) {}
 
+NodeSolution ConstrainedSolid::solve(const NodeTask& task, double tolerance, Control& control) const {
+    assert(task.prescribed.rows() == nodes_.prescribe.cols());
+    const auto of_nodes = [&](const Eigen::MatrixXd& of_vertices) -> Eigen::MatrixXd {
+        return of_vertices.cols() > 0 ? Eigen::MatrixXd(nodes_.prescribe * of_vertices) : Eigen::MatrixXd();
+    };
+    const NodeTask own{of_nodes(task.prescribed), of_nodes(task.changes), task.start, of_nodes(task.path),
+                       task.want_loads};
+    NodeSolution solution = solver_->solve_task(own, tolerance, control);
+    if (!solver_->linear()) solution.prescribed = task.prescribed;
+    return solution;
+}
+
 NodeSolution ConstrainedSolid::solve(const Eigen::MatrixXd& values, bool want_loads, double tolerance,
                                      Control& control) const {
-    assert(values.rows() == nodes_.prescribe.cols());
-    return solver_->solve_watched(nodes_.prescribe * values, want_loads, tolerance, control);
+    return solve(NodeTask{.prescribed = values, .want_loads = want_loads}, tolerance, control);
 }
 
 NodeSolution ConstrainedSolid::solve(const Eigen::MatrixXd& values, bool want_loads) const {
@@ -44,7 +55,14 @@ Eigen::MatrixXd ConstrainedSolid::displacements(NodeSolution&& solution) const {
 }
 
 Reactions ConstrainedSolid::reactions(const NodeSolution& solution) const {
-    return gathered_reactions(shares_, n_constrained_, solution.loads.col(0));
+    Reactions reactions = gathered_reactions(shares_, n_constrained_, solution.loads.col(0));
+    if (solver_->linear()) return reactions;
+    for (const LoadShare& share : shares_) {
+        const Eigen::Vector3d load = solution.loads.col(0).segment<3>(3 * share.slot);
+        const Eigen::Vector3d moved = share.weight * solution.prescribed.col(0).segment<3>(3 * share.constrained);
+        reactions.moments.col(share.constrained) += moved.cross(load);
+    }
+    return reactions;
 }
 
 double ConstrainedSolid::residual(const NodeSolution& solution, Control& control) const {
@@ -58,7 +76,7 @@ std::shared_ptr<const InteriorField> ConstrainedSolid::inside(NodeSolution&& sol
 std::optional<SolutionError> ConstrainedSolid::error(const Eigen::VectorXd& values, const NodeSolution& solution,
                                                      Control& control) const {
     if (!checks_.reference) return {};
-    const std::optional<ReferenceAnswer> reference = checks_.reference(values, control);
+    const std::optional<ReferenceAnswer> reference = checks_.reference(values, solution, control);
     if (!reference) return {};
     const Eigen::VectorXd u =
         display_ ? Eigen::VectorXd(*display_ * solution.displacements.col(0))

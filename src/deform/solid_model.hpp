@@ -34,8 +34,9 @@ struct SolutionChecks {
     /// Relative residual of the full system.
     std::function<double(const NodeSolution&, Control&)> residual;
     /// The second answer for these displacements of the constrained vertices; nothing where it would not fit into
-    /// memory. Null where there is none.
-    std::function<std::optional<ReferenceAnswer>(const Eigen::VectorXd& values, Control&)> reference;
+    /// memory. Null where there is none. The solution is the first answer.
+    std::function<std::optional<ReferenceAnswer>(const Eigen::VectorXd& values, const NodeSolution& solution, Control&)>
+        reference;
     /// Displacements and stresses inside, for these solutions.
     std::function<std::shared_ptr<const InteriorField>(NodeSolution&&, Control&)> inside = {};
 };
@@ -61,13 +62,17 @@ public:
                      std::shared_ptr<const SparseRows> display, std::unique_ptr<NodeSolver> solver,
                      SolutionChecks checks);
 
+    /// As NodeTask, of the constrained vertices: base (zero) first, then handles.
+    NodeSolution solve(const NodeTask& task, double tolerance, Control& control) const;
     /// values: 3*n_constrained x m, base (zero) first, then handles.
     NodeSolution solve(const Eigen::MatrixXd& values, bool want_loads, double tolerance, Control& control) const;
     NodeSolution solve(const Eigen::MatrixXd& values, bool want_loads) const;
     bool iterates() const { return solver_->iterates(); }
+    bool linear() const { return solver_->linear(); }
     /// Displacements of the vertices out of a solution, 3*n_vertices x m.
     Eigen::MatrixXd displacements(NodeSolution&& solution) const;
-    /// Forces and moments at the constrained vertices, for the first column of a solution with loads.
+    /// Forces and moments at the constrained vertices, for the first column of a solution with loads. Moments are of
+    /// forces at rest positions, or at present ones where the method is not linear.
     Reactions reactions(const NodeSolution& solution) const;
     double residual(const NodeSolution& solution, Control& control) const;
     /// Estimated error of a solution for these values; nothing where the method has no estimate.

@@ -274,7 +274,7 @@ std::unique_ptr<ConstrainedSolid> FemModel::constrain_reduced(ConstrainedFemNode
 
 decltype(SolutionChecks::reference) FemModel::reference_for(const ConstrainedFemNodes& nodes) const {
     return [system = system_, degree = degree(), nu = poisson_ratio_, vertices = nodes.vertices](
-               const Eigen::VectorXd& values, Control& control) {
+               const Eigen::VectorXd& values, const NodeSolution&, Control& control) {
         return degree == ElementDegree::linear ? quadratic_reference(*system, nu, vertices, values, control)
                                                : linear_reference(*system, vertices, values, control);
     };

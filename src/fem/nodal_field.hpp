@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <memory>
 
+#include "deform/element_degree.hpp"
 #include "deform/interior_field.hpp"
-#include "fem/element_degree.hpp"
 #include "mesh/box_tree.hpp"
 #include "mesh/surface_mesh.hpp"
 

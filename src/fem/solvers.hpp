@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "deform/columns.hpp"
+#include "deform/element_degree.hpp"
 #include "deform/node_solver.hpp"
 #include "deform/reduced_solver.hpp"
 #include "fem/assembly.hpp"
 #include "fem/compliance.hpp"
 #include "fem/constrained_nodes.hpp"
-#include "fem/element_degree.hpp"
 #include "fem/prices.hpp"
 #include "fem/sparse_cholesky.hpp"
 

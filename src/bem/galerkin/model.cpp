@@ -71,8 +71,8 @@ std::unique_ptr<ConstrainedSolid> GalerkinModel::constrain(std::span<const int> 
     const auto residual = [system = system_, vertices, tractions](const NodeSolution& solution, Control& its_control) {
         return galerkin_residual(*system, vertices, tractions, solution, its_control);
     };
-    const auto reference = [system = system_, nu = poisson_ratio_, vertices](const Eigen::VectorXd& values,
-                                                                             Control& its_control) {
+    const auto reference = [system = system_, nu = poisson_ratio_, vertices](
+                               const Eigen::VectorXd& values, const NodeSolution&, Control& its_control) {
         return galerkin_self_reference(system->boundary().mesh(), nu, vertices, values, its_control);
     };
     const auto inside = [boundary = std::shared_ptr<const Boundary>(system_, &system_->boundary()), vertices, tractions,

@@ -31,7 +31,8 @@ std::unique_ptr<ConstrainedSolid> HierarchicalGalerkinModel::constrain(std::span
     const auto residual = [system = system_, vertices, tractions](const NodeSolution& solution, Control& its_control) {
         return hierarchical_residual(*system, vertices, tractions, solution, its_control);
     };
-    const auto reference = [system = system_, vertices](const Eigen::VectorXd& values, Control& its_control) {
+    const auto reference = [system = system_, vertices](const Eigen::VectorXd& values, const NodeSolution&,
+                                                        Control& its_control) {
         return galerkin_self_reference(system->boundary().mesh(), system->material().poisson_ratio, vertices, values,
                                        its_control);
     };
