@@ -28,3 +28,11 @@ try src/mesh/a.hpp 'int a;  ///< from mesh/a.hpp and mesh/gone.hpp' 'names mesh/
 try tests/mesh/a_test.cpp '// docs/formulation.md section 2' 'docs/formulation.md has no section 2'
 try README.md '![picture](assets/gone.png)' 'links to assets/gone.png'
 try docs/formulation.md '[readme](README.md)' 'links to README.md'
+try src/mesh/a.hpp '// Source: docs/formulation.md [7]' 'docs/formulation.md has no reference [7]'
+try docs/formulation.md "$(printf 'x%.0s' {1..701})" 'a paragraph of 701 characters'
+try README.md 'One. Two. Three. Four. Five.' 'a paragraph of 5 sentences'
+
+echo '| One. Two. Three. Four. Five. | a row of a table |' >> "$tree/README.md"
+expect 0 "0 findings"
+for _ in {1..120}; do echo >> "$tree/README.md"; done
+expect 1 "README.md: 122 lines"
