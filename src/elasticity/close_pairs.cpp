@@ -251,15 +251,15 @@ PairNumbers touching_pair(const TriangleGeometry& t, int apex_t, const TriangleG
 PairNumbers separate_pair(const TriangleGeometry& t, const TriangleGeometry& s, bool all, double tolerance) {
     PairNumbers result{};
     PotentialSum sum(s, all, nullptr, result);
-    const Vec a = corner(t, 0), ab = corner(t, 1) - a, bc = corner(t, 2) - corner(t, 1);
-    for_each_outer_cell(t, s, tolerance, max_outer_points(tolerance), [&](const OuterCell& cell) {
+    const OuterAccuracy accuracy{tolerance, !all, max_outer_points(tolerance)};
+    for_each_outer_cell(t, s, accuracy, [&](const OuterPart& part, const OuterCell& cell) {
         const LineRule &rule_u = legendre_rule(cell.n_u), &rule_v = legendre_rule(cell.n_v);
         const double size_u = cell.u1 - cell.u0, size_v = cell.v1 - cell.v0;
         for (std::size_t i = 0; i < rule_u.nodes.size(); ++i)
             for (std::size_t j = 0; j < rule_v.nodes.size(); ++j) {
                 const double u = cell.u0 + size_u * rule_u.nodes[i], v = cell.v0 + size_v * rule_v.nodes[j];
                 const double weight = rule_u.weights[i] * rule_v.weights[j] * size_u * size_v;
-                sum.add(a + u * (ab + v * bc), t.double_area * u * weight, Vec::Zero());
+                sum.add(part.a + u * (part.ab + v * part.bc), part.double_area * u * weight, Vec::Zero());
             }
     });
     sum.flush();

@@ -1,9 +1,12 @@
 #include "elasticity/outer_cells.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <optional>
+#include <utility>
+#include <vector>
 
 namespace elastolab {
 
@@ -12,8 +15,13 @@ namespace {
 using Vec = Eigen::Vector3d;
 
 constexpr double kInfinite = 1e300;
-/// Enough for edges above edges at 1e-6 of their length; ends the recursion where triangles cross one another.
-constexpr int kMaxCuts = 28;
+/// Cuts in both directions together: enough for edges above edges at 1e-9 of their length; ends the recursion where
+/// triangles cross one another.
+constexpr int kMaxCuts = 64;
+/// Edges of the field triangle cut a test triangle that they come closer to, in units of its longest edge.
+constexpr double kCutWithin = 0.1;
+/// Share of the tolerance below which the cells at a singularity are no longer cut: there are some dozens of them.
+constexpr double kNegligible = 0.03;
 
 /// The long semi-axis of the ellipse with foci -1 and 1 through the zeros of |w + z h|^2: half the sum of their
 /// distances from the foci.
@@ -48,11 +56,17 @@ double axis_beside_edge(const double* p, const double* q, const TriangleGeometry
 /// The parameter rho, which is the sum of both semi-axes, from the long one.
 double ellipse_of(double axis) { return axis < kInfinite ? axis + std::sqrt(axis * axis - 1.0) : kInfinite; }
 
+using Corners = std::array<Vec, 3>;
+
+Vec point(const Corners& T, double u, double v) { return T[0] + u * (T[1] - T[0] + v * (T[2] - T[1])); }
+
+/// Cuts one part of a test triangle into cells.
 class Cutter {
 public:
-    Cutter(const TriangleGeometry& test, const TriangleGeometry& field, double tolerance, int max_points,
+    /// share: of the part in the whole test triangle.
+    Cutter(const Corners& part, double share, const TriangleGeometry& field, const OuterAccuracy& accuracy,
            const std::function<void(const OuterCell&)>& visit)
-        : test_(test), field_(field), tolerance_(tolerance), max_points_(max_points), visit_(visit) {}
+        : part_(part), share_(share), field_(field), accuracy_(accuracy), visit_(visit) {}
 
     void cut(OuterCell cell, int n_cuts) const {
         const double u = 0.5 * (cell.u0 + cell.u1), v = 0.5 * (cell.v0 + cell.v1);
@@ -61,13 +75,13 @@ public:
         for (const double at : {cell.u0, u, cell.u1}) rho_v = std::min(rho_v, chord(at, cell.v0, at, cell.v1));
         // Small cells may be less exact: those of one size lie side by side along a line, so that there are few of
         // them.
-        const double share = (cell.u1 * cell.u1 - cell.u0 * cell.u0) * (cell.v1 - cell.v0);
-        const double tolerance = std::min(0.1, tolerance_ / std::sqrt(share));
+        const double share = share_ * (cell.u1 * cell.u1 - cell.u0 * cell.u0) * (cell.v1 - cell.v0);
+        const double tolerance = std::min(0.1, accuracy_.tolerance / std::sqrt(share));
         cell.n_u = gauss_points(rho_u, tolerance);
         cell.n_v = gauss_points(rho_v, tolerance);
-        if (std::max(cell.n_u, cell.n_v) <= max_points_ || n_cuts == kMaxCuts) {
-            cell.n_u = std::min(cell.n_u, max_points_);
-            cell.n_v = std::min(cell.n_v, max_points_);
+        if (std::max(cell.n_u, cell.n_v) <= accuracy_.max_points || n_cuts == kMaxCuts || is_negligible(share, cell)) {
+            cell.n_u = std::min(cell.n_u, accuracy_.max_points);
+            cell.n_v = std::min(cell.n_v, accuracy_.max_points);
             return visit_(cell);
         }
         OuterCell first = cell, second = cell;
@@ -80,22 +94,86 @@ public:
     }
 
 private:
+    /// Whether what a potential does within a cell no longer counts: it stays below its mean, and a continuous one
+    /// changes by no more than the width of the cell.
+    bool is_negligible(double share, const OuterCell& cell) const {
+        const double width = accuracy_.is_continuous ? std::min(cell.u1 - cell.u0, cell.u1 * (cell.v1 - cell.v0)) : 1.0;
+        return share * width < kNegligible * accuracy_.tolerance;
+    }
     double chord(double u0, double v0, double u1, double v1) const {
-        double p[3], q[3];
-        for (int i = 0; i < 3; ++i) {
-            const double a = test_.corner[0][i], b = test_.corner[1][i], c = test_.corner[2][i];
-            p[i] = a + u0 * (b - a + v0 * (c - b));
-            q[i] = a + u1 * (b - a + v1 * (c - b));
-        }
-        return analytic_ellipse(p, q, field_);
+        const Vec p = point(part_, u0, v0), q = point(part_, u1, v1);
+        return analytic_ellipse(p.data(), q.data(), field_);
     }
 
-    const TriangleGeometry& test_;
+    const Corners& part_;
+    double share_;
     const TriangleGeometry& field_;
-    double tolerance_;
-    int max_points_;
+    const OuterAccuracy& accuracy_;
     const std::function<void(const OuterCell&)>& visit_;
 };
+
+/// A line of a plane that convex polygons are cut along which reach farther than `least` to either side.
+struct CutLine {
+    Vec point, across;  ///< unit
+    double least;
+};
+
+/// The part of a field triangle's edge over (or under) the test triangle, if it comes close to it there.
+std::optional<CutLine> line_under(const Vec& a, const Vec& b, const Corners& test, const Vec& normal, double size) {
+    double from = 0.0, to = 1.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vec inward = normal.cross(test[(i + 1) % 3] - test[i]);
+        const double at_a = (a - test[i]).dot(inward), at_b = (b - test[i]).dot(inward);
+        if (at_a <= 0.0 && at_b <= 0.0) return {};
+        const double zero = at_a / (at_a - at_b);
+        if (at_a < 0.0) from = std::max(from, zero);
+        if (at_b < 0.0) to = std::min(to, zero);
+    }
+    const double z_a = (a + from * (b - a) - test[0]).dot(normal), z_b = (a + to * (b - a) - test[0]).dot(normal);
+    const double height = z_a * z_b < 0.0 ? 0.0 : std::min(std::abs(z_a), std::abs(z_b));
+    const Vec across = normal.cross(b - a);
+    if (from >= to || height > kCutWithin * size || across.norm() < 1e-6 * (b - a).norm()) return {};
+    return CutLine{a, across.normalized(), std::max(0.5 * height, 1e-12 * size)};
+}
+
+using Polygon = std::vector<Vec>;
+
+/// The polygons on both sides of the line; the polygon itself where the line misses it.
+std::vector<Polygon> cut_along(const CutLine& line, const Polygon& polygon) {
+    std::vector<double> side;
+    for (const Vec& p : polygon) side.push_back((p - line.point).dot(line.across));
+    if (*std::min_element(side.begin(), side.end()) >= -line.least ||
+        *std::max_element(side.begin(), side.end()) <= line.least)
+        return {polygon};
+    std::vector<Polygon> halves(2);
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const std::size_t next = (i + 1) % polygon.size();
+        if (side[i] >= 0.0) halves[0].push_back(polygon[i]);
+        if (side[i] <= 0.0) halves[1].push_back(polygon[i]);
+        if (side[i] * side[next] >= 0.0) continue;
+        const Vec between = polygon[i] + side[i] / (side[i] - side[next]) * (polygon[next] - polygon[i]);
+        for (Polygon& half : halves) half.push_back(between);
+    }
+    return halves;
+}
+
+/// The test triangle, cut along the edges of the field triangle that lie close over it: each part then has the
+/// potential's singularities along its own edges only, where cells are long.
+std::vector<Polygon> parts_of(const Corners& test, const TriangleGeometry& field) {
+    const Vec cross = (test[1] - test[0]).cross(test[2] - test[0]), normal = cross.normalized();
+    const double size = std::max({(test[1] - test[0]).norm(), (test[2] - test[1]).norm(), (test[0] - test[2]).norm()});
+    std::vector<Polygon> parts{{test.begin(), test.end()}};
+    for (int edge = 0; edge < 3; ++edge) {
+        const Eigen::Map<const Vec> a(field.corner[edge]), b(field.corner[(edge + 1) % 3]);
+        const auto line = line_under(a, b, test, normal, size);
+        if (!line) continue;
+        std::vector<Polygon> finer;
+        for (const Polygon& part : parts)
+            for (Polygon& half : cut_along(*line, part)) finer.push_back(std::move(half));
+        parts = std::move(finer);
+    }
+    return parts;
+}
 
 }  // namespace
 
@@ -114,9 +192,19 @@ int gauss_points(double rho, double tolerance) {
     return std::max(2, 1 + static_cast<int>(std::ceil((-std::log(tolerance) - 2.0) / (2.0 * std::log(rho)))));
 }
 
-void for_each_outer_cell(const TriangleGeometry& test, const TriangleGeometry& field, double tolerance, int max_points,
-                         const std::function<void(const OuterCell&)>& visit) {
-    Cutter(test, field, tolerance, max_points, visit).cut({0.0, 1.0, 0.0, 1.0, 0, 0}, 0);
+void for_each_outer_cell(const TriangleGeometry& test, const TriangleGeometry& field, const OuterAccuracy& accuracy,
+                         const std::function<void(const OuterPart&, const OuterCell&)>& visit) {
+    const auto corner = [&](int i) { return Vec(Eigen::Map<const Vec>(test.corner[i])); };
+    for (const Polygon& polygon : parts_of({corner(0), corner(1), corner(2)}, field))
+        for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
+            const Corners corners{polygon[0], polygon[i], polygon[i + 1]};
+            const double area = (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
+            if (area == 0.0) continue;
+            const OuterPart part{corners[0], corners[1] - corners[0], corners[2] - corners[1], area};
+            Cutter(corners, area / test.double_area, field, accuracy, [&](const OuterCell& cell) {
+                visit(part, cell);
+            }).cut({0.0, 1.0, 0.0, 1.0, 0, 0}, 0);
+        }
 }
 
 }  // namespace elastolab
