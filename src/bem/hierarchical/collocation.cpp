@@ -204,7 +204,8 @@ NodeSolution CollocationSolver::solve_watched(const Eigen::MatrixXd& prescribed,
                                                  [&](const Eigen::MatrixXd& new_ones, const Eigen::MatrixXd& start) {
                                                      return iterate(new_ones, start, tolerance, control);
                                                  });
-    NodeSolution solution{answer.topRows(n), {}};
+    NodeSolution solution;
+    solution.displacements = answer.topRows(n);
     if (want_loads) solution.loads = answer.bottomRows(answer.rows() - n);
     return solution;
 }

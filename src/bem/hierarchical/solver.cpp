@@ -147,7 +147,8 @@ NodeSolution HierarchicalSolver::solve(const Eigen::MatrixXd& prescribed, bool w
 NodeSolution HierarchicalSolver::solve_watched(const Eigen::MatrixXd& prescribed, bool want_loads, double tolerance,
                                                Control& control) const {
     const Eigen::MatrixXd u = displacements(prescribed, tolerance, control);
-    NodeSolution solution{to_item_order(*system_->tree(), u), {}};
+    NodeSolution solution;
+    solution.displacements = to_item_order(*system_->tree(), u);
     for (std::size_t i = 0; i < vertices_.size(); ++i)
         solution.displacements.middleRows<3>(3 * vertices_[i]) =
             prescribed.middleRows<3>(3 * static_cast<Eigen::Index>(i));
