@@ -28,10 +28,10 @@ inline constexpr const char* kSingularThoughHeld =
 
 /// Answer of a node solver, one column per column of prescribed values.
 struct NodeSolution {
-    Eigen::MatrixXd displacements;  ///< 3*n_nodes x m [L]
-    Eigen::MatrixXd loads;          ///< 3*n_load_slots x m, for unit Young's modulus: nodal forces (FEM) or the
-                                    ///< coefficients of the tractions (BEM); empty unless asked for
-    Eigen::MatrixXd prescribed;     ///< what it is a solution for, of methods that are not linear; else empty
+    Eigen::MatrixXd displacements;    ///< 3*n_nodes x m [L]
+    Eigen::MatrixXd loads;            ///< 3*n_load_slots x m, for unit Young's modulus: nodal forces (FEM) or the
+                                      ///< coefficients of the tractions (BEM); empty unless asked for
+    Eigen::MatrixXd prescribed = {};  ///< what it is a solution for, of methods that are not linear; else empty
     std::shared_ptr<const NodeState> state = nullptr;  ///< of the last column, of methods that are not linear
 };
 
