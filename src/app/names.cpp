@@ -34,8 +34,8 @@ std::string stage_words(std::string_view stage) {
                                                                   {"analyse", "ordering the equations"},
                                                                   {"factorise", "factorising"},
                                                                   {"precondition", "preconditioning"},
-                                                                  {"constrain", "preparing what is held"},
-                                                                  {"refine", "refining the answer"},
+                                                                  {"constrain", "preparing the constrained set"},
+                                                                  {"refine", "converging"},
                                                                   {"solve", "solving"},
                                                                   {"check", "checking"}};
     const auto found = words.find(stage);

@@ -40,7 +40,7 @@ void add_options(CLI::App& parser, BenchOptions& options) {
     parser.add_option("--out", options.folder, "folder for the results, made when it is missing (default bench-STUDY)");
     parser.add_flag("--quick", options.quick, "small sizes: under a minute");
     parser.add_option("--seed", options.seed,
-                      "random seed of the known nodes (paper) and the edits (stability) (default 1)");
+                      "random seed of the constrained nodes (paper) and the edits (stability) (default 1)");
     add_threads_option(parser, options.threads);
     parser.add_flag("--fresh", options.fresh, "start over instead of resuming a stopped run");
     parser.add_flag("--report", options.report, "run nothing; plots and report again from the existing table");

@@ -64,7 +64,7 @@ void print_row(std::ostream& out, const char* label, const std::string& value) {
 }
 
 void print_costs(std::ostream& out, const std::vector<MethodCost>& costs, bool filled) {
-    out << formatted("  %-13s  %-12s  %12s  %12s  %10s\n", "method", "mode", "unknowns", "memory", "time");
+    out << formatted("  %-13s  %-12s  %12s  %12s  %10s\n", "method", "mode", "DOFs", "memory", "time");
     for (const MethodCost& row : costs) {
         out << formatted("  %-13s  %-12s  ", std::string(name(row.method.kind)).c_str(),
                          std::string(name(row.method.mode)).c_str());
@@ -76,7 +76,7 @@ void print_costs(std::ostream& out, const std::vector<MethodCost>& costs, bool f
                     : filled      ? "  with its holes filled\n"
                                   : "  on the proxy\n");
         else
-            out << "cannot: see the errors above\n";
+            out << "not possible: see the errors above\n";
     }
 }
 

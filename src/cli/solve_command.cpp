@@ -47,8 +47,7 @@ void add_options(CLI::App& parser, SolveOptions& options) {
         ->check(tractions);
     parser
         .add_option("--update", options.update,
-                    "direct: Eqn. 7 afresh; eqn9: Eqn. 9; reduced: its collapsed form (default: reduced; "
-                    "on-demand: direct)")
+                    "direct: Eqn. 7; eqn9: Eqn. 9; reduced: its collapsed form (default: reduced; on-demand: direct)")
         ->check(updates);
     parser.add_option("--displacements", options.displacements, "CSV: rest positions and displacements")->check(path);
     parser
@@ -57,7 +56,7 @@ void add_options(CLI::App& parser, SolveOptions& options) {
         ->check(path);
     parser.add_option("--fields", options.fields, "CSV: displacement, stress and traction of every vertex")
         ->check(path);
-    parser.add_option("--forces", options.forces, "CSV: force and moment of every handle and the fixed part")
+    parser.add_option("--forces", options.forces, "CSV: force and moment of every handle and of the fixed sets")
         ->check(path);
     parser.add_option("--report", options.report, "JSON: sizes, times, memory, accuracy, warnings")->check(path);
     parser.add_option("--matrices", options.matrices, "folder for the matrices that the mode keeps (.npy, .mtx)")

@@ -17,7 +17,7 @@ public:
     using SolveError::SolveError;
     NotHeldError()
         : SolveError(
-              "constraints: leave the body free to move as a whole. Constrain three vertices that are not on one "
+              "constraints: leave the body free to move as a rigid body. Constrain three vertices that are not on one "
               "line, or use the reduced update, which takes the smallest motion.") {}
 };
 

@@ -25,34 +25,33 @@ std::string percent(double part) {
 std::string locking(const Finding& finding) {
     return std::string(finding.method->name) + ": linear tetrahedra lock at Poisson's ratio " +
            readable_number(finding.value, 6) +
-           ": in bending their error at 0.49 is 3 times that at 0.3, at 0.499 9 times, at 0.4999 29 times (a tenth of "
-           "the displacement on a coarse bar). Choose linear-bem, which does not lock, or refine.";
+           ". In bending their error is 3, 9 and 29 times that at 0.3 for ratios of 0.49, 0.499 and 0.4999. Choose "
+           "linear-bem, which does not lock, or refine the mesh.";
 }
 
 std::string lost_digits(const Finding& finding) {
     return finding.object + ": nearly dependent equations (condition " + readable_number(finding.value) +
-           "), so displacements may be off by " + readable_number(std::min(finding.value * kRounding, 1.0)) +
+           "). Displacements may be off by " + readable_number(std::min(finding.value * kRounding, 1.0)) +
            " of their size, and forces by more. Remove handles that nearly coincide, slivers, or a Poisson's ratio "
            "next to 1/2.";
 }
 
 std::string thin_triangle(const Finding& finding) {
     return "boundary elements: the triangle at " + place_of(finding) + " is so thin (" +
-           readable_number(finding.value) + " of its length) that its integrals are right to " +
+           readable_number(finding.value) + " of its length) that its integrals are accurate to " +
            readable_number(10.0 * kRounding / (finding.value * finding.value)) +
            " only. Remesh the surface there, or choose fem.";
 }
 
 std::string slender_body(const Finding& finding) {
     return "boundary elements: the body is " + readable_number(finding.value) +
-           " times as long as it is thick. With two elements across, linear-bem is off by 9 % in the bending of a bar "
-           "that is 20 times as long as it is thick, by 15 % at 40 times (constant-bem by more). Refine, or compare "
-           "with fem.";
+           " times as long as it is thick. With two elements across, linear-bem is off by 9 % in bending at 20 times "
+           "and by 15 % at 40 times (constant-bem by more). Refine the mesh, or compare with fem.";
 }
 
 std::string thin_wall(const Finding& finding) {
     return "boundary elements: the surface near " + place_of(finding) + " is only " + readable_number(finding.value) +
-           " of a triangle's edge away from its other side. Walls and gaps that thin bend with errors " +
+           " of a triangle's edge away from its other side. Walls and gaps that thin have bending errors " +
            (finding.method->shows_averages ? "of 35 to 45 %. Refine there, or choose linear-bem."
                                            : "of 1 to 10 %. Refine there, or compare with fem.");
 }
@@ -60,7 +59,7 @@ std::string thin_wall(const Finding& finding) {
 std::string contact(const Finding& finding) {
     return "solids " + std::to_string(finding.first + 1) + " and " + std::to_string(finding.second + 1) +
            ": touch near " + place_of(finding) +
-           ", but are separate bodies, which neither stick together nor push each other. Join their surfaces if they "
+           ", but are separate bodies: they neither stick together nor push each other. Join their surfaces if they "
            "are one body.";
 }
 
@@ -68,12 +67,12 @@ std::string point_constraint(const Finding& finding) {
     const auto count = static_cast<int>(finding.value);
     const std::string others = count > 1 ? " and " + std::to_string(count - 1) + " more are" : " is";
     return "constraints: vertex " + std::to_string(finding.first) + " at " + place_of(finding) + others +
-           " held or moved alone, with no whole triangle. How far the body follows a point depends on the mesh; take "
-           "all vertices within a radius.";
+           " constrained alone, without a whole triangle. How far the body follows a point depends on the mesh: "
+           "constrain a patch, not a single vertex.";
 }
 
 std::string weak_hold(const Finding& finding) {
-    return "constraints: lie almost on one line near " + place_of(finding) +
+    return "constraints: almost on one line near " + place_of(finding) +
            ", so the body can hardly resist turning about it: an error of a handle is amplified " +
            readable_number(finding.value) + " times. Constrain a vertex farther from the line.";
 }
@@ -99,8 +98,8 @@ std::string proxy(const Finding& finding) {
 }
 
 std::string coarse_forces(const Finding& finding) {
-    return std::string(finding.method->name) + ": the mesh is too coarse for forces: those that hold or move the " +
-           "body are off by about " + percent(finding.value) + " of the largest. " +
+    return std::string(finding.method->name) + ": the mesh is too coarse for forces: those of fixed sets and " +
+           "handles are off by about " + percent(finding.value) + " of the largest. " +
            std::string(finding.method->against_coarseness);
 }
 
@@ -134,8 +133,8 @@ std::string words(const Finding& finding) {
         case FindingKind::weak_hold:
             return weak_hold(finding);
         case FindingKind::free_motion:
-            return "constraints: leave the body free to move as a whole; the smallest such motion is chosen. Constrain "
-                   "three vertices that are not on one line.";
+            return "constraints: leave the body free to move as a rigid body; the smallest such motion is chosen. "
+                   "Constrain three vertices that are not on one line.";
         case FindingKind::singular_though_held:
             return std::string(kSingularThoughHeld) + " The smallest solution is chosen.";
         case FindingKind::coarse_mesh:
@@ -151,10 +150,9 @@ std::string words(const Finding& finding) {
         case FindingKind::choice_left_aside:
             return finding.object + ": applies to linear-bem only, and was ignored.";
         case FindingKind::impossible_volume:
-            return "constraints: hold the whole surface of an incompressible body and change its volume by " +
+            return "constraints: prescribe the whole surface of an incompressible body and change its volume by " +
                    percent(finding.value) +
-                   ", which no displacement of the inside can satisfy. Free some vertices, or choose a Poisson's ratio "
-                   "below 1/2.";
+                   ", which no displacement can satisfy. Free some vertices, or choose a Poisson's ratio below 1/2.";
         case FindingKind::large_residual:
             return finding.object + ": the solution leaves a relative residual of " + readable_number(finding.value) +
                    ", so it is wrong. Fix more vertices, or use another method.";
@@ -163,15 +161,15 @@ std::string words(const Finding& finding) {
             return proxy(finding);
         case FindingKind::capped_holes:
             return finding.object + ": " + readable_number(finding.value) +
-                   (finding.value == 1.0 ? " hole is" : " holes are") +
-                   " taken as closed. Close them in the file where another shape is meant.";
+                   (finding.value == 1.0 ? " hole was" : " holes were") +
+                   " closed. Close them in the file where another shape is meant.";
         case FindingKind::filled_holes:
             return finding.object + ": simulated with its " + readable_number(finding.value) +
                    (finding.value == 1.0 ? " hole" : " holes") + " filled by " + std::to_string(finding.first) +
-                   " triangles, which are written to no output. Close them in the file where another shape is meant.";
+                   " triangles, which no output contains. Close them in the file where another shape is meant.";
         case FindingKind::thin_sheets:
-            return finding.object + ": has no inside in places; its sheets are simulated as walls " +
-                   readable_number(finding.value) + " mesh units thick. Give them their thickness in the file.";
+            return finding.object + ": is an open sheet in places, which is simulated as a wall " +
+                   readable_number(finding.value) + " mesh units thick. Give it its thickness in the file.";
     }
     return {};
 }

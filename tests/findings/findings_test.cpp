@@ -138,7 +138,7 @@ TEST(Findings, TellOfPointConstraintsAndWhereTheyAre) {
         EXPECT_THAT(warnings_of(mesh, held, method), IsEmpty()) << describe(method);
         auto with_a_point = held;
         with_a_point.push_back(vertices_where(mesh, [](const auto& x) { return x.minCoeff() > 1.0 - 1e-9; }).front());
-        EXPECT_THAT(warnings_of(mesh, with_a_point, method), Contains(HasSubstr("at (1, 1, 1) is held or moved alone")))
+        EXPECT_THAT(warnings_of(mesh, with_a_point, method), Contains(HasSubstr("at (1, 1, 1) is constrained alone")))
             << describe(method);
     }
 }
@@ -162,7 +162,7 @@ TEST(Findings, TellOfABodyThatIsNotHeldWhateverTheMethod) {
             Deformer deformer(precomputed(make_body(mesh), method));
             deformer.constrain({{}, held}, control);
             EXPECT_FALSE(deformer.quality().held) << describe(method);
-            EXPECT_THAT(words(findings_of_set(deformer)), Contains(HasSubstr("free to move as a whole")))
+            EXPECT_THAT(words(findings_of_set(deformer)), Contains(HasSubstr("free to move as a rigid body")))
                 << describe(method);
         }
 }

@@ -22,8 +22,8 @@ void draw_poisson_ratio(ViewerState& state, float scale) {
         state.scene().set_material(material);
     if (ImGui::IsItemDeactivatedAfterEdit()) state.scene().commit();
     tooltip(
-        "How much the body narrows when it is stretched: 0 not at all, 0.5 as rubber does, keeping its volume. "
-        "FEM with linear tetrahedra grows too stiff near 0.5 and cannot take 0.5 itself.");
+        "How much the body narrows when it is stretched: 0 not at all, 0.5 as rubber does, at constant volume. "
+        "Linear FEM grows too stiff (locks) near 0.5; no FEM can take 0.5 itself.");
 }
 
 constexpr std::array<Choice<ProxyUse>, 2> kProxyUses = {
@@ -58,7 +58,7 @@ void Panels::draw_proxy(ViewerState& state, float scale) {
         set();
     }
     if (!ImGui::IsItemActive()) proxy_vertices_.reset();
-    tooltip("More are closer to the surface and take longer to prepare.");
+    tooltip("A proxy of more vertices is closer to the surface and takes longer to prepare.");
 }
 
 /// "0.5" passes through "0": the number counts when its field is left.
@@ -68,8 +68,8 @@ void Panels::draw_young_modulus(ViewerState& state, float scale) {
     if (ImGui::InputDouble("Young's modulus", &value, 0.0, 0.0, "%.4g")) typed_modulus_ = value;
     const bool left = ImGui::IsItemDeactivatedAfterEdit(), active = ImGui::IsItemActive();
     tooltip(
-        "Stiffness: force per area that would stretch it by its own length. Displacements do not depend on it, forces "
-        "do.");
+        "Stiffness: the force per area that would stretch the body by its own length. Forces depend on it, "
+        "displacements do not.");
     if (left && typed_modulus_) state.set_young_modulus(*typed_modulus_);
     if (!active) typed_modulus_.reset();
 }
@@ -87,7 +87,7 @@ void Panels::draw_defects(const PanelContext& context) {
             const double radius = kFlightPart * (report.max_corner - report.min_corner).norm();
             state.camera.frame({place, radius}, context.layout.scene.aspect());
         }
-        tooltip("Shows its places one after another; F shows the whole body again.");
+        tooltip("Flies to its places one after another; F frames the body again.");
         if (!defect.places.empty()) ImGui::SameLine();
         paragraph(defect.text, context.palette.bad);
         ImGui::PopID();

@@ -38,7 +38,8 @@ void draw_reference(ViewerState& state, float scale) {
     set_item_width(scale);
     if (!begin_choice("reference", title(state.compare.reference).c_str())) return;
     for (const MethodKind kind : all_methods())
-        if (choice_entry(title(kind).c_str(), "Differences are to this method.", kind == state.compare.reference))
+        if (choice_entry(title(kind).c_str(), "Differences are measured from this method.",
+                         kind == state.compare.reference))
             state.compare.reference = kind;
     end_choice();
 }
@@ -89,8 +90,8 @@ void Panels::draw_compare(const PanelContext& context) {
     fact("memory, at most", bytes > 0 ? readable_bytes(static_cast<double>(bytes)) : "\u2013",
          context.palette.text_dim);
     tooltip(
-        "Of the program: with every model while it is made, K and its inverse where these follow by themselves, what "
-        "is held and pulled, and estimates of the error.");
+        "Memory that the program needs for this comparison: precomputation, K and its inverse if they are computed "
+        "later, constrained sets, and estimates of the error.");
 }
 
 }  // namespace elastolab

@@ -15,11 +15,11 @@ namespace {
 constexpr std::array<Choice<Field>, 13> kFields = {
     {{Field::none, "plain", "One colour for each method."},
      {Field::displacement, "displacement", "How far every vertex has moved."},
-     {Field::difference, "difference", "How far from where the reference method puts it (see Compare)."},
-     {Field::traction, "traction", "Force per area that holds or pulls the constrained vertices; zero elsewhere."},
+     {Field::difference, "difference", "How far each vertex is from its place by the reference method (see Compare)."},
+     {Field::traction, "traction", "Force per area on the constrained parts of the surface; zero elsewhere."},
      {Field::von_mises, "von Mises stress",
       "How near the material at the surface is to yielding: from the stretch of "
-      "each triangle and, where it is held, the traction."},
+      "each triangle and, where it is constrained, the traction."},
      {Field::first_principal, "first principal stress", "The largest tension in any direction; negative: pressure."},
      {Field::third_principal, "third principal stress", "The largest pressure in any direction, negative."},
      {Field::stress_xx, "stress xx", "Force along x per area on planes normal to x; tension is positive."},
@@ -55,7 +55,7 @@ void draw_range(ViewerState& state, float scale) {
         ImGui::InputDouble("from, to", &display.range_high, 0.0, 0.0, "%.3g");
     }
     ImGui::Checkbox("mark extremes", &display.extremes);
-    tooltip("Where the field is largest and, if it has a sign, smallest; also beside the colours.");
+    tooltip("Marks where the field is largest and, if it has a sign, smallest; also beside the colours.");
     ImGui::SameLine();
     ImGui::Checkbox("bands", &display.bands);
     tooltip("Ten steps of colour with lines between them, as on a map.");
@@ -100,9 +100,9 @@ void Panels::draw_display(const PanelContext& context) {
         {{"wireframe", &DisplaySettings::wireframe, "W"},
          {"flat", &DisplaySettings::flat, "One shade for each triangle."},
          {"creases", &DisplaySettings::feature_edges, "Sharp edges of the rest shape."},
-         {"rest shape", &DisplaySettings::rest_shape, "The body as it was, faint, where it was deformed."},
-         {"held vertices", &DisplaySettings::constraints, "Fixed vertices and handles as points."},
-         {"forces", &DisplaySettings::arrows, "What the fixed part and every handle exert on the body."},
+         {"rest shape", &DisplaySettings::rest_shape, "The undeformed body, drawn faintly."},
+         {"constrained vertices", &DisplaySettings::constraints, "Fixed vertices and handles as points."},
+         {"forces", &DisplaySettings::arrows, "Forces that the fixed sets and every handle exert on the body."},
          {"grid", &DisplaySettings::grid, ""},
          {"defects", &DisplaySettings::defects,
           "Rims of holes, the patches that fill them where those are simulated, and edges of more or fewer than two "

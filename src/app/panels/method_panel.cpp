@@ -24,24 +24,24 @@ constexpr std::array<Choice<Mode>, 2> kModes = {
 
 constexpr std::array<Choice<Update>, 3> kUpdates = {
     {{Update::reduced, "collapsed (9')",
-      "A system as small as the set of held vertices. Same displacements, least work."},
+      "Solves the capacitance system, as small as the constrained set. Same displacements, least work."},
      {Update::eqn9, "Eqn. 9",
-      "As the paper writes it: the free block's inverse from K's inverse. Needs K and inverse."},
-     {Update::direct, "Eqn. 7", "Factorises the free block of K anew whenever the set of held vertices changes."}}};
+      "As the paper writes it: the inverse of the free block from the inverse of K. Needs K and inverse."},
+     {Update::direct, "Eqn. 7", "Factorises the free block of K again for every constrained set."}}};
 
 constexpr std::array<Choice<FrameRule>, 2> kFrameRules = {
     {{FrameRule::drag_columns, "moving columns",
-      "Three columns of the moving handle, found when it is grabbed: a frame "
-      "only reads them, as fast as memory allows."},
-     {FrameRule::displace, "whole update", "Every frame goes through the update rule above, to see what it costs."}}};
+      "The drag response: three columns, computed when the handle is grabbed. "
+      "A frame only reads them, as fast as memory allows."},
+     {FrameRule::displace, "whole update", "Every frame solves by the update rule above, to see what that costs."}}};
 
 constexpr std::array<Choice<Tractions>, 3> kTractions = {
     {{Tractions::discontinuous, "discontinuous",
-      "Forces per area may jump at the rim of a held patch, where they are "
+      "Tractions may jump at the rim of a constrained patch, where they are "
       "singular. Most accurate."},
-     {Tractions::restricted, "restricted", "Linear over a held patch, ending at its rim."},
+     {Tractions::restricted, "restricted", "Linear over a constrained patch, ending at its rim."},
      {Tractions::continuous, "continuous",
-      "As in the paper; they spill over one ring of triangles onto the free surface."}}};
+      "As in the paper: they leak over one ring of triangles onto the free surface."}}};
 
 /// What a person wants to know first: does the body answer, is that the method's own answer, and when will it be.
 std::string state_words(const ViewerState& state, const Cost& cost) {
@@ -51,18 +51,18 @@ std::string state_words(const ViewerState& state, const Cost& cost) {
     switch (runner.state()) {
         case State::idle:
             if (simulation.making_proxy(state.method)) return "making a closed surface to simulate";
-            if (simulation.preparing_preview()) return "a first, coarse answer is on its way";
-            return runner.has_answer() ? "stopped; the last answer stays" : "not computed";
+            if (simulation.preparing_preview()) return "preparing the preview";
+            return runner.has_answer() ? "stopped; the last answer is shown" : "not computed";
         case State::precomputing: {
             const JobStatus status = runner.status();
             const std::string when = "in about " + readable_seconds(std::max(cost.seconds - status.seconds, 1.0));
             return previewing ? "preview; exact " + when : "ready " + when;
         }
         case State::preparing:
-            return previewing ? "preview; exact answer on its way" : "preparing what is held and pulled";
+            return previewing ? "preview; preparing the exact answer" : "preparing the constrained set";
         case State::ready:
             if (runner.refined()) return "ready: pulls are instant";
-            return "ready, exact to " + number_text(runner.tolerance()) + (runner.refining() ? "; being refined" : "");
+            return "ready, exact to " + number_text(runner.tolerance()) + (runner.refining() ? "; converging" : "");
         case State::failed:
             return "failed";
     }
@@ -89,7 +89,7 @@ std::string button_words(const ViewerState& state, MethodKind kind, const Cost& 
     if (cost.seconds <= 0.0) return "not begun";
     std::string price = readable_seconds(cost.seconds) + ", " + readable_bytes(static_cast<double>(cost.memory_bytes));
     if (completed_bytes > cost.memory_bytes)
-        price += ", with K and its inverse, which follow, " + readable_bytes(static_cast<double>(completed_bytes));
+        price += ", with K and its inverse later " + readable_bytes(static_cast<double>(completed_bytes));
     if (cost.memory_bytes > available_memory_bytes()) return "takes " + price + ": does not fit into memory";
     return runner.precomputing() ? "takes " + price : "ready after about " + price;
 }
@@ -176,15 +176,15 @@ void draw_model(const PanelContext& context, const MethodRunner& runner) {
     const Colour& dim = context.palette.text_dim;
     const std::shared_ptr<const Model>& model = runner.model();
     const auto told = [&](const auto& of) { return model ? of(model->facts()) : std::string("\u2013"); };
-    fact("unknowns", told([](const ModelFacts& f) { return count_text(f.n_degrees_of_freedom); }), dim);
+    fact("degrees of freedom", told([](const ModelFacts& f) { return count_text(f.n_degrees_of_freedom); }), dim);
     fact("memory", told([](const ModelFacts& f) { return readable_bytes(static_cast<double>(f.memory_bytes)); }), dim);
     if (context.state.method->has_inside)
         fact("tetrahedra", told([](const ModelFacts& f) { return count_text(f.n_tetrahedra); }), dim);
     fact("K and its inverse", runner.completing() ? "being completed" : runner.has_inverse() ? "ready" : "\u2013", dim);
-    fact("answers by", model ? update_label(model->method().update) : "\u2013", dim);
+    fact("update in use", model ? update_label(model->method().update) : "\u2013", dim);
     tooltip(
-        "Eqn. 9 needs K and its inverse: until they are completed, or with that mode, the collapsed form answers, "
-        "which gives the same displacements.");
+        "Eqn. 9 needs K and its inverse. Until they are computed the collapsed form is used, which gives the same "
+        "displacements.");
 }
 
 }  // namespace
@@ -251,7 +251,7 @@ void Panels::draw_mode(const PanelContext& context) {
     if (state.choices.mode != Mode::on_demand) return;
     slider("complete up to", state.choices.complete_up_to, 0, 5000, "%d vertices", context.gui.scale());
     tooltip(
-        "For bodies of up to this many vertices, K and its inverse are computed in the background once they can be "
+        "On bodies of up to this many vertices, K and its inverse are computed in the background once the body can be "
         "pulled. After that a new handle is ready sooner.");
 }
 

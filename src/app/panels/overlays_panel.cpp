@@ -42,9 +42,9 @@ std::string source_words(const ViewerState& state, MethodKind kind) {
     if (!simulation.problem(kind).empty()) return text + kDash + "not available: see the warnings (P: panel)";
     if (simulation.previewing(kind)) return text;
     if (!runner.has_answer())
-        return kDash + std::string(simulation.proxies().running()   ? "making a coarse mesh for a first answer"
-                                   : simulation.preparing_preview() ? "preparing a first answer"
-                                   : runner.preparing()             ? "preparing the held vertices"
+        return kDash + std::string(simulation.proxies().running()   ? "making a proxy for the preview"
+                                   : simulation.preparing_preview() ? "preparing the preview"
+                                   : runner.preparing()             ? "preparing the constrained set"
                                    : simulation.waiting()           ? "waiting"
                                                                     : "not computed");
     const Proxy* proxy = simulation.embedded(kind).proxy();
@@ -170,12 +170,11 @@ std::string hint_text(const ViewerState& state) {
     if (!simulation.problem(state.method).empty() && !simulation.previewing(state.method))
         return title(state.method) + " cannot compute this body; choose another method with the keys 1 to " +
                std::to_string(all_methods().size()) + ".";
-    if (state.tools.tool == Tool::brush)
-        return "Paint over the vertices that are to stay where they are; with Shift, free them.";
+    if (state.tools.tool == Tool::brush) return "Paint over the vertices that are to be fixed; with Shift, free them.";
     if (state.tools.tool == Tool::probe) return "";
-    if (state.tools.tool == Tool::box) return "Draw a box around the vertices that are to stay where they are.";
+    if (state.tools.tool == Tool::box) return "Draw a box around the vertices that are to be fixed.";
     if (state.scene().vertices(LiveScene::kFixed).empty())
-        return "Nothing holds the body: fix some vertices with the brush (B), then pull.";
+        return "Nothing is fixed: fix some vertices with the brush (B), then pull.";
     return "Press on the body and pull.   Drag beside it to turn the view.   ? shows all keys.";
 }
 

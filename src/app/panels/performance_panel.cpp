@@ -21,8 +21,8 @@ struct Part {
 
 constexpr std::array<Part, 5> kParts = {
     {{"update", &FrameTimes::update_ms, "Displacements of all shown methods, from the mouse event on."},
-     {"upload", &FrameTimes::upload_ms, "Positions, normals and colours, and handing them to OpenGL."},
-     {"draw", &FrameTimes::draw_ms, "Drawing the scene (what the processor spends on it)."},
+     {"upload", &FrameTimes::upload_ms, "Positions, normals and colours, and their transfer to OpenGL."},
+     {"draw", &FrameTimes::draw_ms, "Processor time of drawing the scene."},
      {"panels", &FrameTimes::gui_ms, "These panels."},
      {"frame", &FrameTimes::frame_ms, "Everything, with the swap of buffers."}}};
 
@@ -60,7 +60,7 @@ void draw_stages(const PanelContext& context) {
     for (const StageTime& stage : facts.stages)
         fact(stage.name.c_str(), readable_seconds(stage.seconds), context.palette.text_dim);
     fact("last preparation", readable_seconds(runner.prepare_seconds()), context.palette.text_dim);
-    fact("unknowns", count_text(facts.n_degrees_of_freedom), context.palette.text_dim);
+    fact("degrees of freedom", count_text(facts.n_degrees_of_freedom), context.palette.text_dim);
     fact("memory of the model", readable_bytes(static_cast<double>(facts.memory_bytes)), context.palette.text_dim);
     fact("memory of the program, at most", readable_bytes(static_cast<double>(peak_memory_bytes())),
          context.palette.text_dim);
@@ -74,7 +74,7 @@ void draw_section_cost(const PanelContext& context) {
         cost->inside.evaluated < cost->inside.points
             ? std::to_string(cost->inside.evaluated) + " of " + std::to_string(cost->inside.points)
             : std::to_string(cost->inside.points);
-    fact(("cut, " + points + " points inside").c_str(), readable_seconds(cost->inside.worker_seconds),
+    fact(("cut, " + points + " interior points").c_str(), readable_seconds(cost->inside.worker_seconds),
          context.palette.text_dim);
 }
 

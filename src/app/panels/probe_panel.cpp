@@ -13,7 +13,7 @@ void draw_series(const PanelContext& context, std::size_t probe) {
     const Probes& probes = context.state.probes;
     const std::vector<float> series = probes.series(probe);
     float low = 0.0f, high = 0.0f;
-    std::string range = "its course, once it changes";
+    std::string range = "plotted once it changes";
     if (series.size() >= 2) {
         const auto [lowest, highest] = std::minmax_element(series.begin(), series.end());
         range = number_text(*lowest) + " to " + number_text(*highest);
@@ -46,7 +46,7 @@ void Panels::draw_probes(const PanelContext& context) {
     }
     if (forgotten >= 0) state.probes.toggle(forgotten);
     if (state.probes.vertices().empty())
-        return paragraph("None is kept: press I and click on the body.", context.palette.text_dim);
+        return paragraph("No probe yet: press I and click on the body.", context.palette.text_dim);
     if (ImGui::Button("Save CSV...")) ask_probes(state);
     tooltip("Every change since the probes were set: time, position, displacement and the shown value.");
     ImGui::SameLine();

@@ -35,17 +35,17 @@ void draw_placement(ViewerState& state, std::optional<int> handle, float scale) 
     if (draw_numbers("move", typed.move.data(), 3, "%.4g", scale))
         scene.set_motion(*handle, translated(motion, typed.move - moved));
     ended = ImGui::IsItemDeactivatedAfterEdit();
-    tooltip("Of the middle of the handle along x, y and z [mesh units].");
+    tooltip("Displacement of the middle of the handle along x, y and z [mesh units].");
     ImGui::EndDisabled();
     ImGui::BeginDisabled(!present || vertices.size() < 2);
     if (draw_numbers("turn", typed.turn.data(), 3, present ? "%.4g\u00b0" : "\u2013", scale))
         scene.set_motion(*handle, motion_of(typed, rest));
     ended = ended || ImGui::IsItemDeactivatedAfterEdit();
-    tooltip("About the middle of the handle: about x, then y, then z [degrees].");
+    tooltip("Rotation about the middle of the handle: about x, then y, then z [degrees].");
     if (draw_numbers("scale", &typed.scale, 1, present ? "%.4g" : "\u2013", scale) && typed.scale > 0.0)
         scene.set_motion(*handle, motion_of(typed, rest));
     ended = ended || ImGui::IsItemDeactivatedAfterEdit();
-    tooltip("About the middle of the handle.");
+    tooltip("Scale about the middle of the handle.");
     ImGui::EndDisabled();
     if (ended) scene.commit();
 }
@@ -55,19 +55,19 @@ void draw_placement(ViewerState& state, std::optional<int> handle, float scale) 
 void draw_reaction(const PanelContext& context, const std::string& name) {
     const ViewerState& state = context.state;
     if (!state.shown.wants_reactions()) return;
-    std::string line = "force and moment: not known", more;
+    std::string line = "force and moment: not computed", more;
     if (const ShownBody* shown = state.shown.body(state.method))
         for (const ShownReaction& reaction : shown->reactions()) {
             if (reaction.name != name) continue;
             const Eigen::Vector3d moment = reaction.moment_about_place();
             line = "force " + number_text(reaction.force.norm()) + ", moment " + number_text(moment.norm());
-            more = "What it exerts on the body: force " + vector_text(reaction.force) +
-                   ", moment about its middle at rest " + vector_text(moment) + ".";
+            more = "Exerted on the body: force " + vector_text(reaction.force) + ", moment about its middle at rest " +
+                   vector_text(moment) + ".";
         }
     if (more.empty())
         more =
-            "Not solved for yet; or, on a simplified body, held together with the set beside it; or it could not be "
-            "solved for, as the warnings below say then.";
+            "Not computed yet; or part of the fixed set beside it on the proxy; or the computation failed, as a "
+            "warning below then says.";
     ImGui::Indent();
     ImGui::TextColored(imgui_colour(context.palette.text_dim), "%s", line.c_str());
     tooltip(more.c_str());

@@ -19,7 +19,7 @@ constexpr const char* kRecoveryTitle = "Recover a scene";
 enum Recovery { recover, discard, later };
 constexpr std::array<QuestionAnswer, 3> kRecoveryAnswers = {
     {{"Recover", "Enter: opens the scene as it was, unsaved."},
-     {"Discard", "It is not wanted any more."},
+     {"Discard", "Deletes the copy."},
      {"Later", "Esc: asks again when the viewer is started the next time."}}};
 
 double seconds_since(std::filesystem::file_time_type time) {

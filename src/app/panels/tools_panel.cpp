@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::array<Segment, 4> kTools = {
     {{"pull", "V: grab a patch of the body and pull it."},
-     {"fix: brush", "B: hold vertices where they are; with Shift, let them go. A click takes one vertex."},
+     {"fix: brush", "B: fixes vertices; with Shift it frees them. A click takes one vertex."},
      {"fix: box", "N: the same for all vertices in a box on the screen."},
      {"probe", "I: shows the values at the vertex under the cursor; a click keeps it (see Probes)."}}};
 constexpr std::array<Tool, 4> kToolOf = {Tool::pull, Tool::brush, Tool::box, Tool::probe};
@@ -53,12 +53,12 @@ void draw_patch(ViewerState& state, float scale) {
     const double largest = 0.5 * (state.scene().report().max_corner - state.scene().report().min_corner).norm();
     slider("patch radius", state.tools.patch_radius, 0.0, largest, "%.3g", scale);
     tooltip(
-        "The part of the surface that a press takes hold of, in mesh units; keys [ and ]. A single vertex (0) is a "
-        "point load: how far the body follows then depends on the mesh, and no two methods agree.");
+        "Radius of the patch that a press grabs, in mesh units; keys [ and ]. A single vertex (0) is a point load: "
+        "how far the body follows then depends on the mesh, and no two methods agree.");
     bool springs = state.tools.release == Release::spring_back;
     if (ImGui::Checkbox("let go on release", &springs))
         state.tools.release = springs ? Release::spring_back : Release::pin;
-    tooltip("Released patches spring back. Otherwise they stay where they were put and hold the body there.");
+    tooltip("A released patch springs back. Otherwise it stays where it was put.");
 }
 
 void draw_pull_settings(ViewerState& state, float scale) {
@@ -77,7 +77,7 @@ void draw_box_settings(ViewerState& state, const Colour& dim) {
     bool through = state.tools.box_reach == Reach::through;
     if (ImGui::Checkbox("through the body", &through))
         state.tools.box_reach = through ? Reach::through : Reach::visible;
-    tooltip("Vertices on the far side, too.");
+    tooltip("Takes vertices on the far side as well.");
     paragraph("Fixes the vertices in a box that is drawn on the screen; with Shift it frees them.", dim);
 }
 
@@ -105,7 +105,7 @@ void Panels::draw_tool_settings(const PanelContext& context) {
             draw_box_settings(state, context.palette.text_dim);
             break;
         case Tool::probe:
-            paragraph("Point at a vertex: a card tells its values. A click keeps it (see Probes).",
+            paragraph("Point at a vertex: a card shows its values. A click keeps it (see Probes).",
                       context.palette.text_dim);
             break;
     }

@@ -214,7 +214,7 @@ SetKeeper::Event SetKeeper::cancel() {
     }
     if (!same_as_wanted(preparing_set_)) return Event::none;  // a prefetch
     if (is_current()) {
-        motion_failure_ = "The answer to this motion was stopped. Retry, or pull on.";
+        motion_failure_ = "Computing this motion was stopped. Retry, or pull again.";
         return Event::motion_failed;
     }
     failure_ = "The preparation of this constrained set was stopped. Retry, or change the set.";
