@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# pictures.sh [PROGRAM [PICTURE...]]: takes the pictures of README.md and docs/guide.md anew, in assets/pictures (default:
+# pictures.sh [PROGRAM [PICTURE...]]: takes the pictures of README.md and docs/guide.md again, in assets/pictures (default:
 # all). A recorded interaction presses the keys and clicks. Needs ImageMagick.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -42,7 +42,30 @@ picture() {
   echo "assets/pictures/$name.png"
 }
 
+# film NAME SCENE METHOD=TITLE=COLOUR...: the pull from rest and back by each method beside the next, as an animated GIF.
+film() {
+  local name=$1 scene=$2 part method title colour frame font row
+  shift 2
+  [[ ${#wanted[@]} -eq 0 || " ${wanted[*]} " == *" $name "* ]] || return 0
+  font=$(fc-match -f '%{file}' 'Roboto:medium')
+  for part in "$@"; do
+    tests/support/with_display.sh "$program" view "$scene" --hidden --frames 3 --method "${part%%=*}" --pull-film 20 \
+      --picture "$work/${part%%=*}.png" --picture-size 320x400
+  done
+  for frame in {0001..0020}; do
+    row=()
+    for part in "$@"; do
+      IFS='=' read -r method title colour <<< "$part"
+      row+=('(' "$work/$method-$frame.png" -crop 200x240+62+84 +repage -font "$font" -pointsize 15 -fill "$colour"
+            -annotate +10+230 "$title" ')')
+    done
+    convert "${row[@]}" +append "$work/row-$frame.png"
+  done
+  convert -delay 9 -loop 0 "$work"/row-*.png -layers Optimize -colors 128 "assets/pictures/$name.gif"
+  echo "assets/pictures/$name.gif"
+}
 
+film pull assets/scenes/rabbit-nod.json 'fem=FEM=#9ec5f0' 'constant-bem=Constant BEM=#e8b98a' 'linear-bem=Linear BEM=#8fd3ab'
 picture side-by-side assets/scenes/rabbit-nod.json 'key 67'
 picture hand assets/scenes/hand.json
 picture section assets/scenes/liver.json --field von-mises --cut x
