@@ -104,7 +104,7 @@ ExportSource refined(ExportSource source, Control& control) {
     return source;
 }
 
-SolvedBody solved_body(const ExportSource& source) {
+SolvedBody solved_body(const ExportSource& source, Control& control) {
     const ConstrainedSet& set = source.deformer->set();
     SolvedBody solved{.shown = source.shown,
                       .proxy = source.proxy,
@@ -112,7 +112,7 @@ SolvedBody solved_body(const ExportSource& source) {
                       .displacement = source.displacement,
                       .simulated_displacement = source.simulated_displacement,
                       .constrained = set.base,
-                      .forces = source.deformer->reactions(source.values).forces};
+                      .forces = source.deformer->answer(source.values, {}, control).reactions.forces};
     solved.constrained.insert(solved.constrained.end(), set.handles.begin(), set.handles.end());
     return solved;
 }
@@ -121,7 +121,7 @@ SolvedBody solved_body(const ExportSource& source) {
 
 void write_export(const fs::path& file, const ExportSource& source, Control& control) {
     if (!source.refined) return write_export(file, refined(source, control), control);
-    if (source.deformer && is_field_file(file)) return save_field_file(file, solved_body(source), control);
+    if (source.deformer && is_field_file(file)) return save_field_file(file, solved_body(source, control), control);
     if (is_field_file(file) && !(file.extension() == ".ply"))
         throw Error(file.string() + ": there is no answer to write yet. Wait until the method is ready.");
     write_moved_mesh(file, source);
