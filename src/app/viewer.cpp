@@ -150,6 +150,9 @@ private:
              .document =
                  [this] { return movable_document(state_.scene(), state_.method, view_point_of(state_.camera)); }},
             Window::seconds());
+        if (state_.keeping_failure == autosave_.failure()) return;
+        state_.keeping_failure = autosave_.failure();
+        pending_frames_ = kSettlingFrames;
     }
 
     bool must_draw() {

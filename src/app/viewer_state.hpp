@@ -119,6 +119,8 @@ public:
     void discard_recoverable();
     /// What was recovered, once it is open: whoever takes it keeps the scene there from then on (Autosave::adopt).
     std::optional<AutosavedScene> take_recovered() { return std::exchange(recovered_, std::nullopt); }
+    /// Why the latest changes would be lost if this viewer were killed; empty while they would not.
+    std::string keeping_failure;
     /// The method to begin with, for the scene that is there and the one that is being opened.
     void start_with(MethodKind kind);
 
