@@ -274,6 +274,7 @@ private:
         const double width_before = before > 0 ? width() : 1.0;
         state_.shown.viewports = viewports_of(state_, layout.scene, gui_.scale());
         if (state_.shown.viewports.size() != before) return state_.frame_in_viewports(before == 0);
+        if (before == 0) return;
         CameraPose pose = state_.camera.pose();
         pose.distance *= width_before / width();
         state_.camera.set_pose(pose);

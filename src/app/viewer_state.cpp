@@ -249,7 +249,7 @@ bool ViewerState::update_displacements() {
     poll_loading();
     const bool has_exported = tell_end(export_job_, messages);
     keep_method();
-    if (loading() && !simulated_) return has_exported;  // the default scene would be computed for nothing
+    if (blank()) return has_exported;  // the default scene would be computed for nothing
     simulated_ = true;
     const bool changed = simulation.update(*scene_, needed_kinds(), choices) || has_exported;
     const std::vector<int>& patch = gestures.hover().patch;

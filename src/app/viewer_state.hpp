@@ -170,6 +170,10 @@ public:
     bool update_displacements();
     bool update_picture();
     bool loading() const { return load_job_.running(); }
+    /// The file that is being opened, or was last.
+    const std::filesystem::path& loading_file() const { return pending_file_; }
+    /// The first file is being opened: until it is there, nothing is shown that could be pulled.
+    bool blank() const { return loading() && !simulated_; }
     /// A worker will bring something for the picture.
     bool waiting() const {
         return loading() || export_job_.running() || shown.cutting() || shown.solving() || simulation.waiting();

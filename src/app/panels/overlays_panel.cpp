@@ -220,10 +220,29 @@ void draw_messages(const PanelContext& context) {
     }
 }
 
+/// The first file is being opened.
+void draw_blank(const PanelContext& context, ImDrawList& list) {
+    const Viewport &scene = context.layout.scene, &panel = context.layout.panel;
+    const ImVec2 low = im_point(panel.x, scene.y), high = im_point(scene.x + scene.width, scene.y + scene.height);
+    const unsigned top = imgui_packed(context.palette.background_top);
+    const unsigned bottom = imgui_packed(context.palette.background_bottom);
+    list.AddRectFilledMultiColor(low, high, top, top, bottom, bottom);
+    const std::string text = "Opening " + context.state.loading_file().filename().string() + " ...";
+    const float width = std::min(high.x - low.x - 2.0f * kMargin, ImGui::CalcTextSize(text.c_str()).x);
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, width);
+    list.AddText(nullptr, 0.0f, {0.5f * (low.x + high.x - size.x), 0.5f * (low.y + high.y - size.y)},
+                 imgui_packed(context.palette.text), text.c_str(), nullptr, width);
+}
+
 }  // namespace
 
 void Panels::draw_overlays(const PanelContext& context) {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    if (context.state.blank()) {
+        draw_blank(context, list);
+        draw_messages(context);
+        return;
+    }
     const std::string sooner = sooner_words(context.state);
     for (const SceneViewport& viewport : context.state.shown.viewports) {
         const Viewport& v = viewport.place;

@@ -121,7 +121,7 @@ std::uint64_t Panels::memory_of_comparison(const ViewerState& state) {
 void Panels::draw(const PanelContext& context) {
     if (program_bytes_ == 0) program_bytes_ = resident_memory_bytes();
     draw_menu(context);
-    draw_side(context);
+    if (!context.state.blank()) draw_side(context);
     draw_status(context);
     draw_overlays(context);
     if (context.state.show_help) draw_help(context);
