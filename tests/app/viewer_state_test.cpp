@@ -95,6 +95,20 @@ TEST(ViewerState, ShowsItsCubeWhereTheFirstFileCannotBeOpened) {
     EXPECT_THAT(viewports_of(state, {0, 0, 800, 600}, 1.0), SizeIs(1));
 }
 
+TEST(ViewerState, ALargeMeshBeginsWithAMethodThatIsExactSoonAndSaysSo) {
+    const TemporaryFolder folder;
+    Control control;
+    save_surface(folder.path() / "small.ply", make_box(5));
+    const LoadedScene small = load_scene_or_mesh(folder.path() / "small.ply", control);
+    EXPECT_EQ(small.scene->document().method, first_method());
+    EXPECT_THAT(small.note, IsEmpty());
+    save_surface(folder.path() / "large.ply", make_box(90));
+    const LoadedScene large = load_scene_or_mesh(folder.path() / "large.ply", control);
+    EXPECT_NE(large.scene->document().method, first_method());
+    EXPECT_THAT(large.note, AllOf(HasSubstr("exact in about"), HasSubstr("Galerkin BEM would take")));
+    EXPECT_FALSE(large.scene->modified());
+}
+
 TEST(ViewerState, ABareMeshIsHeldAtItsLowestPart) {
     const TemporaryFolder folder;
     const auto file = folder.path() / "box.obj";

@@ -63,8 +63,8 @@ std::pair<std::string, std::string> difference_words(const ViewerState& state, M
             "largest " + number_text(100.0 * shown->difference()->relative_max) + " %"};
 }
 
-/// Whose answer a viewport shows, how it is doing, how far it is from the reference, and what else is to be said.
-void draw_title(const PanelContext& context, ImDrawList& list, const SceneViewport& viewport, const std::string& more) {
+/// Whose answer a viewport shows, how it is doing, and how far it is from the reference.
+void draw_title(const PanelContext& context, ImDrawList& list, const SceneViewport& viewport) {
     const ViewerState& state = context.state;
     const Palette& palette = context.palette;
     const float size = ImGui::GetFontSize(), margin = kMargin * context.gui.scale();
@@ -83,7 +83,6 @@ void draw_title(const PanelContext& context, ImDrawList& list, const SceneViewpo
         if (first) lines.push_back({context.gui.fonts().regular, size, palette.text, fits ? both : rms});
         if (first && !fits) lines.push_back({context.gui.fonts().regular, size, palette.text, largest});
     }
-    if (!more.empty()) lines.push_back({context.gui.fonts().regular, size, palette.text_dim, more});
     draw_lines(context, list, im_point(viewport.place.x + margin, viewport.place.y + margin), width, lines);
 }
 
@@ -243,11 +242,10 @@ void Panels::draw_overlays(const PanelContext& context) {
         draw_messages(context);
         return;
     }
-    const std::string sooner = sooner_words(context.state);
     for (const SceneViewport& viewport : context.state.shown.viewports) {
         const Viewport& v = viewport.place;
         list.PushClipRect(im_point(v.x, v.y), im_point(v.x + v.width, v.y + v.height));
-        draw_title(context, list, viewport, viewport.kinds.front() == context.state.method ? sooner : "");
+        draw_title(context, list, viewport);
         draw_axes_letters(context, list, viewport);
         draw_marks(context, list, viewport);
         list.PopClipRect();

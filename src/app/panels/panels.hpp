@@ -77,7 +77,8 @@ private:
     void draw_selection(const PanelContext& context);
     void draw_edit(ViewerState& state);
     void scroll_to(const ViewerState& state, const ViewerState::Selection& row) const;
-    std::string sooner_words(const ViewerState& state);
+    MethodKind sooner_method(const ViewerState& state);
+    void draw_sooner(const PanelContext& context);
     void draw_probes(const PanelContext& context);
     void draw_compare(const PanelContext& context);
     void draw_display(const PanelContext& context);
