@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <filesystem>
 #include <memory>
+#include <string>
 
 #include "base/control.hpp"
 #include "deform/deformer.hpp"
@@ -16,6 +17,7 @@ struct LoadedScene {
     std::unique_ptr<LiveScene> scene;
     Eigen::Vector3d up_axis = Eigen::Vector3d::UnitZ();  ///< its axis that points up
     std::filesystem::path file;                          ///< the file it can be saved over; empty for a bare mesh
+    std::string note = {};                               ///< for the user: why it begins with another method than usual
     bool recovered = false;                              ///< from a viewer that was killed: its changes are unsaved
 };
 

@@ -150,6 +150,9 @@ private:
              .document =
                  [this] { return movable_document(state_.scene(), state_.method, view_point_of(state_.camera)); }},
             Window::seconds());
+        if (state_.keeping_failure == autosave_.failure()) return;
+        state_.keeping_failure = autosave_.failure();
+        pending_frames_ = kSettlingFrames;
     }
 
     bool must_draw() {
@@ -271,6 +274,7 @@ private:
         const double width_before = before > 0 ? width() : 1.0;
         state_.shown.viewports = viewports_of(state_, layout.scene, gui_.scale());
         if (state_.shown.viewports.size() != before) return state_.frame_in_viewports(before == 0);
+        if (before == 0) return;
         CameraPose pose = state_.camera.pose();
         pose.distance *= width_before / width();
         state_.camera.set_pose(pose);

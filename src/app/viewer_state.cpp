@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "app/job_notes.hpp"
+#include "app/names.hpp"
 #include "app/window/recent_files.hpp"
 
 namespace elastolab {
@@ -249,9 +250,11 @@ bool ViewerState::update_displacements() {
     poll_loading();
     const bool has_exported = tell_end(export_job_, messages);
     keep_method();
-    if (loading() && !simulated_) return has_exported;  // the default scene would be computed for nothing
+    if (blank()) return has_exported;  // the default scene would be computed for nothing
     simulated_ = true;
     const bool changed = simulation.update(*scene_, needed_kinds(), choices) || has_exported;
+    for (const MethodKind kind : simulation.take_dropped())
+        messages.note(title(kind) + " was let go to keep memory free. It is computed again when it is chosen.");
     const std::vector<int>& patch = gestures.hover().patch;
     if (gestures.action() == Gestures::Action::none && !patch.empty() && patch != prefetched_)
         simulation.prefetch(scene_->constraints_with_handle(patch));

@@ -119,6 +119,8 @@ public:
     void discard_recoverable();
     /// What was recovered, once it is open: whoever takes it keeps the scene there from then on (Autosave::adopt).
     std::optional<AutosavedScene> take_recovered() { return std::exchange(recovered_, std::nullopt); }
+    /// Why the latest changes would be lost if this viewer were killed; empty while they would not.
+    std::string keeping_failure;
     /// The method to begin with, for the scene that is there and the one that is being opened.
     void start_with(MethodKind kind);
 
@@ -168,6 +170,10 @@ public:
     bool update_displacements();
     bool update_picture();
     bool loading() const { return load_job_.running(); }
+    /// The file that is being opened, or was last.
+    const std::filesystem::path& loading_file() const { return pending_file_; }
+    /// The first file is being opened: until it is there, nothing is shown that could be pulled.
+    bool blank() const { return loading() && !simulated_; }
     /// A worker will bring something for the picture.
     bool waiting() const {
         return loading() || export_job_.running() || shown.cutting() || shown.solving() || simulation.waiting();

@@ -86,11 +86,12 @@ void Gestures::press(const InputEvent& event, GestureContext& context) {
         frame_requested_ = true;
         return;
     }
+    const bool shifted = (event.modifiers & GLFW_MOD_SHIFT) != 0;
     if (event.code != GLFW_MOUSE_BUTTON_LEFT) {
-        action_ = Action::pan;
+        const bool pans = shifted || (event.modifiers & GLFW_MOD_CONTROL) != 0;
+        action_ = event.code == GLFW_MOUSE_BUTTON_MIDDLE && !pans ? Action::orbit : Action::pan;
         return;
     }
-    const bool shifted = (event.modifiers & GLFW_MOD_SHIFT) != 0;
     hold_ = shifted ? Hold::free : Hold::fix;
     if (context.tools.tool == Tool::box) {
         action_ = Action::box;

@@ -50,7 +50,8 @@ enum class Hold { fix, free };
 /// Turns mouse events into camera moves and edits of the scene. Owned by one thread; knows no window.
 ///   body     left: grab a handle or make one, and pull it. While pulling: Shift along the normal, X/Y/Z along an axis,
 ///            Ctrl (or R) turns the patch, Alt (or S) scales it, Delete removes it. A fixed vertex cannot be pulled
-///   empty    left: orbit; right, middle or Shift + left: pan; double click: frame the body
+///   empty    left: orbit; Shift + left: pan; double click: frame the body
+///   anywhere middle: orbit; right, Shift + middle or Ctrl + middle: pan
 ///   gizmo    left: an arrow moves the handle (or the plane of the cut), a ring turns it; Ctrl snaps
 ///   wheel    zoom to the cursor
 ///   brush    left adds vertices under the brush to the selected fixed set, with Shift frees them; a click does so

@@ -193,12 +193,14 @@ void draw_model(const PanelContext& context, const MethodRunner& runner) {
 
 }  // namespace
 
-/// Which method would be ready far sooner than one that takes long; empty when none.
-std::string Panels::sooner_words(const ViewerState& state) {
+/// Which method is ready, or would be far sooner than one that takes long; null when none.
+MethodKind Panels::sooner_method(const ViewerState& state) {
     constexpr double kLong = 4.0, kFarSooner = 3.0;  // seconds; times
-    if (state.simulation.runner(state.method).state() != State::precomputing) return "";
+    if (state.simulation.runner(state.method).state() != State::precomputing) return nullptr;
     const double own = cost(state, state.choices.of(state.method)).seconds;
-    if (own < kLong) return "";
+    if (own < kLong) return nullptr;
+    for (const MethodKind kind : all_methods())
+        if (state.simulation.runner(kind).model() != nullptr && kind != state.method) return kind;
     const auto seconds = [&](MethodKind kind) {
         const double predicted = cost(state, state.choices.of(kind)).seconds;
         return predicted > 0.0 && state.simulation.problem(kind).empty() ? predicted : own;
@@ -206,8 +208,23 @@ std::string Panels::sooner_words(const ViewerState& state) {
     const std::span<const MethodKind> all = all_methods();
     const MethodKind best =
         *std::min_element(all.begin(), all.end(), [&](MethodKind a, MethodKind b) { return seconds(a) < seconds(b); });
-    if (kFarSooner * seconds(best) > own) return "";
-    return title(best) + " would be ready in about " + readable_seconds(seconds(best));
+    return kFarSooner * seconds(best) > own ? nullptr : best;
+}
+
+/// One click to the method that answers sooner, in the row of the state.
+void Panels::draw_sooner(const PanelContext& context) {
+    ViewerState& state = context.state;
+    const MethodKind sooner = sooner_method(state);
+    if (sooner == nullptr) return;
+    const bool ready = state.simulation.runner(sooner).model() != nullptr;
+    const std::string when =
+        ready ? "ready" : "in about " + readable_seconds(cost(state, state.choices.of(sooner)).seconds);
+    const std::string label = title(sooner) + ": " + when;
+    const float width = ImGui::CalcTextSize(label.c_str()).x + 2.0f * ImGui::GetStyle().FramePadding.x;
+    ImGui::SameLine();
+    if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
+    if (ImGui::SmallButton(label.c_str())) state.select_method(sooner);
+    tooltip("Exact sooner than the chosen method, which goes on when it is chosen again.");
 }
 
 void Panels::draw_method(const PanelContext& context) {
@@ -218,6 +235,7 @@ void Panels::draw_method(const PanelContext& context) {
     MethodRunner& runner = state.simulation.runner(state.method);
     const Colour& colour = state.simulation.previewing(state.method) ? palette.good : state_colour(runner, palette);
     ImGui::TextColored(imgui_colour(colour), "%s", state_words(state, cost_of(state.method)).c_str());
+    draw_sooner(context);
     draw_progress(context, runner);
     if (!ImGui::TreeNode("How it computes")) return;
     draw_model(context, runner);

@@ -77,7 +77,8 @@ private:
     void draw_selection(const PanelContext& context);
     void draw_edit(ViewerState& state);
     void scroll_to(const ViewerState& state, const ViewerState::Selection& row) const;
-    std::string sooner_words(const ViewerState& state);
+    MethodKind sooner_method(const ViewerState& state);
+    void draw_sooner(const PanelContext& context);
     void draw_probes(const PanelContext& context);
     void draw_compare(const PanelContext& context);
     void draw_display(const PanelContext& context);
@@ -100,7 +101,6 @@ private:
     void open_primitive(ViewerState& state);
     const Cost& cost(const ViewerState& state, const Method& method);
     std::uint64_t memory_with_completion(const ViewerState& state, MethodKind kind);
-    std::uint64_t memory_of_set(const MethodRunner& runner);
     std::uint64_t memory_of_comparison(const ViewerState& state);
 
     FileDialog files_;
@@ -137,11 +137,6 @@ private:
     std::map<std::tuple<MethodKind, Mode, Update, int, int>, Cost>
         costs_;  ///< by vertices and triangles of what is simulated
     std::map<std::tuple<MethodKind, Mode, Update, int, int, int>, std::uint64_t> completed_bytes_;  ///< likewise
-    struct SetMemory {
-        std::weak_ptr<const Deformer> of;
-        std::uint64_t bytes = 0;
-    };
-    std::map<const MethodRunner*, SetMemory> set_bytes_;
     std::uint64_t program_bytes_ = 0;  ///< of the program before it has computed anything
 };
 

@@ -27,14 +27,16 @@ float height_of(const std::string& paragraph, float width) {
 
 }  // namespace
 
-/// What has failed, then the warnings of the present answer, with the body's file in place of its whole path, and
-/// methods called as on their buttons.
+/// What has failed, that changes are not kept, then the warnings of the present answer, with the body's file in place
+/// of its whole path, and methods called as on their buttons.
 std::vector<Panels::Warning> Panels::present_warnings(const ViewerState& state) {
     std::vector<Warning> warnings;
     for (const std::string& problem :
          {state.simulation.problem(state.method), state.shown.reaction_failure(state.method),
           state.shown.section_failure(state.method)})
         if (!problem.empty()) warnings.push_back({problem, true});
+    if (!state.keeping_failure.empty())
+        warnings.push_back({"Changes would be lost if the viewer were killed: " + state.keeping_failure, true});
     for (const std::string& text : words(state.simulation.embedded(state.method).findings()))
         warnings.push_back({text, false});
     const std::string& name = state.scene().name();

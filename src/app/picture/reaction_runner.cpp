@@ -8,13 +8,14 @@
 
 namespace elastolab {
 
-ReactionRunner::Result ReactionRunner::solve(const Deformer& deformer, const Eigen::VectorXd& values) {
+ReactionRunner::Result ReactionRunner::solve(const Deformer& deformer, const Eigen::VectorXd& values,
+                                             Control& control) {
     const Stopwatch watch;
     Result result;
     result.surface = deformer.model().body().surface;
     result.vertices = deformer.set().base;
     result.vertices.insert(result.vertices.end(), deformer.set().handles.begin(), deformer.set().handles.end());
-    result.reactions = deformer.reactions(values);
+    result.reactions = deformer.answer(values, {}, control).reactions;
     if (!result.reactions.forces.allFinite() || !result.reactions.moments.allFinite())
         throw SolveError(deformer.model().body().name +
                          ": the reactions are beyond double precision. Use a smaller motion or Young's modulus.");
@@ -76,7 +77,8 @@ void ReactionRunner::update(const MethodRunner& runner) {
     version_ = runner.version();
     if (same_set && solve_seconds_ <= solve_budget_) {
         try {
-            take(solve(*deformer, runner.values()));
+            Control control;
+            take(solve(*deformer, runner.values(), control));
         } catch (const std::exception& error) {
             fail(user_text(error));
         }
@@ -85,7 +87,7 @@ void ReactionRunner::update(const MethodRunner& runner) {
     if (!same_set) solve_seconds_ = 2.0 * solve_budget_;  // not known yet
     job_.start([deformer, values = runner.values()](Control& control) {
         control.begin_stage("reactions");
-        return solve(*deformer, values);
+        return solve(*deformer, values, control);
     });
 }
 

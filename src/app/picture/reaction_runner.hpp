@@ -49,7 +49,7 @@ private:
         Reactions reactions;
         double seconds = 0.0;  ///< that the solve took
     };
-    static Result solve(const Deformer& deformer, const Eigen::VectorXd& values);
+    static Result solve(const Deformer& deformer, const Eigen::VectorXd& values, Control& control);
     void take(Result result);
     void fail(std::string why);
     void poll();

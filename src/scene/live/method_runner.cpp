@@ -1,5 +1,8 @@
 #include "scene/live/method_runner.hpp"
 
+#include <utility>
+
+#include "base/timer.hpp"
 #include "findings/solution.hpp"
 #include "scene/user_text.hpp"
 
@@ -52,7 +55,7 @@ void MethodRunner::handle(SetKeeper::Event event) {
             break;
         case SetKeeper::Event::motion_failed:
             failure_ = sets_.motion_failure();
-            take_values(false);
+            take_values(sets_.wanted_values(), false);
             break;
         case SetKeeper::Event::motion_solved:
         case SetKeeper::Event::none:
@@ -62,12 +65,12 @@ void MethodRunner::handle(SetKeeper::Event event) {
 
 bool MethodRunner::takes_long() const {
     const PreparedSet& set = sets_.current();
-    return sets_.frame_rule() == FrameRule::drag_columns && set.solve_seconds > solve_budget_ &&
-           !(set.drag && set.drag->has(sets_.wanted_values()));
+    return set.solve_seconds > solve_budget_ && !(set.drag && set.drag->has(sets_.wanted_values()));
 }
 
 void MethodRunner::update_displacement() {
     const Eigen::VectorXd& wanted = sets_.wanted_values();
+    take_whole_update();
     if (up_to_date_ && values_.size() == wanted.size() && values_ == wanted) return;
     if (takes_long()) {
         failure_.clear();
@@ -77,14 +80,30 @@ void MethodRunner::update_displacement() {
         if (sets_.frame_rule() == FrameRule::drag_columns)
             drag();
         else
-            displacement_ = deformer()->displace(wanted);
+            update_whole();
         failure_.clear();
-        take_values(true);
+        take_values(wanted, true);
     } catch (const std::exception& error) {
         failure_ = user_text(error);
         sets_.current().drag.reset();
-        take_values(false);
+        take_values(wanted, false);
     }
+}
+
+/// What the worker has solved for is shown, though the motion may have gone on since.
+void MethodRunner::take_whole_update() {
+    std::optional<WholeUpdate> solved = std::exchange(sets_.current().whole, std::nullopt);
+    if (!solved || solved->values.size() != sets_.wanted_values().size()) return;
+    displacement_ = std::move(solved->displacement);
+    failure_.clear();
+    take_values(std::move(solved->values), true);
+}
+
+void MethodRunner::update_whole() {
+    PreparedSet& set = sets_.current();
+    const Stopwatch watch;
+    displacement_ = set.deformer->displace(sets_.wanted_values());
+    set.solve_seconds = watch.seconds();
 }
 
 void MethodRunner::drag() {
@@ -96,8 +115,8 @@ void MethodRunner::drag() {
     if (solves) set.solve_seconds = watch.seconds();
 }
 
-void MethodRunner::take_values(bool solved) {
-    values_ = sets_.wanted_values();
+void MethodRunner::take_values(Eigen::VectorXd values, bool solved) {
+    values_ = std::move(values);
     const std::optional<DragSolver>& columns = sets_.current().drag;
     const bool by_columns = sets_.frame_rule() == FrameRule::drag_columns && columns;
     tolerance_ = by_columns ? columns->tolerance() : kSolveTolerance;

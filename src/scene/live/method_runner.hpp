@@ -38,8 +38,8 @@ public:
     /// Constraints belong to the body last set.
     void set_constraints(const Constraints& constraints) override { sets_.want(constraints); }
     void set_frame_rule(FrameRule rule);
-    /// Seconds that poll() may solve for a new motion itself, judged by the last time; longer solves go to the worker,
-    /// and the previous answer stays meanwhile.
+    /// Seconds that poll() may solve for a new motion itself, judged by the last time; longer solves, and the first
+    /// ones of a set or of a rule, go to the worker, and the previous answer stays meanwhile.
     void set_solve_budget(double seconds) { solve_budget_ = seconds; }
     void prefetch(const ConstrainedSet& set) { sets_.prefetch(set); }
 
@@ -95,6 +95,8 @@ public:
     bool has_inverse() const { return models_.has_inverse(); }
     /// That of the job that runs now; of several, the one that is waited for.
     JobStatus status() const;
+    /// Bytes that the set that answers takes and, while it is made, the estimate of its error; 0 before there is one.
+    std::uint64_t set_memory() const { return sets_.current().memory_bytes; }
     /// Seconds that the last preparation of a constrained set took.
     double prepare_seconds() const { return sets_.last_seconds(); }
 
@@ -103,15 +105,17 @@ private:
     void handle(SetKeeper::Event event);
     bool takes_long() const;
     void update_displacement();
+    void update_whole();
     void drag();
-    void take_values(bool solved);
+    void take_whole_update();
+    void take_values(Eigen::VectorXd values, bool solved);
     bool has_motion() const { return solved_ && !values_.isZero(0.0); }
 
     ModelKeeper models_;
     SetKeeper sets_;
     RestCheck check_;
     std::string failure_;  ///< of the wanted values
-    double solve_budget_ = 0.03;
+    double solve_budget_ = 0.015;
     bool up_to_date_ = false;  ///< values_ were tried under the present set
     bool solved_ = false;
     double tolerance_ = kSolveTolerance;

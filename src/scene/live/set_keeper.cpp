@@ -36,6 +36,16 @@ void solve_ahead(PreparedSet& prepared, const std::vector<int>& ends, const Eige
     prepared.solve_seconds = watch.seconds();
 }
 
+/// The same for frames that update as a whole.
+void update_ahead(PreparedSet& prepared, const Eigen::VectorXd& values, Control& control) {
+    const Stopwatch watch;
+    try {
+        prepared.whole = {values, prepared.deformer->displace(values, control)};
+    } catch (const SolveError&) {
+    }
+    prepared.solve_seconds = watch.seconds();
+}
+
 }  // namespace
 
 void SetKeeper::want(const Constraints& constraints) {
@@ -51,8 +61,11 @@ void SetKeeper::want(const Constraints& constraints) {
 bool SetKeeper::set_frame_rule(FrameRule rule) {
     if (rule == rule_) return false;
     rule_ = rule;
-    current_.drag.reset();
-    spare_.drag.reset();
+    for (PreparedSet* set : {&current_, &spare_}) {
+        set->drag.reset();
+        set->whole.reset();
+        set->solve_seconds = PreparedSet{}.solve_seconds;  // a solve by the other rule takes another time
+    }
     return true;
 }
 
@@ -96,6 +109,7 @@ SetKeeper::Event SetKeeper::take_finished() {
             }
             if (prepared.deformer == current_.deformer) {
                 current_.drag = std::move(prepared.drag);
+                current_.whole = std::move(prepared.whole);
                 current_.solve_seconds = prepared.solve_seconds;
                 return Event::motion_solved;
             }
@@ -170,9 +184,12 @@ void SetKeeper::prepare(const ConstrainedSet& set, Eigen::VectorXd values, std::
         control.checkpoint();
         PreparedSet prepared{.deformer = std::move(deformer)};
         prepared.findings = findings_of_set(*prepared.deformer);
-        if (!drags) return prepared;
+        prepared.memory_bytes = prepared.deformer->predict_memory(set) + prepared.deformer->predict_check_memory(set);
         control.begin_stage("solve");
-        solve_ahead(prepared, ends, values, control);
+        if (drags)
+            solve_ahead(prepared, ends, values, control);
+        else
+            update_ahead(prepared, values, control);
         return prepared;
     });
 }
@@ -184,6 +201,7 @@ void SetKeeper::solve_on_worker() {
     refining_ = false;
     solving_values_ = wanted_values_;
     motion_failure_.clear();
+    if (rule_ == FrameRule::displace) return update_on_worker();
     DragSolver drag = current_.drag ? *current_.drag : DragSolver(current_.deformer, handle_ends_);
     job_.start(
         [deformer = current_.deformer, drag = std::move(drag), values = wanted_values_](Control& control) mutable {
@@ -192,6 +210,17 @@ void SetKeeper::solve_on_worker() {
             drag.prepare(values, first_tolerance(*deformer), control);
             return PreparedSet{.deformer = deformer, .drag = std::move(drag), .solve_seconds = watch.seconds()};
         });
+}
+
+void SetKeeper::update_on_worker() {
+    job_.start([deformer = current_.deformer, values = wanted_values_](Control& control) {
+        control.begin_stage("solve");
+        const Stopwatch watch;
+        PreparedSet solved{.deformer = deformer};
+        solved.whole = {values, deformer->displace(values, control)};
+        solved.solve_seconds = watch.seconds();
+        return solved;
+    });
 }
 
 void SetKeeper::refine_on_worker() {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,12 +22,22 @@ enum class FrameRule {
     displace       ///< the method's update rule, every frame
 };
 
-/// A constrained set that is ready to answer, and its drag solver when frames use one.
+/// Displacements by the method's update rule.
+struct WholeUpdate {
+    Eigen::VectorXd values;        ///< 3*n_handle_vertices [L], as Deformer::displace takes them
+    Eigen::VectorXd displacement;  ///< 3*n_vertices [L]
+};
+
+/// A constrained set that is ready to answer, with what was solved for it: a drag solver, or the latest whole update,
+/// whichever the frames use.
 struct PreparedSet {
     std::shared_ptr<const Deformer> deformer = nullptr;
     std::optional<DragSolver> drag = std::nullopt;
-    double solve_seconds = 0.0;  ///< that the drag solver took for its last solve
-    Findings findings = {};      ///< of the set
+    std::optional<WholeUpdate> whole = std::nullopt;  ///< not yet shown
+    /// That the last solve took; before the first one nobody knows, and a frame must not find out.
+    double solve_seconds = std::numeric_limits<double>::infinity();
+    Findings findings = {};          ///< of the set
+    std::uint64_t memory_bytes = 0;  ///< of the set and, while it is made, of the estimate of its error
 };
 
 /// Prepares the wanted constrained set on a worker thread, and solves there for motions within it that take long. Where
@@ -54,7 +66,7 @@ public:
         none,
         another_set,    ///< current() has changed: earlier answers do not belong to it
         refined,        ///< current().drag has the same to kSolveTolerance
-        motion_solved,  ///< current().drag has the motion that was given to the worker, and its continuation
+        motion_solved,  ///< current() has the motion that was given to the worker; as columns, its continuation too
         motion_failed   ///< see motion_failure()
     };
     /// Takes over what the worker finished and starts what is due.
@@ -93,6 +105,7 @@ private:
     Event take_finished();
     Event use_or_prepare();
     void prepare(const ConstrainedSet& set, Eigen::VectorXd values, std::vector<int> ends);
+    void update_on_worker();
     void refine_on_worker();
     Event take_failure();
     void prepare_prefetched(const ConstrainedSet& set);

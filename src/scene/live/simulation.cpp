@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "base/memory.hpp"
 #include "findings/cost.hpp"
 #include "methods/registry.hpp"
 #include "scene/user_text.hpp"
@@ -15,15 +16,30 @@ using State = MethodRunner::State;
 
 /// Longest predicted time of a completion, which nobody waits for.
 constexpr double kMaxCompletionSeconds = 120.0;
+/// Of the memory that is free, methods that are not shown keep one part in so many.
+constexpr std::uint64_t kPartForHidden = 4;
 
 /// A body with no more vertices than this is ready before a person has looked at it.
 constexpr int kFewestToPreview = 300;
 /// Vertices of a preview's surface, which a worker has ready within a second.
 constexpr int kPreviewVertices = 700;
-/// A sound surface with no more vertices than this needs no coarser one.
-constexpr int kMostToPreviewThemselves = 900;
+/// A sound surface with no more vertices than this needs no coarser one: with quick_method() it answers sooner than a
+/// proxy of it is made.
+constexpr int kMostToPreviewThemselves = 3000;
+/// The same for preview_method(), which takes longer, and bends rubber as well as steel.
+constexpr int kMostToPreviewRubber = 900;
+/// From this Poisson's ratio on quick_method() is too stiff to show what will come.
+constexpr double kRubber = 0.45;
 /// The preview's elements cannot take 1/2 itself.
 constexpr double kPreviewPoissonRatio = 0.49;
+
+/// The method that the preview simulates the scene's own surface by; null where it is made on a proxy.
+MethodKind preview_on_itself(const LiveScene& scene) {
+    const bool is_rubber = scene.document().material.poisson_ratio > kRubber;
+    const MethodKind kind = is_rubber ? preview_method() : quick_method();
+    const int most = is_rubber ? kMostToPreviewRubber : kMostToPreviewThemselves;
+    return scene.needs_proxy(kind) || scene.mesh().n_vertices() > most ? nullptr : kind;
+}
 
 }  // namespace
 
@@ -78,10 +94,10 @@ const SurfaceMesh* Simulation::simulated_surface(MethodKind kind, const LiveScen
 void Simulation::ask_for_proxies(const LiveScene& scene, const MethodChoices& choices) {
     const auto needs_proxy = [&](MethodKind kind) { return scene.needs_proxy(kind); };
     const bool needs_model = std::any_of(shown_.begin(), shown_.end(), needs_proxy) || proxies_.model();
-    has_preview_ = choices.preview && scene.mesh().n_vertices() > kFewestToPreview;
-    const bool is_own_preview =
-        !scene.needs_proxy(preview_method()) && scene.mesh().n_vertices() <= kMostToPreviewThemselves;
-    proxies_.ask(scene, needs_model, has_preview_ && !is_own_preview ? kPreviewVertices : 0);
+    const MethodKind on_itself = preview_on_itself(scene);
+    const bool comes_first_anyway = !shown_.empty() && shown_.front() == on_itself;
+    has_preview_ = choices.preview && scene.mesh().n_vertices() > kFewestToPreview && !comes_first_anyway;
+    proxies_.ask(scene, needs_model, has_preview_ && on_itself == nullptr ? kPreviewVertices : 0);
     proxies_.poll();
 }
 
@@ -98,8 +114,7 @@ bool Simulation::update_preview(const LiveScene& scene, const MethodChoices& cho
         if (!proxy || proxy->shown != scene.surface()) preview_.clear();
         if (!has_preview_) return false;
     }
-    const bool on_itself =
-        !scene.needs_proxy(preview_method()) && scene.mesh().n_vertices() <= kMostToPreviewThemselves;
+    const MethodKind on_itself = preview_on_itself(scene);
     if (!on_itself && !proxy) {
         preview_.clear();
         return preview_.version() != before;
@@ -108,7 +123,7 @@ bool Simulation::update_preview(const LiveScene& scene, const MethodChoices& cho
               .surface = on_itself ? scene.surface() : proxy->surface,
               .material = scene.document().material};
     body.material.poisson_ratio = std::min(body.material.poisson_ratio, kPreviewPoissonRatio);
-    preview_.set_body(body, Method{.kind = preview_method()}, on_itself ? nullptr : proxy);
+    preview_.set_body(body, Method{.kind = on_itself ? on_itself : preview_method()}, on_itself ? nullptr : proxy);
     preview_.runner().set_frame_rule(choices.frame_rule);
     preview_.set_constraints(scene.constraints());
     preview_.poll();
@@ -181,7 +196,12 @@ bool Simulation::choose_answer(Entry& entry) const {
 }
 
 bool Simulation::update(const LiveScene& scene, const std::vector<MethodKind>& shown, const MethodChoices& choices) {
-    shown_ = shown;
+    if (shown_ != shown) {
+        shown_ = shown;
+        ++clock_;
+        for (const MethodKind kind : shown) entries_[place(kind)].last_shown = clock_;
+        bound_hidden_memory();
+    }
     ask_for_proxies(scene, choices);
     rest_hidden(scene);
     bool changed = false;
@@ -208,6 +228,31 @@ void Simulation::rest_hidden(const LiveScene& scene) {
             entry.runner->runner().take_models();
         else
             entry.runner->clear();
+    }
+}
+
+std::uint64_t Simulation::memory_of(const Entry& entry) const {
+    const MethodRunner& runner = entry.runner->runner();
+    return runner.model() ? runner.model()->facts().memory_bytes + runner.set_memory() : 0;
+}
+
+/// Models of methods that nobody looks at are kept for when they are looked at again, while there is room.
+void Simulation::bound_hidden_memory() {
+    std::vector<Entry*> hidden;
+    std::uint64_t sum = 0;
+    for (Entry& entry : entries_)
+        if (const std::uint64_t bytes = memory_of(entry); !is_shown(entry.kind) && bytes > 0) {
+            hidden.push_back(&entry);
+            sum += bytes;
+        }
+    const std::uint64_t most = hidden_memory_.value_or((available_memory_bytes() + sum) / kPartForHidden);
+    std::sort(hidden.begin(), hidden.end(),
+              [](const Entry* a, const Entry* b) { return a->last_shown < b->last_shown; });
+    for (Entry* entry : hidden) {
+        if (sum <= most) return;
+        sum -= memory_of(*entry);
+        entry->runner->clear();
+        dropped_.push_back(entry->kind);
     }
 }
 

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "methods/registry.hpp"
@@ -80,6 +82,12 @@ public:
     /// otherwise.
     std::string problem(MethodKind kind) const;
 
+    /// Bytes that models of methods which are not shown may keep; without it, a quarter of what is free. The one that
+    /// was not shown for longest is dropped first, when other methods are shown.
+    void set_hidden_memory(std::uint64_t bytes) { hidden_memory_ = bytes; }
+    /// Methods whose models were dropped since the last call.
+    std::vector<MethodKind> take_dropped() { return std::exchange(dropped_, {}); }
+
     bool preparing_preview() const;  ///< the preview cannot answer yet, and will by itself
     bool waiting() const;            ///< a method of the last update is not ready yet, and will be by itself
     bool busy() const;               ///< the same, or an answer is being refined, or K and its inverse completed
@@ -97,6 +105,7 @@ private:
         bool previewing = false;
         bool replaced_preview = false;  ///< by an answer that is not refined yet
         std::optional<double> preview_error = {};
+        std::uint64_t last_shown = 0;  ///< clock_ then
     };
     std::size_t place(MethodKind kind) const;
     bool is_shown(MethodKind kind) const;
@@ -109,8 +118,13 @@ private:
     bool give_body(Entry& entry, const LiveScene& scene, const MethodChoices& choices);
     void complete_one(const MethodChoices& choices);
 
+    std::uint64_t memory_of(const Entry& entry) const;
+    void bound_hidden_memory();
+
     std::vector<Entry> entries_;
-    std::vector<MethodKind> shown_;
+    std::vector<MethodKind> shown_, dropped_;
+    std::uint64_t clock_ = 0;  ///< grows when other methods are shown
+    std::optional<std::uint64_t> hidden_memory_;
     ProxyKeeper proxies_;
     EmbeddedRunner preview_;
     bool has_preview_ = false;  ///< this scene is worth one
