@@ -101,7 +101,8 @@ private:
     }
 
     void add_values(const AffineMotion& motion, const std::vector<int>& vertices, std::size_t i) {
-        for (const int v : vertices) add_value(motion.matrix * mesh_.vertices.col(v) + motion.translate, v, i);
+        const AffineMap map = map_of(motion);
+        for (const int v : vertices) add_value(map.displacement(mesh_.vertices.col(v)), v, i);
     }
 
     void add_values(const VertexMotion& motion, const std::vector<int>& vertices, std::size_t i) {

@@ -246,7 +246,8 @@ bool Gestures::animate(double now, GestureContext& context) {
         end_spring(context);
         return false;
     }
-    context.scene.set_motion(spring_->handle, scaled(spring_->from, (1.0 - t) * (1.0 - t)));
+    const Positions rest = context.scene.rest_positions(spring_->handle);
+    context.scene.set_motion(spring_->handle, part_of(spring_->from, (1.0 - t) * (1.0 - t), rest));
     return true;
 }
 

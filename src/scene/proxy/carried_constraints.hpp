@@ -81,6 +81,7 @@ private:
     std::vector<Eigen::Vector3i> origins_;         ///< of each carried handle vertex: places in its handle,
     std::vector<Eigen::Vector3d> origin_weights_;  ///< whose weighted mean is nearest to it
     std::vector<Follower> followers_;
+    std::vector<AffineMap> maps_;  ///< of every handle; nothing for motions of single vertices
 };
 
 /// One value a proxy vertex, carried to the shown vertices.
