@@ -29,6 +29,7 @@ namespace elastolab {
 namespace {
 
 constexpr double kProgressSeconds = 1.0 / 15.0;  ///< between frames while a progress bar moves
+constexpr double kWaitingSeconds = 0.01;         ///< between looks at what the next frame of a film shows
 constexpr int kSettlingFrames = 3;               ///< frames that Dear ImGui needs to settle after an event
 constexpr double kCheckSeconds = 0.25;           ///< between looks at a check that goes on in the background
 constexpr double kCaretSeconds = 0.4;            ///< between frames while a text cursor blinks
@@ -75,6 +76,7 @@ public:
             if (must_draw()) draw_frame();
             keep_scene();
         }
+        pictures_.stop(state_);  // a film that is cut short leaves the handles where they were
         draw_last_picture();
         if (!options_.picture.empty() && nobody_watches() && !replay_) state_.frame_in_viewports(true);  // as deformed
         pictures_.take_at_end(options_, renderer_, state_, palette());
@@ -126,7 +128,7 @@ private:
     }
 
     double timeout() const {
-        if (pictures_.filming()) return 0.0;
+        if (pictures_.filming()) return pictures_.waiting() ? kWaitingSeconds : 0.0;
         if (held_back()) return kProgressSeconds;
         if (options_.n_frames > 0 || pending_frames_ > 0 || !queue_.empty()) return 0.0;
         if (replay_ && !replay_->done() && !state_.simulation.busy()) return 0.0;
@@ -139,9 +141,9 @@ private:
     }
 
     /// A copy of what is not saved, for the case that this process is killed. Not in the midst of a pull, which would
-    /// be kept as it began until the next copy is due.
+    /// be kept as it began until the next copy is due, nor of a film, which moves handles.
     void keep_scene() {
-        if (nobody_watches() || state_.gestures.pulling()) return;
+        if (nobody_watches() || state_.gestures.pulling() || pictures_.filming()) return;
         if (std::optional<AutosavedScene> recovered = state_.take_recovered()) autosave_.adopt(std::move(*recovered));
         autosave_.update(
             {.revision = state_.scene().revision() + (state_.scene_number() << 32),
@@ -324,7 +326,7 @@ private:
     /// A worker inside a library call that cannot be interrupted must not keep a closed window's process alive:
     /// everything that was to be written is.
     void end_workers() {
-        pictures_.stop();
+        pictures_.stop(state_);
         state_.cancel_workers();
         window_.hide();
         const Stopwatch waiting;

@@ -262,6 +262,14 @@ bool ViewerState::update_displacements() {
     return changed;
 }
 
+bool ViewerState::answering() const {
+    if (waiting()) return true;
+    const std::vector<MethodKind> kinds = needed_kinds();
+    return std::any_of(kinds.begin(), kinds.end(), [&](MethodKind kind) {
+        return (simulation.previewing(kind) && simulation.problem(kind).empty()) || simulation.runner(kind).refining();
+    });
+}
+
 bool ViewerState::update_picture() {
     return shown.update({.scene = *scene_,
                          .simulation = simulation,

@@ -178,6 +178,8 @@ public:
     bool waiting() const {
         return loading() || export_job_.running() || shown.cutting() || shown.solving() || simulation.waiting();
     }
+    /// What is shown is not yet the converged answer to the scene as it is.
+    bool answering() const;
     /// Stops all workers at their next checkpoints; stopping(): some have not stopped yet.
     void cancel_workers();
     bool stopping() const {
