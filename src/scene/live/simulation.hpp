@@ -13,6 +13,7 @@
 #include "scene/live/embedded_runner.hpp"
 #include "scene/live/live_scene.hpp"
 #include "scene/live/proxy_keeper.hpp"
+#include "scene/live/theory_gauge.hpp"
 
 namespace elastolab {
 
@@ -47,7 +48,8 @@ std::optional<Method> completion_of(const SurfaceMesh& mesh, MethodKind kind, co
 /// The answers of several methods to one scene, each on the scene's surface or, where the method cannot use that, on a
 /// proxy of it. Methods that nobody looks at are not computed; their last answers are kept, so that switching back is
 /// instant. While a method's model or a new constrained set of it is being prepared, a coarse preview answers in its
-/// place. All members are for one thread, which calls update() once per frame.
+/// place; so does one of a method that is not linear while a motion goes on and its equilibria take long, by the same
+/// method. All members are for one thread, which calls update() once per frame.
 class Simulation {
 public:
     /// `wake` is called by the workers when update() will find something.
@@ -73,7 +75,8 @@ public:
     std::optional<double> preview_error(MethodKind kind) const { return entries_[place(kind)].preview_error; }
     /// The proxies: the one that methods simulate, and the preview's.
     const ProxyKeeper& proxies() const { return proxies_; }
-    const EmbeddedRunner& preview() const { return preview_; }
+    const EmbeddedRunner& preview() const { return preview_; }  ///< of linear methods
+    const EmbeddedRunner& preview(MethodKind kind) const { return kind->linear ? preview_ : finite_preview_; }
     /// The surface that a method computes on in this scene; null while its proxy is not there.
     const SurfaceMesh* simulated_surface(MethodKind kind, const LiveScene& scene) const;
     /// Whether the proxy that a method needs is being made.
@@ -87,6 +90,9 @@ public:
     void set_hidden_memory(std::uint64_t bytes) { hidden_memory_ = bytes; }
     /// Methods whose models were dropped since the last call.
     std::vector<MethodKind> take_dropped() { return std::exchange(dropped_, {}); }
+    /// How far linear theory is off for the present motion, where the first method of the last update is linear and has
+    /// answered; nothing until it is known. Computed on a mesh as coarse as the preview's.
+    const std::optional<TheoryError>& theory_error() const { return gauge_.error(); }
 
     bool preparing_preview() const;  ///< the preview cannot answer yet, and will by itself
     bool waiting() const;            ///< a method of the last update is not ready yet, and will be by itself
@@ -113,10 +119,15 @@ private:
     EmbeddedRunner& own(MethodKind kind) { return *entries_[place(kind)].runner; }
     void ask_for_proxies(const LiveScene& scene, const MethodChoices& choices);
     bool update_preview(const LiveScene& scene, const MethodChoices& choices);
+    bool give_preview_body(EmbeddedRunner& preview, Method method, MethodKind fallback, bool wanted,
+                           const LiveScene& scene) const;
+    bool update_finite_preview(const LiveScene& scene);
+    bool has_preview(MethodKind kind) const { return kind->linear ? has_preview_ : finite_ != nullptr; }
     bool update_method(Entry& entry, const LiveScene& scene, const MethodChoices& choices, bool may_begin);
     bool choose_answer(Entry& entry) const;
     bool give_body(Entry& entry, const LiveScene& scene, const MethodChoices& choices);
     void complete_one(const MethodChoices& choices);
+    void gauge_theory(const LiveScene& scene);
 
     std::uint64_t memory_of(const Entry& entry) const;
     void bound_hidden_memory();
@@ -128,6 +139,12 @@ private:
     ProxyKeeper proxies_;
     EmbeddedRunner preview_;
     bool has_preview_ = false;  ///< this scene is worth one
+    EmbeddedRunner finite_preview_;
+    MethodKind finite_ = nullptr;  ///< the method on the screen that it answers for, if any
+    TheoryGauge gauge_;
+    Wish gauged_;  ///< of the scene, that it was asked about
+    std::weak_ptr<const SurfaceMesh> gauged_on_;  ///< the scene it was needed for
+    std::optional<CarriedConstraints> gauge_carried_;
 };
 
 }  // namespace elastolab

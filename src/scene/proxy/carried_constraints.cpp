@@ -299,6 +299,15 @@ Vector3d CarriedConstraints::value_of(const Follower& follower) const {
 }
 
 Eigen::VectorXd CarriedConstraints::displacement(const Eigen::VectorXd& of_proxy) const {
+    Eigen::VectorXd u = places(of_proxy);
+    for (const Follower& follower : followers_) {
+        auto own = u.segment<3>(3 * Index{follower.vertex});
+        own += follower.share * (value_of(follower) - own);
+    }
+    return u;
+}
+
+Eigen::VectorXd CarriedConstraints::places(const Eigen::VectorXd& of_proxy) const {
     const SurfacePlaces& places = proxy_->places;
     Eigen::VectorXd u(3 * places.nodes.cols());
     Control control;
@@ -310,10 +319,6 @@ Eigen::VectorXd CarriedConstraints::displacement(const Eigen::VectorXd& of_proxy
             u.segment<3>(3 * v) = sum;
         }
     });
-    for (const Follower& follower : followers_) {
-        auto own = u.segment<3>(3 * Index{follower.vertex});
-        own += follower.share * (value_of(follower) - own);
-    }
     return u;
 }
 

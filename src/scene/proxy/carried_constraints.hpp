@@ -36,6 +36,8 @@ public:
     /// Displacements of the shown vertices, 3 * n_shown [L], from those of the proxy under constraints(), 3 *
     /// n_proxy.
     Eigen::VectorXd displacement(const Eigen::VectorXd& of_proxy) const;
+    /// The same where those of the proxy are of other constraints: constrained vertices follow it, too.
+    Eigen::VectorXd places(const Eigen::VectorXd& of_proxy) const;
 
     /// Findings of an answer under constraints(), for the shown constraints: point constraints are shown vertices.
     Findings as_shown(Findings of_proxy) const;
