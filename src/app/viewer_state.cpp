@@ -15,13 +15,13 @@ namespace fs = std::filesystem;
 namespace {
 
 /// As in the timings file: a frame shows the scene's answer, or that is being computed, or nothing is being done.
-std::string recorded_name(MethodRunner::State state) {
+std::string recorded_name(MethodRunner::State state, bool following) {
     switch (state) {
         case MethodRunner::State::ready:
             return "ready";
         case MethodRunner::State::precomputing:
         case MethodRunner::State::preparing:
-            return "precomputing";
+            return following ? "ready" : "precomputing";
         case MethodRunner::State::idle:
         case MethodRunner::State::failed:
             return "idle";
@@ -231,7 +231,7 @@ FrameRecord ViewerState::frame_record(const FrameTimes& times, double now) const
             .vertices = scene_->mesh().n_vertices(),
             .constrained_vertices = static_cast<int>(set.base.size()) + n_handle,
             .handle_vertices = n_handle,
-            .state = recorded_name(simulation.runner(method).state()),
+            .state = recorded_name(simulation.runner(method).state(), simulation.runner(method).following()),
             .times = times};
 }
 

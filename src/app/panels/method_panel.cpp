@@ -52,6 +52,9 @@ std::string state_words(const ViewerState& state, const Cost& cost) {
     const Simulation& simulation = state.simulation;
     const MethodRunner& runner = simulation.runner(state.method);
     const bool previewing = simulation.previewing(state.method);
+    if (runner.crushed()) return "no equilibrium: the last one stays";
+    if (!state.method->linear && runner.has_set() && runner.state() == State::preparing)
+        return previewing ? "preview is following; exact when the hand rests" : "following";
     switch (runner.state()) {
         case State::idle:
             if (simulation.making_proxy(state.method)) return "making a closed surface to simulate";
@@ -65,7 +68,7 @@ std::string state_words(const ViewerState& state, const Cost& cost) {
         case State::preparing:
             return previewing ? "preview; preparing the exact answer" : "preparing the constrained set";
         case State::ready:
-            if (runner.refined()) return "ready: pulls are instant";
+            if (runner.refined()) return state.method->linear ? "ready: pulls are instant" : "exact";
             return "ready, exact to " + number_text(runner.tolerance()) + (runner.refining() ? "; converging" : "");
         case State::failed:
             return "failed";

@@ -33,12 +33,13 @@ std::string source_words(const ViewerState& state, MethodKind kind) {
     };
     std::string text;
     if (simulation.previewing(kind)) {
-        const Proxy* proxy = simulation.preview().proxy();
-        text = std::string(kDash) + "preview";
+        const Proxy* proxy = simulation.preview(kind).proxy();
+        text = std::string(kDash) + (runner.has_set() && !kind->linear ? "preview is following" : "preview");
         if (proxy) text += " (proxy of " + count_text(proxy->surface->n_vertices()) + " vertices)";
     }
     if (simulation.making_proxy(kind)) return text + kDash + progress(simulation.proxies().status());
     if (runner.precomputing()) return text + kDash + progress(runner.status());
+    if (runner.crushed()) return text + kDash + "no equilibrium: the last one stays";
     if (!simulation.problem(kind).empty()) return text + kDash + "not available: see the warnings (P: panel)";
     if (simulation.previewing(kind)) return text;
     if (!runner.has_answer())
@@ -48,7 +49,9 @@ std::string source_words(const ViewerState& state, MethodKind kind) {
                                    : simulation.waiting()           ? "waiting"
                                                                     : "not computed");
     const Proxy* proxy = simulation.embedded(kind).proxy();
-    if (!runner.refined()) text = kDash + std::string("exact to ") + number_text(runner.tolerance());
+    if (!kind->linear) text = kDash + std::string(runner.following() ? "following" : "exact");
+    if (!runner.refined() && !runner.following())
+        text = kDash + std::string("exact to ") + number_text(runner.tolerance());
     if (proxy != nullptr && proxy->is_filled()) return text + kDash + "holes filled";
     return proxy ? text + kDash + "on a proxy of " + count_text(proxy->surface->n_vertices()) + " vertices" : text;
 }

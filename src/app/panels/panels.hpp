@@ -128,7 +128,8 @@ private:
     std::uint64_t costs_of_scene_ = 0;
     struct Warning {
         std::string text;
-        bool is_problem = false;  ///< there is no answer, or a part of it is missing
+        bool is_problem = false;      ///< there is no answer, or a part of it is missing
+        MethodKind better = nullptr;  ///< that a button offers instead
     };
     static std::vector<Warning> present_warnings(const ViewerState& state);
     std::vector<Warning> warnings_;  ///< as they are shown, of this scene and method:

@@ -59,9 +59,9 @@ void draw_reaction(const PanelContext& context, const std::string& name) {
     if (const ShownBody* shown = state.shown.body(state.method))
         for (const ShownReaction& reaction : shown->reactions()) {
             if (reaction.name != name) continue;
-            const Eigen::Vector3d moment = reaction.moment_about_place();
+            const Eigen::Vector3d moment = reaction.moment_about_middle();
             line = "force " + number_text(reaction.force.norm()) + ", moment " + number_text(moment.norm());
-            more = "Exerted on the body: force " + vector_text(reaction.force) + ", moment about its middle at rest " +
+            more = "Exerted on the body: force " + vector_text(reaction.force) + ", moment about its middle " +
                    vector_text(moment) + ".";
         }
     if (more.empty())

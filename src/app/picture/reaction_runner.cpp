@@ -66,6 +66,7 @@ void ReactionRunner::poll() {
 void ReactionRunner::update(const MethodRunner& runner) {
     poll();
     if (latest_.surface && latest_.surface.get() != runner.surface()) forget();
+    if (runner.following()) return;
     if (runner.refining()) return;  // by the iteration that these need too, which keeps its solutions
     const std::shared_ptr<const Deformer>& deformer = runner.deformer();
     if (!deformer || runner.values().size() != 3 * std::ssize(deformer->set().handles)) return;
@@ -75,7 +76,7 @@ void ReactionRunner::update(const MethodRunner& runner) {
     if (job_.running() && same_set) return;
     deformer_ = deformer;
     version_ = runner.version();
-    if (same_set && solve_seconds_ <= solve_budget_) {
+    if (same_set && deformer->linear() && solve_seconds_ <= solve_budget_) {
         try {
             Control control;
             take(solve(*deformer, runner.values(), control));

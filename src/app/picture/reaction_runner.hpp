@@ -13,8 +13,8 @@
 namespace elastolab {
 
 /// Reactions of one method's answer, for forces, tractions and stresses that are shown: computed once for each answer,
-/// on a worker where a solve takes longer than a frame can wait. The last ones stay until the next are there. Never
-/// throws for a motion without a solution. Owned by one thread.
+/// on a worker where a solve takes longer than a frame can wait. The last ones stay until the next are there; of what
+/// is only extrapolated there are none. Never throws for a motion without a solution. Owned by one thread.
 class ReactionRunner {
 public:
     /// `wake` is called by the worker when update() will find something.

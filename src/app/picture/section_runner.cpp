@@ -191,6 +191,8 @@ void SectionRunner::update(const EmbeddedRunner& answer, const std::shared_ptr<c
         ++revision_;
     }
     if (!deformer || values.size() != 3 * std::ssize(deformer->set().handles) || values.size() == 0) return;
+    if (!deformer->linear()) return update_at_equilibrium(answer, shape);
+    is_current_ = true;
     if (latest_ && (shown_.size() != values.size() || shown_ != values)) {
         shown_ = values;
         coefficients_ =
@@ -214,11 +216,37 @@ void SectionRunner::update(const EmbeddedRunner& answer, const std::shared_ptr<c
         next.basis = kept ? kept_basis_ : make_basis(answer, pulled_group(answer));
         if (kept) next.field = kept_field_;
     }
-    deformer_ = deformer;
-    shape_ = shape;
+    start(std::move(next), values);
+}
+
+void SectionRunner::start(Columns next, const Eigen::VectorXd& values) {
+    deformer_ = next.deformer;
+    shape_ = next.shape;
     asked_ = values;
     failure_.clear();
     job_.start([next = std::move(next)](Control& control) { return evaluate(next, control); });
+}
+
+/// One column: the values of the equilibrium itself.
+void SectionRunner::update_at_equilibrium(const EmbeddedRunner& answer,
+                                          const std::shared_ptr<const SectionShape>& shape) {
+    const MethodRunner& runner = answer.runner();
+    const std::shared_ptr<const Equilibrium> equilibrium = runner.equilibrium();
+    const bool same = latest_ && equilibrium && latest_->equilibrium == equilibrium;
+    if (same != is_current_ || coefficients_.size() != 1) ++revision_;
+    is_current_ = same;
+    coefficients_ = Eigen::VectorXd::Ones(1);
+    if (!equilibrium || !runner.refined() || job_.running()) return;
+    const bool failed = !failure_.empty() && deformer_.lock() == runner.deformer() && shape_.lock() == shape &&
+                        asked_ == runner.values();
+    if (failed || (same && latest_->n_known == shape->n_inside())) return;
+    if (same) return start(*latest_, runner.values());
+    Columns next;
+    next.shape = shape;
+    next.deformer = runner.deformer();
+    next.equilibrium = equilibrium;
+    next.basis = std::make_shared<const Basis>(Basis{runner.values(), {}});
+    start(std::move(next), runner.values());
 }
 
 }  // namespace elastolab

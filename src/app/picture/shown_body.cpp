@@ -176,12 +176,15 @@ void ShownBody::update_reactions(const Sources& sources) {
         if (group == nullptr || group->begin == group->end) continue;
         const int n = group->end - group->begin;
         const std::vector<int> vertices(shown_vertices.begin() + seen.begin, shown_vertices.begin() + seen.end);
+        Eigen::Vector3d middle = sources.scene.mesh().vertices(Eigen::all, vertices).rowwise().mean();
+        if (is_large(answer) && answer.displacement().size() == positions_.size())
+            middle += columns(answer.displacement())(Eigen::all, vertices).rowwise().mean();
         reactions_.push_back({.name = seen.name,
                               .fixed = fixed,
                               .force = reactions.forces.middleCols(group->begin, n).rowwise().sum(),
                               .moment = reactions.moments.middleCols(group->begin, n).rowwise().sum(),
                               .place = positions_(Eigen::all, vertices).rowwise().mean(),
-                              .rest_place = sources.scene.mesh().vertices(Eigen::all, vertices).rowwise().mean()});
+                              .middle = middle});
     }
 }
 
@@ -198,7 +201,7 @@ void ShownBody::update_section(const Sources& sources, const DisplaySettings& di
     const SectionRunner* inside = sources.inside && sources.inside->ready() ? sources.inside : nullptr;
     const Positions whole = filling_ ? Positions(filling_->shape->joined(positions_, filling_->positions)) : positions_;
     Positions within = shape.inside();
-    if (inside)
+    if (inside && inside->is_current())
         within += display.deformation_scale * inside->displacements();
     else
         within += shape.spread_from_rim(whole - shape.surface()->vertices);
