@@ -92,3 +92,25 @@ cat > "$work/scan.json" << 'END'
               "translate": [0.35, -0.1, -0.3]}]}
 END
 picture scan "$work/scan.json"
+
+# film NAME SCENE FRAMES: the pull of a scene, there and back, as a small animation.
+film() {
+  local name=$1 scene=$2 frames=$3
+  [[ ${#wanted[@]} -eq 0 || " ${wanted[*]} " == *" $name "* ]] || return 0
+  mkdir "$work/film"
+  tests/support/with_display.sh "$program" view "$scene" --hidden --frames 2 --picture "$work/film/frame.png" \
+    --picture-size 960x540 --pull-film "$frames"
+  convert -delay 6 -loop 0 "$work"/film/frame-*.png -resize 50% -colors 96 -layers optimize \
+    "assets/pictures/$name.gif"
+  rm -r "$work/film"
+  echo "assets/pictures/$name.gif"
+}
+
+# A rubber bar whose end is turned twice.
+cat > "$work/turns.json" << 'END'
+{"elastolab": 1, "mesh": {"primitive": "beam", "resolution": 4}, "method": "nonlinear-fem",
+ "fixed": {"box": {"min": [0, 0, 0], "max": [0, 1, 1]}},
+ "handles": [{"name": "end", "select": {"box": {"min": [4, 0, 0], "max": [4, 1, 1]}},
+              "rotate": {"axis": [1, 0, 0], "degrees": 720, "center": [4, 0.5, 0.5]}}]}
+END
+film turn "$work/turns.json" 48

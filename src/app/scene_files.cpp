@@ -111,6 +111,7 @@ ExportSource export_source(const LiveScene& scene, const EmbeddedRunner& answer)
     source.values = runner.values();
     source.simulated_displacement = runner.displacement();
     source.refined = runner.refined();
+    source.approach = runner.approach();
     if (!source.refined && answer.carried() != nullptr) source.carried = *answer.carried();
     return source;
 }
@@ -126,7 +127,7 @@ void write_moved_mesh(const fs::path& file, const ExportSource& source) {
 
 /// What is shown first is not what is written.
 ExportSource refined(ExportSource source, Control& control) {
-    source.simulated_displacement = source.deformer->displace(source.values, control);
+    source.simulated_displacement = source.deformer->displace(source.values, control, kSolveTolerance, source.approach);
     source.displacement =
         source.carried ? source.carried->displacement(source.simulated_displacement) : source.simulated_displacement;
     source.refined = true;

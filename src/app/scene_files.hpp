@@ -40,6 +40,7 @@ struct ExportSource {
     std::shared_ptr<const Proxy> proxy;        ///< null: shown itself is simulated
     std::shared_ptr<const Deformer> deformer;  ///< null: there is no answer yet
     Eigen::VectorXd values, displacement, simulated_displacement;
+    Approach approach = {};                     ///< of a method that is not linear: how to reach `values`
     bool refined = true;                        ///< else displacements are solved for again, to kSolveTolerance
     std::optional<CarriedConstraints> carried;  ///< to the shown vertices, where that is so and there is a proxy
 };

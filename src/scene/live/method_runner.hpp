@@ -80,6 +80,8 @@ public:
     const Eigen::VectorXd& values() const { return values_; }
     /// Whether these are what the scene asks for.
     bool shows_wanted() const { return same(seen_, sets_.wanted()); }
+    /// How values() are reached from the last equilibrium, of a method that is not linear.
+    Approach approach() const { return following_ ? sets_.approach() : Approach{equilibrium(), {}}; }
     /// Whether the constrained set is prepared.
     bool has_set() const { return sets_.is_current(); }
     /// Of a method that is not linear: an equilibrium takes longer than SetKeeper::kFollowSeconds.

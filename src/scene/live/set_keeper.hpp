@@ -108,6 +108,8 @@ public:
     /// Of a method that is not linear: why the motion that was tried last has no equilibrium.
     const std::optional<Crushed>& crushed() const { return current_.crushed; }
     bool solving() const { return job_.running() && !refining_ && is_current() && same_as_wanted(preparing_set_); }
+    /// Of a method that is not linear: how what is wanted is reached from the equilibrium at hand; for another thread.
+    Approach approach() const { return is_current() ? approach_to(wanted_) : Approach{}; }
     /// A motion will be solved for once it rests.
     bool holding_off() const { return holding_off_; }
     /// Whether the worker refines what current() answers with.
