@@ -18,6 +18,7 @@
 #include "app/picture/view_point.hpp"
 #include "app/viewer_outputs.hpp"
 #include "app/viewer_state.hpp"
+#include "app/window/start_timeline.hpp"
 #include "app/window/window.hpp"
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
@@ -60,6 +61,7 @@ public:
         if (options.n_frames > 0 || options.hidden) window_.disable_vsync();
         if (nobody_watches() || !options.scene_out.empty()) state_.unsaved.never_ask();  // that keeps the changes
         if (!options.timings.empty()) state_.measurements.timings = std::make_unique<TimingsRecorder>(options.timings);
+        if (!options.timeline.empty()) timeline_.emplace(options.timeline);
         if (!options.record.empty())
             state_.measurements.recorder = std::make_unique<InteractionRecorder>(options.record, window_.size());
         for (const std::filesystem::path& file :
@@ -302,10 +304,26 @@ private:
         state_.measurements.last_frame = times;
         state_.measurements.history.add(times);
         if (state_.measurements.timings) state_.measurements.timings->add(state_.frame_record(times, now));
+        if (timeline_) mark_start();
         ++state_.measurements.frame;
         pending_frames_ = std::max(0, pending_frames_ - 1);
         message_seconds_ = state_.messages.expire(now);
         if (state_.requests.quit) window_.request_close();
+    }
+
+    /// What this frame is the first to show.
+    void mark_start() {
+        timeline_->mark(StartTimeline::window);
+        if (state_.loading()) return;
+        timeline_->mark(StartTimeline::loaded);
+        const EmbeddedRunner& shown = state_.simulation.answer(state_.method);
+        if (!shown.has_answer()) return;
+        timeline_->mark(StartTimeline::answer);
+        if (shown.displacement().isZero(0.0)) return;
+        timeline_->mark(StartTimeline::moved);
+        const MethodRunner& runner = state_.simulation.runner(state_.method);
+        if (!state_.simulation.previewing(state_.method) && runner.answers() && runner.refined())
+            timeline_->mark(StartTimeline::exact);
     }
 
     bool finished() const {
@@ -345,6 +363,7 @@ private:
     Panels panels_;
     Pictures pictures_;
     Autosave autosave_;
+    std::optional<StartTimeline> timeline_;
     std::vector<InputEvent> queue_;
     int pending_frames_ = kSettlingFrames;
     double last_frame_seconds_ = 0.0, message_seconds_ = -1.0;
