@@ -85,35 +85,49 @@ public:
         single_scalar_ = (3.0 - 4.0 * nu) * single_tensor_;
         double_tensor_ = -1.0 / (8.0 * pi * (1.0 - nu));
         double_scalar_ = (1.0 - 2.0 * nu) * double_tensor_;
+        dilatation_ = 0.25 * std::numbers::inv_pi * nu / (1.0 - nu);
         const auto n = static_cast<std::size_t>(field.boundary_->mesh().n_vertices());
         layer_.resize(n * slot_size());
         sums_.resize(static_cast<std::size_t>(n_solutions_));
     }
 
-    /// Displacements at kStencil points, [point](3 x m), less those of `vertex`.
-    using Values = std::array<Eigen::Matrix3Xd, kStencil>;
+    /// At one point, for each solution: the displacement less that of `vertex`, and the vector whose divergence is
+    /// lambda div u.
+    struct Value {
+        Eigen::Matrix3Xd displacement, dilatation;
+    };
+    using Values = std::array<Value, kStencil>;
     Values operator()(const std::array<Eigen::Vector3d, kStencil>& points, int vertex) {
         Values values;
-        for (Eigen::Matrix3Xd& value : values) value = Eigen::Matrix3Xd::Zero(3, n_solutions_);
+        for (Value& value : values) value.displacement = value.dilatation = Eigen::Matrix3Xd::Zero(3, n_solutions_);
         for (int first = 0; first < kStencil; first += kernels_.lanes) {
             for (int lane = 0; lane < kernels_.lanes; ++lane) {
                 const Eigen::Vector3d& x = points[static_cast<std::size_t>(first + lane)];
                 lanes_.x[lane] = x[0], lanes_.y[lane] = x[1], lanes_.z[lane] = x[2];
                 lanes_.own_triangle[lane] = -1;
             }
-            for (auto& sum : sums_) sum.fill(Lanes::Zero());
+            for (Sum& sum : sums_) sum = {};
             add_single_layer(points[0]);
             subtract_double_layer(points[0], vertex);
-            for (int lane = 0; lane < kernels_.lanes; ++lane)
-                for (std::size_t c = 0; c < sums_.size(); ++c)
-                    for (std::size_t axis = 0; axis < 3; ++axis)
-                        values[static_cast<std::size_t>(first + lane)](
-                            static_cast<Eigen::Index>(axis), static_cast<Eigen::Index>(c)) = sums_[c][axis][lane];
+            for (int lane = 0; lane < kernels_.lanes; ++lane) {
+                Value& value = values[static_cast<std::size_t>(first + lane)];
+                for (Eigen::Index c = 0; c < n_solutions_; ++c)
+                    for (std::size_t axis = 0; axis < 3; ++axis) {
+                        const Sum& sum = sums_[static_cast<std::size_t>(c)];
+                        value.displacement(static_cast<Eigen::Index>(axis), c) = sum.displacement[axis][lane];
+                        value.dilatation(static_cast<Eigen::Index>(axis), c) = dilatation_ * sum.potential[axis][lane];
+                    }
+            }
         }
         return values;
     }
 
 private:
+    struct Sum {
+        std::array<Lanes, 3> displacement{Lanes::Zero(), Lanes::Zero(), Lanes::Zero()};
+        std::array<Lanes, 3> potential{Lanes::Zero(), Lanes::Zero(), Lanes::Zero()};
+    };
+
     std::size_t slot_size() const { return static_cast<std::size_t>(kDoubleLayerNumbers * kernels_.lanes); }
     /// The same rule for all points of a stencil: its error has no jump that a difference would show.
     const GaussRule* rule_for(const TriangleGeometry& triangle, const Eigen::Vector3d& x) const {
@@ -135,7 +149,7 @@ private:
             kernels_.single_layer_linear(triangle, lanes_, rule_for(triangle, x), out);
             for (std::size_t corner = 0; corner < 3; ++corner)
                 add_block(out[corner], 1, single_scalar_, single_tensor_,
-                          loaded.corners.middleRows<3>(3 * static_cast<Eigen::Index>(corner)), 1.0);
+                          loaded.corners.middleRows<3>(3 * static_cast<Eigen::Index>(corner)), 1.0, 1.0);
         }
     }
 
@@ -153,17 +167,20 @@ private:
         // to err on.
         const Eigen::Matrix3Xd there = field_.displacements_.middleRows<3>(3 * vertex);
         Eigen::Matrix3Xd u(3, n_solutions_);
+        const double twice_mu = 2.0 * Material{1.0, field_.poisson_ratio_}.shear_modulus();
         for (int v = 0; v < mesh.n_vertices(); ++v) {
             u = field_.displacements_.middleRows<3>(3 * v) - there;
             add_block(layer_.data() + slot_size() * static_cast<std::size_t>(v), 4, double_scalar_, double_tensor_, u,
-                      -1.0);
+                      -1.0, twice_mu);
         }
     }
 
-    /// sums += sign * (scalar (a I - [c]) + tensor S) * values; `tensor_at`: where S begins, 1 where there is no c.
+    /// displacement += sign * (scalar (a I - [c]) + tensor S) * values; `tensor_at`: where S begins, 1 where there is
+    /// no c. potential += share * a * values.
     template <class Vectors>
-    void add_block(const double* block, int tensor_at, double scalar, double tensor, const Vectors& values,
-                   double sign) {
+    void add_block(const double* block, int tensor_at, double scalar, double tensor, const Vectors& values, double sign,
+                   double share) {
+        const Lanes potential = share * number(block, 0);
         const Lanes a = sign * scalar * number(block, 0);
         std::array<Lanes, 6> S;
         for (int k = 0; k < 6; ++k) S[static_cast<std::size_t>(k)] = sign * tensor * number(block, tensor_at + k);
@@ -172,21 +189,25 @@ private:
             for (int k = 0; k < 3; ++k) c[static_cast<std::size_t>(k)] = sign * scalar * number(block, 1 + k);
         for (Eigen::Index m = 0; m < n_solutions_; ++m) {
             const double x = values(0, m), y = values(1, m), z = values(2, m);
-            std::array<Lanes, 3>& sum = sums_[static_cast<std::size_t>(m)];
+            std::array<Lanes, 3>& sum = sums_[static_cast<std::size_t>(m)].displacement;
             sum[0] += (a + S[0]) * x + (S[3] - c[2]) * y + (S[4] + c[1]) * z;
             sum[1] += (S[3] + c[2]) * x + (a + S[1]) * y + (S[5] - c[0]) * z;
             sum[2] += (S[4] - c[1]) * x + (S[5] + c[0]) * y + (a + S[2]) * z;
+            std::array<Lanes, 3>& vector = sums_[static_cast<std::size_t>(m)].potential;
+            vector[0] += potential * x;
+            vector[1] += potential * y;
+            vector[2] += potential * z;
         }
     }
 
     const BoundaryField& field_;
     Eigen::Index n_solutions_;
-    double single_tensor_, single_scalar_, double_tensor_, double_scalar_;
+    double single_tensor_, single_scalar_, double_tensor_, double_scalar_, dilatation_;
     const TriangleKernels& kernels_ = best_triangle_kernels();
     const FarField far_field_{kFieldTolerance};
     SourceLanes lanes_{};
-    std::vector<double> layer_;               ///< [vertex][number][lane]
-    std::vector<std::array<Lanes, 3>> sums_;  ///< [solution][axis]
+    std::vector<double> layer_;  ///< [vertex][number][lane]
+    std::vector<Sum> sums_;      ///< of each solution
 };
 
 namespace {
@@ -205,6 +226,7 @@ std::array<Eigen::Vector3d, kStencil> stencil(const Eigen::Vector3d& x, double s
 
 InteriorValues BoundaryField::at(const Positions& points, Control& control) const {
     const Eigen::Index m = displacements_.cols();
+    const double mu = Material{1.0, poisson_ratio_}.shear_modulus();
     InteriorValues values{Eigen::MatrixXd(3 * points.cols(), m), Eigen::MatrixXd(6 * points.cols(), m)};
     parallel_blocks(static_cast<int>(points.cols()), 4, control, [&](int begin, int end) {
         PointIntegrator integrate(*this);
@@ -212,15 +234,22 @@ InteriorValues BoundaryField::at(const Positions& points, Control& control) cons
             if (control.cancelled()) return;
             const Place place = place_of(points.col(i));
             const double step = kStep * place.distance;
-            const auto u = integrate(stencil(place.x, step), place.vertex);
+            const auto at_stencil = integrate(stencil(place.x, step), place.vertex);
             for (Eigen::Index c = 0; c < m; ++c) {
                 Eigen::Matrix3d gradient;
-                for (std::size_t axis = 0; axis < 3; ++axis)
-                    gradient.col(static_cast<Eigen::Index>(axis)) =
-                        (u[1 + 2 * axis].col(c) - u[2 + 2 * axis].col(c)) / (2.0 * step);
+                double dilatation = 0.0;  // lambda div u
+                for (std::size_t axis = 0; axis < 3; ++axis) {
+                    const auto &forward = at_stencil[1 + 2 * axis], &back = at_stencil[2 + 2 * axis];
+                    const auto k = static_cast<Eigen::Index>(axis);
+                    gradient.col(k) = (forward.displacement.col(c) - back.displacement.col(c)) / (2.0 * step);
+                    dilatation += (forward.dilatation(k, c) - back.dilatation(k, c)) / (2.0 * step);
+                }
                 values.displacements.col(c).segment<3>(3 * i) = displacements_.col(c).segment<3>(3 * place.vertex) +
-                                                                u[0].col(c) + gradient * (points.col(i) - place.x);
-                values.stresses.col(c).segment<6>(6 * i) = hooke(gradient, Material{1.0, poisson_ratio_});
+                                                                at_stencil[0].displacement.col(c) +
+                                                                gradient * (points.col(i) - place.x);
+                const Eigen::Matrix3d without = mu * (gradient + gradient.transpose());
+                values.stresses.col(c).segment<6>(6 * i) =
+                    stress_numbers(without + dilatation * Eigen::Matrix3d::Identity());
             }
         }
     });

@@ -33,7 +33,10 @@ private:
 ///   u(x) = int U(x, y) t(y) dS - int T(x, y) u(y) dS
 /// by the closed forms of both layers near x and by Gauss rules far from it. Its derivatives, and with them the
 /// stresses, are central differences over a thousandth of the distance d from the surface: the layers are analytic
-/// there, rounding of the closed forms (1e-14) leaves eleven digits and the step six. Nearer to the surface than
+/// there, rounding of the closed forms (1e-14) leaves eleven digits and the step six. Hooke's lambda div u is not taken
+/// from the gradient, whose error lambda would multiply close to nu = 1/2, but is the divergence of
+///   nu / (4 pi (1 - nu)) [ int t / r dS + 2 mu int u (e . n) / r^2 dS ],
+/// whose layers are there already; at nu = 1/2 it is the negative pressure. Nearer to the surface than
 /// kNearest of an edge length, the stress is that of the nearest point at that distance, and displacements are
 /// extrapolated linearly. Source: docs/formulation.md section 11.
 class BoundaryField : public InteriorField {

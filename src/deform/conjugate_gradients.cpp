@@ -21,6 +21,9 @@ Eigen::RowVectorXd ratio(const Eigen::RowVectorXd& a, const Eigen::RowVectorXd& 
     return r;
 }
 
+/// Not a number once one of them is none, whatever comes after it.
+double largest_or_nan(double a, double b) { return std::isnan(a) || b <= a ? a : b; }
+
 }  // namespace
 
 Eigen::MatrixXd conjugate_gradients(const LinearOperator& A, const LinearOperator& preconditioner,
@@ -45,7 +48,7 @@ Eigen::MatrixXd conjugate_gradients(const LinearOperator& A, const LinearOperato
         for (Eigen::Index c = 0; c < B.cols(); ++c) {
             const double residual = R.col(c).norm();
             if (residual <= options.tolerance) done[static_cast<std::size_t>(c)] = 1;
-            if (!(residual <= largest)) largest = residual;
+            largest = largest_or_nan(largest, residual);
         }
         return largest;
     };

@@ -112,8 +112,10 @@ std::string coarse_forces(const Finding& finding) {
 
 std::string imbalance(const Finding& finding, const char* what) {
     return std::string(finding.method->name) + ": the reaction " + what + " do not balance; their sum is " +
-           percent(finding.value) +
-           " of the largest. Collocation does not balance them; choose galerkin-bem or fem where forces matter.";
+           percent(finding.value) + " of the largest. " +
+           (finding.method->balances_forces
+                ? "They must, so the answer is lost in rounding. Fix more vertices, or thicken what is very thin."
+                : "Collocation does not balance them; choose galerkin-bem or fem where forces matter.");
 }
 
 }  // namespace

@@ -76,10 +76,13 @@ constexpr int kMostGaugedThemselves = 1200;
 constexpr double kLargeImbalance = 0.05;
 
 void add_imbalance(const Imbalance& imbalance, MethodKind method, Findings& findings) {
-    if (imbalance.force > kLargeImbalance)
-        findings.push_back({.kind = FindingKind::force_imbalance, .value = imbalance.force, .method = method});
-    if (imbalance.moment > kLargeImbalance)
-        findings.push_back({.kind = FindingKind::moment_imbalance, .value = imbalance.moment, .method = method});
+    const auto add = [&](FindingKind kind, double value) {
+        if (!(value > kLargeImbalance)) return;
+        const Severity severity = method->balances_forces ? Severity::error : Severity::warning;
+        findings.push_back({.kind = kind, .severity = severity, .value = value, .method = method});
+    };
+    add(FindingKind::force_imbalance, imbalance.force);
+    add(FindingKind::moment_imbalance, imbalance.moment);
 }
 
 /// Applies the constraints and evaluates what follows from them.

@@ -87,5 +87,30 @@ TEST(ConjugateGradients, SayWhenTheyDoNotConvergeAndStopWhenCancelled) {
     EXPECT_THROW(conjugate_gradients(A, one, B, {}, "matrix", control), Cancelled);
 }
 
+/// Multiplies all columns but the first, of which it makes no numbers.
+class FirstColumnFails : public LinearOperator {
+public:
+    explicit FirstColumnFails(const LinearOperator& inner) : inner_(inner) {}
+    Eigen::Index size() const override { return inner_.size(); }
+    Eigen::MatrixXd product(const Eigen::MatrixXd& X) const override {
+        Eigen::MatrixXd Y = inner_.product(X);
+        Y.col(0).setConstant(std::numeric_limits<double>::quiet_NaN());
+        return Y;
+    }
+
+private:
+    const LinearOperator& inner_;
+};
+
+TEST(ConjugateGradients, StopAtTheFirstResidualThatIsNoNumber) {
+    const DenseOperator A(positive_definite(60)), one(Eigen::MatrixXd::Identity(60, 60));
+    Control control;
+    IterationReport report;
+    EXPECT_THROW(conjugate_gradients(FirstColumnFails(A), one, Eigen::MatrixXd::Ones(60, 3), {.tolerance = 1e-12}, "A",
+                                     control, &report),
+                 SolveError);
+    EXPECT_EQ(report.iterations, 1);
+}
+
 }  // namespace
 }  // namespace elastolab

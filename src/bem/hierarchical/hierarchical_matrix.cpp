@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstdint>
 #include <Eigen/SparseCore>
+#include <utility>
 
 #include "base/blas.hpp"
 #include "base/mixed_product.hpp"
@@ -12,7 +14,8 @@ namespace elastolab {
 
 namespace {
 
-using Far = Eigen::MatrixXf;
+/// Tolerance of far blocks below which single precision, 6e-8, is too little.
+constexpr double kLeastSingle = 1e-7;
 
 /// Of ascending numbers, those in a range: [first, last).
 std::pair<Eigen::Index, Eigen::Index> within(const std::vector<int>& positions, PositionRange range) {
@@ -57,11 +60,51 @@ LowRankMatrix approximate(const BlockEntries& entries, PositionRange rows, Posit
 
 }  // namespace
 
+/// A factor of a far block, in single precision where that keeps the tolerance.
+class FarFactor {
+public:
+    FarFactor() = default;
+    FarFactor(Eigen::MatrixXd A, double tolerance) {
+        if (tolerance < kLeastSingle)
+            exact_ = std::move(A);
+        else
+            single_ = A.cast<float>();
+    }
+    std::uint64_t memory_bytes() const {
+        return 4 * static_cast<std::uint64_t>(single_.size()) + 8 * static_cast<std::uint64_t>(exact_.size());
+    }
+    /// Y += A X
+    void add_product(const Eigen::Ref<const Eigen::MatrixXd>& X, Eigen::Ref<Eigen::MatrixXd> Y) const {
+        if (exact_.size() > 0)
+            Y.noalias() += exact_ * X;
+        else
+            add_mixed_product(single_, X, Y);
+    }
+    /// A^T X
+    Eigen::MatrixXd transposed_product(const Eigen::Ref<const Eigen::MatrixXd>& X) const {
+        if (exact_.size() > 0) return exact_.transpose() * X;
+        return transposed_mixed_product(single_, X);
+    }
+    Eigen::MatrixXd rows(const std::vector<Eigen::Index>& numbers) const {
+        if (exact_.size() > 0) return exact_(numbers, Eigen::all);
+        return single_(numbers, Eigen::all).cast<double>();
+    }
+    Eigen::MatrixXd rows(Eigen::Index first, Eigen::Index n) const {
+        if (exact_.size() > 0) return exact_.middleRows(first, n);
+        return single_.middleRows(first, n).cast<double>();
+    }
+    Eigen::MatrixXd all() const { return exact_.size() > 0 ? exact_ : Eigen::MatrixXd(single_.cast<double>()); }
+
+private:
+    Eigen::MatrixXf single_;
+    Eigen::MatrixXd exact_;  ///< or empty
+};
+
 struct HierarchicalMatrix::Block {
     PositionRange rows, cols;
     bool mirrored = false;  ///< of a symmetric matrix, off its diagonal: stands for its transpose too
     Eigen::MatrixXd near;   ///< all entries, or empty
-    Far U, V;
+    FarFactor U, V;
 
     bool is_near() const { return near.size() > 0; }
     /// Y += the block, or its transpose, times X, in the rows concerned.
@@ -71,7 +114,7 @@ struct HierarchicalMatrix::Block {
         if (is_near())
             y.noalias() += near * x;
         else
-            add_mixed_product(U, transposed_mixed_product(V, x), y);
+            U.add_product(V.transposed_product(x), y);
     }
     void add_transposed_product(const Eigen::MatrixXd& X, Eigen::MatrixXd& Y) const {
         const auto x = X.middleRows(3 * rows.begin, 3 * rows.size());
@@ -79,7 +122,7 @@ struct HierarchicalMatrix::Block {
         if (is_near())
             y.noalias() += near.transpose() * x;
         else
-            add_mixed_product(V, transposed_mixed_product(U, x), y);
+            V.add_product(U.transposed_product(x), y);
     }
 };
 
@@ -113,9 +156,9 @@ HierarchicalMatrix::HierarchicalMatrix(std::shared_ptr<const ClusterTree> rows, 
         block.mirrored = symmetric_ && pair.row != pair.col;
         if (pair.admissible) {
             const LowRankMatrix cross = approximate(entries, block.rows, block.cols, 0.5 * options.tolerance);
-            const LowRankMatrix least = recompressed(cross, 0.5 * options.tolerance);
-            block.U = least.U.cast<float>();
-            block.V = least.V.cast<float>();
+            LowRankMatrix least = recompressed(cross, 0.5 * options.tolerance);
+            block.U = FarFactor(std::move(least.U), options.tolerance);
+            block.V = FarFactor(std::move(least.V), options.tolerance);
         } else {
             block.near.resize(3 * block.rows.size(), 3 * block.cols.size());
             entries.fill(block.rows, block.cols, block.near);
@@ -194,10 +237,9 @@ Eigen::MatrixXd HierarchicalMatrix::submatrix(const std::vector<int>& row_positi
             const auto of_cols = scalar_rows(col_positions, first_col, last_col, other.begin);
             auto part = A.block(3 * first_row, 3 * first_col, std::ssize(of_rows), std::ssize(of_cols));
             if (!block.is_near()) {
-                const Far &left = side.transposed ? block.V : block.U, &right = side.transposed ? block.U : block.V;
-                const Eigen::MatrixXd L = left(of_rows, Eigen::all).cast<double>();
-                const Eigen::MatrixXd R = right(of_cols, Eigen::all).cast<double>();
-                part.noalias() = L * R.transpose();
+                const FarFactor &left = side.transposed ? block.V : block.U,
+                                &right = side.transposed ? block.U : block.V;
+                part.noalias() = left.rows(of_rows) * right.rows(of_cols).transpose();
             } else if (side.transposed) {
                 part = block.near(of_cols, of_rows).transpose();
             } else {
@@ -222,13 +264,13 @@ std::vector<int> columns_of(const SparseColumns& Z, PositionRange range) {
 }
 
 /// Z^T A of a range: columns of Z x columns of A.
-template <class Matrix>
-Eigen::MatrixXd project(const SparseColumns& Z, PositionRange range, const std::vector<int>& columns, const Matrix& A) {
+Eigen::MatrixXd project(const SparseColumns& Z, PositionRange range, const std::vector<int>& columns,
+                        const Eigen::MatrixXd& A) {
     Eigen::MatrixXd product = Eigen::MatrixXd::Zero(std::ssize(columns), A.cols());
     for (int row = 0; row < 3 * range.size(); ++row)
         for (SparseColumns::InnerIterator entry(Z, 3 * range.begin + row); entry; ++entry) {
             const auto at = std::lower_bound(columns.begin(), columns.end(), entry.index());
-            product.row(at - columns.begin()) += entry.value() * A.row(row).template cast<double>();
+            product.row(at - columns.begin()) += entry.value() * A.row(row);
         }
     return product;
 }
@@ -259,7 +301,7 @@ Eigen::MatrixXd HierarchicalMatrix::sparse_product(const SparseColumns& Z, Contr
         const Block& block = blocks_[static_cast<std::size_t>(b)];
         Seen& own = seen[static_cast<std::size_t>(b)];
         own.columns = columns_of(Z, block.cols);
-        if (!block.is_near()) own.values = transposed_mixed_product(block.V, compact(Z, block.cols, own.columns));
+        if (!block.is_near()) own.values = block.V.transposed_product(compact(Z, block.cols, own.columns));
     });
     Eigen::MatrixXd Y = Eigen::MatrixXd::Zero(rows(), Z.cols());
     const auto& leaves = row_tree_->leaves();
@@ -276,7 +318,7 @@ Eigen::MatrixXd HierarchicalMatrix::sparse_product(const SparseColumns& Z, Contr
             if (block.is_near())
                 own.noalias() = block.near.middleRows(first, sum.rows()) * compact(Z, block.cols, columns);
             else
-                own.noalias() = block.U.middleRows(first, sum.rows()).cast<double>() * values;
+                own.noalias() = block.U.rows(first, sum.rows()) * values;
             sum(Eigen::all, columns) += own;
         }
         Y.middleRows(3 * range.begin, sum.rows()) = sum;
@@ -304,8 +346,8 @@ Eigen::MatrixXd HierarchicalMatrix::galerkin_product(const SparseColumns& Z, Con
                 const Eigen::MatrixXd half = project(Z, block.rows, own.rows, block.near).transpose();
                 own.values = project(Z, block.cols, own.cols, half).transpose();
             } else {
-                own.values =
-                    project(Z, block.rows, own.rows, block.U) * project(Z, block.cols, own.cols, block.V).transpose();
+                own.values = project(Z, block.rows, own.rows, block.U.all()) *
+                             project(Z, block.cols, own.cols, block.V.all()).transpose();
             }
         });
         for (std::size_t i = 0; i < some.size(); ++i)
@@ -322,8 +364,7 @@ Eigen::MatrixXd HierarchicalMatrix::galerkin_product(const SparseColumns& Z, Con
 std::uint64_t HierarchicalMatrix::memory_bytes() const {
     std::uint64_t bytes = 0;
     for (const Block& block : blocks_)
-        bytes += 8 * static_cast<std::uint64_t>(block.near.size()) +
-                 4 * static_cast<std::uint64_t>(block.U.size() + block.V.size());
+        bytes += 8 * static_cast<std::uint64_t>(block.near.size()) + block.U.memory_bytes() + block.V.memory_bytes();
     return bytes;
 }
 

@@ -18,7 +18,7 @@ struct HierarchicalOptions {
 };
 
 /// A matrix of 3 x 3 blocks in blocks of two cluster trees: dense where both clusters are near each other, of low rank
-/// elsewhere (the far field, kept in single precision: its tolerance is above that of a float). Rows and columns of
+/// elsewhere (the far field, in single precision where its tolerance is above that of a float). Rows and columns of
 /// every function below are in the order of the trees, not in that of the items. Immutable after construction; any
 /// thread may use it.
 class HierarchicalMatrix {

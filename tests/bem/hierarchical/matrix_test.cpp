@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <Eigen/SparseCore>
 #include <memory>
 #include <numeric>
@@ -205,6 +206,46 @@ SparseColumns sparse_columns(Eigen::Index n_rows) {
     SparseColumns Z(n_rows, 29);
     Z.setFromTriplets(entries.begin(), entries.end());
     return Z;
+}
+
+/// Inverse distances of points on a line.
+class InverseDistances : public BlockEntries {
+public:
+    explicit InverseDistances(const ClusterTree& tree) : tree_(tree) {}
+    void fill(PositionRange rows, PositionRange cols, Eigen::Ref<Eigen::MatrixXd> out) const override {
+        for (int i = 0; i < rows.size(); ++i)
+            for (int j = 0; j < cols.size(); ++j) {
+                const int at = tree_.order()[static_cast<std::size_t>(rows.begin + i)];
+                const int to = tree_.order()[static_cast<std::size_t>(cols.begin + j)];
+                out.block<3, 3>(3 * i, 3 * j) = Eigen::Matrix3d::Identity() / (1.0 + std::abs(at - to));
+            }
+    }
+
+private:
+    const ClusterTree& tree_;
+};
+
+/// Single precision would leave 3e-8.
+TEST(HierarchicalMatrix, KeepsTolerancesBelowSinglePrecision) {
+    std::vector<Eigen::AlignedBox3d> boxes;
+    for (int i = 0; i < 400; ++i) boxes.emplace_back(Eigen::Vector3d(i, 0, 0), Eigen::Vector3d(i, 0, 0));
+    const auto tree = std::make_shared<const ClusterTree>(boxes, 16);
+    const InverseDistances entries(*tree);
+    Eigen::MatrixXd truth(1200, 1200);
+    entries.fill({0, 400}, {0, 400}, truth);
+    const Eigen::MatrixXd X = Eigen::MatrixXd::Random(1200, 2);
+    std::vector<int> even;
+    for (int i = 0; i < 400; i += 2) even.push_back(i);
+    Control control;
+    for (const double tolerance : {1e-5, 1e-11}) {
+        const HierarchicalMatrix A(tree, tree, false, entries, {.tolerance = tolerance}, control);
+        EXPECT_LT(relative(A.product(X), truth * X), tolerance);
+        EXPECT_LT(relative(A.transposed_product(X), truth.transpose() * X), tolerance);
+        std::vector<int> of_even;
+        for (const int i : even)
+            for (int k = 0; k < 3; ++k) of_even.push_back(3 * i + k);
+        EXPECT_LT(relative(A.submatrix(even, even), truth(of_even, of_even)), tolerance);
+    }
 }
 
 TEST(HierarchicalMatrix, GivesPartsAndProductsWithSparseColumns) {
