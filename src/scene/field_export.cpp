@@ -58,14 +58,25 @@ std::vector<MeshField> cell_stresses(const TetMesh& rest, const Eigen::Ref<const
     return {{"stress", std::move(stress)}, {"von_mises", std::move(size)}};
 }
 
+/// Throws where a field is not finite: stresses that overflow, of a modulus near the end of the range of numbers.
+std::vector<MeshField> finite(std::vector<MeshField> fields, const std::string& body) {
+    for (const MeshField& field : fields)
+        if (!field.values.allFinite())
+            throw SolveError(body + ": the field " + field.name +
+                             " is beyond double precision. Choose another unit of force, or smaller motions.");
+    return fields;
+}
+
 void write_inside(std::ostream& out, const fs::path& name, const SolvedBody& solved, Control& control) {
     const std::shared_ptr<const Volume> volume = Volume::of(solved.model, control);
     if (!volume)
         throw Error(one_line(name.string()) + ": " + std::string(elastolab::name(solved.model->method().kind)) +
                     " has no tetrahedra inside. Choose .vtp, or a finite-element method.");
     const Eigen::VectorXd u = volume->displace(solved.simulated_displacement);
-    const std::vector<MeshField> cells = cell_stresses(volume->mesh(), as_columns(u), solved.model->body().material,
-                                                       !solved.model->method().kind->linear);
+    const Body& body = solved.model->body();
+    const std::vector<MeshField> cells = finite(cell_stresses(volume->mesh(), as_columns(u), body.material,
+                                                              !solved.model->method().kind->linear),
+                                                body.name);
     TetMesh moved = volume->mesh();
     moved.vertices += as_columns(u);
     const std::vector<MeshField> points = {{"displacement", as_columns(u)}};
@@ -91,10 +102,11 @@ std::vector<MeshField> surface_fields(const SolvedBody& solved) {
     const bool large = !solved.model->method().kind->linear;
     const Eigen::VectorXd size =
         surface_stress_measure(StressMeasure::von_mises, *body.surface, body.material, u, tractions, large);
-    return {{"displacement", as_columns(solved.displacement)},
-            {"von_mises", as_shown(solved, size.transpose())},
-            {"traction", as_shown(solved, tractions)},
-            {"stress", as_shown(solved, surface_stress(*body.surface, body.material, u, tractions, large))}};
+    return finite({{"displacement", as_columns(solved.displacement)},
+                   {"von_mises", as_shown(solved, size.transpose())},
+                   {"traction", as_shown(solved, tractions)},
+                   {"stress", as_shown(solved, surface_stress(*body.surface, body.material, u, tractions, large))}},
+                  body.name);
 }
 
 void write_field_file(std::ostream& out, const fs::path& name, const SolvedBody& solved, Control& control) {

@@ -1,5 +1,6 @@
 #include "scene/setup.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include "base/error.hpp"
@@ -176,6 +177,10 @@ void require_usable(const SceneMesh& mesh, MethodKind kind) {
 }
 
 void require_material(const Material& material, MethodKind kind, const fs::path& scene_file) {
+    if (!std::isnormal(material.young_modulus))
+        fail(scene_file, "/material/young_modulus",
+             "is " + exact(material.young_modulus) +
+                 ", below the range of numbers that keep all their digits. Choose another unit of force.");
     if (const std::string why = refusal({.kind = kind}, material.poisson_ratio); !why.empty())
         throw SceneError(one_line(place(scene_file, "/material/" + why)));
 }

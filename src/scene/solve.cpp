@@ -216,22 +216,24 @@ Solution solve(const SolveRequest& request, Control& control) {
     if (solution.n_constrained == 0)
         solution.findings.push_back({.kind = FindingKind::nothing_constrained, .object = request.scene_file.string()});
     Method method = request.method;
-    if (request.solve_once) {
-        try {
-            method.update = Update::direct;
-            precompute_model(method, body, solution, control);
-            apply(constraints, request.with_checks, solution, control);
-            if (request.with_checks) gauge(mesh, shown, constraints, solution, control);
-            if (carried) carry_back(*carried, solution);
-            return solution;
-        } catch (const NotHeldError&) {
-            method.update = Update::reduced;
-        }
+    const auto solve_by = [&](Update update) {
+        method.update = update;
+        precompute_model(method, body, solution, control);
+        apply(constraints, request.with_checks, solution, control);
+        if (request.with_checks) gauge(mesh, shown, constraints, solution, control);
+        if (carried) carry_back(*carried, solution);
+    };
+    if (!request.solve_once) {
+        solve_by(method.update);
+        return solution;
     }
-    precompute_model(method, body, solution, control);
-    apply(constraints, request.with_checks, solution, control);
-    if (request.with_checks) gauge(mesh, shown, constraints, solution, control);
-    if (carried) carry_back(*carried, solution);
+    const Findings known = solution.findings;
+    try {
+        solve_by(Update::direct);
+    } catch (const NotHeldError&) {  // what it took is counted, what it found is found again
+        solution.findings = known;
+        solve_by(Update::reduced);
+    }
     return solution;
 }
 

@@ -259,8 +259,8 @@ std::vector<Handle> read_handles(const JsonNode& node) {
 }  // namespace
 
 Document parse_scene(std::string_view text, const std::string& name) {
-    const Json json = parse_json(text, name);
-    const JsonNode root(json, "", name);
+    const JsonTree json = parse_json(text, name);
+    const JsonNode root(json.value, "", name);
     root.require_keys({"elastolab", "mesh", "material", "method", "fixed", "handles", "proxy", "camera"});
     read_version(root);
     Document document;
