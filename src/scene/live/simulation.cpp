@@ -317,7 +317,6 @@ void Simulation::gauge_theory(const LiveScene& scene) {
     gauge_carried_->set(asked);
     body.surface = proxy->surface;
     gauge_.update(body, gauge_carried_->constraints().set, wish_of(gauge_carried_->constraints()));
-    }
 }
 
 /// Only when every shown method is ready, and one at a time: what is looked at comes first.

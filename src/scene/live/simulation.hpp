@@ -142,7 +142,7 @@ private:
     EmbeddedRunner finite_preview_;
     MethodKind finite_ = nullptr;  ///< the method on the screen that it answers for, if any
     TheoryGauge gauge_;
-    Wish gauged_;  ///< of the scene, that it was asked about
+    Wish gauged_;                                 ///< of the scene, that it was asked about
     std::weak_ptr<const SurfaceMesh> gauged_on_;  ///< the scene it was needed for
     std::optional<CarriedConstraints> gauge_carried_;
 };
