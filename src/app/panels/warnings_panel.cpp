@@ -12,6 +12,7 @@
 #include "app/panels/widgets.hpp"
 #include "base/text.hpp"
 #include "findings/words.hpp"
+#include "methods/registry.hpp"
 #include "scene/live/theory_gauge.hpp"
 
 namespace elastolab {
@@ -20,14 +21,11 @@ namespace {
 
 constexpr float kMostOfPanel = 0.3f;  ///< of its height; more is scrolled to
 
-/// Errors of linear theory below this are not told.
-constexpr double kToldError = 0.02;
-
 /// How far linear theory is off for what is shown, in the words of a student; empty where it is hardly off.
 std::string theory_words(const ViewerState& state) {
     const std::optional<TheoryError>& error = state.simulation.theory_error();
-    if (!error || (!error->crushed && error->relative < kToldError)) return "";
-    const std::string motion = error->turns ? "this turn" : "this pull", better = title(finite_method());
+    if (!error || (!error->crushed && error->relative < kSilentLinearTheory)) return "";
+    const std::string motion = error->turns ? "this turn" : "this pull", better = title(kNonlinearFem);
     if (error->crushed)
         return "Linear theory cannot be right for " + motion + ": " + better +
                " finds no equilibrium, a rubber body would be crushed.";
@@ -57,7 +55,7 @@ std::vector<Panels::Warning> Panels::present_warnings(const ViewerState& state) 
     for (const std::string& text : words(state.simulation.embedded(state.method).findings()))
         warnings.push_back({text, false});
     if (const std::string theory = theory_words(state); !theory.empty() && state.method->linear)
-        warnings.insert(warnings.begin(), {theory, false, finite_method()});
+        warnings.insert(warnings.begin(), {theory, false, kNonlinearFem});
     const std::string& name = state.scene().name();
     for (Warning& warning : warnings)
         if (warning.text.starts_with(name))
@@ -97,7 +95,8 @@ float Panels::draw_warnings(const PanelContext& context) {
         paragraph(warning.text, warning.is_problem ? context.palette.bad : context.palette.busy);
         if (!warning.better) continue;
         if (ImGui::Button(("Switch to " + title(warning.better)).c_str())) state.select_method(warning.better);
-        tooltip("Both computed on the preview's mesh; the difference of all displacements, root mean square.");
+        tooltip(
+            "Both theories on a coarse mesh: the largest difference of a displacement, over the largest displacement.");
     }
     ImGui::End();
     return height;

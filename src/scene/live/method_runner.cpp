@@ -139,7 +139,10 @@ void MethodRunner::follow() {
     if (!exact && (sets_.crushed() || !set.drag || !set.drag->has(sets_.wanted_values()))) return;
     set.drag->displace(sets_.wanted_values(), displacement_);
     following_ = !exact;
-    if (exact) failure_.clear();
+    if (exact) {
+        failure_.clear();
+        set.crushed.reset();
+    }
     take_values(sets_.wanted_values(), true);
 }
 

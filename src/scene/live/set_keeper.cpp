@@ -21,7 +21,9 @@ Positions handle_positions(const Deformer& deformer) {
     return deformer.model().body().surface->vertices(Eigen::all, deformer.set().handles);
 }
 
-double first_tolerance(const Deformer& deformer) { return deformer.iterates() ? kFirstTolerance : kSolveTolerance; }
+double first_tolerance(const Deformer& deformer) {
+    return deformer.iterates() || !deformer.linear() ? kFirstTolerance : kSolveTolerance;
+}
 
 /// Where no columns are kept, a grab would integrate and take seconds: the worker solves, not the watcher.
 void solve_ahead(PreparedSet& prepared, const Wish& wish, Control& control) {

@@ -137,8 +137,9 @@ bool Simulation::update_finite_preview(const LiveScene& scene) {
     const std::uint64_t before = finite_preview_.version();
     if (!give_preview_body(finite_preview_, {}, finite_, finite_ != nullptr, scene))
         return finite_preview_.version() != before;
-    if (const MethodRunner& method = runner(finite_); !method.has_set() || method.is_slow())
-        finite_preview_.set_constraints(scene.constraints());
+    const MethodRunner& method = runner(finite_);
+    finite_follows_ = !method.has_set() || method.is_slow();
+    if (finite_follows_) finite_preview_.set_constraints(scene.constraints());
     finite_preview_.poll();
     return finite_preview_.version() != before;
 }
@@ -212,7 +213,7 @@ bool Simulation::choose_answer(Entry& entry) const {
     const bool before = entry.previewing;
     const bool ready = entry.runner->runner().answers() && !entry.waits_for_preview;
     const EmbeddedRunner& coarser = preview(entry.kind);
-    if (ready)
+    if (ready || entry.runner->runner().crushed())
         entry.previewing = false;
     else if (has_preview(entry.kind) && coarser.runner().answers())
         entry.previewing = true;
@@ -317,7 +318,6 @@ void Simulation::gauge_theory(const LiveScene& scene) {
     gauge_carried_->set(asked);
     body.surface = proxy->surface;
     gauge_.update(body, gauge_carried_->constraints().set, wish_of(gauge_carried_->constraints()));
-    }
 }
 
 /// Only when every shown method is ready, and one at a time: what is looked at comes first.

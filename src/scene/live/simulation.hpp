@@ -122,7 +122,7 @@ private:
     bool give_preview_body(EmbeddedRunner& preview, Method method, MethodKind fallback, bool wanted,
                            const LiveScene& scene) const;
     bool update_finite_preview(const LiveScene& scene);
-    bool has_preview(MethodKind kind) const { return kind->linear ? has_preview_ : finite_ != nullptr; }
+    bool has_preview(MethodKind kind) const { return kind->linear ? has_preview_ : finite_ && finite_follows_; }
     bool update_method(Entry& entry, const LiveScene& scene, const MethodChoices& choices, bool may_begin);
     bool choose_answer(Entry& entry) const;
     bool give_body(Entry& entry, const LiveScene& scene, const MethodChoices& choices);
@@ -141,8 +141,9 @@ private:
     bool has_preview_ = false;  ///< this scene is worth one
     EmbeddedRunner finite_preview_;
     MethodKind finite_ = nullptr;  ///< the method on the screen that it answers for, if any
+    bool finite_follows_ = false;  ///< it is asked what the scene asks for, as the method cannot follow
     TheoryGauge gauge_;
-    Wish gauged_;  ///< of the scene, that it was asked about
+    Wish gauged_;                                 ///< of the scene, that it was asked about
     std::weak_ptr<const SurfaceMesh> gauged_on_;  ///< the scene it was needed for
     std::optional<CarriedConstraints> gauge_carried_;
 };
