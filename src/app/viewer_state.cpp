@@ -171,11 +171,18 @@ std::string ViewerState::selected_fixed_name() const {
     return set >= 0 && set < scene_->n_fixed_sets() ? scene_->fixed_name(set) : "";
 }
 
-/// After undo and redo: the numbers of handles and sets may mean others, the name of a set does not.
-void ViewerState::take_step(const std::string& selected_fixed_set) {
+std::string ViewerState::selected_handle_name() const {
+    const int handle = gestures.selected_handle();
+    return handle >= 0 && handle < scene_->n_handles() ? scene_->handle_name(handle) : "";
+}
+
+/// After undo and redo: the numbers of handles and sets may mean others, their names do not.
+void ViewerState::take_step(const std::string& selected_handle, const std::string& selected_fixed_set) {
     take_method();
     gestures.select_handle(-1);
     gestures.keep_fixed(-1);
+    for (int handle = 0; handle < scene_->n_handles(); ++handle)
+        if (scene_->handle_name(handle) == selected_handle) gestures.select_handle(handle);
     for (int set = 0; set < scene_->n_fixed_sets(); ++set)
         if (scene_->fixed_name(set) == selected_fixed_set) gestures.keep_fixed(set);
 }
@@ -183,17 +190,17 @@ void ViewerState::take_step(const std::string& selected_fixed_set) {
 void ViewerState::undo() {
     finish_gesture();
     keep_method();
-    const std::string selected = selected_fixed_name();
+    const std::string handle = selected_handle_name(), set = selected_fixed_name();
     if (scene_->can_undo()) scene_->undo();
-    take_step(selected);
+    take_step(handle, set);
 }
 
 void ViewerState::redo() {
     finish_gesture();
     keep_method();
-    const std::string selected = selected_fixed_name();
+    const std::string handle = selected_handle_name(), set = selected_fixed_name();
     if (scene_->can_redo()) scene_->redo();
-    take_step(selected);
+    take_step(handle, set);
 }
 
 void ViewerState::remove_handle(int handle) {

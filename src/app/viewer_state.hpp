@@ -172,6 +172,10 @@ public:
     bool loading() const { return load_job_.running(); }
     /// The file that is being opened, or was last.
     const std::filesystem::path& loading_file() const { return pending_file_; }
+    /// The file that a worker writes; empty when none does.
+    std::filesystem::path exported_file() const {
+        return export_job_.running() ? export_file_ : std::filesystem::path();
+    }
     /// The first file is being opened: until it is there, nothing is shown that could be pulled.
     bool blank() const { return loading() && !simulated_; }
     /// A worker will bring something for the picture.
@@ -195,7 +199,8 @@ private:
     void keep_method();
     void take_method();
     std::string selected_fixed_name() const;
-    void take_step(const std::string& selected_fixed_set);
+    std::string selected_handle_name() const;
+    void take_step(const std::string& selected_handle, const std::string& selected_fixed_set);
     void add_recent(const std::filesystem::path& file);
     /// False when it failed, which becomes a message.
     template <class Action>
@@ -215,6 +220,7 @@ private:
     std::optional<MethodKind> first_method_;
     std::optional<AutosavedScene> recovering_, recovered_;
     BackgroundJob<std::shared_ptr<LoadedScene>> load_job_;
+    std::filesystem::path export_file_;      ///< that export_job_ writes
     BackgroundJob<std::string> export_job_;  ///< with its note
 };
 

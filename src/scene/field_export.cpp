@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <Eigen/LU>
+#include <utility>
 
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
@@ -100,12 +101,14 @@ std::vector<MeshField> surface_fields(const SolvedBody& solved) {
     const Eigen::Matrix3Xd tractions = vertex_tractions(*body.surface, solved.constrained, solved.forces);
     const Eigen::VectorXd& u = solved.simulated_displacement;
     const bool large = !solved.model->method().kind->linear;
-    const Eigen::VectorXd size =
-        surface_stress_measure(StressMeasure::von_mises, *body.surface, body.material, u, tractions, large);
+    Eigen::MatrixXd stress = as_shown(solved, surface_stress(*body.surface, body.material, u, tractions, large));
+    Eigen::MatrixXd size(1, stress.cols());
+    for (Eigen::Index v = 0; v < stress.cols(); ++v)
+        size(0, v) = measure(StressMeasure::von_mises, stress_tensor(stress.col(v)));
     return finite({{"displacement", as_columns(solved.displacement)},
-                   {"von_mises", as_shown(solved, size.transpose())},
+                   {"von_mises", std::move(size)},
                    {"traction", as_shown(solved, tractions)},
-                   {"stress", as_shown(solved, surface_stress(*body.surface, body.material, u, tractions, large))}},
+                   {"stress", std::move(stress)}},
                   body.name);
 }
 

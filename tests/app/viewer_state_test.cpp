@@ -248,11 +248,20 @@ TEST(ViewerState, ExportsFieldsOfTheAnswerOnAWorker) {
     EXPECT_NEAR(values[4], 0.5, 1e-12);
     EXPECT_GT(values[7], 0.0) << "von Mises";
 
+    stage.state.export_mesh(folder.path() / "first.vtp");
+    EXPECT_EQ(stage.state.exported_file(), folder.path() / "first.vtp");
+    stage.state.export_mesh(folder.path() / "second.vtp");
+    EXPECT_EQ(n_errors(stage.state), 1) << "the first is still being written";
+    EXPECT_THAT(stage.state.messages.all().back().text, HasSubstr("first.vtp is still being written"));
+    stage.settle();
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "first.vtp"));
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "second.vtp"));
+
     stage.state.method = kLinearBem;
     stage.settle();
     stage.state.export_mesh(folder.path() / "none.vtu");
     stage.settle();
-    EXPECT_EQ(n_errors(stage.state), 1);
+    EXPECT_EQ(n_errors(stage.state), 2);
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "none.vtu"));
 }
 

@@ -13,6 +13,7 @@ namespace elastolab {
 namespace {
 
 constexpr double kRadians = std::numbers::pi / 180.0;  ///< of a degree
+constexpr double kNoAngle = 1e-9;                      ///< [radians] less is rounding
 
 /// A ring at a vertex with words beside it, which turn to the left where there is no room.
 void draw_mark(const PanelContext& context, ImDrawList& list, const Viewport& viewport, const Eigen::Vector3d& place,
@@ -75,7 +76,9 @@ void draw_gizmo(const PanelContext& context, ImDrawList& list, const Viewport& v
     }
     if (!drag || drag->gizmo.handle != gizmo.handle) return;
     const bool moves = drag->part.kind == GizmoPart::Kind::arrow;
-    const std::string amount = moves ? number_text(drag->amount) : number_text(drag->amount / kRadians) + "\u00b0";
+    const std::string amount =
+        moves ? number_text(drag->amount)
+              : number_text(std::abs(drag->amount) < kNoAngle ? 0.0 : drag->amount / kRadians) + "\u00b0";
     draw_mark(context, list, viewport, gizmo.center, context.palette.text,
               (moves ? "moved by " : "turned by ") + amount);
 }
