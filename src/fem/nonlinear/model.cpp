@@ -121,7 +121,8 @@ std::unique_ptr<ConstrainedSolid> NonlinearModel::constrain(std::span<const int>
     checks.residual = [its = solver.get()](const NodeSolution& solution, Control& its_control) {
         ElementWork work = its->elements().make_work();
         const Eigen::VectorXd u = solution.displacements.col(0);
-        return its->newton().residual(u, its->elements().forces(u, its->newton().material(), work, its_control));
+        return its->newton().residual(u.lpNorm<Eigen::Infinity>(),
+                                      its->elements().forces(u, its->newton().material(), work, its_control));
     };
     checks.reference = [mesh = mesh_, its = material(), vertices = nodes.vertices](
                            const Eigen::VectorXd&, const NodeSolution& solution, Control& its_control) {

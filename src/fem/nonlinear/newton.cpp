@@ -17,12 +17,11 @@ constexpr double kNoForce = 1e-5;
 
 }  // namespace
 
-double Newton::residual(const Eigen::VectorXd& u, const Eigen::VectorXd& forces) const {
+double Newton::residual(double size, const Eigen::VectorXd& forces) const {
     const double free = tangent_->free_rows(forces).norm();
     const double constrained = std::sqrt(std::max(forces.squaredNorm() - free * free, 0.0));
-    const double floor = kNoForce * material_.young_modulus * u.lpNorm<Eigen::Infinity>() * tangent_->elements().edge();
-    const double size = constrained + floor;
-    return size > 0.0 ? free / size : (free > 0.0 ? 1.0 : 0.0);
+    const double whole = constrained + kNoForce * material_.young_modulus * size * tangent_->elements().edge();
+    return whole > 0.0 ? free / whole : (free > 0.0 ? 1.0 : 0.0);
 }
 
 std::shared_ptr<const SparseCholesky> Newton::factor_at(const Eigen::VectorXd& u, ElementWork& work, SparseMatrix& K,
@@ -51,7 +50,8 @@ NewtonState Newton::run(Eigen::VectorXd u, double tolerance, int most_iterations
     SparseMatrix K = tangent_->make_matrix();
     BodyEnergy energy = this->energy(state.u, work, control);
     Eigen::VectorXd forces = tangent_->elements().forces(state.u, material_, work, control);
-    state.residual = residual(state.u, forces);
+    const double size = state.u.lpNorm<Eigen::Infinity>();
+    state.residual = residual(size, forces);
     const double first = std::log(std::max(state.residual, tolerance));
     while (state.residual > tolerance && state.iterations < most_iterations) {
         control.set_progress(first > std::log(tolerance) ? 1.0 - (std::log(state.residual) - std::log(tolerance)) /
@@ -72,7 +72,7 @@ NewtonState Newton::run(Eigen::VectorXd u, double tolerance, int most_iterations
         const BodyEnergy next_energy = this->energy(next, work, control);
         if (!std::isfinite(next_energy.energy)) break;
         const Eigen::VectorXd next_forces = tangent_->elements().forces(next, material_, work, control);
-        const double next_residual = residual(next, next_forces);
+        const double next_residual = residual(size, next_forces);
         if (state.residual <= kRoundedEnergy && !(next_residual < state.residual)) break;
         state.u = next;
         energy = next_energy;

@@ -47,8 +47,8 @@ public:
     BodyEnergy energy(const Eigen::VectorXd& u, ElementWork& work, Control& control) const {
         return tangent_->elements().energy(u, material_, work, control);
     }
-    /// Residual of these forces at all nodes, for displacements u.
-    double residual(const Eigen::VectorXd& u, const Eigen::VectorXd& forces) const;
+    /// Residual of these forces at all nodes. size: of the displacements, below which part of it forces are rounding.
+    double residual(double size, const Eigen::VectorXd& forces) const;
     const FreeTangent& tangent() const { return *tangent_; }
     const std::shared_ptr<const FreeTangent>& shared_tangent() const { return tangent_; }
     const Material& material() const { return material_; }

@@ -14,7 +14,7 @@ namespace {
 constexpr double kStepAngle = std::numbers::pi / 6.0;
 /// Residual to which equilibria on the way are found.
 constexpr double kPassing = 1e-3;
-constexpr int kMostIterations = 40, kMostPassing = 15, kMostAltogether = 400;
+constexpr int kMostIterations = 40, kMostPassing = 30, kMostAltogether = 400;
 /// Steps shorter than this part of the way are given up.
 constexpr double kShortestPart = 1.0 / 512.0;
 /// Residual at which a tangent was taken, up to which its columns are those of the solution.

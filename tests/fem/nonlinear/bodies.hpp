@@ -33,6 +33,18 @@ inline Eigen::VectorXd affine(const FiniteElements& elements, const Eigen::Matri
     return u.reshaped();
 }
 
+/// Displacements at the nodes of `others`, all of which are nodes of `elements` as well.
+inline Eigen::VectorXd at_nodes(const FiniteElements& elements, const Eigen::VectorXd& u,
+                                const FiniteElements& others) {
+    Eigen::VectorXd result(3 * others.n_nodes());
+    for (int node = 0; node < others.n_nodes(); ++node) {
+        Eigen::Index nearest = 0;
+        (elements.positions().colwise() - others.positions().col(node)).colwise().squaredNorm().minCoeff(&nearest);
+        result.segment<3>(3 * node) = u.segment<3>(3 * nearest);
+    }
+    return result;
+}
+
 inline Eigen::Matrix3d rotation(const Eigen::Vector3d& axis, double degrees) {
     return Eigen::AngleAxisd(degrees * std::numbers::pi / 180.0, axis.normalized()).toRotationMatrix();
 }
@@ -64,9 +76,10 @@ struct HeldBar {
     }
     /// The end turns about z and follows the arc of a bar of constant curvature.
     Eigen::VectorXd bent(double degrees) const {
-        const double angle = degrees * std::numbers::pi / 180.0, radius = angle == 0.0 ? 0.0 : 4.0 / angle;
+        if (degrees == 0.0) return twisted(0.0);
+        const double angle = degrees * std::numbers::pi / 180.0, radius = 4.0 / angle;
         const Eigen::Vector3d middle(4.0, 0.5, 0.5),
-            end(radius * std::sin(angle), 0.5 + radius * (1 - std::cos(angle)), 0.5);
+            end(radius * std::sin(angle), 0.5 + radius * (1.0 - std::cos(angle)), 0.5);
         return moved(rotation(Eigen::Vector3d::UnitZ(), degrees), middle, end - middle);
     }
     NodeSolution solve(const Eigen::VectorXd& values, const NodeState* start = nullptr, double tolerance = 1e-8) const {

@@ -28,8 +28,8 @@ Matrix3d random_gradient(std::mt19937& random, double size) {
 
 class EachDegree : public testing::TestWithParam<ElementDegree> {};
 INSTANTIATE_TEST_SUITE_P(Elements, EachDegree, testing::Values(ElementDegree::linear, ElementDegree::quadratic),
-                         [](const auto& info) {
-                             return info.param == ElementDegree::linear ? "FourNodes" : "TenNodes";
+                         [](const auto& degree) {
+                             return degree.param == ElementDegree::linear ? "FourNodes" : "TenNodes";
                          });
 
 TEST(NeoHookean, StressIsTheDerivativeOfTheEnergyAndTheTangentThatOfTheStress) {
