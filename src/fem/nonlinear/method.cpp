@@ -7,8 +7,8 @@ namespace elastolab {
 
 namespace {
 
-constexpr std::array kModes = {Mode::on_demand};
-constexpr std::array kUpdates = {Update::direct, Update::reduced};
+constexpr std::array kNonlinearModes = {Mode::on_demand};
+constexpr std::array kNonlinearUpdates = {Update::direct, Update::reduced};
 
 }  // namespace
 
@@ -19,8 +19,8 @@ constinit const MethodTraits kNonlinearFemTraits = {
     .matrix = "tangent stiffness",
     .cheaper = "four-node elements, which have an eighth of the unknowns",
     .against_coarseness = "Halve the triangles along the rims of the constrained patches.",
-    .modes = kModes,
-    .updates = kUpdates,
+    .modes = kNonlinearModes,
+    .updates = kNonlinearUpdates,
     .linear = false,
     .chooses_elements = true,
     .has_inside = true,

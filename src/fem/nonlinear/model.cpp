@@ -11,9 +11,9 @@ namespace {
 
 /// Error that ten-node elements leave, over how much they change the answer of four-node ones; that of linear theory
 /// (fem/error_estimate.cpp).
-constexpr double kLeftByQuadratic = 0.45;
+constexpr double kLeftByTenNodes = 0.45;
 /// Factors that are held at once: at rest, of the equilibria that are remembered, and the next one.
-constexpr std::uint64_t kFactors = 5;
+constexpr std::uint64_t kHeldFactors = 5;
 constexpr int kCheckIterations = 30;
 
 std::shared_ptr<const TetMesh> tets_of(const std::shared_ptr<const NonlinearMesh>& mesh) { return {mesh, &mesh->tets}; }
@@ -80,7 +80,7 @@ std::optional<ReferenceAnswer> linear_answer(const NonlinearMesh& mesh, const Ma
     return ReferenceAnswer{
         state.u.head(3 * mesh.n_vertices()),
         gathered_reactions(nodal_shares(present, vertices), static_cast<int>(vertices.size()), at_vertices),
-        -kLeftByQuadratic};
+        -kLeftByTenNodes};
 }
 
 }  // namespace
@@ -140,7 +140,7 @@ std::uint64_t NonlinearModel::constrain_memory(std::span<const int>, std::span<c
     const auto n = static_cast<std::uint64_t>(mesh_->elements->nodes_per_element());
     // The element blocks of an assembly, the tangent, and factors.
     const std::uint64_t work = static_cast<std::uint64_t>(mesh_->elements->n_elements()) * 8 * (9 * n * n + 6 * n);
-    return kFactors * factor_bytes_ + 2 * work;
+    return kHeldFactors * factor_bytes_ + 2 * work;
 }
 
 std::uint64_t NonlinearModel::check_memory(std::span<const int>, std::span<const int>) const {

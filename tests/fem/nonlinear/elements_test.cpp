@@ -17,17 +17,17 @@ using test::affine;
 using test::elements_of_box;
 using test::rotation;
 
-constexpr double kStep = 1e-5;  // central differences: third derivatives times its square, 1e-10
-constexpr double kDifference = 1e-8;
-constexpr double kRounding = 1e-12;
+constexpr double kDifferenceStep = 1e-5;  // central differences: third derivatives times its square, 1e-10
+constexpr double kDifferenceError = 1e-8;
+constexpr double kElementRounding = 1e-12;
 
 Matrix3d random_gradient(std::mt19937& random, double size) {
     std::uniform_real_distribution<double> uniform(-size, size);
     return Matrix3d::NullaryExpr([&] { return uniform(random); });
 }
 
-class EachDegree : public testing::TestWithParam<ElementDegree> {};
-INSTANTIATE_TEST_SUITE_P(Elements, EachDegree, testing::Values(ElementDegree::linear, ElementDegree::quadratic),
+class MaterialElements : public testing::TestWithParam<ElementDegree> {};
+INSTANTIATE_TEST_SUITE_P(Elements, MaterialElements, testing::Values(ElementDegree::linear, ElementDegree::quadratic),
                          [](const auto& degree) {
                              return degree.param == ElementDegree::linear ? "FourNodes" : "TenNodes";
                          });
@@ -41,10 +41,11 @@ TEST(NeoHookean, StressIsTheDerivativeOfTheEnergyAndTheTangentThatOfTheStress) {
         const ElasticTensor A = law.tangent(H);
         for (int k = 0; k < 9; ++k) {
             Matrix3d step = Matrix3d::Zero();
-            step(k % 3, k / 3) = kStep;
-            EXPECT_NEAR((law.energy(H + step) - law.energy(H - step)) / (2 * kStep), P(k % 3, k / 3), kDifference);
-            const Matrix3d dP = (law.first_piola(H + step) - law.first_piola(H - step)) / (2 * kStep);
-            EXPECT_LT((Eigen::Map<const Eigen::Vector<double, 9>>(dP.data()) - A.col(k)).norm(), 10 * kDifference);
+            step(k % 3, k / 3) = kDifferenceStep;
+            EXPECT_NEAR((law.energy(H + step) - law.energy(H - step)) / (2 * kDifferenceStep), P(k % 3, k / 3),
+                        kDifferenceError);
+            const Matrix3d dP = (law.first_piola(H + step) - law.first_piola(H - step)) / (2 * kDifferenceStep);
+            EXPECT_LT((Eigen::Map<const Eigen::Vector<double, 9>>(dP.data()) - A.col(k)).norm(), 10 * kDifferenceError);
         }
     }
 }
@@ -78,10 +79,10 @@ TEST(NeoHookean, CauchyStressAgreesWithHookeForSmallStrainsAndTurnsWithTheBody) 
     EXPECT_LT((law.cauchy(G) - hooke_stress).norm(), 1e-6 * hooke_stress.norm());
     const Matrix3d H = random_gradient(random, 0.3), R = rotation({1, 2, 3}, 77);
     const Matrix3d turned = R * (Matrix3d::Identity() + H) - Matrix3d::Identity();
-    EXPECT_LT((law.cauchy(turned) - R * law.cauchy(H) * R.transpose()).norm(), kRounding);
+    EXPECT_LT((law.cauchy(turned) - R * law.cauchy(H) * R.transpose()).norm(), kElementRounding);
 }
 
-TEST_P(EachDegree, ForcesAreTheGradientOfTheEnergyAndTheStiffnessThatOfTheForces) {
+TEST_P(MaterialElements, ForcesAreTheGradientOfTheEnergyAndTheStiffnessThatOfTheForces) {
     const auto elements = elements_of_box({2, 2, 2}, {1, 1, 1}, GetParam(), 0.1);
     const Material material{1.0, 0.35};
     ElementWork work = elements->make_work();
@@ -97,24 +98,24 @@ TEST_P(EachDegree, ForcesAreTheGradientOfTheEnergyAndTheStiffnessThatOfTheForces
     const Eigen::VectorXd f = elements->forces(u, material, work, control);
     for (int trial = 0; trial < 4; ++trial) {
         const Eigen::VectorXd d = noise(1.0);
-        const double rise = (elements->energy(u + kStep * d, material, work, control).energy -
-                             elements->energy(u - kStep * d, material, work, control).energy) /
-                            (2 * kStep);
+        const double rise = (elements->energy(u + kDifferenceStep * d, material, work, control).energy -
+                             elements->energy(u - kDifferenceStep * d, material, work, control).energy) /
+                            (2 * kDifferenceStep);
         EXPECT_NEAR(rise, f.dot(d), 1e-7 * std::abs(rise));
-        const Eigen::VectorXd change = (elements->forces(u + kStep * d, material, work, control) -
-                                        elements->forces(u - kStep * d, material, work, control)) /
-                                       (2 * kStep);
+        const Eigen::VectorXd change = (elements->forces(u + kDifferenceStep * d, material, work, control) -
+                                        elements->forces(u - kDifferenceStep * d, material, work, control)) /
+                                       (2 * kDifferenceStep);
         const Eigen::VectorXd Kd = elements->force_change(u, d, material, work, control);
         EXPECT_LT((change - Kd).norm(), 1e-7 * Kd.norm());
         const FreeTangent tangent(elements, {}, control);
         SparseMatrix K = tangent.make_matrix();
         elements->stiffness(u, material, false, work, control);
         tangent.assemble(work, 0.0, K, control);
-        EXPECT_LT((K.selfadjointView<Eigen::Lower>() * d - Kd).norm(), kRounding * Kd.norm());
+        EXPECT_LT((K.selfadjointView<Eigen::Lower>() * d - Kd).norm(), kElementRounding * Kd.norm());
     }
 }
 
-TEST_P(EachDegree, RigidMotionLeavesTheEnergyAndTurnsTheForces) {
+TEST_P(MaterialElements, RigidMotionLeavesTheEnergyAndTurnsTheForces) {
     const auto elements = elements_of_box({2, 2, 2}, {1, 1, 1}, GetParam(), 0.1);
     const Material material{1.0, 0.35};
     ElementWork work = elements->make_work();
@@ -125,15 +126,15 @@ TEST_P(EachDegree, RigidMotionLeavesTheEnergyAndTurnsTheForces) {
     const Eigen::Matrix3Xd x = elements->positions() + u.reshaped(3, elements->n_nodes());
     const Eigen::VectorXd turned = ((R * x).colwise() + Eigen::Vector3d(5, -3, 2) - elements->positions()).reshaped();
     const double energy = elements->energy(u, material, work, control).energy;
-    EXPECT_NEAR(elements->energy(turned, material, work, control).energy, energy, kRounding * energy);
+    EXPECT_NEAR(elements->energy(turned, material, work, control).energy, energy, kElementRounding * energy);
     const Eigen::Matrix3Xd f = elements->forces(u, material, work, control).reshaped(3, x.cols());
     const Eigen::Matrix3Xd g = elements->forces(turned, material, work, control).reshaped(3, x.cols());
-    EXPECT_LT((g - R * f).norm(), kRounding * f.norm());
+    EXPECT_LT((g - R * f).norm(), kElementRounding * f.norm());
     const Eigen::VectorXd rigid = affine(*elements, R, {1, 2, 3});
     EXPECT_LT(elements->energy(rigid, material, work, control).energy, 1e-24);
 }
 
-TEST_P(EachDegree, HomogeneousStatesAreContained) {
+TEST_P(MaterialElements, HomogeneousStatesAreContained) {
     const auto elements = elements_of_box({2, 2, 3}, {1, 1, 2}, GetParam(), 0.1);
     const Material material{1.0, 0.3};
     const NeoHookean law(material);
@@ -145,19 +146,19 @@ TEST_P(EachDegree, HomogeneousStatesAreContained) {
         const Eigen::VectorXd u = affine(*elements, F);
         const BodyEnergy energy = elements->energy(u, material, work, control);
         const double exact = 2.0 * law.energy(F - Matrix3d::Identity());
-        EXPECT_NEAR(energy.energy, exact, kRounding * exact);
-        EXPECT_NEAR(energy.least_J, F.determinant(), kRounding);
+        EXPECT_NEAR(energy.energy, exact, kElementRounding * exact);
+        EXPECT_NEAR(energy.least_J, F.determinant(), kElementRounding);
         const Eigen::VectorXd f = elements->forces(u, material, work, control);
         for (int node = 0; node < elements->n_nodes(); ++node) {
             const Eigen::Vector3d p = elements->positions().col(node);
             if ((p.array() > 0.0).all() && (p.array() < Eigen::Array3d(1, 1, 2)).all()) {
-                EXPECT_LT(f.segment<3>(3 * node).norm(), kRounding * f.norm()) << node;
+                EXPECT_LT(f.segment<3>(3 * node).norm(), kElementRounding * f.norm()) << node;
             }
         }
     }
 }
 
-TEST_P(EachDegree, TangentAtRestIsTheLinearStiffness) {
+TEST_P(MaterialElements, TangentAtRestIsTheLinearStiffness) {
     const TetMesh mesh = test::make_tet_box({2, 2, 2}, {1, 1, 1}, 0.1);
     const auto elements = elements_of_box({2, 2, 2}, {1, 1, 1}, GetParam(), 0.1);
     const Material material{1.5, 0.3};
@@ -173,10 +174,10 @@ TEST_P(EachDegree, TangentAtRestIsTheLinearStiffness) {
                                      : assemble_stiffness_parts(QuadraticMesh(mesh), control);
     const SparseMatrix exact = stiffness(parts, material);
     const Eigen::MatrixXd whole = Eigen::MatrixXd(K).selfadjointView<Eigen::Lower>();
-    EXPECT_LT((whole - Eigen::MatrixXd(exact)).norm(), kRounding * exact.norm());
+    EXPECT_LT((whole - Eigen::MatrixXd(exact)).norm(), kElementRounding * exact.norm());
 }
 
-TEST_P(EachDegree, SmallDisplacementsKeepTheirDigits) {
+TEST_P(MaterialElements, SmallDisplacementsKeepTheirDigits) {
     const auto elements = elements_of_box({2, 2, 2}, {1, 1, 1}, GetParam(), 0.1);
     const Material material{1.0, 0.3};
     Control control;
@@ -187,7 +188,7 @@ TEST_P(EachDegree, SmallDisplacementsKeepTheirDigits) {
     EXPECT_LT((f - 1e-13 * linear).norm(), 1e-11 * f.norm());
 }
 
-TEST_P(EachDegree, VectorLanesAgreeWithPlainOnes) {
+TEST_P(MaterialElements, VectorLanesAgreeWithPlainOnes) {
     std::mt19937 random(8);
     std::uniform_real_distribution<double> uniform(-0.1, 0.1);
     const int n = GetParam() == ElementDegree::linear ? 4 : 10;
@@ -223,7 +224,7 @@ TEST_P(EachDegree, VectorLanesAgreeWithPlainOnes) {
                                {&plain.forces, &best.forces},
                                {&plain.stiffness, &best.stiffness},
                                {&plain.change, &best.change}})
-        for (std::size_t i = 0; i < a->size(); ++i) EXPECT_NEAR((*a)[i], (*b)[i], kRounding);
+        for (std::size_t i = 0; i < a->size(); ++i) EXPECT_NEAR((*a)[i], (*b)[i], kElementRounding);
 }
 
 TEST(FiniteElements, AnInvertedElementHasInfiniteEnergy) {
@@ -233,7 +234,7 @@ TEST(FiniteElements, AnInvertedElementHasInfiniteEnergy) {
     const Matrix3d mirror = Eigen::Vector3d(-0.5, 1, 1).asDiagonal();
     const BodyEnergy energy = elements->energy(affine(*elements, mirror), Material{1.0, 0.3}, work, control);
     EXPECT_TRUE(std::isinf(energy.energy));
-    EXPECT_NEAR(energy.least_J, -0.5, kRounding);
+    EXPECT_NEAR(energy.least_J, -0.5, kElementRounding);
 }
 
 }  // namespace

@@ -37,14 +37,14 @@ double lateral_stretch(const Material& material, double stretch) {
     return 0.5 * (low + high);
 }
 
-class EachDegree : public testing::TestWithParam<ElementDegree> {};
-INSTANTIATE_TEST_SUITE_P(NonlinearSolver, EachDegree, testing::Values(ElementDegree::linear, ElementDegree::quadratic),
+class BarOfDegree : public testing::TestWithParam<ElementDegree> {};
+INSTANTIATE_TEST_SUITE_P(NonlinearSolver, BarOfDegree, testing::Values(ElementDegree::linear, ElementDegree::quadratic),
                          [](const auto& degree) {
                              return degree.param == ElementDegree::linear ? "FourNodes" : "TenNodes";
                          });
 
 /// The ends move as in uniform stretch, so that all of the body does.
-TEST_P(EachDegree, UniformStretchIsExact) {
+TEST_P(BarOfDegree, UniformStretchIsExact) {
     for (const double stretch : {0.6, 1.5, 2.5}) {
         const Material material{1.0, 0.3};
         const auto elements = elements_of_box({3, 2, 2}, {2, 1, 1}, GetParam(), 0.1);
@@ -68,7 +68,7 @@ TEST_P(EachDegree, UniformStretchIsExact) {
     }
 }
 
-TEST_P(EachDegree, SmallMotionsGiveTheLinearAnswerToSecondOrder) {
+TEST_P(BarOfDegree, SmallMotionsGiveTheLinearAnswerToSecondOrder) {
     const HeldBar bar({6, 2, 2}, GetParam());
     ElementWork work = bar.elements->make_work();
     Control control;
@@ -84,7 +84,7 @@ TEST_P(EachDegree, SmallMotionsGiveTheLinearAnswerToSecondOrder) {
     EXPECT_NEAR(differences[1] / differences[2], 4.0, 0.1);
 }
 
-TEST_P(EachDegree, ReactionsBalanceAtPresentPositions) {
+TEST_P(BarOfDegree, ReactionsBalanceAtPresentPositions) {
     const HeldBar bar({6, 2, 2}, GetParam());
     const NodeSolution solution = bar.solve(bar.bent(100));
     Vector3d force = Vector3d::Zero(), moment = force;
@@ -102,7 +102,7 @@ TEST_P(EachDegree, ReactionsBalanceAtPresentPositions) {
     EXPECT_LT(moment.norm(), 1e-8 * size);
 }
 
-TEST_P(EachDegree, NewtonTakesAtMostFourIterationsToTheNextFiveDegrees) {
+TEST_P(BarOfDegree, NewtonTakesAtMostFourIterationsToTheNextFiveDegrees) {
     const HeldBar bar({8, 2, 2}, GetParam());
     for (const double degrees : {0.0, 45.0, 90.0}) {
         const NodeSolution twisted = bar.solve(bar.twisted(degrees)), bent = bar.solve(bar.bent(degrees));
@@ -111,7 +111,7 @@ TEST_P(EachDegree, NewtonTakesAtMostFourIterationsToTheNextFiveDegrees) {
     }
 }
 
-TEST_P(EachDegree, AJumpOf120DegreesTakesAtMostThirtyIterations) {
+TEST_P(BarOfDegree, AJumpOf120DegreesTakesAtMostThirtyIterations) {
     const HeldBar bar({8, 2, 2}, GetParam());
     const NodeSolution twisted = bar.solve(bar.twisted(120)), bent = bar.solve(bar.bent(120));
     EXPECT_LE(iterations(twisted), 30);
@@ -123,7 +123,7 @@ TEST_P(EachDegree, AJumpOf120DegreesTakesAtMostThirtyIterations) {
     EXPECT_LT(rms(step.displacements, twisted.displacements), 1e-6);
 }
 
-TEST_P(EachDegree, TheTangentPredictsTheNextEquilibriumToSecondOrder) {
+TEST_P(BarOfDegree, TheTangentPredictsTheNextEquilibriumToSecondOrder) {
     const HeldBar bar({6, 2, 2}, GetParam());
     const Eigen::VectorXd at = bar.bent(60), change = bar.bent(61) - at;
     Control control;
@@ -202,15 +202,13 @@ TEST(NonlinearSolver, ACompressedBarBucklesRatherThanStaysStraight) {
     EXPECT_GT(u.bottomRows(2).cwiseAbs().maxCoeff(), 0.5);
 }
 
-TEST(NonlinearSolver, AnEndThatIsMirroredHasNoEquilibriumAndSaysWhere) {
+TEST(NonlinearSolver, AnEndThatIsPushedThroughTheOtherHasNoEquilibriumAndSaysWhere) {
     const HeldBar bar({4, 2, 2}, ElementDegree::linear, 0.3, 2.0);
     try {
-        bar.solve(bar.moved(Vector3d(1, -1, 1).asDiagonal(), Vector3d(2, 0.5, 0.5)));
+        bar.solve(bar.moved(Vector3d(-1, 1, 1).asDiagonal(), Vector3d::Zero()));
         FAIL() << "an answer";
     } catch (const NoEquilibriumError& error) {
         EXPECT_TRUE(error.place().allFinite());
-        EXPECT_GE(error.place()[0], 0.0);
-        EXPECT_LE(error.place()[0], 2.0);
     }
 }
 
