@@ -15,7 +15,7 @@ bool same(const ConstrainedSet& a, const ConstrainedSet& b) { return a.base == b
 
 /// What a motion of a method that is not linear must have rested before it is worth an equilibrium that takes long, and
 /// how long one that nobody waits for any more may take, where no other answers meanwhile.
-constexpr double kRestSeconds = 0.2, kPatienceSeconds = 2.0;
+constexpr double kPauseSeconds = 0.2, kPatienceSeconds = 2.0;
 
 Positions handle_positions(const Deformer& deformer) {
     return deformer.model().body().surface->vertices(Eigen::all, deformer.set().handles);
@@ -235,7 +235,7 @@ bool SetKeeper::may_solve_now() {
     if (solving() && elastolab::same(solving_, wanted_)) return false;
     if (may_hold_off_ && is_slow()) {
         if (solving()) job_.cancel();
-        holding_off_ = rest_.seconds() < kRestSeconds;
+        holding_off_ = rest_.seconds() < kPauseSeconds;
         return !holding_off_;
     }
     return !solving() || job_.status().seconds > kPatienceSeconds;

@@ -8,11 +8,11 @@ namespace elastolab {
 namespace {
 
 /// A motion that has rested this long is worth gauging.
-constexpr double kRestSeconds = 0.5;
+constexpr double kGaugeRestSeconds = 0.5;
 /// A motion that turns by less than this is called a pull [degree].
 constexpr double kTurn = 5.0;
 
-bool same(const ConstrainedSet& a, const ConstrainedSet& b) { return a.base == b.base && a.handles == b.handles; }
+bool same_vertices(const ConstrainedSet& a, const ConstrainedSet& b) { return a.base == b.base && a.handles == b.handles; }
 
 bool turns(const Wish& wish) {
     return std::any_of(wish.motions.begin(), wish.motions.end(),
@@ -23,7 +23,7 @@ bool turns(const Wish& wish) {
 
 TheoryGauge::Found TheoryGauge::find(std::shared_ptr<const Made> made, const Body& body, const ConstrainedSet& set,
                                      const Wish& wish, Control& control) {
-    const bool serves = made && made->surface == body.surface && same(made->set, set) &&
+    const bool serves = made && made->surface == body.surface && same_vertices(made->set, set) &&
                         made->poisson_ratio == body.material.poisson_ratio;
     if (!serves)
         made = std::make_shared<const Made>(
@@ -67,7 +67,7 @@ void TheoryGauge::update(const Body& body, const ConstrainedSet& set, const Wish
         surface_ = body.surface;
         rest_ = {};
     }
-    if (done_ || job_.running() || rest_.seconds() < kRestSeconds) return;
+    if (done_ || job_.running() || rest_.seconds() < kGaugeRestSeconds) return;
     job_.start([made = made_, body, set, wish](Control& control) {
         control.begin_stage("gauge");
         return find(made, body, set, wish, control);

@@ -27,7 +27,7 @@ struct Motion {
 };
 
 constexpr double kLength = 4.0;
-const Material kMaterial{1.0, 0.3};
+const Material kRubber{1.0, 0.3};
 
 Eigen::VectorXd moved(const SurfaceMesh& mesh, const std::vector<int>& vertices, const Eigen::Matrix3d& R,
                       const Eigen::Vector3d& center, const Eigen::Vector3d& shift) {
@@ -50,7 +50,7 @@ LargeScene bar(bool quick,
     LargeScene scene;
     scene.set.base = vertices_where(mesh, [](const auto& p) { return p[0] < 1e-9; });
     scene.set.handles = vertices_where(mesh, [](const auto& p) { return p[0] > kLength - 1e-9; });
-    scene.body = study_body(std::move(mesh), kMaterial, "bar");
+    scene.body = study_body(std::move(mesh), kRubber, "bar");
     scene.values = [surface = scene.body.surface, handles = scene.set.handles, motion](double amount) {
         return motion(*surface, handles, amount);
     };
@@ -81,7 +81,7 @@ LargeScene stretched_bar(bool quick) {
 LargeScene turned_ear(bool quick) {
     const auto rabbit = std::make_shared<const OrganicBody>(make_rabbit(quick ? 350 : 600));
     LargeScene scene;
-    scene.body = study_body(rabbit->surface, kMaterial, rabbit->name);
+    scene.body = study_body(rabbit->surface, kRubber, rabbit->name);
     scene.set = {rabbit->base, rabbit->pull};
     scene.values = [rabbit](double degrees) {
         const Positions all = rabbit->turned_values(degrees * std::numbers::pi / 180.0);
