@@ -46,6 +46,8 @@ const char* name(Defect::Kind kind) {
             return "zero-volume";
         case Defect::Kind::coarse_coordinates:
             return "coarse-coordinates";
+        case Defect::Kind::too_small:
+            return "too-small";
     }
     return "unknown";
 }

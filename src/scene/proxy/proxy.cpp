@@ -56,7 +56,8 @@ std::shared_ptr<const Proxy> embedded(ProxySurface made, const std::shared_ptr<c
 
 void require_shape(const MeshReport& report, const std::string& name) {
     for (const Defect& defect : report.defects)
-        if (defect.kind == Defect::Kind::no_triangles) throw MeshError(name + ": " + defect.text);
+        if (defect.kind == Defect::Kind::no_triangles || defect.kind == Defect::Kind::too_small)
+            throw MeshError(name + ": " + defect.text);
 }
 
 std::vector<std::shared_ptr<const Proxy>> make_proxies(const std::string& name,
