@@ -19,7 +19,7 @@ void prepare_parallel_libraries(char** argv);
 /// Name of the kernels that run, as OpenBLAS calls them (e.g. "Zen", "SkylakeX", "Haswell").
 std::string blas_kernels();
 
-/// Threads that every parallel loop and every BLAS call uses from now on; n >= 1.
+/// Threads that every parallel loop and every BLAS call uses from now on; n >= 1. At first available_cores().
 void set_thread_count(int n);
 int thread_count();
 

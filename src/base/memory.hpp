@@ -11,7 +11,7 @@ std::uint64_t peak_memory_bytes();
 std::uint64_t resident_memory_bytes();
 
 /// Memory that can still be taken without swapping [bytes], as the system estimates it (and as a control
-/// group and the limit of the address space allow).
+/// group and the limits of the address space and of data in it allow).
 std::uint64_t available_memory_bytes();
 
 }  // namespace elastolab

@@ -46,6 +46,8 @@ const char* name(Defect::Kind kind) {
             return "zero-volume";
         case Defect::Kind::coarse_coordinates:
             return "coarse-coordinates";
+        case Defect::Kind::too_small:
+            return "too-small";
     }
     return "unknown";
 }
@@ -128,8 +130,12 @@ std::string proxy_words(const Proxy& proxy) {
     if (proxy.is_filled())
         return formatted("the surface with %d holes filled: %d vertices, %d faces", proxy.n_closed_holes,
                          proxy.surface->n_vertices(), proxy.surface->n_triangles());
-    return formatted("%d vertices, %d faces, at most %.3g from the surface", proxy.surface->n_vertices(),
-                     proxy.surface->n_triangles(), proxy.places.distance.maxCoeff());
+    std::string words = formatted("%d vertices, %d faces, at most %.3g from the surface", proxy.surface->n_vertices(),
+                                  proxy.surface->n_triangles(), proxy.places.distance.maxCoeff());
+    if (proxy.n_closed_holes > 0) words += formatted("; taken for a solid, holes closed: %d", proxy.n_closed_holes);
+    if (proxy.n_open_holes > 0 && proxy.thin_part > 0.0)
+        words += formatted("; taken for a sheet, %.3g thick, openings: %d", proxy.thickness, proxy.n_open_holes);
+    return words;
 }
 
 }  // namespace

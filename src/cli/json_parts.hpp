@@ -22,7 +22,9 @@ inline nlohmann::ordered_json proxy_json(const Proxy* proxy) {
     if (proxy == nullptr) return nullptr;
     return {{"vertices", proxy->surface->n_vertices()},
             {"faces", proxy->surface->n_triangles()},
-            {"largest_distance", proxy->places.distance.maxCoeff()}};
+            {"largest_distance", proxy->places.distance.maxCoeff()},
+            {"closed_holes", proxy->n_closed_holes},
+            {"open_holes", proxy->n_open_holes}};
 }
 
 }  // namespace elastolab

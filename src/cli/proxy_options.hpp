@@ -10,9 +10,9 @@ class App;
 
 namespace elastolab {
 
-/// --proxy and --proxy-vertices, where they were given.
+/// --proxy, --proxy-vertices and --proxy-as, where they were given.
 struct ProxyOptions {
-    std::string use;
+    std::string use, taken_for;
     int n_vertices = 0;
 
     void add_to(CLI::App& parser);

@@ -110,13 +110,18 @@ void print_displacement(std::ostream& out, const Eigen::Matrix3Xd& displacement)
 }
 
 /// The sum over all fixed sets, what each of several has of it, and each handle.
+/// A name as the summary has it: names come from scene files and may have any length.
+std::string label_of(const GroupReaction& reaction) {
+    constexpr std::size_t kLongest = 60;
+    return shortened(one_line(reaction.name), kLongest);
+}
+
 void print_reactions(std::ostream& out, const Solution& solution) {
     std::vector<std::pair<std::string, const GroupReaction*>> lines;
     for (const GroupReaction& reaction : solution.reactions) {
-        lines.emplace_back(one_line(reaction.name), &reaction);
+        lines.emplace_back(label_of(reaction), &reaction);
         if (lines.size() > 1 || solution.fixed_reactions.size() < 2) continue;
-        for (const GroupReaction& part : solution.fixed_reactions)
-            lines.emplace_back("  of " + one_line(part.name), &part);
+        for (const GroupReaction& part : solution.fixed_reactions) lines.emplace_back("  of " + label_of(part), &part);
     }
     std::size_t width = 12;
     for (const auto& line : lines) width = std::max(width, line.first.size());

@@ -162,8 +162,9 @@ void Deformer::require_memory(const ConstrainedSet& set) const {
     if (needed <= available) return;
     throw SolveError(model_->body().name + ": " + std::to_string(set.base.size() + set.handles.size()) +
                      " constrained vertices need " + readable_bytes(static_cast<double>(needed)) + " of memory, " +
-                     readable_bytes(static_cast<double>(available)) + " is available. Constrain fewer vertices" +
-                     (model_->method().kind->sparse ? ", or use a coarser mesh." : ", or choose fem."));
+                     readable_bytes(static_cast<double>(available)) +
+                     " is available. Constrain fewer vertices, or choose " +
+                     std::string(model_->method().kind->cheaper) + ".");
 }
 
 void Deformer::constrain(ConstrainedSet set, Control& control) {

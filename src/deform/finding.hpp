@@ -36,7 +36,8 @@ enum class FindingKind {
     filled_holes,          ///< how many holes of the mesh `object` are filled, by `first` triangles
     linear_theory,         ///< how far linear theory is off, over the largest displacement
     unstable_equilibrium,  ///< an equilibrium that the least push makes the body leave
-    thin_sheets,           ///< open sheets of the mesh `object` became walls; their thickness
+    thin_sheets,           ///< sheets of the mesh `object`, with `first` openings, became walls; their thickness
+    narrow_openings,       ///< how many openings of the mesh `object` a proxy closes though they were to stay open
 };
 
 enum class Severity {

@@ -104,6 +104,16 @@ std::string linear_theory(const Finding& finding) {
            "swells as it turns. Choose nonlinear-fem, which follows them.";
 }
 
+std::string thin_sheets(const Finding& finding) {
+    const std::string thick = " mesh units thick. Give it its thickness in the file";
+    if (finding.first <= 0)
+        return finding.object + ": is an open sheet in places, which is simulated as a wall " +
+               readable_number(finding.value) + thick + ".";
+    return finding.object + ": taken for a sheet, " + std::to_string(finding.first) +
+           (finding.first == 1 ? " opening" : " openings") + " left open; it is simulated as a wall " +
+           readable_number(finding.value) + thick + ", or take it for a solid (proxy as solid).";
+}
+
 std::string coarse_forces(const Finding& finding) {
     return std::string(finding.method->name) + ": the mesh is too coarse for forces: those of fixed sets and " +
            "handles are off by about " + percent(finding.value) + " of the largest. " +
@@ -170,9 +180,10 @@ std::string words(const Finding& finding) {
         case FindingKind::chosen_proxy:
             return proxy(finding);
         case FindingKind::capped_holes:
-            return finding.object + ": " + readable_number(finding.value) +
-                   (finding.value == 1.0 ? " hole was" : " holes were") +
-                   " closed. Close them in the file where another shape is meant.";
+            return finding.object + ": taken for a solid, " + readable_number(finding.value) +
+                   (finding.value == 1.0 ? " hole" : " holes") +
+                   " closed. Take it for a sheet (proxy as sheet) where thin walls are meant, or close the holes in "
+                   "the file.";
         case FindingKind::filled_holes:
             return finding.object + ": simulated with its " + readable_number(finding.value) +
                    (finding.value == 1.0 ? " hole" : " holes") + " filled by " + std::to_string(finding.first) +
@@ -184,8 +195,12 @@ std::string words(const Finding& finding) {
                    ": the equilibrium is not stable: a real body would buckle away from it at the least push, and no "
                    "stable one was found nearby. Pull a little to one side, or in smaller steps.";
         case FindingKind::thin_sheets:
-            return finding.object + ": is an open sheet in places, which is simulated as a wall " +
-                   readable_number(finding.value) + " mesh units thick. Give it its thickness in the file.";
+            return thin_sheets(finding);
+        case FindingKind::narrow_openings:
+            return finding.object + ": " + readable_number(finding.value) +
+                   (finding.value == 1.0 ? " opening is" : " openings are") +
+                   " narrower than the proxy's triangles, so it is simulated as a solid although it was to be a sheet. "
+                   "Ask for more proxy vertices.";
     }
     return {};
 }

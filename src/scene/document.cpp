@@ -11,20 +11,29 @@ constexpr std::array<std::pair<ProxyUse, std::string_view>, 4> kProxyUses = {{{P
                                                                               {ProxyUse::automatic, "auto"},
                                                                               {ProxyUse::always, "always"},
                                                                               {ProxyUse::fill, "fill"}}};
+constexpr std::array<std::pair<OpenSurface, std::string_view>, 3> kOpenSurfaces = {
+    {{OpenSurface::automatic, "auto"}, {OpenSurface::solid, "solid"}, {OpenSurface::sheet, "sheet"}}};
 
-}  // namespace
-
-std::string_view name(ProxyUse use) {
-    for (const auto& [known, text] : kProxyUses)
-        if (known == use) return text;
+template <class Words, class Value>
+std::string_view word_of(const Words& words, Value value) {
+    for (const auto& [known, text] : words)
+        if (known == value) return text;
     return {};
 }
 
-std::optional<ProxyUse> parse_proxy_use(std::string_view text) {
-    for (const auto& [use, known] : kProxyUses)
-        if (known == text) return use;
+template <class Value, std::size_t n>
+std::optional<Value> parsed(const std::array<std::pair<Value, std::string_view>, n>& words, std::string_view text) {
+    for (const auto& [value, known] : words)
+        if (known == text) return value;
     return std::nullopt;
 }
+
+}  // namespace
+
+std::string_view name(ProxyUse use) { return word_of(kProxyUses, use); }
+std::optional<ProxyUse> parse_proxy_use(std::string_view text) { return parsed(kProxyUses, text); }
+std::string_view name(OpenSurface taken_for) { return word_of(kOpenSurfaces, taken_for); }
+std::optional<OpenSurface> parse_open_surface(std::string_view text) { return parsed(kOpenSurfaces, text); }
 
 std::string default_fixed_name(std::size_t place) { return place == 0 ? "fixed" : "fixed-" + std::to_string(place); }
 

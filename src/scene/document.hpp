@@ -11,6 +11,7 @@
 #include "deform/element_degree.hpp"
 #include "deform/method.hpp"
 #include "elasticity/material.hpp"
+#include "mesh/wrap/hole_caps.hpp"
 #include "methods/registry.hpp"
 
 namespace elastolab {
@@ -105,12 +106,15 @@ enum class ProxyUse {
 struct ProxyChoice {
     ProxyUse use = ProxyUse::automatic;
     int n_vertices = 1500;  ///< wanted
+    OpenSurface taken_for = OpenSurface::automatic;
     bool operator==(const ProxyChoice&) const = default;
 };
 inline constexpr int kFewestProxyVertices = 20, kMostProxyVertices = 100000;
 /// The words that scene files and command lines use; nothing for any other.
 std::string_view name(ProxyUse use);
 std::optional<ProxyUse> parse_proxy_use(std::string_view text);
+std::string_view name(OpenSurface taken_for);
+std::optional<OpenSurface> parse_open_surface(std::string_view text);
 
 /// Vertices that stay where they are at rest.
 struct FixedSet {

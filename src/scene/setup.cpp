@@ -16,7 +16,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kNobody = -1;
-constexpr int kFirstFixed = -2;  ///< owner for the first fixed set; later sets count downwards
+constexpr std::size_t kLongestName = 60;  ///< in messages: names come from scene files
+constexpr int kFirstFixed = -2;           ///< owner for the first fixed set; later sets count downwards
 
 std::string place(const fs::path& scene_file, const std::string& path) { return scene_file.string() + ": " + path; }
 
@@ -128,13 +129,15 @@ private:
         for (const ConstraintGroup& set : result_.fixed_sets)
             if (set.name == name)
                 fail(scene_file_, "/handles",
-                     "one of them and a fixed set are called \"" + name + "\". Give them different names.");
+                     "one of them and a fixed set are called \"" + shortened(name, kLongestName) +
+                         "\". Give them different names.");
         const int begin = result_.groups.empty() ? 0 : result_.groups.back().end;
         result_.groups.push_back({std::move(name), begin, begin + static_cast<int>(n_vertices)});
     }
 
     [[noreturn]] void fail_named_twice(const std::string& path, const std::string& name) const {
-        fail(scene_file_, path, "two of them are called \"" + name + "\". Give them different names.");
+        fail(scene_file_, path,
+             "two of them are called \"" + shortened(name, kLongestName) + "\". Give them different names.");
     }
 
     const Document& document_;

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "base/error.hpp"
+#include "base/text.hpp"
 #include "deform/node_solver.hpp"
 #include "findings/cost.hpp"
 #include "findings/solution.hpp"
@@ -25,7 +26,7 @@ std::vector<GroupReaction> totals(const std::vector<ConstraintGroup>& groups, co
                           .force = reactions.forces.middleCols(group.begin, n).rowwise().sum(),
                           .moment = reactions.moments.middleCols(group.begin, n).rowwise().sum()});
         if (!result.back().force.allFinite() || !result.back().moment.allFinite())
-            throw SolveError(group.name +
+            throw SolveError(shortened(group.name, 60) +
                              ": its total force is beyond double precision. Choose a smaller Young's modulus, or "
                              "smaller motions.");
     }

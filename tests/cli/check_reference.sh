@@ -49,7 +49,7 @@ END
   --displacements "$folder/u.csv" --fields "$folder/fields.csv" --forces "$folder/forces.csv"
 "$program" info "$folder/scene.json" --json --proxy always --proxy-vertices 100 >"$folder/info.json"
 require "key" '### Report' < <(keys_of <"$folder/report.json" | code)
-require "key" '## `elastolab info`' < <(keys_of <"$folder/info.json" | grep -vx largest_distance | code)
+require "key" '## `elastolab info`' < <(keys_of <"$folder/info.json" | grep -vxE 'largest_distance|closed_holes|open_holes' | code)
 require "row of columns" '## Files that are written' < <(head -qn 1 "$folder"/*.csv | code)
 require "row of columns" '### Files of the viewer' < <(
   sed -nE '/<< "[a-z_]+,/,/\\n"/p' "$root/src/app/window/timings.cpp" "$root/src/app/probes.cpp" | tr -d '\n' |

@@ -204,6 +204,22 @@ TEST_F(SolveTest, TellsEverythingOnceWhereAnotherUpdateTakesOver) {
     EXPECT_EQ(std::adjacent_find(warnings.begin(), warnings.end()), warnings.end());
 }
 
+/// Names come from scene files: one of a megabyte makes no summary of a megabyte, and is written in full elsewhere.
+TEST_F(SolveTest, ShortensLongNamesInTheSummary) {
+    const std::string name(1'000'000, 'n');
+    folder_.write("scene.json",
+                  R"({"elastolab": 1, "mesh": {"primitive": "cube", "resolution": 1},
+        "fixed": {"box": {"min": [0, 0, 0], "max": [0, 1, 1]}},
+        "handles": [{"name": ")" +
+                      name +
+                      R"(", "select": {"box": {"min": [1, 0, 0], "max": [1, 1, 1]}}, "translate": [0.1, 0, 0]}]})");
+    const ProgramRun run = run_program({"solve", "scene.json", "--forces", "f.csv"}, folder_.path());
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_LT(run.out.size(), 4000U);
+    EXPECT_THAT(run.out, HasSubstr("nnn..."));
+    EXPECT_THAT(test::read_text(file("f.csv")), HasSubstr(name));
+}
+
 TEST_F(SolveTest, WritesAReportWithEveryKey) {
     const std::vector<std::string> keys = {"version",
                                            "machine",

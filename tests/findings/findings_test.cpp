@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cctype>
+#include <set>
 #include <tuple>
 
 #include "elasticity/exact_fields.hpp"
@@ -11,6 +13,7 @@
 #include "mesh/primitives.hpp"
 #include "mesh/surface_distance.hpp"
 #include "methods/problem.hpp"
+#include "methods/registry.hpp"
 #include "study/error/organic_body.hpp"
 
 namespace elastolab::test {
@@ -184,6 +187,50 @@ TEST(Findings, TellOfTheDigitsThatAConditionLeaves) {
     // Poisson's ratio so near 1/2 that the stiffness keeps few digits.
     EXPECT_THAT(warnings_of(make_box(3), make_method(kFem, Tractions::discontinuous, Mode::full), 0.5 - 1e-12),
                 Contains(HasSubstr("nearly dependent")));
+}
+
+/// The methods that a text advises to choose or to compare with.
+std::set<std::string> advised(const std::string& text) {
+    std::set<std::string> methods;
+    std::string word;
+    bool is_advice = false;
+    for (const char c : text + " ") {
+        if (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-') {
+            word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+            continue;
+        }
+        is_advice = is_advice || word == "choose" || word == "compare";
+        if (is_advice && parse_method_kind(word)) methods.insert(word);
+        if (c == '.') is_advice = false;
+        word.clear();
+    }
+    return methods;
+}
+
+TEST(Findings, NeverAdviseTheMethodInUse) {
+    EXPECT_THAT(advised("fem: locks. Choose linear-bem, or compare with fem."),
+                ::testing::ElementsAre("fem", "linear-bem"));
+    for (const MethodKind kind : all_methods()) {
+        std::vector<std::string> texts = {"Choose " + std::string(kind->cheaper) + "."};
+        for (const FindingKind finding : {FindingKind::coarse_mesh, FindingKind::coarse_forces,
+                                          FindingKind::force_imbalance, FindingKind::moment_imbalance})
+            texts.push_back(words({.kind = finding, .value = 0.1, .method = kind}));
+        if (kind->locks) texts.push_back(words({.kind = FindingKind::locking, .value = 0.49, .method = kind}));
+        if (kind->integrates_boundary)
+            for (const FindingKind finding :
+                 {FindingKind::thin_triangle, FindingKind::thin_wall, FindingKind::slender_body})
+                texts.push_back(words({.kind = finding, .value = 0.1, .method = kind}));
+        for (const std::string& text : texts) EXPECT_THAT(advised(text), Not(Contains(kind->name))) << text;
+    }
+}
+
+/// Only collocation leaves a resultant; elsewhere it shows lost digits.
+TEST(Findings, BlameCollocationForTheImbalanceOfCollocationAlone) {
+    for (const MethodKind kind : all_methods()) {
+        const std::string text = words({.kind = FindingKind::force_imbalance, .value = 0.1, .method = kind});
+        const bool collocates = kind == kConstantBem || kind == kLinearBem;
+        EXPECT_EQ(text.find("Collocation") != std::string::npos, collocates) << text;
+    }
 }
 
 }  // namespace

@@ -298,5 +298,23 @@ TEST(RequireUsable, NamesTheObjectAndEveryFatalFindingInOneLine) {
     EXPECT_THROW(require_usable(crossing, "pair", true), MeshError);
 }
 
+/// "No area" or "no volume" would be wrong: the square of an area underflows.
+TEST(Check, AMeshOfTinyNumbersIsSaidToBeTooSmall) {
+    for (const double size : {1e-80, 1e-100, 1e-150, 1e-300}) {
+        const MeshReport report = check_and_repair(scaled(make_box(2), size)).report;
+        ASSERT_EQ(report.defects.size(), 1U) << size;
+        EXPECT_EQ(report.defects.front().kind, Defect::Kind::too_small);
+        EXPECT_FALSE(report.usable());
+        EXPECT_NE(report.defects.front().text.find("unit of length"), std::string::npos);
+    }
+    for (const double size : {1e-69, 1e69}) {
+        const MeshReport report = check_and_repair(scaled(make_box(2), size)).report;
+        EXPECT_TRUE(report.defects.empty()) << size;
+        EXPECT_NEAR(report.volume, size * size * size, 1e-9 * size * size * size);
+        EXPECT_NEAR(report.area, 6.0 * size * size, 1e-9 * size * size);
+    }
+    EXPECT_FALSE(check_and_repair(scaled(make_box(2), 1e100)).report.usable());
+}
+
 }  // namespace
 }  // namespace elastolab

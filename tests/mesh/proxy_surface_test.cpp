@@ -4,20 +4,32 @@
 #include <gmock/gmock.h>
 
 #include <array>
+#include <numbers>
+#include <random>
 
 #include "base/error.hpp"
 #include "mesh/closest_point.hpp"
 #include "mesh/measures.hpp"
 #include "mesh/meshes.hpp"
+#include "mesh/solids.hpp"
+#include "mesh/tets/tetrahedralize.hpp"
 
 namespace elastolab {
 namespace {
 
-ProxySurface proxy_of(const SurfaceMesh& mesh, int n_vertices) {
+ProxySurface proxy_of(const SurfaceMesh& mesh, int n_vertices, OpenSurface taken_for = OpenSurface::automatic) {
     CheckedMesh checked = check_and_repair(mesh);
     Control control;
     const std::array sizes = {n_vertices};
-    return make_proxy_surfaces(checked.mesh, checked.report, sizes, control).front();
+    return make_proxy_surfaces(checked.mesh, checked.report, sizes, control, taken_for).front();
+}
+
+/// What FEM needs of it.
+bool can_be_filled(const SurfaceMesh& surface) {
+    Control control;
+    for (const Solid& solid : split_solids(surface))
+        if (tetrahedralize(solid.surface, "proxy", {}, control).n_tetrahedra() == 0) return false;
+    return true;
 }
 
 double largest_distance(const Positions& points, const SurfaceMesh& from) {
@@ -49,6 +61,28 @@ SurfaceMesh soup() {
     return mesh;
 }
 
+/// Triangles around one edge, as the pages of a book.
+SurfaceMesh book(int pages) {
+    SurfaceMesh mesh{Positions(3, 2 + pages), Triangles(3, pages)};
+    mesh.vertices.leftCols(2) << 0, 0, 0, 0, 0, 1;
+    for (int i = 0; i < pages; ++i) {
+        const double angle = 2.0 * std::numbers::pi * i / pages;
+        mesh.vertices.col(2 + i) << std::cos(angle), std::sin(angle), 0.5;
+        mesh.triangles.col(i) << 0, 1, 2 + i;
+    }
+    return mesh;
+}
+
+/// Triangles between random points of the unit cube.
+SurfaceMesh random_triangles(int n) {
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> coordinate(0.0, 1.0);
+    SurfaceMesh mesh{Positions(3, 3 * n), Triangles(3, n)};
+    for (double& x : mesh.vertices.reshaped()) x = coordinate(random);
+    for (int t = 0; t < n; ++t) mesh.triangles.col(t) << 3 * t, 3 * t + 1, 3 * t + 2;
+    return mesh;
+}
+
 struct Corpus {
     const char* name;
     SurfaceMesh mesh;
@@ -62,6 +96,7 @@ TEST_P(AnyTriangles, HaveAProxyThatEveryMethodCanUse) {
     const ProxySurface proxy = proxy_of(mesh, 400);
     const MeshReport report = check_and_repair(proxy.surface).report;
     EXPECT_TRUE(report.usable_for_fem());
+    EXPECT_TRUE(can_be_filled(proxy.surface));
     EXPECT_GT(report.volume, 0.0);
     EXPECT_GT(proxy.surface.n_vertices(), mesh.n_triangles() == 12 ? 7 : 150);
     EXPECT_LT(proxy.surface.n_vertices(), 900);
@@ -80,7 +115,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Corpus{"torn", torn(make_lumpy_ball(10), 0.02)}, Corpus{"cube of 12 triangles", make_box(1)},
                     Corpus{"tiny", scaled(sphere_with_hole(6), 1e-9)},
                     Corpus{"huge", scaled(sphere_with_hole(6), 1e12)},
-                    Corpus{"far", moved(torn(make_sphere(6), 0.01), {1e5, -1e5, 3e5})},
+                    Corpus{"far", moved(torn(make_sphere(6), 0.01), {1e5, -1e5, 3e5})}, Corpus{"book", book(20)},
+                    Corpus{"random triangles", random_triangles(50)},
                     Corpus{"bowtie", joined(make_box(2), moved(make_box(2), {1, 1, 1}))},
                     Corpus{"inside out", inside_out(sphere_with_hole(8))}));
 
@@ -146,6 +182,42 @@ TEST(ProxySurface, TrianglesThatRepeatOthersChangeNothing) {
     for (int t = once.n_triangles(); t < often.n_triangles(); t += 2)
         std::swap(often.triangles(0, t), often.triangles(1, t));
     EXPECT_EQ(proxy_of(often, 200).surface.vertices, proxy_of(once, 200).surface.vertices);
+}
+
+/// A ball of 146 vertices that lacks a few triangles is the ball: no hollow shell, and no larger than it was.
+TEST(ProxySurface, ABallThatLacksAFewTrianglesIsSolid) {
+    const SurfaceMesh ball = make_sphere(6);
+    for (const int n_missing : {1, 4, 7}) {
+        const SurfaceMesh open = with_hole(without_last(ball, n_missing), {1, 2, 3}, 3.7);
+        const ProxySurface proxy = proxy_of(open, 1500);
+        EXPECT_EQ(proxy.kind, ProxySurface::Kind::collapsed) << n_missing;
+        EXPECT_GT(proxy.n_capped_holes, 0);
+        EXPECT_EQ(proxy.n_open_holes, 0);
+        EXPECT_LT(proxy.surface.n_vertices(), 170);
+        EXPECT_NEAR(enclosed_volume(proxy.surface), enclosed_volume(ball), 0.05 * enclosed_volume(ball));
+    }
+}
+
+/// Half a ball, by itself a bowl, and as the two that it can be taken for.
+TEST(ProxySurface, AnOpenSurfaceIsWhatItIsTakenFor) {
+    const SurfaceMesh half = with_hole(make_sphere(10), {0, 0, 1}, 0.0);
+    const double volume = 0.5 * enclosed_volume(make_sphere(10));
+    const ProxySurface bowl = proxy_of(half, 800), solid = proxy_of(half, 800, OpenSurface::solid),
+                       sheet = proxy_of(half, 800, OpenSurface::sheet);
+    EXPECT_NEAR(enclosed_volume(solid.surface), volume, 0.1 * volume);
+    EXPECT_EQ(solid.n_capped_holes, 1);
+    for (const ProxySurface* wall : {&bowl, &sheet}) {
+        EXPECT_LT(enclosed_volume(wall->surface), 0.5 * volume);
+        EXPECT_GT(wall->thin_part, 0.5);
+        EXPECT_EQ(wall->n_open_holes, 1);
+    }
+}
+
+/// Sheets too: their area is known from a wrap only.
+TEST(ProxySurface, IsNotMuchLargerThanAskedFor) {
+    for (const int wanted : {50, 150, 1000})
+        for (const SurfaceMesh& mesh : {with_hole(make_sphere(12), {0, 0, 1}, 0.0), book(20), random_triangles(20)})
+            EXPECT_LT(proxy_of(mesh, wanted).surface.n_vertices(), 1.5 * wanted + 20) << wanted;
 }
 
 TEST(ProxySurface, SeveralSizesAtOnceAreOfOneBody) {

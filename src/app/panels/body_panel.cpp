@@ -32,6 +32,10 @@ constexpr std::array<Choice<ProxyUse>, 2> kProxyUses = {
      {ProxyUse::fill, "with holes filled",
       "The surface itself, its vertices unchanged: each hole is filled with a smooth patch of triangles. "
       "Works where holes are its only defect."}}};
+constexpr std::array<Choice<OpenSurface>, 3> kOpenSurfaces = {
+    {{OpenSurface::automatic, "by its holes", "A solid when its holes are small beside it, else a sheet."},
+     {OpenSurface::solid, "a solid", "Every hole is closed."},
+     {OpenSurface::sheet, "a sheet", "Holes stay open; the surface becomes a thin wall."}}};
 /// Range of a proxy's vertices that a person can choose.
 constexpr int kFewestChosen = 100, kMostChosen = 10000;
 
@@ -50,6 +54,10 @@ void Panels::draw_proxy(ViewerState& state, float scale) {
         if (choose<ProxyUse>("simulated", choice.use, kProxyUses)) set();
     }
     if (choice.use == ProxyUse::fill) return;
+    if (!state.scene().report().closed) {
+        set_item_width(scale);
+        if (choose<OpenSurface>("taken for", choice.taken_for, kOpenSurfaces)) set();
+    }
     int n_vertices = proxy_vertices_.value_or(choice.n_vertices);
     if (slider("proxy vertices", n_vertices, kFewestChosen, kMostChosen, "about %d", scale))
         proxy_vertices_ = n_vertices;

@@ -84,6 +84,7 @@ CheckedMesh check_and_repair(SurfaceMesh mesh, Control& control) {
         report.defects.push_back(no_triangles());
         return result;
     }
+    if (report_extent(result.mesh, report)) return result;
     report_collapsed(result.mesh, report);
 
     SurfaceMesh sound = without_collapsed(result.mesh);

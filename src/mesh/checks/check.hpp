@@ -15,7 +15,7 @@ struct Defect {
     enum class Kind {
         no_triangles, non_finite, open_edges, non_manifold_edges, non_manifold_vertices, inconsistent_orientation,
         inside_out, degenerate_triangles, sliver_triangles, duplicate_triangles, unreferenced_vertices,
-        self_intersections, zero_volume, coarse_coordinates
+        self_intersections, zero_volume, coarse_coordinates, too_small
     };
     // clang-format on
     Kind kind;
@@ -50,7 +50,8 @@ struct CheckedMesh {
 };
 
 /// Inspects and repairs. Vertex numbers never change. Never throws on bad geometry: it reports.
-/// - fatal: no triangle, coordinates that are not finite (the mesh is returned without their triangles), open edges,
+/// - fatal: no triangle, coordinates that are not finite or beyond 1e70 (the mesh is returned without their triangles),
+///   a mesh less than 1e-70 across (nothing else is looked at then: squares of areas would underflow), open edges,
 ///   edges of more than two triangles, vertices where parts of the surface only touch (a hinge), triangles without
 ///   area, the same triangle twice, a one-sided surface, parts that enclose no volume, and vertices of no triangle
 ///   (load_surface drops those).

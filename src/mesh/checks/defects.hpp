@@ -31,8 +31,13 @@ std::string counted(int count, const std::string& one, const std::string& many,
 
 // What each inspection finds goes into the report.
 
-/// Largest coordinate that is taken for a number: exact predicates (mesh/checks/predicates.hpp) go no further.
-constexpr double kLargestCoordinate = 1e90;
+/// Largest coordinate that is taken for a number, and least extent of a mesh: squares of areas, also of triangles that
+/// are far smaller than the mesh, neither overflow nor underflow. Exact predicates (mesh/checks/predicates.hpp) go as
+/// far.
+constexpr double kLargestCoordinate = 1e70, kLeastExtent = 1e-70;
+
+/// Reports a mesh whose triangles reach less far than that; whether it is one. Nothing where it has no extent at all.
+bool report_extent(const SurfaceMesh& mesh, MeshReport& report);
 
 /// Takes away triangles with a vertex that is no finite point, and puts such vertices into the middle of the others.
 void leave_out_non_finite(SurfaceMesh& mesh, MeshReport& report);

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <Eigen/Geometry>
 #include <limits>
 
+#include "base/text.hpp"
 #include "mesh/box_tree.hpp"
 #include "mesh/checks/defects.hpp"
 #include "mesh/checks/triangle_contact.hpp"
@@ -27,6 +29,24 @@ const char* sliver_advice(double thinnest) {
 }
 
 }  // namespace
+
+bool report_extent(const SurfaceMesh& mesh, MeshReport& report) {
+    Eigen::AlignedBox3d box;
+    for (const int v : mesh.triangles.reshaped()) box.extend(Vector3d(mesh.vertices.col(v)));
+    const double extent = box.isEmpty() ? 0.0 : box.diagonal().maxCoeff();
+    if (!(extent > 0.0 && extent < kLeastExtent)) return false;
+    report.min_corner = box.min();
+    report.max_corner = box.max();
+    Defect defect{};
+    defect.kind = Defect::Kind::too_small;
+    defect.count = 1;
+    defect.fatal = true;
+    defect.text = "it is only " + readable_number(extent) +
+                  " mesh units across; below 1e-70 its areas and volumes are beyond double precision. Choose a smaller "
+                  "unit of length.";
+    report.defects.push_back(std::move(defect));
+    return true;
+}
 
 void report_shapes(const SurfaceMesh& mesh, MeshReport& report) {
     DefectCount flat, slivers;

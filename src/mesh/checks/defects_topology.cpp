@@ -66,8 +66,8 @@ void leave_out_non_finite(SurfaceMesh& mesh, MeshReport& report) {
     const std::string left_out =
         std::to_string(n_left_out) + (n_left_out == 1 ? " triangle there is" : " triangles there are");
     found.report_fatal(report, Defect::Kind::non_finite,
-                       "vertex has a coordinate that is not a finite number up to 1e90",
-                       "vertices have coordinates that are not finite numbers up to 1e90",
+                       "vertex has a coordinate that is not a finite number up to 1e70",
+                       "vertices have coordinates that are not finite numbers up to 1e70",
                        "; " + left_out + " left out. Export the mesh again.");
     const Eigen::Vector3d middle = sum / std::max<double>(1.0, mesh.n_vertices() - found.count());
     for (int v = 0; v < mesh.n_vertices(); ++v)

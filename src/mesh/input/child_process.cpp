@@ -111,7 +111,8 @@ bool ChildProcess::wait_for(short events, Control& control) const {
     return ::poll(&ready, 1, 20) > 0;
 }
 
-std::vector<char> ChildProcess::exchange(std::string_view request, Control& control, std::size_t most) {
+std::vector<char> ChildProcess::exchange(std::string_view request, Control& control, std::size_t most,
+                                         const std::function<void(const std::vector<char>&)>& on_reply) {
     while (!request.empty()) {
         if (!wait_for(POLLOUT, control)) continue;
         const ssize_t n = ::send(socket_.fd, request.data(), request.size(), MSG_NOSIGNAL);
@@ -123,6 +124,7 @@ std::vector<char> ChildProcess::exchange(std::string_view request, Control& cont
         if (!wait_for(POLLIN, control)) continue;
         const ssize_t n = ::recv(socket_.fd, block.data(), block.size(), 0);
         if (n > 0) reply.insert(reply.end(), block.begin(), block.begin() + n);
+        if (n > 0 && on_reply) on_reply(reply);
         if (n == 0 || (n < 0 && errno != EAGAIN && errno != EINTR)) return reply;
         if (reply.size() > most) {
             ::kill(process_, SIGKILL);

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -30,8 +31,10 @@ public:
 
     /// Sends these bytes, then receives until the process closes its end. Checks for cancellation every 20 ms. A
     /// process that dies early just answers less; one that answers more than `most` bytes is not listened to further.
+    /// on_reply: shown what has come so far whenever something comes.
     std::vector<char> exchange(std::string_view request, Control& control,
-                               std::size_t most = std::numeric_limits<std::size_t>::max());
+                               std::size_t most = std::numeric_limits<std::size_t>::max(),
+                               const std::function<void(const std::vector<char>&)>& on_reply = {});
     /// Waits for its end; the status as of waitpid. Checks for cancellation every few milliseconds.
     int wait(Control& control);
     /// What it has printed, at most the last 64 kB.

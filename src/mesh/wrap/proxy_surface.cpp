@@ -16,7 +16,9 @@
 #include "mesh/checks/defects.hpp"
 #include "mesh/closest_point.hpp"
 #include "mesh/measures.hpp"
+#include "mesh/solids.hpp"
 #include "mesh/surface_distance.hpp"
+#include "mesh/tets/tetrahedralize.hpp"
 #include "mesh/wrap/hole_caps.hpp"
 #include "mesh/wrap/unit_frame.hpp"
 #include "mesh/wrap/wrap_process.hpp"
@@ -50,7 +52,21 @@ std::size_t hash_of(const CornerKey& corners) {
     return hash;
 }
 
-/// The triangles that can be wrapped: each once, since a search tree finds no way among thousands in one place.
+SurfaceMesh without_unused(const SurfaceMesh& mesh) {
+    std::vector<int> number(static_cast<std::size_t>(mesh.n_vertices()), -1), used;
+    for (const int v : mesh.triangles.reshaped()) number[static_cast<std::size_t>(v)] = 0;
+    for (int v = 0; v < mesh.n_vertices(); ++v)
+        if (int& own = number[static_cast<std::size_t>(v)]; own == 0) {
+            own = static_cast<int>(used.size());
+            used.push_back(v);
+        }
+    SurfaceMesh result{mesh.vertices(Eigen::all, used), mesh.triangles};
+    for (int& v : result.triangles.reshaped()) v = number[static_cast<std::size_t>(v)];
+    return result;
+}
+
+/// The triangles that can be wrapped: each once, since a search tree finds no way among thousands in one place. Without
+/// vertices that belong to none.
 SurfaceMesh solid_triangles(const SurfaceMesh& shown) {
     std::vector<std::pair<std::size_t, int>> by_hash;
     for (int t = 0; t < shown.n_triangles(); ++t)
@@ -64,7 +80,7 @@ SurfaceMesh solid_triangles(const SurfaceMesh& shown) {
         if (!repeats) kept.push_back(by_hash[i].second);
     }
     std::sort(kept.begin(), kept.end());
-    return {shown.vertices, shown.triangles(Eigen::all, kept)};
+    return without_unused({shown.vertices, shown.triangles(Eigen::all, kept)});
 }
 
 /// Vertices of a wrap whose other side is closer than this.
@@ -125,14 +141,37 @@ private:
     std::vector<bool> thin_;
 };
 
-bool is_usable(const SurfaceMesh& surface, Control& control) {
+bool is_sound(const SurfaceMesh& surface, Control& control) {
     return check_and_repair(surface, control).report.usable_for_fem();
 }
 
-/// Whether every method could use the surface if its holes were closed.
+/// Whether TetGen fills every solid of a sound surface.
+bool can_be_filled(const SurfaceMesh& sound, Control& control) {
+    try {
+        for (const Solid& solid : split_solids(sound)) tetrahedralize(solid.surface, "", {}, control);
+        return true;
+    } catch (const MeshError&) {
+        return false;
+    }
+}
+
+/// Whether every method can use the surface, which is repaired where it is inside out.
+bool serves_every_method(SurfaceMesh& surface, Control& control) {
+    CheckedMesh checked = check_and_repair(surface, control);
+    if (!checked.report.usable_for_fem() || !can_be_filled(checked.mesh, control)) return false;
+    surface = std::move(checked.mesh);
+    return true;
+}
+
+/// Whether the surface may be sound once its holes are closed. Where two holes meet in a vertex, it is a hinge;
+/// vertices that belong to no triangle are left out anyway.
 bool is_sound_but_for_holes(const MeshReport& report) {
-    return std::all_of(report.defects.begin(), report.defects.end(), [](const Defect& d) {
-        return d.repaired || d.kind == Defect::Kind::open_edges || !(d.fatal || d.fatal_for_fem);
+    const auto is_of_holes = [](Defect::Kind kind) {
+        return kind == Defect::Kind::open_edges || kind == Defect::Kind::non_manifold_vertices ||
+               kind == Defect::Kind::unreferenced_vertices;
+    };
+    return std::all_of(report.defects.begin(), report.defects.end(), [&](const Defect& d) {
+        return d.repaired || is_of_holes(d.kind) || !(d.fatal || d.fatal_for_fem);
     });
 }
 
@@ -141,7 +180,7 @@ bool is_sound_but_for_holes(const MeshReport& report) {
 std::optional<SurfaceMesh> collapsed(const SurfaceMesh& sound, int n_vertices, Control& control) {
     for (const double part : {1.0, 1.15, 0.9, 1.35, 1.6}) {
         WrapResult result = collapse_edges(sound, static_cast<int>(part * n_vertices), control);
-        if (result.failure.empty() && is_usable(result.surface, control)) return std::move(result.surface);
+        if (result.failure.empty() && serves_every_method(result.surface, control)) return std::move(result.surface);
     }
     return std::nullopt;
 }
@@ -151,6 +190,8 @@ std::optional<SurfaceMesh> collapsed(const SurfaceMesh& sound, int n_vertices, C
 constexpr int kFinerWrap = 4;
 /// Factors by which wraps may miss the number of vertices wanted: another attempt takes as long as the wrap.
 constexpr double kFinerWithin = 2.0, kWithin = 1.33;
+/// The cube around a body of size 1 has no fewer.
+constexpr int kFewestOfAWrap = 8;
 
 /// Surfaces of more vertices are wrapped even where they are sound: to collapse their edges takes several times longer.
 constexpr int kMostCollapsed = 100000;
@@ -161,16 +202,36 @@ WrapResult succeeded(WrapResult wrap) {
                     "). Mend the file, or choose another.");
 }
 
-/// The settled wrap, or the wrap itself where settling did not keep it sound. `known`: a rough one.
-ProxySurface wrapped_once(const SurfaceMesh& closed, int n_vertices, double within, const WrapResult& known,
-                          Control& control) {
+/// The settled wrap, or the wrap itself where the settled one does not satisfy `serves`; whether one does. `known`: a
+/// rough one.
+template <class Serves>
+std::pair<ProxySurface, bool> settled_wrap(const SurfaceMesh& closed, int n_vertices, double within,
+                                           const WrapResult& known, Control& control, const Serves& serves) {
+    control.begin_stage("proxy: wrap");
     WrapResult wrap = succeeded(alpha_wrap(closed, n_vertices, within, known, control));
+    control.begin_stage("proxy: settle");
     Settling settling(wrap.surface, wrap.offset, closed, control);
     ProxySurface proxy{.surface = settling.settle(), .kind = ProxySurface::Kind::wrapped};
     proxy.thin_part = settling.thin_part();
     proxy.thickness = 2.0 * wrap.offset;
-    if (!is_usable(proxy.surface, control)) proxy.surface = std::move(wrap.surface);
-    return proxy;
+    if (serves(proxy.surface)) return {std::move(proxy), true};
+    proxy.surface = std::move(wrap.surface);
+    const bool serving = serves(proxy.surface);
+    return {std::move(proxy), serving};
+}
+
+/// A wrap that every method can use. TetGen finds no proper tetrahedra in some sharp corners; a rougher or finer wrap
+/// has others. Where none of these serves, the first, which boundary elements can use.
+ProxySurface wrapped_to(const SurfaceMesh& closed, int n_vertices, const WrapResult& known, Control& control) {
+    std::optional<ProxySurface> first;
+    for (const double part : {1.0, 0.8, 1.2, 0.6}) {
+        auto [proxy, serves] =
+            settled_wrap(closed, std::max(static_cast<int>(part * n_vertices), kFewestOfAWrap), kWithin, known, control,
+                         [&](SurfaceMesh& surface) { return serves_every_method(surface, control); });
+        if (serves) return std::move(proxy);
+        if (!first) first = std::move(proxy);
+    }
+    return std::move(*first);
 }
 
 /// make(size) for each size, beside each other: most of it is work of helper processes.
@@ -187,17 +248,34 @@ std::vector<ProxySurface> of_each(std::span<const int> sizes, Control& control, 
 /// Of the body's diagonal, which is 1: a wrap of some hundred vertices, for a tenth of what one for a proxy takes.
 constexpr double kRoughAlpha = 1.0 / 12.0;
 
+bool is_thin(const ProxySurface& proxy) { return proxy.thin_part > kMostThin; }
+
+/// Whether these triangles with holes are sheets, of which no fine wrap is needed: thin beside a wrap of the wanted
+/// size. `rough`: one that is known.
+bool are_sheets(const HoleCaps& capped, int n_vertices, const WrapResult& rough, Control& control) {
+    if (part_of(thin_walls(rough.surface, kThinRoughWall * rough.offset, control)) > kMostThin) return true;
+    if (capped.n_left_open == 0) return false;  // a plate has a thickness of its own
+    return is_thin(
+        settled_wrap(capped.closed, n_vertices, kFinerWithin, rough, control, [](const auto&) { return true; }).first);
+}
+
 /// Open sheets are as thick as the wrap is coarse, and have to be: a finer one would make them too thin for its own
 /// triangles.
-std::vector<ProxySurface> wrapped(const SurfaceMesh& closed, std::span<const int> sizes, Control& control) {
+std::vector<ProxySurface> wrapped(const HoleCaps& capped, std::span<const int> sizes, Control& control) {
+    control.begin_stage("proxy: rough wrap");
+    const SurfaceMesh& closed = capped.closed;
     const WrapResult rough = succeeded(alpha_wrap(closed, kRoughAlpha, control));
+    const int largest = std::ranges::max(sizes);
     std::optional<ProxySurface> fine;
-    if (part_of(thin_walls(rough.surface, kThinRoughWall * rough.offset, control)) <= kMostThin)
-        fine = wrapped_once(closed, kFinerWrap * std::ranges::max(sizes), kFinerWithin, rough, control);
-    const bool collapses = fine && fine->thin_part <= kMostThin;
+    if (!are_sheets(capped, largest, rough, control))
+        fine =
+            settled_wrap(closed, kFinerWrap * largest, kFinerWithin, rough, control, [&](const SurfaceMesh& surface) {
+                return is_sound(surface, control);
+            }).first;
+    const bool collapses = fine && !is_thin(*fine);
     return of_each(sizes, control, [&](int n_vertices) {
         auto coarse = collapses ? collapsed(fine->surface, n_vertices, control) : std::nullopt;
-        if (!coarse) return wrapped_once(closed, n_vertices, kWithin, rough, control);
+        if (!coarse) return wrapped_to(closed, n_vertices, rough, control);
         ProxySurface proxy = *fine;
         proxy.surface = std::move(*coarse);
         return proxy;
@@ -208,7 +286,11 @@ std::vector<ProxySurface> wrapped(const SurfaceMesh& closed, std::span<const int
 std::vector<ProxySurface> collapsed_to(const SurfaceMesh& sound, std::span<const int> sizes, Control& control) {
     std::atomic<bool> failed{false};
     auto proxies = of_each(sizes, control, [&](int n_vertices) {
-        auto surface = sound.n_vertices() > n_vertices ? collapsed(sound, n_vertices, control) : sound;
+        std::optional<SurfaceMesh> surface;
+        if (sound.n_vertices() > n_vertices)
+            surface = collapsed(sound, n_vertices, control);
+        else if (SurfaceMesh itself = sound; serves_every_method(itself, control))
+            surface = std::move(itself);
         if (!surface) failed = true;
         return ProxySurface{.surface = surface ? std::move(*surface) : SurfaceMesh{},
                             .kind = ProxySurface::Kind::collapsed};
@@ -216,30 +298,38 @@ std::vector<ProxySurface> collapsed_to(const SurfaceMesh& sound, std::span<const
     return failed ? std::vector<ProxySurface>{} : proxies;
 }
 
-/// The surface itself, or its closed form, when every method can use it.
-std::optional<SurfaceMesh> sound_surface(const SurfaceMesh& closed, const MeshReport& report, Control& control) {
-    if (!is_sound_but_for_holes(report)) return std::nullopt;
-    if (report.usable_for_fem()) return closed;
-    CheckedMesh checked = check_and_repair(closed, control);
-    if (!checked.report.usable_for_fem()) return std::nullopt;
-    return std::move(checked.mesh);
+/// The surface itself, or with its holes closed, when that makes it sound: smoothly if possible, else by the caps.
+std::optional<SurfaceMesh> sound_surface(const SurfaceMesh& surface, const HoleCaps& capped, const MeshReport& report,
+                                         Control& control) {
+    if (report.usable_for_fem()) return surface;
+    if (capped.n_left_open > 0 || !is_sound_but_for_holes(report)) return std::nullopt;
+    std::vector<SurfaceMesh> candidates;
+    if (WrapResult filled = fill_holes(surface, HoleFilling::smooth, control); filled.failure.empty())
+        candidates.push_back(std::move(filled.surface));
+    candidates.push_back(capped.closed);
+    for (SurfaceMesh& candidate : candidates) {
+        CheckedMesh checked = check_and_repair(std::move(candidate), control);
+        if (checked.report.usable_for_fem()) return std::move(checked.mesh);
+    }
+    return std::nullopt;
 }
 
 }  // namespace
 
 std::vector<ProxySurface> make_proxy_surfaces(const SurfaceMesh& shown, const MeshReport& report,
-                                              std::span<const int> sizes, Control& control) {
+                                              std::span<const int> sizes, Control& control, OpenSurface taken_for) {
     control.begin_stage("proxy");
     SurfaceMesh triangles = solid_triangles(shown);
     const UnitFrame frame = to_unit_size(triangles);
-    const HoleCaps capped = cap_holes(triangles);
+    const HoleCaps capped = cap_holes(triangles, taken_for);
     std::vector<ProxySurface> proxies;
     if (shown.n_vertices() <= kMostCollapsed)
-        if (const auto sound = sound_surface(capped.closed, report, control))
+        if (const auto sound = sound_surface(triangles, capped, report, control))
             proxies = collapsed_to(*sound, sizes, control);
-    if (proxies.empty()) proxies = wrapped(capped.closed, sizes, control);
+    if (proxies.empty()) proxies = wrapped(capped, sizes, control);
     for (ProxySurface& proxy : proxies) {
         proxy.n_capped_holes = capped.n_holes;
+        proxy.n_open_holes = capped.n_left_open;
         proxy.surface.vertices = (proxy.surface.vertices * frame.scale).colwise() + frame.centre;
         proxy.thickness *= frame.scale;
     }

@@ -13,6 +13,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <limits>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -42,24 +44,108 @@ Soup read_soup(const WrapRequestHeader& request) {
 /// Vertices of a wrap lie this part of alpha from the surface.
 constexpr double kOffset = 0.1;
 
-Result wrap_once(const Oracle& oracle, double alpha) {
+/// A wrap is given up when it has inserted this many points for each vertex that is wanted; most become vertices.
+constexpr double kMostPoints = 3.0;
+
+struct TooManyPoints {};
+
+/// Counts the points that a wrap inserts: tells the caller how far it is, and ends one that becomes far too fine.
+class PointCount : public CGAL::Alpha_wraps_3::internal::Wrapping_default_visitor {
+public:
+    PointCount(double usual, double most) : usual_(usual), most_(most) {}
+
+    template <class Wrapper, class Point>
+    void before_Steiner_point_insertion(const Wrapper&, const Point&) {
+        constexpr int kBetweenWords = 256;
+        if (++count_ > most_) throw TooManyPoints{};
+        if (count_ % kBetweenWords != 0) return;
+        WrapProgress word;
+        word.fraction = count_ / (count_ + usual_);  // never backwards, and half where the usual number is there
+        write_bytes(&word, sizeof(word));
+    }
+
+private:
+    double usual_, most_;
+    int count_ = 0;
+};
+
+std::optional<Result> wrap_once(const Oracle& oracle, double alpha, PointCount count) {
     Result result{{}, alpha, kOffset * alpha, 0};
     CGAL::Alpha_wraps_3::internal::Alpha_wrap_3<Oracle> wrapper(oracle);
-    wrapper(alpha, result.offset, result.mesh);
+    try {
+        wrapper(alpha, result.offset, result.mesh, CGAL::parameters::visitor(count));
+    } catch (const TooManyPoints&) {
+        return std::nullopt;
+    }
     return result;
 }
 
-/// The number of vertices of a wrap grows with its area over the square of alpha.
+/// Looks for the alpha of which a wrap has so many vertices. Their number grows with the wrap's area over the square of
+/// alpha; the area is known from a wrap only, and that of sheets and soups grows where a finer alpha finds its way
+/// between them: with alpha to the power -1.85 around solids, to -3 at worst. The power is taken from the last two
+/// wraps.
+class AlphaSearch {
+public:
+    AlphaSearch(double wanted, double known_alpha, double known_vertices)
+        : wanted_(wanted), alpha_(known_alpha), vertices_(known_vertices) {}
+
+    /// The next to try. The first steps are careful: a wrap far too fine takes long, one too rough next to nothing.
+    double next() const {
+        const double ratio = wanted_ / vertices_;
+        double step = std::pow(ratio, 1.0 / power_);
+        if (!tried_ && ratio > 1.0) step = std::min(step, std::cbrt(2.0 * ratio));
+        return std::max(alpha_ / std::clamp(step, 0.25, 10.0), 1.1 * too_fine_);
+    }
+    void tell(double alpha, double vertices) {
+        if (alpha != alpha_) power_ = std::clamp(std::log(vertices / vertices_) / std::log(alpha_ / alpha), 1.2, 4.0);
+        alpha_ = alpha;
+        vertices_ = vertices;
+        tried_ = true;
+    }
+    void tell_too_fine(double alpha) {
+        constexpr double kPowerOfSoups = 2.6;
+        too_fine_ = std::max(too_fine_, alpha);
+        tell(alpha, kMostPoints * wanted_);
+        power_ = kPowerOfSoups;
+    }
+
+private:
+    double wanted_, alpha_, vertices_, power_ = 1.85, too_fine_ = 0.0;
+    bool tried_ = false;
+};
+
+/// Three attempts to come near the number of vertices from either side, more to come down to it.
+Result wrap_to_size(const Oracle& oracle, const WrapRequestHeader& request) {
+    constexpr int kAttempts = 3, kMostAttempts = 8;
+    const double wanted = request.wanted_vertices;
+    AlphaSearch search(wanted, request.alpha, request.known_vertices);
+    Result best;
+    double best_ratio = 0.0;
+    for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
+        const double alpha = search.next();
+        auto result = wrap_once(oracle, alpha, PointCount(wanted, kMostPoints * wanted));
+        if (!result) {
+            search.tell_too_fine(alpha);
+            continue;
+        }
+        const double n_vertices = static_cast<double>(result->mesh.number_of_vertices()), ratio = n_vertices / wanted;
+        if (best_ratio == 0.0 || std::abs(std::log(ratio)) < std::abs(std::log(best_ratio))) {
+            best = std::move(*result);
+            best_ratio = ratio;
+        }
+        if (n_vertices == 0.0 || (best_ratio < request.within && best_ratio > 1.0 / request.within)) break;
+        if (attempt + 1 >= kAttempts && best_ratio < request.within) break;
+        search.tell(alpha, n_vertices);
+    }
+    return best;
+}
+
 Result wrap(const Soup& soup, const WrapRequestHeader& request) {
+    constexpr double kUsualRough = 1000.0;
     Oracle oracle;
     oracle.add_triangle_soup(soup.points, soup.triangles, CGAL::parameters::default_values());
-    Result result = wrap_once(oracle, request.alpha);
-    for (int attempt = 1; attempt < 3 && request.wanted_vertices > 0; ++attempt) {
-        const double ratio = static_cast<double>(result.mesh.number_of_vertices()) / request.wanted_vertices;
-        if (ratio == 0.0 || (ratio > 1.0 / request.within && ratio < request.within)) break;
-        result = wrap_once(oracle, result.alpha * std::clamp(std::sqrt(ratio), 0.1, 4.0));
-    }
-    return result;
+    if (request.wanted_vertices > 0) return wrap_to_size(oracle, request);
+    return *wrap_once(oracle, request.alpha, PointCount(kUsualRough, std::numeric_limits<double>::infinity()));
 }
 
 /// Cost of a collapse after Lindstrom and Turk, which is zero for all edges of a plane: a little of what an edge's

@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstddef>
 #include <cstring>
+#include <limits>
 #include <vector>
 
 #include "mesh/input/child_process.hpp"
@@ -38,9 +39,32 @@ std::string end_of_wrap(int status, const std::string& output) {
     return output.empty() ? "it ended early" : output.substr(0, output.find('\n'));
 }
 
+/// Takes the helper's words on its progress out of what it answers.
+class Progress {
+public:
+    explicit Progress(Control& control) : control_(control) {}
+
+    void read(const std::vector<char>& bytes) {
+        for (WrapProgress word; bytes.size() >= end_ + sizeof(word); end_ += sizeof(word)) {
+            std::memcpy(&word, bytes.data() + end_, sizeof(word));
+            if (word.magic != kWrapProgress) return;
+            control_.set_progress(std::clamp(word.fraction, 0.0, 1.0));
+        }
+    }
+    std::size_t end() const { return end_; }  ///< where the reply begins
+
+private:
+    Control& control_;
+    std::size_t end_ = 0;
+};
+
 WrapResult run_wrap(const WrapRequestHeader& request, const SurfaceMesh& surface, Control& control) {
     ChildProcess helper(helper_program("elastolab-wrap"));
-    const std::vector<char> reply = helper.exchange(request_bytes(request, surface), control);
+    Progress progress(control);
+    std::vector<char> reply =
+        helper.exchange(request_bytes(request, surface), control, std::numeric_limits<std::size_t>::max(),
+                        [&](const std::vector<char>& bytes) { progress.read(bytes); });
+    reply.erase(reply.begin(), reply.begin() + static_cast<std::ptrdiff_t>(progress.end()));
     const int status = helper.wait(control);
 
     WrapResult result;
@@ -73,14 +97,13 @@ WrapResult alpha_wrap(const SurfaceMesh& triangles, double alpha, Control& contr
     return run_wrap({.task = WrapTask::wrap, .alpha = alpha}, triangles, control);
 }
 
-/// The number of vertices grows with the wrap's area over the square of alpha, from one wrap to a finer one a little
-/// slower, as was measured. The area is known only once there is a wrap, since what the triangles hide does not count.
 WrapResult alpha_wrap(const SurfaceMesh& triangles, int n_vertices, double within, const WrapResult& known,
                       Control& control) {
-    constexpr double kExponent = 1.85;
-    const double ratio = static_cast<double>(known.surface.n_vertices()) / n_vertices;
-    const double alpha = known.alpha * std::clamp(std::pow(ratio, 1.0 / kExponent), 0.1, 4.0);
-    return run_wrap({.task = WrapTask::wrap, .wanted_vertices = n_vertices, .alpha = alpha, .within = within},
+    return run_wrap({.task = WrapTask::wrap,
+                     .wanted_vertices = n_vertices,
+                     .known_vertices = known.surface.n_vertices(),
+                     .alpha = known.alpha,
+                     .within = within},
                     triangles, control);
 }
 

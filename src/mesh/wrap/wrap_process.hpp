@@ -21,8 +21,8 @@ struct WrapResult {
 /// in a process of its own. Coordinates are finite and at most 1e3 or so; triangles without area do not count. Throws
 /// MeshError only when the helper program is missing; Cancelled.
 WrapResult alpha_wrap(const SurfaceMesh& triangles, double alpha, Control& control);
-/// The same of so many vertices within that factor if three attempts reach it. `known`: an earlier wrap of the same
-/// triangles, which tells how many vertices go to a square of alpha.
+/// The same of so many vertices within that factor if a few attempts reach it, the first of them rather too rough than
+/// too fine. `known`: an earlier wrap of the same triangles, which tells how many vertices go to a square of alpha.
 WrapResult alpha_wrap(const SurfaceMesh& triangles, int n_vertices, double within, const WrapResult& known,
                       Control& control);
 

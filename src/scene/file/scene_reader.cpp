@@ -220,12 +220,17 @@ std::vector<FixedSet> read_fixed(const JsonNode& node) {
 }
 
 ProxyChoice read_proxy(const JsonNode& node) {
-    node.require_keys({"use", "vertices"});
+    node.require_keys({"use", "vertices", "as"});
     ProxyChoice proxy;
     if (const auto use = node.find("use")) {
         const auto known = parse_proxy_use(use->text());
         if (!known) use->fail(use->quoted() + " is none of never, auto, always, fill. Choose one of these.");
         proxy.use = *known;
+    }
+    if (const auto as = node.find("as")) {
+        const auto known = parse_open_surface(as->text());
+        if (!known) as->fail(as->quoted() + " is none of auto, solid, sheet. Choose one of these.");
+        proxy.taken_for = *known;
     }
     if (const auto vertices = node.find("vertices"))
         proxy.n_vertices = vertices->integer(kFewestProxyVertices, kMostProxyVertices);

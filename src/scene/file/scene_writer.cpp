@@ -84,6 +84,12 @@ Json to_json(const std::vector<FixedSet>& sets) {
     return list;
 }
 
+Json to_json(const ProxyChoice& proxy) {
+    Json json{{"use", std::string(name(proxy.use))}, {"vertices", proxy.n_vertices}};
+    if (proxy.taken_for != OpenSurface::automatic) json["as"] = std::string(name(proxy.taken_for));
+    return json;
+}
+
 Json to_json(const ViewPoint& view) {
     return {{"eye", to_json(view.eye)},
             {"target", to_json(view.target)},
@@ -101,8 +107,7 @@ Json to_json(const Document& document) {
     if (!document.fixed.empty()) json["fixed"] = to_json(document.fixed);
     json["handles"] = Json::array();
     for (const Handle& handle : document.handles) json["handles"].push_back(to_json(handle));
-    if (document.proxy != ProxyChoice{})
-        json["proxy"] = {{"use", std::string(name(document.proxy.use))}, {"vertices", document.proxy.n_vertices}};
+    if (document.proxy != ProxyChoice{}) json["proxy"] = to_json(document.proxy);
     if (document.camera) json["camera"] = to_json(*document.camera);
     return json;
 }

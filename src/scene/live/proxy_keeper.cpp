@@ -14,13 +14,14 @@ bool is_filling(const std::optional<ProxyChoice>& choice) { return choice && cho
 }  // namespace
 
 void ProxyKeeper::ask(const LiveScene& scene, bool needs_model, int n_preview_vertices) {
-    const bool same_surface = surface_ == scene.surface();
+    const bool same_surface = surface_ == scene.surface() && taken_for_ == scene.document().proxy.taken_for;
     const auto choice = needs_model ? std::optional(scene.document().proxy) : std::nullopt;
     if (same_surface && choice_ == choice && n_preview_ == n_preview_vertices) return;
     const bool same_solid = same_surface && is_filling(choice_) == is_filling(choice);
     if (!same_surface || choice_ != choice) model_.reset();
     if (!same_solid || n_preview_ != n_preview_vertices) preview_.reset();
     surface_ = scene.surface();
+    taken_for_ = scene.document().proxy.taken_for;
     report_ = scene.report();
     name_ = scene.name();
     choice_ = choice;
@@ -45,14 +46,14 @@ void ProxyKeeper::begin_proxies(bool needs_model, bool needs_preview) {
     std::vector<int> sizes;  // made together: their first steps are the same
     if (needs_model) sizes.push_back(choice_->n_vertices);
     if (needs_preview) sizes.push_back(n_preview_);
-    job_.start(
-        [surface = surface_, report = report_, name = name_, sizes, needs_model, needs_preview](Control& control) {
-            Made made;
-            const auto proxies = make_proxies(name, surface, report, sizes, control);
-            if (needs_model) made.model = proxies.front();
-            if (needs_preview) made.preview = proxies.back();
-            return made;
-        });
+    job_.start([surface = surface_, report = report_, name = name_, taken_for = taken_for_, sizes, needs_model,
+                needs_preview](Control& control) {
+        Made made;
+        const auto proxies = make_proxies(name, surface, report, sizes, control, taken_for);
+        if (needs_model) made.model = proxies.front();
+        if (needs_preview) made.preview = proxies.back();
+        return made;
+    });
 }
 
 /// The preview is made of the filled surface, which is solid where the open one may be a shell.

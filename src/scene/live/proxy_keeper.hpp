@@ -49,6 +49,7 @@ private:
     MeshReport report_;
     std::string name_;
     std::optional<ProxyChoice> choice_;  ///< none: no model is wanted
+    OpenSurface taken_for_ = OpenSurface::automatic;
     int n_preview_ = 0;
     std::shared_ptr<const Proxy> model_, preview_;
     std::string failure_;

@@ -35,14 +35,16 @@ SurfacePlaces own_places(const SurfaceMesh& surface, const Positions& shown, con
     return places;
 }
 
-std::shared_ptr<const Proxy> embedded(ProxySurface made, const std::shared_ptr<const SurfaceMesh>& shown,
-                                      const MeshReport& report, Control& control, const std::vector<int>& own = {}) {
+std::shared_ptr<Proxy> embedded(ProxySurface made, const std::shared_ptr<const SurfaceMesh>& shown,
+                                const MeshReport& report, Control& control, const std::vector<int>& own = {}) {
+    control.begin_stage("proxy: attach");
     auto proxy = std::make_shared<Proxy>();
     // That of equilateral triangles of the mean area.
     proxy->edge = std::sqrt(4.0 / std::sqrt(3.0) * surface_area(made.surface) / made.surface.n_triangles());
     proxy->kind = made.kind;
     proxy->shown_is_sound = report.usable_for_fem();
     proxy->n_closed_holes = made.n_capped_holes;
+    proxy->n_open_holes = made.n_open_holes;
     proxy->thin_part = made.thin_part;
     proxy->thickness = made.thickness;
     proxy->surface = std::make_shared<const SurfaceMesh>(std::move(made.surface));
@@ -56,18 +58,22 @@ std::shared_ptr<const Proxy> embedded(ProxySurface made, const std::shared_ptr<c
 
 void require_shape(const MeshReport& report, const std::string& name) {
     for (const Defect& defect : report.defects)
-        if (defect.kind == Defect::Kind::no_triangles) throw MeshError(name + ": " + defect.text);
+        if (defect.kind == Defect::Kind::no_triangles || defect.kind == Defect::Kind::too_small)
+            throw MeshError(name + ": " + defect.text);
 }
 
 std::vector<std::shared_ptr<const Proxy>> make_proxies(const std::string& name,
                                                        const std::shared_ptr<const SurfaceMesh>& shown,
                                                        const MeshReport& report, std::span<const int> sizes,
-                                                       Control& control) {
+                                                       Control& control, OpenSurface taken_for) {
     require_shape(report, name);
     try {
         std::vector<std::shared_ptr<const Proxy>> proxies;
-        for (ProxySurface& surface : make_proxy_surfaces(*shown, report, sizes, control))
-            proxies.push_back(embedded(std::move(surface), shown, report, control));
+        for (ProxySurface& surface : make_proxy_surfaces(*shown, report, sizes, control, taken_for)) {
+            const auto proxy = embedded(std::move(surface), shown, report, control);
+            proxy->taken_for = taken_for;
+            proxies.push_back(proxy);
+        }
         return proxies;
     } catch (const MeshError& error) {
         throw MeshError(name + ": " + error.what());
@@ -77,7 +83,8 @@ std::vector<std::shared_ptr<const Proxy>> make_proxies(const std::string& name,
 std::shared_ptr<const Proxy> make_proxy(const std::string& name, const std::shared_ptr<const SurfaceMesh>& shown,
                                         const MeshReport& report, const ProxyChoice& choice, Control& control) {
     const std::array sizes = {choice.n_vertices};
-    if (choice.use != ProxyUse::fill) return make_proxies(name, shown, report, sizes, control).front();
+    if (choice.use != ProxyUse::fill)
+        return make_proxies(name, shown, report, sizes, control, choice.taken_for).front();
     require_shape(report, name);
     try {
         FilledSurface filled = fill_holes(*shown, control);
@@ -116,7 +123,11 @@ Findings findings_of_proxy(const Proxy& proxy, const std::string& name) {
         findings.push_back(
             {.kind = FindingKind::capped_holes, .value = static_cast<double>(proxy.n_closed_holes), .object = name});
     if (proxy.thin_part > kManyThin)
-        findings.push_back({.kind = FindingKind::thin_sheets, .value = proxy.thickness, .object = name});
+        findings.push_back(
+            {.kind = FindingKind::thin_sheets, .value = proxy.thickness, .first = proxy.n_open_holes, .object = name});
+    else if (proxy.taken_for == OpenSurface::sheet && proxy.n_open_holes > 0)
+        findings.push_back(
+            {.kind = FindingKind::narrow_openings, .value = static_cast<double>(proxy.n_open_holes), .object = name});
     return findings;
 }
 

@@ -22,6 +22,8 @@ struct Proxy {
     ProxySurface::Kind kind = ProxySurface::Kind::wrapped;
     bool shown_is_sound = false;  ///< every method could simulate it itself
     int n_closed_holes = 0;       ///< filled, or capped before it was made (see ProxySurface)
+    int n_open_holes = 0;         ///< left open, since their part of the surface was taken for a sheet
+    OpenSurface taken_for = OpenSurface::automatic;  ///< what was asked for
     double thin_part = 0.0, thickness = 0.0;
 
     bool is_filled() const { return kind == ProxySurface::Kind::filled; }
@@ -32,7 +34,8 @@ struct Proxy {
 std::vector<std::shared_ptr<const Proxy>> make_proxies(const std::string& name,
                                                        const std::shared_ptr<const SurfaceMesh>& shown,
                                                        const MeshReport& report, std::span<const int> sizes,
-                                                       Control& control);
+                                                       Control& control,
+                                                       OpenSurface taken_for = OpenSurface::automatic);
 
 /// The one that a scene's choice asks for: with about its number of vertices, or the surface with its holes filled.
 /// Throws as make_proxies, and MeshError when the filled surface is no solid.
@@ -43,7 +46,7 @@ std::shared_ptr<const Proxy> make_proxy(const std::string& name, const std::shar
 std::shared_ptr<const Proxy> make_coarser_proxy(const std::string& name, const Proxy& fine, int n_vertices,
                                                 Control& control);
 
-/// Throws MeshError with `name` where no proxy can help: no triangle of finite points.
+/// Throws MeshError with `name` where no proxy can help: no triangle of finite points, or all of them far too small.
 void require_shape(const MeshReport& report, const std::string& name);
 
 /// What the person should know of it; `name` is that of the mesh that is shown.

@@ -52,6 +52,7 @@ bool tells_of(const Finding& finding, Wrong what) {
         case FindingKind::capped_holes:
         case FindingKind::filled_holes:
         case FindingKind::thin_sheets:
+        case FindingKind::narrow_openings:
             return false;
     }
     return false;
