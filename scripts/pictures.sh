@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# pictures.sh [PROGRAM [PICTURE...]]: takes the pictures of README.md and docs/guide.md anew, in assets/pictures (default:
+# pictures.sh [PROGRAM [PICTURE...]]: takes the pictures of README.md and docs/guide.md again, in assets/pictures (default:
 # all). A recorded interaction presses the keys and clicks. Needs ImageMagick.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -42,7 +42,30 @@ picture() {
   echo "assets/pictures/$name.png"
 }
 
+# film NAME SCENE METHOD=TITLE=COLOUR...: the pull from rest and back by each method beside the next, as an animated GIF.
+film() {
+  local name=$1 scene=$2 part method title colour frame font row
+  shift 2
+  [[ ${#wanted[@]} -eq 0 || " ${wanted[*]} " == *" $name "* ]] || return 0
+  font=$(fc-match -f '%{file}' 'Roboto:medium')
+  for part in "$@"; do
+    tests/support/with_display.sh "$program" view "$scene" --hidden --frames 3 --method "${part%%=*}" --pull-film 20 \
+      --picture "$work/${part%%=*}.png" --picture-size 320x400
+  done
+  for frame in {0001..0020}; do
+    row=()
+    for part in "$@"; do
+      IFS='=' read -r method title colour <<< "$part"
+      row+=('(' "$work/$method-$frame.png" -crop 200x240+62+84 +repage -font "$font" -pointsize 15 -fill "$colour"
+            -annotate +10+230 "$title" ')')
+    done
+    convert "${row[@]}" +append "$work/row-$frame.png"
+  done
+  convert -delay 9 -loop 0 "$work"/row-*.png -layers Optimize -colors 128 "assets/pictures/$name.gif"
+  echo "assets/pictures/$name.gif"
+}
 
+film pull assets/scenes/rabbit-nod.json 'fem=FEM=#9ec5f0' 'constant-bem=Constant BEM=#e8b98a' 'linear-bem=Linear BEM=#8fd3ab'
 picture side-by-side assets/scenes/rabbit-nod.json 'key 67'
 picture hand assets/scenes/hand.json
 picture section assets/scenes/liver.json --field von-mises --cut x
@@ -69,3 +92,25 @@ cat > "$work/scan.json" << 'END'
               "translate": [0.35, -0.1, -0.3]}]}
 END
 picture scan "$work/scan.json"
+
+# film NAME SCENE FRAMES: the pull of a scene, there and back, as a small animation.
+film() {
+  local name=$1 scene=$2 frames=$3
+  [[ ${#wanted[@]} -eq 0 || " ${wanted[*]} " == *" $name "* ]] || return 0
+  mkdir "$work/film"
+  tests/support/with_display.sh "$program" view "$scene" --hidden --frames 2 --picture "$work/film/frame.png" \
+    --picture-size 960x540 --pull-film "$frames"
+  convert -delay 6 -loop 0 "$work"/film/frame-*.png -resize 50% -colors 96 -layers optimize \
+    "assets/pictures/$name.gif"
+  rm -r "$work/film"
+  echo "assets/pictures/$name.gif"
+}
+
+# A rubber bar whose end is turned twice.
+cat > "$work/turns.json" << 'END'
+{"elastolab": 1, "mesh": {"primitive": "beam", "resolution": 4}, "method": "nonlinear-fem",
+ "fixed": {"box": {"min": [0, 0, 0], "max": [0, 1, 1]}},
+ "handles": [{"name": "end", "select": {"box": {"min": [4, 0, 0], "max": [4, 1, 1]}},
+              "rotate": {"axis": [1, 0, 0], "degrees": 720, "center": [4, 0.5, 0.5]}}]}
+END
+film turn "$work/turns.json" 48

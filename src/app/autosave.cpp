@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <memory>
 #include <string>
 #include <system_error>
@@ -13,7 +14,9 @@
 #include <utility>
 
 #include "app/window/state_folder.hpp"
+#include "base/error.hpp"
 #include "scene/file/scene_file.hpp"
+#include "scene/user_text.hpp"
 
 namespace elastolab {
 
@@ -35,10 +38,12 @@ FileDescriptor open_locked(const fs::path& file, int flags) {
     return descriptor;
 }
 
+/// What was there stays where the new name cannot be written.
 void write_origin(const FileDescriptor& lock, const fs::path& origin) {
     const std::string text = origin.string();
-    if (ftruncate(lock.get(), 0) != 0) return;
-    [[maybe_unused]] const ssize_t n = pwrite(lock.get(), text.data(), text.size(), 0);  // a convenience
+    const ssize_t n = pwrite(lock.get(), text.data(), text.size(), 0);
+    if (n != static_cast<ssize_t>(text.size()) || ftruncate(lock.get(), n) != 0)
+        throw std::system_error(errno, std::generic_category(), "the name of its file cannot be written");
 }
 
 fs::path read_origin(const FileDescriptor& lock) {
@@ -77,37 +82,60 @@ std::vector<AutosavedScene> find_autosaved() {
     return found;
 }
 
-bool Autosave::make_place() {
+void Autosave::make_place() {
     const fs::path folder = autosave_folder();
-    std::error_code error;
-    if (folder.empty()) return false;
-    fs::create_directories(folder, error);
-    for (int i = 0; i < kMostNames && !error; ++i) {
+    if (folder.empty()) throw Error("There is no folder for it. Set HOME or XDG_STATE_HOME.");
+    fs::create_directories(folder);
+    for (int i = 0; i < kMostNames; ++i) {
         const std::string name = std::to_string(getpid()) + "-" + std::to_string(i);
         const fs::path lock = folder / (name + ".lock");
         if (FileDescriptor locked = open_locked(lock, O_CREAT | O_EXCL)) {
             place_ = AutosavedScene{folder / (name + ".json"), lock, {}, {}, std::move(locked)};
-            return true;
+            origin_is_named_ = false;
+            return;
         }
     }
-    return false;
+    throw Error(folder.string() + ": no file can be made in it. Check its permissions, and the space on its disk.");
+}
+
+void Autosave::name_origin(const fs::path& origin) {
+    if (origin_is_named_ && place_->origin == origin) return;
+    place_->origin = origin;
+    origin_is_named_ = false;
+    write_origin(place_->locked, origin);
+    origin_is_named_ = true;
+}
+
+/// The same state is written when it is due again, to a new place where the old one is gone.
+void Autosave::fail(std::string why) {
+    failure_ = std::move(why);
+    written_.reset();
+    std::error_code ignored;
+    if (place_ && !fs::exists(place_->lock, ignored)) place_.reset();
+}
+
+void Autosave::poll() {
+    const JobEvent event = job_.poll();
+    if (event == JobEvent::failed) fail(job_.failure());
+    if (event == JobEvent::finished) failure_.clear();
 }
 
 void Autosave::update(const Scene& scene, double now) {
-    job_.poll();
+    poll();
     wanted_ = scene.modified && scene.revision != written_;
-    if (!scene.modified && place_) {
-        clear();
+    if (!scene.modified) {
+        if (place_ || !failure_.empty()) clear();
         return;
     }
     if (!wanted_ || due_in(now) > 0.0 || job_.working()) return;
     last_ = now;
     wanted_ = false;
     written_ = scene.revision;
-    if (!place_ && !make_place()) return;
-    if (place_->origin != scene.origin || scene.origin.empty()) {
-        place_->origin = scene.origin;
-        write_origin(place_->locked, scene.origin);
+    try {
+        if (!place_) make_place();
+        name_origin(scene.origin);
+    } catch (const std::exception& error) {
+        return fail(user_text(error));
     }
     auto document = std::make_shared<const Document>(scene.document());
     job_.start([document, file = place_->file](Control&) {
@@ -121,6 +149,7 @@ double Autosave::due_in(double now) const { return wanted_ ? std::max(0.0, last_
 void Autosave::adopt(AutosavedScene scene) {
     clear();
     place_ = std::move(scene);
+    origin_is_named_ = true;
 }
 
 void Autosave::clear() {
@@ -131,6 +160,7 @@ void Autosave::clear() {
     place_.reset();
     written_.reset();
     wanted_ = false;
+    failure_.clear();
 }
 
 }  // namespace elastolab

@@ -32,7 +32,7 @@ struct AutosavedScene {
 std::vector<AutosavedScene> find_autosaved();
 
 /// Writes the scene that is edited, on a worker, whenever it has changed and is not saved: at most every two seconds.
-/// All members are for one thread. Failures are silent but for failure().
+/// What failed is tried again after as long. All members are for one thread.
 class Autosave {
 public:
     /// `wake` is called by the worker when it has ended.
@@ -53,14 +53,19 @@ public:
     void adopt(AutosavedScene scene);
     /// The session has ended as it should: nothing is left behind.
     void clear();
-    const std::string& failure() const { return job_.failure(); }
+    /// Why the latest changes are not kept, for the user; empty once they are.
+    const std::string& failure() const { return failure_; }
 
 private:
-    bool make_place();
+    void poll();
+    void make_place();
+    void name_origin(const std::filesystem::path& origin);
+    void fail(std::string why);
 
     std::optional<AutosavedScene> place_;
     std::optional<std::uint64_t> written_;  ///< revision
-    bool wanted_ = false;
+    bool wanted_ = false, origin_is_named_ = false;
+    std::string failure_;
     double last_ = -1e9;
     BackgroundJob<bool> job_;
 };

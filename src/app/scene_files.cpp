@@ -3,8 +3,12 @@
 #include <utility>
 #include <vector>
 
+#include "app/names.hpp"
 #include "base/error.hpp"
+#include "base/text.hpp"
+#include "findings/cost.hpp"
 #include "mesh/input/export.hpp"
+#include "methods/registry.hpp"
 #include "scene/field_export.hpp"
 #include "scene/file/scene_file.hpp"
 
@@ -28,6 +32,30 @@ void hold_lowest(LiveScene& scene, const Eigen::Vector3d& up) {
     scene.mark_saved();
 }
 
+constexpr double kLongSeconds = 15.0, kFarSooner = 4.0;  ///< times
+
+/// A body does not begin with a method that takes long where another one is exact far sooner. Returns what is to be
+/// said of that; empty where it begins as usual.
+std::string begin_with_what_is_soon(LiveScene& scene) {
+    const MethodKind usual = scene.document().method;
+    const auto cost_of = [&](MethodKind kind) { return predict_cost(scene.mesh(), {.kind = kind}); };
+    if (scene.needs_proxy(usual)) return "";  // which has few vertices
+    const Cost own = cost_of(usual);
+    if (own.seconds < kLongSeconds) return "";
+    MethodKind soonest = usual;
+    double seconds = own.seconds / kFarSooner;
+    for (const MethodKind kind : all_methods())
+        if (const Cost cost = cost_of(kind); !scene.needs_proxy(kind) && cost.seconds < seconds) {
+            soonest = kind;
+            seconds = cost.seconds;
+        }
+    if (soonest == usual) return "";
+    scene.start_with(soonest, scene.document().settings);
+    return title(soonest) + " comes first: exact in about " + readable_seconds(seconds) + ". " + title(usual) +
+           " would take about " + readable_seconds(own.seconds) + " and " +
+           readable_bytes(static_cast<double>(own.memory_bytes)) + "; choose it in the panel.";
+}
+
 }  // namespace
 
 /// Our scenes have Z up; bare meshes mostly Y, as most modelling programs have it.
@@ -38,7 +66,8 @@ LoadedScene load_scene_or_mesh(const fs::path& file, Control& control) {
     auto scene = std::make_unique<LiveScene>(document_for_mesh(file), file.parent_path() / "scene.json", control);
     const Eigen::Vector3d up = Eigen::Vector3d::UnitY();
     hold_lowest(*scene, up);
-    return {std::move(scene), up, {}};
+    std::string note = begin_with_what_is_soon(*scene);
+    return {std::move(scene), up, {}, std::move(note)};
 }
 
 LoadedScene load_autosaved(const fs::path& file, const fs::path& origin, Control& control) {
@@ -82,6 +111,7 @@ ExportSource export_source(const LiveScene& scene, const EmbeddedRunner& answer)
     source.values = runner.values();
     source.simulated_displacement = runner.displacement();
     source.refined = runner.refined();
+    source.approach = runner.approach();
     if (!source.refined && answer.carried() != nullptr) source.carried = *answer.carried();
     return source;
 }
@@ -97,14 +127,14 @@ void write_moved_mesh(const fs::path& file, const ExportSource& source) {
 
 /// What is shown first is not what is written.
 ExportSource refined(ExportSource source, Control& control) {
-    source.simulated_displacement = source.deformer->displace(source.values, control);
+    source.simulated_displacement = source.deformer->displace(source.values, control, kSolveTolerance, source.approach);
     source.displacement =
         source.carried ? source.carried->displacement(source.simulated_displacement) : source.simulated_displacement;
     source.refined = true;
     return source;
 }
 
-SolvedBody solved_body(const ExportSource& source) {
+SolvedBody solved_body(const ExportSource& source, Control& control) {
     const ConstrainedSet& set = source.deformer->set();
     SolvedBody solved{.shown = source.shown,
                       .proxy = source.proxy,
@@ -112,7 +142,7 @@ SolvedBody solved_body(const ExportSource& source) {
                       .displacement = source.displacement,
                       .simulated_displacement = source.simulated_displacement,
                       .constrained = set.base,
-                      .forces = source.deformer->reactions(source.values).forces};
+                      .forces = source.deformer->answer(source.values, {}, control).reactions.forces};
     solved.constrained.insert(solved.constrained.end(), set.handles.begin(), set.handles.end());
     return solved;
 }
@@ -121,7 +151,7 @@ SolvedBody solved_body(const ExportSource& source) {
 
 void write_export(const fs::path& file, const ExportSource& source, Control& control) {
     if (!source.refined) return write_export(file, refined(source, control), control);
-    if (source.deformer && is_field_file(file)) return save_field_file(file, solved_body(source), control);
+    if (source.deformer && is_field_file(file)) return save_field_file(file, solved_body(source, control), control);
     if (is_field_file(file) && !(file.extension() == ".ply"))
         throw Error(file.string() + ": there is no answer to write yet. Wait until the method is ready.");
     write_moved_mesh(file, source);

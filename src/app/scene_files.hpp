@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <filesystem>
 #include <memory>
+#include <string>
 
 #include "base/control.hpp"
 #include "deform/deformer.hpp"
@@ -16,6 +17,7 @@ struct LoadedScene {
     std::unique_ptr<LiveScene> scene;
     Eigen::Vector3d up_axis = Eigen::Vector3d::UnitZ();  ///< its axis that points up
     std::filesystem::path file;                          ///< the file it can be saved over; empty for a bare mesh
+    std::string note = {};                               ///< for the user: why it begins with another method than usual
     bool recovered = false;                              ///< from a viewer that was killed: its changes are unsaved
 };
 
@@ -38,6 +40,7 @@ struct ExportSource {
     std::shared_ptr<const Proxy> proxy;        ///< null: shown itself is simulated
     std::shared_ptr<const Deformer> deformer;  ///< null: there is no answer yet
     Eigen::VectorXd values, displacement, simulated_displacement;
+    Approach approach = {};                     ///< of a method that is not linear: how to reach `values`
     bool refined = true;                        ///< else displacements are solved for again, to kSolveTolerance
     std::optional<CarriedConstraints> carried;  ///< to the shown vertices, where that is so and there is a proxy
 };

@@ -18,6 +18,7 @@
 #include "app/picture/view_point.hpp"
 #include "app/viewer_outputs.hpp"
 #include "app/viewer_state.hpp"
+#include "app/window/start_timeline.hpp"
 #include "app/window/window.hpp"
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
@@ -29,6 +30,7 @@ namespace elastolab {
 namespace {
 
 constexpr double kProgressSeconds = 1.0 / 15.0;  ///< between frames while a progress bar moves
+constexpr double kWaitingSeconds = 0.01;         ///< between looks at what the next frame of a film shows
 constexpr int kSettlingFrames = 3;               ///< frames that Dear ImGui needs to settle after an event
 constexpr double kCheckSeconds = 0.25;           ///< between looks at a check that goes on in the background
 constexpr double kCaretSeconds = 0.4;            ///< between frames while a text cursor blinks
@@ -59,6 +61,7 @@ public:
         if (options.n_frames > 0 || options.hidden) window_.disable_vsync();
         if (nobody_watches() || !options.scene_out.empty()) state_.unsaved.never_ask();  // that keeps the changes
         if (!options.timings.empty()) state_.measurements.timings = std::make_unique<TimingsRecorder>(options.timings);
+        if (!options.timeline.empty()) timeline_.emplace(options.timeline);
         if (!options.record.empty())
             state_.measurements.recorder = std::make_unique<InteractionRecorder>(options.record, window_.size());
         for (const std::filesystem::path& file :
@@ -75,6 +78,7 @@ public:
             if (must_draw()) draw_frame();
             keep_scene();
         }
+        pictures_.stop(state_);  // a film that is cut short leaves the handles where they were
         draw_last_picture();
         if (!options_.picture.empty() && nobody_watches() && !replay_) state_.frame_in_viewports(true);  // as deformed
         pictures_.take_at_end(options_, renderer_, state_, palette());
@@ -126,7 +130,7 @@ private:
     }
 
     double timeout() const {
-        if (pictures_.filming()) return 0.0;
+        if (pictures_.filming()) return pictures_.waiting() ? kWaitingSeconds : 0.0;
         if (held_back()) return kProgressSeconds;
         if (options_.n_frames > 0 || pending_frames_ > 0 || !queue_.empty()) return 0.0;
         if (replay_ && !replay_->done() && !state_.simulation.busy()) return 0.0;
@@ -139,9 +143,9 @@ private:
     }
 
     /// A copy of what is not saved, for the case that this process is killed. Not in the midst of a pull, which would
-    /// be kept as it began until the next copy is due.
+    /// be kept as it began until the next copy is due, nor of a film, which moves handles.
     void keep_scene() {
-        if (nobody_watches() || state_.gestures.pulling()) return;
+        if (nobody_watches() || state_.gestures.pulling() || pictures_.filming()) return;
         if (std::optional<AutosavedScene> recovered = state_.take_recovered()) autosave_.adopt(std::move(*recovered));
         autosave_.update(
             {.revision = state_.scene().revision() + (state_.scene_number() << 32),
@@ -150,6 +154,9 @@ private:
              .document =
                  [this] { return movable_document(state_.scene(), state_.method, view_point_of(state_.camera)); }},
             Window::seconds());
+        if (state_.keeping_failure == autosave_.failure()) return;
+        state_.keeping_failure = autosave_.failure();
+        pending_frames_ = kSettlingFrames;
     }
 
     bool must_draw() {
@@ -271,6 +278,7 @@ private:
         const double width_before = before > 0 ? width() : 1.0;
         state_.shown.viewports = viewports_of(state_, layout.scene, gui_.scale());
         if (state_.shown.viewports.size() != before) return state_.frame_in_viewports(before == 0);
+        if (before == 0) return;
         CameraPose pose = state_.camera.pose();
         pose.distance *= width_before / width();
         state_.camera.set_pose(pose);
@@ -296,10 +304,26 @@ private:
         state_.measurements.last_frame = times;
         state_.measurements.history.add(times);
         if (state_.measurements.timings) state_.measurements.timings->add(state_.frame_record(times, now));
+        if (timeline_) mark_start();
         ++state_.measurements.frame;
         pending_frames_ = std::max(0, pending_frames_ - 1);
         message_seconds_ = state_.messages.expire(now);
         if (state_.requests.quit) window_.request_close();
+    }
+
+    /// What this frame is the first to show.
+    void mark_start() {
+        timeline_->mark(StartTimeline::window);
+        if (state_.loading()) return;
+        timeline_->mark(StartTimeline::loaded);
+        const EmbeddedRunner& shown = state_.simulation.answer(state_.method);
+        if (!shown.has_answer()) return;
+        timeline_->mark(StartTimeline::answer);
+        if (shown.displacement().isZero(0.0)) return;
+        timeline_->mark(StartTimeline::moved);
+        const MethodRunner& runner = state_.simulation.runner(state_.method);
+        if (!state_.simulation.previewing(state_.method) && runner.answers() && runner.refined())
+            timeline_->mark(StartTimeline::exact);
     }
 
     bool finished() const {
@@ -320,7 +344,7 @@ private:
     /// A worker inside a library call that cannot be interrupted must not keep a closed window's process alive:
     /// everything that was to be written is.
     void end_workers() {
-        pictures_.stop();
+        pictures_.stop(state_);
         state_.cancel_workers();
         window_.hide();
         const Stopwatch waiting;
@@ -339,6 +363,7 @@ private:
     Panels panels_;
     Pictures pictures_;
     Autosave autosave_;
+    std::optional<StartTimeline> timeline_;
     std::vector<InputEvent> queue_;
     int pending_frames_ = kSettlingFrames;
     double last_frame_seconds_ = 0.0, message_seconds_ = -1.0;

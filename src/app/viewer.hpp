@@ -17,6 +17,7 @@ struct ViewerOptions {
     int n_frames = 0;                               ///< quit after so many; 0: when the person closes the window
     std::filesystem::path screenshot;               ///< of the last frame; empty: none
     std::filesystem::path timings, replay, record;  ///< likewise
+    std::filesystem::path timeline;                 ///< of the start (StartTimeline); empty: none
     std::filesystem::path scene_out, mesh_out;  ///< likewise: the scene and the deformed mesh as they are at the end
     std::filesystem::path picture;              ///< likewise: of the scene alone, or the frames of a film
     Eigen::Vector2i picture_size{1920, 1080};

@@ -103,6 +103,7 @@ void ViewerState::take_scene(LoadedScene loaded) {
     owns_scene_file_ = false;
     graph_ = std::make_unique<VertexGraph>(scene_->mesh());
     ++scene_number_;
+    if (!first_method_ && !loaded.note.empty()) messages.note(loaded.note);
     method = std::exchange(first_method_, std::nullopt).value_or(scene_->document().method);
     scene_->start_with(method, choices.settings());
     tools.patch_radius = std::max(kPatchPart * diagonal(scene_->report()), kPatchEdges * scene_->report().mean_edge);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "app/job_notes.hpp"
+#include "app/names.hpp"
 #include "app/window/recent_files.hpp"
 
 namespace elastolab {
@@ -14,13 +15,13 @@ namespace fs = std::filesystem;
 namespace {
 
 /// As in the timings file: a frame shows the scene's answer, or that is being computed, or nothing is being done.
-std::string recorded_name(MethodRunner::State state) {
+std::string recorded_name(MethodRunner::State state, bool following) {
     switch (state) {
         case MethodRunner::State::ready:
             return "ready";
         case MethodRunner::State::precomputing:
         case MethodRunner::State::preparing:
-            return "precomputing";
+            return following ? "ready" : "precomputing";
         case MethodRunner::State::idle:
         case MethodRunner::State::failed:
             return "idle";
@@ -170,11 +171,18 @@ std::string ViewerState::selected_fixed_name() const {
     return set >= 0 && set < scene_->n_fixed_sets() ? scene_->fixed_name(set) : "";
 }
 
-/// After undo and redo: the numbers of handles and sets may mean others, the name of a set does not.
-void ViewerState::take_step(const std::string& selected_fixed_set) {
+std::string ViewerState::selected_handle_name() const {
+    const int handle = gestures.selected_handle();
+    return handle >= 0 && handle < scene_->n_handles() ? scene_->handle_name(handle) : "";
+}
+
+/// After undo and redo: the numbers of handles and sets may mean others, their names do not.
+void ViewerState::take_step(const std::string& selected_handle, const std::string& selected_fixed_set) {
     take_method();
     gestures.select_handle(-1);
     gestures.keep_fixed(-1);
+    for (int handle = 0; handle < scene_->n_handles(); ++handle)
+        if (scene_->handle_name(handle) == selected_handle) gestures.select_handle(handle);
     for (int set = 0; set < scene_->n_fixed_sets(); ++set)
         if (scene_->fixed_name(set) == selected_fixed_set) gestures.keep_fixed(set);
 }
@@ -182,17 +190,17 @@ void ViewerState::take_step(const std::string& selected_fixed_set) {
 void ViewerState::undo() {
     finish_gesture();
     keep_method();
-    const std::string selected = selected_fixed_name();
+    const std::string handle = selected_handle_name(), set = selected_fixed_name();
     if (scene_->can_undo()) scene_->undo();
-    take_step(selected);
+    take_step(handle, set);
 }
 
 void ViewerState::redo() {
     finish_gesture();
     keep_method();
-    const std::string selected = selected_fixed_name();
+    const std::string handle = selected_handle_name(), set = selected_fixed_name();
     if (scene_->can_redo()) scene_->redo();
-    take_step(selected);
+    take_step(handle, set);
 }
 
 void ViewerState::remove_handle(int handle) {
@@ -230,7 +238,7 @@ FrameRecord ViewerState::frame_record(const FrameTimes& times, double now) const
             .vertices = scene_->mesh().n_vertices(),
             .constrained_vertices = static_cast<int>(set.base.size()) + n_handle,
             .handle_vertices = n_handle,
-            .state = recorded_name(simulation.runner(method).state()),
+            .state = recorded_name(simulation.runner(method).state(), simulation.runner(method).following()),
             .times = times};
 }
 
@@ -249,14 +257,24 @@ bool ViewerState::update_displacements() {
     poll_loading();
     const bool has_exported = tell_end(export_job_, messages);
     keep_method();
-    if (loading() && !simulated_) return has_exported;  // the default scene would be computed for nothing
+    if (blank()) return has_exported;  // the default scene would be computed for nothing
     simulated_ = true;
     const bool changed = simulation.update(*scene_, needed_kinds(), choices) || has_exported;
+    for (const MethodKind kind : simulation.take_dropped())
+        messages.note(title(kind) + " was let go to keep memory free. It is computed again when it is chosen.");
     const std::vector<int>& patch = gestures.hover().patch;
     if (gestures.action() == Gestures::Action::none && !patch.empty() && patch != prefetched_)
         simulation.prefetch(scene_->constraints_with_handle(patch));
     prefetched_ = patch;
     return changed;
+}
+
+bool ViewerState::answering() const {
+    if (waiting()) return true;
+    const std::vector<MethodKind> kinds = needed_kinds();
+    return std::any_of(kinds.begin(), kinds.end(), [&](MethodKind kind) {
+        return (simulation.previewing(kind) && simulation.problem(kind).empty()) || simulation.runner(kind).refining();
+    });
 }
 
 bool ViewerState::update_picture() {

@@ -119,6 +119,8 @@ public:
     void discard_recoverable();
     /// What was recovered, once it is open: whoever takes it keeps the scene there from then on (Autosave::adopt).
     std::optional<AutosavedScene> take_recovered() { return std::exchange(recovered_, std::nullopt); }
+    /// Why the latest changes would be lost if this viewer were killed; empty while they would not.
+    std::string keeping_failure;
     /// The method to begin with, for the scene that is there and the one that is being opened.
     void start_with(MethodKind kind);
 
@@ -168,10 +170,20 @@ public:
     bool update_displacements();
     bool update_picture();
     bool loading() const { return load_job_.running(); }
+    /// The file that is being opened, or was last.
+    const std::filesystem::path& loading_file() const { return pending_file_; }
+    /// The file that a worker writes; empty when none does.
+    std::filesystem::path exported_file() const {
+        return export_job_.running() ? export_file_ : std::filesystem::path();
+    }
+    /// The first file is being opened: until it is there, nothing is shown that could be pulled.
+    bool blank() const { return loading() && !simulated_; }
     /// A worker will bring something for the picture.
     bool waiting() const {
         return loading() || export_job_.running() || shown.cutting() || shown.solving() || simulation.waiting();
     }
+    /// What is shown is not yet the converged answer to the scene as it is.
+    bool answering() const;
     /// Stops all workers at their next checkpoints; stopping(): some have not stopped yet.
     void cancel_workers();
     bool stopping() const {
@@ -187,7 +199,8 @@ private:
     void keep_method();
     void take_method();
     std::string selected_fixed_name() const;
-    void take_step(const std::string& selected_fixed_set);
+    std::string selected_handle_name() const;
+    void take_step(const std::string& selected_handle, const std::string& selected_fixed_set);
     void add_recent(const std::filesystem::path& file);
     /// False when it failed, which becomes a message.
     template <class Action>
@@ -207,6 +220,7 @@ private:
     std::optional<MethodKind> first_method_;
     std::optional<AutosavedScene> recovering_, recovered_;
     BackgroundJob<std::shared_ptr<LoadedScene>> load_job_;
+    std::filesystem::path export_file_;      ///< that export_job_ writes
     BackgroundJob<std::string> export_job_;  ///< with its note
 };
 

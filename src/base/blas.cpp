@@ -8,16 +8,16 @@
 #include <atomic>
 #include <cstdlib>
 #include <mutex>
-#include <thread>
 
 #include "base/instruction_set.hpp"
+#include "base/machine.hpp"
 
 namespace elastolab {
 
 namespace {
 
 std::atomic<int>& threads() {
-    static std::atomic<int> n{std::max(1, static_cast<int>(std::thread::hardware_concurrency()))};
+    static std::atomic<int> n{available_cores()};
     return n;
 }
 
@@ -48,6 +48,7 @@ void prepare_parallel_libraries(char** argv) {
     set_where_unset("OPENBLAS_THREAD_TIMEOUT", "12");  // its threads look for more work for 2^12 cycles, not for 2^26
     set_where_unset("GLIBC_TUNABLES", "glibc.malloc.hugetlb=1");
     if (changed) execv("/proc/self/exe", argv);  // on failure all is slower, and reports say which kernels run
+    if (openblas_get_num_threads() > thread_count()) set_thread_count(thread_count());  // it knows of no quota
 }
 
 std::string blas_kernels() { return openblas_get_corename(); }

@@ -29,8 +29,8 @@ constexpr std::size_t kShareOfBuffers = 4;
 
 /// Whether a request for addresses may be refused long before the memory is used up.
 bool are_addresses_limited() {
-    rlimit limit{};
-    if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) return true;
+    for (const auto kind : {RLIMIT_AS, RLIMIT_DATA})
+        if (rlimit limit{}; getrlimit(kind, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) return true;
     int overcommit = 0;
     std::ifstream file("/proc/sys/vm/overcommit_memory");
     return file >> overcommit && overcommit == 2;
@@ -67,7 +67,7 @@ void reserve_blas_buffers() {
     while (n > 1 && !can_map(kShareOfBuffers * buffers_for(n))) --n;
     if (!can_map(buffers_for(n)))
         throw Error("Out of memory: linear algebra takes " + readable_bytes(static_cast<double>(buffers_for(n))) +
-                    " of addresses, and this process cannot have them. Raise its limit (ulimit -v).");
+                    " of addresses, and this process cannot have them. Raise its limit (ulimit -v, ulimit -d).");
     set_thread_count(n);
     take_buffers_once(n);
 }

@@ -7,15 +7,15 @@
 
 namespace elastolab {
 
-/// Number of rows up to which LAPACK factorises a matrix in one call, which delays a cancel by some tenths of a second.
-constexpr int kLuAtOnce = 3072;
+/// Number of rows up to which the BLAS is called on one thread for a part of the matrix each (for_strips): quicker
+/// beside other processes, and as quick alone. The products of larger ones are worth the BLAS's own threads.
+constexpr int kLuInStrips = 4096;
 
-/// A <- its factors L and U with row exchanges, as LAPACK's getrf leaves them. Matrices larger than `at_once` are
-/// factorised by block columns: each by getrf, then the columns to its right are updated by triangular solves and
-/// one matrix product. Between the blocks `control`, when given, is told the progress of the present stage and may
-/// cancel; that costs 0 to 10 % of the time. Returns what getrf does: 0, or the number of the first pivot that
-/// vanishes. Throws Cancelled.
-int factorise_lu(Eigen::MatrixXd& A, std::vector<int>& pivots, Control* control, int at_once = kLuAtOnce);
-int factorise_lu(Eigen::MatrixXf& A, std::vector<int>& pivots, Control* control, int at_once = kLuAtOnce);
+/// A <- its factors L and U with row exchanges, as LAPACK's getrf leaves them, by block columns: each by getrf, then
+/// the columns to its right are updated by triangular solves and a matrix product. Between the blocks `control`, when
+/// given, is told the progress of the present stage and may cancel. Returns what getrf does: 0, or the number of the
+/// first pivot that vanishes. Throws Cancelled.
+int factorise_lu(Eigen::MatrixXd& A, std::vector<int>& pivots, Control* control, int in_strips = kLuInStrips);
+int factorise_lu(Eigen::MatrixXf& A, std::vector<int>& pivots, Control* control, int in_strips = kLuInStrips);
 
 }  // namespace elastolab

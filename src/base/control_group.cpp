@@ -11,6 +11,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
+constexpr double kNoQuota = std::numeric_limits<double>::infinity();
 
 /// kUnlimited for "max" and for a file that is not there.
 std::uint64_t read_number(const fs::path& path) {
@@ -44,6 +45,29 @@ std::uint64_t available_in(const fs::path& group) {
     return limit - std::min(limit, used);
 }
 
+/// The quota of one group alone, in processors.
+double processors_in(const fs::path& group) {
+    std::ifstream both(group / "cpu.max");
+    double quota = 0.0, period = 0.0;
+    if (!(both >> quota >> period)) {  // "max", or version 1, where -1 is no quota
+        std::ifstream quota_file(group / "cpu.cfs_quota_us"), period_file(group / "cpu.cfs_period_us");
+        if (!(quota_file >> quota && period_file >> period)) return kNoQuota;
+    }
+    return quota > 0.0 && period > 0.0 ? quota / period : kNoQuota;
+}
+
+/// The least of `of` the groups from the root down to this one.
+template <class Of>
+auto least_on_the_way(const fs::path& root, const std::string& group, const Of& of) {
+    auto least = of(root);
+    fs::path inside = root;
+    for (const fs::path& part : fs::path(group).relative_path()) {
+        if (part == "..") break;
+        least = std::min(least, of(inside /= part));
+    }
+    return least;
+}
+
 }  // namespace
 
 std::string control_group_of(std::istream& proc_cgroup, const std::string& controller) {
@@ -57,13 +81,11 @@ std::string control_group_of(std::istream& proc_cgroup, const std::string& contr
 }
 
 std::uint64_t control_group_available(const fs::path& root, const std::string& group) {
-    std::uint64_t available = available_in(root);
-    fs::path inside = root;
-    for (const fs::path& part : fs::path(group).relative_path()) {
-        if (part == "..") break;
-        available = std::min(available, available_in(inside /= part));
-    }
-    return available;
+    return least_on_the_way(root, group, available_in);
+}
+
+double control_group_processors(const fs::path& root, const std::string& group) {
+    return least_on_the_way(root, group, processors_in);
 }
 
 }  // namespace elastolab

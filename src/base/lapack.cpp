@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cassert>
 
+#include "base/blas.hpp"
 #include "base/blocked_lu.hpp"
 #include "base/error.hpp"
+#include "base/strips.hpp"
 
 namespace elastolab {
 
@@ -35,6 +37,7 @@ LuFactorization::LuFactorization(Eigen::MatrixXd&& A, const std::string& name, C
     const double norm = sums.maxCoeff();
     std::vector<double> work(4 * static_cast<std::size_t>(n));
     std::vector<int> iwork(static_cast<std::size_t>(n));
+    const SerialBlas serial;
     LAPACKE_dgecon_work(LAPACK_COL_MAJOR, '1', n, factors_.data(), n, norm, &reciprocal_condition_, work.data(),
                         iwork.data());
 }
@@ -42,8 +45,11 @@ LuFactorization::LuFactorization(Eigen::MatrixXd&& A, const std::string& name, C
 void LuFactorization::solve_in_place(Eigen::Ref<Eigen::MatrixXd> B) const {
     assert(B.rows() == factors_.rows());
     if (factors_.size() == 0 || B.cols() == 0) return;
-    LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', as_int(size()), as_int(B.cols()), factors_.data(), as_int(size()),
-                        pivots_.data(), B.data(), as_int(B.outerStride()));
+    const Eigen::Index stride = B.outerStride();
+    for_right_sides(B.cols(), [&](Eigen::Index first, Eigen::Index count) {
+        LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', as_int(size()), as_int(count), factors_.data(), as_int(size()),
+                            pivots_.data(), B.data() + first * stride, as_int(stride));
+    });
 }
 
 Eigen::MatrixXd LuFactorization::solve(Eigen::MatrixXd B) const {

@@ -1,10 +1,14 @@
 #include "base/machine.hpp"
 
+#include <sched.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <thread>
+
+#include "base/control_group.hpp"
 
 namespace elastolab {
 
@@ -26,9 +30,17 @@ std::uint64_t installed_memory() {
 
 }  // namespace
 
-Machine this_machine() {
-    const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-    return {.cpu = cpu_model(), .cores = cores, .memory_bytes = installed_memory()};
+int available_cores() {
+    cpu_set_t allowed;
+    const bool known = sched_getaffinity(0, sizeof(allowed), &allowed) == 0;  // not on more than 1024 cores
+    const int n = known ? CPU_COUNT(&allowed) : static_cast<int>(std::thread::hardware_concurrency());
+    std::ifstream unified("/proc/self/cgroup"), first_version("/proc/self/cgroup");
+    const double quota =
+        std::min(control_group_processors("/sys/fs/cgroup", control_group_of(unified)),
+                 control_group_processors("/sys/fs/cgroup/cpu", control_group_of(first_version, "cpu")));
+    return std::max(1, static_cast<int>(std::min<double>(n, std::ceil(quota))));
 }
+
+Machine this_machine() { return {.cpu = cpu_model(), .cores = available_cores(), .memory_bytes = installed_memory()}; }
 
 }  // namespace elastolab

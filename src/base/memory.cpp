@@ -16,12 +16,6 @@ namespace {
 
 constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
 
-std::uint64_t read_number(const char* path) {
-    std::ifstream file(path);
-    std::uint64_t value = 0;
-    return file >> value ? value : kNoLimit;
-}
-
 std::uint64_t system_available() {
     std::ifstream file("/proc/meminfo");
     std::string key;
@@ -38,14 +32,21 @@ std::uint64_t own_groups_available() {
                     control_group_available("/sys/fs/cgroup/memory", control_group_of(first_version, "memory")));
 }
 
-/// What the limit of the address space (ulimit -v) leaves.
+std::uint64_t left_of(rlim_t limit, std::uint64_t used_pages) {
+    if (limit == RLIM_INFINITY) return kNoLimit;
+    const std::uint64_t used = used_pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+    return limit > used ? limit - used : 0;
+}
+
+/// What the limits of the address space and of data in it (ulimit -v, ulimit -d) leave.
 std::uint64_t address_space_available() {
-    rlimit limit{};
-    if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return kNoLimit;
-    const std::uint64_t pages = read_number("/proc/self/statm");
-    if (pages == kNoLimit) return kNoLimit;
-    const std::uint64_t used = pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
-    return limit.rlim_cur > used ? limit.rlim_cur - used : 0;
+    rlimit space{RLIM_INFINITY, RLIM_INFINITY}, data = space;
+    getrlimit(RLIMIT_AS, &space);
+    getrlimit(RLIMIT_DATA, &data);
+    std::ifstream statm("/proc/self/statm");
+    std::uint64_t all = 0, resident = 0, shared = 0, text = 0, libraries = 0, written = 0;
+    if (!(statm >> all >> resident >> shared >> text >> libraries >> written)) return kNoLimit;
+    return std::min(left_of(space.rlim_cur, all), left_of(data.rlim_cur, written));
 }
 
 }  // namespace

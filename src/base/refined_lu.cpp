@@ -9,6 +9,7 @@
 #include "base/blas.hpp"
 #include "base/blocked_lu.hpp"
 #include "base/error.hpp"
+#include "base/strips.hpp"
 
 namespace elastolab {
 
@@ -77,6 +78,7 @@ void RefinedLu::factorise_single(double norm, Control* control) {
     std::vector<float> work(4 * static_cast<std::size_t>(n));
     std::vector<int> iwork(static_cast<std::size_t>(n));
     float reciprocal_condition = 0.0F;
+    const SerialBlas serial;
     LAPACKE_sgecon_work(LAPACK_COL_MAJOR, '1', n, factors_.data(), n, static_cast<float>(norm), &reciprocal_condition,
                         work.data(), iwork.data());
     if (std::isfinite(reciprocal_condition)) reciprocal_condition_ = reciprocal_condition;
@@ -88,8 +90,10 @@ Eigen::MatrixXd RefinedLu::solve_single(const Eigen::MatrixXd& B) const {
     scale = (scale.array() > 0.0).select(scale, 1.0);
     Eigen::MatrixXf X = (B.array().rowwise() / scale.array()).matrix().cast<float>();
     const auto n = static_cast<int>(B.rows());
-    LAPACKE_sgetrs_work(LAPACK_COL_MAJOR, 'N', n, static_cast<int>(B.cols()), factors_.data(), n, pivots_.data(),
-                        X.data(), n);
+    for_right_sides(B.cols(), [&](Eigen::Index first, Eigen::Index count) {
+        LAPACKE_sgetrs_work(LAPACK_COL_MAJOR, 'N', n, static_cast<int>(count), factors_.data(), n, pivots_.data(),
+                            X.data() + first * n, n);
+    });
     return X.cast<double>().array().rowwise() * scale.array();
 }
 

@@ -62,14 +62,14 @@ void BemResponses::add_closing_of_border_and_loads(const Eigen::MatrixXd& rigid,
                       });
 }
 
-void BemResponses::add_product(const Eigen::MatrixXd& loads, Eigen::Ref<Eigen::MatrixXd> displacements) const {
+void BemResponses::add_product(const Eigen::MatrixXd& loads, Eigen::Ref<Eigen::MatrixXd> displacements,
+                               Control& control) const {
     if (kept_) {
         columns_.add_product(loads, displacements);
         return;
     }
     const Eigen::Index n = 3 * system_->n_nodes(), n_loads = 3 * space_.n_slots();
     Eigen::MatrixXd response = Eigen::MatrixXd::Zero(n + 6, loads.cols());
-    Control control;
     for_source_strips(system_->nodes(), [&](int source, const Sources& strip) {
         response.middleRows(3 * source, 3 * strip.size()).noalias() =
             system_->single_layer(strip, space_.elements, control) * loads.topRows(n_loads);

@@ -22,7 +22,8 @@ public:
     Eigen::Index cols() const override { return space_.n_unknowns(); }
     Eigen::MatrixXd small_matrix(const std::vector<int>& nodes, const Eigen::MatrixXd& rigid,
                                  Control& control) const override;
-    void add_product(const Eigen::MatrixXd& loads, Eigen::Ref<Eigen::MatrixXd> displacements) const override;
+    void add_product(const Eigen::MatrixXd& loads, Eigen::Ref<Eigen::MatrixXd> displacements,
+                     Control& control) const override;
 
 private:
     /// Rows of the equations at interior points <- their integrals times these columns, from column `first` on.

@@ -20,8 +20,8 @@ constexpr const char* kInterrupted = "Interrupted; no picture, scene or mesh was
 
 /// What the command line says, word for word.
 struct ViewWords {
-    std::string input, method, screenshot, timings, replay, record, scene_out, mesh_out, size, picture, picture_size,
-        field, cut;
+    std::string input, method, screenshot, timings, timeline, replay, record, scene_out, mesh_out, size, picture,
+        picture_size, field, cut;
     int frames = 0, threads = 0, turntable = 0, pull_film = 0;
     bool hidden = false, transparent = false, legend = false;
 };
@@ -39,9 +39,11 @@ Eigen::Vector2i parse_size(const std::string& option, const std::string& text) {
 
 /// A scene may be written back to where it was read.
 void require_distinct_files(const ViewWords& words) {
-    require_distinct({words.screenshot, words.picture, words.timings, words.record, words.scene_out, words.mesh_out},
-                     {words.replay});
-    require_distinct({words.screenshot, words.picture, words.timings, words.record, words.mesh_out}, {words.input});
+    require_distinct(
+        {words.screenshot, words.picture, words.timings, words.timeline, words.record, words.scene_out, words.mesh_out},
+        {words.replay});
+    require_distinct({words.screenshot, words.picture, words.timings, words.timeline, words.record, words.mesh_out},
+                     {words.input});
 }
 
 ViewerOptions options_of(const ViewWords& words) {
@@ -51,6 +53,7 @@ ViewerOptions options_of(const ViewWords& words) {
     options.n_frames = words.frames;
     options.screenshot = words.screenshot;
     options.timings = words.timings;
+    options.timeline = words.timeline;
     options.replay = words.replay;
     options.record = words.record;
     options.scene_out = words.scene_out;
@@ -87,6 +90,8 @@ Command add_view_command(CLI::App& program) {
         ->check(CLI::IsMember({"x", "y", "z"}));
     parser->add_option("--frames", words->frames, "quit after so many frames")->check(CLI::Range(1, 1000000000));
     parser->add_option("--screenshot", words->screenshot, "PNG of the last frame")->check(path);
+    parser->add_option("--timeline", words->timeline, "CSV: when the window, the body and its answers are first seen")
+        ->check(path);
     parser->add_option("--timings", words->timings, "CSV: records frame timings from the start")->check(path);
     parser->add_option("--replay", words->replay, "repeats a recorded interaction")->check(path);
     parser->add_option("--record", words->record, "records the interaction")->check(path);

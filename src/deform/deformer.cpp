@@ -5,7 +5,9 @@
 #include <cmath>
 #include <deque>
 #include <Eigen/Geometry>
+#include <limits>
 #include <mutex>
+#include <string>
 
 #include "base/column_sum.hpp"
 #include "base/error.hpp"
@@ -57,6 +59,14 @@ double shear_over_stretch(const Body& body) { return 1.0 / (1.0 + body.material.
 
 /// Forces below this fraction of Young's modulus times displacement times length are rounding.
 constexpr double kNoForce = 1e-9;
+
+double largest_of(const Eigen::Matrix3Xd& forces) { return forces.size() == 0 ? 0.0 : forces.cwiseAbs().maxCoeff(); }
+
+/// Throws where a force that is not zero is next to it in double precision.
+void require_normal(double force, const std::string& name) {
+    if (force < std::numeric_limits<double>::min())
+        throw SolveError(name + ": forces are below double precision. Choose other units of force or length.");
+}
 
 Reactions no_reactions(Eigen::Index n) { return {Eigen::Matrix3Xd::Zero(3, n), Eigen::Matrix3Xd::Zero(3, n)}; }
 
@@ -288,6 +298,8 @@ void Deformer::add_reactions(std::size_t part, Reactions own, Reactions& sum) co
     const double displacement = 1.0 / unit_of(part);  // of those that are scaled too
     own.forces *= unit * displacement;
     own.moments *= unit * unit * displacement;
+    if (const double largest = largest_of(own.forces); largest > 0.0)
+        require_normal(largest * model_->body().material.young_modulus, model_->body().name);
     for (Eigen::Index i = 0; i < own.forces.cols(); ++i) own.moments.col(i) += origin.cross(own.forces.col(i).eval());
     Eigen::Index column = 0;
     const auto place_at = [&](Eigen::Index target) {
@@ -394,6 +406,8 @@ Deformer::Answer Deformer::answer(const Eigen::VectorXd& values, Wanted wanted, 
     error.displacements = off.col(0);
     if (wanted.check) answer.check = check_of(answer, error);
     answer.displacements *= unit;
+    if (const double largest = largest_of(answer.reactions.forces); largest > 0.0)
+        require_normal(largest * unit, model_->body().name);
     answer.reactions.forces *= unit;
     answer.reactions.moments *= unit;
     if (!linear()) remember(std::move(found), answer);

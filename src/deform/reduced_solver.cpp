@@ -73,14 +73,21 @@ Eigen::MatrixXd ReducedSolver::unknowns(const Eigen::MatrixXd& right) const {
     return x;
 }
 
-Eigen::MatrixXd ReducedSolver::displacements(const Eigen::MatrixXd& unknowns) const {
+Eigen::MatrixXd ReducedSolver::displacements(const Eigen::MatrixXd& unknowns, Control& control) const {
     const Eigen::Index n_border = system_.rigid.cols(), n_rows = system_.rigid.rows() - n_border;
     Eigen::MatrixXd u = system_.rigid.topRows(n_rows) * unknowns.bottomRows(n_border);
-    system_.responses->add_product(unknowns.topRows(system_.responses->cols()), u);
+    system_.responses->add_product(unknowns.topRows(system_.responses->cols()), u, control);
     return u;
 }
 
 NodeSolution ReducedSolver::solve(const Eigen::MatrixXd& prescribed, bool want_loads) const {
+    Control control;
+    return solve_watched(prescribed, want_loads, kSolveTolerance, control);
+}
+
+NodeSolution ReducedSolver::solve_watched(const Eigen::MatrixXd& prescribed, bool want_loads, double,
+                                          Control& control) const {
+    control.checkpoint();
     assert(prescribed.rows() == 3 * std::ssize(system_.nodes));
     NodeSolution solution;
     if (scale_.size() == 0) {
@@ -89,7 +96,7 @@ NodeSolution ReducedSolver::solve(const Eigen::MatrixXd& prescribed, bool want_l
         return solution;
     }
     const Eigen::MatrixXd x = unknowns(prescribed);
-    solution.displacements = displacements(x);
+    solution.displacements = displacements(x, control);
     set_prescribed(system_.nodes, prescribed, solution.displacements);
     if (want_loads) solution.loads = x.topRows(system_.n_loads);
     return solution;

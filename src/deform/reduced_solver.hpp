@@ -22,8 +22,9 @@ public:
     /// and the rows that close the ansatz. rigid: E over J. May throw Cancelled.
     virtual Eigen::MatrixXd small_matrix(const std::vector<int>& nodes, const Eigen::MatrixXd& rigid,
                                          Control& control) const = 0;
-    /// displacements += W_u * loads
-    virtual void add_product(const Eigen::MatrixXd& loads, Eigen::Ref<Eigen::MatrixXd> displacements) const = 0;
+    /// displacements += W_u * loads; seconds where the responses are not kept. May throw Cancelled.
+    virtual void add_product(const Eigen::MatrixXd& loads, Eigen::Ref<Eigen::MatrixXd> displacements,
+                             Control& control) const = 0;
 };
 
 /// Responses that are all in memory, as many as prescribed displacements.
@@ -35,7 +36,7 @@ public:
     Eigen::Index cols() const override { return columns_.cols(); }
     Eigen::MatrixXd small_matrix(const std::vector<int>& nodes, const Eigen::MatrixXd& rigid,
                                  Control& control) const override;
-    void add_product(const Eigen::MatrixXd& loads, Eigen::Ref<Eigen::MatrixXd> displacements) const override {
+    void add_product(const Eigen::MatrixXd& loads, Eigen::Ref<Eigen::MatrixXd> displacements, Control&) const override {
         columns_.add_product(loads, displacements);
     }
 
@@ -59,12 +60,14 @@ class ReducedSolver : public NodeSolver {
 public:
     ReducedSolver(ReducedSystem system, Control& control);
     NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const override;
+    NodeSolution solve_watched(const Eigen::MatrixXd& prescribed, bool want_loads, double tolerance,
+                               Control& control) const override;
 
 private:
     /// Solution of the small system for these right sides; rows that they lack at the end are zero.
     Eigen::MatrixXd unknowns(const Eigen::MatrixXd& right) const;
     /// Displacements of all nodes for these unknowns.
-    Eigen::MatrixXd displacements(const Eigen::MatrixXd& unknowns) const;
+    Eigen::MatrixXd displacements(const Eigen::MatrixXd& unknowns, Control& control) const;
 
     ReducedSystem system_;
     Eigen::VectorXd scale_;  ///< columns of the small system are divided by these

@@ -141,6 +141,7 @@ std::optional<ReferenceAnswer> quadratic_reference(const FemSystem& linear, doub
                                                    std::span<const int> vertices, const Eigen::VectorXd& values,
                                                    Control& control) {
     if (!holds(linear.positions(), vertices)) return {};
+    control.checkpoint();
     const QuadraticMesh mesh(linear.mesh->tets);
     if (quadratic_reference_memory(linear) > available_memory_bytes()) return {};
     const SparseMatrix K = stiffness(assemble_stiffness_parts(mesh, control), Material{1.0, poisson_ratio});
@@ -151,12 +152,13 @@ std::optional<ReferenceAnswer> quadratic_reference(const FemSystem& linear, doub
     std::vector<char> is_prescribed(static_cast<std::size_t>(mesh.n_nodes()), 0);
     for (const int node : constrained.prescribed.nodes) is_prescribed[static_cast<std::size_t>(node)] = 1;
 
-    const SparseCholesky coarse(*linear.mesh->analysis, eliminated(linear.K, vertices), "stiffness matrix");
+    const SparseCholesky coarse(*linear.mesh->analysis, eliminated(linear.K, vertices), "stiffness matrix", &control);
     Eigen::VectorXd u = Eigen::VectorXd::Zero(linear.K.rows());
     for (std::size_t i = 0; i < vertices.size(); ++i)
         u.segment<3>(3 * vertices[i]) = values.segment<3>(3 * static_cast<Eigen::Index>(i));
     Eigen::VectorXd load = -(linear.K * u);
     for (const int v : vertices) load.segment<3>(3 * v).setZero();
+    control.checkpoint();
     u += coarse.solve(load).col(0);
     u = (prolongation * u).eval();
     improve(K, TwoLevelPreconditioner(K, corners, prolongation, coarse, std::move(is_prescribed)), u, control);

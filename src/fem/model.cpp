@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/cancellable_lock.hpp"
 #include "base/error.hpp"
 #include "base/lapack.hpp"
 #include "deform/holds.hpp"
@@ -127,18 +128,22 @@ void FemModel::precompute(double poisson_ratio, Control& control) {
 }
 
 std::shared_ptr<const FactorisedBody> FemModel::factorised_on(std::span<const int> base, Control& control) const {
-    const std::vector<int> wanted(base.begin(), base.end());
+    const auto factorising = lock_unless_cancelled(factorising_mutex_, control);
+    if (auto body = at_hand(base)) return body;
+    if (mesh_->analysis->factor_bytes() > kLargeFactor) {
+        const std::scoped_lock lock(factorised_mutex_);
+        free_body_ = factorised_body_ = nullptr;
+    }
+    auto body = std::make_shared<const FactorisedBody>(system_, std::vector<int>(base.begin(), base.end()), control);
     const std::scoped_lock lock(factorised_mutex_);
-    std::shared_ptr<const FactorisedBody>& body = wanted.empty() ? free_body_ : factorised_body_;
-    if (body && body->base() == wanted) return body;
-    if (mesh_->analysis->factor_bytes() > kLargeFactor) free_body_ = factorised_body_ = nullptr;
-    return body = std::make_shared<const FactorisedBody>(system_, wanted, control);
+    return (base.empty() ? free_body_ : factorised_body_) = std::move(body);
 }
 
-bool FemModel::is_at_hand(std::span<const int> base) const {
+/// The body with this base eliminated, null where it is not factorised yet.
+std::shared_ptr<const FactorisedBody> FemModel::at_hand(std::span<const int> base) const {
     const std::scoped_lock lock(factorised_mutex_);
     const std::shared_ptr<const FactorisedBody>& body = base.empty() ? free_body_ : factorised_body_;
-    return body && std::equal(base.begin(), base.end(), body->base().begin(), body->base().end());
+    return body && std::equal(base.begin(), base.end(), body->base().begin(), body->base().end()) ? body : nullptr;
 }
 
 FemModel::Elimination FemModel::cheapest_elimination(const ConstrainedFemNodes& nodes) const {
@@ -148,11 +153,11 @@ FemModel::Elimination FemModel::cheapest_elimination(const ConstrainedFemNodes& 
     const SupernodalView pattern = mesh_->analysis->view();
     const double afresh = mesh_->prices.factorisation;
     const auto price = [&](std::span<const int> eliminated, std::span<const int> others) {
-        return (is_at_hand(eliminated) ? 0.0 : afresh) +
+        return (at_hand(eliminated) ? 0.0 : afresh) +
                (keeps_columns(*system_, std::ssize(others)) ? 0.0 : block_price(pattern, others).price);
     };
     const double with_base = holding_base ? price(base, all.subspan(base.size())) : price({}, all);
-    const double least = std::min(with_base, is_at_hand({}) ? price({}, all) : with_base);
+    const double least = std::min(with_base, at_hand({}) ? price({}, all) : with_base);
     // Where a factorisation serves the next handle too, it may cost more than one that serves this set alone.
     if (least > (1.0 + kWorthForLater) * afresh) return Elimination::all;
     return holding_base && with_base <= least ? Elimination::base : Elimination::nothing;
@@ -176,9 +181,9 @@ std::uint64_t FemModel::constrain_memory(std::span<const int> base, std::span<co
     const std::span<const int> eliminated = elimination == Elimination::base ? nodes.base() : std::span<const int>();
     const std::span<const int> others = all.subspan(eliminated.size());
     const auto unknowns = 6 + 3 * static_cast<std::uint64_t>(others.size());
-    return (is_at_hand(eliminated) ? 0 : factorisation) + (keeps_columns(*system_, std::ssize(others))
-                                                               ? 8 * unknowns * (2 * unknowns + surface)
-                                                               : block_price(mesh_->analysis->view(), others).bytes);
+    return (at_hand(eliminated) ? 0 : factorisation) + (keeps_columns(*system_, std::ssize(others))
+                                                            ? 8 * unknowns * (2 * unknowns + surface)
+                                                            : block_price(mesh_->analysis->view(), others).bytes);
 }
 
 std::uint64_t FemModel::check_memory(std::span<const int>, std::span<const int>) const {

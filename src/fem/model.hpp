@@ -42,7 +42,7 @@ private:
 
     void precompute(double poisson_ratio, Control& control);
     Elimination cheapest_elimination(const ConstrainedFemNodes& nodes) const;
-    bool is_at_hand(std::span<const int> base) const;
+    std::shared_ptr<const FactorisedBody> at_hand(std::span<const int> base) const;
     std::unique_ptr<ConstrainedSolid> constrain_dense(ConstrainedFemNodes nodes, Control& control) const;
     std::unique_ptr<ConstrainedSolid> constrain_direct(ConstrainedFemNodes nodes, Control& control) const;
     std::unique_ptr<ConstrainedSolid> constrain_reduced(ConstrainedFemNodes nodes, int n_eliminated,
@@ -60,7 +60,9 @@ private:
     std::shared_ptr<const FemSystem> system_;
     std::shared_ptr<const DenseOperators> operators_;  ///< modes full and full_volume
     /// On demand: the body free, and with the base eliminated that was asked for last. Large ones are not both kept.
-    mutable std::mutex factorised_mutex_;
+    /// Who asks only what is at hand never waits for a factorisation: that has a lock of its own.
+    mutable std::mutex factorising_mutex_;
+    mutable std::mutex factorised_mutex_;  ///< for the next two; held for no longer than it takes to copy them
     mutable std::shared_ptr<const FactorisedBody> free_body_, factorised_body_;
 };
 

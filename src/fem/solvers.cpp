@@ -128,10 +128,10 @@ Eigen::MatrixXd FactorResponses::small_matrix(const std::vector<int>& nodes, con
     return S;
 }
 
-void FactorResponses::add_product(const Eigen::MatrixXd& loads, Eigen::Ref<Eigen::MatrixXd> displacements) const {
+void FactorResponses::add_product(const Eigen::MatrixXd& loads, Eigen::Ref<Eigen::MatrixXd> displacements,
+                                  Control& control) const {
     Eigen::MatrixXd at_surface = Eigen::MatrixXd::Zero(3 * body_->system().n_surface(), loads.cols());
     set_prescribed(vertices_, loads, at_surface);
-    Control control;
     displacements += body_->compliance().apply(at_surface, control);
 }
 
@@ -145,11 +145,19 @@ FactorisedBodySolver::FactorisedBodySolver(std::shared_ptr<const FactorisedBody>
 }
 
 NodeSolution FactorisedBodySolver::solve(const Eigen::MatrixXd& prescribed, bool want_loads) const {
+    Control control;
+    return solve_watched(prescribed, want_loads, kSolveTolerance, control);
+}
+
+NodeSolution FactorisedBodySolver::solve_watched(const Eigen::MatrixXd& prescribed, bool want_loads, double tolerance,
+                                                 Control& control) const {
     const Eigen::Index n_base = 3 * std::ssize(body_->base());
-    NodeSolution solution = reduced_.solve(prescribed.bottomRows(prescribed.rows() - n_base), want_loads);
+    NodeSolution solution =
+        reduced_.solve_watched(prescribed.bottomRows(prescribed.rows() - n_base), want_loads, tolerance, control);
     if (!want_loads || n_base == 0) return solution;
     Eigen::MatrixXd surface_loads = Eigen::MatrixXd::Zero(solution.displacements.rows(), prescribed.cols());
     set_prescribed(vertices_, solution.loads, surface_loads);
+    control.checkpoint();
     const Eigen::MatrixXd u = body_->volume_displacements(solution.displacements, surface_loads);
     Eigen::MatrixXd loads(prescribed.rows(), prescribed.cols());
     loads << nodal_forces(body_->system().K, u, body_->base()), solution.loads;

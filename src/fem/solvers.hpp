@@ -89,7 +89,8 @@ public:
     Eigen::Index cols() const override { return 3 * std::ssize(vertices_); }
     Eigen::MatrixXd small_matrix(const std::vector<int>& nodes, const Eigen::MatrixXd& rigid,
                                  Control& control) const override;
-    void add_product(const Eigen::MatrixXd& loads, Eigen::Ref<Eigen::MatrixXd> displacements) const override;
+    void add_product(const Eigen::MatrixXd& loads, Eigen::Ref<Eigen::MatrixXd> displacements,
+                     Control& control) const override;
 
 private:
     std::shared_ptr<const FactorisedBody> body_;
@@ -103,6 +104,8 @@ public:
     FactorisedBodySolver(std::shared_ptr<const FactorisedBody> body, std::vector<int> vertices, Control& control);
     /// prescribed: the base (zero) first, then the vertices
     NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const override;
+    NodeSolution solve_watched(const Eigen::MatrixXd& prescribed, bool want_loads, double tolerance,
+                               Control& control) const override;
 
 private:
     std::shared_ptr<const FactorisedBody> body_;

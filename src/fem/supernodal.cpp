@@ -23,7 +23,7 @@ using Block = Eigen::Map<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
 constexpr int kPanel = 192;
 
 /// The update of a supernode by an earlier one, `from`, whose rows from `first_row` on are rows of this one.
-struct Update {
+struct BlockUpdate {
     int from, first_row;
 };
 
@@ -61,7 +61,7 @@ private:
     void find_parts();
     void scatter(const SparseMatrix& A);
     void eliminate(int s, Workspace& workspace);
-    void take_over(const Update& update, int s, Workspace& workspace);
+    void take_over(const BlockUpdate& update, int s, Workspace& workspace);
     void factorise_own(int s);
     void report(int s) { control_.set_progress((done_ += work(s)) / total_work_); }
 
@@ -75,7 +75,7 @@ private:
     const std::string& name_;
     Control& control_;
     std::vector<int> supernode_;             ///< of a row
-    std::vector<Update> updates_;            ///< of all supernodes
+    std::vector<BlockUpdate> updates_;            ///< of all supernodes
     std::vector<std::size_t> first_update_;  ///< of each
     std::vector<Part> parts_;
     std::vector<int> top_;
@@ -98,16 +98,16 @@ void Factorisation::find_updates() {
         for (int s = 0; s < L_.n_supernodes(); ++s)
             for (int row = n_columns(s), n = n_rows(s); row < n;) {
                 const int target = supernode_[at(rows(s)[at(row)])];
-                use(target, Update{s, row});
+                use(target, BlockUpdate{s, row});
                 while (row < n && supernode_[at(rows(s)[at(row)])] == target) ++row;
             }
     };
     first_update_.assign(at(L_.n_supernodes()) + 1, 0);
-    for_each_target([&](int target, const Update&) { ++first_update_[at(target) + 1]; });
+    for_each_target([&](int target, const BlockUpdate&) { ++first_update_[at(target) + 1]; });
     std::partial_sum(first_update_.begin(), first_update_.end(), first_update_.begin());
     updates_.resize(first_update_.back());
     std::vector<std::size_t> next(first_update_.begin(), first_update_.end() - 1);
-    for_each_target([&](int target, const Update& update) { updates_[next[at(target)]++] = update; });
+    for_each_target([&](int target, const BlockUpdate& update) { updates_[next[at(target)]++] = update; });
 }
 
 void Factorisation::find_parts() {
@@ -158,7 +158,7 @@ void Factorisation::scatter(const SparseMatrix& A) {
     control_.checkpoint();
 }
 
-void Factorisation::take_over(const Update& update, int s, Workspace& workspace) {
+void Factorisation::take_over(const BlockUpdate& update, int s, Workspace& workspace) {
     const auto [from, first] = update;
     const std::span<const int> theirs = rows(from).subspan(at(first));
     const int end = first_column(s) + n_columns(s), n = static_cast<int>(theirs.size());
@@ -186,7 +186,8 @@ void Factorisation::factorise_own(int s) {
         const int count = std::min(kPanel, n - begin);
         Block panel = block(s, begin, begin, count);
         if (LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'L', count, panel.data(), n_rows(s)) != 0)
-            throw SolveError(name_ + ": is not positive definite. Check the mesh for degenerate tetrahedra.");
+            throw NotPositiveDefiniteError(name_ +
+                                           ": is not positive definite. Check the mesh for degenerate tetrahedra.");
         const Eigen::Index n_below = panel.rows() - count;
         if (n_below == 0) continue;
         auto below = panel.bottomRows(n_below);

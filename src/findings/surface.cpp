@@ -59,7 +59,7 @@ Findings findings_of_surface(const SurfaceMesh& surface, MethodKind method, Cont
     add_thin_triangle(surface, findings);
     add_slenderness(surface, findings);
     control.checkpoint();
-    const Approach wall = closest_facing_approach(surface, control);
+    const FacingApproach wall = closest_facing_approach(surface, control);
     if (wall.ratio < (method->shows_averages ? kThinWallOfConstant : kThinWall))
         findings.push_back({.kind = FindingKind::thin_wall,
                             .value = wall.ratio,

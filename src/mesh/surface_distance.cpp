@@ -63,7 +63,7 @@ Eigen::Matrix3Xd vertex_normals(const SurfaceMesh& mesh) {
     return normals;
 }
 
-bool is_closer(const Approach& a, const Approach& b) {
+bool is_closer(const FacingApproach& a, const FacingApproach& b) {
     return a.ratio < b.ratio || (a.ratio == b.ratio && a.vertex < b.vertex);
 }
 
@@ -77,7 +77,7 @@ public:
           tree_(tree_of(mesh)) {}
 
     void visit(int begin, int end) {
-        Approach closest{reach_, -1};
+        FacingApproach closest{reach_, -1};
         for (int v = begin; v < end; ++v) visit(v, closest);
         if (closest.vertex < 0) return;
         const std::lock_guard lock(mutex_);
@@ -85,11 +85,11 @@ public:
         closest_ = closest;
         reach_ = closest.ratio;
     }
-    const Approach& closest() const { return closest_; }
+    const FacingApproach& closest() const { return closest_; }
 
 private:
     /// A vertex as close as the closest so far counts when nothing was found yet or when it comes before.
-    void visit(int v, Approach& closest) const {
+    void visit(int v, FacingApproach& closest) const {
         const Vector3d x = mesh_.vertices.col(v), normal = normals_.col(v);
         tree_.for_each_near(
             x, [&](double edge) { return kSlack * closest.ratio * edge; },
@@ -108,7 +108,7 @@ private:
     BoxTree tree_;
     std::atomic<double> reach_{1.0};  ///< ratio that is still of interest
     std::mutex mutex_;
-    Approach closest_;
+    FacingApproach closest_;
 };
 
 /// Parts in contact, and what orders one such finding before another.
@@ -133,13 +133,13 @@ double distance_to_triangle(const Vector3d& point, const SurfaceMesh& mesh, int 
                      distance_to_segment(point, p.c, p.a)});
 }
 
-Approach closest_facing_approach(const SurfaceMesh& mesh, Control& control) {
+FacingApproach closest_facing_approach(const SurfaceMesh& mesh, Control& control) {
     ApproachSearch search(mesh);
     parallel_blocks(mesh.n_vertices(), kGrain, control, [&](int begin, int end) { search.visit(begin, end); });
     return search.closest();
 }
 
-Approach closest_facing_approach(const SurfaceMesh& mesh) {
+FacingApproach closest_facing_approach(const SurfaceMesh& mesh) {
     Control control;
     return closest_facing_approach(mesh, control);
 }

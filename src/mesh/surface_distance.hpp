@@ -14,7 +14,7 @@ namespace elastolab {
 double distance_to_triangle(const Eigen::Vector3d& point, const SurfaceMesh& mesh, int triangle);
 
 /// Where the two sides of a wall, or of a gap, come closest.
-struct Approach {
+struct FacingApproach {
     double ratio = std::numeric_limits<double>::infinity();  ///< distance / longest edge of the triangle opposite
     int vertex = -1;
 };
@@ -22,8 +22,8 @@ struct Approach {
 /// least 120 degrees apart) and are closer than their longest edge; none: infinity. Of several vertices, the first. A
 /// search in a tree of boxes on all threads: with triangles of similar size about n log n steps. `control` learns the
 /// progress of the present stage. Throws Cancelled.
-Approach closest_facing_approach(const SurfaceMesh& mesh, Control& control);
-Approach closest_facing_approach(const SurfaceMesh& mesh);
+FacingApproach closest_facing_approach(const SurfaceMesh& mesh, Control& control);
+FacingApproach closest_facing_approach(const SurfaceMesh& mesh);
 
 /// For every vertex the distance to the nearest triangle on the other side of its wall: one that faces the opposite way
 /// and lies behind the vertex, the outside being in front [L]; infinite where none is within `reach`. Throws Cancelled.

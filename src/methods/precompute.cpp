@@ -65,10 +65,18 @@ bool same_findings(MethodKind a, MethodKind b) {
     return a->integrates_boundary == b->integrates_boundary && a->shows_averages == b->shows_averages;
 }
 
-/// before: a model of the same surface, or null.
+/// Whether a model takes over all that takes memory from the one before.
+bool takes_over(const Model& before, const Method& method, const Material& material) {
+    const Method& its = before.method();
+    return method.kind == its.kind && method.mode == its.mode &&
+           integral_tolerance(method) == integral_tolerance(its) &&
+           material.poisson_ratio == before.body().material.poisson_ratio;
+}
+
+/// before: a model of the same surface, or null. It lives on beside the new one.
 std::shared_ptr<const Model> precompute(const Body& body, const Method& method, const Model* before, Control& control) {
     require_possible(method, body.material);
-    if (before == nullptr || method.kind != before->method().kind || method.mode != before->method().mode)
+    if (before == nullptr || !takes_over(*before, method, body.material))
         require_memory(predict_cost(*body.surface, method), method);
     const std::vector<Solid> solids = split_solids(*body.surface);
     std::vector<Model::Part> parts;

@@ -7,7 +7,7 @@ namespace elastolab {
 namespace {
 
 constexpr std::array kMethods = {
-    kFem, kConstantBem, kLinearBem, kGalerkinBem, kQuadraticFem,
+    kFem, kConstantBem, kLinearBem, kGalerkinBem, kQuadraticFem, kNonlinearFem,
 };
 
 }  // namespace
@@ -22,6 +22,7 @@ std::vector<std::string> method_names() {
 
 MethodKind default_method() { return kLinearBem; }
 MethodKind first_method() { return kGalerkinBem; }
+MethodKind quick_method() { return kFem; }
 MethodKind preview_method() { return kQuadraticFem; }
 
 std::optional<MethodKind> parse_method_kind(std::string_view text) {

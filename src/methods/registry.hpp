@@ -10,6 +10,7 @@
 #include "bem/method.hpp"
 #include "deform/method.hpp"
 #include "fem/method.hpp"
+#include "fem/nonlinear/method.hpp"
 #include "fem/quadratic/method.hpp"
 
 namespace elastolab {
@@ -24,6 +25,8 @@ std::vector<std::string> method_names();
 MethodKind default_method();
 /// The one that the viewer begins with: the most accurate, and ready to be pulled hardly later than the default.
 MethodKind first_method();
+/// The one that is ready soonest on a surface as it is, for the first moments.
+MethodKind quick_method();
 /// The one that answers on a coarse surface while others compute: few unknowns for its accuracy, on any triangles.
 MethodKind preview_method();
 

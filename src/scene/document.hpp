@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "deform/element_degree.hpp"
 #include "deform/method.hpp"
 #include "elasticity/material.hpp"
 #include "methods/registry.hpp"
@@ -62,10 +63,21 @@ struct Selector {
     bool operator==(const Selector&) const = default;
 };
 
-/// u(x) = matrix x + translate, x the rest position.
+/// A turn that remembers its angle: 720 degrees are two full turns.
+struct Rotation {
+    Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();   ///< of any length but zero
+    double degrees = 0.0;                              ///< counter-clockwise, seen against the axis
+    Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< [L]
+    bool operator==(const Rotation&) const = default;
+};
+
+/// A vertex at rest at x comes to center + R (x + matrix x - center) + translate, with R and center of `rotate`:
+/// without a turn, to x + matrix x + translate. Where it ends is an affine map (scene/motion.hpp); the way there goes
+/// through the whole turn.
 struct AffineMotion {
     Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
     Eigen::Vector3d translate = Eigen::Vector3d::Zero();  ///< [L]
+    Rotation rotate = {};
     bool operator==(const AffineMotion&) const = default;
 };
 
@@ -125,6 +137,7 @@ struct MethodSettings {
     Mode mode = Mode::on_demand;
     Tractions tractions = Tractions::discontinuous;
     Update update = Update::reduced;
+    ElementDegree elements = ElementDegree::quadratic;
     bool operator==(const MethodSettings&) const = default;
 };
 

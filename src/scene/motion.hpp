@@ -11,6 +11,19 @@ namespace elastolab {
 
 using Motion = std::variant<AffineMotion, VertexMotion>;
 
+/// u(x) = matrix x + translate, x the rest position.
+struct AffineMap {
+    Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d translate = Eigen::Vector3d::Zero();  ///< [L]
+
+    Eigen::Vector3d displacement(const Eigen::Vector3d& x) const { return matrix * x + translate; }
+};
+/// Where a motion ends, whatever the way there. Whole turns leave nothing, not even rounding.
+AffineMap map_of(const AffineMotion& motion);
+
+/// Displacements of vertices at these rest positions, one column each, where the motion ends.
+Eigen::Matrix3Xd displacements(const Motion& motion, const Positions& rest);
+
 /// `motion`, followed by a shift of every vertex by `shift` [L].
 Motion translated(const Motion& motion, const Eigen::Vector3d& shift);
 
@@ -19,16 +32,35 @@ Motion translated(const Motion& motion, const Eigen::Vector3d& shift);
 Motion transformed(const Motion& motion, const Eigen::Matrix3d& map, const Eigen::Vector3d& center,
                    const Positions& rest);
 
-/// `motion` with every displacement multiplied by `factor`.
-Motion scaled(const Motion& motion, double factor);
+/// `motion`, followed by a turn about the point `center` as it is after `motion`. `turn`: a rotation vector, along the
+/// axis and as long as the angle, which may be any [radians]. Turns about one axis add up; one about another axis gives
+/// the rotation of the nearest angle, or, where there is none near (after about a full turn), goes before what has been
+/// turned so far.
+Motion turned(const Motion& motion, const Eigen::Vector3d& turn, const Eigen::Vector3d& center, const Positions& rest);
+
+/// Of the rotation vectors of a rotation, which are whole turns apart, the one that is nearest to `guess` [radians].
+Eigen::Vector3d rotation_vector(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& guess);
+
+/// A part of the way that a motion takes, 0 (at rest) to 1 (all of it): turns go through all angles between, about
+/// their centre; the middle of the vertices goes straight where nothing turns it; a rotation in the matrix is turned
+/// through, too, stretches grow evenly.
+Motion part_of(const Motion& motion, double part, const Positions& rest);
+
+/// The angle that the rotations of two motions lie apart, full turns included [degree].
+double turn_between(const Motion& from, const Motion& to);
+
+/// A part of the way from one motion to another: 0 gives the first, 1 the second. Where both turn about one axis, it
+/// goes through the angles between; nothing where they turn about different ones.
+std::optional<Motion> between(const Motion& from, const Motion& to, double part);
 
 /// A motion as a person thinks of it: the middle of the vertices moves, and they are turned and scaled about it.
 struct Placement {
     Eigen::Vector3d move = Eigen::Vector3d::Zero();  ///< [L]
-    Eigen::Vector3d turn = Eigen::Vector3d::Zero();  ///< about x, then y, then z of the world [degree]
-    double scale = 1.0;                              ///< > 0
+    /// A rotation vector in the axes of the world: (0, 0, 720) are two full turns about z [degree].
+    Eigen::Vector3d turn = Eigen::Vector3d::Zero();
+    double scale = 1.0;  ///< > 0
 };
-/// Nothing for a motion that shears or mirrors, and for one of single vertices.
+/// Nothing for a motion that shears or mirrors, for one of single vertices, and for two turns about different axes.
 std::optional<Placement> placement_of(const Motion& motion, const Positions& rest);
 AffineMotion motion_of(const Placement& placement, const Positions& rest);
 

@@ -1,5 +1,6 @@
 #include "scene/setup.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include "base/error.hpp"
@@ -101,7 +102,8 @@ private:
     }
 
     void add_values(const AffineMotion& motion, const std::vector<int>& vertices, std::size_t i) {
-        for (const int v : vertices) add_value(motion.matrix * mesh_.vertices.col(v) + motion.translate, v, i);
+        const AffineMap map = map_of(motion);
+        for (const int v : vertices) add_value(map.displacement(mesh_.vertices.col(v)), v, i);
     }
 
     void add_values(const VertexMotion& motion, const std::vector<int>& vertices, std::size_t i) {
@@ -175,6 +177,10 @@ void require_usable(const SceneMesh& mesh, MethodKind kind) {
 }
 
 void require_material(const Material& material, MethodKind kind, const fs::path& scene_file) {
+    if (!std::isnormal(material.young_modulus))
+        fail(scene_file, "/material/young_modulus",
+             "is " + exact(material.young_modulus) +
+                 ", below the range of numbers that keep all their digits. Choose another unit of force.");
     if (const std::string why = refusal({.kind = kind}, material.poisson_ratio); !why.empty())
         throw SceneError(one_line(place(scene_file, "/material/" + why)));
 }

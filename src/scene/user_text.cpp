@@ -12,7 +12,8 @@ namespace elastolab {
 std::string user_text(const std::exception& error) {
     if (dynamic_cast<const Error*>(&error) != nullptr) return one_line(error.what());
     if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr)
-        return "The memory of this machine is used up. Use a coarser mesh, or the mode on-demand.";
+        return "The memory that this process may have is used up. Use a coarser mesh or a smaller file, or the mode "
+               "on-demand; or raise its limits (ulimit -v, ulimit -d).";
     if (const auto* system = dynamic_cast<const std::system_error*>(&error);
         system != nullptr && system->code() == std::errc::resource_unavailable_try_again)
         return "No further thread can be started: this process is at the limit of its memory or of its threads. Raise "

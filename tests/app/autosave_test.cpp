@@ -3,7 +3,10 @@
 
 #include <gmock/gmock.h>
 
+#include <sys/resource.h>
+
 #include <chrono>
+#include <csignal>
 #include <memory>
 #include <thread>
 
@@ -86,6 +89,63 @@ TEST(Autosave, WaitsBetweenWritesAndNotWhenThereIsNothingNew) {
     keeper.update(3, true, 1.5, 3);
     EXPECT_NEAR(keeper.autosave.due_in(1.5), 1.5, 1e-9);
     EXPECT_EQ(load_scene(files().front().replace_extension(".json")), test::cube_document(2));
+}
+
+/// As on a full disk: while it lives, nothing can be written.
+class FullDisk {
+public:
+    FullDisk() : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+        getrlimit(RLIMIT_FSIZE, &before_);
+        const rlimit nothing{0, before_.rlim_max};
+        setrlimit(RLIMIT_FSIZE, &nothing);
+    }
+    ~FullDisk() {
+        setrlimit(RLIMIT_FSIZE, &before_);
+        std::signal(SIGXFSZ, handler_);
+    }
+
+private:
+    void (*handler_)(int);
+    rlimit before_{};
+};
+
+TEST(Autosave, SaysThatItFailedAndTriesAgainUnderTheSceneSName) {
+    {
+        Keeper keeper;
+        {
+            const FullDisk disk;
+            keeper.update(1, true, 0.0);
+            EXPECT_FALSE(keeper.autosave.failure().empty());
+            EXPECT_NEAR(keeper.autosave.due_in(0.5), 1.5, 1e-9);
+            keeper.update(1, true, 2.5);
+            EXPECT_FALSE(keeper.autosave.failure().empty());
+        }
+        keeper.update(1, true, 5.0);
+        wait_for_file();
+        keeper.update(1, true, 5.1);
+        EXPECT_THAT(keeper.autosave.failure(), IsEmpty());
+    }
+    const std::vector<AutosavedScene> found = find_autosaved();
+    ASSERT_THAT(found, SizeIs(1));
+    EXPECT_EQ(found[0].origin, "/somewhere/cube.json");
+}
+
+TEST(Autosave, WhoseFileCannotBeWrittenKeepsTheOneBefore) {
+    Keeper keeper;
+    keeper.update(1, true, 0.0);
+    wait_for_file();
+    {
+        const FullDisk disk;
+        for (int i = 0; i < 2000 && keeper.autosave.failure().empty(); ++i) {
+            keeper.update(2, true, 10.0, 3);
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        }
+        EXPECT_FALSE(keeper.autosave.failure().empty());
+        EXPECT_GT(keeper.autosave.due_in(10.0), 0.0) << "it is tried again";
+    }
+    EXPECT_EQ(load_scene(files().front().replace_extension(".json")), test::cube_document(2));
+    keeper.update(3, false, 20.0);
+    EXPECT_THAT(keeper.autosave.failure(), IsEmpty()) << "everything is saved";
 }
 
 TEST(Autosave, OfTwoViewersAreTwo) {

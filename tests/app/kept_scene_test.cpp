@@ -84,6 +84,24 @@ TEST(KeptMethod, AndAnEditInItAreTakenBackOneByOne) {
     EXPECT_EQ(stage.state.method, first);
 }
 
+TEST(KeptSelection, OfAHandleComesThroughUndoAndRedo) {
+    Stage stage(2);
+    for (const Eigen::Vector3d& at : {Eigen::Vector3d(1, 0, 1), Eigen::Vector3d(1, 1, 1)}) {
+        stage.scene().add_handle(std::vector<int>{stage.vertex_near(at)});
+        stage.scene().commit();
+    }
+    stage.scene().set_motion(1, AffineMotion{.translate = {0.1, 0, 0}});
+    stage.scene().commit();
+    stage.state.gestures.select_handle(1);
+    stage.state.undo();
+    EXPECT_EQ(stage.state.gestures.selected_handle(), 1);
+    stage.state.redo();
+    EXPECT_EQ(stage.state.gestures.selected_handle(), 1);
+    stage.state.undo();
+    stage.state.undo();
+    EXPECT_EQ(stage.state.gestures.selected_handle(), -1) << "it is not there any more";
+}
+
 TEST(KeptMethod, ABodyJustOpenedIsNotChangedWhateverMethodItBeginsWith) {
     const TemporaryFolder folder;
     save_surface(folder.path() / "box.obj", make_box(3));

@@ -15,12 +15,14 @@
 #include "methods/registry.hpp"
 #include "scene/file/scene_file.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/wait_until.hpp"
 
 namespace elastolab {
 namespace {
 
 using test::Stage;
 using test::TemporaryFolder;
+using test::wait_for;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -56,6 +58,55 @@ TEST(ViewerState, ABadFileIsTellingAndKeepsTheOldScene) {
         EXPECT_THROW(stage.state.open_now(file), Error);
         EXPECT_THAT(stage.state.recent_files(), IsEmpty());
     }
+}
+
+TEST(ViewerState, ShowsNothingThatCouldBePulledWhileItsFirstFileIsOpened) {
+    const TemporaryFolder folder;
+    const auto file = folder.path() / "box.obj";
+    save_surface(file, make_box(3));
+    ViewerState state([] {});
+    const Viewport scene{0, 0, 800, 600};
+    state.open(file);
+    state.update_displacements();
+    EXPECT_TRUE(state.blank());
+    EXPECT_THAT(viewports_of(state, scene, 1.0), IsEmpty());
+    EXPECT_THAT(state.gesture_context().targets, IsEmpty());
+    wait_for([&] {
+        state.update_displacements();
+        return !state.loading();
+    });
+    EXPECT_FALSE(state.blank());
+    EXPECT_EQ(state.scene().mesh().n_vertices(), 56);
+    EXPECT_THAT(viewports_of(state, scene, 1.0), SizeIs(1));
+    state.open(file);
+    state.update_displacements();
+    EXPECT_FALSE(state.blank()) << "the body before stays until the next is there";
+}
+
+TEST(ViewerState, ShowsItsCubeWhereTheFirstFileCannotBeOpened) {
+    ViewerState state([] {});
+    state.open("/there/is/no/such.obj");
+    wait_for([&] {
+        state.update_displacements();
+        return !state.loading();
+    });
+    EXPECT_FALSE(state.blank());
+    EXPECT_EQ(n_errors(state), 1);
+    EXPECT_THAT(viewports_of(state, {0, 0, 800, 600}, 1.0), SizeIs(1));
+}
+
+TEST(ViewerState, ALargeMeshBeginsWithAMethodThatIsExactSoonAndSaysSo) {
+    const TemporaryFolder folder;
+    Control control;
+    save_surface(folder.path() / "small.ply", make_box(5));
+    const LoadedScene small = load_scene_or_mesh(folder.path() / "small.ply", control);
+    EXPECT_EQ(small.scene->document().method, first_method());
+    EXPECT_THAT(small.note, IsEmpty());
+    save_surface(folder.path() / "large.ply", make_box(90));
+    const LoadedScene large = load_scene_or_mesh(folder.path() / "large.ply", control);
+    EXPECT_NE(large.scene->document().method, first_method());
+    EXPECT_THAT(large.note, AllOf(HasSubstr("exact in about"), HasSubstr("Galerkin BEM would take")));
+    EXPECT_FALSE(large.scene->modified());
 }
 
 TEST(ViewerState, ABareMeshIsHeldAtItsLowestPart) {
@@ -197,11 +248,20 @@ TEST(ViewerState, ExportsFieldsOfTheAnswerOnAWorker) {
     EXPECT_NEAR(values[4], 0.5, 1e-12);
     EXPECT_GT(values[7], 0.0) << "von Mises";
 
+    stage.state.export_mesh(folder.path() / "first.vtp");
+    EXPECT_EQ(stage.state.exported_file(), folder.path() / "first.vtp");
+    stage.state.export_mesh(folder.path() / "second.vtp");
+    EXPECT_EQ(n_errors(stage.state), 1) << "the first is still being written";
+    EXPECT_THAT(stage.state.messages.all().back().text, HasSubstr("first.vtp is still being written"));
+    stage.settle();
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "first.vtp"));
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "second.vtp"));
+
     stage.state.method = kLinearBem;
     stage.settle();
     stage.state.export_mesh(folder.path() / "none.vtu");
     stage.settle();
-    EXPECT_EQ(n_errors(stage.state), 1);
+    EXPECT_EQ(n_errors(stage.state), 2);
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "none.vtu"));
 }
 

@@ -2,10 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <sstream>
+#include <thread>
 
+#include "base/machine.hpp"
 #include "base/memory.hpp"
+#include "support/one_core.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace elastolab {
@@ -67,12 +71,37 @@ TEST_F(ControlGroupTest, KnowsTheFirstVersion) {
     EXPECT_EQ(available("/a"), 400U);
 }
 
+TEST_F(ControlGroupTest, KnowsQuotasOfProcessorTime) {
+    const auto processors = [&](const char* group) { return control_group_processors(folder_.path(), group); };
+    add("a/b", "max", 1);
+    EXPECT_TRUE(std::isinf(processors("/a/b")));
+    folder_.write("a/cpu.max", "150000 100000\n");
+    folder_.write("a/b/cpu.max", "max 100000\n");
+    EXPECT_EQ(processors("/a/b"), 1.5);
+    folder_.write("a/b/cpu.max", "5000 10000\n");
+    EXPECT_EQ(processors("/a/b"), 0.5);
+    EXPECT_TRUE(std::isinf(processors("/")));
+    add("old", "max", 1);
+    folder_.write("old/cpu.cfs_period_us", "100000\n");
+    folder_.write("old/cpu.cfs_quota_us", "-1\n");
+    EXPECT_TRUE(std::isinf(processors("/old")));
+    folder_.write("old/cpu.cfs_quota_us", "250000\n");
+    EXPECT_EQ(processors("/old"), 2.5);
+}
+
 TEST_F(ControlGroupTest, IsFoundAmongTheHierarchiesOfBothVersions) {
     std::istringstream mixed("12:memory:/v1\n1:name=systemd:/x\n0::/user.slice/run.scope\n"), old("12:memory:/v1\n");
     EXPECT_EQ(control_group_of(mixed), "/user.slice/run.scope");
     EXPECT_EQ(control_group_of(old), "/");
     std::istringstream again("12:memory:/v1\n0::/unified\n");
     EXPECT_EQ(control_group_of(again, "memory"), "/v1");
+}
+
+TEST(Machine, HasTheCoresThatThisProcessMayUse) {
+    EXPECT_GE(available_cores(), 1);
+    EXPECT_LE(available_cores(), static_cast<int>(std::thread::hardware_concurrency()));
+    const test::OneCore one_core;
+    EXPECT_EQ(available_cores(), 1);
 }
 
 TEST(Memory, ThereIsSome) {

@@ -125,6 +125,7 @@ INSTANTIATE_TEST_SUITE_P(
         changed("UnknownKey", R"("method")", R"("methode")", {"/methode"}),
         changed("DuplicateKey", R"("elastolab": 1)", R"("elastolab": 1, "elastolab": 1)", {"appears twice"}),
         changed("Overflow", "1000", "1e400", {"line 1", "overflow"}),
+        changed("DenormalYoung", "1000", "5e-324", {"/material/young_modulus", "keep all their digits"}),
         changed("NegativeYoung", "1000", "-1", {"/material/young_modulus", "must be positive"}),
         changed("PoissonOne", "0.3}", "1}", {"/material/poisson_ratio"}),
         changed("PoissonText", "0.3}", "\"0.3\"}", {"/material/poisson_ratio", "must be a number"}),

@@ -41,7 +41,7 @@ require "study" '## `elastolab bench`' < <(sed -nE 's/^ +\{"([a-z-]+)", ".*/\1/p
 cat >"$folder/scene.json" <<'END'
 { "elastolab": 1, "mesh": { "primitive": "cube", "resolution": 3 }, "method": "galerkin-bem",
   "fixed": [{ "name": "left", "select": { "plane": { "point": [0, 0, 0], "normal": [1, 0, 0], "tolerance": 0.01 } } },
-            { "select": { "vertices": [20] } }],
+            { "select": { "sphere": { "center": [0.333, 0.333, 1], "radius": 0.1 } } }],
   "handles": [{ "name": "right", "translate": [0.1, 0, 0],
                 "select": { "plane": { "point": [1, 0, 0], "normal": [1, 0, 0], "tolerance": 0.01 } } }] }
 END

@@ -5,6 +5,7 @@
 #include "cli/program.hpp"
 #include "mesh/input/export.hpp"
 #include "mesh/primitives.hpp"
+#include "methods/registry.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace elastolab {
@@ -36,13 +37,22 @@ TEST(Info, DescribesASoundMesh) {
 
 TEST(Info, PredictsTheCostOfEveryMethodInEveryMode) {
     const test::TemporaryFolder folder;
-    save_surface(folder.path() / "cube.ply", make_box(3));
-    const nlohmann::json methods = info("cube.ply", folder.path())["methods"];
-    ASSERT_EQ(methods.size(), 10U);  // fem 3, quadratic-fem 1, the three boundary-element methods 2 each
-    for (const auto& row : methods) {
-        EXPECT_GT(row["degrees_of_freedom"].get<int>(), 0);
-        EXPECT_GT(row["memory_bytes"].get<double>(), 0.0);
-        EXPECT_GE(row["seconds"].get<double>(), 0.0);
+    save_surface(folder.path() / "coarse.ply", make_box(3));
+    save_surface(folder.path() / "fine.ply", make_box(12));
+    const nlohmann::json coarse = info("coarse.ply", folder.path())["methods"];
+    const nlohmann::json fine = info("fine.ply", folder.path())["methods"];
+    std::size_t n_rows = 0;
+    for (const MethodKind kind : all_methods()) n_rows += kind->modes.size();
+    ASSERT_EQ(coarse.size(), n_rows);
+    ASSERT_EQ(fine.size(), n_rows);
+    for (std::size_t i = 0; i < n_rows; ++i) {
+        const std::string row = coarse[i]["method"].get<std::string>() + " " + coarse[i]["mode"].get<std::string>();
+        EXPECT_GT(coarse[i]["degrees_of_freedom"].get<int>(), 0) << row;
+        EXPECT_GT(coarse[i]["memory_bytes"].get<double>(), 0.0) << row;
+        EXPECT_GT(coarse[i]["seconds"].get<double>(), 0.0) << row;
+        EXPECT_GT(fine[i]["degrees_of_freedom"].get<int>(), 10 * coarse[i]["degrees_of_freedom"].get<int>()) << row;
+        EXPECT_GT(fine[i]["memory_bytes"].get<double>(), 3.0 * coarse[i]["memory_bytes"].get<double>()) << row;
+        EXPECT_GT(fine[i]["seconds"].get<double>(), 3.0 * coarse[i]["seconds"].get<double>()) << row;
     }
 }
 

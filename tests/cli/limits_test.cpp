@@ -3,13 +3,15 @@
 
 #include <cstdlib>
 #include <nlohmann/json.hpp>
-#include <thread>
 
+#include "base/machine.hpp"
 #include "cli/program.hpp"
+#include "support/one_core.hpp"
 
 namespace elastolab::test {
 namespace {
 
+using testing::AllOf;
 using testing::AnyOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -71,12 +73,43 @@ TEST_F(LimitsTest, WorksWithAStackOf4MB) {
     }
 }
 
+/// A limit of data, which does not count what is only read.
+TEST_F(LimitsTest, SaysOutOfMemoryWhereDataIsLimited) {
+    folder_.write("scene.json", cube_scene("linear-bem", 14));
+    const int mib = 150;
+    for (const char* arguments : {"solve --quiet scene.json", "info scene.json"}) {
+        const ProgramRun result = run("ulimit -d " + std::to_string(mib * 1024), arguments);
+        ASSERT_NE(result.exit_code, kTimedOut) << arguments;
+        EXPECT_EQ(result.exit_code, 1) << arguments;
+        EXPECT_THAT(result.err, AllOf(HasSubstr("emory"), HasSubstr("ulimit -d"))) << arguments;
+    }
+    EXPECT_EQ(run("ulimit -d 8000000", "solve --quiet scene.json").exit_code, 0);
+}
+
+/// Lists in lists take some twenty times the memory of their text; what there is of them is taken apart again.
+TEST_F(LimitsTest, SaysOutOfMemoryInTheMiddleOfALargeScene) {
+    std::string text = "{\"elastolab\": 1, \"fixed\": [";
+    for (int i = 0; i < 3'000'000; ++i) text += "[[1]],";
+    folder_.write("scene.json", text + "[1]]}");
+    int n_refused = 0;
+    for (const int mib : {500, 700, 900}) {
+        const ProgramRun result = run("ulimit -v " + std::to_string(mib * 1024), "info scene.json");
+        EXPECT_EQ(result.exit_code, 1) << mib << " " << result.err;
+        n_refused += result.err.find("emory") != std::string::npos;
+    }
+    EXPECT_GT(n_refused, 0);
+}
+
 TEST_F(LimitsTest, TakesNoMoreThreadsThanThereAreCores) {
     folder_.write("scene.json", cube_scene("linear-bem", 2));
-    const ProgramRun result = run("true", "solve --quiet scene.json --threads 900 --report r.json");
-    EXPECT_EQ(result.exit_code, 0) << result.err;
-    const auto report = nlohmann::json::parse(read_text(folder_.path() / "r.json"));
-    EXPECT_EQ(report.at("threads").get<unsigned>(), std::thread::hardware_concurrency());
+    const auto threads = [&] {
+        const ProgramRun result = run("true", "solve --quiet scene.json --threads 900 --report r.json");
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        return nlohmann::json::parse(read_text(folder_.path() / "r.json")).at("threads").get<int>();
+    };
+    EXPECT_EQ(threads(), available_cores());
+    const OneCore one_core;
+    EXPECT_EQ(threads(), 1);
 }
 
 TEST_F(LimitsTest, RefusesTwoOutputsInOneFile) {

@@ -176,6 +176,34 @@ TEST_F(SolveTest, WritesFieldsAsTableAndForParaView) {
     EXPECT_THAT(refused.err, HasSubstr("no tetrahedra inside"));
 }
 
+TEST_F(SolveTest, RefusesFieldsBeyondDoublePrecision) {
+    std::string stiff = test::cube_scene("linear-bem", 2);
+    stiff.replace(stiff.find("1000"), 4, "1.7e308");
+    folder_.write("scene.json", stiff);
+    for (const char* output : {"f.csv", "f.vtp"}) {
+        const bool table = std::string(output) == "f.csv";
+        const ProgramRun refused =
+            run_program({"solve", "scene.json", table ? "--fields" : "--mesh-out", output}, folder_.path());
+        EXPECT_EQ(refused.exit_code, 1);
+        EXPECT_THAT(refused.err, HasSubstr("beyond double precision"));
+        EXPECT_FALSE(std::filesystem::exists(file(output)));
+    }
+}
+
+/// A body that one vertex does not hold: the direct update finds that out, and the reduced one takes over.
+TEST_F(SolveTest, TellsEverythingOnceWhereAnotherUpdateTakesOver) {
+    folder_.write("scene.json", R"({"elastolab": 1, "mesh": {"primitive": "beam", "resolution": 1},
+        "material": {"young_modulus": 1, "poisson_ratio": 0.49}, "method": "fem",
+        "handles": [{"select": {"vertices": [0]}, "translate": [0.1, 0, 0]}]})");
+    const ProgramRun run = run_program({"solve", "scene.json", "--report", "r.json"}, folder_.path());
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    std::vector<std::string> warnings = json("r.json")["warnings"];
+    EXPECT_THAT(warnings, testing::Contains(HasSubstr("lock at Poisson's ratio 0.49")));
+    EXPECT_THAT(warnings, testing::Contains(HasSubstr("free to move")));
+    std::sort(warnings.begin(), warnings.end());
+    EXPECT_EQ(std::adjacent_find(warnings.begin(), warnings.end()), warnings.end());
+}
+
 TEST_F(SolveTest, WritesAReportWithEveryKey) {
     const std::vector<std::string> keys = {"version",
                                            "machine",

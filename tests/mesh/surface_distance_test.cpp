@@ -46,11 +46,11 @@ double longest_edge(const TrianglePoints& p) {
 }
 
 /// By all pairs.
-Approach reference_approach(const SurfaceMesh& mesh) {
+FacingApproach reference_approach(const SurfaceMesh& mesh) {
     Eigen::Matrix3Xd normals = Eigen::Matrix3Xd::Zero(3, mesh.n_vertices());
     for (int t = 0; t < mesh.n_triangles(); ++t)
         for (const int v : mesh.triangles.col(t)) normals.col(v) += area_vector(triangle_points(mesh, t));
-    Approach closest;
+    FacingApproach closest;
     for (int v = 0; v < mesh.n_vertices(); ++v)
         for (int t = 0; t < mesh.n_triangles(); ++t) {
             const TrianglePoints p = triangle_points(mesh, t);
@@ -65,9 +65,9 @@ Approach reference_approach(const SurfaceMesh& mesh) {
 TEST(SurfaceDistance, FindsTheApproachThatAllPairsShow) {
     int n_found = 0;
     for (const SurfaceMesh& body : bodies()) {
-        const Approach expected = reference_approach(body);
+        const FacingApproach expected = reference_approach(body);
         Control control;
-        const Approach found = closest_facing_approach(body, control);
+        const FacingApproach found = closest_facing_approach(body, control);
         EXPECT_EQ(found.ratio, expected.ratio);
         EXPECT_EQ(found.vertex, expected.vertex);
         n_found += static_cast<int>(std::isfinite(found.ratio));

@@ -57,6 +57,21 @@ TEST(PrecomputeAgain, GalerkinIntegratesOnceForAllFurtherPoissonsRatios) {
     EXPECT_TRUE(has_stage(*third, "combine"));
 }
 
+TEST(PrecomputeAgain, WithAnotherPoissonsRatioIsRefusedWhereMemoryDoesNotSufficeForBothModels) {
+    static std::uint64_t needed = 0;
+    for (const MethodKind kind : all_methods()) {
+        MethodTraits traits = *kind;
+        traits.predict = [](const SurfaceMesh&, const Method&) { return Cost{.memory_bytes = needed}; };
+        const Method method{.kind = &traits};
+        Control control;
+        needed = 0;
+        const auto first = precompute(make_body(make_box(2), {1.0, 0.3}), method, control);
+        needed = std::uint64_t{1} << 60;
+        EXPECT_THROW(precompute_again(*first, {1.0, 0.2}, method, control), SolveError) << name(kind);
+        EXPECT_NO_THROW(precompute_again(*first, {2.0, 0.3}, method, control)) << name(kind) << ": nothing is computed";
+    }
+}
+
 TEST(PrecomputeAgain, WithAnotherYoungsModulusComputesNothingAndScalesTheForces) {
     const Pull pull;
     for (const Method& method : method_variants()) {

@@ -6,9 +6,11 @@
 #include <sstream>
 
 #include "base/error.hpp"
+#include "elasticity/stress.hpp"
 #include "methods/registry.hpp"
 #include "scene/solve.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/vtk_file.hpp"
 
 namespace elastolab {
 namespace {
@@ -71,14 +73,47 @@ TEST(FieldExport, AUniformStressIsThatOfHookesLaw) {
     EXPECT_NEAR(fields[1].values(0, v), std::sqrt(1.5) * deviator.norm(), kRounding * s.norm());
 }
 
+/// At edges, where faces with different stresses meet, too.
+TEST(FieldExport, VonMisesIsThatOfTheStressBesideIt) {
+    SolveRequest request{.scene_file = "cube.json", .document = {}, .method = {}, .with_checks = false};
+    request.document.mesh = Primitive{.name = "cube", .resolution = 4, .size = {}};
+    request.document.fixed = {{.select = {PlaneSelector{{0, 0, 0}, {1, 0, 0}, 1e-9}}}};
+    request.document.handles.push_back({.name = "end",
+                                        .select = {PlaneSelector{{1, 0, 0}, {1, 0, 0}, 1e-9}},
+                                        .motion = AffineMotion{.translate = {0.1, 0.2, 0.0}}});
+    request.method.kind = kFem;
+    Control control;
+    const std::vector<MeshField> fields = surface_fields(solved_body(solve(request, control)));
+    ASSERT_EQ(fields[1].name, "von_mises");
+    ASSERT_EQ(fields[3].name, "stress");
+    for (Eigen::Index v = 0; v < fields[1].values.cols(); ++v) {
+        const auto s = fields[3].values.col(v);
+        const double a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
+        const double expected = std::sqrt(0.5 * (a * a + b * b + c * c) + 3.0 * s.tail<3>().squaredNorm());
+        EXPECT_NEAR(fields[1].values(0, v), expected, 1e-12 * expected) << v;
+    }
+}
+
 TEST(FieldExport, EveryTetrahedronOfAUniformStretchHasItsStress) {
     for (const MethodKind kind : {kFem, kQuadraticFem}) {
         const StretchedCube cube(kind);
         std::ostringstream out;
         Control control;
         write_field_file(out, "cube.vtu", solved_body(cube.solution), control);
-        EXPECT_THAT(out.str(), HasSubstr("<CellData Scalars=\"von_mises\">"));
-        EXPECT_THAT(out.str(), HasSubstr("Name=\"stress\" NumberOfComponents=\"6\""));
+        const test::VtkFile file = test::read_vtk(out.str());
+        const int n = file.counts.at("NumberOfCells");
+        const test::VtkArray& stress = file.arrays.at("CellData/stress");
+        ASSERT_GT(n, 100);
+        ASSERT_EQ(stress.n_components, 6);
+        const std::vector<double> numbers = stress.as<double>(),
+                                  sizes = file.arrays.at("CellData/von_mises").as<double>();
+        ASSERT_EQ(std::ssize(numbers), 6 * n);
+        ASSERT_EQ(std::ssize(sizes), n);
+        const Eigen::Map<const Eigen::MatrixXd> of_cells(numbers.data(), 6, n);
+        const Eigen::Matrix<double, 6, 1> s = cube.stress();
+        EXPECT_LT((of_cells.colwise() - s).cwiseAbs().maxCoeff(), kRounding * s.norm());
+        const double size = measure(StressMeasure::von_mises, stress_tensor(s));
+        for (const double of_cell : sizes) EXPECT_NEAR(of_cell, size, kRounding * s.norm());
     }
 }
 

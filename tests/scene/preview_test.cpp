@@ -79,6 +79,47 @@ TEST(Preview, MovesANewHandleWhileTheMethodPreparesIt) {
     expect_near(bench.simulation.answer(kConstantBem).displacement(), bench.runner(kConstantBem).displacement());
 }
 
+TEST(Preview, OfAThousandVerticesIsTheSurfaceItself) {
+    LiveScene scene = pulled_cube(13);
+    PreviewBench bench({kConstantBem});
+    bench.begin(scene);
+    bench.wait_for_preview(scene);
+    EXPECT_EQ(bench.simulation.preview().surface(), scene.surface().get());
+    EXPECT_EQ(bench.simulation.preview().proxy(), nullptr);
+    EXPECT_EQ(bench.simulation.proxies().preview(), nullptr) << "nothing is made that nobody looks at";
+    scene.set_material({.young_modulus = 1.0, .poisson_ratio = 0.49});
+    bench.update_until(scene, [&] { return bench.simulation.proxies().preview() != nullptr; });
+}
+
+TEST(Preview, IsNotMadeBesideTheMethodThatItWouldBeMadeBy) {
+    const LiveScene scene = pulled_cube(9);
+    PreviewBench bench({quick_method()});
+    bench.begin(scene);
+    bench.settle(scene);
+    EXPECT_EQ(bench.simulation.preview().surface(), nullptr);
+}
+
+TEST(HiddenMethods, AreLetGoWhereTheyTakeTooMuchMemoryThoseOfLongAgoFirst) {
+    const LiveScene scene = pulled_cube(4);
+    Bench bench({kLinearBem});
+    bench.choices.complete_up_to = 0;
+    bench.settle(scene);
+    bench.simulation.set_hidden_memory(std::uint64_t{1} << 40);
+    bench.shown = {kFem};
+    bench.settle(scene);
+    EXPECT_NE(bench.runner(kLinearBem).model(), nullptr) << "there is room";
+    const MethodRunner& fem = bench.runner(kFem);
+    bench.simulation.set_hidden_memory(fem.model()->facts().memory_bytes + fem.set_memory());
+    bench.shown = {kConstantBem};
+    bench.update(scene);
+    EXPECT_EQ(bench.runner(kLinearBem).model(), nullptr);
+    EXPECT_NE(fem.model(), nullptr);
+    EXPECT_THAT(bench.simulation.take_dropped(), testing::ElementsAre(kLinearBem));
+    bench.shown = {kLinearBem};
+    bench.settle(scene);
+    expect_near(bench.runner(kLinearBem).displacement(), truth(scene, bench.choices.of(kLinearBem)));
+}
+
 TEST(Preview, IsNotMadeForABodyThatIsReadyAtOnce) {
     const LiveScene scene = pulled_cube(3);
     PreviewBench bench;

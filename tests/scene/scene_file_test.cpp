@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "methods/registry.hpp"
+#include "scene/motion.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace elastolab {
@@ -28,6 +29,13 @@ Document everything() {
         {.name = "ear \"left\", \xC3\xA4",
          .select = {SphereSelector{.center = {0, 1, 0}, .radius = 0.1}},
          .motion = AffineMotion{.matrix = Eigen::Matrix3d::Constant(-1.0 / 7.0), .translate = {0.1, 0, 5e-324}}});
+    document.handles.push_back(
+        {.name = "turned",
+         .select = {VertexSelector{{5}}},
+         .motion =
+             AffineMotion{.matrix = 0.1 * Eigen::Matrix3d::Identity(),
+                          .translate = {0, 1.0 / 3.0, 0},
+                          .rotate = {.axis = {0, 0.1, -2.0 / 3.0}, .degrees = -720.1, .center = {1.0 / 7.0, 0, 3}}}});
     document.handles.push_back({.name = "",
                                 .select = {VertexSelector{{7, 3, 2000000000}}},
                                 .motion = VertexMotion{{{0.1, 0.2, 0.3}, {0, -0.0, 1}, {1, 2, 3}}}});
@@ -89,6 +97,48 @@ TEST(SceneFile, ReadsTheExampleOfTheReadme) {
     EXPECT_EQ(document.handles[0].name, "ear");
     EXPECT_EQ(std::get<AffineMotion>(document.handles[1].motion).matrix(1, 2), -0.2);
     EXPECT_EQ(std::get<VertexMotion>(document.handles[2].motion).displacements[1].x(), 0.2);
+}
+
+TEST(SceneFile, ReadsATurnAndWritesNoneWhereThereIsNone) {
+    const auto parsed = [](const std::string& rotate) {
+        return parse_scene(R"({"elastolab": 1, "mesh": {"primitive": "cube", "resolution": 2}, "handles": [
+            {"select": {"vertices": [0]}, "rotate": )" +
+                               rotate + "}]}",
+                           "test");
+    };
+    const auto motion =
+        std::get<AffineMotion>(parsed(R"({"axis": [0, 0, 2], "degrees": 810, "center": [1, 0, 0]})").handles[0].motion);
+    EXPECT_EQ(motion.rotate, (Rotation{.axis = {0, 0, 2}, .degrees = 810, .center = {1, 0, 0}}));
+    EXPECT_LT((map_of(motion).displacement({2, 0, 0}) - Eigen::Vector3d(-1, 1, 0)).norm(), 1e-12);
+    const Document about_origin = parsed(R"({"axis": [1, 0, 0], "degrees": 5})");
+    EXPECT_TRUE(std::get<AffineMotion>(about_origin.handles[0].motion).rotate.center.isZero(0.0));
+    Document none = about_origin;
+    none.handles[0].motion = AffineMotion{};
+    EXPECT_THAT(print_scene(none), Not(HasSubstr("rotate")));
+}
+
+TEST(SceneFile, NamesThePathOfATurnThatCannotBe) {
+    const auto finding = [](const std::string& motion) -> std::string {
+        try {
+            parse_scene(R"({"elastolab": 1, "mesh": {"primitive": "cube", "resolution": 2}, "handles": [
+                {"select": {"vertices": [0]}, )" +
+                            motion + "}]}",
+                        "test");
+        } catch (const SceneError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_THAT(finding(R"("rotate": {"axis": [0, 0, 0], "degrees": 5})"),
+                HasSubstr("/handles/0/rotate/axis: is zero"));
+    EXPECT_THAT(finding(R"("rotate": {"degrees": 5})"), HasSubstr("/handles/0/rotate/axis: is missing"));
+    EXPECT_THAT(finding(R"("rotate": {"axis": [0, 0, 1]})"), HasSubstr("/handles/0/rotate/degrees: is missing"));
+    EXPECT_THAT(finding(R"("rotate": {"axis": [0, 0, 1], "degrees": 1e999})"), HasSubstr("test: "));
+    EXPECT_THAT(finding(R"("rotate": {"axis": [0, 0, 1], "degrees": "90"})"), HasSubstr("/handles/0/rotate/degrees"));
+    EXPECT_THAT(finding(R"("rotate": {"axis": [0, 0, 1], "degrees": 9, "angle": 1})"),
+                HasSubstr("/handles/0/rotate/angle: is not a key"));
+    EXPECT_THAT(finding(R"("rotate": {"axis": [0, 0, 1], "degrees": 9}, "displacements": [[0, 0, 0]])"),
+                HasSubstr("/handles/0: has both displacements"));
 }
 
 std::string scene_with_fixed(const std::string& fixed) {

@@ -86,11 +86,12 @@ void Gestures::press(const InputEvent& event, GestureContext& context) {
         frame_requested_ = true;
         return;
     }
+    const bool shifted = (event.modifiers & GLFW_MOD_SHIFT) != 0;
     if (event.code != GLFW_MOUSE_BUTTON_LEFT) {
-        action_ = Action::pan;
+        const bool pans = shifted || (event.modifiers & GLFW_MOD_CONTROL) != 0;
+        action_ = event.code == GLFW_MOUSE_BUTTON_MIDDLE && !pans ? Action::orbit : Action::pan;
         return;
     }
-    const bool shifted = (event.modifiers & GLFW_MOD_SHIFT) != 0;
     hold_ = shifted ? Hold::free : Hold::fix;
     if (context.tools.tool == Tool::box) {
         action_ = Action::box;
@@ -245,7 +246,8 @@ bool Gestures::animate(double now, GestureContext& context) {
         end_spring(context);
         return false;
     }
-    context.scene.set_motion(spring_->handle, scaled(spring_->from, (1.0 - t) * (1.0 - t)));
+    const Positions rest = context.scene.rest_positions(spring_->handle);
+    context.scene.set_motion(spring_->handle, part_of(spring_->from, (1.0 - t) * (1.0 - t), rest));
     return true;
 }
 

@@ -50,8 +50,9 @@ enum class Hold { fix, free };
 /// Turns mouse events into camera moves and edits of the scene. Owned by one thread; knows no window.
 ///   body     left: grab a handle or make one, and pull it. While pulling: Shift along the normal, X/Y/Z along an axis,
 ///            Ctrl (or R) turns the patch, Alt (or S) scales it, Delete removes it. A fixed vertex cannot be pulled
-///   empty    left: orbit; right, middle or Shift + left: pan; double click: frame the body
-///   gizmo    left: an arrow moves the handle (or the plane of the cut), a ring turns it; Ctrl snaps
+///   empty    left: orbit; Shift + left: pan; double click: frame the body
+///   anywhere middle: orbit; right, Shift + middle or Ctrl + middle: pan
+///   gizmo    left: an arrow moves the handle (or the plane of the cut), a ring turns it, by any angle; Ctrl snaps
 ///   wheel    zoom to the cursor
 ///   brush    left adds vertices under the brush to the selected fixed set, with Shift frees them; a click does so
 ///            with one vertex
@@ -102,7 +103,9 @@ public:
     struct GizmoDrag {
         Gizmo gizmo;  ///< as it was taken hold of
         GizmoPart part;
-        double amount = 0.0;  ///< as dragged() gives it, in steps where they are asked for
+        Eigen::Vector2d cursor = Eigen::Vector2d::Zero();  ///< where it is by now
+        double turned = 0.0;                               ///< by a ring, sum of all that dragged() gave [radians]
+        double amount = 0.0;  ///< along an arrow or turned, in steps where they are asked for
     };
     const std::optional<GizmoDrag>& gizmo_drag() const { return gizmo_drag_; }
     /// True once after a double click.
@@ -139,7 +142,7 @@ private:
     void point(GestureContext& context);
     bool press_gizmo(GestureContext& context, const PointingTarget& target);
     void move_plane(GestureContext& context);
-    double gizmo_amount(const GestureContext& context) const;
+    double gizmo_amount(const GestureContext& context);
     bool snaps(const ToolSettings& tools) const;
     void begin_pull(GestureContext& context, int handle, Grabbed grabbed, const PickHit& hit);
     void remove_pulled(GestureContext& context);
@@ -148,7 +151,8 @@ private:
     PullMode pull_mode(const ToolSettings& tools) const;
     Eigen::Vector3d pull_shift(const GestureContext& context) const;
     void pull_by_gizmo(GestureContext& context);
-    void transform_pulled(GestureContext& context, const Eigen::Matrix3d& map);
+    Eigen::Vector3d pulled_center(const Positions& rest) const;
+    void turn_pulled(GestureContext& context, const Eigen::Vector3d& turn);
     void end_pull(GestureContext& context);
     void paint(GestureContext& context);
     void end_box(GestureContext& context);

@@ -63,7 +63,7 @@ Eigen::Matrix3d axes_on(const Eigen::Vector3d& normal) {
 Eigen::Matrix3d own_axes(const Motion& motion) {
     const auto* affine = std::get_if<AffineMotion>(&motion);
     if (affine == nullptr) return Eigen::Matrix3d::Identity();
-    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(Eigen::Matrix3d::Identity() + affine->matrix,
+    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(Eigen::Matrix3d::Identity() + map_of(*affine).matrix,
                                                 Eigen::ComputeFullU | Eigen::ComputeFullV);
     return svd.matrixU() * svd.matrixV().transpose();
 }

@@ -50,7 +50,7 @@ void Gestures::set_baseline(GestureContext& context) {
     pull_.mode = pull_mode(context.tools);
     pull_.cursor = cursor_;
     for (const Gizmo& gizmo : context.gizmos)
-        if (gizmo_drag_ && gizmo.handle == pull_.handle) gizmo_drag_->gizmo = gizmo;
+        if (gizmo_drag_ && gizmo.handle == pull_.handle) gizmo_drag_ = GizmoDrag{gizmo, gizmo_drag_->part, cursor_};
     const Eigen::Vector3d x = context.scene.mesh().vertices.col(pull_.vertex);
     const Motion& motion = context.scene.document().handles[static_cast<std::size_t>(pull_.handle)].motion;
     pull_.place +=
@@ -95,23 +95,28 @@ void Gestures::pull(GestureContext& context) {
     if (pull_.mode == PullMode::scale) {
         double factor = std::exp(-kScalePerPixel * d.y());
         if (context.tools.snap) factor = std::max(kSnapScale, snapped(factor, kSnapScale));
-        return transform_pulled(context, factor * Eigen::Matrix3d::Identity());
+        const Positions rest = context.scene.rest_positions(pull_.handle);
+        return context.scene.set_motion(
+            pull_.handle, transformed(pull_.motion, factor * Eigen::Matrix3d::Identity(), pulled_center(rest), rest));
     }
     const Eigen::Vector2d angles = (kTurnPerPixel * d).unaryExpr([&](double angle) {
         return context.tools.snap ? snapped(angle, kSnapAngle) : angle;
     });
-    transform_pulled(context, (Eigen::AngleAxisd(angles.x(), context.camera.up()) *
-                               Eigen::AngleAxisd(angles.y(), context.camera.right()))
-                                  .toRotationMatrix());
+    const Eigen::Vector3d up = context.camera.up(), right = context.camera.right();
+    const Eigen::AngleAxisd about_up(angles.x(), up), about_right(angles.y(), right);
+    turn_pulled(context,
+                rotation_vector((about_up * about_right).toRotationMatrix(), angles.x() * up + angles.y() * right));
 }
 
-/// Applies a linear map about the middle of the handle.
-void Gestures::transform_pulled(GestureContext& context, const Eigen::Matrix3d& map) {
-    const std::span<const int> vertices = context.scene.vertices(pull_.handle);
-    const Positions rest =
-        context.scene.mesh().vertices(Eigen::all, std::vector<int>(vertices.begin(), vertices.end()));
-    const Eigen::Vector3d center = rest.rowwise().mean() + mean_displacement(pull_.motion, rest);
-    context.scene.set_motion(pull_.handle, transformed(pull_.motion, map, center, rest));
+/// Where the middle of the pulled handle was at the baseline.
+Eigen::Vector3d Gestures::pulled_center(const Positions& rest) const {
+    return rest.rowwise().mean() + mean_displacement(pull_.motion, rest);
+}
+
+/// Turns the handle about its middle. `turn`: along the axis, as long as the angle [radians].
+void Gestures::turn_pulled(GestureContext& context, const Eigen::Vector3d& turn) {
+    const Positions rest = context.scene.rest_positions(pull_.handle);
+    context.scene.set_motion(pull_.handle, turned(pull_.motion, turn, pulled_center(rest), rest));
 }
 
 bool Gestures::press_gizmo(GestureContext& context, const PointingTarget& target) {
@@ -125,7 +130,7 @@ bool Gestures::press_gizmo(GestureContext& context, const PointingTarget& target
             begin_pull(context, gizmo.handle, Grabbed::present_handle,
                        {.vertex = context.scene.vertices(gizmo.handle).front()});
         }
-        gizmo_drag_ = GizmoDrag{gizmo, *part};
+        gizmo_drag_ = GizmoDrag{gizmo, *part, cursor_};
         hover_ = {.part = {{gizmo.handle, *part}}};
         return true;
     }
@@ -134,11 +139,16 @@ bool Gestures::press_gizmo(GestureContext& context, const PointingTarget& target
 
 bool Gestures::snaps(const ToolSettings& tools) const { return tools.snap || (modifiers_ & GLFW_MOD_CONTROL) != 0; }
 
-double Gestures::gizmo_amount(const GestureContext& context) const {
+/// How far the gizmo has been dragged. Rings add up the angles between places of the cursor, so that they can be turned
+/// round and round.
+double Gestures::gizmo_amount(const GestureContext& context) {
     const Viewport& viewport = context.targets[target_].viewport;
-    const bool moves = gizmo_drag_->part.kind == GizmoPart::Kind::arrow;
-    const Eigen::Vector2d& from = action_ == Action::pull ? pull_.cursor : press_cursor_;
-    double amount = dragged(gizmo_drag_->gizmo, gizmo_drag_->part, context.camera, viewport, from, cursor_);
+    GizmoDrag& drag = *gizmo_drag_;
+    const bool moves = drag.part.kind == GizmoPart::Kind::arrow;
+    const Eigen::Vector2d& begin = action_ == Action::pull ? pull_.cursor : press_cursor_;
+    double amount = dragged(drag.gizmo, drag.part, context.camera, viewport, moves ? begin : drag.cursor, cursor_);
+    drag.cursor = cursor_;
+    if (!moves) amount = drag.turned += amount;
     if (moves && action_ == Action::pull) amount /= context.display.deformation_scale;
     if (!snaps(context.tools)) return amount;
     return snapped(amount, moves ? snap_length(context.scene) : kSnapAngle);
@@ -150,7 +160,7 @@ void Gestures::pull_by_gizmo(GestureContext& context) {
     if (gizmo_drag_->part.kind == GizmoPart::Kind::arrow)
         context.scene.set_motion(pull_.handle, translated(pull_.motion, amount * axis));
     else
-        transform_pulled(context, Eigen::AngleAxisd(amount, axis).toRotationMatrix());
+        turn_pulled(context, amount * axis);
 }
 
 /// The plane of the cut: its place by the arrow, turn and tilt by the rings about their axes.

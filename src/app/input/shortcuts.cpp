@@ -98,7 +98,7 @@ const std::vector<Shortcut>& shortcuts() {
 }
 
 std::span<const GestureHelp> gesture_help() {
-    static constexpr std::array<GestureHelp, 14> all = {
+    static constexpr std::array<GestureHelp, 15> all = {
         {{"drag on the body", "pull the patch under the cursor, in the plane of the screen"},
          {"... with Shift", "along the surface normal"},
          {"... with X, Y or Z", "along an axis"},
@@ -106,7 +106,8 @@ std::span<const GestureHelp> gesture_help() {
          {"... with Alt or S", "scale the patch: up larger, down smaller"},
          {"arrow or ring", "move or turn the selected handle, or the plane of the cut; with Ctrl in steps"},
          {"drag beside it", "turn the view"},
-         {"right or Shift + drag", "move the view"},
+         {"middle button", "turn the view, on the body too"},
+         {"right, Shift + drag, Shift + middle", "move the view"},
          {"wheel", "zoom to the cursor"},
          {"double click", "frame the body"},
          {"brush: drag, click", "fix vertices; with Shift free them"},

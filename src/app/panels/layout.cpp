@@ -45,6 +45,7 @@ Layout layout_of(const Eigen::Vector2i& window, float scale, const DisplaySettin
 bool is_short(const Layout& layout, double scale) { return layout.panel.height < kShortPanel * scale; }
 
 std::vector<SceneViewport> viewports_of(const ViewerState& state, const Viewport& scene, double scale) {
+    if (state.blank()) return {};
     const std::vector<MethodKind> kinds = state.shown_kinds();
     const double legend = legend_width(state.display, scene, scale);
     if (state.compare.mode != CompareMode::side_by_side) {

@@ -13,6 +13,7 @@ namespace elastolab {
 namespace {
 
 constexpr double kRadians = std::numbers::pi / 180.0;  ///< of a degree
+constexpr double kNoAngle = 1e-9;                      ///< [radians] less is rounding
 
 /// A ring at a vertex with words beside it, which turn to the left where there is no room.
 void draw_mark(const PanelContext& context, ImDrawList& list, const Viewport& viewport, const Eigen::Vector3d& place,
@@ -75,7 +76,9 @@ void draw_gizmo(const PanelContext& context, ImDrawList& list, const Viewport& v
     }
     if (!drag || drag->gizmo.handle != gizmo.handle) return;
     const bool moves = drag->part.kind == GizmoPart::Kind::arrow;
-    const std::string amount = moves ? number_text(drag->amount) : number_text(drag->amount / kRadians) + "\u00b0";
+    const std::string amount =
+        moves ? number_text(drag->amount)
+              : number_text(std::abs(drag->amount) < kNoAngle ? 0.0 : drag->amount / kRadians) + "\u00b0";
     draw_mark(context, list, viewport, gizmo.center, context.palette.text,
               (moves ? "moved by " : "turned by ") + amount);
 }
@@ -133,7 +136,22 @@ void draw_forces(const PanelContext& context, ImDrawList& list, const Viewport& 
         draw_mark(context, list, viewport, reaction.place,
                   reaction.fixed ? context.palette.fixed : context.palette.handle,
                   reaction.name + ": force " + number_text(reaction.force.norm()) + ", moment " +
-                      number_text(reaction.moment_about_place().norm()));
+                      number_text(reaction.moment_about_middle().norm()));
+}
+
+}  // namespace
+
+namespace {
+
+/// Where a body is crushed that has no equilibrium, as it is shown.
+void draw_crushed(const PanelContext& context, ImDrawList& list, const SceneViewport& viewport, const ShownBody& body) {
+    const ViewerState& state = context.state;
+    const std::optional<Crushed>& crushed = state.simulation.runner(viewport.kinds.front()).crushed();
+    const Positions& rest = state.scene().mesh().vertices;
+    if (!crushed || body.positions().cols() != rest.cols()) return;
+    Eigen::Index nearest = 0;
+    (rest.colwise() - crushed->place).colwise().squaredNorm().minCoeff(&nearest);
+    draw_mark(context, list, viewport.place, body.positions().col(nearest), context.palette.bad, "crushed here");
 }
 
 }  // namespace
@@ -156,6 +174,7 @@ void draw_marks(const PanelContext& context, ImDrawList& list, const SceneViewpo
     if (state.display.arrows) draw_forces(context, list, viewport.place, *body);
     if (state.display.extremes) draw_extremes(context, list, viewport.place, *body);
     draw_probes(context, list, viewport.place, *body);
+    draw_crushed(context, list, viewport, *body);
     for (const Gizmo& gizmo : state.gizmos()) draw_gizmo(context, list, viewport.place, gizmo);
 }
 

@@ -35,6 +35,10 @@ constexpr std::array<Choice<FrameRule>, 2> kFrameRules = {
       "A frame only reads them, as fast as memory allows."},
      {FrameRule::displace, "whole update", "Every frame solves by the update rule above, to see what that costs."}}};
 
+constexpr std::array<Choice<ElementDegree>, 2> kElements = {
+    {{ElementDegree::quadratic, "ten-node", "Ten nodes a tetrahedron: accurate. Of nonlinear FEM."},
+     {ElementDegree::linear, "four-node",
+      "Four nodes a tetrahedron: an eighth of the unknowns, too stiff in bending."}}};
 constexpr std::array<Choice<Tractions>, 3> kTractions = {
     {{Tractions::discontinuous, "discontinuous",
       "Tractions may jump at the rim of a constrained patch, where they are "
@@ -48,6 +52,9 @@ std::string state_words(const ViewerState& state, const Cost& cost) {
     const Simulation& simulation = state.simulation;
     const MethodRunner& runner = simulation.runner(state.method);
     const bool previewing = simulation.previewing(state.method);
+    if (runner.crushed()) return "no equilibrium: the last one stays";
+    if (!state.method->linear && runner.has_set() && runner.state() == State::preparing)
+        return previewing ? "preview is following; exact when the hand rests" : "following";
     switch (runner.state()) {
         case State::idle:
             if (simulation.making_proxy(state.method)) return "making a closed surface to simulate";
@@ -61,7 +68,7 @@ std::string state_words(const ViewerState& state, const Cost& cost) {
         case State::preparing:
             return previewing ? "preview; preparing the exact answer" : "preparing the constrained set";
         case State::ready:
-            if (runner.refined()) return "ready: pulls are instant";
+            if (runner.refined()) return state.method->linear ? "ready: pulls are instant" : "exact";
             return "ready, exact to " + number_text(runner.tolerance()) + (runner.refining() ? "; converging" : "");
         case State::failed:
             return "failed";
@@ -189,12 +196,14 @@ void draw_model(const PanelContext& context, const MethodRunner& runner) {
 
 }  // namespace
 
-/// Which method would be ready far sooner than one that takes long; empty when none.
-std::string Panels::sooner_words(const ViewerState& state) {
+/// Which method is ready, or would be far sooner than one that takes long; null when none.
+MethodKind Panels::sooner_method(const ViewerState& state) {
     constexpr double kLong = 4.0, kFarSooner = 3.0;  // seconds; times
-    if (state.simulation.runner(state.method).state() != State::precomputing) return "";
+    if (state.simulation.runner(state.method).state() != State::precomputing) return nullptr;
     const double own = cost(state, state.choices.of(state.method)).seconds;
-    if (own < kLong) return "";
+    if (own < kLong) return nullptr;
+    for (const MethodKind kind : all_methods())
+        if (state.simulation.runner(kind).model() != nullptr && kind != state.method) return kind;
     const auto seconds = [&](MethodKind kind) {
         const double predicted = cost(state, state.choices.of(kind)).seconds;
         return predicted > 0.0 && state.simulation.problem(kind).empty() ? predicted : own;
@@ -202,8 +211,23 @@ std::string Panels::sooner_words(const ViewerState& state) {
     const std::span<const MethodKind> all = all_methods();
     const MethodKind best =
         *std::min_element(all.begin(), all.end(), [&](MethodKind a, MethodKind b) { return seconds(a) < seconds(b); });
-    if (kFarSooner * seconds(best) > own) return "";
-    return title(best) + " would be ready in about " + readable_seconds(seconds(best));
+    return kFarSooner * seconds(best) > own ? nullptr : best;
+}
+
+/// One click to the method that answers sooner, in the row of the state.
+void Panels::draw_sooner(const PanelContext& context) {
+    ViewerState& state = context.state;
+    const MethodKind sooner = sooner_method(state);
+    if (sooner == nullptr) return;
+    const bool ready = state.simulation.runner(sooner).model() != nullptr;
+    const std::string when =
+        ready ? "ready" : "in about " + readable_seconds(cost(state, state.choices.of(sooner)).seconds);
+    const std::string label = title(sooner) + ": " + when;
+    const float width = ImGui::CalcTextSize(label.c_str()).x + 2.0f * ImGui::GetStyle().FramePadding.x;
+    ImGui::SameLine();
+    if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
+    if (ImGui::SmallButton(label.c_str())) state.select_method(sooner);
+    tooltip("Exact sooner than the chosen method, which goes on when it is chosen again.");
 }
 
 void Panels::draw_method(const PanelContext& context) {
@@ -214,6 +238,7 @@ void Panels::draw_method(const PanelContext& context) {
     MethodRunner& runner = state.simulation.runner(state.method);
     const Colour& colour = state.simulation.previewing(state.method) ? palette.good : state_colour(runner, palette);
     ImGui::TextColored(imgui_colour(colour), "%s", state_words(state, cost_of(state.method)).c_str());
+    draw_sooner(context);
     draw_progress(context, runner);
     if (!ImGui::TreeNode("How it computes")) return;
     draw_model(context, runner);
@@ -225,6 +250,8 @@ void Panels::draw_method(const PanelContext& context) {
     choose<FrameRule>("each frame", state.choices.frame_rule, kFrameRules);
     set_item_width(scale);
     choose<Tractions>("tractions", state.choices.tractions, kTractions);
+    set_item_width(scale);
+    choose<ElementDegree>("elements", state.choices.elements, kElements);
     ImGui::TreePop();
 }
 

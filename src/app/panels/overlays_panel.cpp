@@ -33,12 +33,13 @@ std::string source_words(const ViewerState& state, MethodKind kind) {
     };
     std::string text;
     if (simulation.previewing(kind)) {
-        const Proxy* proxy = simulation.preview().proxy();
-        text = std::string(kDash) + "preview";
+        const Proxy* proxy = simulation.preview(kind).proxy();
+        text = std::string(kDash) + (runner.has_set() && !kind->linear ? "preview is following" : "preview");
         if (proxy) text += " (proxy of " + count_text(proxy->surface->n_vertices()) + " vertices)";
     }
     if (simulation.making_proxy(kind)) return text + kDash + progress(simulation.proxies().status());
     if (runner.precomputing()) return text + kDash + progress(runner.status());
+    if (runner.crushed()) return text + kDash + "no equilibrium: the last one stays";
     if (!simulation.problem(kind).empty()) return text + kDash + "not available: see the warnings (P: panel)";
     if (simulation.previewing(kind)) return text;
     if (!runner.has_answer())
@@ -48,7 +49,9 @@ std::string source_words(const ViewerState& state, MethodKind kind) {
                                    : simulation.waiting()           ? "waiting"
                                                                     : "not computed");
     const Proxy* proxy = simulation.embedded(kind).proxy();
-    if (!runner.refined()) text = kDash + std::string("exact to ") + number_text(runner.tolerance());
+    if (!kind->linear) text = kDash + std::string(runner.following() ? "following" : "exact");
+    if (!runner.refined() && !runner.following())
+        text = kDash + std::string("exact to ") + number_text(runner.tolerance());
     if (proxy != nullptr && proxy->is_filled()) return text + kDash + "holes filled";
     return proxy ? text + kDash + "on a proxy of " + count_text(proxy->surface->n_vertices()) + " vertices" : text;
 }
@@ -63,8 +66,8 @@ std::pair<std::string, std::string> difference_words(const ViewerState& state, M
             "largest " + number_text(100.0 * shown->difference()->relative_max) + " %"};
 }
 
-/// Whose answer a viewport shows, how it is doing, how far it is from the reference, and what else is to be said.
-void draw_title(const PanelContext& context, ImDrawList& list, const SceneViewport& viewport, const std::string& more) {
+/// Whose answer a viewport shows, how it is doing, and how far it is from the reference.
+void draw_title(const PanelContext& context, ImDrawList& list, const SceneViewport& viewport) {
     const ViewerState& state = context.state;
     const Palette& palette = context.palette;
     const float size = ImGui::GetFontSize(), margin = kMargin * context.gui.scale();
@@ -83,7 +86,6 @@ void draw_title(const PanelContext& context, ImDrawList& list, const SceneViewpo
         if (first) lines.push_back({context.gui.fonts().regular, size, palette.text, fits ? both : rms});
         if (first && !fits) lines.push_back({context.gui.fonts().regular, size, palette.text, largest});
     }
-    if (!more.empty()) lines.push_back({context.gui.fonts().regular, size, palette.text_dim, more});
     draw_lines(context, list, im_point(viewport.place.x + margin, viewport.place.y + margin), width, lines);
 }
 
@@ -220,15 +222,33 @@ void draw_messages(const PanelContext& context) {
     }
 }
 
+/// The first file is being opened.
+void draw_blank(const PanelContext& context, ImDrawList& list) {
+    const Viewport &scene = context.layout.scene, &panel = context.layout.panel;
+    const ImVec2 low = im_point(panel.x, scene.y), high = im_point(scene.x + scene.width, scene.y + scene.height);
+    const unsigned top = imgui_packed(context.palette.background_top);
+    const unsigned bottom = imgui_packed(context.palette.background_bottom);
+    list.AddRectFilledMultiColor(low, high, top, top, bottom, bottom);
+    const std::string text = "Opening " + context.state.loading_file().filename().string() + " ...";
+    const float width = std::min(high.x - low.x - 2.0f * kMargin, ImGui::CalcTextSize(text.c_str()).x);
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, width);
+    list.AddText(nullptr, 0.0f, {0.5f * (low.x + high.x - size.x), 0.5f * (low.y + high.y - size.y)},
+                 imgui_packed(context.palette.text), text.c_str(), nullptr, width);
+}
+
 }  // namespace
 
 void Panels::draw_overlays(const PanelContext& context) {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
-    const std::string sooner = sooner_words(context.state);
+    if (context.state.blank()) {
+        draw_blank(context, list);
+        draw_messages(context);
+        return;
+    }
     for (const SceneViewport& viewport : context.state.shown.viewports) {
         const Viewport& v = viewport.place;
         list.PushClipRect(im_point(v.x, v.y), im_point(v.x + v.width, v.y + v.height));
-        draw_title(context, list, viewport, viewport.kinds.front() == context.state.method ? sooner : "");
+        draw_title(context, list, viewport);
         draw_axes_letters(context, list, viewport);
         draw_marks(context, list, viewport);
         list.PopClipRect();

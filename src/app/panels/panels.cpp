@@ -107,25 +107,13 @@ std::uint64_t Panels::memory_with_completion(const ViewerState& state, MethodKin
     return place->second = completion ? std::max(own, cost(state, *completion).memory_bytes) : own;
 }
 
-/// What the present set of a method takes and, while it is made, the estimate of its error; 0 before there is a set.
-std::uint64_t Panels::memory_of_set(const MethodRunner& runner) {
-    const std::shared_ptr<const Deformer>& deformer = runner.deformer();
-    if (!deformer) return 0;
-    SetMemory& known = set_bytes_[&runner];
-    if (known.of.lock() != deformer) {
-        known.of = deformer;
-        known.bytes = deformer->predict_memory(deformer->set()) + deformer->predict_check_memory(deformer->set());
-    }
-    return known.bytes;
-}
-
 /// Of all methods that are compared, and of the program itself, at most; 0 where that is not known.
 std::uint64_t Panels::memory_of_comparison(const ViewerState& state) {
     std::uint64_t sum = program_bytes_;
     for (const MethodKind kind : state.shown_kinds()) {
         const std::uint64_t model = memory_with_completion(state, kind);
         if (model == 0) return 0;
-        sum += model + memory_of_set(state.simulation.runner(kind));
+        sum += model + state.simulation.runner(kind).set_memory();
     }
     return sum;
 }
@@ -133,7 +121,7 @@ std::uint64_t Panels::memory_of_comparison(const ViewerState& state) {
 void Panels::draw(const PanelContext& context) {
     if (program_bytes_ == 0) program_bytes_ = resident_memory_bytes();
     draw_menu(context);
-    draw_side(context);
+    if (!context.state.blank()) draw_side(context);
     draw_status(context);
     draw_overlays(context);
     if (context.state.show_help) draw_help(context);

@@ -77,7 +77,8 @@ private:
     void draw_selection(const PanelContext& context);
     void draw_edit(ViewerState& state);
     void scroll_to(const ViewerState& state, const ViewerState::Selection& row) const;
-    std::string sooner_words(const ViewerState& state);
+    MethodKind sooner_method(const ViewerState& state);
+    void draw_sooner(const PanelContext& context);
     void draw_probes(const PanelContext& context);
     void draw_compare(const PanelContext& context);
     void draw_display(const PanelContext& context);
@@ -100,7 +101,6 @@ private:
     void open_primitive(ViewerState& state);
     const Cost& cost(const ViewerState& state, const Method& method);
     std::uint64_t memory_with_completion(const ViewerState& state, MethodKind kind);
-    std::uint64_t memory_of_set(const MethodRunner& runner);
     std::uint64_t memory_of_comparison(const ViewerState& state);
 
     FileDialog files_;
@@ -128,7 +128,8 @@ private:
     std::uint64_t costs_of_scene_ = 0;
     struct Warning {
         std::string text;
-        bool is_problem = false;  ///< there is no answer, or a part of it is missing
+        bool is_problem = false;      ///< there is no answer, or a part of it is missing
+        MethodKind better = nullptr;  ///< that a button offers instead
     };
     static std::vector<Warning> present_warnings(const ViewerState& state);
     std::vector<Warning> warnings_;  ///< as they are shown, of this scene and method:
@@ -137,11 +138,6 @@ private:
     std::map<std::tuple<MethodKind, Mode, Update, int, int>, Cost>
         costs_;  ///< by vertices and triangles of what is simulated
     std::map<std::tuple<MethodKind, Mode, Update, int, int, int>, std::uint64_t> completed_bytes_;  ///< likewise
-    struct SetMemory {
-        std::weak_ptr<const Deformer> of;
-        std::uint64_t bytes = 0;
-    };
-    std::map<const MethodRunner*, SetMemory> set_bytes_;
     std::uint64_t program_bytes_ = 0;  ///< of the program before it has computed anything
 };
 

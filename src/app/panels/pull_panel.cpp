@@ -24,9 +24,7 @@ bool draw_numbers(const char* label, double* values, int n, const char* format, 
 void draw_placement(ViewerState& state, std::optional<int> handle, float scale) {
     LiveScene& scene = state.scene();
     const Motion motion = handle ? scene.document().handles[static_cast<std::size_t>(*handle)].motion : Motion{};
-    const std::vector<int> vertices =
-        handle ? std::vector(scene.vertices(*handle).begin(), scene.vertices(*handle).end()) : std::vector<int>{};
-    const Positions rest = scene.mesh().vertices(Eigen::all, vertices);
+    const Positions rest = handle ? scene.rest_positions(*handle) : Positions(3, 0);
     const std::optional<Placement> present = handle ? placement_of(motion, rest) : std::nullopt;
     const Eigen::Vector3d moved = handle ? mean_displacement(motion, rest) : Eigen::Vector3d::Zero();
     Placement typed = present.value_or(Placement{.move = moved});
@@ -37,11 +35,13 @@ void draw_placement(ViewerState& state, std::optional<int> handle, float scale) 
     ended = ImGui::IsItemDeactivatedAfterEdit();
     tooltip("Displacement of the middle of the handle along x, y and z [mesh units].");
     ImGui::EndDisabled();
-    ImGui::BeginDisabled(!present || vertices.size() < 2);
+    ImGui::BeginDisabled(!present || rest.cols() < 2);
     if (draw_numbers("turn", typed.turn.data(), 3, present ? "%.4g\u00b0" : "\u2013", scale))
         scene.set_motion(*handle, motion_of(typed, rest));
     ended = ended || ImGui::IsItemDeactivatedAfterEdit();
-    tooltip("Rotation about the middle of the handle: about x, then y, then z [degrees].");
+    tooltip(
+        "Rotation vector about the middle of the handle: along the axis, as long as the angle [degrees]. 0, 0, 720: "
+        "two full turns about z.");
     if (draw_numbers("scale", &typed.scale, 1, present ? "%.4g" : "\u2013", scale) && typed.scale > 0.0)
         scene.set_motion(*handle, motion_of(typed, rest));
     ended = ended || ImGui::IsItemDeactivatedAfterEdit();
@@ -59,9 +59,9 @@ void draw_reaction(const PanelContext& context, const std::string& name) {
     if (const ShownBody* shown = state.shown.body(state.method))
         for (const ShownReaction& reaction : shown->reactions()) {
             if (reaction.name != name) continue;
-            const Eigen::Vector3d moment = reaction.moment_about_place();
+            const Eigen::Vector3d moment = reaction.moment_about_middle();
             line = "force " + number_text(reaction.force.norm()) + ", moment " + number_text(moment.norm());
-            more = "Exerted on the body: force " + vector_text(reaction.force) + ", moment about its middle at rest " +
+            more = "Exerted on the body: force " + vector_text(reaction.force) + ", moment about its middle " +
                    vector_text(moment) + ".";
         }
     if (more.empty())

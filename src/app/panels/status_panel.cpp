@@ -18,7 +18,8 @@ std::string set_text(const LiveScene& scene, int vertex) {
 }
 
 std::string left_text(const ViewerState& state) {
-    if (state.loading()) return "Loading...";
+    if (state.loading()) return "Opening " + state.loading_file().filename().string() + " ...";
+    if (const auto file = state.exported_file(); !file.empty()) return "Writing " + file.filename().string() + " ...";
     const Gestures& gestures = state.gestures;
     if (gestures.hover().vertex >= 0) {
         const int v = gestures.hover().vertex, owner = state.scene().owner(v);

@@ -10,13 +10,28 @@
 #include "app/names.hpp"
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
+#include "base/text.hpp"
 #include "findings/words.hpp"
+#include "methods/registry.hpp"
+#include "scene/live/theory_gauge.hpp"
 
 namespace elastolab {
 
 namespace {
 
 constexpr float kMostOfPanel = 0.3f;  ///< of its height; more is scrolled to
+
+/// How far linear theory is off for what is shown, in the words of a student; empty where it is hardly off.
+std::string theory_words(const ViewerState& state) {
+    const std::optional<TheoryError>& error = state.simulation.theory_error();
+    if (!error || (!error->crushed && error->relative < kSilentLinearTheory)) return "";
+    const std::string motion = error->turns ? "this turn" : "this pull", better = title(kNonlinearFem);
+    if (error->crushed)
+        return "Linear theory cannot be right for " + motion + ": " + better +
+               " finds no equilibrium, a rubber body would be crushed.";
+    return "Linear theory: " + formatted("%.0f", 100.0 * error->relative) + " % off for " + motion + ". " + better +
+           " shows what a rubber body does.";
+}
 
 /// Height of a paragraph in a window of this width.
 float height_of(const std::string& paragraph, float width) {
@@ -27,16 +42,20 @@ float height_of(const std::string& paragraph, float width) {
 
 }  // namespace
 
-/// What has failed, then the warnings of the present answer, with the body's file in place of its whole path, and
-/// methods called as on their buttons.
+/// What has failed, that changes are not kept, then the warnings of the present answer, with the body's file in place
+/// of its whole path, and methods called as on their buttons.
 std::vector<Panels::Warning> Panels::present_warnings(const ViewerState& state) {
     std::vector<Warning> warnings;
     for (const std::string& problem :
          {state.simulation.problem(state.method), state.shown.reaction_failure(state.method),
           state.shown.section_failure(state.method)})
         if (!problem.empty()) warnings.push_back({problem, true});
+    if (!state.keeping_failure.empty())
+        warnings.push_back({"Changes would be lost if the viewer were killed: " + state.keeping_failure, true});
     for (const std::string& text : words(state.simulation.embedded(state.method).findings()))
         warnings.push_back({text, false});
+    if (const std::string theory = theory_words(state); !theory.empty() && state.method->linear)
+        warnings.insert(warnings.begin(), {theory, false, kNonlinearFem});
     const std::string& name = state.scene().name();
     for (Warning& warning : warnings)
         if (warning.text.starts_with(name))
@@ -50,7 +69,7 @@ std::vector<Panels::Warning> Panels::present_warnings(const ViewerState& state) 
 /// At the bottom of the side panel, so that nothing else in it moves when they come and go. While an item is pressed
 /// or typed into, they stay as they are, lest they cover it. Returns their height.
 float Panels::draw_warnings(const PanelContext& context) {
-    const ViewerState& state = context.state;
+    ViewerState& state = context.state;
     const std::pair<std::uint64_t, MethodKind> of(state.scene_number(), state.method);
     if (!ImGui::IsAnyItemActive() || warnings_of_ != of) {
         warnings_ = present_warnings(state);
@@ -60,7 +79,8 @@ float Panels::draw_warnings(const PanelContext& context) {
     const Viewport& panel = context.layout.panel;
     const auto width = static_cast<float>(panel.width), bottom = static_cast<float>(panel.y + panel.height);
     float wanted = 2.0f * ImGui::GetStyle().WindowPadding.y - ImGui::GetStyle().ItemSpacing.y;
-    for (const Warning& warning : warnings_) wanted += height_of(warning.text, width);
+    for (const Warning& warning : warnings_)
+        wanted += height_of(warning.text, width) + (warning.better ? ImGui::GetFrameHeightWithSpacing() : 0.0f);
     const float height = std::ceil(std::min(wanted, kMostOfPanel * static_cast<float>(panel.height)));
     ImGui::SetNextWindowPos({static_cast<float>(panel.x), bottom - height});
     ImGui::SetNextWindowSize({width, height});
@@ -71,8 +91,13 @@ float Panels::draw_warnings(const PanelContext& context) {
                      ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoFocusOnAppearing);
     ImGui::PopStyleColor();
     ImGui::PopStyleVar();
-    for (const Warning& warning : warnings_)
+    for (const Warning& warning : warnings_) {
         paragraph(warning.text, warning.is_problem ? context.palette.bad : context.palette.busy);
+        if (!warning.better) continue;
+        if (ImGui::Button(("Switch to " + title(warning.better)).c_str())) state.select_method(warning.better);
+        tooltip(
+            "Both theories on a coarse mesh: the largest difference of a displacement, over the largest displacement.");
+    }
     ImGui::End();
     return height;
 }

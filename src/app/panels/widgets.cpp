@@ -67,7 +67,9 @@ std::string number_text(double value) {
 }
 
 std::string vector_text(const Eigen::Vector3d& v) {
-    return "(" + number_text(v.x()) + ", " + number_text(v.y()) + ", " + number_text(v.z()) + ")";
+    constexpr double kNoise = 1e-9;  // of the largest component; less is rounding
+    const auto text = [&](double x) { return number_text(std::abs(x) < kNoise * v.cwiseAbs().maxCoeff() ? 0.0 : x); };
+    return "(" + text(v.x()) + ", " + text(v.y()) + ", " + text(v.z()) + ")";
 }
 
 ImVec4 imgui_colour(const Colour& colour, float opacity) { return {colour.r, colour.g, colour.b, colour.a * opacity}; }

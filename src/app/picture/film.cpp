@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <system_error>
+#include <tuple>
 #include <utility>
 
 #include "app/job_notes.hpp"
@@ -73,7 +74,62 @@ double pulled_part(int frame, int n_frames) {
     return 0.5 * (1.0 - std::cos(2.0 * std::numbers::pi * (frame - 1) / n_frames));
 }
 
-/// Elasticity is linear: a part of the pull scales all displacements, and all values that are coloured, by that part.
+bool pull_scales(const ViewerState& state) {
+    constexpr double kStraight = 1e-9;
+    const std::vector<MethodKind> kinds = state.needed_kinds();
+    if (!std::all_of(kinds.begin(), kinds.end(), [](MethodKind kind) { return kind->linear; })) return false;
+    const LiveScene& scene = state.scene();
+    for (int h = 0; h < scene.n_handles(); ++h) {
+        const Positions rest = scene.rest_positions(h);
+        const Motion& motion = scene.constraints().motions[static_cast<std::size_t>(h)];
+        const Eigen::Matrix3Xd whole = displacements(motion, rest),
+                               half = displacements(part_of(motion, 0.5, rest), rest);
+        if ((2.0 * half - whole).cwiseAbs().maxCoeff() > kStraight * whole.cwiseAbs().maxCoeff()) return false;
+    }
+    return true;
+}
+
+/// Whether the body is as it is to be in this frame; else that is under way.
+bool Film::pose(SceneRenderer& renderer, ViewerState& state, const Palette& palette) {
+    LiveScene& scene = state.scene();
+    if (!pose_) {
+        pose_ = Pose{.handles = {}, .revision = scene.revision(), .range = state.shown.field_range(state.display)};
+        for (int h = 0; h < scene.n_handles(); ++h) {
+            const Motion& motion = scene.constraints().motions[static_cast<std::size_t>(h)];
+            pose_->handles.push_back({scene.handle_name(h), motion, motion});
+        }
+    }
+    if (scene.revision() != pose_->revision)
+        throw Error(request_.file.string() + ": the scene was changed while the film was made. Make it anew.");
+    if (!waiting_) {
+        for (int h = 0; h < scene.n_handles(); ++h) {
+            Pose::Handle& handle = pose_->handles[static_cast<std::size_t>(h)];
+            handle.part = part_of(handle.whole, pulled_part(next_, request_.n_frames), scene.rest_positions(h));
+            scene.set_motion(h, handle.part);
+        }
+        pose_->revision = scene.revision();
+    }
+    state.update_displacements();
+    state.update_picture();
+    waiting_ = state.answering();
+    if (!waiting_) renderer.upload(state, palette);
+    return !waiting_;
+}
+
+/// Every handle that still does what the film has made it do gets its own motion back.
+void Film::put_back(ViewerState& state) {
+    waiting_ = false;
+    if (!pose_) return;
+    LiveScene& scene = state.scene();
+    for (int h = 0; h < scene.n_handles(); ++h)
+        for (const Pose::Handle& handle : pose_->handles)
+            if (handle.name == scene.handle_name(h) &&
+                handle.part == scene.constraints().motions[static_cast<std::size_t>(h)])
+                scene.set_motion(h, handle.whole);
+    pose_.reset();
+}
+
+/// A linear method scales all displacements, and all values that are coloured, by the part of a straight pull.
 void Film::draw(SceneRenderer& renderer, ViewerState& state, const Palette& palette, int frame) const {
     const CameraPose pose = state.camera.pose();
     const DisplaySettings display = state.display;
@@ -87,6 +143,11 @@ void Film::draw(SceneRenderer& renderer, ViewerState& state, const Palette& pale
     try {
         if (request_.kind == FilmKind::turn) {
             state.camera.set_pose(turned(state.camera, pose, static_cast<double>(frame - 1) / request_.n_frames));
+        } else if (pose_) {
+            state.display.auto_range = false;
+            std::tie(state.display.range_low, state.display.range_high) = pose_->range;
+            state.update_picture();
+            renderer.upload(state, palette);
         } else {
             const double part = std::max(kNearRest, pulled_part(frame, request_.n_frames));
             const auto [low, high] = state.shown.field_range(display);
@@ -107,9 +168,17 @@ void Film::draw(SceneRenderer& renderer, ViewerState& state, const Palette& pale
 
 void Film::step(SceneRenderer& renderer, ViewerState& state, const Palette& palette) {
     const int frame = std::exchange(next_, 0);  // an exception ends it
+    if (frame == 1 && !pose_) state.finish_gesture();
     try {
+        if (request_.kind == FilmKind::pull && (pose_ || !pull_scales(state))) {
+            next_ = frame;
+            if (!pose(renderer, state, palette)) return;
+        }
+        next_ = 0;
         draw(renderer, state, palette, frame);
     } catch (...) {
+        next_ = 0;
+        put_back(state);
         state.pictures_under_way.reset();
         throw;
     }
@@ -119,6 +188,7 @@ void Film::step(SceneRenderer& renderer, ViewerState& state, const Palette& pale
 }
 
 void Film::finish(ViewerState& state) {
+    put_back(state);
     state.pictures_under_way.reset();
     state.messages.note("Saved " + std::to_string(request_.n_frames) + " frames, " +
                         frame_file(request_.file, 1).string() + " and on");
@@ -127,8 +197,9 @@ void Film::finish(ViewerState& state) {
             [file = request_.file](Control& control) { return "Saved " + make_video(file, control).string(); });
 }
 
-void Film::stop() {
+void Film::stop(ViewerState& state) {
     next_ = 0;
+    put_back(state);
     video_.cancel();
 }
 

@@ -1,10 +1,16 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "app/picture/scene_picture.hpp"
 #include "scene/live/background_job.hpp"
+#include "scene/motion.hpp"
 
 namespace elastolab {
 
@@ -15,8 +21,14 @@ std::filesystem::path frame_file(const std::filesystem::path& file, int frame);
 /// smoothly, so that the film can be repeated without a jump.
 double pulled_part(int frame, int n_frames);
 
-/// Frames of a film as numbered pictures, one for each call of step() so that the window stays alive, and then, when it
-/// is wanted, a video of them made by ffmpeg on a worker. All members are for the thread of the window.
+/// Whether a part of the pull is what is shown with displacements scaled by that part: every method on the screen is
+/// linear, and every handle goes straight.
+bool pull_scales(const ViewerState& state);
+
+/// Frames of a film as numbered pictures, one at a time so that the window stays alive, and then, when it is wanted, a
+/// video of them made by ffmpeg on a worker. A film of a pull that does not merely scale moves the handles of the scene
+/// part of their way for each frame, through their turns, and puts them back at its end. All members are for the thread
+/// of the window.
 class Film {
 public:
     /// `wake` is called by the worker when poll() will find something.
@@ -28,20 +40,37 @@ public:
     }
     /// Frames are still to be drawn.
     bool running() const { return next_ > 0; }
-    /// Draws and writes the next frame. Throws Error when that fails, which ends it.
+    /// The answer to the next frame's pull is being computed.
+    bool waiting() const { return running() && waiting_; }
+    /// Draws and writes the next frame, or, while that is computed, does nothing. Throws Error when it fails or the
+    /// scene was changed meanwhile, which ends it.
     void step(SceneRenderer& renderer, ViewerState& state, const Palette& palette);
-    void stop();
+    void stop(ViewerState& state);
     /// Takes over what the worker finished. Whether there is something new to see.
     bool poll(ViewerState& state);
     bool making_video() const { return video_.running(); }
     bool working() const { return video_.working(); }
 
 private:
+    /// The handles on their way: what they did before, and what they do in the present frame.
+    struct Pose {
+        struct Handle {
+            std::string name;
+            Motion whole, part;
+        };
+        std::vector<Handle> handles;
+        std::uint64_t revision = 0;       ///< of the scene, as it was put last
+        std::pair<double, double> range;  ///< of the colours, of the whole pull
+    };
+    bool pose(SceneRenderer& renderer, ViewerState& state, const Palette& palette);
+    void put_back(ViewerState& state);
     void draw(SceneRenderer& renderer, ViewerState& state, const Palette& palette, int frame) const;
     void finish(ViewerState& state);
 
     PictureRequest request_;
-    int next_ = 0;                      ///< frame, counted from 1; 0: none
+    int next_ = 0;  ///< frame, counted from 1; 0: none
+    bool waiting_ = false;
+    std::optional<Pose> pose_;
     BackgroundJob<std::string> video_;  ///< with its note
 };
 

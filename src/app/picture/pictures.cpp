@@ -1,5 +1,7 @@
 #include "app/picture/pictures.hpp"
 
+#include <chrono>
+#include <thread>
 #include <utility>
 
 #include "app/picture/scene_picture.hpp"
@@ -24,7 +26,7 @@ void Pictures::keep_last(const Window& window) { last_ = window_picture(window.f
 void Pictures::take_of_scene(SceneRenderer& renderer, ViewerState& state, const Palette& palette,
                              const Window& window) {
     if (std::exchange(state.requests.stop_pictures, false)) {
-        film_.stop();
+        film_.stop(state);
         state.pictures_under_way.reset();
     }
     try {
@@ -47,7 +49,10 @@ void Pictures::take_at_end(const ViewerOptions& options, SceneRenderer& renderer
                                  .n_frames = options.film_frames,
                                  .kind = options.film};
     take(request, renderer, state, palette);
-    while (film_.running()) film_.step(renderer, state, palette);
+    while (film_.running()) {
+        film_.step(renderer, state, palette);
+        if (film_.waiting()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
 }
 
 void Pictures::take(const PictureRequest& request, SceneRenderer& renderer, ViewerState& state,

@@ -31,9 +31,11 @@ public:
 
     /// Frames of a film are still to be drawn.
     bool filming() const { return film_.running(); }
+    /// What the next one shows is being computed.
+    bool waiting() const { return film_.waiting(); }
     /// Takes over what the worker finished. Whether there is something new to see.
     bool poll(ViewerState& state) { return film_.poll(state); }
-    void stop() { film_.stop(); }
+    void stop(ViewerState& state) { film_.stop(state); }
     bool working() const { return film_.working(); }
 
 private:

@@ -8,13 +8,14 @@
 
 namespace elastolab {
 
-ReactionRunner::Result ReactionRunner::solve(const Deformer& deformer, const Eigen::VectorXd& values) {
+ReactionRunner::Result ReactionRunner::solve(const Deformer& deformer, const Eigen::VectorXd& values,
+                                             Control& control) {
     const Stopwatch watch;
     Result result;
     result.surface = deformer.model().body().surface;
     result.vertices = deformer.set().base;
     result.vertices.insert(result.vertices.end(), deformer.set().handles.begin(), deformer.set().handles.end());
-    result.reactions = deformer.reactions(values);
+    result.reactions = deformer.answer(values, {}, control).reactions;
     if (!result.reactions.forces.allFinite() || !result.reactions.moments.allFinite())
         throw SolveError(deformer.model().body().name +
                          ": the reactions are beyond double precision. Use a smaller motion or Young's modulus.");
@@ -65,6 +66,7 @@ void ReactionRunner::poll() {
 void ReactionRunner::update(const MethodRunner& runner) {
     poll();
     if (latest_.surface && latest_.surface.get() != runner.surface()) forget();
+    if (runner.following()) return;
     if (runner.refining()) return;  // by the iteration that these need too, which keeps its solutions
     const std::shared_ptr<const Deformer>& deformer = runner.deformer();
     if (!deformer || runner.values().size() != 3 * std::ssize(deformer->set().handles)) return;
@@ -74,9 +76,10 @@ void ReactionRunner::update(const MethodRunner& runner) {
     if (job_.running() && same_set) return;
     deformer_ = deformer;
     version_ = runner.version();
-    if (same_set && solve_seconds_ <= solve_budget_) {
+    if (same_set && deformer->linear() && solve_seconds_ <= solve_budget_) {
         try {
-            take(solve(*deformer, runner.values()));
+            Control control;
+            take(solve(*deformer, runner.values(), control));
         } catch (const std::exception& error) {
             fail(user_text(error));
         }
@@ -85,7 +88,7 @@ void ReactionRunner::update(const MethodRunner& runner) {
     if (!same_set) solve_seconds_ = 2.0 * solve_budget_;  // not known yet
     job_.start([deformer, values = runner.values()](Control& control) {
         control.begin_stage("reactions");
-        return solve(*deformer, values);
+        return solve(*deformer, values, control);
     });
 }
 

@@ -13,8 +13,8 @@
 namespace elastolab {
 
 /// Reactions of one method's answer, for forces, tractions and stresses that are shown: computed once for each answer,
-/// on a worker where a solve takes longer than a frame can wait. The last ones stay until the next are there. Never
-/// throws for a motion without a solution. Owned by one thread.
+/// on a worker where a solve takes longer than a frame can wait. The last ones stay until the next are there; of what
+/// is only extrapolated there are none. Never throws for a motion without a solution. Owned by one thread.
 class ReactionRunner {
 public:
     /// `wake` is called by the worker when update() will find something.
@@ -49,7 +49,7 @@ private:
         Reactions reactions;
         double seconds = 0.0;  ///< that the solve took
     };
-    static Result solve(const Deformer& deformer, const Eigen::VectorXd& values);
+    static Result solve(const Deformer& deformer, const Eigen::VectorXd& values, Control& control);
     void take(Result result);
     void fail(std::string why);
     void poll();

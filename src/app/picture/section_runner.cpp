@@ -72,7 +72,8 @@ std::shared_ptr<const SectionRunner::Basis> SectionRunner::make_basis(const Embe
     const std::vector<ConstraintGroup>& groups = answer.constraints().groups;
     const Eigen::Index n_base = std::ssize(deformer.set().base);
     Eigen::MatrixXd motions(values.size(), 0);
-    const bool fits = group < groups.size() && groups[group].begin >= n_base &&
+    const bool linear = deformer.linear();
+    const bool fits = linear && group < groups.size() && groups[group].begin >= n_base &&
                       3 * (groups[group].end - n_base) <= values.size() &&
                       deformer.model().facts().n_degrees_of_freedom <= kManyUnknowns;
     if (fits) {
@@ -99,6 +100,7 @@ std::shared_ptr<const SectionRunner::Basis> SectionRunner::make_basis(const Embe
     const Eigen::VectorXd left = values - motions * (motions.transpose() * values);
     const bool has_more = left.norm() > kNegligible * values.norm() || motions.cols() == 0;
     auto basis = std::make_shared<Basis>();
+    basis->linear = linear;
     basis->columns.resize(values.size(), motions.cols() + (has_more ? 1 : 0));
     basis->columns.leftCols(motions.cols()) = motions;
     if (has_more) basis->columns.rightCols(1) = left;
@@ -143,6 +145,7 @@ std::shared_ptr<const SectionRunner::Columns> SectionRunner::evaluate(Columns co
 }
 
 bool SectionRunner::spans(const Basis& basis, const Eigen::VectorXd& values) {
+    if (!basis.linear) return values.size() == basis.columns.rows() && values == basis.columns.col(0);
     return (values - basis.columns * (basis.inverse * values)).norm() <= kNegligible * values.norm();
 }
 
@@ -188,9 +191,12 @@ void SectionRunner::update(const EmbeddedRunner& answer, const std::shared_ptr<c
         ++revision_;
     }
     if (!deformer || values.size() != 3 * std::ssize(deformer->set().handles) || values.size() == 0) return;
+    if (!deformer->linear()) return update_at_equilibrium(answer, shape);
+    is_current_ = true;
     if (latest_ && (shown_.size() != values.size() || shown_ != values)) {
         shown_ = values;
-        coefficients_ = latest_->basis->inverse * values;
+        coefficients_ =
+            latest_->basis->linear ? Eigen::VectorXd(latest_->basis->inverse * values) : Eigen::VectorXd::Ones(1);
         ++revision_;
     }
     const bool same = deformer_.lock() == deformer && shape_.lock() == shape;
@@ -210,11 +216,37 @@ void SectionRunner::update(const EmbeddedRunner& answer, const std::shared_ptr<c
         next.basis = kept ? kept_basis_ : make_basis(answer, pulled_group(answer));
         if (kept) next.field = kept_field_;
     }
-    deformer_ = deformer;
-    shape_ = shape;
+    start(std::move(next), values);
+}
+
+void SectionRunner::start(Columns next, const Eigen::VectorXd& values) {
+    deformer_ = next.deformer;
+    shape_ = next.shape;
     asked_ = values;
     failure_.clear();
     job_.start([next = std::move(next)](Control& control) { return evaluate(next, control); });
+}
+
+/// One column: the values of the equilibrium itself.
+void SectionRunner::update_at_equilibrium(const EmbeddedRunner& answer,
+                                          const std::shared_ptr<const SectionShape>& shape) {
+    const MethodRunner& runner = answer.runner();
+    const std::shared_ptr<const Equilibrium> equilibrium = runner.equilibrium();
+    const bool same = latest_ && equilibrium && latest_->equilibrium == equilibrium;
+    if (same != is_current_ || coefficients_.size() != 1) ++revision_;
+    is_current_ = same;
+    coefficients_ = Eigen::VectorXd::Ones(1);
+    if (!equilibrium || !runner.refined() || job_.running()) return;
+    const bool failed = !failure_.empty() && deformer_.lock() == runner.deformer() && shape_.lock() == shape &&
+                        asked_ == runner.values();
+    if (failed || (same && latest_->n_known == shape->n_inside())) return;
+    if (same) return start(*latest_, runner.values());
+    Columns next;
+    next.shape = shape;
+    next.deformer = runner.deformer();
+    next.equilibrium = equilibrium;
+    next.basis = std::make_shared<const Basis>(Basis{runner.values(), {}});
+    start(std::move(next), runner.values());
 }
 
 }  // namespace elastolab

@@ -16,7 +16,8 @@ namespace elastolab {
 
 /// What is inside a body that is cut open, for one method's answer: evaluated on a worker, a share of the points at a
 /// time, for the present motion and for further motions of the handle pulled last, so that a frame of its drag is a sum
-/// over a few columns. Owned by one thread.
+/// over a few columns. Of a method that is not linear only equilibria are evaluated: the last one that was stays while
+/// a motion goes on. Owned by one thread.
 class SectionRunner {
 public:
     /// `wake` is called by the worker when update() will find something.
@@ -29,6 +30,8 @@ public:
 
     /// Whether there are values for some of the points at least; those of the others are filled in.
     bool ready() const { return latest_ != nullptr; }
+    /// Whether they are of the present motion; false of a method that is not linear, while that goes on.
+    bool is_current() const { return is_current_; }
     Eigen::Matrix3Xd displacements() const;         ///< 3 x n_inside [L]; ready
     Eigen::Matrix<double, 6, -1> stresses() const;  ///< 6 x n_inside, in the order of InteriorValues; ready
     /// Grows whenever these change.
@@ -50,14 +53,16 @@ private:
     /// Motions of the handles as columns, and the coefficients of a motion.
     struct Basis {
         Eigen::MatrixXd columns, inverse;  ///< 3*n_handles x m and m x 3*n_handles
+        bool linear = true;                ///< false: one column, the motion itself, and no other is known from it
     };
     /// Values at the points of a shape for the m columns of a basis.
     struct Columns {
         std::shared_ptr<const SectionShape> shape;
         std::shared_ptr<const Deformer> deformer;
         std::shared_ptr<const Basis> basis;
-        std::shared_ptr<const InteriorField> field;  ///< null: not made yet
-        Eigen::MatrixXd displacements, stresses;     ///< 3m and 6m x n_inside; those not known yet are filled in
+        std::shared_ptr<const Equilibrium> equilibrium;  ///< of a method that is not linear: all that it is known for
+        std::shared_ptr<const InteriorField> field;      ///< null: not made yet
+        Eigen::MatrixXd displacements, stresses;         ///< 3m and 6m x n_inside; those not known yet are filled in
         std::vector<char> known;
         Eigen::Index n_known = 0;
         double seconds = 0.0;
@@ -67,6 +72,8 @@ private:
     static bool spans(const Basis& basis, const Eigen::VectorXd& values);
     std::size_t pulled_group(const EmbeddedRunner& answer) const;
     void poll();
+    void update_at_equilibrium(const EmbeddedRunner& answer, const std::shared_ptr<const SectionShape>& shape);
+    void start(Columns next, const Eigen::VectorXd& values);
 
     std::shared_ptr<const Columns> latest_;
     // Of the last values, for another cut of the same solutions.
@@ -77,6 +84,7 @@ private:
     std::weak_ptr<const SectionShape> shape_;  ///< likewise
     Eigen::VectorXd asked_, shown_;            ///< values that were asked for, and those shown
     Eigen::VectorXd coefficients_;
+    bool is_current_ = true;
     std::string failure_;
     std::uint64_t revision_ = 0;
     BackgroundJob<std::shared_ptr<const Columns>> job_;

@@ -52,6 +52,8 @@ Eigen::MatrixXd shown_rows(const EmbeddedRunner& answer, const Eigen::MatrixXd& 
 }
 
 /// That of the model that answered: the scene's may be newer than the displacements.
+bool is_large(const EmbeddedRunner& answer) { return !answer.runner().deformer()->linear(); }
+
 const Material& material_of(const EmbeddedRunner& answer) {
     return answer.runner().deformer()->model().body().material;
 }
@@ -174,12 +176,15 @@ void ShownBody::update_reactions(const Sources& sources) {
         if (group == nullptr || group->begin == group->end) continue;
         const int n = group->end - group->begin;
         const std::vector<int> vertices(shown_vertices.begin() + seen.begin, shown_vertices.begin() + seen.end);
+        Eigen::Vector3d middle = sources.scene.mesh().vertices(Eigen::all, vertices).rowwise().mean();
+        if (is_large(answer) && answer.displacement().size() == positions_.size())
+            middle += columns(answer.displacement())(Eigen::all, vertices).rowwise().mean();
         reactions_.push_back({.name = seen.name,
                               .fixed = fixed,
                               .force = reactions.forces.middleCols(group->begin, n).rowwise().sum(),
                               .moment = reactions.moments.middleCols(group->begin, n).rowwise().sum(),
                               .place = positions_(Eigen::all, vertices).rowwise().mean(),
-                              .rest_place = sources.scene.mesh().vertices(Eigen::all, vertices).rowwise().mean()});
+                              .middle = middle});
     }
 }
 
@@ -196,7 +201,7 @@ void ShownBody::update_section(const Sources& sources, const DisplaySettings& di
     const SectionRunner* inside = sources.inside && sources.inside->ready() ? sources.inside : nullptr;
     const Positions whole = filling_ ? Positions(filling_->shape->joined(positions_, filling_->positions)) : positions_;
     Positions within = shape.inside();
-    if (inside)
+    if (inside && inside->is_current())
         within += display.deformation_scale * inside->displacements();
     else
         within += shape.spread_from_rim(whole - shape.surface()->vertices);
@@ -245,7 +250,7 @@ Eigen::VectorXd ShownBody::simulated_values(const Sources& sources, Field field)
     if (field == Field::displacement) return columns(u).colwise().norm();
     if (field == Field::traction && tractions_.cols() > 0) return tractions_.colwise().norm();
     if (const auto which = stress_of(field); which && tractions_.cols() > 0)
-        return surface_stress_measure(*which, *answer.surface(), material_of(answer), u, tractions_);
+        return surface_stress_measure(*which, *answer.surface(), material_of(answer), u, tractions_, is_large(answer));
     const bool differs = field == Field::difference && comparable(answer, sources.reference);
     if (!differs || sources.reference->surface() != answer.surface()) return {};
     return (columns(u) - columns(sources.reference->runner().displacement())).colwise().norm();
@@ -267,8 +272,8 @@ void ShownBody::update_probed(const Sources& sources) {
     if (!sources.probed || sources.reactions == nullptr || sources.reactions->running()) return;
     if (tractions_.cols() == 0 || answer.displacement().size() != positions_.size()) return;
     shown_tractions_ = shown_rows(answer, tractions_);
-    shown_stresses_ = shown_rows(
-        answer, surface_stress(*answer.surface(), material_of(answer), answer.runner().displacement(), tractions_));
+    shown_stresses_ = shown_rows(answer, surface_stress(*answer.surface(), material_of(answer),
+                                                        answer.runner().displacement(), tractions_, is_large(answer)));
 }
 
 std::string field_title(Field field, MethodKind reference) {

@@ -22,8 +22,8 @@ struct ShownReaction {
     std::string name;
     bool fixed = false;                    ///< a fixed set
     Eigen::Vector3d force, moment, place;  ///< [force], [force * L] about the origin, mean position as shown [L]
-    Eigen::Vector3d rest_place;            ///< mean position at rest [L]
-    Eigen::Vector3d moment_about_place() const { return moment - rest_place.cross(force); }
+    Eigen::Vector3d middle;                ///< mean position of where forces act: at rest, of linear methods [L]
+    Eigen::Vector3d moment_about_middle() const { return moment - middle.cross(force); }
 };
 
 /// How far one answer is from the reference, over all vertices.

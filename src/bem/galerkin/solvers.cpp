@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "base/lapack.hpp"
+#include "base/strips.hpp"
 
 namespace elastolab {
 
@@ -13,13 +14,29 @@ GalerkinResponses::GalerkinResponses(std::shared_ptr<const GalerkinSystem> syste
     columns_ = system_->half_responses(vertices_, tractions_, control);
 }
 
+namespace {
+
+/// A^T A: what is above the diagonal, strip by strip, and its mirror image.
+Eigen::MatrixXd product_with_transpose(const Eigen::Ref<const Eigen::MatrixXd>& A) {
+    Eigen::MatrixXd P(A.cols(), A.cols());
+    for_strips(A.cols(), [&](Eigen::Index first, Eigen::Index count) {
+        const Eigen::Index end = first + count;
+        P.block(0, first, end, count).noalias() = A.leftCols(end).transpose() * A.middleCols(first, count);
+    });
+    P.triangularView<Eigen::StrictlyLower>() = P.transpose();
+    return P;
+}
+
+}  // namespace
+
 Eigen::MatrixXd GalerkinResponses::small_matrix(const std::vector<int>& nodes, const Eigen::MatrixXd& rigid,
                                                 Control& control) const {
     const Eigen::Index n = system_->size(), m = columns_.cols(), n_border = rigid.cols();
     const Eigen::Index n_loads = 3 * std::ssize(nodes), n_tractions = m - n_loads;
     const Eigen::MatrixXd all = columns_.middle(0, m);
     const Eigen::MatrixXd F = all.bottomRows(n_border);
-    Eigen::MatrixXd G = all.topRows(n).transpose() * all.topRows(n);
+    Eigen::MatrixXd G = product_with_transpose(all.topRows(n));
+    control.checkpoint();
     G.noalias() -= F.transpose() * (F / system_->shift());
     G.bottomRightCorner(n_tractions, n_tractions) += system_->single_layer(tractions_, control);
     // The rows of the border stand between those of the vertices and those of the tractions.
@@ -41,7 +58,9 @@ Eigen::MatrixXd GalerkinResponses::small_matrix(const std::vector<int>& nodes, c
     return S;
 }
 
-void GalerkinResponses::add_product(const Eigen::MatrixXd& loads, Eigen::Ref<Eigen::MatrixXd> displacements) const {
+void GalerkinResponses::add_product(const Eigen::MatrixXd& loads, Eigen::Ref<Eigen::MatrixXd> displacements,
+                                    Control& control) const {
+    control.checkpoint();
     const Eigen::Index n = system_->size();
     Eigen::MatrixXd product = Eigen::MatrixXd::Zero(n + system_->surfaces().rigid.cols(), loads.cols());
     columns_.add_product(loads, product);

@@ -23,7 +23,8 @@ public:
     Eigen::Index cols() const override { return columns_.cols(); }
     Eigen::MatrixXd small_matrix(const std::vector<int>& nodes, const Eigen::MatrixXd& rigid,
                                  Control& control) const override;
-    void add_product(const Eigen::MatrixXd& loads, Eigen::Ref<Eigen::MatrixXd> displacements) const override;
+    void add_product(const Eigen::MatrixXd& loads, Eigen::Ref<Eigen::MatrixXd> displacements,
+                     Control& control) const override;
 
 private:
     std::shared_ptr<const GalerkinSystem> system_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/blas.hpp"
 #include "base/parallel.hpp"
 #include "bem/galerkin/traction_rows.hpp"
 #include "elasticity/rigid_motion.hpp"
@@ -51,6 +52,7 @@ public:
 private:
     template <class Use>
     static void for_columns(const Eigen::MatrixXd& D, Control& control, Use&& use) {
+        const SerialBlas serial;
         parallel_blocks(static_cast<int>(D.cols()), 64, control,
                         [&](int begin, int end) { use(begin, Eigen::Index{end - begin}); });
     }

@@ -35,12 +35,32 @@ std::string parser_reason(const std::string& what) {
     return shortened(reason, kLongest);
 }
 
+/// An ordered object looks for a key by comparing it with all others, which takes quadratic time for all of them; in
+/// its list it does not.
+Json::object_t::Container& members_of(Json& object) {
+    return static_cast<Json::object_t::Container&>(object.get_ref<Json::object_t&>());
+}
+
+/// Takes the members out of all containers, from the innermost on: what is empty is destroyed without an allocation.
+/// NOLINTNEXTLINE(misc-no-recursion): no deeper than kDeepest
+void empty(Json& value) noexcept {
+    if (value.is_array()) {
+        auto& members = value.get_ref<Json::array_t&>();
+        for (Json& member : members) empty(member);
+        members.clear();
+    } else if (value.is_object()) {
+        auto& members = members_of(value);
+        for (auto& [key, member] : members) empty(member);
+        members.clear();
+    }
+}
+
 /// Receives the parser's events and builds the value; knows where it is, which the parser's own builder does not.
 class Builder final : public nlohmann::json_sax<Json> {
 public:
     Builder(std::string_view text, const std::string& file) : text_(text), file_(file) {}
 
-    Json take() { return std::move(root_); }
+    JsonTree take() { return std::move(root_); }
 
     bool null() override { return add(nullptr); }
     bool boolean(bool value) override { return add(value); }
@@ -68,12 +88,10 @@ public:
 
 private:
     Json* place(Json&& value) {
-        if (open_.empty()) return &(root_ = std::move(value));
+        if (open_.empty()) return &(root_.value = std::move(value));
         Json& parent = *open_.back();
         if (parent.is_array()) return &parent.emplace_back(std::move(value));
-        // An ordered object looks for a key by comparing it with all others; this one is known to be new.
-        auto& members = static_cast<Json::object_t::Container&>(parent.get_ref<Json::object_t&>());
-        return &members.emplace_back(key_, std::move(value)).second;
+        return &members_of(parent).emplace_back(key_, std::move(value)).second;  // it is known to be new
     }
     bool add(Json value) {
         place(std::move(value));
@@ -101,7 +119,7 @@ private:
 
     std::string_view text_;
     const std::string& file_;
-    Json root_;
+    JsonTree root_;
     std::vector<Json*> open_;  ///< containers from the root to the present one; a parent does not grow meanwhile
     std::vector<std::unordered_set<std::string>> names_;  ///< of the members of each so far
     std::vector<std::string> keys_;
@@ -127,7 +145,9 @@ void print(const Json& value, std::size_t indent, std::string& out) {
 
 }  // namespace
 
-Json parse_json(std::string_view text, const std::string& file) {
+JsonTree::~JsonTree() { empty(value); }
+
+JsonTree parse_json(std::string_view text, const std::string& file) {
     Builder builder(text, file);
     Json::sax_parse(text, &builder);
     return builder.take();

@@ -9,9 +9,20 @@ namespace elastolab {
 /// Objects keep the order of their keys. Only sources of this layer include this header.
 using Json = nlohmann::ordered_json;
 
+/// A value with all that it holds. The library's own destructor allocates, which ends the program where memory is used
+/// up; this one empties every list and object first.
+struct JsonTree {
+    Json value;
+
+    JsonTree() = default;
+    JsonTree(JsonTree&& other) noexcept { value.swap(other.value); }
+    JsonTree& operator=(JsonTree&&) = delete;
+    ~JsonTree();
+};
+
 /// Parses strictly: no duplicate keys, no numbers beyond double precision, no comments, nothing after the value, no
 /// more than 100 levels. Throws SceneError naming `file`, and line and column or the JSON path of the finding.
-Json parse_json(std::string_view text, const std::string& file);
+JsonTree parse_json(std::string_view text, const std::string& file);
 
 /// JSON for people: indented by two, with arrays and objects that fit a line on one line. Numbers are read back
 /// exactly.

@@ -1,7 +1,7 @@
 #include "scene/file/scene_file.hpp"
 
 #include <fstream>
-#include <sstream>
+#include <string>
 
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
@@ -23,11 +23,12 @@ std::string read_text(const fs::path& file) {
     if (fs::is_directory(file, error)) fail(file, "is a folder. Name a scene file.");
     if (!fs::is_regular_file(file, error) && !fs::is_fifo(file, error)) fail(file, "is no file. Name a scene file.");
     std::ifstream stream(file, std::ios::binary);
-    std::ostringstream text;
     if (stream && stream.peek() == std::ifstream::traits_type::eof()) fail(file, "is empty. Write a scene into it.");
-    text << stream.rdbuf();
-    if (!stream) fail(file, "cannot be read. Check its permissions.");
-    return text.str();
+    std::string text, block(std::size_t{1} << 16, '\0');
+    while (stream.read(block.data(), std::ssize(block)) || stream.gcount() > 0)
+        text.append(block, 0, static_cast<std::size_t>(stream.gcount()));
+    if (!stream.eof()) fail(file, "cannot be read. Check its permissions.");
+    return text;
 }
 
 }  // namespace

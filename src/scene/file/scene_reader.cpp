@@ -147,8 +147,17 @@ VertexMotion read_displacements(const JsonNode& node) {
     return motion;
 }
 
+Rotation read_rotation(const JsonNode& node) {
+    node.require_keys({"axis", "degrees", "center"});
+    Rotation rotation{.axis = node.at("axis", "Give the axis of the turn.").vector3(),
+                      .degrees = node.at("degrees", "Give the angle of the turn.").number()};
+    if (rotation.axis.isZero(0.0)) node.at("axis", "").fail("is zero, so it has no direction. Give an axis.");
+    if (const auto center = node.find("center")) rotation.center = center->vector3();
+    return rotation;
+}
+
 Handle read_handle(const JsonNode& node) {
-    node.require_keys({"name", "select", "matrix", "translate", "displacements"});
+    node.require_keys({"name", "select", "matrix", "translate", "rotate", "displacements"});
     Handle handle;
     if (const auto name = node.find("name")) {
         handle.name = name->text();
@@ -157,8 +166,8 @@ Handle read_handle(const JsonNode& node) {
     }
     handle.select = read_selector(node.at("select", "Say which vertices the handle moves."));
     const auto displacements = node.find("displacements");
-    if (displacements && (node.has("matrix") || node.has("translate")))
-        node.fail("has both displacements and matrix or translate. Keep one kind of motion.");
+    if (displacements && (node.has("matrix") || node.has("translate") || node.has("rotate")))
+        node.fail("has both displacements and matrix, translate or rotate. Keep one kind of motion.");
     if (displacements) {
         handle.motion = read_displacements(*displacements);
         return handle;
@@ -166,6 +175,7 @@ Handle read_handle(const JsonNode& node) {
     AffineMotion motion;
     if (const auto matrix = node.find("matrix")) motion.matrix = matrix->matrix3();
     if (const auto translate = node.find("translate")) motion.translate = translate->vector3();
+    if (const auto rotate = node.find("rotate")) motion.rotate = read_rotation(*rotate);
     handle.motion = motion;
     return handle;
 }
@@ -249,8 +259,8 @@ std::vector<Handle> read_handles(const JsonNode& node) {
 }  // namespace
 
 Document parse_scene(std::string_view text, const std::string& name) {
-    const Json json = parse_json(text, name);
-    const JsonNode root(json, "", name);
+    const JsonTree json = parse_json(text, name);
+    const JsonNode root(json.value, "", name);
     root.require_keys({"elastolab", "mesh", "material", "method", "fixed", "handles", "proxy", "camera"});
     read_version(root);
     Document document;

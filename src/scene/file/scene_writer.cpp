@@ -51,6 +51,10 @@ Json to_json(const Selector& selector) {
         selector.shape);
 }
 
+Json to_json(const Rotation& rotation) {
+    return {{"axis", to_json(rotation.axis)}, {"degrees", rotation.degrees}, {"center", to_json(rotation.center)}};
+}
+
 Json to_json(const Handle& handle) {
     Json json = Json::object();
     if (!handle.name.empty()) json["name"] = handle.name;
@@ -58,6 +62,7 @@ Json to_json(const Handle& handle) {
     const auto affine = [&](const AffineMotion& motion) {
         if (!motion.matrix.isZero(0.0)) json["matrix"] = to_json(motion.matrix);
         json["translate"] = to_json(motion.translate);
+        if (motion.rotate != Rotation{}) json["rotate"] = to_json(motion.rotate);
     };
     const auto per_vertex = [&](const VertexMotion& motion) {
         json["displacements"] = Json::array();

@@ -28,26 +28,31 @@ Eigen::MatrixXd motion_shapes(const Positions& rest, bool affine) {
 DragSolver::DragSolver(std::shared_ptr<const Deformer> deformer, std::vector<int> handle_ends)
     : deformer_(std::move(deformer)), handle_ends_(std::move(handle_ends)) {}
 
-void DragSolver::prepare(const Eigen::VectorXd& values, double tolerance, Control& control) {
+void DragSolver::prepare(const Eigen::VectorXd& values, double tolerance, Control& control, const Approach& approach) {
+    const bool turns = !deformer_->linear();  // about where it is by now
     int handle = kNone;
-    bool affine = false;
+    bool affine = turns;
     if (has_start(values)) {
         const Eigen::VectorXd change = values - start_values_;
         handle = changed_handle(change);
         if (handle >= 0) {
             const Eigen::Matrix3Xd moved = part_of(handle, change);
-            affine = (moved.colwise() - moved.col(0)).cwiseAbs().maxCoeff() > tolerance_of(handle, moved);
+            affine = turns || (moved.colwise() - moved.col(0)).cwiseAbs().maxCoeff() > tolerance_of(handle, moved);
         }
     }
-    if (handle < 0) handle = static_cast<int>(handle_ends_.size()) - 1;
-    if (handle < 0) return start(values, tolerance, control);
-    start_values_ = values;
-    grab(handle, affine, tolerance, control);
+    if (handle < 0) handle = turns && handle_ >= 0 ? handle_ : static_cast<int>(handle_ends_.size()) - 1;
+    if (handle < 0) return start(values, tolerance, control, approach);
+    grab(values, handle, affine, tolerance, control, approach);
 }
 
 void DragSolver::refine(Control& control) {
-    if (handle_ == kNone) return start(start_values_, kSolveTolerance, control);
-    grab(handle_, shapes_.rows() > 1, kSolveTolerance, control);
+    const Approach approach{response_.equilibrium, {}};
+    if (handle_ == kNone) return start(start_values_, kSolveTolerance, control, approach);
+    grab(start_values_, handle_, shapes_.rows() > 1, kSolveTolerance, control, approach);
+}
+
+bool DragSolver::is_exact(const Eigen::VectorXd& values) const {
+    return deformer_->linear() ? has(values) : has_start(values) && values == start_values_;
 }
 
 bool DragSolver::has(const Eigen::VectorXd& values) const {
@@ -66,7 +71,7 @@ void DragSolver::displace(const Eigen::VectorXd& values, Eigen::VectorXd& u) {
         const Eigen::Matrix3Xd moved = part_of(handle, change);
         std::optional<Eigen::VectorXd> parameters = parameters_of(handle, moved);
         for (int affine = 0; affine <= 1 && !parameters; ++affine) {
-            grab(handle, affine == 1, kSolveTolerance, control);
+            grab(start_values_, handle, affine == 1, kSolveTolerance, control);
             parameters = parameters_of(handle, moved);
         }
         if (parameters) return response_.displace(*parameters, u);
@@ -95,26 +100,30 @@ Eigen::Matrix3Xd DragSolver::part_of(int handle, const Eigen::VectorXd& change) 
         .middleCols(begin_of(handle), size_of(handle));
 }
 
-void DragSolver::start(const Eigen::VectorXd& values, double tolerance, Control& control) {
+void DragSolver::start(const Eigen::VectorXd& values, double tolerance, Control& control, const Approach& approach) {
+    response_ = deformer_->drag_response(values, Eigen::MatrixXd(values.size(), 0), control, tolerance, approach);
     start_values_ = values;
     handle_ = kNone;
-    response_ = {deformer_->displace(values, control, tolerance), {}};
     tolerance_ = tolerance;
 }
 
-void DragSolver::grab(int handle, bool affine, double tolerance, Control& control) {
+/// Columns of a handle about these values.
+void DragSolver::grab(const Eigen::VectorXd& values, int handle, bool affine, double tolerance, Control& control,
+                      const Approach& approach) {
     const Positions& all = deformer_->model().body().surface->vertices;
     Positions rest(3, size_of(handle));
     for (int i = 0; i < size_of(handle); ++i)
         rest.col(i) = all.col(deformer_->set().handles[static_cast<std::size_t>(begin_of(handle) + i)]);
-    shapes_ = motion_shapes(rest, affine);
-    fit_ = shapes_.completeOrthogonalDecomposition().pseudoInverse();
-    Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(start_values_.size(), 3 * shapes_.rows());
-    for (Eigen::Index s = 0; s < shapes_.rows(); ++s)
+    Eigen::MatrixXd shapes = motion_shapes(rest, affine);
+    Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(values.size(), 3 * shapes.rows());
+    for (Eigen::Index s = 0; s < shapes.rows(); ++s)
         for (Eigen::Index axis = 0; axis < 3; ++axis)
             for (int i = 0; i < size_of(handle); ++i)
-                basis(3 * (begin_of(handle) + i) + axis, 3 * s + axis) = shapes_(s, i);
-    response_ = deformer_->drag_response(start_values_, basis, control, tolerance);
+                basis(3 * (begin_of(handle) + i) + axis, 3 * s + axis) = shapes(s, i);
+    response_ = deformer_->drag_response(values, basis, control, tolerance, approach);
+    start_values_ = values;
+    fit_ = shapes.completeOrthogonalDecomposition().pseudoInverse();
+    shapes_ = std::move(shapes);
     tolerance_ = tolerance;
     handle_ = handle;
 }

@@ -12,6 +12,9 @@ namespace elastolab {
 /// Displacements for values that change little by little, as they do while a person drags: as long as they differ from
 /// those at the start by an affine motion of one handle, a frame costs one pass over the columns of that motion (three
 /// for a translation). Any other change starts anew. No answer depends on the way to it, but for rounding.
+///
+/// Of a method that is not linear, prepare() finds an equilibrium, and the columns are those of the tangent there: what
+/// displace() gives for other values is right to second order in the change, and is not to be asked for without has().
 class DragSolver {
 public:
     /// handle_ends[i]: where the vertices of handle i end in the list of all handles' vertices (deformer->set()).
@@ -19,14 +22,21 @@ public:
 
     /// Solves ahead for these values, and for further motion of the kind that led to them from the start; if that was
     /// not of one handle, for translations of the last. displace() then needs no solve for these. tolerance: relative
-    /// residual, where the method iterates (Deformer::iterates). Throws SolveError, Cancelled.
-    void prepare(const Eigen::VectorXd& values, double tolerance, Control& control);
+    /// residual, where the method iterates (Deformer::iterates). approach: for methods that are not linear. Throws
+    /// SolveError, Cancelled; what was at hand then stays.
+    void prepare(const Eigen::VectorXd& values, double tolerance, Control& control, const Approach& approach = {});
     /// Solves anew for what is at hand, from there, to kSolveTolerance. Throws SolveError, Cancelled.
     void refine(Control& control);
     /// Of what is at hand.
     double tolerance() const { return tolerance_; }
     /// Whether displace(values) needs no solve but one pass over the columns at hand.
     bool has(const Eigen::VectorXd& values) const;
+    /// Whether that is as exact as tolerance() says: always, of a linear method; of others only at the equilibrium.
+    bool is_exact(const Eigen::VectorXd& values) const;
+    /// The equilibrium at hand; null before the first and for linear methods.
+    const std::shared_ptr<const Equilibrium>& equilibrium() const { return response_.equilibrium; }
+    /// Displacements where the columns at hand begin.
+    const Eigen::VectorXd& at_start() const { return response_.rest; }
 
     /// u <- the displacements for `values` (as Deformer::displace takes them); what is not at hand is solved for to
     /// kSolveTolerance. Throws SolveError.
@@ -40,8 +50,9 @@ private:
     Eigen::Matrix3Xd part_of(int handle, const Eigen::VectorXd& change) const;
     int begin_of(int handle) const { return handle == 0 ? 0 : handle_ends_[static_cast<std::size_t>(handle) - 1]; }
     int size_of(int handle) const { return handle_ends_[static_cast<std::size_t>(handle)] - begin_of(handle); }
-    void start(const Eigen::VectorXd& values, double tolerance, Control& control);
-    void grab(int handle, bool affine, double tolerance, Control& control);
+    void start(const Eigen::VectorXd& values, double tolerance, Control& control, const Approach& approach = {});
+    void grab(const Eigen::VectorXd& values, int handle, bool affine, double tolerance, Control& control,
+              const Approach& approach = {});
     double tolerance_of(int handle, const Eigen::Matrix3Xd& change) const;
     std::optional<Eigen::VectorXd> parameters_of(int handle, const Eigen::Matrix3Xd& change) const;
 

@@ -39,7 +39,7 @@ const Eigen::VectorXd& EmbeddedRunner::displacement() const {
     const Eigen::VectorXd& own = runner_.displacement();
     if (!carried_ || own.size() == 0) return own;
     if (displacement_version_ != runner_.version()) {
-        displacement_ = carried_->displacement(own);
+        displacement_ = runner_.shows_wanted() ? carried_->displacement(own) : carried_->places(own);
         displacement_version_ = runner_.version();
     }
     return displacement_;

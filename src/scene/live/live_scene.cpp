@@ -57,6 +57,11 @@ std::span<const int> LiveScene::vertices(int owner) const {
         .subspan(static_cast<std::size_t>(range.begin) - n_base, static_cast<std::size_t>(range.end - range.begin));
 }
 
+Positions LiveScene::rest_positions(int handle) const {
+    const std::span<const int> own = vertices(handle);
+    return surface_->vertices(Eigen::all, std::vector<int>(own.begin(), own.end()));
+}
+
 std::span<const int> LiveScene::fixed_vertices(int set) const {
     const ConstraintGroup& range = constraints_.fixed_sets[static_cast<std::size_t>(set)];
     return std::span<const int>(constraints_.set.base)
@@ -180,16 +185,8 @@ void LiveScene::remove_fixed_set(int set) {
 void LiveScene::set_motion(int handle, const Motion& motion) {
     const std::span<const int> own = vertices(handle);
     const auto begin = own.data() - constraints_.set.handles.data();
-    Eigen::VectorXd values(3 * std::ssize(own));
-    for (std::size_t i = 0; i < own.size(); ++i) {
-        const Eigen::Vector3d x = surface_->vertices.col(own[i]);
-        Eigen::Vector3d u;
-        if (const auto* affine = std::get_if<AffineMotion>(&motion))
-            u = affine->matrix * x + affine->translate;
-        else
-            u = std::get<VertexMotion>(motion).displacements[i];
-        values.segment<3>(3 * static_cast<Eigen::Index>(i)) = u;
-    }
+    const Eigen::Matrix3Xd u = displacements(motion, rest_positions(handle));
+    const Eigen::VectorXd values = u.reshaped();
     if (!values.allFinite()) return;
     document_.handles[static_cast<std::size_t>(handle)].motion = motion;
     constraints_.motions[static_cast<std::size_t>(handle)] = motion;

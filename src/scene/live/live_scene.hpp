@@ -47,6 +47,7 @@ public:
     int n_fixed_sets() const { return static_cast<int>(document_.fixed.size()); }
     /// The vertices of a handle, or of all fixed sets together (kFixed).
     std::span<const int> vertices(int owner) const;
+    Positions rest_positions(int handle) const;  ///< of its vertices, in their order
     std::span<const int> fixed_vertices(int set) const;
     int owner(int vertex) const { return owners_[static_cast<std::size_t>(vertex)]; }
     /// The fixed set of a vertex that kFixed owns; kNobody for others.

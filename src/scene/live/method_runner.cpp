@@ -1,9 +1,18 @@
 #include "scene/live/method_runner.hpp"
 
+#include <utility>
+
+#include "base/timer.hpp"
 #include "findings/solution.hpp"
 #include "scene/user_text.hpp"
 
 namespace elastolab {
+
+namespace {
+
+constexpr double kFollowing = 1.0;  ///< tolerance of what is extrapolated: none is promised
+
+}  // namespace
 
 void MethodRunner::set_body(const Body& body, const Method& method) {
     if (body.surface.get() != surface()) forget_answer();
@@ -24,7 +33,7 @@ void MethodRunner::forget_answer() {
     sets_.clear();
     displacement_.resize(0);
     values_.resize(0);
-    up_to_date_ = solved_ = false;
+    up_to_date_ = solved_ = following_ = false;
     failure_.clear();
     ++version_;
 }
@@ -52,9 +61,16 @@ void MethodRunner::handle(SetKeeper::Event event) {
             break;
         case SetKeeper::Event::motion_failed:
             failure_ = sets_.motion_failure();
-            take_values(false);
+            if (deformer()->linear())
+                take_values(sets_.wanted_values(), false);
+            else
+                fall_back();
             break;
         case SetKeeper::Event::motion_solved:
+            if (deformer()->linear()) break;
+            failure_.clear();
+            up_to_date_ = false;
+            break;
         case SetKeeper::Event::none:
             break;
     }
@@ -62,12 +78,13 @@ void MethodRunner::handle(SetKeeper::Event event) {
 
 bool MethodRunner::takes_long() const {
     const PreparedSet& set = sets_.current();
-    return sets_.frame_rule() == FrameRule::drag_columns && set.solve_seconds > solve_budget_ &&
-           !(set.drag && set.drag->has(sets_.wanted_values()));
+    return set.solve_seconds > solve_budget_ && !(set.drag && set.drag->has(sets_.wanted_values()));
 }
 
 void MethodRunner::update_displacement() {
+    if (!deformer()->linear()) return follow();
     const Eigen::VectorXd& wanted = sets_.wanted_values();
+    take_whole_update();
     if (up_to_date_ && values_.size() == wanted.size() && values_ == wanted) return;
     if (takes_long()) {
         failure_.clear();
@@ -77,14 +94,30 @@ void MethodRunner::update_displacement() {
         if (sets_.frame_rule() == FrameRule::drag_columns)
             drag();
         else
-            displacement_ = deformer()->displace(wanted);
+            update_whole();
         failure_.clear();
-        take_values(true);
+        take_values(wanted, true);
     } catch (const std::exception& error) {
         failure_ = user_text(error);
         sets_.current().drag.reset();
-        take_values(false);
+        take_values(wanted, false);
     }
+}
+
+/// What the worker has solved for is shown, though the motion may have gone on since.
+void MethodRunner::take_whole_update() {
+    std::optional<WholeUpdate> solved = std::exchange(sets_.current().whole, std::nullopt);
+    if (!solved || solved->values.size() != sets_.wanted_values().size()) return;
+    displacement_ = std::move(solved->displacement);
+    failure_.clear();
+    take_values(std::move(solved->values), true);
+}
+
+void MethodRunner::update_whole() {
+    PreparedSet& set = sets_.current();
+    const Stopwatch watch;
+    displacement_ = set.deformer->displace(sets_.wanted_values());
+    set.solve_seconds = watch.seconds();
 }
 
 void MethodRunner::drag() {
@@ -96,15 +129,49 @@ void MethodRunner::drag() {
     if (solves) set.solve_seconds = watch.seconds();
 }
 
-void MethodRunner::take_values(bool solved) {
-    values_ = sets_.wanted_values();
+/// A method that is not linear: each frame shows what the tangent says, until the worker has the equilibrium. After a
+/// motion that had none, it would lead away from what is known.
+void MethodRunner::follow() {
+    PreparedSet& set = sets_.current();
+    const bool exact = sets_.is_exact();
+    if (!exact) sets_.solve_on_worker();
+    if (up_to_date_ && following_ != exact && same(seen_, sets_.wanted())) return;
+    if (!exact && (sets_.crushed() || !set.drag || !set.drag->has(sets_.wanted_values()))) return;
+    set.drag->displace(sets_.wanted_values(), displacement_);
+    following_ = !exact;
+    if (exact) {
+        failure_.clear();
+        set.crushed.reset();
+    }
+    take_values(sets_.wanted_values(), true);
+}
+
+/// The last equilibrium, whatever is wanted.
+void MethodRunner::fall_back() {
+    const PreparedSet& set = sets_.current();
+    following_ = false;
+    if (!set.drag || !set.at) return take_values(sets_.wanted_values(), false);
+    displacement_ = set.drag->at_start();
+    take_values(set.at->values, true);
+    seen_ = *set.at;
+}
+
+void MethodRunner::take_values(Eigen::VectorXd values, bool solved) {
+    values_ = std::move(values);
+    seen_ = sets_.wanted();
     const std::optional<DragSolver>& columns = sets_.current().drag;
-    const bool by_columns = sets_.frame_rule() == FrameRule::drag_columns && columns;
+    const bool by_columns = columns && (sets_.frame_rule() == FrameRule::drag_columns || !deformer()->linear());
     tolerance_ = by_columns ? columns->tolerance() : kSolveTolerance;
+    if (following_) tolerance_ = kFollowing;
     up_to_date_ = true;
     solved_ = solved;
     ++version_;
     check_.restart();
+}
+
+std::shared_ptr<const Equilibrium> MethodRunner::equilibrium() const {
+    const std::optional<DragSolver>& drag = sets_.current().drag;
+    return drag && solved_ && !following_ ? drag->equilibrium() : nullptr;
 }
 
 void MethodRunner::check_at_rest() {
@@ -144,11 +211,12 @@ MethodRunner::State MethodRunner::state() const {
     if (models_.precomputing()) return State::precomputing;
     if (!failure().empty()) return State::failed;
     if (!models_.is_wanted()) return State::idle;
-    return sets_.is_current() && !sets_.solving() ? State::ready : State::preparing;
+    return sets_.is_current() && !sets_.solving() && !following_ ? State::ready : State::preparing;
 }
 
 bool MethodRunner::answers() const {
-    return solved_ && sets_.answers() && values_.size() == sets_.wanted_values().size() &&
+    if (following_ && sets_.may_hold_off() && sets_.is_slow()) return false;
+    return solved_ && shows_wanted() && sets_.answers() && values_.size() == sets_.wanted_values().size() &&
            values_ == sets_.wanted_values() &&
            deformer()->model().body().material.poisson_ratio == models_.body().material.poisson_ratio;
 }

@@ -38,9 +38,11 @@ public:
     /// Constraints belong to the body last set.
     void set_constraints(const Constraints& constraints) override { sets_.want(constraints); }
     void set_frame_rule(FrameRule rule);
-    /// Seconds that poll() may solve for a new motion itself, judged by the last time; longer solves go to the worker,
-    /// and the previous answer stays meanwhile.
+    /// Seconds that poll() may solve for a new motion itself, judged by the last time; longer solves, and the first
+    /// ones of a set or of a rule, go to the worker, and the previous answer stays meanwhile.
     void set_solve_budget(double seconds) { solve_budget_ = seconds; }
+    /// SetKeeper::set_may_hold_off.
+    void set_may_hold_off(bool may) { sets_.set_may_hold_off(may); }
     void prefetch(const ConstrainedSet& set) { sets_.prefetch(set); }
 
     void complete(Update update) { models_.complete(update); }
@@ -76,12 +78,28 @@ public:
     const std::shared_ptr<const Deformer>& deformer() const { return sets_.current().deformer; }
     /// The values that displacement() belongs to, as Deformer::displace takes them; empty before the first answer.
     const Eigen::VectorXd& values() const { return values_; }
+    /// Whether these are what the scene asks for.
+    bool shows_wanted() const { return same(seen_, sets_.wanted()); }
+    /// How values() are reached from the last equilibrium, of a method that is not linear.
+    Approach approach() const { return following_ ? sets_.approach() : Approach{equilibrium(), {}}; }
+    /// Whether the constrained set is prepared.
+    bool has_set() const { return sets_.is_current(); }
+    /// Of a method that is not linear: an equilibrium takes longer than SetKeeper::kFollowSeconds.
+    bool is_slow() const { return sets_.is_slow(); }
+    /// The equilibrium that displacement() is, of a method that is not linear; null while it is following().
+    std::shared_ptr<const Equilibrium> equilibrium() const;
     /// Whether displacement() is the solution for values(): false where there is none, and the previous answer stands.
     bool solved() const { return solved_; }
     /// Relative residual of displacement(), where the method iterates: kFirstTolerance at first, and kSolveTolerance
     /// once it is refined.
     double tolerance() const { return tolerance_; }
     bool refined() const { return tolerance_ <= kSolveTolerance; }
+    /// Of a method that is not linear: displacement() is what the tangent about the last equilibrium makes of the
+    /// present motion, and the equilibrium is on its way.
+    bool following() const { return following_; }
+    /// Of a method that is not linear: the motion that was tried last has no equilibrium, and displacement() is the
+    /// last one that was found.
+    const std::optional<Crushed>& crushed() const { return sets_.crushed(); }
     /// Whether it is being refined.
     bool refining() const { return sets_.refining(); }
 
@@ -95,6 +113,8 @@ public:
     bool has_inverse() const { return models_.has_inverse(); }
     /// That of the job that runs now; of several, the one that is waited for.
     JobStatus status() const;
+    /// Bytes that the set that answers takes and, while it is made, the estimate of its error; 0 before there is one.
+    std::uint64_t set_memory() const { return sets_.current().memory_bytes; }
     /// Seconds that the last preparation of a constrained set took.
     double prepare_seconds() const { return sets_.last_seconds(); }
 
@@ -103,19 +123,24 @@ private:
     void handle(SetKeeper::Event event);
     bool takes_long() const;
     void update_displacement();
+    void update_whole();
     void drag();
-    void take_values(bool solved);
+    void take_whole_update();
+    void follow();
+    void fall_back();
+    void take_values(Eigen::VectorXd values, bool solved);
     bool has_motion() const { return solved_ && !values_.isZero(0.0); }
 
     ModelKeeper models_;
     SetKeeper sets_;
     RestCheck check_;
     std::string failure_;  ///< of the wanted values
-    double solve_budget_ = 0.03;
+    double solve_budget_ = 0.015;
     bool up_to_date_ = false;  ///< values_ were tried under the present set
-    bool solved_ = false;
+    bool solved_ = false, following_ = false;
     double tolerance_ = kSolveTolerance;
     Eigen::VectorXd values_, displacement_;
+    Wish seen_;  ///< that values_ are of
     std::uint64_t version_ = 0;
 };
 

@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "findings/solution.hpp"
+#include "scene/user_text.hpp"
 
 namespace elastolab {
 
@@ -12,26 +13,40 @@ namespace {
 
 bool same(const ConstrainedSet& a, const ConstrainedSet& b) { return a.base == b.base && a.handles == b.handles; }
 
-/// Where the vertices of each handle end in the list of all handles' vertices.
-std::vector<int> ends_of_handles(const Constraints& constraints) {
-    std::vector<int> ends;
-    const auto n_base = static_cast<int>(constraints.set.base.size());
-    for (const ConstraintGroup& group : constraints.groups)
-        if (group.end > n_base) ends.push_back(group.end - n_base);
-    return ends;
+/// What a motion of a method that is not linear must have rested before it is worth an equilibrium that takes long, and
+/// how long one that nobody waits for any more may take, where no other answers meanwhile.
+constexpr double kPauseSeconds = 0.2, kPatienceSeconds = 2.0;
+
+Positions handle_positions(const Deformer& deformer) {
+    return deformer.model().body().surface->vertices(Eigen::all, deformer.set().handles);
 }
 
-double first_tolerance(const Deformer& deformer) { return deformer.iterates() ? kFirstTolerance : kSolveTolerance; }
+double first_tolerance(const Deformer& deformer) {
+    return deformer.iterates() || !deformer.linear() ? kFirstTolerance : kSolveTolerance;
+}
 
 /// Where no columns are kept, a grab would integrate and take seconds: the worker solves, not the watcher.
-void solve_ahead(PreparedSet& prepared, const std::vector<int>& ends, const Eigen::VectorXd& values, Control& control) {
+void solve_ahead(PreparedSet& prepared, const Wish& wish, Control& control) {
     const Stopwatch watch;
+    Approach approach;
+    if (!prepared.deformer->linear()) approach.path = way_to(wish, nullptr, handle_positions(*prepared.deformer)).path;
     try {
-        DragSolver drag(prepared.deformer, ends);
-        drag.prepare(values, first_tolerance(*prepared.deformer), control);
+        DragSolver drag(prepared.deformer, wish.ends);
+        drag.prepare(wish.values, first_tolerance(*prepared.deformer), control, approach);
         prepared.drag = std::move(drag);
+        prepared.at = std::make_shared<const Wish>(wish);
     } catch (const SolveError&) {
         // These values have no solution; the frame that asks for them says so, if they are still wanted then.
+    }
+    prepared.solve_seconds = watch.seconds();
+}
+
+/// The same for frames that update as a whole.
+void update_ahead(PreparedSet& prepared, const Eigen::VectorXd& values, Control& control) {
+    const Stopwatch watch;
+    try {
+        prepared.whole = {values, prepared.deformer->displace(values, control)};
+    } catch (const SolveError&) {
     }
     prepared.solve_seconds = watch.seconds();
 }
@@ -43,16 +58,22 @@ void SetKeeper::want(const Constraints& constraints) {
         wanted_set_ = constraints.set;
         failure_.clear();
     }
-    handle_ends_ = ends_of_handles(constraints);
-    if (wanted_values_.size() != constraints.values.size() || wanted_values_ != constraints.values) may_refine_ = true;
-    wanted_values_ = constraints.values;
+    Wish wish = wish_of(constraints);
+    if (!elastolab::same(wish, wanted_)) {
+        may_refine_ = true;
+        rest_ = {};
+    }
+    wanted_ = std::move(wish);
 }
 
 bool SetKeeper::set_frame_rule(FrameRule rule) {
     if (rule == rule_) return false;
     rule_ = rule;
-    current_.drag.reset();
-    spare_.drag.reset();
+    for (PreparedSet* set : {&current_, &spare_}) {
+        set->drag.reset();
+        set->whole.reset();
+        set->solve_seconds = PreparedSet{}.solve_seconds;  // a solve by the other rule takes another time
+    }
     return true;
 }
 
@@ -94,21 +115,34 @@ SetKeeper::Event SetKeeper::take_finished() {
                 current_.drag = std::move(prepared.drag);
                 return Event::refined;
             }
-            if (prepared.deformer == current_.deformer) {
-                current_.drag = std::move(prepared.drag);
-                current_.solve_seconds = prepared.solve_seconds;
-                return Event::motion_solved;
-            }
+            if (prepared.deformer == current_.deformer) return take_solution(std::move(prepared));
             if (&prepared.deformer->model() == model_.get()) spare_ = std::move(prepared);
             return Event::none;
         }
         case JobEvent::failed:
             return take_failure();
         case JobEvent::cancelled:
+            if (solving_.values.size() > 0)
+                current_.solve_seconds = std::max(current_.solve_seconds, job_.last_seconds());
+            break;
         case JobEvent::none:
             break;
     }
     return Event::none;
+}
+
+SetKeeper::Event SetKeeper::take_solution(PreparedSet prepared) {
+    current_.solve_seconds = prepared.solve_seconds;
+    current_.crushed = std::move(prepared.crushed);
+    if (current_.crushed) {
+        failed_ = solving_;
+        motion_failure_ = current_.crushed->message;
+        return Event::motion_failed;
+    }
+    current_.drag = std::move(prepared.drag);
+    current_.whole = std::move(prepared.whole);
+    current_.at = std::move(prepared.at);
+    return Event::motion_solved;
 }
 
 SetKeeper::Event SetKeeper::take_failure() {
@@ -118,9 +152,10 @@ SetKeeper::Event SetKeeper::take_failure() {
         return Event::none;
     }
     if (refining_) may_refine_ = false;
-    if (solving_values_ != wanted_values_) return Event::none;  // the motion went on: that is tried next
+    if (!elastolab::same(solving_, wanted_)) return Event::none;  // the motion went on: that is tried next
     motion_failure_ = job_.failure();
-    current_.drag.reset();
+    failed_ = solving_;
+    if (is_linear()) current_.drag.reset();
     return Event::motion_failed;
 }
 
@@ -135,9 +170,9 @@ SetKeeper::Event SetKeeper::use_or_prepare() {
         event = Event::another_set;
     }
     if (!is_current()) {
-        if (failure_.empty() && !(job_.running() && same_as_wanted(preparing_set_)))
-            prepare(wanted_set_, wanted_values_, handle_ends_);
-    } else if (may_refine_ && !job_.running() && current_.drag && current_.drag->tolerance() > kSolveTolerance) {
+        if (failure_.empty() && !(job_.running() && same_as_wanted(preparing_set_))) prepare(wanted_set_, wanted_);
+    } else if (may_refine_ && !job_.running() && current_.drag && current_.drag->tolerance() > kSolveTolerance &&
+               (is_exact() || failed_)) {
         refine_on_worker();
     } else if (prefetch_ && !job_.running()) {
         if (!same_as_wanted(*prefetch_) && !(spare_.deformer && same(spare_.deformer->set(), *prefetch_)))
@@ -150,54 +185,111 @@ SetKeeper::Event SetKeeper::use_or_prepare() {
 /// A prefetched set mostly has one more handle, at rest until it is pulled.
 void SetKeeper::prepare_prefetched(const ConstrainedSet& set) {
     const auto n = static_cast<int>(set.handles.size());
-    std::vector<int> ends = handle_ends_;
-    while (!ends.empty() && ends.back() >= n) ends.pop_back();
-    if (n > 0) ends.push_back(n);
-    Eigen::VectorXd values = Eigen::VectorXd::Zero(3 * n);
-    const Eigen::Index n_known = std::min(values.size(), wanted_values_.size());
-    values.head(n_known) = wanted_values_.head(n_known);
-    prepare(set, std::move(values), std::move(ends));
+    Wish wish{.values = Eigen::VectorXd::Zero(3 * n), .motions = wanted_.motions, .ends = wanted_.ends};
+    while (!wish.ends.empty() && wish.ends.back() >= n) wish.ends.pop_back();
+    if (n > 0) wish.ends.push_back(n);
+    if (!wish.motions.empty()) wish.motions.resize(wish.ends.size());
+    const Eigen::Index n_known = std::min(wish.values.size(), wanted_.values.size());
+    wish.values.head(n_known) = wanted_.values.head(n_known);
+    prepare(set, std::move(wish));
 }
 
-void SetKeeper::prepare(const ConstrainedSet& set, Eigen::VectorXd values, std::vector<int> ends) {
+void SetKeeper::prepare(const ConstrainedSet& set, Wish wish) {
     preparing_set_ = set;
     refining_ = false;
-    const bool drags = rule_ == FrameRule::drag_columns;
-    job_.start([model = model_, set, drags, values = std::move(values), ends = std::move(ends)](Control& control) {
+    solving_ = {};
+    failed_.reset();
+    const bool drags = rule_ == FrameRule::drag_columns || !model_->method().kind->linear;
+    job_.start([model = model_, set, drags, wish = std::move(wish)](Control& control) {
         auto deformer = std::make_shared<Deformer>(model);
         control.begin_stage("constrain");
         deformer->constrain(set, control);
         control.checkpoint();
         PreparedSet prepared{.deformer = std::move(deformer)};
         prepared.findings = findings_of_set(*prepared.deformer);
-        if (!drags) return prepared;
+        prepared.memory_bytes = prepared.deformer->predict_memory(set) + prepared.deformer->predict_check_memory(set);
         control.begin_stage("solve");
-        solve_ahead(prepared, ends, values, control);
+        if (drags)
+            solve_ahead(prepared, wish, control);
+        else
+            update_ahead(prepared, wish.values, control);
         return prepared;
     });
 }
 
+bool SetKeeper::is_slow() const {
+    const double running = solving() ? job_.status().seconds : 0.0;
+    return std::max(current_.solve_seconds, running) > kFollowSeconds;
+}
+
+bool SetKeeper::is_exact() const {
+    if (!is_current() || !current_.drag || !current_.drag->is_exact(wanted_.values)) return false;
+    return is_linear() || (current_.at && elastolab::same(*current_.at, wanted_));
+}
+
+/// Whether it is time to solve for what is wanted now.
+bool SetKeeper::may_solve_now() {
+    holding_off_ = false;
+    if (is_linear()) return !solving();
+    if (failed_ && elastolab::same(*failed_, wanted_)) return false;
+    if (solving() && elastolab::same(solving_, wanted_)) return false;
+    if (may_hold_off_ && is_slow()) {
+        if (solving()) job_.cancel();
+        holding_off_ = rest_.seconds() < kPauseSeconds;
+        return !holding_off_;
+    }
+    return !solving() || job_.status().seconds > kPatienceSeconds;
+}
+
+/// Of a method that is not linear: from the equilibrium at hand, or from rest.
+Approach SetKeeper::approach_to(const Wish& wish) const {
+    if (is_linear()) return {};
+    const bool has_start = current_.drag && current_.at && current_.drag->equilibrium();
+    Way way = way_to(wish, has_start ? current_.at.get() : nullptr, handle_positions(*current_.deformer));
+    return {way.from_rest ? nullptr : current_.drag->equilibrium(), std::move(way.path)};
+}
+
 /// The motion goes on meanwhile: the columns that the worker brings serve its continuation.
 void SetKeeper::solve_on_worker() {
-    if (!is_current() || solving()) return;
+    if (!is_current() || !may_solve_now()) return;
     preparing_set_ = wanted_set_;
     refining_ = false;
-    solving_values_ = wanted_values_;
+    solving_ = wanted_;
+    failed_.reset();
     motion_failure_.clear();
-    DragSolver drag = current_.drag ? *current_.drag : DragSolver(current_.deformer, handle_ends_);
-    job_.start(
-        [deformer = current_.deformer, drag = std::move(drag), values = wanted_values_](Control& control) mutable {
-            control.begin_stage("solve");
-            const Stopwatch watch;
-            drag.prepare(values, first_tolerance(*deformer), control);
-            return PreparedSet{.deformer = deformer, .drag = std::move(drag), .solve_seconds = watch.seconds()};
-        });
+    if (rule_ == FrameRule::displace && is_linear()) return update_on_worker();
+    DragSolver drag = current_.drag ? *current_.drag : DragSolver(current_.deformer, wanted_.ends);
+    job_.start([deformer = current_.deformer, drag = std::move(drag), approach = approach_to(wanted_),
+                wish = wanted_](Control& control) mutable {
+        control.begin_stage("solve");
+        const Stopwatch watch;
+        PreparedSet solved{.deformer = deformer, .at = std::make_shared<const Wish>(wish)};
+        try {
+            drag.prepare(wish.values, first_tolerance(*deformer), control, approach);
+        } catch (const NoEquilibriumError& error) {
+            solved.crushed = Crushed{user_text(error), error.place()};
+        }
+        solved.drag = std::move(drag);
+        solved.solve_seconds = watch.seconds();
+        return solved;
+    });
+}
+
+void SetKeeper::update_on_worker() {
+    job_.start([deformer = current_.deformer, values = wanted_.values](Control& control) {
+        control.begin_stage("solve");
+        const Stopwatch watch;
+        PreparedSet solved{.deformer = deformer};
+        solved.whole = {values, deformer->displace(values, control)};
+        solved.solve_seconds = watch.seconds();
+        return solved;
+    });
 }
 
 void SetKeeper::refine_on_worker() {
     preparing_set_ = wanted_set_;
     refining_ = true;
-    solving_values_ = wanted_values_;
+    solving_ = wanted_;
     job_.start([deformer = current_.deformer, drag = *current_.drag](Control& control) mutable {
         control.begin_stage("refine");
         drag.refine(control);
@@ -215,6 +307,7 @@ SetKeeper::Event SetKeeper::cancel() {
     if (!same_as_wanted(preparing_set_)) return Event::none;  // a prefetch
     if (is_current()) {
         motion_failure_ = "Computing this motion was stopped. Retry, or pull again.";
+        failed_ = wanted_;
         return Event::motion_failed;
     }
     failure_ = "The preparation of this constrained set was stopped. Retry, or change the set.";

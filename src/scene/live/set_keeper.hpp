@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,6 +13,7 @@
 #include "scene/live/background_job.hpp"
 #include "scene/live/drag_solver.hpp"
 #include "scene/setup.hpp"
+#include "scene/wish.hpp"
 
 namespace elastolab {
 
@@ -20,17 +23,40 @@ enum class FrameRule {
     displace       ///< the method's update rule, every frame
 };
 
-/// A constrained set that is ready to answer, and its drag solver when frames use one.
+/// Displacements by the method's update rule.
+struct WholeUpdate {
+    Eigen::VectorXd values;        ///< 3*n_handle_vertices [L], as Deformer::displace takes them
+    Eigen::VectorXd displacement;  ///< 3*n_vertices [L]
+};
+
+/// Why a motion has no equilibrium, and where the body is crushed [L, at rest].
+struct Crushed {
+    std::string message;
+    Eigen::Vector3d place;
+};
+
+/// A constrained set that is ready to answer, with what was solved for it: a drag solver, or the latest whole update,
+/// whichever the frames use.
 struct PreparedSet {
     std::shared_ptr<const Deformer> deformer = nullptr;
     std::optional<DragSolver> drag = std::nullopt;
-    double solve_seconds = 0.0;  ///< that the drag solver took for its last solve
-    Findings findings = {};      ///< of the set
+    std::optional<WholeUpdate> whole = std::nullopt;  ///< not yet shown
+    /// That the last solve took; before the first one nobody knows, and a frame must not find out.
+    double solve_seconds = std::numeric_limits<double>::infinity();
+    Findings findings = {};          ///< of the set
+    std::uint64_t memory_bytes = 0;  ///< of the set and, while it is made, of the estimate of its error
+    // Of methods that are not linear:
+    std::shared_ptr<const Wish> at = nullptr;       ///< that drag was prepared for
+    std::optional<Crushed> crushed = std::nullopt;  ///< the last motion that was tried has no equilibrium
 };
 
 /// Prepares the wanted constrained set on a worker thread, and solves there for motions within it that take long. Where
 /// the method iterates, columns to kFirstTolerance come first, and are refined to kSolveTolerance when there is nothing
 /// else to do for the set. The set used before stays at hand. All members are for one thread.
+///
+/// Of a method that is not linear the worker follows the motion with equilibria, each from the one before: always for
+/// the newest wish, never for a queue of them. Where it may hold off (set_may_hold_off) and takes long, it waits until
+/// the motion rests, and gives up what is not wanted any more.
 class SetKeeper {
 public:
     /// `wake` is called by the worker when poll() will find something.
@@ -38,8 +64,9 @@ public:
 
     void want(const Constraints& constraints);
     const ConstrainedSet& wanted_set() const { return wanted_set_; }
-    const Eigen::VectorXd& wanted_values() const { return wanted_values_; }
-    const std::vector<int>& handle_ends() const { return handle_ends_; }
+    const Wish& wanted() const { return wanted_; }
+    const Eigen::VectorXd& wanted_values() const { return wanted_.values; }
+    const std::vector<int>& handle_ends() const { return wanted_.ends; }
     /// True when the rule has changed.
     bool set_frame_rule(FrameRule rule);
     FrameRule frame_rule() const { return rule_; }
@@ -54,8 +81,8 @@ public:
         none,
         another_set,    ///< current() has changed: earlier answers do not belong to it
         refined,        ///< current().drag has the same to kSolveTolerance
-        motion_solved,  ///< current().drag has the motion that was given to the worker, and its continuation
-        motion_failed   ///< see motion_failure()
+        motion_solved,  ///< current() has the motion that was given to the worker; as columns, its continuation too
+        motion_failed   ///< see motion_failure(); of a method that is not linear, current() has what it had
     };
     /// Takes over what the worker finished and starts what is due.
     Event poll();
@@ -68,9 +95,23 @@ public:
     /// Whether current() is of the wanted set by the present model.
     bool is_current() const;
 
-    /// Solves for the wanted values within the present set.
+    /// Solves for the wanted values within the present set; does nothing where that has failed.
     void solve_on_worker();
+    /// Somebody else answers while a motion goes on, where an equilibrium takes longer than kFollowSeconds.
+    void set_may_hold_off(bool may) { may_hold_off_ = may; }
+    bool may_hold_off() const { return may_hold_off_; }
+    static constexpr double kFollowSeconds = 1.0 / 3.0;
+    /// Whether equilibria take longer than that.
+    bool is_slow() const;
+    /// Whether current().drag has the answer to what is wanted, and no extrapolation to it.
+    bool is_exact() const;
+    /// Of a method that is not linear: why the motion that was tried last has no equilibrium.
+    const std::optional<Crushed>& crushed() const { return current_.crushed; }
     bool solving() const { return job_.running() && !refining_ && is_current() && same_as_wanted(preparing_set_); }
+    /// Of a method that is not linear: how what is wanted is reached from the equilibrium at hand; for another thread.
+    Approach approach() const { return is_current() ? approach_to(wanted_) : Approach{}; }
+    /// A motion will be solved for once it rests.
+    bool holding_off() const { return holding_off_; }
     /// Whether the worker refines what current() answers with.
     bool refining() const { return job_.running() && refining_; }
 
@@ -79,6 +120,7 @@ public:
     Event cancel();
     void retry() {
         failure_.clear();
+        failed_.reset();
         may_refine_ = true;
     }
     bool preparing() const { return job_.running(); }
@@ -92,15 +134,20 @@ public:
 private:
     Event take_finished();
     Event use_or_prepare();
-    void prepare(const ConstrainedSet& set, Eigen::VectorXd values, std::vector<int> ends);
+    void prepare(const ConstrainedSet& set, Wish wish);
+    void update_on_worker();
+    Event take_solution(PreparedSet prepared);
+    bool is_linear() const { return current_.deformer->linear(); }
+    bool may_solve_now();
+    Approach approach_to(const Wish& wish) const;
     void refine_on_worker();
     Event take_failure();
     void prepare_prefetched(const ConstrainedSet& set);
     bool same_as_wanted(const ConstrainedSet& set) const;
 
     ConstrainedSet wanted_set_;
-    Eigen::VectorXd wanted_values_;
-    std::vector<int> handle_ends_;
+    Wish wanted_;
+    Stopwatch rest_;  ///< since another motion was wanted
     FrameRule rule_ = FrameRule::drag_columns;
     std::optional<ConstrainedSet> prefetch_;
 
@@ -109,7 +156,9 @@ private:
     PreparedSet spare_;  ///< of the same model: prefetched, or the one used before
     ConstrainedSet preparing_set_;
     bool refining_ = false, may_refine_ = true;
-    Eigen::VectorXd solving_values_;  ///< that the worker solves for within the present set
+    Wish solving_;                ///< what the worker solves for within the present set
+    std::optional<Wish> failed_;  ///< that has no equilibrium
+    bool may_hold_off_ = false, holding_off_ = false;
     std::string failure_, motion_failure_;
     BackgroundJob<PreparedSet> job_;  // last: its thread ends before what it wakes is destroyed
 };

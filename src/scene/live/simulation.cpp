@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "base/memory.hpp"
 #include "findings/cost.hpp"
 #include "methods/registry.hpp"
 #include "scene/user_text.hpp"
@@ -15,15 +16,35 @@ using State = MethodRunner::State;
 
 /// Longest predicted time of a completion, which nobody waits for.
 constexpr double kMaxCompletionSeconds = 120.0;
+/// Of the memory that is free, methods that are not shown keep one part in so many.
+constexpr std::uint64_t kPartForHidden = 4;
 
 /// A body with no more vertices than this is ready before a person has looked at it.
 constexpr int kFewestToPreview = 300;
 /// Vertices of a preview's surface, which a worker has ready within a second.
 constexpr int kPreviewVertices = 700;
-/// A sound surface with no more vertices than this needs no coarser one.
-constexpr int kMostToPreviewThemselves = 900;
+/// A sound surface with no more vertices than this needs no coarser one: with quick_method() it answers sooner than a
+/// proxy of it is made.
+constexpr int kMostToPreviewThemselves = 3000;
+/// The same for preview_method(), which takes longer, and bends rubber as well as steel.
+constexpr int kMostToPreviewRubber = 900;
+/// From this Poisson's ratio on quick_method() is too stiff to show what will come.
+constexpr double kRubber = 0.45;
 /// The preview's elements cannot take 1/2 itself.
 constexpr double kPreviewPoissonRatio = 0.49;
+
+/// The method that the preview simulates the scene's own surface by; null where it is made on a proxy.
+MethodKind preview_on_itself(const LiveScene& scene) {
+    const bool is_rubber = scene.document().material.poisson_ratio > kRubber;
+    const MethodKind kind = is_rubber ? preview_method() : quick_method();
+    const int most = is_rubber ? kMostToPreviewRubber : kMostToPreviewThemselves;
+    return scene.needs_proxy(kind) || scene.mesh().n_vertices() > most ? nullptr : kind;
+}
+
+/// Whether equilibria of the scene's own surface follow a drag.
+bool is_quick_at_equilibria(const LiveScene& scene) {
+    return !scene.needs_proxy(preview_method()) && scene.mesh().n_vertices() <= kMostToPreviewRubber;
+}
 
 }  // namespace
 
@@ -40,12 +61,14 @@ Method MethodChoices::of(MethodKind kind) const {
     Method method{.kind = kind, .mode = mode, .tractions = tractions, .update = update};
     if (!has(kind, mode)) method.mode = has(kind, Mode::full) ? Mode::full : Mode::on_demand;
     if (!has(kind, update)) method.update = Update::reduced;
+    if (kind->chooses_elements) method.elements = elements;
     if (!kind->chooses_tractions) method.tractions = Tractions::discontinuous;
     if (method.mode == Mode::on_demand && method.update == Update::eqn9) method.update = Update::reduced;
     return method;
 }
 
-Simulation::Simulation(const std::function<void()>& wake) : proxies_(wake), preview_(wake) {
+Simulation::Simulation(const std::function<void()>& wake)
+    : proxies_(wake), preview_(wake), finite_preview_(wake), gauge_(wake) {
     for (const MethodKind kind : all_methods()) entries_.push_back({kind, std::make_unique<EmbeddedRunner>(wake)});
 }
 
@@ -61,7 +84,7 @@ bool Simulation::is_shown(MethodKind kind) const {
 
 const EmbeddedRunner& Simulation::answer(MethodKind kind) const {
     const Entry& entry = entries_[place(kind)];
-    return entry.previewing ? preview_ : *entry.runner;
+    return entry.previewing ? preview(kind) : *entry.runner;
 }
 
 std::string Simulation::problem(MethodKind kind) const {
@@ -77,41 +100,71 @@ const SurfaceMesh* Simulation::simulated_surface(MethodKind kind, const LiveScen
 void Simulation::ask_for_proxies(const LiveScene& scene, const MethodChoices& choices) {
     const auto needs_proxy = [&](MethodKind kind) { return scene.needs_proxy(kind); };
     const bool needs_model = std::any_of(shown_.begin(), shown_.end(), needs_proxy) || proxies_.model();
-    has_preview_ = choices.preview && scene.mesh().n_vertices() > kFewestToPreview;
-    const bool is_own_preview =
-        !scene.needs_proxy(preview_method()) && scene.mesh().n_vertices() <= kMostToPreviewThemselves;
-    proxies_.ask(scene, needs_model, has_preview_ && !is_own_preview ? kPreviewVertices : 0);
+    const MethodKind on_itself = preview_on_itself(scene);
+    const bool comes_first_anyway = !shown_.empty() && shown_.front() == on_itself;
+    const bool worth_one = choices.preview && scene.mesh().n_vertices() > kFewestToPreview;
+    const auto finite = std::find_if(shown_.begin(), shown_.end(), [](MethodKind kind) { return !kind->linear; });
+    has_preview_ = worth_one && !comes_first_anyway &&
+                   std::any_of(shown_.begin(), shown_.end(), [](MethodKind kind) { return kind->linear; });
+    finite_ = worth_one && finite != shown_.end() && !is_quick_at_equilibria(scene) ? *finite : nullptr;
+    const bool gauges = worth_one && gauged_on_.lock() == scene.surface() && !is_quick_at_equilibria(scene);
+    const bool needs_coarse = (has_preview_ && on_itself == nullptr) || finite_ || gauges;
+    proxies_.ask(scene, needs_model, needs_coarse ? kPreviewVertices : 0);
     proxies_.poll();
 }
 
 bool Simulation::preparing_preview() const {
-    const State state = preview_.runner().state();
-    return has_preview_ && (state == State::precomputing || state == State::preparing);
+    const auto prepares = [](const MethodRunner& runner) {
+        const State state = runner.state();
+        return state == State::precomputing || (state == State::preparing && !runner.has_set());
+    };
+    return (has_preview_ && prepares(preview_.runner())) || (finite_ && prepares(finite_preview_.runner()));
 }
 
 /// The preview is served before all methods: its model is what a press waits for.
 bool Simulation::update_preview(const LiveScene& scene, const MethodChoices& choices) {
     const std::uint64_t before = preview_.version();
-    const std::shared_ptr<const Proxy>& proxy = proxies_.preview();
-    if (!has_preview_ || proxies_.running()) {
-        if (!proxy || proxy->shown != scene.surface()) preview_.clear();
-        if (!has_preview_) return false;
-    }
-    const bool on_itself =
-        !scene.needs_proxy(preview_method()) && scene.mesh().n_vertices() <= kMostToPreviewThemselves;
-    if (!on_itself && !proxy) {
-        preview_.clear();
+    if (!give_preview_body(preview_, {.kind = preview_on_itself(scene)}, preview_method(), has_preview_, scene))
         return preview_.version() != before;
+    preview_.runner().set_frame_rule(choices.frame_rule);
+    preview_.set_constraints(scene.constraints());
+    preview_.poll();
+    return preview_.version() != before;
+}
+
+/// The same for a method that is not linear. Its preview follows while the method itself cannot.
+bool Simulation::update_finite_preview(const LiveScene& scene) {
+    const std::uint64_t before = finite_preview_.version();
+    if (!give_preview_body(finite_preview_, {}, finite_, finite_ != nullptr, scene))
+        return finite_preview_.version() != before;
+    const MethodRunner& method = runner(finite_);
+    finite_follows_ = !method.has_set() || method.is_slow();
+    if (finite_follows_) finite_preview_.set_constraints(scene.constraints());
+    finite_preview_.poll();
+    return finite_preview_.version() != before;
+}
+
+/// Gives a preview the body that it simulates: the scene's own surface by `method`, or, without one, the proxy by
+/// `fallback`; false when it has none.
+bool Simulation::give_preview_body(EmbeddedRunner& preview, Method method, MethodKind fallback, bool wanted,
+                                   const LiveScene& scene) const {
+    const std::shared_ptr<const Proxy>& proxy = proxies_.preview();
+    const bool on_itself = method.kind != nullptr;
+    if (!wanted || (proxies_.running() && !on_itself)) {
+        if (!proxy || proxy->shown != scene.surface()) preview.clear();
+        if (!wanted) return false;
+    }
+    if (!on_itself) method.kind = fallback;
+    if (!on_itself && !proxy) {
+        preview.clear();
+        return false;
     }
     Body body{.name = scene.name(),
               .surface = on_itself ? scene.surface() : proxy->surface,
               .material = scene.document().material};
     body.material.poisson_ratio = std::min(body.material.poisson_ratio, kPreviewPoissonRatio);
-    preview_.set_body(body, Method{.kind = preview_method()}, on_itself ? nullptr : proxy);
-    preview_.runner().set_frame_rule(choices.frame_rule);
-    preview_.set_constraints(scene.constraints());
-    preview_.poll();
-    return preview_.version() != before;
+    preview.set_body(body, method, on_itself ? nullptr : proxy);
+    return true;
 }
 
 /// Gives a method the body that it simulates; false when it cannot have one, or not yet.
@@ -149,6 +202,7 @@ bool Simulation::update_method(Entry& entry, const LiveScene& scene, const Metho
     // Two at a time would slow each other down, and the preview's set takes only a moment.
     entry.waits_for_preview = preparing_preview();
     runner.runner().set_frame_rule(choices.frame_rule);
+    runner.runner().set_may_hold_off(entry.kind == finite_ && finite_preview_.has_answer());
     if (!entry.waits_for_preview) runner.set_constraints(scene.constraints());
     runner.poll();
     return runner.version() != before;
@@ -158,21 +212,22 @@ bool Simulation::update_method(Entry& entry, const LiveScene& scene, const Metho
 bool Simulation::choose_answer(Entry& entry) const {
     const bool before = entry.previewing;
     const bool ready = entry.runner->runner().answers() && !entry.waits_for_preview;
-    if (ready)
+    const EmbeddedRunner& coarser = preview(entry.kind);
+    if (ready || entry.runner->runner().crushed())
         entry.previewing = false;
-    else if (has_preview_ && preview_.runner().answers())
+    else if (has_preview(entry.kind) && coarser.runner().answers())
         entry.previewing = true;
-    else if (entry.previewing ? !preview_.has_answer() : !entry.runner->has_answer())
-        entry.previewing = has_preview_ && preview_.has_answer();
+    else if (entry.previewing ? !coarser.has_answer() : !entry.runner->has_answer())
+        entry.previewing = has_preview(entry.kind) && coarser.has_answer();
     if (entry.previewing || !ready) {
         if (entry.previewing) entry.preview_error.reset();
         return entry.previewing != before;
     }
     entry.replaced_preview = before || entry.replaced_preview;
-    if (entry.replaced_preview && entry.runner->runner().refined() && preview_.runner().answers()) {
+    if (entry.replaced_preview && entry.runner->runner().refined() && coarser.runner().answers()) {
         entry.replaced_preview = false;
         const Eigen::VectorXd& exact = entry.runner->displacement();
-        const Eigen::VectorXd& coarse = preview_.displacement();
+        const Eigen::VectorXd& coarse = coarser.displacement();
         if (exact.size() == coarse.size() && !exact.isZero(0.0))
             entry.preview_error = (coarse - exact).stableNorm() / exact.stableNorm();
     }
@@ -180,20 +235,27 @@ bool Simulation::choose_answer(Entry& entry) const {
 }
 
 bool Simulation::update(const LiveScene& scene, const std::vector<MethodKind>& shown, const MethodChoices& choices) {
-    shown_ = shown;
+    if (shown_ != shown) {
+        shown_ = shown;
+        ++clock_;
+        for (const MethodKind kind : shown) entries_[place(kind)].last_shown = clock_;
+        bound_hidden_memory();
+    }
     ask_for_proxies(scene, choices);
     rest_hidden(scene);
     bool changed = false;
     const bool preview_changed = update_preview(scene, choices);
-    bool waiting = has_preview_ && (proxies_.running() || preparing_preview());
+    const bool finite_changed = update_finite_preview(scene);
+    bool waiting = (has_preview_ || finite_) && (proxies_.running() || preparing_preview());
     for (const MethodKind kind : shown) {
         Entry& present = entries_[place(kind)];
         changed = update_method(present, scene, choices, !waiting) || changed;
         changed = choose_answer(present) || changed;
-        changed = changed || (present.previewing && preview_changed);
+        changed = changed || (present.previewing && (kind->linear ? preview_changed : finite_changed));
         waiting = waiting || present.runner->runner().precomputing();
     }
     for (const MethodKind kind : shown) runner(kind).check_at_rest();
+    gauge_theory(scene);
     complete_one(choices);
     return changed;
 }
@@ -208,6 +270,54 @@ void Simulation::rest_hidden(const LiveScene& scene) {
         else
             entry.runner->clear();
     }
+}
+
+std::uint64_t Simulation::memory_of(const Entry& entry) const {
+    const MethodRunner& runner = entry.runner->runner();
+    return runner.model() ? runner.model()->facts().memory_bytes + runner.set_memory() : 0;
+}
+
+/// Models of methods that nobody looks at are kept for when they are looked at again, while there is room.
+void Simulation::bound_hidden_memory() {
+    std::vector<Entry*> hidden;
+    std::uint64_t sum = 0;
+    for (Entry& entry : entries_)
+        if (const std::uint64_t bytes = memory_of(entry); !is_shown(entry.kind) && bytes > 0) {
+            hidden.push_back(&entry);
+            sum += bytes;
+        }
+    const std::uint64_t most = hidden_memory_.value_or((available_memory_bytes() + sum) / kPartForHidden);
+    std::sort(hidden.begin(), hidden.end(),
+              [](const Entry* a, const Entry* b) { return a->last_shown < b->last_shown; });
+    for (Entry* entry : hidden) {
+        if (sum <= most) return;
+        sum -= memory_of(*entry);
+        entry->runner->clear();
+        dropped_.push_back(entry->kind);
+    }
+}
+
+/// On a scene's own mesh where that is coarse enough, else on a proxy, which is asked for once a motion rests.
+void Simulation::gauge_theory(const LiveScene& scene) {
+    const MethodKind kind = shown_.front();
+    const Constraints& asked = scene.constraints();
+    const bool moves = std::any_of(asked.motions.begin(), asked.motions.end(),
+                                   [](const Motion& motion) { return !(motion == Motion{}); });
+    if (!kind->linear || !moves) return gauge_.rest();
+    if (Wish wish = wish_of(asked); !same(wish, gauged_)) {
+        gauge_.rest();
+        gauged_ = std::move(wish);
+    }
+    if (runner(kind).state() != State::ready || !runner(kind).refined() || !runner(kind).answers()) return;
+    gauged_on_ = scene.surface();
+    Body body{.name = scene.name(), .surface = scene.surface(), .material = scene.document().material};
+    if (is_quick_at_equilibria(scene)) return gauge_.update(body, asked.set, wish_of(asked));
+    const std::shared_ptr<const Proxy>& proxy = proxies_.preview();
+    if (!proxy || proxy->shown != scene.surface()) return;
+    if (!gauge_carried_ || &gauge_carried_->proxy() != proxy.get()) gauge_carried_.emplace(proxy);
+    gauge_carried_->set(asked);
+    body.surface = proxy->surface;
+    gauge_.update(body, gauge_carried_->constraints().set, wish_of(gauge_carried_->constraints()));
 }
 
 /// Only when every shown method is ready, and one at a time: what is looked at comes first.
@@ -228,12 +338,14 @@ void Simulation::complete_one(const MethodChoices& choices) {
 
 void Simulation::prefetch(const Constraints& constraints) {
     if (has_preview_) preview_.prefetch(constraints);
+    if (finite_) finite_preview_.prefetch(constraints);
     for (const MethodKind kind : shown_) own(kind).prefetch(constraints);
 }
 
 void Simulation::retry(MethodKind kind) {
     proxies_.retry();
     preview_.runner().retry();
+    finite_preview_.runner().retry();
     runner(kind).retry();
 }
 
@@ -252,19 +364,23 @@ bool Simulation::busy() const {
 }
 
 bool Simulation::checking() const {
-    return std::any_of(shown_.begin(), shown_.end(), [&](MethodKind kind) { return runner(kind).unchecked(); });
+    return gauge_.working_on_it() ||
+           std::any_of(shown_.begin(), shown_.end(), [&](MethodKind kind) { return runner(kind).unchecked(); });
 }
 
 void Simulation::cancel() {
     proxies_.cancel();
     preview_.runner().cancel();
+    finite_preview_.runner().cancel();
+    gauge_.cancel();
     for (Entry& entry : entries_) entry.runner->runner().cancel();
 }
 
 bool Simulation::stopping() const {
-    return proxies_.working() || preview_.runner().stopping() ||
-           std::any_of(entries_.begin(), entries_.end(),
-                       [](const Entry& entry) { return entry.runner->runner().stopping(); });
+    return proxies_.working() || preview_.runner().stopping() || finite_preview_.runner().stopping() ||
+           gauge_.working() || std::any_of(entries_.begin(), entries_.end(), [](const Entry& entry) {
+               return entry.runner->runner().stopping();
+           });
 }
 
 }  // namespace elastolab

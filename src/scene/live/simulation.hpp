@@ -1,16 +1,19 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "methods/registry.hpp"
 #include "scene/live/embedded_runner.hpp"
 #include "scene/live/live_scene.hpp"
 #include "scene/live/proxy_keeper.hpp"
+#include "scene/live/theory_gauge.hpp"
 
 namespace elastolab {
 
@@ -19,6 +22,7 @@ struct MethodChoices {
     Mode mode = Mode::on_demand;
     Tractions tractions = Tractions::discontinuous;
     Update update = Update::reduced;
+    ElementDegree elements = ElementDegree::quadratic;
     FrameRule frame_rule = FrameRule::drag_columns;
     /// Bodies of at most so many vertices get K and its inverse in the background.
     int complete_up_to = 2000;
@@ -26,11 +30,12 @@ struct MethodChoices {
     bool preview = true;
 
     /// The choices that a scene remembers.
-    MethodSettings settings() const { return {mode, tractions, update}; }
+    MethodSettings settings() const { return {mode, tractions, update, elements}; }
     void set(const MethodSettings& settings) {
         mode = settings.mode;
         tractions = settings.tractions;
         update = settings.update;
+        elements = settings.elements;
     }
     /// The whole method of a kind under these choices.
     Method of(MethodKind kind) const;
@@ -43,7 +48,8 @@ std::optional<Method> completion_of(const SurfaceMesh& mesh, MethodKind kind, co
 /// The answers of several methods to one scene, each on the scene's surface or, where the method cannot use that, on a
 /// proxy of it. Methods that nobody looks at are not computed; their last answers are kept, so that switching back is
 /// instant. While a method's model or a new constrained set of it is being prepared, a coarse preview answers in its
-/// place. All members are for one thread, which calls update() once per frame.
+/// place; so does one of a method that is not linear while a motion goes on and its equilibria take long, by the same
+/// method. All members are for one thread, which calls update() once per frame.
 class Simulation {
 public:
     /// `wake` is called by the workers when update() will find something.
@@ -69,7 +75,8 @@ public:
     std::optional<double> preview_error(MethodKind kind) const { return entries_[place(kind)].preview_error; }
     /// The proxies: the one that methods simulate, and the preview's.
     const ProxyKeeper& proxies() const { return proxies_; }
-    const EmbeddedRunner& preview() const { return preview_; }
+    const EmbeddedRunner& preview() const { return preview_; }  ///< of linear methods
+    const EmbeddedRunner& preview(MethodKind kind) const { return kind->linear ? preview_ : finite_preview_; }
     /// The surface that a method computes on in this scene; null while its proxy is not there.
     const SurfaceMesh* simulated_surface(MethodKind kind, const LiveScene& scene) const;
     /// Whether the proxy that a method needs is being made.
@@ -77,6 +84,15 @@ public:
     /// Why a method cannot take this scene (a mesh or material that is not fit for it), or why it failed; empty
     /// otherwise.
     std::string problem(MethodKind kind) const;
+
+    /// Bytes that models of methods which are not shown may keep; without it, a quarter of what is free. The one that
+    /// was not shown for longest is dropped first, when other methods are shown.
+    void set_hidden_memory(std::uint64_t bytes) { hidden_memory_ = bytes; }
+    /// Methods whose models were dropped since the last call.
+    std::vector<MethodKind> take_dropped() { return std::exchange(dropped_, {}); }
+    /// How far linear theory is off for the present motion, where the first method of the last update is linear and has
+    /// answered; nothing until it is known. Computed on a mesh as coarse as the preview's.
+    const std::optional<TheoryError>& theory_error() const { return gauge_.error(); }
 
     bool preparing_preview() const;  ///< the preview cannot answer yet, and will by itself
     bool waiting() const;            ///< a method of the last update is not ready yet, and will be by itself
@@ -95,6 +111,7 @@ private:
         bool previewing = false;
         bool replaced_preview = false;  ///< by an answer that is not refined yet
         std::optional<double> preview_error = {};
+        std::uint64_t last_shown = 0;  ///< clock_ then
     };
     std::size_t place(MethodKind kind) const;
     bool is_shown(MethodKind kind) const;
@@ -102,16 +119,33 @@ private:
     EmbeddedRunner& own(MethodKind kind) { return *entries_[place(kind)].runner; }
     void ask_for_proxies(const LiveScene& scene, const MethodChoices& choices);
     bool update_preview(const LiveScene& scene, const MethodChoices& choices);
+    bool give_preview_body(EmbeddedRunner& preview, Method method, MethodKind fallback, bool wanted,
+                           const LiveScene& scene) const;
+    bool update_finite_preview(const LiveScene& scene);
+    bool has_preview(MethodKind kind) const { return kind->linear ? has_preview_ : finite_ && finite_follows_; }
     bool update_method(Entry& entry, const LiveScene& scene, const MethodChoices& choices, bool may_begin);
     bool choose_answer(Entry& entry) const;
     bool give_body(Entry& entry, const LiveScene& scene, const MethodChoices& choices);
     void complete_one(const MethodChoices& choices);
+    void gauge_theory(const LiveScene& scene);
+
+    std::uint64_t memory_of(const Entry& entry) const;
+    void bound_hidden_memory();
 
     std::vector<Entry> entries_;
-    std::vector<MethodKind> shown_;
+    std::vector<MethodKind> shown_, dropped_;
+    std::uint64_t clock_ = 0;  ///< grows when other methods are shown
+    std::optional<std::uint64_t> hidden_memory_;
     ProxyKeeper proxies_;
     EmbeddedRunner preview_;
     bool has_preview_ = false;  ///< this scene is worth one
+    EmbeddedRunner finite_preview_;
+    MethodKind finite_ = nullptr;  ///< the method on the screen that it answers for, if any
+    bool finite_follows_ = false;  ///< it is asked what the scene asks for, as the method cannot follow
+    TheoryGauge gauge_;
+    Wish gauged_;                                 ///< of the scene, that it was asked about
+    std::weak_ptr<const SurfaceMesh> gauged_on_;  ///< the scene it was needed for
+    std::optional<CarriedConstraints> gauge_carried_;
 };
 
 }  // namespace elastolab

@@ -263,17 +263,20 @@ void CarriedConstraints::find_followers() {
 void CarriedConstraints::carry_values() {
     const SurfaceMesh& surface = *proxy_->surface;
     carried_.motions = shown_.motions;
+    maps_.resize(shown_.motions.size());
     carried_.values.resize(3 * std::ssize(carried_.set.handles));
     const std::size_t first_handle = shown_.has_fixed() ? 1 : 0;
     const auto n_base = static_cast<int>(carried_.set.base.size());
     for (std::size_t h = 0; h < carried_.motions.size(); ++h) {
         const ConstraintGroup& group = carried_.groups[h + first_handle];
+        const auto* affine = std::get_if<AffineMotion>(&shown_.motions[h]);
+        AffineMap& map = maps_[h] = affine ? map_of(*affine) : AffineMap{};
         VertexMotion carried_motion;
         for (int i = group.begin - n_base; i < group.end - n_base; ++i) {
             const auto place = static_cast<std::size_t>(i);
             Vector3d u = Vector3d::Zero();
-            if (const auto* affine = std::get_if<AffineMotion>(&shown_.motions[h])) {
-                u = affine->matrix * surface.vertices.col(carried_.set.handles[place]) + affine->translate;
+            if (affine) {
+                u = map.displacement(surface.vertices.col(carried_.set.handles[place]));
             } else {
                 const auto& each = std::get<VertexMotion>(shown_.motions[h]).displacements;
                 for (int k = 0; k < 3; ++k)
@@ -289,13 +292,22 @@ void CarriedConstraints::carry_values() {
 Vector3d CarriedConstraints::value_of(const Follower& follower) const {
     const std::size_t first_handle = shown_.has_fixed() ? 1 : 0;
     if (follower.group < first_handle) return Vector3d::Zero();
-    const Motion& motion = shown_.motions[follower.group - first_handle];
-    if (const auto* affine = std::get_if<AffineMotion>(&motion))
-        return affine->matrix * proxy_->shown->vertices.col(follower.vertex) + affine->translate;
-    return std::get<VertexMotion>(motion).displacements[static_cast<std::size_t>(follower.member)];
+    const std::size_t handle = follower.group - first_handle;
+    if (const auto* single = std::get_if<VertexMotion>(&shown_.motions[handle]))
+        return single->displacements[static_cast<std::size_t>(follower.member)];
+    return maps_[handle].displacement(proxy_->shown->vertices.col(follower.vertex));
 }
 
 Eigen::VectorXd CarriedConstraints::displacement(const Eigen::VectorXd& of_proxy) const {
+    Eigen::VectorXd u = places(of_proxy);
+    for (const Follower& follower : followers_) {
+        auto own = u.segment<3>(3 * Index{follower.vertex});
+        own += follower.share * (value_of(follower) - own);
+    }
+    return u;
+}
+
+Eigen::VectorXd CarriedConstraints::places(const Eigen::VectorXd& of_proxy) const {
     const SurfacePlaces& places = proxy_->places;
     Eigen::VectorXd u(3 * places.nodes.cols());
     Control control;
@@ -307,10 +319,6 @@ Eigen::VectorXd CarriedConstraints::displacement(const Eigen::VectorXd& of_proxy
             u.segment<3>(3 * v) = sum;
         }
     });
-    for (const Follower& follower : followers_) {
-        auto own = u.segment<3>(3 * Index{follower.vertex});
-        own += follower.share * (value_of(follower) - own);
-    }
     return u;
 }
 

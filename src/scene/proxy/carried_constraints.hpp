@@ -36,6 +36,8 @@ public:
     /// Displacements of the shown vertices, 3 * n_shown [L], from those of the proxy under constraints(), 3 *
     /// n_proxy.
     Eigen::VectorXd displacement(const Eigen::VectorXd& of_proxy) const;
+    /// The same where those of the proxy are of other constraints: constrained vertices follow it, too.
+    Eigen::VectorXd places(const Eigen::VectorXd& of_proxy) const;
 
     /// Findings of an answer under constraints(), for the shown constraints: point constraints are shown vertices.
     Findings as_shown(Findings of_proxy) const;
@@ -81,6 +83,7 @@ private:
     std::vector<Eigen::Vector3i> origins_;         ///< of each carried handle vertex: places in its handle,
     std::vector<Eigen::Vector3d> origin_weights_;  ///< whose weighted mean is nearest to it
     std::vector<Follower> followers_;
+    std::vector<AffineMap> maps_;  ///< of every handle; nothing for motions of single vertices
 };
 
 /// One value a proxy vertex, carried to the shown vertices.

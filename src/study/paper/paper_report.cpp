@@ -152,7 +152,7 @@ Claim fifth_claim(const Table& table) {
 
 Claim eqn9_claim(const Table& table, const std::string& share) {
     const double n = common_vertices(table);
-    std::string measured = "at " + count(n) + " vertices an inverse of K00 afresh takes";
+    std::string measured = "at " + count(n) + " vertices inverting K00 for each set takes";
     std::string factorised = "; a factorisation of K00";
     std::vector<std::string> holds_for;
     for (const std::string& method : kMethods) {
@@ -282,7 +282,7 @@ Plot update_plot(const std::string& figure, const std::string& share, bool logar
                                 "set change [s]", false);
     plot.caption =
         logarithmic ? "Eqn. 9 as written, its collapsed form on the same K^-1, and on demand (solid, dashed, points)."
-                    : "New set of known nodes with Eqn. 9 (solid) and by inverting K00 afresh (dashed).";
+                    : "New set of known nodes with Eqn. 9 (solid) and by inverting K00 (dashed).";
     for (const std::string& method : kMethods) {
         const int color = method_color(method);
         plot.series.push_back(

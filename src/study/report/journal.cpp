@@ -65,7 +65,7 @@ void Journal::read(const std::vector<std::string>& fingerprint) {
     if (error) throw Error(file_.string() + ": cannot be set aside (" + error.message() + "). Move it elsewhere.");
     notice_ += (notice_.empty() ? "" : " ") + file_.string() + ": its " + std::to_string(finished_.size()) +
                " finished cases are of another run (" + difference(theirs, fingerprint) + "). They are kept as " +
-               aside.filename().string() + "; this run begins anew.";
+               aside.filename().string() + "; this run starts over.";
     finished_.clear();
 }
 

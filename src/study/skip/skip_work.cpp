@@ -166,8 +166,8 @@ std::vector<Skip> all_skips() {
         {"dense-inverse", "columns nobody asks for: a sparse factor instead of the paper's dense inverse", fem,
          ready_in(Mode::on_demand), ready_in(Mode::full_volume)},
         {"hidden", "methods that are not shown", linear, precomputed_in(Mode::on_demand), every_method},
-        {"base-known", "columns of the base: eliminated once instead of treated as handles", fem, handles_change(true),
-         handles_change(false)},
+        {"base-known", "columns of fixed sets: eliminated once instead of treated as handles", fem,
+         handles_change(true), handles_change(false)},
         {"poisson", "integrals when Poisson's ratio changes (from the second time on)", kGalerkinBem,
          again_with(1.0, 0.4), precomputed_in(Mode::on_demand)},
     };
@@ -179,18 +179,18 @@ std::vector<Skip> all_skips() {
             skips.push_back({"far-integrals", "closed forms far away, where Gauss rules keep 1e-10", kind,
                              tolerance(1e-10), tolerance(1e-16)});
         }
-        skips.push_back({"frame-solve", "solving for a frame: the drag response instead of the small system", kind,
-                         drag_frame, displace_frame});
-        skips.push_back({"frame-afresh", "solving for a frame: the drag response instead of Eqn. 7 afresh", kind,
-                         drag_frame, afresh_frame});
+        skips.push_back({"frame-solve", "solving for a frame: the drag response instead of the capacitance system",
+                         kind, drag_frame, displace_frame});
+        skips.push_back({"frame-afresh", "solving for a frame: the drag response instead of Eqn. 7", kind, drag_frame,
+                         afresh_frame});
         skips.push_back(
-            {"known-columns", "columns that are known when a handle changes", kind, known_columns, unknown_columns});
+            {"known-columns", "columns that are kept when a handle changes", kind, known_columns, unknown_columns});
         skips.push_back({"young", "everything when Young's modulus changes", kind, again_with(2.0, 0.35),
                          precomputed_in(Mode::on_demand)});
         if (is_fem)
             skips.push_back({"poisson", "tetrahedra and integrals when Poisson's ratio changes", kind,
                              again_with(1.0, 0.4), precomputed_in(Mode::on_demand)});
-        skips.push_back({"base-change", "the precomputation when the base changes", kind, base_on_known_model,
+        skips.push_back({"base-change", "the precomputation when the fixed set changes", kind, base_on_known_model,
                          ready_in(Mode::on_demand)});
         skips.push_back({"single-solve", "what only a drag needs: one factorisation for a single solve", kind,
                          ready_in(Mode::on_demand, Update::direct), ready_in(Mode::on_demand)});

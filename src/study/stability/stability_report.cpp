@@ -43,7 +43,7 @@ std::string group_table(const Table& table, const std::string& group) {
         lines.push_back({variant, level_list(right), worst_right(right), level_list(told), level_list(refused),
                          level_list(silent), first_message(beyond)});
     }
-    return markdown_table({"method", "right at", "worst error there", "wrong and told at", "refused at",
+    return markdown_table({"method", "right at", "worst error there", "wrong with a warning at", "refused at",
                            "wrong and silent at", "what the program says"},
                           lines);
 }

@@ -41,7 +41,9 @@ bool tells_of(const Finding& finding, Wrong what) {
         case FindingKind::singular_though_held:
         case FindingKind::impossible_volume:
         case FindingKind::large_residual:
+        case FindingKind::unstable_equilibrium:
             return true;
+        case FindingKind::linear_theory:  // of the theory; answers are judged within it
         case FindingKind::contact:
         case FindingKind::nothing_constrained:
         case FindingKind::choice_left_aside:

@@ -80,11 +80,12 @@ TEST_F(GizmoTest, ArrowsMoveAlongTheirAxisOnly) {
 
 TEST_F(GizmoTest, RingsTurnAboutTheirAxisAndTheMiddle) {
     for (int axis = 0; axis < 3; ++axis) {
-        const Eigen::Matrix3d before = Eigen::Matrix3d::Identity() + stage.motion(0).matrix;
+        const Eigen::Matrix3d before = Eigen::Matrix3d::Identity() + map_of(stage.motion(0)).matrix;
         const Eigen::Vector2d from = place_of({Kind::ring, axis}), middle = stage.pixel(gizmo().center);
         stage.drag(from, middle + Eigen::Rotation2Dd(0.3) * (from - middle));
         stage.settle();
-        const Eigen::Matrix3d turn = (Eigen::Matrix3d::Identity() + stage.motion(0).matrix) * before.transpose();
+        const Eigen::Matrix3d turn =
+            (Eigen::Matrix3d::Identity() + map_of(stage.motion(0)).matrix) * before.transpose();
         const Eigen::AngleAxisd found(turn);
         EXPECT_GT(std::abs(found.angle()), 0.05) << axis;
         EXPECT_NEAR(std::abs(found.axis()[axis]), 1.0, 1e-9);
@@ -100,7 +101,7 @@ TEST_F(GizmoTest, RingsFollowTheCursor) {
     const Eigen::Vector2d to = middle + Eigen::Rotation2Dd(0.4) * (from - middle);
     const double angle = dragged(before, part, stage.state.camera, viewport(), from, to);
     stage.drag(from, to);
-    const Eigen::AngleAxisd turn(Eigen::Matrix3d(Eigen::Matrix3d::Identity() + stage.motion(0).matrix));
+    const Eigen::AngleAxisd turn(Eigen::Matrix3d(Eigen::Matrix3d::Identity() + map_of(stage.motion(0)).matrix));
     EXPECT_NEAR(turn.angle() * turn.axis()[0], angle, 1e-9);
     // The rays of both cursors meet the plane of the ring in directions that lie this angle apart.
     const auto direction = [&](const Eigen::Vector2d& cursor) {
@@ -111,6 +112,34 @@ TEST_F(GizmoTest, RingsFollowTheCursor) {
     EXPECT_LT((turn * direction(from) - direction(to)).norm(), 1e-9);
 }
 
+/// Round and round: what is turned adds up beyond half a turn, and back again, in one step of undo.
+TEST_F(GizmoTest, RingsTurnBySeveralFullTurns) {
+    const GizmoPart part{Kind::ring, 0};
+    const Gizmo before = gizmo();
+    const Eigen::Vector2d from = place_of(part);
+    const Eigen::Vector3d start = before.center + 0.3 * before.axes.col(1);
+    const auto cursor = [&](double degrees) {
+        const double angle = degrees * std::numbers::pi / 180.0;
+        return stage.pixel(before.center + Eigen::AngleAxisd(angle, before.axes.col(0)) * (start - before.center));
+    };
+    stage.move(from);
+    stage.press();
+    stage.move(cursor(0.0));
+    const double first = stage.motion(0).rotate.degrees;
+    for (int degrees = 40; degrees <= 800; degrees += 40) stage.move(cursor(degrees));
+    EXPECT_NEAR(std::abs(stage.motion(0).rotate.degrees - first), 800.0, 1e-6);
+    EXPECT_NEAR(std::abs(stage.motion(0).rotate.axis[0]), 1.0, 1e-12);
+    for (int degrees = 760; degrees >= 720; degrees -= 40) stage.move(cursor(degrees));
+    stage.release();
+    EXPECT_NEAR(std::abs(stage.motion(0).rotate.degrees - first), 720.0, 1e-6);
+    EXPECT_LT(moved().norm(), 1e-9);
+    const AffineMotion left = stage.motion(0);
+    stage.state.undo();
+    EXPECT_EQ(stage.motion(0), AffineMotion{});
+    stage.state.redo();
+    EXPECT_EQ(stage.motion(0), left);
+}
+
 TEST_F(GizmoTest, WithControlGoesInSteps) {
     stage.modifiers = GLFW_MOD_CONTROL;
     drag_along(1, 0.13);
@@ -119,7 +148,7 @@ TEST_F(GizmoTest, WithControlGoesInSteps) {
     EXPECT_NEAR(std::remainder(moved().y(), step), 0.0, 1e-12);
     const Eigen::Vector2d from = place_of({Kind::ring, 2}), middle = stage.pixel(gizmo().center);
     stage.drag(from, middle + Eigen::Rotation2Dd(0.8) * (from - middle));
-    const Eigen::AngleAxisd turn(Eigen::Matrix3d(Eigen::Matrix3d::Identity() + stage.motion(0).matrix));
+    const Eigen::AngleAxisd turn(Eigen::Matrix3d(Eigen::Matrix3d::Identity() + map_of(stage.motion(0)).matrix));
     EXPECT_GT(turn.angle(), 0.1);
     EXPECT_NEAR(std::remainder(turn.angle(), std::numbers::pi / 12.0), 0.0, 1e-9);
 }

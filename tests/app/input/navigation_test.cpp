@@ -18,10 +18,20 @@ TEST(Navigation, ADragBesideTheBodyTurnsTheViewAboutItsTarget) {
     EXPECT_GT(stage.state.camera.pose().orientation.angularDistance(before.orientation), 0.1);
 }
 
-TEST(Navigation, RightMiddleAndShiftLeftDragsMoveTheView) {
+TEST(Navigation, TheMiddleButtonTurnsTheViewOnTheBodyToo) {
+    Stage stage;
+    const CameraPose before = stage.state.camera.pose();
+    const Eigen::Vector2d on_body = stage.pixel(stage.vertex_near({1, 1, 1}));
+    stage.drag(on_body, on_body + kStroke, GLFW_MOUSE_BUTTON_MIDDLE);
+    EXPECT_EQ(stage.scene().n_handles(), 0);
+    EXPECT_EQ(stage.state.camera.pose().target, before.target);
+    EXPECT_GT(stage.state.camera.pose().orientation.angularDistance(before.orientation), 0.1);
+}
+
+TEST(Navigation, RightAndShiftedDragsMoveTheView) {
     for (const auto& [button, modifiers] :
-         {std::pair(GLFW_MOUSE_BUTTON_RIGHT, 0), std::pair(GLFW_MOUSE_BUTTON_MIDDLE, 0),
-          std::pair(GLFW_MOUSE_BUTTON_LEFT, GLFW_MOD_SHIFT)}) {
+         {std::pair(GLFW_MOUSE_BUTTON_RIGHT, 0), std::pair(GLFW_MOUSE_BUTTON_MIDDLE, GLFW_MOD_SHIFT),
+          std::pair(GLFW_MOUSE_BUTTON_MIDDLE, GLFW_MOD_CONTROL), std::pair(GLFW_MOUSE_BUTTON_LEFT, GLFW_MOD_SHIFT)}) {
         Stage stage;
         const Eigen::Vector3d target = stage.state.camera.pose().target;
         const Eigen::Vector2d before = stage.pixel(target);

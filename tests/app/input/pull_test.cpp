@@ -124,13 +124,24 @@ TEST(Pull, WithControlTurnsThePatchAboutItsMiddle) {
     stage.modifiers = GLFW_MOD_CONTROL;
     stage.drag(stage.pixel(v), stage.pixel(v) + kDrag);
     const AffineMotion motion = stage.motion(0);
-    const Eigen::Matrix3d map = Eigen::Matrix3d::Identity() + motion.matrix;
+    const Eigen::Matrix3d map = Eigen::Matrix3d::Identity() + map_of(motion).matrix;
     EXPECT_LT((map * map.transpose() - Eigen::Matrix3d::Identity()).norm(), 1e-12);
-    EXPECT_GT(motion.matrix.norm(), 0.1);
+    EXPECT_GT(motion.rotate.degrees, 10.0);
     const std::vector<int> patch(stage.scene().vertices(0).begin(), stage.scene().vertices(0).end());
     ASSERT_GT(std::ssize(patch), 3);
     const Positions rest = stage.scene().mesh().vertices(Eigen::all, patch);
     EXPECT_LT(mean_displacement(motion, rest).norm(), 1e-12);
+}
+
+/// A hundredth of a radian a pixel: what goes on in one direction goes round and round.
+TEST(Pull, WithControlTurnsByMoreThanAFullTurn) {
+    Stage stage;
+    stage.state.tools.patch_radius = 0.35;
+    const Eigen::Vector2d from = stage.pixel(top_vertex(stage));
+    stage.modifiers = GLFW_MOD_CONTROL;
+    stage.drag(from, from + Eigen::Vector2d(-700, 0));
+    EXPECT_NEAR(stage.motion(0).rotate.degrees, 7.0 * 180.0 / std::acos(-1.0), 1e-9);
+    EXPECT_LT((stage.motion(0).rotate.axis + stage.state.camera.up()).norm(), 1e-9);
 }
 
 TEST(Pull, WithAltScalesThePatchUpwardLarger) {

@@ -20,5 +20,11 @@ TEST(NumberText, HasThreeDigitsAndAnExponentOnlyWhereItIsShorter) {
     EXPECT_EQ(number_text(std::numeric_limits<double>::infinity()), "inf");
 }
 
+TEST(VectorText, ShowsRoundingAsZero) {
+    EXPECT_EQ(vector_text({0.5, -2.249e-17, 1.0}), "(0.5, 0, 1)");
+    EXPECT_EQ(vector_text({0.5, -2.249e-7, 1.0}), "(0.5, -2.25e-07, 1)");
+    EXPECT_EQ(vector_text({1e-20, 2e-20, 0.0}), "(1e-20, 2e-20, 0)");
+}
+
 }  // namespace
 }  // namespace elastolab

@@ -103,11 +103,11 @@ TEST(RealGizmo, MovesAndTurnsTheChosenHandle) {
     ASSERT_EQ(left.handles.size(), 1u);
     EXPECT_EQ(left.handles[0].name, "end");
     const auto& motion = std::get<AffineMotion>(left.handles[0].motion);
-    const Eigen::Vector3d moved = motion.matrix * Eigen::Vector3d(1, 0.5, 0.5) + motion.translate;
+    const Eigen::Vector3d moved = map_of(motion).displacement({1, 0.5, 0.5});
     EXPECT_NEAR(moved.z(), 0.2, 0.04);
     EXPECT_LT(moved.head<2>().norm(), 1e-9);
-    EXPECT_GT(motion.matrix.norm(), 0.1);
-    EXPECT_LT(motion.matrix.row(0).norm() + motion.matrix.col(0).norm(), 1e-9);  // about x
+    EXPECT_GT(std::abs(motion.rotate.degrees), 4.0);
+    EXPECT_NEAR(std::abs(motion.rotate.axis.x()), 1.0, 1e-9);
 }
 
 /// A ball without its cap, in triangles that do not hang together, as careless scans come: pressed as soon as the

@@ -1,7 +1,6 @@
 // The panel of the real window: what is typed and clicked there, and that it keeps still.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <functional>
 
 #include "app/pixels.hpp"
@@ -28,7 +27,8 @@ TEST(RealPanel, AHandleIsNamedMovedAndTurnedByTyping) {
     window.type_into(kName, "tip");
     window.click(kMove);  // along x
     window.stroke("ctrl+a");
-    for (const char* key : {"0", "period", "2", "5", "Tab", "Tab", "Tab", "Tab", "Tab", "3", "0"}) window.stroke(key);
+    for (const char* key : {"0", "period", "2", "5", "Tab", "Tab", "Tab", "Tab", "Tab", "7", "5", "0"})
+        window.stroke(key);
     window.type("");
     window.settle();
     ASSERT_EQ(window.quit().exit_code, 0);
@@ -38,9 +38,9 @@ TEST(RealPanel, AHandleIsNamedMovedAndTurnedByTyping) {
     EXPECT_EQ(left.handles[0].name, "tip");
     const auto& motion = std::get<AffineMotion>(left.handles[0].motion);
     const Eigen::Vector3d middle(1, 0.5, 0.5);
-    EXPECT_LT((motion.matrix * middle + motion.translate - Eigen::Vector3d(0.25, 0, 0)).norm(), 1e-6);
-    const Eigen::Matrix3d turn = Eigen::AngleAxisd(std::acos(-1.0) / 6.0, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-    EXPECT_LT((motion.matrix - (turn - Eigen::Matrix3d::Identity())).norm(), 1e-6) << motion.matrix;
+    EXPECT_LT((map_of(motion).displacement(middle) - Eigen::Vector3d(0.25, 0, 0)).norm(), 1e-6);
+    EXPECT_NEAR(motion.rotate.degrees, 750.0, 1e-9) << "two full turns and a bit";
+    EXPECT_LT((motion.rotate.axis - Eigen::Vector3d::UnitZ()).norm(), 1e-12);
 }
 
 /// What is selected is named after F2, whether it is a handle or a fixed set, and removed by Del.

@@ -169,6 +169,26 @@ TEST_F(RealProgram, FilmsThePullFromRestAndBack) {
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "film-0005.png"));
 }
 
+/// By a full turn the face comes to where it was: what is seen of it is the way there.
+TEST_F(RealProgram, FilmsAFullTurnThroughAllItsAngles) {
+    Document document = cube_document_with_handle(3);
+    document.handles[0].motion = AffineMotion{.rotate = {.axis = {1, 0, 0}, .degrees = 360, .center = {1, 0.5, 0.5}}};
+    save_scene(folder.path() / "turned.json", document);
+    const ProgramRun run = run_program({"view", "turned.json", "--hidden", "--frames", "2", "--picture", "film.png",
+                                        "--picture-size", "160x120", "--pull-film", "8", "--scene-out", "out.json"},
+                                       folder.path());
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    const auto frame = [&](int number) {
+        std::ifstream in(folder.path() / ("film-000" + std::to_string(number) + ".png"), std::ios::binary);
+        return std::string(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
+    };
+    EXPECT_EQ(frame(1), frame(5)) << "the whole turn";
+    EXPECT_NE(frame(1), frame(3)) << "half of it";
+    EXPECT_NE(frame(2), frame(3));
+    EXPECT_EQ(frame(3), frame(7));
+    EXPECT_EQ(load_scene(folder.path() / "out.json"), document) << "the handle was not put back";
+}
+
 TEST_F(RealProgram, CutsTheBodyOpenFromTheStart) {
     const auto drawn_part = [&](const std::vector<std::string>& more) {
         std::vector<std::string> words = {"view",      save_cube(3), "--hidden",       "--frames", "2",

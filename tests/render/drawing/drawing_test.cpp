@@ -225,10 +225,33 @@ TEST_F(Drawing, ShowsTheBackFacesThroughATranslucentBody) {
     EXPECT_LT(brightness(at(image, Eigen::Vector3d::Zero())), 450);
 }
 
-/// Everything together, as the viewer shows it: not a test of anything but errors of OpenGL; to be looked at.
+/// How many pixels of a picture have about this colour of the theme.
+int n_pixels_of(const Image& image, const Colour& colour, int tolerance = 40) {
+    int n = 0;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            const std::array<int, 3> rgb = image.at(x, y);
+            n += std::abs(rgb[0] - std::lround(255 * colour.r)) < tolerance &&
+                 std::abs(rgb[1] - std::lround(255 * colour.g)) < tolerance &&
+                 std::abs(rgb[2] - std::lround(255 * colour.b)) < tolerance;
+        }
+    return n;
+}
+
+/// How many pixels differ between two pictures of one size.
+int n_different(const Image& a, const Image& b) {
+    int n = 0;
+    for (std::size_t i = 0; i + 2 < a.pixels.size(); i += 3)
+        n += std::abs(a.pixels[i] - b.pixels[i]) + std::abs(a.pixels[i + 1] - b.pixels[i + 1]) +
+                 std::abs(a.pixels[i + 2] - b.pixels[i + 2]) >
+             30;
+    return n;
+}
+
+/// Everything together, as the viewer shows it; also to be looked at ($ELASTOLAB_SHOTS).
 class Showcase : public Drawing {
 protected:
-    void draw_all(const Colour& top, const Colour& bottom, const Colour& ghost, const std::string& map) {
+    Image draw_all(const Colour& top, const Colour& bottom, const Colour& ghost, const std::string& map) {
         const SurfaceMesh mesh = make_box(8, {3.0, 1.0, 1.0});
         const Eigen::Matrix3Xd positions = twisted(mesh.vertices, 1.2);
         const SceneFrame frame = frame_of(positions);
@@ -259,7 +282,7 @@ protected:
         rim.draw(view, {.colour = ghost.with_opacity(0.25f), .width = 1.0f});
         draw_marks(view, frame, positions);
         gizmo_.draw(camera_, kViewport, {kWidth - 110.0, 10.0, 100.0, 100.0}, 1.0);
-        finish();
+        return finish();
     }
     void draw_marks(const SceneView& view, const SceneFrame& frame, const Eigen::Matrix3Xd& positions) {
         std::vector<PointSprite> sprites;
@@ -283,33 +306,64 @@ protected:
     AxesGizmo gizmo_{{colour_of_hex(0xe05252), colour_of_hex(0x5fb04c), colour_of_hex(0x4a86e8)}};
 };
 
-TEST_F(Showcase, OnDark) { draw_all(kTop, kBottom, colour_of_hex(0xffffff), "lagoon"); }
-TEST_F(Showcase, OnLight) {
-    draw_all(colour_of_hex(0xffffff), colour_of_hex(0xdfe5ec), colour_of_hex(0x30353c), "ember");
-}
-TEST_F(Showcase, Diverging) {
-    draw_all(colour_of_hex(0xffffff), colour_of_hex(0xdfe5ec), colour_of_hex(0x30353c), "balance");
+/// Body, supports, handles with their arrows, the gizmo in its corner, and an untouched corner of the background.
+TEST_F(Showcase, HasEveryPartOnEveryBackground) {
+    struct Theme {
+        Colour top, bottom, ghost;
+        const char* map;
+    };
+    const Colour white = colour_of_hex(0xffffff), mist = colour_of_hex(0xdfe5ec), ink = colour_of_hex(0x30353c);
+    std::vector<Image> images;
+    for (const Theme& theme : {Theme{kTop, kBottom, white, "lagoon"}, Theme{white, mist, ink, "ember"},
+                               Theme{white, mist, ink, "balance"}}) {
+        const Image image = draw_all(theme.top, theme.bottom, theme.ghost, theme.map);
+        EXPECT_GT(n_pixels_of(image, colour_of_hex(0x2f6fde)), 100) << theme.map;  // supports
+        EXPECT_GT(n_pixels_of(image, colour_of_hex(0xf08c2e)), 100) << theme.map;  // handles and arrows
+        EXPECT_NEAR(image.at(3, 1)[0], std::lround(255 * theme.top.r), 2) << theme.map;
+        bool has_gizmo = false;
+        for (int x = kWidth - 105; x < kWidth - 15; ++x)
+            for (int y = 15; y < 105; ++y) {
+                const std::array<int, 3> rgb = image.at(x, y);
+                has_gizmo = has_gizmo || rgb[0] > rgb[2] + 80;  // its red axis
+            }
+        EXPECT_TRUE(has_gizmo) << theme.map;
+        images.push_back(image);
+    }
+    EXPECT_GT(n_different(images[0], images[1]), kWidth * kHeight / 2);   // the background
+    EXPECT_GT(n_different(images[1], images[2]), kWidth * kHeight / 50);  // the colours of the body
 }
 
-TEST_F(Showcase, Bands) {
+/// Contour bands: far fewer colours than a smooth field has.
+TEST_F(Showcase, HasBandsOfOneColour) {
     const SurfaceMesh mesh = make_torus(16, 0.65, 0.27);
     SurfaceDrawing torus(mesh.vertices, mesh.triangles);
     std::vector<float> values;
     for (Eigen::Index i = 0; i < mesh.vertices.cols(); ++i)
         values.push_back(static_cast<float>(mesh.vertices(0, i) + 0.5 * mesh.vertices(2, i)));
     torus.set_vertex_scalars(values);
+    torus.draw(start(), {.low = -0.9, .high = 0.9});
+    const Image smooth = finish();
     torus.draw(start(), {.low = -0.9, .high = 0.9, .contour_bands = 12});
-    finish();
+    EXPECT_GT(n_different(smooth, finish()), 1000);
 }
 
-TEST_F(Showcase, ManyTriangles) {
+/// Wires of triangles of a few pixels fade, and do not cover the surface.
+TEST_F(Showcase, HasNoBlackSurfaceOfManyTriangles) {
     const SurfaceMesh mesh = make_torus(60, 0.65, 0.27);
     SurfaceDrawing torus(mesh.vertices, mesh.triangles);
-    torus.draw(start(), {.wireframe = true});
-    finish();
+    const auto mean_brightness = [&](bool wireframe) {
+        torus.draw(start(), {.wireframe = wireframe});
+        const Image image = finish();
+        double sum = 0.0;
+        for (const std::uint8_t value : image.pixels) sum += value;
+        return sum;
+    };
+    const double plain = mean_brightness(false), wires = mean_brightness(true);
+    EXPECT_LT(wires, plain);
+    EXPECT_GT(wires, 0.6 * plain);
 }
 
-TEST_F(Showcase, CloseBy) {
+TEST_F(Showcase, HasTheBodyAndTheGroundCloseBy) {
     const SurfaceMesh mesh = make_box(8, {3.0, 1.0, 1.0});
     camera_.set_scene(frame_of(mesh.vertices));
     camera_.frame(camera_.scene(), kViewport.aspect());
@@ -318,26 +372,45 @@ TEST_F(Showcase, CloseBy) {
     SurfaceDrawing surface(mesh.vertices, mesh.triangles);
     const SceneView view = start();
     surface.draw(view, {.wireframe = true, .feature_edges = true});
+    const Image body = finish();
+    EXPECT_GT(brightness(body.at(kWidth / 2, kHeight - 5)),
+              brightness({0x2b, 0x30, 0x38}));  // the body fills the middle
     ground_.draw(view, camera_.scene(), Eigen::Vector3d::UnitZ(), {.line = colour_of_hex(0xffffff)});
-    finish();
+    EXPECT_GT(n_different(body, finish()), 0);
 }
 
-TEST_F(Showcase, Glass) {
-    const SurfaceMesh mesh = make_hollow_sphere(16, 0.9, 0.4);
-    SurfaceDrawing surface(mesh.vertices, mesh.triangles);
-    surface.draw(start(), {.opacity = 0.35f, .wireframe = true, .wire_opacity = 0.2f});
-    finish();
+/// What is inside a glass ball shows through it.
+TEST_F(Showcase, HasTheInsideOfGlass) {
+    const auto drawn = [&](const SurfaceMesh& mesh) {
+        SurfaceDrawing surface(mesh.vertices, mesh.triangles);
+        surface.draw(start(), {.opacity = 0.35f, .wireframe = true, .wire_opacity = 0.2f});
+        return finish();
+    };
+    const Image hollow = drawn(make_hollow_sphere(16, 0.9, 0.4)), full = drawn(make_sphere(16, 0.9));
+    EXPECT_GT(n_different(hollow, full), 1000);
+    EXPECT_NE(at(hollow, Eigen::Vector3d::Zero()), at(full, Eigen::Vector3d::Zero()));
 }
 
-TEST_F(Showcase, Maps) {
-    Image image{512, 40 * static_cast<int>(colour_maps().size()), {}};
-    for (int y = 0; y < image.height; ++y)
-        for (int x = 0; x < image.width; ++x) {
-            const Colour c = colour_maps()[static_cast<std::size_t>(y / 40)].sample(x / 511.0);
-            for (const float part : {c.r, c.g, c.b}) image.pixels.push_back(static_cast<std::uint8_t>(255 * part));
+/// Neighbouring colours differ little, the ends and the middle clearly; sequential maps grow lighter all the way.
+TEST(ColourMaps, AreEvenAndTellTheirValuesApart) {
+    const auto lightness = [](const Colour& c) {
+        return 0.2126 * to_linear(c.r) + 0.7152 * to_linear(c.g) + 0.0722 * to_linear(c.b);
+    };
+    for (const ColourMap& map : colour_maps()) {
+        const auto distance = [&](double a, double b) {
+            const Colour p = map.sample(a), q = map.sample(b);
+            return std::hypot(p.r - q.r, p.g - q.g, p.b - q.b);
+        };
+        for (int i = 0; i < 511; ++i) {
+            EXPECT_LT(distance(i / 511.0, (i + 1) / 511.0), 0.03) << map.name() << " at " << i;
+            if (!map.is_diverging()) {
+                EXPECT_LE(lightness(map.sample(i / 511.0)), lightness(map.sample((i + 1) / 511.0)) + 1e-3)
+                    << map.name();
+            }
         }
-    const char* const folder = std::getenv("ELASTOLAB_SHOTS");
-    if (folder != nullptr) write_png(std::filesystem::path(folder) / "Maps.png", image);
+        for (const auto& [a, b] : {std::pair{0.0, 0.5}, {0.5, 1.0}, {0.0, 1.0}})
+            EXPECT_GT(distance(a, b), 0.2) << map.name();
+    }
 }
 
 }  // namespace

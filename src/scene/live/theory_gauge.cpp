@@ -1,0 +1,77 @@
+#include "scene/live/theory_gauge.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace elastolab {
+
+namespace {
+
+/// A motion that has rested this long is worth gauging.
+constexpr double kGaugeRestSeconds = 0.5;
+/// A motion that turns by less than this is called a pull [degree].
+constexpr double kTurn = 5.0;
+
+bool same_vertices(const ConstrainedSet& a, const ConstrainedSet& b) { return a.base == b.base && a.handles == b.handles; }
+
+bool turns(const Wish& wish) {
+    return std::any_of(wish.motions.begin(), wish.motions.end(),
+                       [](const Motion& motion) { return turn_between(Motion{}, motion) >= kTurn; });
+}
+
+}  // namespace
+
+TheoryGauge::Found TheoryGauge::find(std::shared_ptr<const Made> made, const Body& body, const ConstrainedSet& set,
+                                     const Wish& wish, Control& control) {
+    const bool serves = made && made->surface == body.surface && same_vertices(made->set, set) &&
+                        made->poisson_ratio == body.material.poisson_ratio;
+    if (!serves)
+        made = std::make_shared<const Made>(
+            Made{body.surface, body.material.poisson_ratio, set, LinearTheoryGauge(body, set, control)});
+    const Positions rest = body.surface->vertices(Eigen::all, set.handles);
+    const std::optional<double> error =
+        made->gauge.error(wish.values, control, {nullptr, way_to(wish, nullptr, rest).path});
+    return {std::move(made), {error.value_or(0.0), !error && !wish.values.isZero(0.0), turns(wish)}};
+}
+
+void TheoryGauge::rest() {
+    job_.cancel();
+    job_.poll();
+    wanted_.reset();
+    error_.reset();
+}
+
+void TheoryGauge::update(const Body& body, const ConstrainedSet& set, const Wish& wish) {
+    switch (job_.poll()) {
+        case JobEvent::finished: {
+            Found found = job_.take();
+            made_ = std::move(found.made);
+            error_ = found.error;
+            done_ = true;
+            break;
+        }
+        case JobEvent::failed:
+            done_ = true;
+            break;
+        case JobEvent::cancelled:
+        case JobEvent::none:
+            break;
+    }
+    const bool is_new = !wanted_ || surface_ != body.surface || !same(set_, set) || !elastolab::same(*wanted_, wish);
+    if (is_new) {
+        job_.cancel();
+        error_.reset();
+        done_ = false;
+        wanted_ = wish;
+        set_ = set;
+        surface_ = body.surface;
+        rest_ = {};
+    }
+    if (done_ || job_.running() || rest_.seconds() < kGaugeRestSeconds) return;
+    job_.start([made = made_, body, set, wish](Control& control) {
+        control.begin_stage("gauge");
+        return find(made, body, set, wish, control);
+    });
+}
+
+}  // namespace elastolab

@@ -1,0 +1,134 @@
+// Drags of a method that is not linear: every frame shows where its tangent leads, a worker follows with equilibria.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "scene/simulation_bench.hpp"
+
+namespace elastolab::testing_simulation {
+namespace {
+
+constexpr double kConverged = 1e-6;  ///< of displacements, where the forces balance to 1e-8
+
+/// A bar of 4 x 1 x 1 held at one end, with its other end as handle 0.
+LiveScene bar() {
+    Document document;
+    document.mesh = Primitive{.name = "beam", .resolution = 2, .size = {}};
+    document.fixed = {{.select = {PlaneSelector{{0, 0, 0}, {1, 0, 0}, 1e-9}}}};
+    document.handles = {
+        {.name = "end", .select = {PlaneSelector{{4, 0, 0}, {1, 0, 0}, 1e-9}}, .motion = AffineMotion{}}};
+    return {document, "bar.json"};
+}
+
+AffineMotion twist(double degrees) { return {.rotate = {.axis = {1, 0, 0}, .degrees = degrees, .center = {4, 0.5, 0.5}}}; }
+
+class LiveEquilibrium : public ::testing::Test {
+protected:
+    void ask(const AffineMotion& motion) {
+        scene.set_motion(0, motion);
+        bench.update(scene);
+    }
+    const MethodRunner& runner() { return bench.runner(kNonlinearFem); }
+    const Eigen::VectorXd& u() { return runner().displacement(); }
+    /// What the handle's vertices do on the screen, less what they are asked to do.
+    double off_handle() {
+        const Constraints& asked = scene.constraints();
+        double most = 0.0;
+        for (std::size_t i = 0; i < asked.set.handles.size(); ++i)
+            most = std::max(most, (u().segment<3>(3 * asked.set.handles[i]) -
+                                   asked.values.segment<3>(3 * static_cast<Eigen::Index>(i)))
+                                      .norm());
+        return most;
+    }
+    void expect_converged(const Eigen::VectorXd& expected) {
+        EXPECT_FALSE(runner().following());
+        EXPECT_TRUE(runner().refined());
+        EXPECT_EQ(runner().state(), State::ready);
+        EXPECT_LT((u() - expected).norm(), kConverged * expected.norm());
+    }
+
+    LiveScene scene = bar();
+    Bench bench{{kNonlinearFem}};
+};
+
+TEST_F(LiveEquilibrium, AFrameFollowsAtOnceAndIsExactWhenTheHandRests) {
+    bench.settle(scene);
+    EXPECT_LT(u().norm(), 1e-12);
+    for (const double degrees : {10.0, 25.0, 20.0}) {
+        const std::uint64_t before = runner().version();
+        ask(twist(degrees));
+        EXPECT_GT(runner().version(), before);
+        EXPECT_TRUE(runner().following()) << "the worker has not even begun";
+        EXPECT_FALSE(runner().refined());
+        EXPECT_LT(off_handle(), 1e-9);
+        bench.settle(scene);
+        expect_converged(truth(scene, bench.choices.of(kNonlinearFem)));
+        EXPECT_LT(off_handle(), 1e-9);
+    }
+}
+
+TEST_F(LiveEquilibrium, TheNewestWishIsServedWhateverWasWishedBefore) {
+    bench.settle(scene);
+    for (int i = 0; i < 60; ++i) {
+        ask(twist(5.0 + 70.0 * std::sin(0.4 * i)));
+        EXPECT_LT(off_handle(), 1e-9) << i;
+    }
+    ask(twist(40));
+    bench.settle(scene);
+    expect_converged(truth(scene, bench.choices.of(kNonlinearFem)));
+}
+
+TEST_F(LiveEquilibrium, FullTurnsAreWoundUpAndUnwound) {
+    bench.settle(scene);
+    for (int degrees = 45; degrees <= 360; degrees += 45) {
+        ask(twist(degrees));
+        bench.settle(scene);
+    }
+    ASSERT_EQ(scene.constraints().values.cwiseAbs().maxCoeff(), 0.0) << "the end is where it was";
+    const Eigen::VectorXd wound = u();
+    EXPECT_GT(wound.cwiseAbs().maxCoeff(), 0.5);
+    ask(twist(0));
+    EXPECT_TRUE(runner().following()) << "the same values, after another number of turns";
+    bench.settle(scene);
+    EXPECT_LT(u().cwiseAbs().maxCoeff(), 1e-6);
+    ask(twist(360));
+    bench.settle(scene);
+    expect_converged(wound);
+}
+
+TEST_F(LiveEquilibrium, AMotionWithoutAnEquilibriumKeepsTheLastAndSaysWhere) {
+    bench.settle(scene);
+    ask(twist(30));
+    bench.settle(scene);
+    const Eigen::VectorXd last = u();
+    ask({.translate = {-4.5, 0, 0}});  // through the fixed end
+    bench.settle(scene);
+    bench.update_until(scene, [&] { return runner().state() == State::failed; });
+    ASSERT_TRUE(runner().crushed());
+    EXPECT_THAT(runner().failure(), HasSubstr("crushed"));
+    const Eigen::Vector3d place = runner().crushed()->place;
+    EXPECT_GE(place.minCoeff(), -1e-9) << "a place of the body at rest";
+    EXPECT_LE((place - Eigen::Vector3d(4, 1, 1)).maxCoeff(), 1e-9);
+    EXPECT_LT((u() - last).norm(), kConverged * last.norm());
+    bench.update(scene);
+    EXPECT_EQ(runner().state(), State::failed) << "it is not tried again and again";
+    ask(twist(35));
+    bench.settle(scene);
+    EXPECT_FALSE(runner().crushed());
+    expect_converged(truth(scene, bench.choices.of(kNonlinearFem)));
+}
+
+TEST_F(LiveEquilibrium, AStoppedOneIsTriedAgainWhenAskedFor) {
+    bench.settle(scene);
+    ask(twist(60));
+    ASSERT_TRUE(runner().following());
+    bench.simulation.runner(kNonlinearFem).cancel();
+    bench.settle(scene);
+    EXPECT_EQ(runner().state(), State::failed);
+    bench.simulation.retry(kNonlinearFem);
+    bench.settle(scene);
+    expect_converged(truth(scene, bench.choices.of(kNonlinearFem)));
+}
+
+}  // namespace
+}  // namespace elastolab::testing_simulation
