@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "methods/precompute.hpp"
+#include "methods/registry.hpp"
 
 namespace elastolab {
 

@@ -147,6 +147,19 @@ std::uint64_t NonlinearModel::check_memory(std::span<const int>, std::span<const
     return mesh_->linear ? factor_bytes_ / 4 : 0;
 }
 
+const SparseStiffness* NonlinearModel::sparse_stiffness() const {
+    const std::scoped_lock lock(rest_mutex_);
+    if (rest_) return rest_.get();
+    Control control;
+    const FreeTangent all(mesh_->elements, {}, control);
+    ElementWork work = mesh_->elements->make_work();
+    mesh_->elements->stiffness(Eigen::VectorXd::Zero(all.size()), material(), false, work, control);
+    SparseMatrix K = all.make_matrix();
+    all.assemble(work, 0.0, K, control);
+    rest_ = std::make_unique<const SparseStiffness>(K.selfadjointView<Eigen::Lower>());
+    return rest_.get();
+}
+
 std::shared_ptr<const Interior> NonlinearModel::interior(Control&) const {
     return std::make_shared<const NonlinearInterior>(mesh_, material(), found_);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <string>
 
 #include "deform/solid_model.hpp"
@@ -26,6 +27,8 @@ public:
     std::uint64_t constrain_memory(std::span<const int> base, std::span<const int> handles) const override;
     std::uint64_t check_memory(std::span<const int> base, std::span<const int> handles) const override;
     void visit_matrices(const std::function<void(const NamedMatrix&)>&) const override {}
+    /// The tangent at rest.
+    const SparseStiffness* sparse_stiffness() const override;
     std::shared_ptr<const Interior> interior(Control& control) const override;
 
     ElementDegree degree() const { return mesh_->elements->degree(); }
@@ -36,6 +39,8 @@ private:
     double poisson_ratio_;
     std::shared_ptr<const NonlinearMesh> mesh_;
     std::uint64_t factor_bytes_ = 0;  ///< of the free body
+    mutable std::mutex rest_mutex_;
+    mutable std::unique_ptr<const SparseStiffness> rest_;  ///< made when it is asked for
     std::shared_ptr<FoundStates> found_ = std::make_shared<FoundStates>();
 };
 

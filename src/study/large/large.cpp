@@ -5,6 +5,7 @@
 
 #include "base/timer.hpp"
 #include "mesh/primitives.hpp"
+#include "methods/precompute.hpp"
 #include "study/error/organic_body.hpp"
 #include "study/report/report.hpp"
 #include "study/setups.hpp"
