@@ -89,4 +89,16 @@ Cost predict_quadratic_fem(const SurfaceMesh& mesh, const Method&) {
     return predict_sparse(FactorEstimate(mesh, vertices, true), 3.0 * nodes, kNodeWork * (vertices + nodes / 3.0));
 }
 
+Cost predict_nonlinear_fem(const SurfaceMesh& mesh, const Method& method) {
+    constexpr double kIterations = 5.0;  // from rest to a motion of some 60 degrees
+    constexpr double kFactors = 5.0;     // at rest, of the equilibria that are remembered, and the next one
+    const bool quadratic = method.elements == ElementDegree::quadratic;
+    const double vertices = estimated_tet_nodes(mesh);
+    const FactorEstimate factor(mesh, vertices, quadratic);
+    Cost cost = quadratic ? predict_quadratic_fem(mesh, method) : predict_linear_fem(mesh, method);
+    cost.memory_bytes += static_cast<std::uint64_t>(10.5 * (kFactors - 1.0) * factor.entries);
+    cost.seconds += kIterations * (2.4 * factor.flops + 1500.0 * factor.entries) / product_speed();
+    return cost;
+}
+
 }  // namespace elastolab

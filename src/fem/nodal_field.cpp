@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/parallel.hpp"
+#include "elasticity/neo_hookean.hpp"
 #include "elasticity/stress.hpp"
 #include "fem/quadratic/quadratic_mesh.hpp"
 
@@ -89,7 +90,8 @@ private:
 };
 
 /// At every node: 6*n_nodes x m.
-Eigen::MatrixXd recovered_stresses(const TetMesh& tets, double edge, double poisson_ratio, const Eigen::MatrixXd& u) {
+Eigen::MatrixXd recovered_stresses(const TetMesh& tets, double edge, double poisson_ratio, const Eigen::MatrixXd& u,
+                                   bool large) {
     const Material material{1.0, poisson_ratio};
     const PatchFits fits(tets, edge);
     Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(2 * u.rows(), u.cols());
@@ -102,7 +104,7 @@ Eigen::MatrixXd recovered_stresses(const TetMesh& tets, double edge, double pois
             Eigen::Matrix3d changes;
             for (int i = 0; i < 3; ++i)
                 changes.col(i) = u.col(c).segment<3>(3 * corners[i + 1]) - u.col(c).segment<3>(3 * corners[0]);
-            const StressNumbers s = hooke(changes * inverse, material);
+            const StressNumbers s = stress_of(changes * inverse, material, large);
             for (int i = 0; i < 4; ++i) sums.col(c).segment<6>(6 * corners[i]) += weights[i] * s;
         }
     }
@@ -111,7 +113,7 @@ Eigen::MatrixXd recovered_stresses(const TetMesh& tets, double edge, double pois
 
 /// At every node the mean over the ten-node elements around it, by volume: 6*n_nodes x m.
 Eigen::MatrixXd averaged_stresses(const Eigen::Matrix<int, 10, Eigen::Dynamic>& elements, const Positions& x,
-                                  double poisson_ratio, const Eigen::MatrixXd& u) {
+                                  double poisson_ratio, const Eigen::MatrixXd& u, bool large) {
     const Material material{1.0, poisson_ratio};
     Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(2 * u.rows(), u.cols());
     Eigen::VectorXd volumes = Eigen::VectorXd::Zero(x.cols());
@@ -127,7 +129,7 @@ Eigen::MatrixXd averaged_stresses(const Eigen::Matrix<int, 10, Eigen::Dynamic>& 
             for (Eigen::Index c = 0; c < u.cols(); ++c) {
                 Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();
                 for (int i = 0; i < 10; ++i) gradient += u.col(c).segment<3>(3 * element[i]) * of_shapes.row(i);
-                sums.col(c).segment<6>(6 * element[node]) += volume * hooke(gradient, material);
+                sums.col(c).segment<6>(6 * element[node]) += volume * stress_of(gradient, material, large);
             }
         }
     }
@@ -143,7 +145,7 @@ double typical_edge(const TetMesh& tets) {
 }  // namespace
 
 NodalField::NodalField(std::shared_ptr<const TetMesh> tets, ElementDegree degree, double poisson_ratio,
-                       Eigen::MatrixXd displacements)
+                       Eigen::MatrixXd displacements, bool large_deformations)
     : tets_(std::move(tets)),
       elements_(10, 0),
       displacements_(std::move(displacements)),
@@ -152,8 +154,8 @@ NodalField::NodalField(std::shared_ptr<const TetMesh> tets, ElementDegree degree
     assert(displacements_.rows() == 3 * tets_->vertices.cols());
     if (degree == ElementDegree::quadratic) elements_ = rejoined(*tets_);
     stresses_ = degree == ElementDegree::quadratic
-                    ? averaged_stresses(elements_, tets_->vertices, poisson_ratio, displacements_)
-                    : recovered_stresses(*tets_, edge_, poisson_ratio, displacements_);
+                    ? averaged_stresses(elements_, tets_->vertices, poisson_ratio, displacements_, large_deformations)
+                    : recovered_stresses(*tets_, edge_, poisson_ratio, displacements_, large_deformations);
 }
 
 template <class Each>

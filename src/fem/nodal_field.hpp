@@ -19,8 +19,9 @@ class NodalField : public InteriorField {
 public:
     /// tets           their vertices are the nodes; quadratic elements are split in eight (QuadraticMesh::split)
     /// displacements  3*n_nodes x m [L];  poisson_ratio < 1/2
+    /// large_deformations  Cauchy stresses of the neo-Hookean material, not Hooke's
     NodalField(std::shared_ptr<const TetMesh> tets, ElementDegree degree, double poisson_ratio,
-               Eigen::MatrixXd displacements);
+               Eigen::MatrixXd displacements, bool large_deformations = false);
 
     InteriorValues at(const Positions& points, Control& control) const override;
 

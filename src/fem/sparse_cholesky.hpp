@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/control.hpp"
+#include "base/error.hpp"
 #include "fem/sparse_matrix.hpp"
 
 namespace elastolab {
@@ -46,12 +47,18 @@ private:
     std::unique_ptr<const Impl> impl_;
 };
 
+/// A matrix to be factorised is not positive definite.
+class NotPositiveDefiniteError : public SolveError {
+public:
+    using SolveError::SolveError;
+};
+
 /// Cholesky factor of a sparse symmetric positive definite matrix (supernodal; CHOLMOD's analysis and solves).
 /// Immutable; any thread may solve, also at the same time: each call has a workspace of its own.
 class SparseCholesky {
 public:
     /// Factorises A, which has the pattern given to `analysis`; only its lower triangle is read.
-    /// Throws SolveError, naming `name`, when A is not positive definite, not finite, or memory runs out; Cancelled,
+    /// Throws NotPositiveDefiniteError, naming `name`; SolveError when A is not finite or memory runs out; Cancelled,
     /// where a control is given, within a fraction of a second; it is told the progress.
     SparseCholesky(const CholeskyAnalysis& analysis, const SparseMatrix& A, std::string name,
                    Control* control = nullptr);

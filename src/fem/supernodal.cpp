@@ -186,7 +186,8 @@ void Factorisation::factorise_own(int s) {
         const int count = std::min(kPanel, n - begin);
         Block panel = block(s, begin, begin, count);
         if (LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'L', count, panel.data(), n_rows(s)) != 0)
-            throw SolveError(name_ + ": is not positive definite. Check the mesh for degenerate tetrahedra.");
+            throw NotPositiveDefiniteError(name_ +
+                                           ": is not positive definite. Check the mesh for degenerate tetrahedra.");
         const Eigen::Index n_below = panel.rows() - count;
         if (n_below == 0) continue;
         auto below = panel.bottomRows(n_below);

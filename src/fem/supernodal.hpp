@@ -15,7 +15,7 @@ namespace elastolab {
 /// pattern  where entries go; its values are not looked at
 /// A        its lower triangle is read
 /// values   room for all entries of the factor; the result
-/// Throws SolveError, naming `name`, when A is not positive definite; Cancelled within a block product.
+/// Throws NotPositiveDefiniteError, naming `name`, when A is not positive definite; Cancelled within a block product.
 void factorise_supernodes(const SupernodalView& pattern, const SparseMatrix& A, double* values, const std::string& name,
                           Control& control);
 

@@ -1,0 +1,249 @@
+#include "fem/nonlinear/solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "elasticity/neo_hookean.hpp"
+
+namespace elastolab {
+
+namespace {
+
+/// Angle of a step that the tangent predicts well [rad].
+constexpr double kStepAngle = std::numbers::pi / 6.0;
+/// Residual to which equilibria on the way are found.
+constexpr double kPassing = 1e-3;
+constexpr int kMostIterations = 40, kMostPassing = 30, kMostAltogether = 400;
+/// Steps shorter than this part of the way are given up.
+constexpr double kShortestPart = 1.0 / 512.0;
+/// Residual at which a tangent was taken, up to which its columns are those of the solution.
+constexpr double kGoodTangent = 1e-3;
+/// Smallest ratio of volumes that a predicted state may have: those below are far from any equilibrium.
+constexpr double kCrushed = 0.05;
+/// Part of the stiffness that keeps a free body from moving as a whole.
+constexpr double kShift = 1e-8;
+constexpr int kPushes = 3;
+
+double shift_of(const FiniteElements& elements, const Material& material, bool held) {
+    return held ? 0.0 : kShift * material.young_modulus * elements.edge();
+}
+
+}  // namespace
+
+NonlinearSolver::NonlinearSolver(std::shared_ptr<const FiniteElements> elements, const Material& material,
+                                 PrescribedNodes nodes, Control& control)
+    : nodes_(std::move(nodes)),
+      patches_(patches_of_nodes(elements->elements(), elements->n_nodes(), nodes_.nodes, nodes_.n_base)),
+      rest_positions_(elements->positions()(Eigen::all, nodes_.nodes)),
+      newton_(std::make_shared<const FreeTangent>(elements, nodes_.nodes, control), material,
+              shift_of(*elements, material, nodes_.held)) {
+    held_ = nodes_.held;
+}
+
+std::shared_ptr<const WarpedStart> NonlinearSolver::rest(ElementWork& work, Control& control) const {
+    const std::scoped_lock lock(rest_mutex_);
+    if (!rest_) rest_ = std::make_shared<const WarpedStart>(newton_, work, control);
+    return rest_;
+}
+
+Eigen::VectorXd NonlinearSolver::of_all_nodes(const Eigen::VectorXd& prescribed) const {
+    Eigen::VectorXd all = Eigen::VectorXd::Zero(3 * elements().n_nodes());
+    for (std::size_t i = 0; i < nodes_.nodes.size(); ++i)
+        all.segment<3>(3 * nodes_.nodes[i]) = prescribed.segment<3>(3 * static_cast<Eigen::Index>(i));
+    return all;
+}
+
+Eigen::VectorXd NonlinearSolver::of_prescribed(const Eigen::VectorXd& all) const {
+    Eigen::VectorXd prescribed(3 * std::ssize(nodes_.nodes));
+    for (std::size_t i = 0; i < nodes_.nodes.size(); ++i)
+        prescribed.segment<3>(3 * static_cast<Eigen::Index>(i)) = all.segment<3>(3 * nodes_.nodes[i]);
+    return prescribed;
+}
+
+NonlinearSolver::StatePtr NonlinearSolver::at_rest(ElementWork& work, Control& control) const {
+    NewtonState state;
+    state.u = Eigen::VectorXd::Zero(3 * elements().n_nodes());
+    state.converged = true;
+    state.factor = rest(work, control)->rest();
+    return std::make_shared<const NonlinearState>(std::move(state), EquilibriumFacts{});
+}
+
+NodeSolution NonlinearSolver::solve(const Eigen::MatrixXd& prescribed, bool want_loads) const {
+    Control control;
+    return solve_watched(prescribed, want_loads, kSolveTolerance, control);
+}
+
+NodeSolution NonlinearSolver::solve_watched(const Eigen::MatrixXd& prescribed, bool want_loads, double tolerance,
+                                            Control& control) const {
+    return solve_task({.prescribed = prescribed, .want_loads = want_loads}, tolerance, control);
+}
+
+NodeSolution NonlinearSolver::solve_task(const NodeTask& task, double tolerance, Control& control) const {
+    ElementWork work = elements().make_work();
+    const Eigen::Index m = task.prescribed.cols(), k = task.changes.cols();
+    NodeSolution solution;
+    solution.displacements.resize(3 * elements().n_nodes(), m + k);
+    if (task.want_loads) solution.loads.setZero(task.prescribed.rows(), m + k);
+    StatePtr first;
+    for (Eigen::Index c = 0; c < m; ++c) {
+        StatePtr state;
+        if (const auto* start = dynamic_cast<const NonlinearState*>(task.start))
+            state = std::make_shared<const NonlinearState>(*start);
+        else
+            state = at_rest(work, control);
+        int iterations = 0;
+        for (Eigen::Index p = 0; p < task.path.cols(); ++p) {
+            state = advance(*state, task.path.col(p), false, kPassing, work, control);
+            iterations += state->facts().iterations;
+        }
+        const bool far = task.start == nullptr && task.path.cols() == 0;
+        state = advance(*state, task.prescribed.col(c), far, tolerance, work, control);
+        EquilibriumFacts facts = state->facts();
+        facts.iterations += iterations;
+        state = std::make_shared<const NonlinearState>(state->newton(), facts);
+        solution.displacements.col(c) = state->newton().u;
+        if (task.want_loads)
+            solution.loads.col(c) =
+                of_prescribed(elements().forces(state->newton().u, newton_.material(), work, control));
+        if (c == 0) first = state;
+        solution.state = state;
+    }
+    if (k > 0) solution.displacements.rightCols(k) = derivatives(*first, task.changes, work, control);
+    return solution;
+}
+
+Eigen::MatrixXd NonlinearSolver::derivatives(const NonlinearState& state, const Eigen::MatrixXd& changes,
+                                             ElementWork& work, Control& control) const {
+    const NewtonState& at = state.newton();
+    std::shared_ptr<const SparseCholesky> factor = at.factor;
+    if (!factor || at.factor_residual > kGoodTangent) {
+        SparseMatrix K = newton_.tangent().make_matrix();
+        bool stable = true;
+        factor = newton_.factor_at(at.u, work, K, stable, control);
+    }
+    Eigen::MatrixXd all(at.u.size(), changes.cols()), loads = all;
+    for (Eigen::Index c = 0; c < changes.cols(); ++c) {
+        all.col(c) = of_all_nodes(changes.col(c));
+        loads.col(c) = elements().force_change(at.u, all.col(c), newton_.material(), work, control);
+    }
+    const FreeTangent& tangent = newton_.tangent();
+    return all - tangent.all_rows(factor->solve(tangent.free_rows(loads)));
+}
+
+/// The best that warping leads to; not converged where it does not.
+NewtonState NonlinearSolver::warped(const MotionPath& path, double tolerance, ElementWork& work,
+                                    Control& control) const {
+    const Eigen::VectorXd u =
+        rest(work, control)->displace(of_all_nodes(path.logarithm()), of_all_nodes(path.at(1.0)), work, control);
+    if (!(newton_.energy(u, work, control).least_J > kCrushed)) return {};
+    return newton_.run(u, tolerance, kMostIterations, work, control);
+}
+
+/// From one equilibrium to the next by predicted steps, which are halved where they fail.
+NewtonState NonlinearSolver::followed(const NonlinearState& from, const MotionPath& path, double tolerance,
+                                      ElementWork& work, Control& control) const {
+    NewtonState at = from.newton();
+    at.iterations = 0;
+    double part = 0.0, length = 1.0 / std::max(1.0, std::ceil(path.largest_angle() / kStepAngle - 1e-6));
+    NewtonState failed;
+    int iterations = 0;
+    while (part < 1.0 && length >= kShortestPart && iterations < kMostAltogether) {
+        control.checkpoint();
+        const double next = part + length > 1.0 - 1e-9 ? 1.0 : part + length;
+        const Eigen::VectorXd change = of_all_nodes(path.at(next)) - of_all_nodes(of_prescribed(at.u));
+        if (!at.factor) {
+            SparseMatrix K = newton_.tangent().make_matrix();
+            at.factor = newton_.factor_at(at.u, work, K, at.stable, control);
+            ++iterations;
+        }
+        const FreeTangent& tangent = newton_.tangent();
+        const Eigen::VectorXd load = elements().force_change(at.u, change, newton_.material(), work, control);
+        const Eigen::VectorXd u = at.u + change - tangent.all_rows(at.factor->solve(tangent.free_rows(load)));
+        const BodyEnergy energy = newton_.energy(u, work, control);
+        if (!(energy.least_J > kCrushed * std::min(1.0, at.least_J))) {
+            failed.crushed = energy.element;
+            length *= 0.5;
+            continue;
+        }
+        NewtonState reached = newton_.run(u, next < 1.0 ? std::max(kPassing, tolerance) : tolerance,
+                                          next < 1.0 ? kMostPassing : kMostIterations, work, control);
+        iterations += reached.iterations;
+        if (!reached.converged) {
+            failed.crushed = reached.crushed;
+            length *= 0.5;
+            continue;
+        }
+        if (!reached.factor) {  // the prediction was right
+            reached.factor = at.factor;
+            reached.factor_residual = 1.0;
+            reached.stable = at.stable;
+        }
+        at = std::move(reached);
+        part = next;
+        length = std::min(2.0 * length, 1.0);
+        if (part < 1.0 && path.largest_angle() > 0.0) length = std::min(length, kStepAngle / path.largest_angle());
+    }
+    at.iterations = iterations;
+    if (part < 1.0) {
+        failed.iterations = iterations;
+        failed.u = at.u;
+        return failed;
+    }
+    return at;
+}
+
+NonlinearSolver::StatePtr NonlinearSolver::advance(const NonlinearState& from, const Eigen::VectorXd& prescribed,
+                                                   bool far, double tolerance, ElementWork& work,
+                                                   Control& control) const {
+    const Eigen::VectorXd present = of_prescribed(from.newton().u);
+    if (present == prescribed && from.newton().residual <= tolerance)
+        return std::make_shared<const NonlinearState>(from.newton(), [&] {
+            EquilibriumFacts facts = from.facts();
+            facts.iterations = 0;
+            return facts;
+        }());
+    const MotionPath path(rest_positions_, patches_, present, prescribed);
+    NewtonState state;
+    int iterations = 0;
+    if (far && path.largest_angle() > 0.5 * kStepAngle) {
+        state = warped(path, tolerance, work, control);
+        iterations = state.iterations;
+    }
+    if (!state.converged) {
+        state = followed(from, path, tolerance, work, control);
+        state.iterations += iterations;
+    }
+    if (!state.converged) {
+        const int element = std::max(state.crushed, 0);
+        const Eigen::VectorXd& u = state.u;
+        Eigen::Vector3d place = Eigen::Vector3d::Zero();
+        for (int c = 0; c < 4; ++c) {
+            const int node = elements().elements()(c, element);
+            place += 0.25 * (elements().positions().col(node) + u.segment<3>(3 * node));
+        }
+        throw NoEquilibriumError("no equilibrium was found for these motions.", place);
+    }
+    return settled(std::move(state), tolerance, work, control);
+}
+
+/// What is known of a state; one that is not stable is left for a stable one, where there is one.
+NonlinearSolver::StatePtr NonlinearSolver::settled(NewtonState state, double tolerance, ElementWork& work,
+                                                   Control& control) const {
+    for (int push = 0; push < kPushes && !state.stable && state.factor; ++push) {
+        const Eigen::VectorXd u = newton_.pushed(state, work, control);
+        if (u == state.u) break;
+        NewtonState left = newton_.run(u, tolerance, 2 * kMostIterations, work, control);
+        if (!left.converged || !(left.energy < state.energy)) break;
+        left.iterations += state.iterations;
+        state = std::move(left);
+    }
+    EquilibriumFacts facts{.iterations = state.iterations, .energy = state.energy, .stable = state.stable};
+    for (int e = 0; e < elements().n_elements(); ++e)
+        for (int point = 0; point < elements().n_points(); ++point)
+            facts.largest_stretch =
+                std::max(facts.largest_stretch, largest_stretch(elements().gradient(state.u, e, point)));
+    return std::make_shared<const NonlinearState>(std::move(state), facts);
+}
+
+}  // namespace elastolab

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "base/control.hpp"
+#include "deform/equilibrium.hpp"
+#include "deform/node_solver.hpp"
+#include "elasticity/material.hpp"
+#include "fem/nonlinear/elements.hpp"
+#include "fem/nonlinear/newton.hpp"
+#include "fem/nonlinear/patch_motion.hpp"
+#include "fem/nonlinear/warp.hpp"
+
+namespace elastolab {
+
+/// Nodes that are prescribed, for a NonlinearSolver.
+struct PrescribedNodes {
+    std::vector<int> nodes;
+    int n_base = 0;    ///< the first ones do not move
+    bool held = true;  ///< false: the body can move as a whole, and of all motions the smallest is taken
+};
+
+/// An equilibrium of one solid.
+class NonlinearState : public NodeState {
+public:
+    NonlinearState(NewtonState newton, EquilibriumFacts facts) : newton_(std::move(newton)), facts_(facts) {}
+    EquilibriumFacts facts() const override { return facts_; }
+    const NewtonState& newton() const { return newton_; }
+
+private:
+    NewtonState newton_;
+    EquilibriumFacts facts_;
+};
+
+/// Equilibria of a neo-Hookean body for one constrained set. Its loads are the forces at the constrained nodes.
+class NonlinearSolver : public NodeSolver {
+public:
+    NonlinearSolver(std::shared_ptr<const FiniteElements> elements, const Material& material, PrescribedNodes nodes,
+                    Control& control);
+
+    NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const override;
+    NodeSolution solve_watched(const Eigen::MatrixXd& prescribed, bool want_loads, double tolerance,
+                               Control& control) const override;
+    NodeSolution solve_task(const NodeTask& task, double tolerance, Control& control) const override;
+    bool linear() const override { return false; }
+
+    const FiniteElements& elements() const { return newton_.tangent().elements(); }
+    const Newton& newton() const { return newton_; }
+    const std::vector<int>& nodes() const { return nodes_.nodes; }
+
+private:
+    using StatePtr = std::shared_ptr<const NonlinearState>;
+    /// The equilibrium at `prescribed`, from one before it. far: rotation-strain warping may begin.
+    StatePtr advance(const NonlinearState& from, const Eigen::VectorXd& prescribed, bool far, double tolerance,
+                     ElementWork& work, Control& control) const;
+    NewtonState warped(const MotionPath& path, double tolerance, ElementWork& work, Control& control) const;
+    NewtonState followed(const NonlinearState& from, const MotionPath& path, double tolerance, ElementWork& work,
+                         Control& control) const;
+    StatePtr settled(NewtonState state, double tolerance, ElementWork& work, Control& control) const;
+    StatePtr at_rest(ElementWork& work, Control& control) const;
+    Eigen::MatrixXd derivatives(const NonlinearState& state, const Eigen::MatrixXd& changes, ElementWork& work,
+                                Control& control) const;
+    Eigen::VectorXd of_all_nodes(const Eigen::VectorXd& prescribed) const;
+    Eigen::VectorXd of_prescribed(const Eigen::VectorXd& all) const;
+    std::shared_ptr<const WarpedStart> rest(ElementWork& work, Control& control) const;
+
+    PrescribedNodes nodes_;
+    std::vector<int> patches_;
+    Positions rest_positions_;
+    Newton newton_;
+    mutable std::mutex rest_mutex_;
+    mutable std::shared_ptr<const WarpedStart> rest_;
+};
+
+}  // namespace elastolab
