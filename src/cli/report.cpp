@@ -61,6 +61,7 @@ Json tractions(const Method& method) {
 void print_heading(std::ostream& out, const SolveRequest& request, const Method& method) {
     out << request.scene_file.string() << ": " << name(method.kind) << ", " << name(method.mode) << ", ";
     if (method.kind->chooses_tractions) out << name(method.tractions) << " tractions, ";
+    if (method.kind->chooses_elements) out << name(method.elements) << " elements, ";
     out << name(method.update) << " update\n";
 }
 
@@ -94,6 +95,11 @@ void print_accuracy(std::ostream& out, const Solution& solution) {
     out << "  accuracy      ";
     if (solution.residual) out << "relative residual " << readable_number(*solution.residual, 4) << ", ";
     out << "condition about " << readable_number(solution.condition_estimate, 4) << "\n";
+}
+
+void print_equilibrium(std::ostream& out, const EquilibriumFacts& facts) {
+    out << "  equilibrium   " << facts.iterations << " iterations, energy " << readable_number(facts.energy, 4)
+        << ", largest stretch " << readable_number(facts.largest_stretch, 4) << "\n";
 }
 
 void print_displacement(std::ostream& out, const Eigen::Matrix3Xd& displacement) {
@@ -134,6 +140,7 @@ void write_report(std::ostream& out, const Solution& solution) {
         {"method", std::string(name(method.kind))},
         {"mode", std::string(name(method.mode))},
         {"tractions", tractions(method)},
+        {"elements", method.kind->chooses_elements ? Json(std::string(name(method.elements))) : Json(nullptr)},
         {"update", std::string(name(method.update))},
         {"vertices", solution.surface->n_vertices()},
         {"faces", solution.surface->n_triangles()},
@@ -152,6 +159,11 @@ void write_report(std::ostream& out, const Solution& solution) {
         {"error_estimate",
          {{"displacement", solution.error_estimate ? finite_or_null(*solution.error_estimate) : Json(nullptr)},
           {"force", solution.force_error_estimate ? finite_or_null(*solution.force_error_estimate) : Json(nullptr)}}},
+        {"iterations", solution.facts ? Json(solution.facts->iterations) : Json(nullptr)},
+        {"energy", solution.facts ? finite_or_null(solution.facts->energy) : Json(nullptr)},
+        {"largest_stretch", solution.facts ? finite_or_null(solution.facts->largest_stretch) : Json(nullptr)},
+        {"linear_theory_error",
+         solution.linear_theory_error ? finite_or_null(*solution.linear_theory_error) : Json(nullptr)},
         {"warnings", solution.warnings()},
     };
     out << json.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";
@@ -163,6 +175,7 @@ void print_summary(std::ostream& out, const SolveRequest& request, const Solutio
     print_seconds(out, solution.stages);
     print_memory(out, solution);
     print_accuracy(out, solution);
+    if (solution.facts) print_equilibrium(out, *solution.facts);
     print_displacement(out, solution.displacement);
     print_reactions(out, solution);
     for (const std::string& warning : solution.warnings()) out << "  warning       " << warning << "\n";

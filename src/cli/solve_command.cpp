@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 /// What the command line says, word for word.
 struct SolveOptions {
-    std::string scene, method, mode, tractions, update;
+    std::string scene, method, mode, tractions, elements, update;
     std::string displacements, fields, mesh_out, forces, report, matrices;
     ProxyOptions proxy;
     int threads = 0;
@@ -45,6 +45,8 @@ void add_options(CLI::App& parser, SolveOptions& options) {
         ->check(modes);
     parser.add_option("--tractions", options.tractions, "traction space of linear BEM (default discontinuous)")
         ->check(tractions);
+    parser.add_option("--elements", options.elements, "of nonlinear FEM: ten nodes or four (default quadratic)")
+        ->check(CLI::IsMember({"quadratic", "linear"}));
     parser
         .add_option("--update", options.update,
                     "direct: Eqn. 7; eqn9: Eqn. 9; reduced: its collapsed form (default: reduced; on-demand: direct)")
@@ -89,6 +91,7 @@ Method choose_method(const SolveOptions& options, const Document& document) {
     choose(method.mode, options.mode, parse_mode);
     choose(method.tractions, options.tractions, parse_tractions);
     choose(method.update, options.update, parse_update);
+    if (method.kind->chooses_elements) choose(method.elements, options.elements, parse_elements);
     require_sensible(method, !options.matrices.empty());
     return method;
 }
@@ -127,6 +130,8 @@ void run_solve(const SolveOptions& options) {
     Solution solution = solve_with_progress(request, control, !options.quiet);
     if (!options.tractions.empty() && !request.method.kind->chooses_tractions)
         solution.findings.push_back({.kind = FindingKind::choice_left_aside, .object = "--tractions"});
+    if (!options.elements.empty() && !request.method.kind->chooses_elements)
+        solution.findings.push_back({.kind = FindingKind::choice_left_aside, .first = 1, .object = "--elements"});
     write_outputs(options.outputs(), solution);
     if (options.quiet) return;
     lseek(STDOUT_FILENO, 0, SEEK_END);  // after an output that went to /dev/stdout, if that is a file

@@ -27,13 +27,15 @@ enum class FindingKind {
     force_imbalance,       ///< resultant of all reaction forces, over the largest
     moment_imbalance,      ///< resultant of all reaction moments, over the largest
     nothing_constrained,   ///< no vertex of the scene `object` is fixed or moved
-    choice_left_aside,     ///< the option `object` means nothing to the method
+    choice_left_aside,     ///< the option `object` means nothing to the method; `first` 1: it is of nonlinear FEM
     impossible_volume,     ///< change of volume over volume, of an incompressible solid that is held all over
     large_residual,        ///< relative residual of the solution
     proxy,                 ///< a closed surface of `first` vertices stands for the mesh `object`; its largest distance
     chosen_proxy,          ///< the same of a mesh that could be simulated itself
     capped_holes,          ///< how many holes of the mesh `object` a proxy closes
     filled_holes,          ///< how many holes of the mesh `object` are filled, by `first` triangles
+    linear_theory,         ///< how far linear theory is off, over the largest displacement
+    unstable_equilibrium,  ///< an equilibrium that the least push makes the body leave
     thin_sheets,           ///< open sheets of the mesh `object` became walls; their thickness
 };
 

@@ -1,8 +1,12 @@
 #include "deform/surface_stress.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <limits>
 #include <vector>
+
+#include "elasticity/neo_hookean.hpp"
 
 namespace elastolab {
 
@@ -48,27 +52,71 @@ Eigen::Matrix3d stress(const Material& material, const Eigen::Matrix2d& strain, 
     return sigma;
 }
 
-/// each(corners, area, axes, stress in these axes) for every triangle.
+/// What a triangle and the displacements of its corners tell.
+struct TriangleState {
+    Eigen::Matrix3d axes;                  ///< of the rest triangle
+    Eigen::Matrix<double, 3, 2> gradient;  ///< of the displacement, along its two axes in its plane
+    Eigen::Vector3d traction;              ///< per rest area
+};
+
+Eigen::Matrix3d small_stress(const Material& material, const TriangleState& at) {
+    const Eigen::Matrix2d gradient = at.axes.leftCols<2>().transpose() * at.gradient;
+    const Eigen::Matrix2d strain = 0.5 * (gradient + gradient.transpose());
+    return at.axes * stress(material, strain, at.axes.transpose() * at.traction) * at.axes.transpose();
+}
+
+/// The displacement's derivative d along the normal N makes P N the traction: Newton's method on the energy, which is
+/// convex in d as long as J < exp(1 + mu / lambda); steps are halved where they would turn the material inside out.
+Eigen::Matrix3d large_stress(const Material& material, const TriangleState& at) {
+    constexpr int kIterations = 30, kHalvings = 40;
+    constexpr double kTolerance = 1e-12;
+    const NeoHookean law(material);
+    const Eigen::Vector3d N = at.axes.col(2);
+    const Eigen::Matrix3d in_plane = at.gradient * at.axes.leftCols<2>().transpose();
+    const auto gradient = [&](const Eigen::Vector3d& d) -> Eigen::Matrix3d { return in_plane + d * N.transpose(); };
+    const auto potential = [&](const Eigen::Vector3d& d) {
+        return volume_change(gradient(d)) > -1.0 ? law.energy(gradient(d)) - at.traction.dot(d)
+                                                 : std::numeric_limits<double>::infinity();
+    };
+    // The present normal, as long as the area's change lets the volume stay.
+    const Eigen::Matrix<double, 3, 2> edges = at.axes.leftCols<2>() + at.gradient;
+    const Eigen::Vector3d cross = edges.col(0).cross(edges.col(1));
+    if (!(cross.norm() > 0.0)) return Eigen::Matrix3d::Zero();
+    Eigen::Vector3d d = cross / cross.squaredNorm() - N;
+    for (int i = 0; i < kIterations; ++i) {
+        const Eigen::Vector3d force = law.first_piola(gradient(d)) * N - at.traction;
+        if (force.norm() <= kTolerance * law.mu) break;
+        const ElasticTensor A = law.tangent(gradient(d));
+        Eigen::Matrix3d K = Eigen::Matrix3d::Zero();
+        for (int j = 0; j < 3; ++j)
+            for (int l = 0; l < 3; ++l) K += N[j] * N[l] * A.block<3, 3>(3 * j, 3 * l);
+        Eigen::Vector3d step = -K.ldlt().solve(force);
+        if (!(step.dot(force) < 0.0)) step = -force / law.mu;
+        const double before = potential(d);
+        for (int h = 0; h < kHalvings && !(potential(d + step) <= before); ++h) step *= 0.5;
+        d += step;
+    }
+    return stress_tensor(cauchy_stress(gradient(d), material));
+}
+
+/// each(corners, weight, stress in world axes) for every triangle; weight: its rest area.
 template <class Each>
 void for_triangle_stresses(const SurfaceMesh& surface, const Material& material, const Eigen::VectorXd& u,
-                           const Eigen::Matrix3Xd& tractions, const Each& each) {
+                           const Eigen::Matrix3Xd& tractions, bool large, const Each& each) {
     const Eigen::Map<const Eigen::Matrix3Xd> moved(u.data(), 3, u.size() / 3);
     for (Eigen::Index k = 0; k < surface.triangles.cols(); ++k) {
         const Eigen::Vector3i t = surface.triangles.col(k);
         const Eigen::Vector3d a = surface.vertices.col(t[1]) - surface.vertices.col(t[0]);
         const Eigen::Vector3d b = surface.vertices.col(t[2]) - surface.vertices.col(t[0]);
-        const Eigen::Matrix3d axes = triangle_axes(a, b);
+        TriangleState at{triangle_axes(a, b), {}, Eigen::Vector3d::Zero()};
         Eigen::Matrix<double, 3, 2> edges, changes;
         edges << a, b;
         changes << moved.col(t[1]) - moved.col(t[0]), moved.col(t[2]) - moved.col(t[0]);
-        const Eigen::Matrix<double, 3, 2> plane = axes.leftCols<2>();
-        const Eigen::Matrix2d gradient = (plane.transpose() * changes) * (plane.transpose() * edges).inverse();
+        at.gradient = changes * (at.axes.leftCols<2>().transpose() * edges).inverse();
         const Eigen::Matrix3d at_corners = tractions(Eigen::all, t);
         const bool loaded = (at_corners.colwise().squaredNorm().array() > 0.0).all();
-        const Eigen::Vector3d traction =
-            loaded ? Eigen::Vector3d(axes.transpose() * at_corners.rowwise().mean()) : Eigen::Vector3d(0, 0, 0);
-        const Eigen::Matrix2d strain = 0.5 * (gradient + gradient.transpose());
-        each(t, 0.5 * a.cross(b).norm(), axes, stress(material, strain, traction));
+        if (loaded) at.traction = at_corners.rowwise().mean();
+        each(t, 0.5 * a.cross(b).norm(), large ? large_stress(material, at) : small_stress(material, at));
     }
 }
 
@@ -93,30 +141,28 @@ Eigen::Matrix3Xd vertex_tractions(const SurfaceMesh& surface, std::span<const in
 }
 
 Eigen::VectorXd surface_stress_measure(StressMeasure which, const SurfaceMesh& surface, const Material& material,
-                                       const Eigen::VectorXd& u, const Eigen::Matrix3Xd& tractions) {
+                                       const Eigen::VectorXd& u, const Eigen::Matrix3Xd& tractions,
+                                       bool large_deformations) {
     Eigen::VectorXd sums = Eigen::VectorXd::Zero(surface.n_vertices()), areas = sums;
-    for_triangle_stresses(
-        surface, material, u, tractions,
-        [&](const Eigen::Vector3i& t, double weight, const Eigen::Matrix3d& axes, const Eigen::Matrix3d& local) {
-            sums(t).array() += weight * measure(which, axes * local * axes.transpose());
-            areas(t).array() += weight;
-        });
+    for_triangle_stresses(surface, material, u, tractions, large_deformations,
+                          [&](const Eigen::Vector3i& t, double weight, const Eigen::Matrix3d& sigma) {
+                              sums(t).array() += weight * measure(which, sigma);
+                              areas(t).array() += weight;
+                          });
     return sums.cwiseQuotient(areas);
 }
 
 Eigen::MatrixXd surface_stress(const SurfaceMesh& surface, const Material& material, const Eigen::VectorXd& u,
-                               const Eigen::Matrix3Xd& tractions) {
+                               const Eigen::Matrix3Xd& tractions, bool large_deformations) {
     Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(6, surface.n_vertices());
     Eigen::RowVectorXd areas = Eigen::RowVectorXd::Zero(surface.n_vertices());
-    for_triangle_stresses(
-        surface, material, u, tractions,
-        [&](const Eigen::Vector3i& t, double weight, const Eigen::Matrix3d& axes, const Eigen::Matrix3d& local) {
-            const Eigen::Matrix3d sigma = axes * local * axes.transpose();
-            for (const int v : t) {
-                sums.col(v) += weight * stress_numbers(sigma);
-                areas[v] += weight;
-            }
-        });
+    for_triangle_stresses(surface, material, u, tractions, large_deformations,
+                          [&](const Eigen::Vector3i& t, double weight, const Eigen::Matrix3d& sigma) {
+                              for (const int v : t) {
+                                  sums.col(v) += weight * stress_numbers(sigma);
+                                  areas[v] += weight;
+                              }
+                          });
     return sums.array().rowwise() / areas.array();
 }
 

@@ -18,12 +18,14 @@ Eigen::Matrix3Xd vertex_tractions(const SurfaceMesh& surface, std::span<const in
 /// A measure of the stress on the surface, at every vertex the mean over its triangles by area [force / L^2]. In a
 /// triangle the strain within its plane comes from the displacements u (3*n_vertices [L]) of its corners, the stress on
 /// its plane from the mean traction where all corners have one (it is zero on the free surface), and Hooke's law gives
-/// the rest; so it means the same for all methods. First order in the mesh size.
+/// the rest; so it means the same for all methods. First order in the mesh size. With large deformations it is the
+/// Cauchy stress of the neo-Hookean material on the present triangle; tractions are still per rest area.
 Eigen::VectorXd surface_stress_measure(StressMeasure which, const SurfaceMesh& surface, const Material& material,
-                                       const Eigen::VectorXd& u, const Eigen::Matrix3Xd& tractions);
+                                       const Eigen::VectorXd& u, const Eigen::Matrix3Xd& tractions,
+                                       bool large_deformations = false);
 
 /// The same stress itself, in world axes: 6 x n_vertices [force / L^2], a column of StressNumbers for each vertex.
 Eigen::MatrixXd surface_stress(const SurfaceMesh& surface, const Material& material, const Eigen::VectorXd& u,
-                               const Eigen::Matrix3Xd& tractions);
+                               const Eigen::Matrix3Xd& tractions, bool large_deformations = false);
 
 }  // namespace elastolab

@@ -24,7 +24,8 @@ std::shared_ptr<const Volume> Volume::of(const std::shared_ptr<const Model>& mod
         for (Eigen::Index t = 0; t < tets->tetrahedra.cols(); ++t)
             for (int corner = 0; corner < 4; ++corner)
                 all.tetrahedra(corner, before + t) = vertices[static_cast<std::size_t>(tets->tetrahedra(corner, t))];
-        volume->parts_.push_back({std::move(vertices), tets->n_surface_vertices, std::move(interior)});
+        volume->parts_.push_back({std::move(vertices), tets->n_surface_vertices,
+                                  model->method().kind->linear ? 1.0 : part.scale, std::move(interior)});
     }
     return volume;
 }
@@ -35,7 +36,7 @@ Eigen::VectorXd Volume::displace(const Eigen::VectorXd& surface) const {
         Eigen::VectorXd own(3 * part.n_surface);
         for (int i = 0; i < part.n_surface; ++i)
             own.segment<3>(3 * i) = surface.segment<3>(3 * part.vertices[static_cast<std::size_t>(i)]);
-        const Eigen::VectorXd extended = part.interior->extend(own);
+        const Eigen::VectorXd extended = part.interior->extend(part.unit * own) / part.unit;
         for (std::size_t i = 0; i < part.vertices.size(); ++i)
             all.segment<3>(3 * part.vertices[i]) = extended.segment<3>(3 * static_cast<Eigen::Index>(i));
     }

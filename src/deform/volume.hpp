@@ -26,6 +26,7 @@ private:
     struct Part {
         std::vector<int> vertices;  ///< in mesh(), for each node of the solid
         int n_surface = 0;
+        double unit = 1.0;  ///< displacements in the solid over those in the body
         std::shared_ptr<const Interior> interior;
     };
     Volume() = default;

@@ -97,6 +97,13 @@ std::string proxy(const Finding& finding) {
                 : "The surface is sound: turn the proxy off to simulate the surface itself.");
 }
 
+/// For a student who has heard of Hooke's law.
+std::string linear_theory(const Finding& finding) {
+    return std::string(finding.method->name) + ": linear theory is off by about " + percent(finding.value) +
+           " of the largest displacement for this motion. It takes turns and stretches to be small, so that the body "
+           "swells as it turns. Choose nonlinear-fem, which follows them.";
+}
+
 std::string coarse_forces(const Finding& finding) {
     return std::string(finding.method->name) + ": the mesh is too coarse for forces: those of fixed sets and " +
            "handles are off by about " + percent(finding.value) + " of the largest. " +
@@ -148,7 +155,8 @@ std::string words(const Finding& finding) {
         case FindingKind::nothing_constrained:
             return finding.object + ": no vertex is fixed or moved, so the body rests. Add a handle.";
         case FindingKind::choice_left_aside:
-            return finding.object + ": applies to linear-bem only, and was ignored.";
+            return finding.object + ": applies to " + (finding.first == 1 ? "nonlinear-fem" : "linear-bem") +
+                   " only, and was ignored.";
         case FindingKind::impossible_volume:
             return "constraints: prescribe the whole surface of an incompressible body and change its volume by " +
                    percent(finding.value) +
@@ -167,6 +175,12 @@ std::string words(const Finding& finding) {
             return finding.object + ": simulated with its " + readable_number(finding.value) +
                    (finding.value == 1.0 ? " hole" : " holes") + " filled by " + std::to_string(finding.first) +
                    " triangles, which no output contains. Close them in the file where another shape is meant.";
+        case FindingKind::linear_theory:
+            return linear_theory(finding);
+        case FindingKind::unstable_equilibrium:
+            return std::string(finding.method->name) +
+                   ": the equilibrium is not stable: a real body would buckle away from it at the least push, and no "
+                   "stable one was found nearby. Pull a little to one side, or in smaller steps.";
         case FindingKind::thin_sheets:
             return finding.object + ": is an open sheet in places, which is simulated as a wall " +
                    readable_number(finding.value) + " mesh units thick. Give it its thickness in the file.";

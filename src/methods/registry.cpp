@@ -7,7 +7,7 @@ namespace elastolab {
 namespace {
 
 constexpr std::array kMethods = {
-    kFem, kConstantBem, kLinearBem, kGalerkinBem, kQuadraticFem,
+    kFem, kConstantBem, kLinearBem, kGalerkinBem, kQuadraticFem, kNonlinearFem,
 };
 
 }  // namespace

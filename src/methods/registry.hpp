@@ -10,6 +10,7 @@
 #include "bem/method.hpp"
 #include "deform/method.hpp"
 #include "fem/method.hpp"
+#include "fem/nonlinear/method.hpp"
 #include "fem/quadratic/method.hpp"
 
 namespace elastolab {

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "deform/element_degree.hpp"
 #include "deform/method.hpp"
 #include "elasticity/material.hpp"
 #include "methods/registry.hpp"
@@ -125,6 +126,7 @@ struct MethodSettings {
     Mode mode = Mode::on_demand;
     Tractions tractions = Tractions::discontinuous;
     Update update = Update::reduced;
+    ElementDegree elements = ElementDegree::quadratic;
     bool operator==(const MethodSettings&) const = default;
 };
 

@@ -9,6 +9,7 @@
 #include "base/text.hpp"
 #include "deform/surface_stress.hpp"
 #include "deform/volume.hpp"
+#include "elasticity/neo_hookean.hpp"
 #include "elasticity/stress.hpp"
 #include "mesh/output/field_files.hpp"
 #include "scene/proxy/carried_constraints.hpp"
@@ -45,13 +46,13 @@ Eigen::Matrix3d corner_differences(const Eigen::Ref<const Eigen::Matrix3Xd>& at,
 }
 
 std::vector<MeshField> cell_stresses(const TetMesh& rest, const Eigen::Ref<const Eigen::Matrix3Xd>& u,
-                                     const Material& material) {
+                                     const Material& material, bool large) {
     Eigen::MatrixXd stress(6, rest.n_tetrahedra()), size(1, rest.n_tetrahedra());
     for (Eigen::Index t = 0; t < rest.tetrahedra.cols(); ++t) {
         const Eigen::Vector4i corners = rest.tetrahedra.col(t);
         const Eigen::Matrix3d gradient =
             corner_differences(u, corners) * corner_differences(rest.vertices, corners).inverse();
-        stress.col(t) = hooke(gradient, material);
+        stress.col(t) = stress_of(gradient, material, large);
         size(0, t) = measure(StressMeasure::von_mises, stress_tensor(stress.col(t)));
     }
     return {{"stress", std::move(stress)}, {"von_mises", std::move(size)}};
@@ -63,7 +64,8 @@ void write_inside(std::ostream& out, const fs::path& name, const SolvedBody& sol
         throw Error(one_line(name.string()) + ": " + std::string(elastolab::name(solved.model->method().kind)) +
                     " has no tetrahedra inside. Choose .vtp, or a finite-element method.");
     const Eigen::VectorXd u = volume->displace(solved.simulated_displacement);
-    const std::vector<MeshField> cells = cell_stresses(volume->mesh(), as_columns(u), solved.model->body().material);
+    const std::vector<MeshField> cells = cell_stresses(volume->mesh(), as_columns(u), solved.model->body().material,
+                                                       !solved.model->method().kind->linear);
     TetMesh moved = volume->mesh();
     moved.vertices += as_columns(u);
     const std::vector<MeshField> points = {{"displacement", as_columns(u)}};
@@ -86,12 +88,13 @@ std::vector<MeshField> surface_fields(const SolvedBody& solved) {
     const Body& body = solved.model->body();
     const Eigen::Matrix3Xd tractions = vertex_tractions(*body.surface, solved.constrained, solved.forces);
     const Eigen::VectorXd& u = solved.simulated_displacement;
+    const bool large = !solved.model->method().kind->linear;
     const Eigen::VectorXd size =
-        surface_stress_measure(StressMeasure::von_mises, *body.surface, body.material, u, tractions);
+        surface_stress_measure(StressMeasure::von_mises, *body.surface, body.material, u, tractions, large);
     return {{"displacement", as_columns(solved.displacement)},
             {"von_mises", as_shown(solved, size.transpose())},
             {"traction", as_shown(solved, tractions)},
-            {"stress", as_shown(solved, surface_stress(*body.surface, body.material, u, tractions))}};
+            {"stress", as_shown(solved, surface_stress(*body.surface, body.material, u, tractions, large))}};
 }
 
 void write_field_file(std::ostream& out, const fs::path& name, const SolvedBody& solved, Control& control) {

@@ -1,6 +1,7 @@
 #include "scene/solve.hpp"
 
 #include <algorithm>
+#include <array>
 #include <Eigen/Geometry>
 
 #include "base/error.hpp"
@@ -9,6 +10,7 @@
 #include "findings/solution.hpp"
 #include "findings/words.hpp"
 #include "methods/precompute.hpp"
+#include "scene/linear_theory.hpp"
 #include "scene/proxy/carried_constraints.hpp"
 
 namespace elastolab {
@@ -67,6 +69,9 @@ void precompute_model(const Method& method, const Body& body, Solution& solution
     append(solution.findings, findings_of_model(*solution.model));
 }
 
+/// Vertices of a surface that is gauged itself.
+constexpr int kMostGaugedThemselves = 1200;
+
 /// Share of the largest reaction above which an imbalance is reported.
 constexpr double kLargeImbalance = 0.05;
 
@@ -102,6 +107,10 @@ void apply(const Constraints& constraints, bool with_checks, Solution& solution,
         std::erase_if(fixed_sets, [](const ConstraintGroup& set) { return set.begin == set.end; });
         solution.fixed_reactions = totals(fixed_sets, answer.reactions);
         solution.residual = answer.residual;
+        solution.facts = answer.facts;
+        if (answer.facts && !answer.facts->stable)
+            solution.findings.push_back(
+                {.kind = FindingKind::unstable_equilibrium, .method = solution.model->method().kind});
         solution.imbalance = imbalance_of(solution.reactions, *solution.model->body().surface);
         add_imbalance(solution.imbalance, solution.model->method().kind, solution.findings);
     }
@@ -119,6 +128,36 @@ void apply(const Constraints& constraints, bool with_checks, Solution& solution,
     solution.condition_estimate =
         std::max(solution.model->facts().condition_estimate, deformer.quality().condition_estimate);
     append(solution.findings, findings_of_set(deformer));
+}
+
+/// How far linear theory is off for this motion, on the surface itself where that is small, else on a coarse proxy.
+/// The answer is there: where this fails, it is left out.
+void gauge(const SceneMesh& mesh, const Constraints& shown, const Constraints& simulated, Solution& solution,
+           Control& control) {
+    if (!solution.model->method().kind->linear || simulated.values.isZero(0.0)) return;
+    const Stage stage("linear theory", control, solution.stages);
+    try {
+        Body body = solution.model->body();
+        std::optional<CarriedConstraints> carried;
+        const Constraints* constraints = &simulated;
+        if (body.surface->n_vertices() > kMostGaugedThemselves) {
+            const std::shared_ptr<const Proxy> coarse =
+                solution.proxy ? make_coarser_proxy(mesh.name, *solution.proxy, kGaugeVertices, control)
+                               : make_proxies(mesh.name, solution.surface, mesh.checked.report,
+                                              std::array{kGaugeVertices}, control)
+                                     .front();
+            carried.emplace(coarse).set(shown);
+            constraints = &carried->constraints();
+            body.surface = coarse->surface;
+        }
+        const LinearTheoryGauge linear_theory(body, constraints->set, control);
+        solution.linear_theory_error = linear_theory.error(constraints->values, control);
+    } catch (const Error&) {
+        return;
+    }
+    if (solution.linear_theory_error)
+        append(solution.findings,
+               findings_of_linear_theory(solution.model->method().kind, *solution.linear_theory_error));
 }
 
 void carry_back(const CarriedConstraints& carried, Solution& solution) {
@@ -179,6 +218,7 @@ Solution solve(const SolveRequest& request, Control& control) {
             method.update = Update::direct;
             precompute_model(method, body, solution, control);
             apply(constraints, request.with_checks, solution, control);
+            if (request.with_checks) gauge(mesh, shown, constraints, solution, control);
             if (carried) carry_back(*carried, solution);
             return solution;
         } catch (const NotHeldError&) {
@@ -187,6 +227,7 @@ Solution solve(const SolveRequest& request, Control& control) {
     }
     precompute_model(method, body, solution, control);
     apply(constraints, request.with_checks, solution, control);
+    if (request.with_checks) gauge(mesh, shown, constraints, solution, control);
     if (carried) carry_back(*carried, solution);
     return solution;
 }

@@ -64,6 +64,10 @@ struct Solution {
     std::optional<double> error_estimate;        ///< of the displacement of the worst vertex, over the largest
     std::optional<double> force_error_estimate;  ///< of the reactions of the worst patch, over the largest
     std::optional<double> residual;
+    /// Of large deformations: iterations, energy, largest stretch; else none.
+    std::optional<EquilibriumFacts> facts;
+    /// Of linear methods: see scene/linear_theory.hpp.
+    std::optional<double> linear_theory_error;
     double condition_estimate = 0.0;  ///< the larger of that of the factorised system and that of the update
     StageTimes stages;
     std::vector<Defect> defects;  ///< of the mesh, repaired or harmless for the method

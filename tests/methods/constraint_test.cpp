@@ -171,6 +171,7 @@ TEST(Reactions, ThatAreBeyondDoublePrecisionAreAnError) {
     const SurfaceMesh mesh = make_box(2);
     const auto base = vertices_where(mesh, [](const auto& x) { return x[0] < 1e-9; });
     for (const MethodKind kind : elastolab::all_methods()) {
+        if (!kind->linear) continue;  // such a motion has no equilibrium
         Control control;
         Deformer deformer(precomputed(make_body(mesh, {1e300, 0.3}), {.kind = kind}));
         deformer.constrain({base, {mesh.n_vertices() - 1}}, control);

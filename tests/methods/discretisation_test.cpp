@@ -190,6 +190,7 @@ TEST(DiscretisationCheck, IsWithinAFactorOfThreeOnOrganicBodiesInNineOfTenCasesA
         const std::vector<Eigen::Matrix3Xd> motions = {body.pulled(), body.turned()};
         const std::vector<KnownAnswer> truths = refined_answers(body, motions, nu, 1);
         for (const MethodKind kind : all_methods()) {
+            if (!kind->linear) continue;
             Control control;
             Deformer deformer(precomputed(make_body(body.surface, {1.0, nu}), make_method(kind)));
             deformer.constrain(body.set, control);

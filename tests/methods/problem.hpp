@@ -21,11 +21,11 @@ inline Method make_method(MethodKind kind, Tractions tractions = Tractions::disc
     return {.kind = kind, .mode = mode, .tractions = tractions, .update = update};
 }
 
-/// All methods that have this mode and this update, linear BEM under each of its traction models.
+/// All linear methods that have this mode and this update, linear BEM under each of its traction models.
 inline std::vector<Method> method_variants(Mode mode = Mode::on_demand, Update update = Update::reduced) {
     std::vector<Method> methods;
     for (const MethodKind kind : all_methods()) {
-        if (!has(kind, mode) || !has(kind, update)) continue;
+        if (!kind->linear || !has(kind, mode) || !has(kind, update)) continue;
         methods.push_back(make_method(kind, Tractions::discontinuous, mode, update));
         if (!kind->chooses_tractions) continue;
         methods.push_back(make_method(kind, Tractions::restricted, mode, update));

@@ -35,6 +35,10 @@ constexpr std::array<Choice<FrameRule>, 2> kFrameRules = {
       "A frame only reads them, as fast as memory allows."},
      {FrameRule::displace, "whole update", "Every frame solves by the update rule above, to see what that costs."}}};
 
+constexpr std::array<Choice<ElementDegree>, 2> kElements = {
+    {{ElementDegree::quadratic, "ten-node", "Ten nodes a tetrahedron: accurate. Of nonlinear FEM."},
+     {ElementDegree::linear, "four-node",
+      "Four nodes a tetrahedron: an eighth of the unknowns, too stiff in bending."}}};
 constexpr std::array<Choice<Tractions>, 3> kTractions = {
     {{Tractions::discontinuous, "discontinuous",
       "Tractions may jump at the rim of a constrained patch, where they are "
@@ -225,6 +229,8 @@ void Panels::draw_method(const PanelContext& context) {
     choose<FrameRule>("each frame", state.choices.frame_rule, kFrameRules);
     set_item_width(scale);
     choose<Tractions>("tractions", state.choices.tractions, kTractions);
+    set_item_width(scale);
+    choose<ElementDegree>("elements", state.choices.elements, kElements);
     ImGui::TreePop();
 }
 

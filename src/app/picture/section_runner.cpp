@@ -72,7 +72,8 @@ std::shared_ptr<const SectionRunner::Basis> SectionRunner::make_basis(const Embe
     const std::vector<ConstraintGroup>& groups = answer.constraints().groups;
     const Eigen::Index n_base = std::ssize(deformer.set().base);
     Eigen::MatrixXd motions(values.size(), 0);
-    const bool fits = group < groups.size() && groups[group].begin >= n_base &&
+    const bool linear = deformer.linear();
+    const bool fits = linear && group < groups.size() && groups[group].begin >= n_base &&
                       3 * (groups[group].end - n_base) <= values.size() &&
                       deformer.model().facts().n_degrees_of_freedom <= kManyUnknowns;
     if (fits) {
@@ -99,6 +100,7 @@ std::shared_ptr<const SectionRunner::Basis> SectionRunner::make_basis(const Embe
     const Eigen::VectorXd left = values - motions * (motions.transpose() * values);
     const bool has_more = left.norm() > kNegligible * values.norm() || motions.cols() == 0;
     auto basis = std::make_shared<Basis>();
+    basis->linear = linear;
     basis->columns.resize(values.size(), motions.cols() + (has_more ? 1 : 0));
     basis->columns.leftCols(motions.cols()) = motions;
     if (has_more) basis->columns.rightCols(1) = left;
@@ -143,6 +145,7 @@ std::shared_ptr<const SectionRunner::Columns> SectionRunner::evaluate(Columns co
 }
 
 bool SectionRunner::spans(const Basis& basis, const Eigen::VectorXd& values) {
+    if (!basis.linear) return values.size() == basis.columns.rows() && values == basis.columns.col(0);
     return (values - basis.columns * (basis.inverse * values)).norm() <= kNegligible * values.norm();
 }
 
@@ -190,7 +193,8 @@ void SectionRunner::update(const EmbeddedRunner& answer, const std::shared_ptr<c
     if (!deformer || values.size() != 3 * std::ssize(deformer->set().handles) || values.size() == 0) return;
     if (latest_ && (shown_.size() != values.size() || shown_ != values)) {
         shown_ = values;
-        coefficients_ = latest_->basis->inverse * values;
+        coefficients_ =
+            latest_->basis->linear ? Eigen::VectorXd(latest_->basis->inverse * values) : Eigen::VectorXd::Ones(1);
         ++revision_;
     }
     const bool same = deformer_.lock() == deformer && shape_.lock() == shape;

@@ -50,6 +50,7 @@ private:
     /// Motions of the handles as columns, and the coefficients of a motion.
     struct Basis {
         Eigen::MatrixXd columns, inverse;  ///< 3*n_handles x m and m x 3*n_handles
+        bool linear = true;                ///< false: one column, the motion itself, and no other is known from it
     };
     /// Values at the points of a shape for the m columns of a basis.
     struct Columns {

@@ -52,6 +52,8 @@ Eigen::MatrixXd shown_rows(const EmbeddedRunner& answer, const Eigen::MatrixXd& 
 }
 
 /// That of the model that answered: the scene's may be newer than the displacements.
+bool is_large(const EmbeddedRunner& answer) { return !answer.runner().deformer()->linear(); }
+
 const Material& material_of(const EmbeddedRunner& answer) {
     return answer.runner().deformer()->model().body().material;
 }
@@ -245,7 +247,7 @@ Eigen::VectorXd ShownBody::simulated_values(const Sources& sources, Field field)
     if (field == Field::displacement) return columns(u).colwise().norm();
     if (field == Field::traction && tractions_.cols() > 0) return tractions_.colwise().norm();
     if (const auto which = stress_of(field); which && tractions_.cols() > 0)
-        return surface_stress_measure(*which, *answer.surface(), material_of(answer), u, tractions_);
+        return surface_stress_measure(*which, *answer.surface(), material_of(answer), u, tractions_, is_large(answer));
     const bool differs = field == Field::difference && comparable(answer, sources.reference);
     if (!differs || sources.reference->surface() != answer.surface()) return {};
     return (columns(u) - columns(sources.reference->runner().displacement())).colwise().norm();
@@ -267,8 +269,8 @@ void ShownBody::update_probed(const Sources& sources) {
     if (!sources.probed || sources.reactions == nullptr || sources.reactions->running()) return;
     if (tractions_.cols() == 0 || answer.displacement().size() != positions_.size()) return;
     shown_tractions_ = shown_rows(answer, tractions_);
-    shown_stresses_ = shown_rows(
-        answer, surface_stress(*answer.surface(), material_of(answer), answer.runner().displacement(), tractions_));
+    shown_stresses_ = shown_rows(answer, surface_stress(*answer.surface(), material_of(answer),
+                                                        answer.runner().displacement(), tractions_, is_large(answer)));
 }
 
 std::string field_title(Field field, MethodKind reference) {

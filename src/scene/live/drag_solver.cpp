@@ -54,7 +54,7 @@ bool DragSolver::has(const Eigen::VectorXd& values) const {
     if (!has_start(values)) return false;
     const Eigen::VectorXd change = values - start_values_;
     const int handle = changed_handle(change);
-    return handle == kNone || (handle >= 0 && parameters_of(handle, part_of(handle, change)));
+    return handle == kNone || (handle >= 0 && deformer_->linear() && parameters_of(handle, part_of(handle, change)));
 }
 
 void DragSolver::displace(const Eigen::VectorXd& values, Eigen::VectorXd& u) {
@@ -62,7 +62,7 @@ void DragSolver::displace(const Eigen::VectorXd& values, Eigen::VectorXd& u) {
     if (!has_start(values)) start(values, kSolveTolerance, control);
     const Eigen::VectorXd change = values - start_values_;
     const int handle = changed_handle(change);
-    if (handle >= 0) {
+    if (handle >= 0 && deformer_->linear()) {  // else columns are right to first order only
         const Eigen::Matrix3Xd moved = part_of(handle, change);
         std::optional<Eigen::VectorXd> parameters = parameters_of(handle, moved);
         for (int affine = 0; affine <= 1 && !parameters; ++affine) {

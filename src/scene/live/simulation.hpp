@@ -19,6 +19,7 @@ struct MethodChoices {
     Mode mode = Mode::on_demand;
     Tractions tractions = Tractions::discontinuous;
     Update update = Update::reduced;
+    ElementDegree elements = ElementDegree::quadratic;
     FrameRule frame_rule = FrameRule::drag_columns;
     /// Bodies of at most so many vertices get K and its inverse in the background.
     int complete_up_to = 2000;
@@ -26,11 +27,12 @@ struct MethodChoices {
     bool preview = true;
 
     /// The choices that a scene remembers.
-    MethodSettings settings() const { return {mode, tractions, update}; }
+    MethodSettings settings() const { return {mode, tractions, update, elements}; }
     void set(const MethodSettings& settings) {
         mode = settings.mode;
         tractions = settings.tractions;
         update = settings.update;
+        elements = settings.elements;
     }
     /// The whole method of a kind under these choices.
     Method of(MethodKind kind) const;

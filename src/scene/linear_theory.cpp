@@ -1,0 +1,58 @@
+#include "scene/linear_theory.hpp"
+
+#include <algorithm>
+
+#include "base/error.hpp"
+#include "methods/precompute.hpp"
+#include "methods/registry.hpp"
+
+namespace elastolab {
+
+namespace {
+
+/// Ten nodes up to so many vertices of the surface; beyond, four take less and tell as much.
+constexpr int kTenNodes = 300;
+
+Method finite_method(const SurfaceMesh& surface) {
+    Method method{.kind = kNonlinearFem};
+    method.elements = surface.n_vertices() <= kTenNodes ? ElementDegree::quadratic : ElementDegree::linear;
+    return method;
+}
+
+double largest(const Eigen::VectorXd& u) {
+    return u.size() == 0 ? 0.0 : u.reshaped(3, u.size() / 3).colwise().norm().maxCoeff();
+}
+
+}  // namespace
+
+LinearTheoryGauge::LinearTheoryGauge(Body body, ConstrainedSet set, Control& control) {
+    body.material.poisson_ratio = std::min(body.material.poisson_ratio, kNonlinearFem->largest_poisson_ratio);
+    const Method method = finite_method(*body.surface);
+    auto deformer = std::make_unique<Deformer>(precompute(body, method, control));
+    deformer->constrain(std::move(set), control);
+    deformer_ = std::move(deformer);
+}
+
+std::optional<double> LinearTheoryGauge::error(const Eigen::VectorXd& values, Control& control,
+                                               const Approach& approach) const {
+    constexpr double kTolerance = 1e-4;
+    if (values.size() == 0 || values.isZero(0.0)) return {};
+    // The tangent at rest is linear theory.
+    const DragResponse rest =
+        deformer_->drag_response(Eigen::VectorXd::Zero(values.size()), values, control, kTolerance);
+    try {
+        const Eigen::VectorXd finite = deformer_->displace(values, control, kTolerance, approach);
+        const double size = largest(finite);
+        if (!(size > 0.0)) return {};
+        return largest(finite - rest.X.col(0)) / size;
+    } catch (const NoEquilibriumError&) {
+        return {};
+    }
+}
+
+Findings findings_of_linear_theory(MethodKind method, double error) {
+    if (!(error >= kSilentLinearTheory)) return {};
+    return {{.kind = FindingKind::linear_theory, .value = error, .method = method}};
+}
+
+}  // namespace elastolab

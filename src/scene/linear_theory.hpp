@@ -1,0 +1,41 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+
+#include "base/control.hpp"
+#include "deform/deformer.hpp"
+#include "deform/finding.hpp"
+
+namespace elastolab {
+
+/// Errors of linear theory below this are not worth a word.
+inline constexpr double kSilentLinearTheory = 0.02;
+
+/// How far linear theory is off for a motion: the linear and the finite answer of the same elements, on a coarse
+/// surface that stands for the body (that of the preview). It tells the error of the model apart from that of the mesh.
+/// Immutable; any thread may use it, best a worker: making one takes about a second, an error some iterations.
+class LinearTheoryGauge {
+public:
+    /// body  with a closed surface of few vertices (kGaugeVertices), which tetrahedra can fill
+    /// set   constrained vertices of that surface
+    /// Throws MeshError, SolveError, Cancelled.
+    LinearTheoryGauge(Body body, ConstrainedSet set, Control& control);
+
+    /// Largest difference of both answers at a vertex, over the largest displacement of the finite one. values: as
+    /// Deformer::displace takes them; approach: for turns of more than half a circle. Nothing where nothing moves or
+    /// where no equilibrium is found. Throws SolveError, Cancelled.
+    std::optional<double> error(const Eigen::VectorXd& values, Control& control, const Approach& approach = {}) const;
+
+private:
+    std::unique_ptr<const Deformer> deformer_;
+};
+
+/// Vertices that are enough to tell.
+inline constexpr int kGaugeVertices = 500;
+
+/// The finding, for a method whose answer it is said of; nothing below kSilentLinearTheory.
+Findings findings_of_linear_theory(MethodKind method, double error);
+
+}  // namespace elastolab
