@@ -9,6 +9,7 @@ const std::vector<StudyEntry>& studies() {
         {"stability", "what breaks each method, and what the program says then", make_stability_study},
         {"scale", "time and memory against size, predicted and measured", make_scale_study},
         {"skip", "what each skip of unneeded work saves", make_skip_study},
+        {"large", "how far linear theory is off as motions grow", make_large_study},
     };
     return all;
 }

@@ -62,5 +62,6 @@ Study make_error_study(const StudyOptions& options);
 Study make_stability_study(const StudyOptions& options);
 Study make_scale_study(const StudyOptions& options);
 Study make_skip_study(const StudyOptions& options);
+Study make_large_study(const StudyOptions& options);
 
 }  // namespace elastolab
