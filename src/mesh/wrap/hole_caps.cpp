@@ -127,15 +127,15 @@ private:
 };
 
 /// A rim and the fan that would close it.
-struct Cap {
+struct HoleCap {
     std::vector<int> rim;
     Eigen::Vector3d middle;
     double area;
     std::size_t part;
 };
 
-std::vector<Cap> possible_caps(const SurfaceMesh& surface, const std::vector<Rim>& rims, Parts& parts) {
-    std::vector<Cap> caps;
+std::vector<HoleCap> possible_caps(const SurfaceMesh& surface, const std::vector<Rim>& rims, Parts& parts) {
+    std::vector<HoleCap> caps;
     for (const Rim& rim : rims) {
         const Eigen::Vector3d middle = surface.vertices(Eigen::all, rim.vertices).rowwise().mean();
         caps.push_back({rim.vertices, middle, area_of_fan(surface, rim.vertices, middle), parts.of(rim)});
@@ -144,17 +144,17 @@ std::vector<Cap> possible_caps(const SurfaceMesh& surface, const std::vector<Rim
 }
 
 /// For each part, whether it is a solid but for its holes.
-std::vector<bool> solid_parts(const SurfaceMesh& surface, const std::vector<Cap>& caps, Parts& parts) {
+std::vector<bool> solid_parts(const SurfaceMesh& surface, const std::vector<HoleCap>& caps, Parts& parts) {
     std::vector<double> area(parts.size(), 0.0), opening(parts.size(), 0.0);
     for (int t = 0; t < surface.n_triangles(); ++t)
         area[parts.of_triangle(t)] += 0.5 * area_vector(triangle_points(surface, t)).norm();
-    for (const Cap& cap : caps) opening[cap.part] += cap.area;
+    for (const HoleCap& cap : caps) opening[cap.part] += cap.area;
     std::vector<bool> solid;
     for (std::size_t p = 0; p < parts.size(); ++p) solid.push_back(opening[p] <= kLargestOpening * area[p]);
     return solid;
 }
 
-void add_cap(const Cap& cap, std::vector<Eigen::Vector3d>& middles, std::vector<Eigen::Vector3i>& fans,
+void add_cap(const HoleCap& cap, std::vector<Eigen::Vector3d>& middles, std::vector<Eigen::Vector3i>& fans,
              int n_vertices) {
     const int at = n_vertices + static_cast<int>(middles.size());
     for (std::size_t i = 0; i < cap.rim.size(); ++i)
@@ -168,13 +168,13 @@ HoleCaps cap_holes(const SurfaceMesh& surface, OpenSurface taken_for) {
     const EdgeTable edges(surface);
     const std::vector<Rim> rims = RimSearch(edges).search();
     Parts parts(surface, edges, rims);
-    const std::vector<Cap> caps = possible_caps(surface, rims, parts);
+    const std::vector<HoleCap> caps = possible_caps(surface, rims, parts);
     std::vector<bool> solid(parts.size(), taken_for == OpenSurface::solid);
     if (taken_for == OpenSurface::automatic) solid = solid_parts(surface, caps, parts);
 
     std::vector<Eigen::Vector3d> middles;
     std::vector<Eigen::Vector3i> fans;
-    for (const Cap& cap : caps)
+    for (const HoleCap& cap : caps)
         if (solid[cap.part]) add_cap(cap, middles, fans, surface.n_vertices());
     HoleCaps result{surface, static_cast<int>(middles.size()), static_cast<int>(caps.size() - middles.size())};
     result.closed.vertices.conservativeResize(3, surface.n_vertices() + std::ssize(middles));
