@@ -22,7 +22,7 @@ struct LargeScene {
     std::function<Eigen::VectorXd(double amount)> values;
 };
 
-struct Motion {
+struct LargeMotion {
     std::string name, what, unit;
     LargeScene (*make)(bool quick);
 };
@@ -91,11 +91,11 @@ LargeScene turned_ear(bool quick) {
     return scene;
 }
 
-const std::vector<Motion>& motions() {
-    static const std::vector<Motion> all = {{"twist", "bar twisted", "degrees", twisted_bar},
-                                            {"bend", "bar bent", "degrees", bent_bar},
-                                            {"stretch", "bar stretched", "per cent", stretched_bar},
-                                            {"ear", "ear of the rabbit turned", "degrees", turned_ear}};
+const std::vector<LargeMotion>& motions() {
+    static const std::vector<LargeMotion> all = {{"twist", "bar twisted", "degrees", twisted_bar},
+                                                 {"bend", "bar bent", "degrees", bent_bar},
+                                                 {"stretch", "bar stretched", "per cent", stretched_bar},
+                                                 {"ear", "ear of the rabbit turned", "degrees", turned_ear}};
     return all;
 }
 
@@ -159,7 +159,7 @@ Conclusions conclude_large(const Table& table) {
     angle.extra = stretch.extra =
         "set arrow from graph 0, first 0.02 to graph 1, first 0.02 nohead dt 2 lc rgb '#888888'";
     int color = 0;
-    for (const Motion& motion : motions()) {
+    for (const LargeMotion& motion : motions()) {
         Series series{.title = motion.what, .where = {{"motion", motion.name}}, .x = "amount", .y = "largest_error"};
         series.color = color++;
         (motion.unit == "degrees" ? angle : stretch).series.push_back(series);
@@ -180,7 +180,7 @@ Study make_large_study(const StudyOptions& options) {
     const std::vector<int> angles =
         options.quick ? std::vector{5, 20, 60, 90} : std::vector{1, 2, 5, 10, 20, 30, 45, 60, 90, 120};
     const std::vector<int> stretches = options.quick ? std::vector{5, 50} : std::vector{1, 2, 5, 10, 20, 50, 100, 200};
-    for (const Motion& motion : motions())
+    for (const LargeMotion& motion : motions())
         for (const int amount : motion.unit == "degrees" ? angles : stretches) {
             const Row id = Row().set("motion", motion.name).set("amount", amount);
             study.cases.push_back({id, 1.0, [motion, amount, quick = options.quick](Control& control) {
