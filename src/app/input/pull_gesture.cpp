@@ -186,7 +186,8 @@ void Gestures::end_pull(GestureContext& context) {
             selected_ = -1;
         }
     } else if (context.tools.release == Release::spring_back && !gizmo_drag_) {
-        spring_ = Spring{pull_.handle, context.scene.document().handles[static_cast<std::size_t>(pull_.handle)].motion};
+        spring_.emplace(
+            Spring{pull_.handle, context.scene.document().handles[static_cast<std::size_t>(pull_.handle)].motion});
         selected_ = -1;
     } else {
         context.scene.commit();
