@@ -60,7 +60,7 @@ public:
         if (++count_ > most_) throw TooManyPoints{};
         if (count_ % kBetweenWords != 0) return;
         WrapProgress word;
-        word.fraction = count_ / (count_ + usual_);  // never backwards, and half where the usual number is there
+        word.fraction = std::min(0.95, count_ / usual_);
         write_bytes(&word, sizeof(word));
     }
 
