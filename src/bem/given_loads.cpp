@@ -15,9 +15,9 @@ namespace elastolab {
 namespace {
 
 /// Numbers of a strip of the single layer that are held at once.
-constexpr int kStripNumbers = 8'000'000;
+constexpr int kGivenNumbers = 8'000'000;
 /// Vertices and triangles of a block of the double layer.
-constexpr int kVerticesAtOnce = 64, kTrianglesAtOnce = 256;
+constexpr int kGivenVertices = 64, kGivenTriangles = 256;
 
 /// The tractions of some loads: shape functions on the loaded triangles, and coefficients of each load.
 struct Given {
@@ -125,18 +125,18 @@ Eigen::MatrixXd tested_with_hats(const Boundary& boundary, std::span<const UnitL
 /// K^T g for tractions constant on some triangles; rows node-major.
 Eigen::MatrixXd transposed_double_layer(const std::shared_ptr<const BoundaryPairs>& pairs, const Material& material,
                                         const MeanTractions& given, Control& control) {
-    const auto vertex_tree = pairs->cluster_vertices(kVerticesAtOnce);
-    const auto triangle_tree = pairs->cluster_triangles(given.triangles, kTrianglesAtOnce);
+    const auto vertex_tree = pairs->cluster_vertices(kGivenVertices);
+    const auto triangle_tree = pairs->cluster_triangles(given.triangles, kGivenTriangles);
     const DoubleLayerEntries K(pairs, given.triangles, *triangle_tree, vertex_tree, material);
     const int n_vertices = vertex_tree->size(), n_triangles = static_cast<int>(given.triangles.size());
     Eigen::MatrixXd ordered(given.values.rows(), given.values.cols()), f(3 * n_vertices, given.values.cols());
     for (int i = 0; i < n_triangles; ++i)
         ordered.middleRows<3>(3 * i) =
             given.values.middleRows<3>(3 * triangle_tree->order()[static_cast<std::size_t>(i)]);
-    parallel_blocks(n_vertices, kVerticesAtOnce, control, [&](int begin, int end) {
+    parallel_blocks(n_vertices, kGivenVertices, control, [&](int begin, int end) {
         Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(3 * (end - begin), ordered.cols()), block;
-        for (int first = 0; first < n_triangles; first += kTrianglesAtOnce) {
-            const int last = std::min(n_triangles, first + kTrianglesAtOnce);
+        for (int first = 0; first < n_triangles; first += kGivenTriangles) {
+            const int last = std::min(n_triangles, first + kGivenTriangles);
             block.resize(3 * (last - first), 3 * (end - begin));
             K.fill({first, last}, {begin, end}, block);
             sum.noalias() += block.transpose() * ordered.middleRows(3 * first, 3 * (last - first));
@@ -207,7 +207,7 @@ Eigen::MatrixXd given_single_layer(const Boundary& boundary, const Sources& sour
                                    double tolerance, std::span<const UnitLoad> loads, Control& control) {
     Eigen::MatrixXd result = Eigen::MatrixXd::Zero(3 * sources.size(), std::ssize(loads));
     for_kinds(boundary, loads, [&](const Given& given, const std::vector<Eigen::Index>& columns) {
-        const int at_once = std::clamp(kStripNumbers / (9 * given.elements.n_slots), 8, kSourcesAtOnce);
+        const int at_once = std::clamp(kGivenNumbers / (9 * given.elements.n_slots), 8, kSourcesAtOnce);
         for_source_strips(
             sources,
             [&](int first, const Sources& strip) {
