@@ -33,7 +33,7 @@ std::string recorded_name(MethodRunner::State state, bool following) {
 Positions handles_put(const LiveScene& scene, double scale) {
     const Constraints& constraints = scene.constraints();
     Positions places = scene.mesh().vertices(Eigen::all, constraints.set.handles);
-    places.reshaped() += scale * constraints.values;
+    places.reshaped() += scale * constraints.values.head(places.size());
     return places;
 }
 

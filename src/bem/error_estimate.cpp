@@ -10,6 +10,7 @@
 #include "bem/cost.hpp"
 #include "bem/galerkin/method.hpp"
 #include "bem/galerkin/solvers.hpp"
+#include "bem/given_loads.hpp"
 #include "bem/hierarchical/system.hpp"
 #include "mesh/refine.hpp"
 
@@ -29,7 +30,8 @@ constexpr double kShareOfRims = 1.4;
 struct RimProblem {
     RefinedSurface surface;
     std::vector<int> vertices;  ///< constrained
-    Eigen::VectorXd values;
+    Eigen::VectorXd values;     ///< of the vertices, then of the loads
+    std::vector<UnitLoad> loads = {};
     std::int64_t n_constrained_triangles = 0;
 };
 
@@ -56,7 +58,26 @@ std::vector<char> triangles_to_split(const SurfaceMesh& surface, const std::vect
     return marked;
 }
 
-RimProblem with_finer_rims(const SurfaceMesh& surface, std::span<const int> vertices, const Eigen::VectorXd& values) {
+/// The loads of the triangles that the finer ones are parts of.
+std::vector<UnitLoad> on_finer_triangles(const RefinedSurface& fine, std::span<const UnitLoad> loads) {
+    std::vector<UnitLoad> result(loads.begin(), loads.end());
+    for (UnitLoad& load : result) {
+        std::vector<int> place(fine.coarse_triangle.size(), -1), columns, triangles;  // no more coarse ones than fine
+        for (std::size_t k = 0; k < load.triangles.size(); ++k)
+            place[static_cast<std::size_t>(load.triangles[k])] = static_cast<int>(k);
+        for (std::size_t t = 0; t < fine.coarse_triangle.size(); ++t)
+            if (const int k = place[static_cast<std::size_t>(fine.coarse_triangle[t])]; k >= 0) {
+                triangles.push_back(static_cast<int>(t));
+                columns.push_back(k);
+            }
+        load.tractions = Eigen::Matrix3Xd(load.tractions(Eigen::all, columns));
+        load.triangles = std::move(triangles);
+    }
+    return result;
+}
+
+RimProblem with_finer_rims(const SurfaceMesh& surface, std::span<const int> vertices, std::span<const UnitLoad> loads,
+                           const Eigen::VectorXd& values) {
     std::vector<int> place(static_cast<std::size_t>(surface.n_vertices()), -1);
     Eigen::Matrix3Xd field = Eigen::Matrix3Xd::Zero(3, surface.n_vertices());
     for (std::size_t i = 0; i < vertices.size(); ++i) {
@@ -75,7 +96,9 @@ RimProblem with_finer_rims(const SurfaceMesh& surface, std::span<const int> vert
         }
     for (int v = 0; v < fine.mesh.n_vertices(); ++v)
         if (is_constrained[static_cast<std::size_t>(v)]) problem.vertices.push_back(v);
-    problem.values = fine.interpolate(field)(Eigen::all, problem.vertices).reshaped();
+    problem.loads = on_finer_triangles(fine, loads);
+    problem.values.resize(3 * std::ssize(problem.vertices) + std::ssize(loads));
+    problem.values << fine.interpolate(field)(Eigen::all, problem.vertices).reshaped(), values.tail(std::ssize(loads));
     return problem;
 }
 
@@ -111,26 +134,35 @@ std::uint64_t affordable_memory(const RimProblem& problem) {
 /// Throws NotHeldError, SolveError, Cancelled.
 NodeSolution solve_by_galerkin(const RimProblem& problem, double poisson_ratio, Control& control) {
     const SurfaceMesh& fine = problem.surface.mesh;
+    const ParticularField particular =
+        particular_field(fine, poisson_ratio, fine.vertices(Eigen::all, problem.vertices), problem.loads);
+    const Eigen::VectorXd factors = problem.values.tail(std::ssize(problem.loads));
+    Eigen::VectorXd values = problem.values;
+    if (!particular.empty()) values.head(particular.at_nodes.rows()) -= particular.at_nodes * factors;
+    const auto whole = [&](NodeSolution solution) {
+        if (!particular.empty()) solution.displacements += particular.at_vertices * factors;
+        return solution;
+    };
     StageTimes stages;
     if (is_hierarchical(fine, reference_method())) {
         const auto system =
             std::make_shared<const HierarchicalSystem>(fine, poisson_ratio, reference_method(), stages, control);
         const GalerkinTractions tractions(fine, system->surfaces(), problem.vertices);
-        return HierarchicalSolver(system, problem.vertices, tractions, true, control)
-            .solve_watched(problem.values, true, kSolveTolerance, control);
+        return whole(HierarchicalSolver(system, problem.vertices, tractions, problem.loads, true, control)
+                         .solve_watched(values, true, kSolveTolerance, control));
     }
     const GalerkinSystem system(std::make_shared<const Boundary>(fine), poisson_ratio, reference_method(), nullptr,
                                 stages, control);
     const GalerkinTractions tractions(fine, system.surfaces(), problem.vertices);
-    return GalerkinDirectSolver(system, problem.vertices, tractions, control).solve(problem.values, true);
+    return whole(GalerkinDirectSolver(system, problem.vertices, tractions, problem.loads, control).solve(values, true));
 }
 
 }  // namespace
 
 std::optional<ReferenceAnswer> galerkin_reference(const SurfaceMesh& surface, double poisson_ratio,
-                                                  std::span<const int> vertices, const Eigen::VectorXd& values,
-                                                  Control& control) {
-    const RimProblem problem = with_finer_rims(surface, vertices, values);
+                                                  std::span<const int> vertices, std::span<const UnitLoad> loads,
+                                                  const Eigen::VectorXd& values, Control& control) {
+    const RimProblem problem = with_finer_rims(surface, vertices, loads, values);
     if (affordable_memory(problem) == 0) return {};
     try {
         const NodeSolution solution = solve_by_galerkin(problem, poisson_ratio, control);
@@ -142,13 +174,14 @@ std::optional<ReferenceAnswer> galerkin_reference(const SurfaceMesh& surface, do
 }
 
 std::uint64_t galerkin_reference_memory(const SurfaceMesh& surface, std::span<const int> vertices) {
-    return affordable_memory(with_finer_rims(surface, vertices, Eigen::VectorXd::Zero(3 * std::ssize(vertices))));
+    return affordable_memory(with_finer_rims(surface, vertices, {}, Eigen::VectorXd::Zero(3 * std::ssize(vertices))));
 }
 
 std::optional<ReferenceAnswer> galerkin_self_reference(const SurfaceMesh& surface, double poisson_ratio,
-                                                       std::span<const int> vertices, const Eigen::VectorXd& values,
-                                                       Control& control) {
-    std::optional<ReferenceAnswer> reference = galerkin_reference(surface, poisson_ratio, vertices, values, control);
+                                                       std::span<const int> vertices, std::span<const UnitLoad> loads,
+                                                       const Eigen::VectorXd& values, Control& control) {
+    std::optional<ReferenceAnswer> reference =
+        galerkin_reference(surface, poisson_ratio, vertices, loads, values, control);
     if (reference) reference->share = kShareOfRims;
     return reference;
 }

@@ -18,11 +18,12 @@ namespace elastolab {
 /// surfaces by hierarchical matrices. Nothing where the body is not held, where it would take too much memory or time,
 /// or where it cannot be solved.
 /// vertices  constrained, all different
-/// values    their displacements, 3*vertices.size()
+/// loads     given ones, on triangles of the surface
+/// values    the vertices' displacements, 3*vertices.size(), then a factor for each load
 /// Throws Cancelled.
 std::optional<ReferenceAnswer> galerkin_reference(const SurfaceMesh& surface, double poisson_ratio,
-                                                  std::span<const int> vertices, const Eigen::VectorXd& values,
-                                                  Control& control);
+                                                  std::span<const int> vertices, std::span<const UnitLoad> loads,
+                                                  const Eigen::VectorXd& values, Control& control);
 
 /// Bytes that it takes; nothing where it would not be computed. Milliseconds.
 std::uint64_t galerkin_reference_memory(const SurfaceMesh& surface, std::span<const int> vertices);
@@ -30,7 +31,7 @@ std::uint64_t galerkin_reference_memory(const SurfaceMesh& surface, std::span<co
 /// The same for an answer by Galerkin on the surface as it is: errors at a rim fall with the first power of the size of
 /// its triangles, so that halving their edges shows only part of the error.
 std::optional<ReferenceAnswer> galerkin_self_reference(const SurfaceMesh& surface, double poisson_ratio,
-                                                       std::span<const int> vertices, const Eigen::VectorXd& values,
-                                                       Control& control);
+                                                       std::span<const int> vertices, std::span<const UnitLoad> loads,
+                                                       const Eigen::VectorXd& values, Control& control);
 
 }  // namespace elastolab

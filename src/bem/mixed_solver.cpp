@@ -59,16 +59,18 @@ Sources some_of(const Sources& sources, int most) {
 struct Balance {
     double off = 0.0, size = 0.0;
 
-    void add(const BemSystem& system, const TractionSpace& space, const NodeSolution& solution, const Sources& sources,
-             Control& control) {
+    void add(const BemSystem& system, const TractionSpace& space, std::span<const UnitLoad> loads,
+             const NodeSolution& solution, const Sources& sources, Control& control) {
         for_source_strips(
             sources,
             [&](int, const Sources& strip) {
                 const Eigen::MatrixXd H = system.double_layer(strip, control);
                 const Eigen::MatrixXd G = system.single_layer(strip, space.elements, control);
                 const Eigen::VectorXd u = solution.displacements.col(0), q = solution.loads.col(0);
-                off += (H * u - G * q).squaredNorm();
-                size += (H.cwiseAbs() * u.cwiseAbs() + G.cwiseAbs() * q.cwiseAbs()).squaredNorm();
+                Eigen::VectorXd given = Eigen::VectorXd::Zero(H.rows());
+                if (!loads.empty()) given = system.given_single_layer(strip, loads, control) * solution.factors.col(0);
+                off += (H * u - G * q - given).squaredNorm();
+                size += (H.cwiseAbs() * u.cwiseAbs() + G.cwiseAbs() * q.cwiseAbs() + given.cwiseAbs()).squaredNorm();
             },
             kSampledAtOnce);
     }
@@ -77,7 +79,7 @@ struct Balance {
 }  // namespace
 
 MixedProblem::MixedProblem(const BemSystem& system, const TractionSpace& space, const std::vector<int>& nodes,
-                           int n_base, Control& control)
+                           int n_base, std::span<const UnitLoad> loads, Control& control)
     : partition(3 * system.n_nodes(), nodes) {
     at = free_nodes(partition);
     const Eigen::Index n_free = 3 * std::ssize(at), n = n_free + 3 * space.n_slots();
@@ -87,6 +89,7 @@ MixedProblem::MixedProblem(const BemSystem& system, const TractionSpace& space, 
     unknown.resize(n, n);
     const std::vector<Eigen::Index> moving(partition.constrained.begin() + 3 * n_base, partition.constrained.end());
     known.resize(n, std::ssize(moving));
+    given.resize(n, std::ssize(loads));
     Eigen::Index row = 0;
     const auto add = [&](const Eigen::MatrixXd& H, const Sources& sources) {
         const Eigen::MatrixXd G = system.single_layer(sources, space.elements, control);
@@ -100,6 +103,7 @@ MixedProblem::MixedProblem(const BemSystem& system, const TractionSpace& space, 
             }
         });
         known.middleRows(row, H.rows()) = H(Eigen::all, moving);
+        if (!loads.empty()) given.middleRows(row, H.rows()) = system.given_single_layer(sources, loads, control);
         row += H.rows();
     };
     for_strips(static_cast<int>(at.size()), [&](int first, int count) {
@@ -117,8 +121,8 @@ std::uint64_t mixed_memory(const BemSystem& system, const TractionSpace& space, 
 }
 
 MixedSolver::MixedSolver(const BemSystem& system, const TractionSpace& space, const std::vector<int>& nodes, int n_base,
-                         Control& control)
-    : problem_(system, space, nodes, n_base, control) {
+                         std::span<const UnitLoad> loads, Control& control)
+    : problem_(system, space, nodes, n_base, loads, control) {
     // Tractions and displacements have different units; without a common scale the condition would depend on these.
     auto tractions = problem_.unknown.rightCols(3 * space.n_slots());
     if (tractions.size() > 0) traction_scale_ = 1.0 / tractions.cwiseAbs().maxCoeff();
@@ -130,18 +134,19 @@ MixedSolver::MixedSolver(const BemSystem& system, const TractionSpace& space, co
 
 NodeSolution MixedSolver::solve(const Eigen::MatrixXd& prescribed, bool want_loads) const {
     const auto& [free, constrained] = problem_.partition;
-    const Eigen::MatrixXd x = lu_.solve(-problem_.times_known(prescribed));
+    const Eigen::MatrixXd x = lu_.solve(problem_.right_side(prescribed));
     NodeSolution solution;
     solution.displacements.resize(std::ssize(free) + std::ssize(constrained), prescribed.cols());
     solution.displacements(free, Eigen::all) = x.topRows(std::ssize(free));
-    solution.displacements(constrained, Eigen::all) = prescribed;
+    solution.displacements(constrained, Eigen::all) = prescribed.topRows(std::ssize(constrained));
     if (want_loads) solution.loads = traction_scale_ * x.bottomRows(x.rows() - std::ssize(free));
     return solution;
 }
 
 BoundaryEqn9Solver::BoundaryEqn9Solver(const BemSystem& system, const TractionSpace& space,
-                                       const std::vector<int>& nodes, int n_base, Control& control)
-    : problem_(system, space, nodes, n_base, control),
+                                       const std::vector<int>& nodes, int n_base, std::span<const UnitLoad> loads,
+                                       Control& control)
+    : problem_(system, space, nodes, n_base, loads, control),
       H00_inverse_(inverse_by_eqn9(system.bordered_inverse(), problem_.partition)) {
     const Eigen::Index q = 3 * space.n_slots(), n_free = H00_inverse_.rows();
     Eigen::MatrixXd small = -problem_.unknown.bottomRightCorner(q, q);
@@ -154,25 +159,25 @@ BoundaryEqn9Solver::BoundaryEqn9Solver(const BemSystem& system, const TractionSp
 NodeSolution BoundaryEqn9Solver::solve(const Eigen::MatrixXd& prescribed, bool want_loads) const {
     const auto& [free, constrained] = problem_.partition;
     const Eigen::Index n_free = H00_inverse_.rows(), q = tractions_.size();
-    const Eigen::MatrixXd right = problem_.times_known(prescribed);
+    const Eigen::MatrixXd right = -problem_.right_side(prescribed);
     const Eigen::MatrixXd A0 = problem_.unknown.bottomLeftCorner(q, n_free),
                           minus_G0 = problem_.unknown.topRightCorner(n_free, q);
     const Eigen::MatrixXd loads = tractions_.solve(right.bottomRows(q) - A0 * (H00_inverse_ * right.topRows(n_free)));
     NodeSolution solution;
     solution.displacements.resize(std::ssize(free) + std::ssize(constrained), prescribed.cols());
     solution.displacements(free, Eigen::all) = -(H00_inverse_ * (minus_G0 * loads + right.topRows(n_free)));
-    solution.displacements(constrained, Eigen::all) = prescribed;
+    solution.displacements(constrained, Eigen::all) = prescribed.topRows(std::ssize(constrained));
     if (want_loads) solution.loads = loads;
     return solution;
 }
 
-double boundary_residual(const BemSystem& system, const TractionSpace& space, const NodeSolution& solution,
-                         Control& control) {
+double boundary_residual(const BemSystem& system, const TractionSpace& space, std::span<const UnitLoad> loads,
+                         const NodeSolution& solution, Control& control) {
     Balance balance;
     const Sources nodes = system.nodes().subset(collocated(space, range(0, system.n_nodes())));
     const Sources points = sources_inside(system.boundary(), space.interior_triangles);
-    balance.add(system, space, solution, some_of(nodes, kSampledSources), control);
-    balance.add(system, space, solution, some_of(points, kSampledSources), control);
+    balance.add(system, space, loads, solution, some_of(nodes, kSampledSources), control);
+    balance.add(system, space, loads, solution, some_of(points, kSampledSources), control);
     return balance.size > 0.0 ? std::sqrt(balance.off / balance.size) : 0.0;
 }
 

@@ -22,14 +22,18 @@ struct MixedProblem {
     std::vector<int> at;      ///< nodes of its first rows, three each; interior points follow
     Eigen::MatrixXd unknown;  ///< [H00 -G0; A0 -Gp], square, 3*free + 3*slots
     Eigen::MatrixXd known;    ///< [H01; A1], columns of the prescribed displacements, without those of the base
+    Eigen::MatrixXd given;    ///< single layer of the given loads, a column each
 
     /// The first n_base nodes rest. Integrates in strips, so that nothing of the matrix's size is held beside it.
     MixedProblem(const BemSystem& system, const TractionSpace& space, const std::vector<int>& nodes, int n_base,
-                 Control& control);
+                 std::span<const UnitLoad> loads, Control& control);
 
-    /// The prescribed displacements of all constrained nodes, times their columns.
-    Eigen::MatrixXd times_known(const Eigen::MatrixXd& prescribed) const {
-        return known * prescribed.bottomRows(known.cols());
+    /// For the prescribed displacements of all constrained nodes, over the factors of the given loads.
+    Eigen::MatrixXd right_side(const Eigen::MatrixXd& prescribed) const {
+        const Eigen::Index m = given.cols();
+        Eigen::MatrixXd right = -(known * prescribed.middleRows(prescribed.rows() - m - known.cols(), known.cols()));
+        if (m > 0) right.noalias() += given * prescribed.bottomRows(m);
+        return right;
     }
 };
 
@@ -40,7 +44,7 @@ std::uint64_t mixed_memory(const BemSystem& system, const TractionSpace& space, 
 class MixedSolver : public NodeSolver {
 public:
     MixedSolver(const BemSystem& system, const TractionSpace& space, const std::vector<int>& nodes, int n_base,
-                Control& control);
+                std::span<const UnitLoad> loads, Control& control);
     NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const override;
 
 private:
@@ -53,7 +57,7 @@ private:
 class BoundaryEqn9Solver : public NodeSolver {
 public:
     BoundaryEqn9Solver(const BemSystem& system, const TractionSpace& space, const std::vector<int>& nodes, int n_base,
-                       Control& control);
+                       std::span<const UnitLoad> loads, Control& control);
     NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const override;
 
 private:
@@ -62,9 +66,10 @@ private:
     LuFactorization tractions_;
 };
 
-/// Relative residual |H u - G q| / | |H| |u| + |G| |q| | in the Euclidean norm, with integrals computed afresh, over a
-/// sample of the collocated equations: those of at least 128 nodes and 128 interior points, evenly spread, or of all.
-double boundary_residual(const BemSystem& system, const TractionSpace& space, const NodeSolution& solution,
-                         Control& control);
+/// Relative residual |H u - G q| / | |H| |u| + |G| |q| |, q with the given tractions, in the Euclidean norm, with
+/// integrals computed afresh, over a sample of the collocated equations: those of at least 128 nodes and 128 interior
+/// points, evenly spread, or of all.
+double boundary_residual(const BemSystem& system, const TractionSpace& space, std::span<const UnitLoad> loads,
+                         const NodeSolution& solution, Control& control);
 
 }  // namespace elastolab

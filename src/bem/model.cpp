@@ -4,6 +4,8 @@
 #include "bem/boundary_field.hpp"
 #include "bem/cost.hpp"
 #include "bem/error_estimate.hpp"
+#include "bem/galerkin/surfaces.hpp"
+#include "bem/given_loads.hpp"
 #include "bem/mixed_solver.hpp"
 #include "bem/responses.hpp"
 #include "deform/reduced_solver.hpp"
@@ -47,23 +49,27 @@ void BemModel::note_facts() {
 }
 
 std::unique_ptr<NodeSolver> BemModel::make_solver(const TractionSpace& space, const std::vector<int>& nodes, int n_base,
-                                                  Control& control) const {
+                                                  std::span<const UnitLoad> loads, Control& control) const {
     if (system_->hierarchical())
-        return std::make_unique<CollocationSolver>(system_->hierarchical(), space, nodes,
+        return std::make_unique<CollocationSolver>(system_->hierarchical(), space, nodes, loads,
                                                    method_.update == Update::direct, control);
     switch (method_.update) {
         case Update::direct:
-            if (has_K()) return std::make_unique<DirectSolver>(system_->operators(), nodes, &control);
-            return std::make_unique<MixedSolver>(*system_, space, nodes, n_base, control);
+            if (has_K())
+                return std::make_unique<DirectSolver>(system_->operators(), nodes,
+                                                      system_->given_tractions(loads, control), &control);
+            return std::make_unique<MixedSolver>(*system_, space, nodes, n_base, loads, control);
         case Update::eqn9:
-            if (has_K()) return make_paper_solver(system_->operators(), nodes, control);
+            if (has_K())
+                return make_paper_solver(system_->operators(), nodes, system_->given_tractions(loads, control),
+                                         control);
             if (2 * std::ssize(nodes) >= system_->n_nodes())
-                return std::make_unique<MixedSolver>(*system_, space, nodes, n_base, control);
-            return std::make_unique<BoundaryEqn9Solver>(*system_, space, nodes, n_base, control);
+                return std::make_unique<MixedSolver>(*system_, space, nodes, n_base, loads, control);
+            return std::make_unique<BoundaryEqn9Solver>(*system_, space, nodes, n_base, loads, control);
         case Update::reduced:
             break;
     }
-    return std::make_unique<ReducedSolver>(reduced_system(system_, space, nodes, control), control);
+    return std::make_unique<ReducedSolver>(reduced_system(system_, space, nodes, loads, control), control);
 }
 
 bool BemModel::has_K() const { return system_->operators() && element_.has_stiffness(method_.tractions); }
@@ -88,31 +94,43 @@ std::uint64_t BemModel::constrain_memory(std::span<const int> base, std::span<co
 }
 
 std::unique_ptr<ConstrainedSolid> BemModel::constrain(std::span<const int> base, std::span<const int> handles,
-                                                      Control& control) const {
+                                                      std::span<const UnitLoad> loads, Control& control) const {
+    // The single layer of a pressure on a closed cavity vanishes there, and the double layer has a solution without it.
+    if (!loads.empty() && poisson_ratio_ == 0.5 && ClosedSurfaces(system_->boundary().mesh()).size() > 1)
+        throw SolveError(
+            "loads: collocation cannot tell how a body with a cavity answers them at Poisson's ratio 1/2. Choose "
+            "galerkin-bem, or a smaller ratio.");
     BemConstraints setting = constraints_of(base, handles);
     const TractionSpace& space = setting.space;
-    std::unique_ptr<NodeSolver> solver = make_solver(space, setting.nodes.nodes, setting.n_base, control);
-    SolutionChecks its_checks = checks(space, joined(base, handles));
+    std::unique_ptr<NodeSolver> solver = make_solver(space, setting.nodes.nodes, setting.n_base, loads, control);
+    SolutionChecks its_checks = checks(space, joined(base, handles), loads);
+    ParticularField particular = particular_field(system_->boundary().mesh(), poisson_ratio_,
+                                                  system_->nodes().points(Eigen::all, setting.nodes.nodes), loads);
     return std::make_unique<ConstrainedSolid>(facts_.n_vertices, std::move(setting.nodes), space.shares, display_,
-                                              std::move(solver), std::move(its_checks));
+                                              std::move(solver), std::move(its_checks), static_cast<int>(loads.size()),
+                                              std::move(particular));
 }
 
-SolutionChecks BemModel::checks(const TractionSpace& space, std::vector<int> vertices) const {
+SolutionChecks BemModel::checks(const TractionSpace& space, std::vector<int> vertices,
+                                std::span<const UnitLoad> given) const {
     SolutionChecks checks;
-    checks.residual = [system = system_, space](const NodeSolution& solution, Control& control) {
-        return boundary_residual(*system, space, solution, control);
+    const std::vector<UnitLoad> loads(given.begin(), given.end());
+    checks.residual = [system = system_, space, loads](const NodeSolution& solution, Control& control) {
+        return boundary_residual(*system, space, loads, solution, control);
     };
     checks.inside = [boundary = system_->shared_boundary(), display = display_, nu = poisson_ratio_,
-                     elements = space.elements](NodeSolution&& solution, Control&) {
+                     elements = space.elements, loads](NodeSolution&& solution, Control&) {
         SurfaceTractions tractions(solution.displacements.cols());
         tractions.add(elements, solution.loads.topRows(3 * elements.n_slots));
+        add_given(*boundary, loads, solution.factors, tractions);
         Eigen::MatrixXd u =
             display ? Eigen::MatrixXd(*display * solution.displacements) : std::move(solution.displacements);
-        return std::make_shared<const BoundaryField>(boundary, nu, std::move(u), std::move(tractions));
+        return with_body_forces(std::make_shared<const BoundaryField>(boundary, nu, std::move(u), std::move(tractions)),
+                                boundary->mesh(), nu, loads, solution.factors);
     };
-    checks.reference = [boundary = system_->shared_boundary(), nu = poisson_ratio_, vertices = std::move(vertices)](
-                           const Eigen::VectorXd& values, const NodeSolution&, Control& control) {
-        return galerkin_reference(boundary->mesh(), nu, vertices, values, control);
+    checks.reference = [boundary = system_->shared_boundary(), nu = poisson_ratio_, vertices = std::move(vertices),
+                        loads](const Eigen::VectorXd& values, const NodeSolution&, Control& control) {
+        return galerkin_reference(boundary->mesh(), nu, vertices, loads, values, control);
     };
     return checks;
 }

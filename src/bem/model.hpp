@@ -16,7 +16,7 @@ public:
              BemSystem::Storage storage, const BemModel* before, Control& control);
 
     std::unique_ptr<ConstrainedSolid> constrain(std::span<const int> base, std::span<const int> handles,
-                                                Control& control) const override;
+                                                std::span<const UnitLoad> loads, Control& control) const override;
     std::uint64_t constrain_memory(std::span<const int> base, std::span<const int> handles) const override;
     std::uint64_t check_memory(std::span<const int> base, std::span<const int> handles) const override;
     void visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const override;
@@ -26,9 +26,9 @@ private:
     /// Whether Eqns. 7 and 9 act on K itself: where one K serves every constrained set.
     bool has_K() const;
     void note_facts();
-    SolutionChecks checks(const TractionSpace& space, std::vector<int> vertices) const;
+    SolutionChecks checks(const TractionSpace& space, std::vector<int> vertices, std::span<const UnitLoad> loads) const;
     std::unique_ptr<NodeSolver> make_solver(const TractionSpace& space, const std::vector<int>& nodes, int n_base,
-                                            Control& control) const;
+                                            std::span<const UnitLoad> loads, Control& control) const;
 
     const BoundaryElement& element_;
     Method method_;

@@ -13,8 +13,13 @@ constexpr Eigen::Index kStripColumns = 384;
 
 }  // namespace
 
-BemResponses::BemResponses(std::shared_ptr<const BemSystem> system, TractionSpace space, Control& control)
-    : system_(std::move(system)), space_(std::move(space)), kept_(system_->keeps(space_)) {
+BemResponses::BemResponses(std::shared_ptr<const BemSystem> system, TractionSpace space,
+                           std::span<const UnitLoad> loads, Control& control)
+    : system_(std::move(system)),
+      space_(std::move(space)),
+      kept_(system_->keeps(space_)),
+      loads_(loads.begin(), loads.end()),
+      given_(system_->load_responses(loads_, control)) {
     if (kept_) columns_ = system_->responses(space_, control);
 }
 
@@ -22,7 +27,7 @@ Eigen::MatrixXd BemResponses::small_matrix(const std::vector<int>& nodes, const 
                                            Control& control) const {
     const Eigen::Index n = 3 * system_->n_nodes(), n_upper = 3 * std::ssize(nodes) + rigid.cols();
     const Eigen::Index n_closing = 9 * std::ssize(space_.interior_triangles);
-    Eigen::MatrixXd S(n_upper + n_closing, cols() + rigid.cols());
+    Eigen::MatrixXd S(n_upper + n_closing, cols() + rigid.cols() + n_given());
     Eigen::Index first = 0;
     const auto add = [&](const Columns& columns) {
         S.block(0, first, n_upper, columns.cols()) = columns.rows_of(nodes, n);
@@ -33,7 +38,9 @@ Eigen::MatrixXd BemResponses::small_matrix(const std::vector<int>& nodes, const 
         add(columns_);
     else
         system_->visit_responses(space_, add, control);
-    S.topRightCorner(n_upper, rigid.cols()) = border_columns(nodes, rigid);
+    S.block(0, cols(), n_upper, rigid.cols()) = border_columns(nodes, rigid);
+    first = cols() + rigid.cols();
+    if (n_given() > 0) add(given_);
     if (n_closing > 0) add_closing_of_border_and_loads(rigid, S.bottomRows(n_closing), control);
     return S;
 }
@@ -56,16 +63,19 @@ void BemResponses::add_closing_of_border_and_loads(const Eigen::MatrixXd& rigid,
     for_source_strips(sources_inside(system_->boundary(), space_.interior_triangles),
                       [&](int source, const Sources& strip) {
                           auto out = rows.middleRows(3 * source, 3 * strip.size());
-                          out.rightCols(rigid.cols()).noalias() =
+                          out.middleCols(cols(), rigid.cols()).noalias() =
                               system_->double_layer(strip, control) * rigid.topRows(3 * system_->n_nodes());
                           out.leftCols(3 * space_.n_slots()) -= system_->single_layer(strip, space_.elements, control);
+                          if (n_given() > 0)
+                              out.rightCols(n_given()) -= system_->given_single_layer(strip, loads_, control);
                       });
 }
 
 void BemResponses::add_product(const Eigen::MatrixXd& loads, Eigen::Ref<Eigen::MatrixXd> displacements,
                                Control& control) const {
+    given_.add_product(loads.bottomRows(n_given()), displacements);
     if (kept_) {
-        columns_.add_product(loads, displacements);
+        columns_.add_product(loads.topRows(cols()), displacements);
         return;
     }
     const Eigen::Index n = 3 * system_->n_nodes(), n_loads = 3 * space_.n_slots();
@@ -90,9 +100,9 @@ std::uint64_t response_memory(const BemSystem& system, const TractionSpace& spac
 }
 
 ReducedSystem reduced_system(const std::shared_ptr<const BemSystem>& system, const TractionSpace& space,
-                             const std::vector<int>& nodes, Control& control) {
+                             const std::vector<int>& nodes, std::span<const UnitLoad> loads, Control& control) {
     ReducedSystem reduced;
-    reduced.responses = std::make_shared<const BemResponses>(system, space, control);
+    reduced.responses = std::make_shared<const BemResponses>(system, space, loads, control);
     reduced.rigid = system->rigid();
     reduced.nodes = nodes;
     reduced.n_loads = 3 * space.n_slots();

@@ -17,9 +17,11 @@ namespace elastolab {
 /// set change divided by the number of loads.
 class BemResponses : public Responses {
 public:
-    BemResponses(std::shared_ptr<const BemSystem> system, TractionSpace space, Control& control);
+    BemResponses(std::shared_ptr<const BemSystem> system, TractionSpace space, std::span<const UnitLoad> loads,
+                 Control& control);
 
     Eigen::Index cols() const override { return space_.n_unknowns(); }
+    Eigen::Index n_given() const override { return given_.cols(); }
     Eigen::MatrixXd small_matrix(const std::vector<int>& nodes, const Eigen::MatrixXd& rigid,
                                  Control& control) const override;
     void add_product(const Eigen::MatrixXd& loads, Eigen::Ref<Eigen::MatrixXd> displacements,
@@ -29,7 +31,7 @@ private:
     /// Rows of the equations at interior points <- their integrals times these columns, from column `first` on.
     void add_closing(const Columns& columns, Eigen::Index first, Eigen::Ref<Eigen::MatrixXd> rows,
                      Control& control) const;
-    /// ... <- those of the border values, and the single layer.
+    /// ... <- those of the border values, and the single layer of unknown and given tractions.
     void add_closing_of_border_and_loads(const Eigen::MatrixXd& rigid, Eigen::Ref<Eigen::MatrixXd> rows,
                                          Control& control) const;
 
@@ -37,11 +39,13 @@ private:
     TractionSpace space_;
     bool kept_;
     Columns columns_;  ///< empty when nothing is kept
+    std::vector<UnitLoad> loads_;
+    Columns given_;  ///< of these loads
 };
 
 /// The small system of a constrained set: its responses, kept or not, and the border.
 ReducedSystem reduced_system(const std::shared_ptr<const BemSystem>& system, const TractionSpace& space,
-                             const std::vector<int>& nodes, Control& control);
+                             const std::vector<int>& nodes, std::span<const UnitLoad> loads, Control& control);
 
 /// Bytes that the responses of a space, their small system and its making take at their peak.
 std::uint64_t response_memory(const BemSystem& system, const TractionSpace& space);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "bem/given_loads.hpp"
+#include "deform/load_columns.hpp"
 #include "elasticity/rigid_motion.hpp"
 
 namespace elastolab {
@@ -125,6 +127,28 @@ Eigen::MatrixXd BemSystem::single_layer(const Sources& sources, const Elements& 
     assemble(Layer::single_layer, *boundary_, sources, loads, material_, std::max(tolerance, tolerance_), rows,
              control);
     return rows;
+}
+
+Eigen::MatrixXd BemSystem::given_single_layer(const Sources& sources, std::span<const UnitLoad> loads,
+                                              Control& control) const {
+    return elastolab::given_single_layer(*boundary_, sources, material_, tolerance_, loads, control);
+}
+
+Columns BemSystem::load_responses(std::span<const UnitLoad> loads, Control& control) const {
+    const Eigen::Index n = 3 * n_nodes();
+    const auto compute = [&](std::span<const UnitLoad> missing) {
+        Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(n + 6, std::ssize(missing));
+        columns.topRows(n) = given_single_layer(nodes_, missing, control);
+        lu_.solve_in_place(columns);
+        return columns;
+    };
+    return load_columns(*cache_, loads, n + 6, compute, control);
+}
+
+Eigen::MatrixXd BemSystem::given_tractions(std::span<const UnitLoad> loads, Control& control) const {
+    if (loads.empty()) return {};
+    const LuFactorization G(Eigen::MatrixXd(full_->G), "single-layer matrix", &control);
+    return G.solve(given_single_layer(nodes_, loads, control));
 }
 
 Eigen::MatrixXd BemSystem::double_layer_at(std::span<const int> nodes, Control& control) const {

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@
 #include "deform/dense_solvers.hpp"
 #include "deform/finding.hpp"
 #include "deform/method.hpp"
+#include "deform/unit_load.hpp"
 
 namespace elastolab {
 
@@ -57,6 +59,8 @@ public:
     Eigen::MatrixXd double_layer(const Sources& sources, Control& control, double tolerance = 0.0) const;
     Eigen::MatrixXd single_layer(const Sources& sources, const Elements& loads, Control& control,
                                  double tolerance = 0.0) const;
+    /// The single layer of the tractions of given loads, seen from these sources: 3*sources x loads.size().
+    Eigen::MatrixXd given_single_layer(const Sources& sources, std::span<const UnitLoad> loads, Control& control) const;
     /// Rows of H at these nodes: copied in the mode `full`, where H is in memory, else integrated.
     Eigen::MatrixXd double_layer_at(std::span<const int> nodes, Control& control) const;
 
@@ -66,6 +70,11 @@ public:
     bool keeps(const TractionSpace& space) const;
     /// Responses Hhat^-1 [G; 0] to the unit loads of a space, then to its residuals; cached.
     Columns responses(const TractionSpace& space, Control& control) const;
+    /// Hhat^-1 [G g; 0] for given loads, a column each; cached.
+    Columns load_responses(std::span<const UnitLoad> loads, Control& control) const;
+    /// G^-1 (the single layer of given loads): what they add to the tractions K u of the nodes, 3*n_nodes x
+    /// loads.size(); in the mode `full`, with another factorisation of G.
+    Eigen::MatrixXd given_tractions(std::span<const UnitLoad> loads, Control& control) const;
     /// The same, computed afresh, a group of columns at a time; none is kept.
     void visit_responses(const TractionSpace& space, const std::function<void(const Columns&)>& visit,
                          Control& control) const;

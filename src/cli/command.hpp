@@ -33,5 +33,6 @@ Command add_solve_command(CLI::App& program);
 Command add_info_command(CLI::App& program);
 Command add_view_command(CLI::App& program);
 Command add_bench_command(CLI::App& program);
+Command add_feel_command(CLI::App& program);
 
 }  // namespace elastolab

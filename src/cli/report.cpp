@@ -44,7 +44,7 @@ Json machine() {
     return {{"cpu", machine.cpu}, {"cores", machine.cores}, {"memory_bytes", machine.memory_bytes}};
 }
 
-Json fixed_sets(const std::vector<GroupReaction>& reactions) {
+Json named_forces(const std::vector<GroupReaction>& reactions) {
     Json list = Json::array();
     for (const GroupReaction& reaction : reactions)
         list.push_back({{"name", reaction.name},
@@ -123,6 +123,7 @@ void print_reactions(std::ostream& out, const Solution& solution) {
         if (lines.size() > 1 || solution.fixed_reactions.size() < 2) continue;
         for (const GroupReaction& part : solution.fixed_reactions) lines.emplace_back("  of " + label_of(part), &part);
     }
+    for (const GroupReaction& load : solution.loads) lines.emplace_back(one_line(load.name), &load);
     std::size_t width = 12;
     for (const auto& line : lines) width = std::max(width, line.first.size());
     for (auto& [label, reaction] : lines) {
@@ -158,7 +159,9 @@ void write_report(std::ostream& out, const Solution& solution) {
         {"predicted_memory_bytes", solution.predicted.memory_bytes},
         {"residual", solution.residual ? finite_or_null(*solution.residual) : Json(nullptr)},
         {"condition_estimate", finite_or_null(solution.condition_estimate)},
-        {"fixed_sets", fixed_sets(solution.fixed_reactions)},
+        {"fixed_sets", named_forces(solution.fixed_reactions)},
+        {"loads", named_forces(solution.loads)},
+        {"compliance", solution.compliance ? finite_or_null(*solution.compliance) : Json(nullptr)},
         {"force_imbalance", finite_or_null(solution.imbalance.force)},
         {"moment_imbalance", finite_or_null(solution.imbalance.moment)},
         {"error_estimate",

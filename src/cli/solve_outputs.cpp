@@ -150,7 +150,11 @@ void write_outputs(const OutputPaths& paths, const Solution& solution) {
         write_field_csv(outputs.add(paths.fields).stream(), solution.surface->vertices,
                         surface_fields(solved_body(solution)));
     if (!paths.mesh.empty()) write_deformed_mesh(outputs.add(paths.mesh).stream(), paths.mesh, solution);
-    if (!paths.forces.empty()) write_forces(outputs.add(paths.forces).stream(), solution.reactions);
+    if (!paths.forces.empty()) {
+        std::vector<GroupReaction> rows = solution.reactions;
+        rows.insert(rows.end(), solution.loads.begin(), solution.loads.end());
+        write_forces(outputs.add(paths.forces).stream(), rows);
+    }
     if (!paths.matrices.empty()) write_matrices(outputs, paths.matrices, *solution.model);
     if (!paths.report.empty()) write_report(outputs.add(paths.report).stream(), solution);
     outputs.commit();

@@ -14,6 +14,7 @@
 #include "base/memory.hpp"
 #include "base/text.hpp"
 #include "deform/holds.hpp"
+#include "deform/load_parts.hpp"
 #include "deform/patch_reactions.hpp"
 #include "deform/solid_model.hpp"
 
@@ -35,21 +36,33 @@ double largest_motion(const Eigen::VectorXd& u, Eigen::Index& vertex) {
                : Eigen::Map<const Eigen::Matrix3Xd>(u.data(), 3, u.size() / 3).colwise().norm().maxCoeff(&vertex);
 }
 
+/// Vectors of the vertices that a load takes.
+constexpr std::uint64_t kColumnsOfLoad = 3;
+
+/// The part of a surface that these vertices make up; local: their numbers, -1 for others.
+SurfaceMesh solid_of(const SurfaceMesh& surface, const std::vector<int>& vertices, const std::vector<int>& local) {
+    SurfaceMesh solid{surface.vertices(Eigen::all, vertices), {}};
+    std::vector<int> own;
+    for (int t = 0; t < surface.n_triangles(); ++t)
+        if (local[static_cast<std::size_t>(surface.triangles(0, t))] >= 0) own.push_back(t);
+    solid.triangles = surface.triangles(Eigen::all, own);
+    for (int& v : solid.triangles.reshaped()) v = local[static_cast<std::size_t>(v)];
+    return solid;
+}
+
 std::unique_ptr<ConstrainedSolid> constrained(const SolidModel& solid, std::span<const int> base,
-                                              std::span<const int> handles, bool held, Control& control) {
+                                              std::span<const int> handles, std::span<const UnitLoad> loads, bool held,
+                                              Control& control) {
     try {
-        return solid.constrain(base, handles, control);
+        return solid.constrain(base, handles, loads, control);
     } catch (const NotHeldError&) {
         if (held) throw NotHeldError(kSingularThoughHeld);
         throw;
     }
 }
 
-/// Binary exponent of the largest magnitude; 0 where that is zero, denormal or not finite.
-int exponent_of(const Eigen::VectorXd& values) {
-    const double largest = values.size() == 0 ? 0.0 : values.cwiseAbs().maxCoeff();
-    return std::isnormal(largest) ? std::clamp(std::ilogb(largest), -1000, 1000) : 0;
-}
+/// Binary exponent of a magnitude; 0 where that is zero, denormal or not finite.
+int exponent_of(double largest) { return std::isnormal(largest) ? std::clamp(std::ilogb(largest), -1000, 1000) : 0; }
 
 /// Near nu = -1 a body resists shear 1 / (1 + nu) times more than stretch. Where a part of the displacement error is
 /// spurious shear, forces are too large by that factor times that part, in the better answer too, so that the
@@ -78,12 +91,18 @@ struct Deformer::SolidState {
     std::vector<int> base, handles;           ///< vertices of the solid
     std::vector<int> base_rows, handle_rows;  ///< their positions in the lists of the whole set
 
-    bool is_constrained() const { return !base.empty() || !handles.empty(); }
+    std::vector<UnitLoad> loads;          ///< that act on the solid, with its triangles
+    std::vector<Eigen::Index> load_rows;  ///< of the values
+    Eigen::VectorXd load_units;           ///< the solid's factor of a load over the body's
+    FreeWork free_work;                   ///< of these loads
 
-    /// Values of the base (zero) and the handles of this solid, out of those of the whole body.
+    bool is_constrained() const { return !base.empty() || !handles.empty() || !loads.empty(); }
+
+    /// Values of the base (zero), the handles and the loads of this solid, out of those of the whole body.
     Eigen::MatrixXd values(const Eigen::MatrixXd& all) const {
-        Eigen::MatrixXd own =
-            Eigen::MatrixXd::Zero(3 * std::ssize(base_rows) + 3 * std::ssize(handle_rows), all.cols());
+        const Eigen::Index n = 3 * std::ssize(base_rows) + 3 * std::ssize(handle_rows);
+        Eigen::MatrixXd own = Eigen::MatrixXd::Zero(n + std::ssize(loads), all.cols());
+        own.bottomRows(std::ssize(loads)) = load_units.asDiagonal() * all(load_rows, Eigen::all);
         for (std::size_t i = 0; i < handle_rows.size(); ++i)
             own.middleRows<3>(3 * static_cast<Eigen::Index>(base_rows.size() + i)) =
                 all.middleRows<3>(3 * handle_rows[i]);
@@ -137,14 +156,44 @@ Deformer::SolidState Deformer::split(const ConstrainedSet& set, const Model::Par
     };
     pick(set.base, state.base, state.base_rows);
     pick(set.handles, state.handles, state.handle_rows);
+    if (!set.loads.empty()) add_loads(set, part, local, state);
     return state;
+}
+
+/// In the solid Young's modulus is 1 and coordinates are multiplied: tractions are [E] over [L], displacements as they
+/// are, so that a traction is divided by E and the scale, and a force per volume by the scale once more.
+void Deformer::add_loads(const ConstrainedSet& set, const Model::Part& part, const std::vector<int>& local,
+                         SolidState& state) const {
+    const SurfaceMesh& surface = *model_->body().surface;
+    std::vector<int> own_triangle(static_cast<std::size_t>(surface.n_triangles()), -1);
+    int n_own = 0;
+    for (int t = 0; t < surface.n_triangles(); ++t)
+        if (local[static_cast<std::size_t>(surface.triangles(0, t))] >= 0)
+            own_triangle[static_cast<std::size_t>(t)] = n_own++;
+    const double unit = 1.0 / (model_->body().material.young_modulus * part.scale);
+    std::vector<double> units;
+    for (Eigen::Index i = 0; i < std::ssize(set.loads); ++i) {
+        const UnitLoad& load = set.loads[static_cast<std::size_t>(i)];
+        UnitLoad own = on_triangles(load, own_triangle);
+        if (!load.is_body_force() && own.triangles.empty()) continue;
+        units.push_back(load.is_body_force() ? unit / part.scale : unit);
+        state.loads.push_back(std::move(own));
+        state.load_rows.push_back(3 * std::ssize(set.handles) + i);
+    }
+    state.load_units = Eigen::Map<const Eigen::VectorXd>(units.data(), std::ssize(units));
+    if (state.loads.empty()) return;
+    const bool whole = part.vertices.size() == static_cast<std::size_t>(surface.n_vertices());
+    state.free_work = FreeWork(whole ? surface : solid_of(surface, part.vertices, local),
+                               joined(state.base, state.handles), state.loads);
 }
 
 std::uint64_t Deformer::predict_memory(const ConstrainedSet& set) const {
     std::uint64_t sum = 0;
     for (const Model::Part& part : model_->parts())
         if (const SolidState state = split(set, part); state.is_constrained())
-            sum += part.solid->constrain_memory(state.base, state.handles);
+            sum +=
+                part.solid->constrain_memory(state.base, state.handles) +
+                kColumnsOfLoad * 24 * static_cast<std::uint64_t>(part.solid->facts().n_vertices) * state.loads.size();
     return sum;
 }
 
@@ -179,7 +228,7 @@ void Deformer::constrain(ConstrainedSet set, Control& control) {
             // little.
             const Positions& all = model_->body().surface->vertices;
             const bool holds_it = holds(all(Eigen::all, part.vertices), joined(state.base, state.handles));
-            state.solid = constrained(*part.solid, state.base, state.handles, holds_it, control);
+            state.solid = constrained(*part.solid, state.base, state.handles, state.loads, holds_it, control);
             quality.condition_estimate = std::max(quality.condition_estimate, state.solid->condition());
             quality.held = quality.held && state.solid->held() && holds_it;
             quality.free_to_move = quality.free_to_move || !holds_it;
@@ -200,6 +249,16 @@ void Deformer::place(std::size_t part, Eigen::MatrixXd&& own, Eigen::MatrixXd& a
     const std::vector<int>& vertices = model_->parts()[part].vertices;
     for (std::size_t i = 0; i < vertices.size(); ++i)
         all.middleRows<3>(3 * vertices[i]) = own.middleRows<3>(3 * static_cast<Eigen::Index>(i));
+}
+
+void Deformer::require_balance(const Eigen::MatrixXd& values) const {
+    if (set_.loads.empty()) return;
+    for (const SolidState& state : solids_)
+        for (Eigen::Index column = 0; column < values.cols() && state.solid; ++column)
+            if (!state.free_work.balanced(values.col(column)(state.load_rows)))
+                throw SolveError(model_->body().name +
+                                 ": its loads do not balance, and nothing holds the body against them. Fix a part of "
+                                 "it, or add loads until their forces and moments sum to zero.");
 }
 
 void Deformer::require_finite(const Eigen::MatrixXd& u) const {
@@ -242,7 +301,8 @@ NodeSolution Deformer::solve(std::size_t part, const Eigen::MatrixXd& values, co
 
 Deformer::Displaced Deformer::displace_by(const Eigen::MatrixXd& values, const Eigen::MatrixXd& changes,
                                           double tolerance, const Approach& approach, Control& control) const {
-    assert(values.rows() == 3 * std::ssize(set_.handles));
+    assert(values.rows() == set_.n_values() || values.cols() == 0);
+    require_balance(values);  // but not each of the changes, which need not balance by themselves
     const Approach from = values.cols() == 1 ? remembered(values.col(0), approach) : approach;
     Displaced result{Eigen::MatrixXd::Zero(3 * model_->facts().n_vertices, values.cols() + changes.cols()), nullptr};
     auto found = std::make_shared<Equilibrium>();
@@ -367,9 +427,14 @@ std::optional<DiscretisationCheck> Deformer::check_of(const Answer& answer, cons
 
 Deformer::Answer Deformer::answer(const Eigen::VectorXd& values, Wanted wanted, Control& control,
                                   const Approach& approach) const {
+    assert(values.size() == set_.n_values());
+    require_balance(values);
     // Residuals and errors square numbers: for values of order one these are far from over- and underflow. The problem
     // is linear, and a power of two rounds nothing. Where it is not linear, its solids have order one by themselves.
-    const int exponent = linear() ? exponent_of(values) : 0;
+    double largest = 0.0;
+    for (const SolidState& state : solids_)
+        if (state.solid) largest = std::max(largest, state.values(values).cwiseAbs().maxCoeff());
+    const int exponent = linear() ? exponent_of(largest) : 0;
     const Eigen::VectorXd unit_values = values * std::ldexp(1.0, -exponent);
     const double unit = std::ldexp(1.0, exponent);
     const Approach from = remembered(values, approach);

@@ -13,14 +13,21 @@
 #include "deform/interior_field.hpp"
 #include "deform/iteration.hpp"
 #include "deform/model.hpp"
+#include "deform/unit_load.hpp"
 
 namespace elastolab {
 
 /// Which vertices are constrained. `base` vertices are held at rest; `handles` vertices follow prescribed
-/// displacements. All numbers differ. The split matters for speed only: FEM eliminates the base once.
+/// displacements. All numbers differ. The split matters for speed only: FEM eliminates the base once. `loads` act
+/// besides, each as large as a factor of its own says, which stands in the values behind the handles' displacements: a
+/// load that changes its size, or its direction among unit loads, costs a frame and no solve.
 struct ConstrainedSet {
     std::vector<int> base;
     std::vector<int> handles;
+    std::vector<UnitLoad> loads = {};
+
+    /// Rows of the values that go with the set: three for each handle vertex, then one for each load.
+    Eigen::Index n_values() const { return 3 * std::ssize(handles) + std::ssize(loads); }
 };
 
 /// Displacements of all vertices as an affine function of a few parameters: u = rest + X * parameters.
@@ -94,8 +101,10 @@ public:
     std::uint64_t predict_check_memory(const ConstrainedSet& set) const;
 
     /// Displacements of all vertices, 3*n_vertices [L], for those prescribed at the handles: values is
-    /// 3*set().handles.size(), node-major, in the order of set().handles. A solid with no constrained vertex rests.
-    /// Throws SolveError when the result is not finite.
+    /// set().n_values(), node-major, in the order of set().handles, then the factor of each of set().loads. A solid
+    /// with no constrained vertex and no load rests; one that is loaded and free to move must have loads that balance,
+    /// and takes the answer without rigid motion. Throws SolveError when they do not balance, or the result is not
+    /// finite.
     Eigen::VectorXd displace(const Eigen::VectorXd& values) const;
     /// The same where solving may take long (large surfaces by iteration, to this relative residual): tells its
     /// progress. Throws Cancelled.
@@ -110,9 +119,9 @@ public:
     /// to a small one starts from what is known to a larger one.
     bool iterates() const;
 
-    /// Response to motions of some handles: `values` are the present ones (as in displace), each column of `basis`
-    /// (same rows) a motion; for a rigid translation three columns that repeat the unit vectors at the handle's
-    /// vertices. rest = displace(values).
+    /// Response to motions of some handles or to loads: `values` are the present ones (as in displace), each column of
+    /// `basis` (same rows) a motion or a change of the loads' factors; for a rigid translation three columns that
+    /// repeat the unit vectors at the handle's vertices. rest = displace(values).
     DragResponse drag_response(const Eigen::VectorXd& values, const Eigen::MatrixXd& basis) const;
     DragResponse drag_response(const Eigen::VectorXd& values, const Eigen::MatrixXd& basis, Control& control,
                                double tolerance = kSolveTolerance, const Approach& approach = {}) const;
@@ -180,7 +189,10 @@ private:
     double unit_of(std::size_t part) const;
     /// A part's share of a set, not yet constrained.
     SolidState split(const ConstrainedSet& set, const Model::Part& part) const;
+    void add_loads(const ConstrainedSet& set, const Model::Part& part, const std::vector<int>& local,
+                   SolidState& state) const;
     void require_memory(const ConstrainedSet& set) const;
+    void require_balance(const Eigen::MatrixXd& values) const;
     /// Rows of all vertices <- those of a part.
     void place(std::size_t part, Eigen::MatrixXd&& own, Eigen::MatrixXd& all) const;
     void require_finite(const Eigen::MatrixXd& u) const;

@@ -42,35 +42,38 @@ Factors factorise_held(Eigen::MatrixXd&& A, const char* name, Control* control =
 /// Throws SolveError when D11 is singular: the constraints do not hold the body.
 Eigen::MatrixXd inverse_by_eqn9(const Eigen::MatrixXd& bordered_inverse, const Partition& partition);
 
-/// Eqn. 7 afresh: U0 = -K00^-1 K01 U1 with K00 factorised for this constrained set. Throws SolveError when K00 is
-/// singular: the constraints do not hold the body.
+/// Eqn. 7 afresh: U0 = K00^-1 (G0 - K01 U1), G the given loads, with K00 factorised for this constrained set. Throws
+/// SolveError when K00 is singular: the constraints do not hold the body.
 class DirectSolver : public NodeSolver {
 public:
+    /// given: 3n x n_loads, what unit loads add to T
     DirectSolver(std::shared_ptr<const DenseOperators> operators, const std::vector<int>& nodes,
-                 Control* control = nullptr);
+                 Eigen::MatrixXd given = {}, Control* control = nullptr);
     NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const override;
 
 private:
     std::shared_ptr<const DenseOperators> operators_;
     Partition partition_;
+    Eigen::MatrixXd given_;
     LuFactorization K00_;
 };
 
-/// Eqn. 9 as the paper writes it: K00^-1 is formed from D, then U0 = -K00^-1 (K01 U1). The paper prefers it where
+/// Eqn. 9 as the paper writes it: K00^-1 is formed from D, then U0 = K00^-1 (G0 - K01 U1). The paper prefers it where
 /// fewer displacements are known than unknown; make_paper_solver follows that rule.
 class Eqn9Solver : public NodeSolver {
 public:
-    Eqn9Solver(std::shared_ptr<const DenseOperators> operators, const std::vector<int>& nodes);
+    Eqn9Solver(std::shared_ptr<const DenseOperators> operators, const std::vector<int>& nodes,
+               Eigen::MatrixXd given = {});
     NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const override;
 
 private:
     std::shared_ptr<const DenseOperators> operators_;
     Partition partition_;
-    Eigen::MatrixXd K00_inverse_;
+    Eigen::MatrixXd given_, K00_inverse_;
 };
 
 /// Eqn. 9 where fewer displacements are known than unknown, else Eqn. 7.
 std::unique_ptr<NodeSolver> make_paper_solver(std::shared_ptr<const DenseOperators> operators,
-                                              const std::vector<int>& nodes, Control& control);
+                                              const std::vector<int>& nodes, Eigen::MatrixXd given, Control& control);
 
 }  // namespace elastolab

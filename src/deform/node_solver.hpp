@@ -17,7 +17,7 @@ public:
     using SolveError::SolveError;
     NotHeldError()
         : SolveError(
-              "constraints: leave the body free to move as a rigid body. Constrain three vertices that are not on one "
+              "constraints: leave the body free to move as a whole. Constrain three vertices that are not on one "
               "line, or use the reduced update, which takes the smallest motion.") {}
 };
 
@@ -28,17 +28,19 @@ inline constexpr const char* kSingularThoughHeld =
 
 /// Answer of a node solver, one column per column of prescribed values.
 struct NodeSolution {
-    Eigen::MatrixXd displacements;    ///< 3*n_nodes x m [L]
-    Eigen::MatrixXd loads;            ///< 3*n_load_slots x m, for unit Young's modulus: nodal forces (FEM) or the
-                                      ///< coefficients of the tractions (BEM); empty unless asked for
-    Eigen::MatrixXd prescribed = {};  ///< what it is a solution for, of methods that are not linear; else empty
+    Eigen::MatrixXd displacements;  ///< 3*n_nodes x m [L]
+    Eigen::MatrixXd loads;          ///< 3*n_load_slots x m, for unit Young's modulus: nodal forces (FEM) or the
+                                    ///< coefficients of the tractions (BEM), of the supports alone; empty unless
+                                    ///< asked for
+    Eigen::MatrixXd prescribed;     ///< what it is a solution for, of methods that are not linear; else empty
+    Eigen::MatrixXd factors = {};   ///< n_unit_loads x m, of the given loads
     std::shared_ptr<const NodeState> state = nullptr;  ///< of the last column, of methods that are not linear
 };
 
 /// What a node solver is asked for at once.
 struct NodeTask {
-    Eigen::MatrixXd prescribed;  ///< 3*n_constrained_nodes x m, in the order of the constrained nodes
-    /// 3*n_constrained_nodes x k: changes of the first column of `prescribed`; wanted are the derivatives of its
+    Eigen::MatrixXd prescribed;  ///< as NodeSolver::solve takes it: 3*n_constrained_nodes + n_unit_loads x m
+    /// The same, x k: changes of the first column of `prescribed`; wanted are the derivatives of its
     /// solution along them.
     Eigen::MatrixXd changes = {};
     const NodeState* start = nullptr;  ///< as in Approach; null: rest
@@ -51,7 +53,8 @@ class NodeSolver {
 public:
     virtual ~NodeSolver() = default;
 
-    /// prescribed  3*n_constrained_nodes x m, in the order of the constrained nodes
+    /// prescribed  3*n_constrained_nodes + n_unit_loads x m: displacements in the order of the constrained nodes, then
+    ///             a factor for each unit load that the solver was made with
     virtual NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const = 0;
     /// The same; where it iterates, to this relative residual, it tells its progress and can be cancelled. Throws
     /// SolveError, Cancelled.

@@ -31,24 +31,42 @@ Eigen::MatrixXd border_columns(const std::vector<int>& nodes, const Eigen::Matri
 
 Eigen::MatrixXd KeptResponses::small_matrix(const std::vector<int>& nodes, const Eigen::MatrixXd& rigid,
                                             Control&) const {
-    Eigen::MatrixXd S(3 * std::ssize(nodes) + rigid.cols(), cols() + rigid.cols());
-    S.leftCols(cols()) = columns_.rows_of(nodes, rigid.rows() - rigid.cols());
-    S.rightCols(rigid.cols()) = border_columns(nodes, rigid);
+    const Eigen::Index n_border = rigid.cols(), border = rigid.rows() - n_border;
+    Eigen::MatrixXd S(3 * std::ssize(nodes) + n_border, cols() + n_border + n_given());
+    if (cols() > 0) S.leftCols(cols()) = columns_.rows_of(nodes, border);
+    S.middleCols(cols(), n_border) = border_columns(nodes, rigid);
+    if (n_given() > 0) S.rightCols(n_given()) = given_.rows_of(nodes, border);
     return S;
 }
 
-ReducedSolver::ReducedSolver(ReducedSystem system, Control& control) : system_(std::move(system)) {
+Eigen::MatrixXd ReducedSolver::scaled_matrix(Control& control) {
     Eigen::MatrixXd S = system_.responses->small_matrix(system_.nodes, system_.rigid, control);
-    assert(S.rows() == S.cols());
-    if (S.size() == 0) return;
+    const Eigen::Index n_given = system_.responses->n_given();
+    assert(S.rows() == S.cols() - n_given);
+    given_ = S.rightCols(n_given);
+    S.conservativeResize(Eigen::NoChange, S.rows());
+    if (S.size() == 0) return S;
     // Loads and border values have different units; dividing each column by its largest entry makes the condition
     // independent of them. The border has one scale for all its columns: where the body is not held, the smallest
     // border values are to mean the smallest motion.
     scale_ = S.cwiseAbs().colwise().maxCoeff().transpose();
     if (auto border = scale_.tail(system_.rigid.cols()); border.size() > 0) border.setConstant(border.maxCoeff());
-    if (!scale_.allFinite()) throw SolveError("constrained system: has entries that are not finite. Check the mesh.");
+    if (!scale_.allFinite() || !given_.allFinite())
+        throw SolveError("constrained system: has entries that are not finite. Check the mesh.");
     scale_ = (scale_.array() > 0.0).select(scale_, 1.0);
     S.array().rowwise() /= scale_.transpose().array();
+    return S;
+}
+
+ReducedSolver::ReducedSolver(ReducedSystem system, Control& control) : system_(std::move(system)) {
+    if (system_.nodes.empty() && system_.responses->cols() == 0) {
+        // Loads on a free body: the border values are what they lack of balance, which is rounding or, with collocation,
+        // the error of the discretisation. J is rounding, too, and must not divide it.
+        held_ = system_.rigid.cols() == 0;
+        return;
+    }
+    Eigen::MatrixXd S = scaled_matrix(control);
+    if (S.size() == 0) return;
     try {
         lu_ = LuFactorization(std::move(S), "constrained system", &control);
         condition_ = 1.0 / std::max(lu_.reciprocal_condition(), 1e-300);
@@ -59,24 +77,29 @@ ReducedSolver::ReducedSolver(ReducedSystem system, Control& control) : system_(s
     // Rare, and the system may be large: it is made again rather than copied every time.
     held_ = false;
     lu_ = LuFactorization();
-    deficient_ = system_.responses->small_matrix(system_.nodes, system_.rigid, control);
-    deficient_.array().rowwise() /= scale_.transpose().array();
+    deficient_ = scaled_matrix(control);
 }
 
-Eigen::MatrixXd ReducedSolver::unknowns(const Eigen::MatrixXd& right) const {
-    Eigen::MatrixXd all = Eigen::MatrixXd::Zero(scale_.size(), right.cols());
-    all.topRows(right.rows()) = right;
-    Eigen::MatrixXd x = held_ ? lu_.solve(std::move(all)) : solve_minimum_norm(deficient_, all, kRankTolerance).X;
+Eigen::MatrixXd ReducedSolver::unknowns(Eigen::MatrixXd right) const {
+    Eigen::MatrixXd x = held_ ? lu_.solve(std::move(right)) : solve_minimum_norm(deficient_, right, kRankTolerance).X;
     x.array().colwise() /= scale_.array();
     if (!x.allFinite())
         throw SolveError("constrained system: its solution is not finite. Remove handles that nearly coincide.");
     return x;
 }
 
-Eigen::MatrixXd ReducedSolver::displacements(const Eigen::MatrixXd& unknowns, Control& control) const {
+Eigen::MatrixXd ReducedSolver::displacements(const Eigen::MatrixXd& unknowns, const Eigen::MatrixXd& factors,
+                                             Control& control) const {
     const Eigen::Index n_border = system_.rigid.cols(), n_rows = system_.rigid.rows() - n_border;
     Eigen::MatrixXd u = system_.rigid.topRows(n_rows) * unknowns.bottomRows(n_border);
-    system_.responses->add_product(unknowns.topRows(system_.responses->cols()), u, control);
+    const Eigen::Index n_unknown = system_.responses->cols();
+    if (factors.rows() == 0) {
+        system_.responses->add_product(unknowns.topRows(n_unknown), u, control);
+        return u;
+    }
+    Eigen::MatrixXd loads(n_unknown + factors.rows(), unknowns.cols());
+    loads << unknowns.topRows(n_unknown), factors;
+    system_.responses->add_product(loads, u, control);
     return u;
 }
 
@@ -88,15 +111,17 @@ NodeSolution ReducedSolver::solve(const Eigen::MatrixXd& prescribed, bool want_l
 NodeSolution ReducedSolver::solve_watched(const Eigen::MatrixXd& prescribed, bool want_loads, double,
                                           Control& control) const {
     control.checkpoint();
-    assert(prescribed.rows() == 3 * std::ssize(system_.nodes));
+    const Eigen::Index n = 3 * std::ssize(system_.nodes), n_given = system_.responses->n_given();
+    assert(prescribed.rows() == n + n_given);
     NodeSolution solution;
-    if (scale_.size() == 0) {
-        solution.displacements = Eigen::MatrixXd::Zero(system_.rigid.rows() - system_.rigid.cols(), prescribed.cols());
-        solution.loads = Eigen::MatrixXd::Zero(system_.n_loads, prescribed.cols());
-        return solution;
+    Eigen::MatrixXd x = Eigen::MatrixXd::Zero(system_.responses->cols() + system_.rigid.cols(), prescribed.cols());
+    if (scale_.size() > 0) {
+        Eigen::MatrixXd right = Eigen::MatrixXd::Zero(scale_.size(), prescribed.cols());
+        right.topRows(n) = prescribed.topRows(n);
+        if (n_given > 0) right.noalias() -= given_ * prescribed.bottomRows(n_given);
+        x = unknowns(std::move(right));
     }
-    const Eigen::MatrixXd x = unknowns(prescribed);
-    solution.displacements = displacements(x, control);
+    solution.displacements = displacements(x, prescribed.bottomRows(n_given), control);
     set_prescribed(system_.nodes, prescribed, solution.displacements);
     if (want_loads) solution.loads = x.topRows(system_.n_loads);
     return solution;

@@ -17,25 +17,39 @@ Reactions gathered_reactions(const std::vector<LoadShare>& shares, int n, const 
 
 ConstrainedSolid::ConstrainedSolid(int n_vertices, ConstrainedNodes nodes, std::vector<LoadShare> shares,
                                    std::shared_ptr<const SparseRows> display, std::unique_ptr<NodeSolver> solver,
-                                   SolutionChecks checks)
+                                   SolutionChecks checks, int n_loads, ParticularField particular)
     : n_vertices_(n_vertices),
       n_constrained_(static_cast<int>(nodes.prescribe.cols() / 3)),
+      n_loads_(n_loads),
       nodes_(std::move(nodes)),
       shares_(std::move(shares)),
       display_(std::move(display)),
       solver_(std::move(solver)),
-      checks_(std::move(checks)) {}
+      checks_(std::move(checks)),
+      particular_(std::move(particular)) {}
 
 NodeSolution ConstrainedSolid::solve(const NodeTask& task, double tolerance, Control& control) const {
-    assert(task.prescribed.rows() == nodes_.prescribe.cols());
-    const auto of_nodes = [&](const Eigen::MatrixXd& of_vertices) -> Eigen::MatrixXd {
-        return of_vertices.cols() > 0 ? Eigen::MatrixXd(nodes_.prescribe * of_vertices) : Eigen::MatrixXd();
-    };
     const NodeTask own{of_nodes(task.prescribed), of_nodes(task.changes), task.start, of_nodes(task.path),
                        task.want_loads};
     NodeSolution solution = solver_->solve_task(own, tolerance, control);
+    solution.factors.resize(n_loads_, task.prescribed.cols() + task.changes.cols());
+    solution.factors.leftCols(task.prescribed.cols()) = task.prescribed.bottomRows(n_loads_);
+    if (task.changes.cols() > 0) solution.factors.rightCols(task.changes.cols()) = task.changes.bottomRows(n_loads_);
     if (!solver_->linear()) solution.prescribed = task.prescribed;
     return solution;
+}
+
+/// Values of the vertices and loads -> what the node solver takes.
+Eigen::MatrixXd ConstrainedSolid::of_nodes(const Eigen::MatrixXd& values) const {
+    if (values.cols() == 0) return {};
+    const Eigen::Index n = nodes_.prescribe.cols(), n_nodes = nodes_.prescribe.rows();
+    assert(values.rows() == n + n_loads_);
+    Eigen::MatrixXd prescribed(n_nodes + n_loads_, values.cols());
+    prescribed.topRows(n_nodes) = nodes_.prescribe * values.topRows(n);
+    prescribed.bottomRows(n_loads_) = values.bottomRows(n_loads_);
+    if (!particular_.empty())
+        prescribed.topRows(n_nodes).noalias() -= particular_.at_nodes * values.bottomRows(n_loads_);
+    return prescribed;
 }
 
 NodeSolution ConstrainedSolid::solve(const Eigen::MatrixXd& values, bool want_loads, double tolerance,
@@ -49,9 +63,19 @@ NodeSolution ConstrainedSolid::solve(const Eigen::MatrixXd& values, bool want_lo
 }
 
 Eigen::MatrixXd ConstrainedSolid::displacements(NodeSolution&& solution) const {
-    if (display_) return *display_ * solution.displacements;
-    if (solution.displacements.rows() == 3 * n_vertices_) return std::move(solution.displacements);
-    return solution.displacements.topRows(3 * n_vertices_);
+    Eigen::MatrixXd u;
+    if (display_)
+        u = *display_ * solution.displacements;
+    else if (solution.displacements.rows() == 3 * n_vertices_)
+        u = std::move(solution.displacements);
+    else
+        u = solution.displacements.topRows(3 * n_vertices_);
+    add_particular(solution.factors, u);
+    return u;
+}
+
+void ConstrainedSolid::add_particular(const Eigen::MatrixXd& factors, Eigen::Ref<Eigen::MatrixXd> displacements) const {
+    if (!particular_.empty()) displacements.noalias() += particular_.at_vertices * factors;
 }
 
 Reactions ConstrainedSolid::reactions(const NodeSolution& solution) const {
@@ -78,11 +102,11 @@ std::optional<SolutionError> ConstrainedSolid::error(const Eigen::VectorXd& valu
     if (!checks_.reference) return {};
     const std::optional<ReferenceAnswer> reference = checks_.reference(values, solution, control);
     if (!reference) return {};
-    const Eigen::VectorXd u =
-        display_ ? Eigen::VectorXd(*display_ * solution.displacements.col(0))
-                 : Eigen::VectorXd(solution.displacements.col(0).head(3 * static_cast<Eigen::Index>(n_vertices_)));
+    Eigen::MatrixXd u = display_ ? Eigen::MatrixXd(*display_ * solution.displacements.col(0))
+                                 : Eigen::MatrixXd(solution.displacements.col(0).head(3 * n_vertices_));
+    add_particular(solution.factors, u);
     const Reactions own = reactions(solution);
-    return SolutionError{reference->share * (reference->displacements - u),
+    return SolutionError{reference->share * (reference->displacements - u.col(0)),
                          {reference->share * (reference->reactions.forces - own.forces),
                           reference->share * (reference->reactions.moments - own.moments)},
                          reference->share > 0.0 ? 1.0 / reference->share : 0.0};

@@ -17,6 +17,7 @@
 #include "deform/load_share.hpp"
 #include "deform/model.hpp"
 #include "deform/node_solver.hpp"
+#include "deform/unit_load.hpp"
 
 namespace elastolab {
 
@@ -33,8 +34,8 @@ struct ReferenceAnswer {
 struct SolutionChecks {
     /// Relative residual of the full system.
     std::function<double(const NodeSolution&, Control&)> residual;
-    /// The second answer for these displacements of the constrained vertices; nothing where it would not fit into
-    /// memory. Null where there is none. The solution is the first answer.
+    /// The second answer for these values (as ConstrainedSolid::solve takes them); nothing where it would not fit
+    /// into memory. Null where there is none. The solution is the first answer.
     std::function<std::optional<ReferenceAnswer>(const Eigen::VectorXd& values, const NodeSolution& solution, Control&)>
         reference;
     /// Displacements and stresses inside, for these solutions.
@@ -51,6 +52,15 @@ struct SolutionError {
 /// Forces and moments at n constrained vertices from the loads that they share, one column.
 Reactions gathered_reactions(const std::vector<LoadShare>& shares, int n, const Eigen::VectorXd& loads);
 
+/// A field that unit loads cause by themselves and that solvers leave out: they solve for the rest, with prescribed
+/// displacements less this (BEM's body forces, docs/formulation.md section 13).
+struct ParticularField {
+    Eigen::MatrixXd at_nodes;     ///< 3*n_constrained_nodes x n_loads
+    Eigen::MatrixXd at_vertices;  ///< 3*n_vertices x n_loads; empty: there is no such field
+
+    bool empty() const { return at_vertices.size() == 0; }
+};
+
 /// Displacements of one solid's vertices for one constrained set, whatever the method. Loads are those of unit Young's
 /// modulus; the Deformer scales them.
 class ConstrainedSolid {
@@ -60,11 +70,11 @@ public:
     /// display     3*n_vertices x 3*n_nodes; empty: the first vertices are the nodes themselves
     ConstrainedSolid(int n_vertices, ConstrainedNodes nodes, std::vector<LoadShare> shares,
                      std::shared_ptr<const SparseRows> display, std::unique_ptr<NodeSolver> solver,
-                     SolutionChecks checks);
+                     SolutionChecks checks, int n_loads = 0, ParticularField particular = {});
 
     /// As NodeTask, of the constrained vertices: base (zero) first, then handles.
     NodeSolution solve(const NodeTask& task, double tolerance, Control& control) const;
-    /// values: 3*n_constrained x m, base (zero) first, then handles.
+    /// values: 3*n_constrained + n_loads x m, base (zero) first, then handles, then the factors of the unit loads.
     NodeSolution solve(const Eigen::MatrixXd& values, bool want_loads, double tolerance, Control& control) const;
     NodeSolution solve(const Eigen::MatrixXd& values, bool want_loads) const;
     bool iterates() const { return solver_->iterates(); }
@@ -86,12 +96,17 @@ public:
     bool held() const { return solver_->held(); }
 
 private:
-    int n_vertices_, n_constrained_;
+    Eigen::MatrixXd of_nodes(const Eigen::MatrixXd& values) const;
+    /// What the particular field, if there is one, adds at the vertices.
+    void add_particular(const Eigen::MatrixXd& factors, Eigen::Ref<Eigen::MatrixXd> displacements) const;
+
+    int n_vertices_, n_constrained_, n_loads_;
     ConstrainedNodes nodes_;
     std::vector<LoadShare> shares_;
     std::shared_ptr<const SparseRows> display_;
     std::unique_ptr<NodeSolver> solver_;
     SolutionChecks checks_;
+    ParticularField particular_;
 };
 
 /// One solid under one method, for unit Young's modulus (displacements of a displacement problem do not depend on it).
@@ -100,10 +115,11 @@ class SolidModel {
 public:
     virtual ~SolidModel() = default;
 
-    /// base and handles: vertices of the solid, all different; at least one of them is not empty.
-    /// Throws SolveError, Cancelled.
+    /// base and handles: vertices of the solid, all different; loads: each acts on the solid (its triangles are those
+    /// of the solid), for unit Young's modulus. At least one of the three is not empty; where the constraints leave a
+    /// rigid motion free, the loads of a solution balance, and it has no such motion. Throws SolveError, Cancelled.
     virtual std::unique_ptr<ConstrainedSolid> constrain(std::span<const int> base, std::span<const int> handles,
-                                                        Control& control) const = 0;
+                                                        std::span<const UnitLoad> loads, Control& control) const = 0;
     /// Bytes that constrain() takes beyond what is held, at its peak. An upper estimate from the arrays it makes:
     /// columns that are known already are counted as new.
     virtual std::uint64_t constrain_memory(std::span<const int> base, std::span<const int> handles) const = 0;

@@ -56,8 +56,8 @@ SurfaceCompliance SurfaceCompliance::supported_at(const StaticSupport& support, 
 Eigen::MatrixXd SurfaceCompliance::volume_response(const Eigen::MatrixXd& loads) const {
     const Eigen::Index n = 3 * n_surface_;
     Eigen::MatrixXd load = Eigen::MatrixXd::Zero(factor_.size(), loads.cols());
-    load.topRows(n) = loads;
-    if (rigid_.cols() > 0) load.topRows(n).noalias() -= rigid_ * (rigid_.transpose() * loads);
+    load.topRows(loads.rows()) = loads;
+    if (rigid_.cols() > 0 && loads.rows() == n) load.topRows(n).noalias() -= rigid_ * (rigid_.transpose() * loads);
     for (int node : base_) load.middleRows<3>(3 * node).setZero();
     return factor_.solve(load);
 }

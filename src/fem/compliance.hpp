@@ -51,8 +51,8 @@ public:
     /// D * loads, loads 3*n_surface x m.
     Eigen::MatrixXd apply(const Eigen::MatrixXd& loads, Control& control) const;
 
-    /// Displacements of all nodes for loads on the surface, 3n x m: interior nodes too. Without a base the loads must
-    /// be in equilibrium, and the result is so up to a rigid motion.
+    /// Displacements of all nodes for loads on the surface, or on all nodes, 3n x m: interior nodes too. Without a base
+    /// the loads must be in equilibrium, and the result is so up to a rigid motion.
     Eigen::MatrixXd volume_response(const Eigen::MatrixXd& loads) const;
 
     /// R: 3*n_surface x 6 with orthonormal columns; with a base 3*n_surface x 0.

@@ -11,6 +11,7 @@
 #include "deform/holds.hpp"
 #include "fem/constrained_nodes.hpp"
 #include "fem/constraints.hpp"
+#include "fem/load_vectors.hpp"
 #include "fem/prescribed.hpp"
 
 namespace elastolab {
@@ -101,9 +102,10 @@ private:
     std::vector<Eigen::Matrix3d> of_midpoints_;
 };
 
-/// Conjugate gradients from the first guess x, which has the prescribed displacements.
-void improve(const SparseMatrix& K, const TwoLevelPreconditioner& precondition, Eigen::VectorXd& x, Control& control) {
-    Eigen::VectorXd r = precondition.without_prescribed(-(K * x)), z = precondition(r), p = z;
+/// Conjugate gradients for K x = f from the first guess x, which has the prescribed displacements.
+void improve(const SparseMatrix& K, const Eigen::VectorXd& f, const TwoLevelPreconditioner& precondition,
+             Eigen::VectorXd& x, Control& control) {
+    Eigen::VectorXd r = precondition.without_prescribed(f - K * x), z = precondition(r), p = z;
     double rz = r.dot(z);
     const double enough = kEnoughReduction * kEnoughReduction * rz;
     for (int step = 0; step < kMostSteps && rz > enough; ++step) {
@@ -118,10 +120,10 @@ void improve(const SparseMatrix& K, const TwoLevelPreconditioner& precondition, 
     }
 }
 
-Reactions reactions_of(const SparseMatrix& K, const Eigen::VectorXd& u, const ConstrainedFemNodes& constrained,
-                       std::size_t n_vertices) {
+Reactions reactions_of(const SparseMatrix& K, const Eigen::VectorXd& u, const Eigen::VectorXd& given,
+                       const ConstrainedFemNodes& constrained, std::size_t n_vertices) {
     return gathered_reactions(constrained.shares, static_cast<int>(n_vertices),
-                              nodal_forces(K, u, constrained.prescribed.nodes).col(0));
+                              support_forces(K, u, constrained.prescribed.nodes, given).col(0));
 }
 
 }  // namespace
@@ -138,8 +140,8 @@ std::uint64_t linear_reference_memory(const FemSystem& quadratic) {
 }
 
 std::optional<ReferenceAnswer> quadratic_reference(const FemSystem& linear, double poisson_ratio,
-                                                   std::span<const int> vertices, const Eigen::VectorXd& values,
-                                                   Control& control) {
+                                                   std::span<const int> vertices, std::span<const UnitLoad> loads,
+                                                   const Eigen::VectorXd& values, Control& control) {
     if (!holds(linear.positions(), vertices)) return {};
     control.checkpoint();
     const QuadraticMesh mesh(linear.mesh->tets);
@@ -156,24 +158,31 @@ std::optional<ReferenceAnswer> quadratic_reference(const FemSystem& linear, doub
     Eigen::VectorXd u = Eigen::VectorXd::Zero(linear.K.rows());
     for (std::size_t i = 0; i < vertices.size(); ++i)
         u.segment<3>(3 * vertices[i]) = values.segment<3>(3 * static_cast<Eigen::Index>(i));
-    Eigen::VectorXd load = -(linear.K * u);
+    const Eigen::VectorXd factors = values.tail(std::ssize(loads));
+    const Eigen::VectorXd given = load_vectors(mesh, *linear.mesh, loads) * factors;
+    Eigen::VectorXd load = load_vectors(*linear.mesh, loads) * factors - linear.K * u;
     for (const int v : vertices) load.segment<3>(3 * v).setZero();
     control.checkpoint();
     u += coarse.solve(load).col(0);
     u = (prolongation * u).eval();
-    improve(K, TwoLevelPreconditioner(K, corners, prolongation, coarse, std::move(is_prescribed)), u, control);
-    return ReferenceAnswer{u.head(3 * linear.n_vertices()), reactions_of(K, u, constrained, vertices.size()),
+    improve(K, given, TwoLevelPreconditioner(K, corners, prolongation, coarse, std::move(is_prescribed)), u, control);
+    return ReferenceAnswer{u.head(3 * linear.n_vertices()), reactions_of(K, u, given, constrained, vertices.size()),
                            1.0 + kLeftByQuadratic};
 }
 
 std::optional<ReferenceAnswer> linear_reference(const FemSystem& quadratic, std::span<const int> vertices,
-                                                const Eigen::VectorXd& values, Control& control) {
+                                                std::span<const UnitLoad> loads, const Eigen::VectorXd& values,
+                                                Control& control) {
     if (!holds(quadratic.positions(), vertices)) return {};
     const CornerNodes corners(rejoined(quadratic.mesh->tets), quadratic.mesh->tets.n_vertices());
     const SparseMatrix prolongation = corners.prolongation();
     const SparseMatrix K = SparseMatrix(prolongation.transpose()) * (quadratic.K * prolongation);
     control.checkpoint();
-    const PrescribedSolution solution = solve_prescribed(K, CholeskyAnalysis(K), vertices, values, control);
+    const Eigen::Index n = 3 * std::ssize(vertices);
+    const Eigen::MatrixXd given =
+        prolongation.transpose() * (load_vectors(*quadratic.mesh, loads) * values.tail(std::ssize(loads)));
+    const PrescribedSolution solution =
+        solve_prescribed(K, CholeskyAnalysis(K), vertices, values.head(n), control, given);
     const std::vector<LoadShare> shares =
         nodal_shares(quadratic.positions(), std::vector<int>(vertices.begin(), vertices.end()));
     return ReferenceAnswer{solution.displacements.col(0).head(3 * quadratic.n_vertices()),

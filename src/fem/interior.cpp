@@ -32,11 +32,20 @@ FemInterior::FemInterior(std::shared_ptr<const TetMesh> tets, const SparseMatrix
     if (n_all_ > n_surface_) factor_ = factorised(block(K, n_surface_, n_all_ - n_surface_, n_surface_), control);
 }
 
-Eigen::MatrixXd FemInterior::extend_all(const Eigen::MatrixXd& surface) const {
+Eigen::MatrixXd FemInterior::condensed(const Eigen::MatrixXd& loads) const {
+    Eigen::MatrixXd f = loads.topRows(n_surface_);
+    if (factor_) f -= to_surface_.transpose() * factor_->solve(loads.bottomRows(n_all_ - n_surface_));
+    return f;
+}
+
+Eigen::MatrixXd FemInterior::extend_all(const Eigen::MatrixXd& surface, const Eigen::MatrixXd& loads) const {
     assert(surface.rows() == n_surface_);
     Eigen::MatrixXd all(n_all_, surface.cols());
     all.topRows(n_surface_) = surface;
-    if (factor_) all.bottomRows(n_all_ - n_surface_) = factor_->solve(-(to_surface_ * surface));
+    if (!factor_) return all;
+    Eigen::MatrixXd right = -(to_surface_ * surface);
+    if (loads.size() > 0) right += loads.bottomRows(right.rows());
+    all.bottomRows(right.rows()) = factor_->solve(right);
     return all;
 }
 

@@ -11,6 +11,7 @@
 #include "fem/constraints.hpp"
 #include "fem/error_estimate.hpp"
 #include "fem/interior.hpp"
+#include "fem/load_vectors.hpp"
 #include "fem/nodal_field.hpp"
 #include "mesh/tets/tetrahedralize.hpp"
 
@@ -34,12 +35,17 @@ Eigen::MatrixXd bordered_inverse(const Eigen::MatrixXd& K, const Positions& posi
 }
 
 /// Columns of the nodes' loads out of a bordered inverse in memory.
-ReducedSystem reduced_from(const DenseOperators& operators, const std::vector<int>& nodes) {
+ReducedSystem reduced_from(const DenseOperators& operators, const std::vector<int>& nodes,
+                           const Eigen::MatrixXd& given) {
     ReducedSystem reduced;
     std::vector<Columns::Block> blocks;
     for (const int node : nodes)
         blocks.push_back(std::make_shared<const Eigen::MatrixXd>(operators.Khatinv.middleCols<3>(3 * node)));
-    reduced.responses = std::make_shared<const KeptResponses>(Columns(std::move(blocks)));
+    Columns of_given;
+    if (given.cols() > 0)
+        of_given =
+            Columns({std::make_shared<const Eigen::MatrixXd>(operators.Khatinv.leftCols(operators.K.cols()) * given)});
+    reduced.responses = std::make_shared<const KeptResponses>(Columns(std::move(blocks)), std::move(of_given));
     reduced.rigid = operators.Khatinv.rightCols<6>();
     reduced.nodes = nodes;
     reduced.n_loads = 3 * std::ssize(nodes);
@@ -70,7 +76,7 @@ FemModel::FemModel(const SurfaceMesh& surface, const std::string& name, double p
     auto mesh = std::make_shared<FemMesh>();
     {
         const Stage stage("integrate", control, facts_.stages);
-        *mesh = make_fem_mesh(std::move(tets), degree, control);
+        *mesh = make_fem_mesh(std::move(tets), surface.triangles, degree, control);
     }
     {
         const Stage stage("analyse", control, facts_.stages);
@@ -195,93 +201,112 @@ ConstrainedFemNodes FemModel::nodes_of(std::span<const int> base, std::span<cons
 }
 
 std::unique_ptr<ConstrainedSolid> FemModel::make_solid(ConstrainedFemNodes nodes, std::unique_ptr<NodeSolver> solver,
-                                                       SolutionChecks checks) const {
+                                                       SolutionChecks checks, Loads loads) const {
     return std::make_unique<ConstrainedSolid>(system_->n_vertices(), std::move(nodes.prescribed),
-                                              std::move(nodes.shares), nullptr, std::move(solver), std::move(checks));
+                                              std::move(nodes.shares), nullptr, std::move(solver), std::move(checks),
+                                              static_cast<int>(loads.size()));
 }
 
 std::unique_ptr<ConstrainedSolid> FemModel::constrain(std::span<const int> base, std::span<const int> handles,
-                                                      Control& control) const {
-    if (operators_) return constrain_dense(nodes_of(base, handles), control);
+                                                      Loads loads, Control& control) const {
+    if (operators_) return constrain_dense(nodes_of(base, handles), loads, control);
     ConstrainedFemNodes nodes = nodes_of(base, handles);
     const Elimination elimination = method_.update == Update::reduced ? cheapest_elimination(nodes) : Elimination::all;
-    if (elimination == Elimination::all) return constrain_direct(std::move(nodes), control);
+    if (elimination == Elimination::all) return constrain_direct(std::move(nodes), loads, control);
     const int n_eliminated = elimination == Elimination::base ? nodes.n_base : 0;
-    return constrain_reduced(std::move(nodes), n_eliminated, control);
+    return constrain_reduced(std::move(nodes), loads, n_eliminated, control);
 }
 
-std::unique_ptr<ConstrainedSolid> FemModel::constrain_direct(ConstrainedFemNodes constrained, Control& control) const {
+std::unique_ptr<ConstrainedSolid> FemModel::constrain_direct(ConstrainedFemNodes constrained, Loads loads,
+                                                             Control& control) const {
     const std::vector<int>& nodes = constrained.prescribed.nodes;
-    auto solver = std::make_unique<SparseDirectSolver>(system_, nodes, control);
-    const auto residual = [system = system_, nodes](const NodeSolution& solution, Control&) {
-        return stiffness_residual(system->K, solution.displacements, nodes, solution.loads);
+    Eigen::MatrixXd given = load_vectors(*mesh_, loads);
+    auto solver = std::make_unique<SparseDirectSolver>(system_, nodes, given, control);
+    const auto residual = [system = system_, nodes, given = std::move(given)](const NodeSolution& solution, Control&) {
+        return stiffness_residual(system->K, solution.displacements, nodes, solution.loads, given * solution.factors);
     };
-    SolutionChecks checks{residual, reference_for(constrained)};
+    SolutionChecks checks{residual, reference_for(constrained, loads)};
     checks.inside = [system = system_, nu = poisson_ratio_](NodeSolution&& solution, Control&) {
         return field_of(*system, nu, std::move(solution.displacements));
     };
-    return make_solid(std::move(constrained), std::move(solver), std::move(checks));
+    return make_solid(std::move(constrained), std::move(solver), std::move(checks), loads);
 }
 
-std::unique_ptr<ConstrainedSolid> FemModel::constrain_dense(ConstrainedFemNodes constrained, Control& control) const {
+Eigen::MatrixXd FemModel::dense_load_vectors(Loads loads, Control& control) const {
+    const Eigen::MatrixXd f = load_vectors(*mesh_, loads);
+    const Eigen::Index n = operators_->K.rows();
+    if (f.rows() == n || f.bottomRows(f.rows() - n).isZero(0.0)) return f.topRows(n);
+    const std::shared_ptr<const TetMesh> tets(mesh_, &mesh_->tets);
+    return FemInterior(tets, system_->K, system_->n_surface(), control).condensed(f);
+}
+
+std::unique_ptr<ConstrainedSolid> FemModel::constrain_dense(ConstrainedFemNodes constrained, Loads loads,
+                                                            Control& control) const {
     const std::vector<int>& nodes = constrained.prescribed.nodes;
+    Eigen::MatrixXd given = dense_load_vectors(loads, control);
     std::unique_ptr<NodeSolver> solver;
     switch (method_.update) {
         case Update::direct:
-            solver = std::make_unique<DirectSolver>(operators_, nodes, &control);
+            solver = std::make_unique<DirectSolver>(operators_, nodes, given, &control);
             break;
         case Update::eqn9:
-            solver = make_paper_solver(operators_, nodes, control);
+            solver = make_paper_solver(operators_, nodes, given, control);
             break;
         case Update::reduced:
-            solver = std::make_unique<ReducedSolver>(reduced_from(*operators_, nodes), control);
+            solver = std::make_unique<ReducedSolver>(reduced_from(*operators_, nodes, given), control);
             break;
     }
-    const auto residual = [operators = operators_, nodes](const NodeSolution& solution, Control&) {
+    const auto residual = [operators = operators_, nodes, given](const NodeSolution& solution, Control&) {
         Eigen::MatrixXd f = Eigen::MatrixXd::Zero(operators->K.rows(), 1);
         set_prescribed(nodes, solution.loads, f);
+        f += given * solution.factors;
         const Eigen::VectorXd u = solution.displacements;
         const double size = (operators->K.cwiseAbs() * u.cwiseAbs() + f.cwiseAbs()).norm();
         return size > 0.0 ? (operators->K * u - f).norm() / size : 0.0;
     };
-    SolutionChecks checks{residual, reference_for(constrained)};
-    checks.inside = [system = system_, nu = poisson_ratio_](NodeSolution&& solution, Control& its_control) {
+    SolutionChecks checks{residual, reference_for(constrained, loads)};
+    checks.inside = [system = system_, nu = poisson_ratio_, all = load_vectors(*mesh_, loads)](NodeSolution&& solution,
+                                                                                               Control& its_control) {
         Eigen::MatrixXd& u = solution.displacements;
         if (u.rows() < system->K.rows()) {
             const std::shared_ptr<const TetMesh> tets(system->mesh, &system->mesh->tets);
-            u = FemInterior(tets, system->K, system->n_surface(), its_control).extend_all(u);
+            u = FemInterior(tets, system->K, system->n_surface(), its_control).extend_all(u, all * solution.factors);
         }
         return field_of(*system, nu, std::move(u));
     };
-    return make_solid(std::move(constrained), std::move(solver), std::move(checks));
+    return make_solid(std::move(constrained), std::move(solver), std::move(checks), loads);
 }
 
-std::unique_ptr<ConstrainedSolid> FemModel::constrain_reduced(ConstrainedFemNodes constrained, int n_eliminated,
-                                                              Control& control) const {
+std::unique_ptr<ConstrainedSolid> FemModel::constrain_reduced(ConstrainedFemNodes constrained, Loads loads,
+                                                              int n_eliminated, Control& control) const {
     const std::vector<int>& nodes = constrained.prescribed.nodes;
     const auto body = factorised_on(std::span(nodes).first(static_cast<std::size_t>(n_eliminated)), control);
     auto solver = std::make_unique<FactorisedBodySolver>(
-        body, std::vector<int>(nodes.begin() + n_eliminated, nodes.end()), control);
-    const auto residual = [body, nodes](const NodeSolution& solution, Control&) {
-        Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(solution.displacements.rows(), 1);
-        set_prescribed(nodes, solution.loads, loads);
-        const Eigen::MatrixXd u = body->volume_displacements(solution.displacements, loads);
-        return stiffness_residual(body->system().K, u, nodes, solution.loads);
+        body, std::vector<int>(nodes.begin() + n_eliminated, nodes.end()), loads, control);
+    // Displacements of all nodes of a solution, and the given nodal forces.
+    const auto inside = [body, nodes, given = solver->given()](const NodeSolution& solution) {
+        Eigen::MatrixXd f = given * solution.factors, all = f;
+        for (std::size_t i = 0; i < nodes.size(); ++i)
+            all.middleRows<3>(3 * nodes[i]) += solution.loads.middleRows<3>(3 * static_cast<Eigen::Index>(i));
+        return std::pair(body->volume_displacements(solution.displacements, all), std::move(f));
     };
-    SolutionChecks checks{residual, reference_for(constrained)};
-    checks.inside = [body, nodes, nu = poisson_ratio_](const NodeSolution& solution, Control&) {
-        Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(solution.displacements.rows(), solution.displacements.cols());
-        set_prescribed(nodes, solution.loads, loads);
-        return field_of(body->system(), nu, body->volume_displacements(solution.displacements, loads));
+    const auto residual = [body, nodes, inside](const NodeSolution& solution, Control&) {
+        const auto [u, given] = inside(solution);
+        return stiffness_residual(body->system().K, u, nodes, solution.loads, given);
     };
-    return make_solid(std::move(constrained), std::move(solver), std::move(checks));
+    SolutionChecks checks{residual, reference_for(constrained, loads)};
+    checks.inside = [body, inside, nu = poisson_ratio_](const NodeSolution& solution, Control&) {
+        return field_of(body->system(), nu, inside(solution).first);
+    };
+    return make_solid(std::move(constrained), std::move(solver), std::move(checks), loads);
 }
 
-decltype(SolutionChecks::reference) FemModel::reference_for(const ConstrainedFemNodes& nodes) const {
-    return [system = system_, degree = degree(), nu = poisson_ratio_, vertices = nodes.vertices](
-               const Eigen::VectorXd& values, const NodeSolution&, Control& control) {
-        return degree == ElementDegree::linear ? quadratic_reference(*system, nu, vertices, values, control)
-                                               : linear_reference(*system, vertices, values, control);
+decltype(SolutionChecks::reference) FemModel::reference_for(const ConstrainedFemNodes& nodes, Loads loads) const {
+    return [system = system_, degree = degree(), nu = poisson_ratio_, vertices = nodes.vertices,
+            loads = std::vector<UnitLoad>(loads.begin(), loads.end())](const Eigen::VectorXd& values,
+                                                                       const NodeSolution&, Control& control) {
+        return degree == ElementDegree::linear ? quadratic_reference(*system, nu, vertices, loads, values, control)
+                                               : linear_reference(*system, vertices, loads, values, control);
     };
 }
 

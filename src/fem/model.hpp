@@ -23,7 +23,7 @@ public:
     FemModel(const FemModel& before, double poisson_ratio, const Method& method, Control& control);
 
     std::unique_ptr<ConstrainedSolid> constrain(std::span<const int> base, std::span<const int> handles,
-                                                Control& control) const override;
+                                                std::span<const UnitLoad> loads, Control& control) const override;
     std::uint64_t constrain_memory(std::span<const int> base, std::span<const int> handles) const override;
     std::uint64_t check_memory(std::span<const int> base, std::span<const int> handles) const override;
     void visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const override;
@@ -43,15 +43,18 @@ private:
     void precompute(double poisson_ratio, Control& control);
     Elimination cheapest_elimination(const ConstrainedFemNodes& nodes) const;
     std::shared_ptr<const FactorisedBody> at_hand(std::span<const int> base) const;
-    std::unique_ptr<ConstrainedSolid> constrain_dense(ConstrainedFemNodes nodes, Control& control) const;
-    std::unique_ptr<ConstrainedSolid> constrain_direct(ConstrainedFemNodes nodes, Control& control) const;
-    std::unique_ptr<ConstrainedSolid> constrain_reduced(ConstrainedFemNodes nodes, int n_eliminated,
+    using Loads = std::span<const UnitLoad>;
+    std::unique_ptr<ConstrainedSolid> constrain_dense(ConstrainedFemNodes nodes, Loads loads, Control& control) const;
+    std::unique_ptr<ConstrainedSolid> constrain_direct(ConstrainedFemNodes nodes, Loads loads, Control& control) const;
+    std::unique_ptr<ConstrainedSolid> constrain_reduced(ConstrainedFemNodes nodes, Loads loads, int n_eliminated,
                                                         Control& control) const;
     /// The second answer that a solution is judged by (fem/error_estimate.hpp).
-    decltype(SolutionChecks::reference) reference_for(const ConstrainedFemNodes& nodes) const;
+    decltype(SolutionChecks::reference) reference_for(const ConstrainedFemNodes& nodes, Loads loads) const;
+    /// Nodal forces of unit loads at the nodes of the dense operators: those of inside nodes condensed.
+    Eigen::MatrixXd dense_load_vectors(Loads loads, Control& control) const;
     ConstrainedFemNodes nodes_of(std::span<const int> base, std::span<const int> handles) const;
     std::unique_ptr<ConstrainedSolid> make_solid(ConstrainedFemNodes nodes, std::unique_ptr<NodeSolver> solver,
-                                                 SolutionChecks checks) const;
+                                                 SolutionChecks checks, Loads loads) const;
     std::shared_ptr<const FactorisedBody> factorised_on(std::span<const int> base, Control& control) const;
 
     Method method_;

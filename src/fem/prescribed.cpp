@@ -7,7 +7,7 @@
 namespace elastolab {
 
 PrescribedSolution solve_prescribed(const SparseMatrix& K, const CholeskyAnalysis& analysis, std::span<const int> nodes,
-                                    const Eigen::MatrixXd& values, Control& control) {
+                                    const Eigen::MatrixXd& values, Control& control, const Eigen::MatrixXd& given) {
     assert(values.rows() == 3 * std::ssize(nodes));
     constexpr Eigen::Index kBlock = 128;
     control.checkpoint();
@@ -26,9 +26,11 @@ PrescribedSolution solve_prescribed(const SparseMatrix& K, const CholeskyAnalysi
         const auto u_c = values.middleCols(begin, count);
         for_each_node([&](int row, Eigen::Index k) { u.middleRows<3>(row) = u_c.middleRows<3>(k); });
         Eigen::MatrixXd load = -(K * u);
+        if (given.size() > 0) load += given.middleCols(begin, count);
         for_each_node([&](int row, Eigen::Index) { load.middleRows<3>(row).setZero(); });
         u += factor.solve(load);  // zero at the prescribed nodes, exactly
-        const Eigen::MatrixXd f = K * u;
+        Eigen::MatrixXd f = K * u;
+        if (given.size() > 0) f -= given.middleCols(begin, count);
         for_each_node(
             [&](int row, Eigen::Index k) { solution.forces.block(k, begin, 3, count) = f.middleRows<3>(row); });
     }

@@ -10,6 +10,7 @@
 #include "deform/element_degree.hpp"
 #include "deform/node_solver.hpp"
 #include "deform/reduced_solver.hpp"
+#include "deform/unit_load.hpp"
 #include "fem/assembly.hpp"
 #include "fem/compliance.hpp"
 #include "fem/constrained_nodes.hpp"
@@ -24,6 +25,8 @@ struct FemMesh {
     TetMesh tets;
     int n_surface_nodes = 0;     ///< nodes on the surface, which come first
     SurfaceMidpoints midpoints;  ///< of quadratic elements, else none
+    /// The triangles of the surface that it was made from, in their order, and the midpoints of their edges or none.
+    Triangles surface, surface_midpoints;
     int n_elements = 0;
     StiffnessParts parts;
     std::unique_ptr<const CholeskyAnalysis> analysis;
@@ -35,8 +38,8 @@ struct FemMesh {
 };
 
 /// Takes the tetrahedra as elements of a degree and integrates them; `analysis` and `prices` are left to be made.
-/// Throws as assemble_stiffness_parts does.
-FemMesh make_fem_mesh(TetMesh tets, ElementDegree degree, Control& control);
+/// surface: its triangles. Throws as assemble_stiffness_parts does.
+FemMesh make_fem_mesh(TetMesh tets, const Triangles& surface, ElementDegree degree, Control& control);
 
 /// K of all nodes for unit Young's modulus.
 struct FemSystem {
@@ -66,12 +69,20 @@ public:
     /// D over R^T for these vertices (with a base: D alone); cached.
     Columns responses(const std::vector<int>& vertices, Control& control) const;
     /// The same for a set of vertices: columns that are kept where they are cheap, else their block and nothing more.
-    std::shared_ptr<const Responses> responses_of_set(const std::vector<int>& vertices, Control& control) const;
-    /// Displacements of all nodes for displacements of the surface and the loads on it that cause them.
+    std::shared_ptr<const Responses> responses_of_set(const std::vector<int>& vertices, std::span<const UnitLoad> loads,
+                                                      Control& control) const;
+    /// Responses to unit loads, as those of vertices: displacements of the surface, and what the load lacks of
+    /// balance; cached.
+    Columns load_responses(std::span<const UnitLoad> loads, Control& control) const;
+    /// Displacements of all nodes for displacements of the surface and the loads on it, or on all nodes, that cause
+    /// them.
     Eigen::MatrixXd volume_displacements(const Eigen::MatrixXd& surface, const Eigen::MatrixXd& loads) const;
 
 private:
     void add_blocks(std::span<const int> vertices, std::vector<Columns::Block>& blocks, Control& control) const;
+    Eigen::MatrixXd compute_responses(std::span<const UnitLoad> loads) const;
+    /// Rigid motions of all nodes that are the compliance's R on the surface; without a base.
+    Eigen::MatrixXd motions() const;
 
     std::shared_ptr<const FemSystem> system_;
     std::vector<int> base_;
@@ -84,9 +95,11 @@ private:
 /// vertices are formed, and a product with them is a solve.
 class FactorResponses : public Responses {
 public:
-    FactorResponses(std::shared_ptr<const FactorisedBody> body, std::vector<int> vertices);
+    /// given: of the given loads, which are kept
+    FactorResponses(std::shared_ptr<const FactorisedBody> body, std::vector<int> vertices, Columns given);
 
     Eigen::Index cols() const override { return 3 * std::ssize(vertices_); }
+    Eigen::Index n_given() const override { return given_.cols(); }
     Eigen::MatrixXd small_matrix(const std::vector<int>& nodes, const Eigen::MatrixXd& rigid,
                                  Control& control) const override;
     void add_product(const Eigen::MatrixXd& loads, Eigen::Ref<Eigen::MatrixXd> displacements,
@@ -95,41 +108,58 @@ public:
 private:
     std::shared_ptr<const FactorisedBody> body_;
     std::vector<int> vertices_;
+    Columns given_;
 };
 
 /// Eqn. (9') on a grounded body: the small system of the vertices that are not eliminated. Its loads are nodal forces
 /// at the base, then at these vertices.
 class FactorisedBodySolver : public NodeSolver {
 public:
-    FactorisedBodySolver(std::shared_ptr<const FactorisedBody> body, std::vector<int> vertices, Control& control);
+    FactorisedBodySolver(std::shared_ptr<const FactorisedBody> body, std::vector<int> vertices,
+                         std::span<const UnitLoad> loads, Control& control);
     /// prescribed: the base (zero) first, then the vertices
     NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const override;
     NodeSolution solve_watched(const Eigen::MatrixXd& prescribed, bool want_loads, double tolerance,
                                Control& control) const override;
 
+    /// Nodal forces of the unit loads, at all nodes.
+    const Eigen::MatrixXd& given() const { return given_; }
+
 private:
+    /// Displacements of all nodes of a solution.
+    Eigen::MatrixXd volume_displacements(const Eigen::MatrixXd& surface, const Eigen::MatrixXd& factors,
+                                         const Eigen::MatrixXd& loads) const;
+
     std::shared_ptr<const FactorisedBody> body_;
     std::vector<int> vertices_;
+    Eigen::MatrixXd given_;
     ReducedSolver reduced_;
 };
 
 /// Eqn. 7 on the sparse matrix: K00 factorised for this constrained set.
 class SparseDirectSolver : public NodeSolver {
 public:
-    /// vertices hold the body, else SolveError.
-    SparseDirectSolver(std::shared_ptr<const FemSystem> system, std::vector<int> vertices, Control& control);
+    /// vertices hold the body, else SolveError; given: nodal forces of unit loads, 3*n_nodes x n_loads.
+    SparseDirectSolver(std::shared_ptr<const FemSystem> system, std::vector<int> vertices, Eigen::MatrixXd given,
+                       Control& control);
     /// Displacements of all nodes.
     NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const override;
 
 private:
     std::shared_ptr<const FemSystem> system_;
     std::vector<int> vertices_;
+    Eigen::MatrixXd given_;
     SparseCholesky factor_;
 };
 
-/// |K u - f| / | |K| |u| + |f| |, Euclidean, for displacements of all nodes and forces at `vertices`.
+/// |K u - f| / | |K| |u| + |f| |, Euclidean, for displacements of all nodes and forces at `vertices` beside those given
+/// at all nodes.
 double stiffness_residual(const SparseMatrix& K, const Eigen::VectorXd& u, const std::vector<int>& vertices,
-                          const Eigen::VectorXd& forces);
+                          const Eigen::VectorXd& forces, const Eigen::VectorXd& given);
+
+/// Forces of the supports at these vertices: K u less what is given there (at all nodes, 3*n_nodes x m).
+Eigen::MatrixXd support_forces(const SparseMatrix& K, const Eigen::MatrixXd& u, const std::vector<int>& vertices,
+                               const Eigen::MatrixXd& given);
 
 /// Nodal forces K u at these vertices.
 Eigen::MatrixXd nodal_forces(const SparseMatrix& K, const Eigen::MatrixXd& u, const std::vector<int>& vertices);

@@ -37,6 +37,8 @@ std::optional<OpenSurface> parse_open_surface(std::string_view text) { return pa
 
 std::string default_fixed_name(std::size_t place) { return place == 0 ? "fixed" : "fixed-" + std::to_string(place); }
 
+std::string default_load_name(std::size_t place) { return "load-" + std::to_string(place); }
+
 bool is_plain(const std::vector<FixedSet>& sets) {
     return sets.size() == 1 && (sets.front().name.empty() || sets.front().name == default_fixed_name(0));
 }
@@ -44,7 +46,8 @@ bool is_plain(const std::vector<FixedSet>& sets) {
 bool operator==(const Document& a, const Document& b) {
     return a.mesh == b.mesh && a.material.young_modulus == b.material.young_modulus &&
            a.material.poisson_ratio == b.material.poisson_ratio && a.method == b.method && a.fixed == b.fixed &&
-           a.handles == b.handles && a.proxy == b.proxy && a.settings == b.settings;
+           a.handles == b.handles && a.gravity == b.gravity && a.density == b.density && a.loads == b.loads &&
+           a.proxy == b.proxy && a.settings == b.settings;
 }
 
 }  // namespace elastolab

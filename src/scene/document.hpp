@@ -88,13 +88,50 @@ struct VertexMotion {
     bool operator==(const VertexMotion&) const = default;
 };
 
-/// Vertices that follow a prescribed motion.
+/// A force on a rigid patch, and a moment about the patch's middle (the mean of its vertices at rest).
+struct GripForce {
+    Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< [force]
+    Eigen::Vector3d moment = Eigen::Vector3d::Zero();  ///< [force * L]
+    bool operator==(const GripForce&) const = default;
+};
+
+/// Vertices that follow a prescribed motion, or that move as a rigid patch to where a force is in equilibrium.
 struct Handle {
     std::string name;  ///< empty: called after its place in the list
     Selector select;
-    std::variant<AffineMotion, VertexMotion> motion;
-    bool operator==(const Handle&) const = default;
+    std::variant<AffineMotion, VertexMotion> motion = {};  ///< where there is a force: at rest, or what it came to
+    std::optional<GripForce> force = {};
+    bool operator==(const Handle& other) const {
+        return name == other.name && select == other.select && force == other.force &&
+               (force.has_value() || motion == other.motion);
+    }
 };
+
+/// A total force spread over the area of the loaded triangles [force].
+struct ForceLoad {
+    Eigen::Vector3d force = Eigen::Vector3d::Zero();
+    bool operator==(const ForceLoad&) const = default;
+};
+/// A force per area, the same everywhere [force / L^2].
+struct TractionLoad {
+    Eigen::Vector3d traction = Eigen::Vector3d::Zero();
+    bool operator==(const TractionLoad&) const = default;
+};
+/// Presses into the body where it is positive [force / L^2].
+struct PressureLoad {
+    double pressure = 0.0;
+    bool operator==(const PressureLoad&) const = default;
+};
+
+/// A load on the triangles whose vertices are all selected.
+struct Load {
+    std::string name;  ///< empty: called after its place in the list
+    Selector select;
+    std::variant<ForceLoad, TractionLoad, PressureLoad> value;
+    bool operator==(const Load&) const = default;
+};
+/// What a load without a name of its own is called.
+std::string default_load_name(std::size_t place);
 
 /// When a closed surface around the scene's own is simulated in its place (scene/proxy).
 enum class ProxyUse {
@@ -152,6 +189,9 @@ struct Document {
     MethodKind method = default_method();
     std::vector<FixedSet> fixed;  ///< together they are the fixed part
     std::vector<Handle> handles;
+    std::optional<Eigen::Vector3d> gravity = {};  ///< acceleration [L / time^2]
+    double density = 1.0;                         ///< [mass / L^3]
+    std::vector<Load> loads = {};
     ProxyChoice proxy = {};
     MethodSettings settings = {};
     std::optional<ViewPoint> camera = {};  ///< none: the whole body is to be seen

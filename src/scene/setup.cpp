@@ -1,12 +1,17 @@
 #include "scene/setup.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/overloaded.hpp"
 #include "base/text.hpp"
+#include "deform/load_parts.hpp"
 #include "mesh/input/import.hpp"
+#include "mesh/measures.hpp"
 #include "mesh/primitives.hpp"
+#include "mesh/solids.hpp"
 #include "scene/selectors.hpp"
 
 namespace elastolab {
@@ -52,6 +57,10 @@ public:
         for (std::size_t i = 0; i < document_.fixed.size(); ++i) add_fixed(i);
         if (!result_.fixed_sets.empty()) result_.groups.push_back({"fixed", 0, result_.fixed_sets.back().end});
         for (std::size_t i = 0; i < document_.handles.size(); ++i) add_handle(i);
+        if (document_.gravity) add_load("gravity", AppliedLoad::Kind::gravity, {});
+        for (std::size_t i = 0; i < document_.loads.size(); ++i) add_load(i);
+        const Eigen::VectorXd factors = load_factors(document_);
+        values_.insert(values_.end(), factors.begin(), factors.end());
         result_.values = Eigen::Map<const Eigen::VectorXd>(values_.data(), std::ssize(values_));
         return std::move(result_);
     }
@@ -77,8 +86,46 @@ private:
         const std::vector<int> vertices = claim(handle.select, handle_path(i) + "/select", static_cast<int>(i));
         std::visit([&](const auto& motion) { add_values(motion, vertices, i); }, handle.motion);
         result_.motions.push_back(handle.motion);
+        result_.forces.push_back(handle.force);
         result_.set.handles.insert(result_.set.handles.end(), vertices.begin(), vertices.end());
         add_group(handle.name.empty() ? "handle-" + std::to_string(i) : handle.name, vertices.size());
+    }
+
+    void add_load(std::size_t i) {
+        const Load& load = document_.loads[i];
+        const std::string path = "/loads/" + std::to_string(i);
+        std::vector<char> selected(owner_.size(), 0);
+        for (const int v : select_vertices(mesh_, load.select, place(scene_file_, path + "/select")))
+            selected[static_cast<std::size_t>(v)] = 1;
+        std::vector<int> triangles;
+        for (int t = 0; t < mesh_.n_triangles(); ++t) {
+            bool whole = true, constrained = true;
+            for (const int v : mesh_.triangles.col(t)) {
+                whole = whole && selected[static_cast<std::size_t>(v)] != 0;
+                constrained = constrained && owner_[static_cast<std::size_t>(v)] != kNobody;
+            }
+            if (!whole) continue;
+            if (constrained)
+                fail(scene_file_, path + "/select",
+                     "triangle " + std::to_string(t) +
+                         " has three constrained vertices, where a load has no effect. "
+                         "Load triangles that are free.");
+            triangles.push_back(t);
+        }
+        if (triangles.empty())
+            fail(scene_file_, path + "/select",
+                 "selects no triangle: of none are all three vertices selected. Select more vertices.");
+        const std::string name = load.name.empty() ? default_load_name(i) : load.name;
+        for (const AppliedLoad& other : result_.loads)
+            if (other.name == name) fail_named_twice("/loads", name);
+        add_load(name, static_cast<AppliedLoad::Kind>(1 + load.value.index()), std::move(triangles));
+    }
+
+    void add_load(std::string name, AppliedLoad::Kind kind, std::vector<int> triangles) {
+        const std::vector<UnitLoad> units = unit_loads(kind, mesh_, triangles);
+        result_.loads.push_back({std::move(name), kind, std::move(triangles),
+                                 static_cast<int>(result_.set.loads.size()), static_cast<int>(units.size())});
+        result_.set.loads.insert(result_.set.loads.end(), units.begin(), units.end());
     }
 
     std::vector<int> claim(const Selector& selector, const std::string& path, int owner) {
@@ -186,6 +233,147 @@ void require_material(const Material& material, MethodKind kind, const fs::path&
                  ", below the range of numbers that keep all their digits. Choose another unit of force.");
     if (const std::string why = refusal({.kind = kind}, material.poisson_ratio); !why.empty())
         throw SceneError(one_line(place(scene_file, "/material/" + why)));
+}
+
+std::vector<UnitLoad> unit_loads(AppliedLoad::Kind kind, const SurfaceMesh& surface,
+                                 const std::vector<int>& triangles) {
+    if (kind == AppliedLoad::Kind::pressure) return {unit_pressure(surface, triangles)};
+    std::vector<UnitLoad> loads;
+    for (int axis = 0; axis < 3; ++axis) {
+        const Eigen::Vector3d along = Eigen::Vector3d::Unit(axis);
+        if (kind == AppliedLoad::Kind::gravity) loads.push_back(body_force_along(axis));
+        if (kind == AppliedLoad::Kind::force) loads.push_back(unit_force(surface, triangles, along));
+        if (kind == AppliedLoad::Kind::traction) loads.push_back(unit_traction(triangles, along));
+    }
+    return loads;
+}
+
+Eigen::VectorXd load_factors(const Document& document) {
+    std::vector<double> factors;
+    const auto add = [&](const Eigen::Vector3d& vector) {
+        factors.insert(factors.end(), vector.begin(), vector.end());
+    };
+    if (document.gravity) add(document.density * *document.gravity);
+    for (const Load& load : document.loads)
+        std::visit(Overloaded{[&](const ForceLoad& value) { add(value.force); },
+                              [&](const TractionLoad& value) { add(value.traction); },
+                              [&](const PressureLoad& value) { factors.push_back(value.pressure); }},
+                   load.value);
+    return Eigen::Map<const Eigen::VectorXd>(factors.data(), std::ssize(factors));
+}
+
+bool Constraints::has_forces() const {
+    return std::any_of(forces.begin(), forces.end(), [](const auto& force) { return force.has_value(); });
+}
+
+std::pair<int, int> Constraints::range_of(std::size_t handle) const {
+    const ConstraintGroup& group = groups[handle + (has_fixed() ? 1 : 0)];
+    const auto n_base = static_cast<int>(set.base.size());
+    return {group.begin - n_base, group.end - n_base};
+}
+
+void Constraints::move(std::size_t handle, const AffineMotion& motion, const Positions& vertices) {
+    motions[handle] = motion;
+    const auto [begin, end] = range_of(handle);
+    for (int i = begin; i < end; ++i)
+        values.segment<3>(3 * i) =
+            motion.matrix * vertices.col(set.handles[static_cast<std::size_t>(i)]) + motion.translate;
+}
+
+namespace {
+
+/// The loads of one solid: their resultant, and the sum of their sizes.
+struct SumOfLoads {
+    Resultant resultant;
+    double size = 0.0;
+
+    void add(const Resultant& load, double load_size) {
+        resultant.force += load.force;
+        resultant.moment += load.moment;
+        size += load_size;
+    }
+    /// Whether it does no work in these rigid motions (free_rigid_motions), but for a millionth.
+    bool balances(const Eigen::MatrixXd& motions, const Eigen::Vector3d& centre, double length) const {
+        Eigen::Matrix<double, 6, 1> about_centre;
+        about_centre << resultant.force, (resultant.moment - centre.cross(resultant.force)) / length;
+        return !((motions.transpose() * about_centre).stableNorm() > 1e-6 * size);
+    }
+};
+
+std::vector<int> numbers_among(const std::vector<int>& chosen, int n) {
+    std::vector<int> numbers(static_cast<std::size_t>(n), -1);
+    for (std::size_t i = 0; i < chosen.size(); ++i) numbers[static_cast<std::size_t>(chosen[i])] = static_cast<int>(i);
+    return numbers;
+}
+
+/// Total size of a load's forces, whether they balance or not.
+double size_of(const SurfaceMesh& surface, const UnitLoad& load) {
+    double size = load.is_body_force() ? resultant(surface, load).force.norm() : 0.0;
+    for (std::size_t k = 0; k < load.triangles.size(); ++k)
+        size += 0.5 * area_vector(triangle_points(surface, load.triangles[k])).norm() *
+                load.tractions.col(static_cast<Eigen::Index>(k)).norm();
+    return size;
+}
+
+SumOfLoads loads_on(const Solid& solid, const Constraints& constraints, const SurfaceMesh& surface) {
+    SumOfLoads sum;
+    const std::vector<int> own = numbers_among(solid.triangles, surface.n_triangles());
+    const Eigen::VectorXd factors = constraints.values.tail(std::ssize(constraints.set.loads));
+    for (std::size_t k = 0; k < constraints.set.loads.size(); ++k) {
+        const UnitLoad part = on_triangles(constraints.set.loads[k], own);
+        if (part.triangles.empty() && !constraints.set.loads[k].is_body_force()) continue;
+        const double factor = factors[static_cast<Eigen::Index>(k)];
+        const Resultant unit = resultant(solid.surface, part);
+        sum.add({factor * unit.force, factor * unit.moment}, std::abs(factor) * size_of(solid.surface, part));
+    }
+    const std::vector<int> local = numbers_among(solid.vertices, surface.n_vertices());
+    for (std::size_t h = 0; h < constraints.forces.size(); ++h) {
+        const auto [begin, end] = constraints.range_of(h);
+        if (!constraints.forces[h] || begin == end) continue;
+        const std::vector<int> patch(constraints.set.handles.begin() + begin, constraints.set.handles.begin() + end);
+        if (local[static_cast<std::size_t>(patch.front())] < 0) continue;
+        const Eigen::Vector3d middle = surface.vertices(Eigen::all, patch).rowwise().mean();
+        const GripForce& grip = *constraints.forces[h];
+        sum.add({grip.force, grip.moment + middle.cross(grip.force)}, grip.force.norm());
+    }
+    return sum;
+}
+
+/// Vertices of a solid, by its own numbers, that hold it: all constrained ones but those that move by a force.
+std::vector<int> holding(const Solid& solid, const Constraints& constraints, const SurfaceMesh& surface) {
+    const std::vector<int> local = numbers_among(solid.vertices, surface.n_vertices());
+    std::vector<int> held;
+    const auto add = [&](int v) {
+        if (const int own = local[static_cast<std::size_t>(v)]; own >= 0) held.push_back(own);
+    };
+    for (const int v : constraints.set.base) add(v);
+    for (std::size_t h = 0; h < constraints.forces.size(); ++h) {
+        const auto [begin, end] = constraints.range_of(h);
+        for (int i = begin; i < end && !constraints.forces[h]; ++i)
+            add(constraints.set.handles[static_cast<std::size_t>(i)]);
+    }
+    return held;
+}
+
+}  // namespace
+
+void require_balance(const Document& document, const Constraints& constraints, const SurfaceMesh& surface,
+                     const fs::path& scene_file) {
+    if (constraints.set.loads.empty() && !constraints.has_forces()) return;
+    for (const Solid& solid : split_solids(surface)) {
+        const Positions& vertices = solid.surface.vertices;
+        const Eigen::Vector3d centre = vertices.rowwise().mean();
+        const double length = (vertices.colwise() - centre).colwise().norm().maxCoeff();
+        const Eigen::MatrixXd motions =
+            free_rigid_motions(vertices, holding(solid, constraints, surface), centre, length);
+        if (motions.cols() == 0 || loads_on(solid, constraints, surface).balances(motions, centre, length)) continue;
+        fail(scene_file,
+             !document.loads.empty() ? "/loads"
+             : document.gravity      ? "/gravity"
+                                     : "/handles",
+             "do not balance, and nothing holds the body against them. Fix a part of it, or add loads until forces and "
+             "moments sum to zero.");
+    }
 }
 
 Constraints make_constraints(const Document& document, const SurfaceMesh& mesh, const fs::path& scene_file) {

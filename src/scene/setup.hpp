@@ -2,7 +2,9 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "deform/deformer.hpp"
@@ -39,23 +41,51 @@ struct ConstraintGroup {
     bool operator==(const ConstraintGroup&) const = default;
 };
 
+/// A load of a scene as unit loads: rows [first, first + count) behind the handles' displacements in the values.
+struct AppliedLoad {
+    enum class Kind { gravity, force, traction, pressure };
+    std::string name;
+    Kind kind = Kind::gravity;
+    std::vector<int> triangles = {};  ///< loaded ones of the surface; none: the whole body's weight
+    int first = 0;
+    int count = 0;  ///< 3 for a vector, one unit load for each axis; 1 for a pressure
+    bool operator==(const AppliedLoad&) const = default;
+};
+/// Its unit loads on these triangles of a surface, which may be another than that of the scene.
+std::vector<UnitLoad> unit_loads(AppliedLoad::Kind kind, const SurfaceMesh& surface, const std::vector<int>& triangles);
+/// The factors of a document's gravity (density times acceleration), then of each of its loads.
+Eigen::VectorXd load_factors(const Document& document);
+
 /// What a scene prescribes, in the form that a Deformer takes.
 struct Constraints {
     ConstrainedSet set;                   ///< base: the fixed part; handles: those of all handles, one after the other
-    Eigen::VectorXd values;               ///< 3 * set.handles.size(), node-major [L]
+    Eigen::VectorXd values;               ///< set.n_values(): handles, node-major [L], then the factors of set.loads
     std::vector<Motion> motions;          ///< of every handle; `values` are what they do to its vertices
     std::vector<ConstraintGroup> groups;  ///< "fixed", all of it, first when there is one, then every handle
     /// The parts of "fixed", as the document lists them. One that is carried to a proxy may be left without vertices,
     /// where others hold all of those near it.
     std::vector<ConstraintGroup> fixed_sets = {};
+    std::vector<AppliedLoad> loads = {};                ///< gravity first, if there is one
+    std::vector<std::optional<GripForce>> forces = {};  ///< of every handle that moves by a force
 
     bool has_fixed() const { return groups.size() > motions.size(); }
+    bool has_forces() const;
+    /// Places of a handle's vertices in set.handles: [begin, end).
+    std::pair<int, int> range_of(std::size_t handle) const;
+    /// Gives a handle another motion; vertices: of the surface that the set is on.
+    void move(std::size_t handle, const AffineMotion& motion, const Positions& vertices);
 };
 
 /// Throws SceneError naming the JSON path when a selector selects nothing or a vertex that is not there, when a vertex
-/// is constrained twice, when a handle is called "fixed", when two sets or handles have the same name, or when its
-/// displacements are not one for each of its vertices or not finite.
+/// is constrained twice, when a load acts on no triangle or on one whose vertices are all constrained, when a handle is
+/// called "fixed", when two sets or handles have the same name, or when its displacements are not one for each of its
+/// vertices or not finite. The constraints of a document on its mesh.
 Constraints make_constraints(const Document& document, const SurfaceMesh& mesh,
                              const std::filesystem::path& scene_file);
+
+/// Throws SceneError that names /gravity or /loads when loads on a solid of this surface do not balance though its
+/// constraints leave it free to move. Handles that move by a force do not hold it, and their forces count.
+void require_balance(const Document& document, const Constraints& constraints, const SurfaceMesh& surface,
+                     const std::filesystem::path& scene_file);
 
 }  // namespace elastolab

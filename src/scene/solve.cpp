@@ -6,6 +6,8 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "deform/grip.hpp"
+#include "deform/load_work.hpp"
 #include "deform/node_solver.hpp"
 #include "findings/cost.hpp"
 #include "findings/solution.hpp"
@@ -31,6 +33,52 @@ std::vector<GroupReaction> totals(const std::vector<ConstraintGroup>& groups, co
                              "smaller motions.");
     }
     return result;
+}
+
+/// Total force and moment of each load at its size, on the surface that is simulated.
+std::vector<GroupReaction> load_totals(const Constraints& constraints, const SurfaceMesh& surface) {
+    std::vector<GroupReaction> result;
+    const Eigen::VectorXd factors = constraints.values.tail(std::ssize(constraints.set.loads));
+    for (const AppliedLoad& load : constraints.loads) {
+        result.push_back({load.name, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()});
+        for (int i = load.first; i < load.first + load.count; ++i) {
+            const Resultant sum = resultant(surface, constraints.set.loads[static_cast<std::size_t>(i)]);
+            result.back().force += factors[i] * sum.force;
+            result.back().moment += factors[i] * sum.moment;
+        }
+    }
+    return result;
+}
+
+/// Moves the handles under a force to where they are in equilibrium: in the constraints of the simulated surface, and
+/// in those of the shown one, if that is another.
+void take_equilibrium(const Deformer& deformer, Constraints& constraints, Constraints* shown, const Positions& vertices,
+                      Control& control) {
+    if (!constraints.has_forces()) return;
+    if (!deformer.linear())
+        throw SolveError("handles under a force: nonlinear-fem moves none. Choose quadratic-fem, or prescribe a motion.");
+    std::vector<Grip> grips;
+    std::vector<std::size_t> handles;
+    Eigen::VectorXd forces(0);
+    for (std::size_t h = 0; h < constraints.forces.size(); ++h) {
+        if (!constraints.forces[h]) continue;
+        const auto [begin, end] = constraints.range_of(h);
+        grips.push_back({begin, end});
+        handles.push_back(h);
+        forces.conservativeResize(forces.size() + 6);
+        forces.tail<6>() << constraints.forces[h]->force, constraints.forces[h]->moment;
+    }
+    const GripStiffness stiffness(deformer, constraints.values, grips, control);
+    const Eigen::VectorXd motions = stiffness.motions(forces);
+    for (std::size_t g = 0; g < grips.size(); ++g) {
+        const Eigen::Vector3d shift = motions.segment<3>(6 * static_cast<Eigen::Index>(g));
+        const Eigen::Vector3d turn = motions.segment<3>(6 * static_cast<Eigen::Index>(g) + 3);
+        AffineMotion motion;
+        for (int axis = 0; axis < 3; ++axis) motion.matrix.col(axis) = turn.cross(Eigen::Vector3d::Unit(axis));
+        motion.translate = shift - motion.matrix * stiffness.middle(static_cast<int>(g));
+        constraints.move(handles[g], motion, deformer.model().body().surface->vertices);
+        if (shown != nullptr) shown->move(handles[g], motion, vertices);
+    }
 }
 
 void append(Findings& all, const Findings& more) { all.insert(all.end(), more.begin(), more.end()); }
@@ -86,8 +134,9 @@ void add_imbalance(const Imbalance& imbalance, MethodKind method, Findings& find
     add(FindingKind::moment_imbalance, imbalance.moment);
 }
 
-/// Applies the constraints and evaluates what follows from them.
-void apply(const Constraints& constraints, bool with_checks, Solution& solution, Control& control) {
+/// Applies the constraints and evaluates what follows from them. shown: those of the shown surface, where a proxy of it
+/// is simulated.
+void apply(Constraints& constraints, Constraints* shown, bool with_checks, Solution& solution, Control& control) {
     Deformer deformer(solution.model);
     solution.predicted.memory_bytes =
         std::max(solution.predicted.memory_bytes,
@@ -98,6 +147,7 @@ void apply(const Constraints& constraints, bool with_checks, Solution& solution,
     }
     {
         const Stage stage("displace", control, solution.stages);
+        take_equilibrium(deformer, constraints, shown, solution.surface->vertices, control);
         const Deformer::Answer answer = deformer.answer(constraints.values, {.residual = with_checks}, control);
         solution.displacement =
             Eigen::Map<const Eigen::Matrix3Xd>(answer.displacements.data(), 3, answer.displacements.size() / 3);
@@ -115,7 +165,12 @@ void apply(const Constraints& constraints, bool with_checks, Solution& solution,
         if (answer.facts && !answer.facts->stable)
             solution.findings.push_back(
                 {.kind = FindingKind::unstable_equilibrium, .method = solution.model->method().kind});
-        solution.imbalance = imbalance_of(solution.reactions, *solution.model->body().surface);
+        solution.loads = load_totals(constraints, *solution.model->body().surface);
+        std::vector<GroupReaction> all = solution.reactions;
+        all.insert(all.end(), solution.loads.begin(), solution.loads.end());
+        solution.imbalance = imbalance_of(all, *solution.model->body().surface);
+        if (!constraints.loads.empty())
+            solution.compliance = work_of_loads(*solution.model, constraints.set, constraints.values, answer);
         add_imbalance(solution.imbalance, solution.model->method().kind, solution.findings);
     }
     if (with_checks) {
@@ -209,20 +264,26 @@ Solution solve(const SolveRequest& request, Control& control) {
     Solution solution;
     const SceneMesh mesh = load_mesh(request, solution, control);
     const Body body = make_body(request, mesh, solution, control);
-    const Constraints shown = make_constraints(request.document, *solution.surface, request.scene_file);
+    Constraints shown = make_constraints(request.document, *solution.surface, request.scene_file);
     std::optional<CarriedConstraints> carried;
     if (solution.proxy) carried.emplace(solution.proxy).set(shown);
-    const Constraints& constraints = carried ? carried->constraints() : shown;
+    Constraints constraints = carried ? carried->constraints() : shown;
+    require_balance(request.document, constraints, *body.surface, request.scene_file);
     solution.n_constrained = static_cast<int>(shown.set.base.size() + shown.set.handles.size());
-    if (solution.n_constrained == 0)
+    if (solution.n_constrained == 0 && shown.loads.empty())
         solution.findings.push_back({.kind = FindingKind::nothing_constrained, .object = request.scene_file.string()});
+    const auto run = [&] {
+        apply(constraints, carried ? &shown : nullptr, request.with_checks, solution, control);
+        if (request.with_checks && shown.loads.empty()) gauge(mesh, shown, constraints, solution, control);
+        if (!carried) return;
+        carried->set(shown);  // where handles under a force have moved to
+        carry_back(*carried, solution);
+    };
     Method method = request.method;
     const auto solve_by = [&](Update update) {
         method.update = update;
         precompute_model(method, body, solution, control);
-        apply(constraints, request.with_checks, solution, control);
-        if (request.with_checks) gauge(mesh, shown, constraints, solution, control);
-        if (carried) carry_back(*carried, solution);
+        run();
     };
     if (!request.solve_once) {
         solve_by(method.update);

@@ -58,6 +58,9 @@ struct Solution {
     std::vector<int> constrained;
     Eigen::Matrix3Xd forces;
     std::vector<GroupReaction> reactions;
+    /// What the loads exert: gravity first, then each load. With the reactions they sum to zero.
+    std::vector<GroupReaction> loads;
+    std::optional<double> compliance;  ///< work of the loads on the displacements [force * L]; none without loads
     /// Of each fixed set, without those whose vertices on a proxy all belong to others.
     std::vector<GroupReaction> fixed_reactions;
     Imbalance imbalance;

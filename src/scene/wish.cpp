@@ -20,7 +20,7 @@ double farthest_turn(const Wish& to, const Wish* from) {
 
 /// Values a part of the way along; nothing where that cannot be told.
 std::optional<Eigen::VectorXd> values_between(const Wish& to, const Wish* from, double part, const Positions& rest) {
-    Eigen::VectorXd values(to.values.size());
+    Eigen::VectorXd values = to.values;  // loads, which stand behind the handles, are there at once
     int begin = 0;
     for (std::size_t h = 0; h < to.motions.size(); ++h) {
         const int n = to.ends[h] - begin;

@@ -21,7 +21,7 @@ Positions displaced(const SurfaceMesh& surface, const std::vector<int>& base, co
     Method method{.kind = kFem};
     Control control;
     const FemModel model(surface, "ball", 0.3, method, control, degree);
-    const auto solid = model.constrain(base, handles, control);
+    const auto solid = model.constrain(base, handles, {}, control);
     Eigen::VectorXd values = Eigen::VectorXd::Zero(3 * std::ssize(base));
     values.conservativeResize(values.size() + 3 * std::ssize(handles));
     values.tail(3 * std::ssize(handles)) = pull.replicate(std::ssize(handles), 1);

@@ -24,7 +24,7 @@ TEST(Factorising, KeepsNobodyWaitingWhoAsksForThePredictedMemory) {
     const std::uint64_t before = model.constrain_memory(base, handles);
     std::jthread worker([&] {
         try {
-            model.constrain(base, handles, its);
+            model.constrain(base, handles, {}, its);
         } catch (const Cancelled&) {
         }
     });
@@ -34,7 +34,7 @@ TEST(Factorising, KeepsNobodyWaitingWhoAsksForThePredictedMemory) {
     its.cancel();
     worker.join();
     EXPECT_EQ(model.constrain_memory(base, handles), before) << "nothing is kept of what was cancelled";
-    model.constrain(base, handles, control);
+    model.constrain(base, handles, {}, control);
     EXPECT_LT(model.constrain_memory(base, handles), before);
 }
 

@@ -57,7 +57,7 @@ struct Answer {
 Answer answer(const FemModel& model, const std::vector<int>& base, const std::vector<int>& handles,
               const Eigen::VectorXd& values) {
     Control control;
-    const auto solid = model.constrain(base, handles, control);
+    const auto solid = model.constrain(base, handles, {}, control);
     NodeSolution solution = solid->solve(values, true);
     Answer result{{}, solid->reactions(solution), solid->residual(solution, control)};
     result.u = solid->displacements(std::move(solution));
@@ -92,7 +92,7 @@ TEST(QuadraticModel, ReactionsAreTheDerivativeOfTheEnergy) {
     const auto model = ball.model(Update::direct);
     Control control;
     const auto energy_of = [&](const Eigen::VectorXd& values) {
-        const auto solid = model->constrain(ball.base, ball.handles, control);
+        const auto solid = model->constrain(ball.base, ball.handles, {}, control);
         const Eigen::VectorXd u = solid->solve(values, false).displacements;  // of all nodes
         return 0.5 * u.dot(*model->sparse_stiffness() * u);
     };

@@ -57,7 +57,7 @@ struct SetAnswer {
 /// Base at rest, handles moved at random, several columns at once.
 SetAnswer constrained_answer(const FemModel& model, const std::vector<int>& base, const std::vector<int>& handles) {
     Control control;
-    const auto solid = model.constrain(base, handles, control);
+    const auto solid = model.constrain(base, handles, {}, control);
     std::srand(5);
     Eigen::MatrixXd values = Eigen::MatrixXd::Zero(3 * std::ssize(base) + 3 * std::ssize(handles), 3);
     values.bottomRows(3 * std::ssize(handles)).setRandom();
@@ -110,7 +110,7 @@ TEST_P(SetPrices, ANewHandleOnAKeptBaseNeedsNoFactor) {
     const std::vector<int> first = potato.patch({0, 0, 1.7}, 12), next = potato.patch({1, 0, 0}, 12);
     EXPECT_GT(model->constrain_memory(potato.base, first), factor);
     Control control;
-    const auto solid = model->constrain(potato.base, first, control);
+    const auto solid = model->constrain(potato.base, first, {}, control);
     EXPECT_LT(model->constrain_memory(potato.base, next), factor / 4);
     // Most of the surface: cheaper with all of it eliminated.
     EXPECT_GT(model->constrain_memory(potato.base, potato.patch({0, 0, 1.7}, potato.surface.n_vertices() * 3 / 4)),

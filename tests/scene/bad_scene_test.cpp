@@ -47,6 +47,7 @@ TEST_P(BadSceneTest, IsRefusedWithItsPlaceAndAWayForward) {
 #define MESH(mesh) R"({"elastolab": 1, "mesh": )" mesh "}"
 #define FIXED(selector) ROOT(R"("fixed": )" selector)
 #define HANDLE(handle) ROOT(R"("handles": [)" handle "]")
+#define LOAD(load) ROOT(R"("loads": [)" load "]")
 #define SELECT R"("select": {"vertices": [1]})"
 
 INSTANTIATE_TEST_SUITE_P(
@@ -63,6 +64,25 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{"NestedDuplicateKey", HANDLE(R"({"select": {"box": {"min": 1, "min": 2}}})"),
                  "/handles/0/select/box/min", "appears twice"},
         BadScene{"Array", "[1]", "must be an object", "is [1]"}, BadScene{"Null", "null", "must be an object", "null"}),
+    case_name);
+
+INSTANTIATE_TEST_SUITE_P(
+    Loads, BadSceneTest,
+    testing::Values(
+        BadScene{"Gravity", ROOT(R"("gravity": 9.81)"), "/gravity", "must be"},
+        BadScene{"NoDensity", ROOT(R"("density": 0)"), "/density", "is 0"},
+        BadScene{"NotAList", ROOT(R"("loads": {})"), "/loads", "must be"},
+        BadScene{"UnknownKey", LOAD("{" SELECT R"(, "presure": 1})"), "/loads/0", "presure"},
+        BadScene{"NoSelection", LOAD(R"({"pressure": 1})"), "/loads/0/select", "is missing"},
+        BadScene{"NoKind", LOAD("{" SELECT "}"), "/loads/0", "has 0"},
+        BadScene{"TwoKinds", LOAD("{" SELECT R"(, "pressure": 1, "force": [0, 0, 1]})"), "/loads/0", "has 2"},
+        BadScene{"WrongType", LOAD("{" SELECT R"(, "pressure": [1]})"), "/loads/0/pressure", "must be"},
+        BadScene{"SameName",
+                 LOAD(R"({"name": "a", "pressure": 1, )" SELECT R"(}, {"name": "a", "pressure": 1, )" SELECT "}"),
+                 "/loads/1/name", "already"},
+        BadScene{"ForceAndMotion", HANDLE("{" SELECT R"(, "force": [0, 0, 1], "translate": [0, 0, 1]})"), "/handles/0",
+                 "Keep one"},
+        BadScene{"Moment", HANDLE("{" SELECT R"(, "moment": 1})"), "/handles/0/moment", "must be"}),
     case_name);
 
 INSTANTIATE_TEST_SUITE_P(

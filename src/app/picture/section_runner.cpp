@@ -190,7 +190,7 @@ void SectionRunner::update(const EmbeddedRunner& answer, const std::shared_ptr<c
         latest_.reset();
         ++revision_;
     }
-    if (!deformer || values.size() != 3 * std::ssize(deformer->set().handles) || values.size() == 0) return;
+    if (!deformer || values.size() != deformer->set().n_values() || values.size() == 0) return;
     if (!deformer->linear()) return update_at_equilibrium(answer, shape);
     is_current_ = true;
     if (latest_ && (shown_.size() != values.size() || shown_ != values)) {

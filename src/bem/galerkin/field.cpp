@@ -3,6 +3,8 @@
 #include <array>
 #include <utility>
 
+#include "bem/given_loads.hpp"
+
 namespace elastolab {
 
 namespace {
@@ -34,9 +36,10 @@ void add_lone_forces(const Boundary& boundary, const std::vector<int>& vertices,
 
 }  // namespace
 
-std::shared_ptr<const BoundaryField> galerkin_field(const std::shared_ptr<const Boundary>& boundary,
+std::shared_ptr<const InteriorField> galerkin_field(const std::shared_ptr<const Boundary>& boundary,
                                                     double poisson_ratio, const std::vector<int>& vertices,
-                                                    const GalerkinTractions& space, NodeSolution&& solution) {
+                                                    const GalerkinTractions& space, std::span<const UnitLoad> loads,
+                                                    NodeSolution&& solution) {
     SurfaceTractions tractions(solution.displacements.cols());
     const Eigen::Index n_forces = 3 * std::ssize(vertices), n_tractions = 3 * std::ssize(space.triangles);
     tractions.add(constant_elements(space.triangles), solution.loads.middleRows(n_forces, n_tractions));
@@ -50,8 +53,10 @@ std::shared_ptr<const BoundaryField> galerkin_field(const std::shared_ptr<const 
             next += 6;
         }
     }
-    return std::make_shared<const BoundaryField>(boundary, poisson_ratio, std::move(solution.displacements),
-                                                 std::move(tractions));
+    add_given(*boundary, loads, solution.factors, tractions);
+    return with_body_forces(std::make_shared<const BoundaryField>(
+                                boundary, poisson_ratio, std::move(solution.displacements), std::move(tractions)),
+                            boundary->mesh(), poisson_ratio, loads, solution.factors);
 }
 
 }  // namespace elastolab

@@ -4,6 +4,7 @@
 #include "bem/error_estimate.hpp"
 #include "bem/galerkin/field.hpp"
 #include "bem/galerkin/solvers.hpp"
+#include "bem/given_loads.hpp"
 
 namespace elastolab {
 
@@ -59,29 +60,33 @@ GalerkinModel::GalerkinModel(const SurfaceMesh& surface, double poisson_ratio, c
 }
 
 std::unique_ptr<ConstrainedSolid> GalerkinModel::constrain(std::span<const int> base, std::span<const int> handles,
-                                                           Control& control) const {
+                                                           std::span<const UnitLoad> given, Control& control) const {
     const std::vector<int> vertices = joined(base, handles);
-    const GalerkinTractions tractions(system_->boundary().mesh(), system_->surfaces(), vertices);
+    const std::vector<UnitLoad> loads(given.begin(), given.end());
+    const SurfaceMesh& mesh = system_->boundary().mesh();
+    const GalerkinTractions tractions(mesh, system_->surfaces(), vertices);
     std::unique_ptr<NodeSolver> solver;
     if (method_.update == Update::direct)
-        solver = std::make_unique<GalerkinDirectSolver>(*system_, vertices, tractions, control);
+        solver = std::make_unique<GalerkinDirectSolver>(*system_, vertices, tractions, loads, control);
     else
-        solver =
-            std::make_unique<ReducedSolver>(galerkin_reduced_system(system_, vertices, tractions, control), control);
-    const auto residual = [system = system_, vertices, tractions](const NodeSolution& solution, Control& its_control) {
-        return galerkin_residual(*system, vertices, tractions, solution, its_control);
+        solver = std::make_unique<ReducedSolver>(galerkin_reduced_system(system_, vertices, tractions, loads, control),
+                                                 control);
+    const auto residual = [system = system_, vertices, tractions, loads](const NodeSolution& solution,
+                                                                         Control& its_control) {
+        return galerkin_residual(*system, vertices, tractions, loads, solution, its_control);
     };
-    const auto reference = [system = system_, nu = poisson_ratio_, vertices](
+    const auto reference = [system = system_, nu = poisson_ratio_, vertices, loads](
                                const Eigen::VectorXd& values, const NodeSolution&, Control& its_control) {
-        return galerkin_self_reference(system->boundary().mesh(), nu, vertices, values, its_control);
+        return galerkin_self_reference(system->boundary().mesh(), nu, vertices, loads, values, its_control);
     };
     const auto inside = [boundary = std::shared_ptr<const Boundary>(system_, &system_->boundary()), vertices, tractions,
-                         nu = poisson_ratio_](NodeSolution&& solution, Control&) {
-        return galerkin_field(boundary, nu, vertices, tractions, std::move(solution));
+                         loads, nu = poisson_ratio_](NodeSolution&& solution, Control&) {
+        return galerkin_field(boundary, nu, vertices, tractions, loads, std::move(solution));
     };
-    return std::make_unique<ConstrainedSolid>(facts_.n_vertices, constrain_vertices(vertices),
-                                              nodal_shares(system_->boundary().mesh().vertices, vertices), nullptr,
-                                              std::move(solver), SolutionChecks{residual, reference, inside});
+    return std::make_unique<ConstrainedSolid>(
+        facts_.n_vertices, constrain_vertices(vertices), nodal_shares(mesh.vertices, vertices), nullptr,
+        std::move(solver), SolutionChecks{residual, reference, inside}, static_cast<int>(loads.size()),
+        particular_field(mesh, poisson_ratio_, mesh.vertices(Eigen::all, vertices), loads));
 }
 
 std::uint64_t GalerkinModel::constrain_memory(std::span<const int> base, std::span<const int> handles) const {

@@ -17,7 +17,7 @@ public:
                   Control& control);
 
     std::unique_ptr<ConstrainedSolid> constrain(std::span<const int> base, std::span<const int> handles,
-                                                Control& control) const override;
+                                                std::span<const UnitLoad> loads, Control& control) const override;
     std::uint64_t constrain_memory(std::span<const int> base, std::span<const int> handles) const override;
     std::uint64_t check_memory(std::span<const int> base, std::span<const int> handles) const override;
     void visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const override;

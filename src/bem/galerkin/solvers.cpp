@@ -9,9 +9,13 @@
 namespace elastolab {
 
 GalerkinResponses::GalerkinResponses(std::shared_ptr<const GalerkinSystem> system, std::vector<int> vertices,
-                                     GalerkinTractions tractions, Control& control)
-    : system_(std::move(system)), vertices_(std::move(vertices)), tractions_(std::move(tractions)) {
+                                     GalerkinTractions tractions, std::span<const UnitLoad> loads, Control& control)
+    : system_(std::move(system)),
+      vertices_(std::move(vertices)),
+      tractions_(std::move(tractions)),
+      loads_(loads.begin(), loads.end()) {
     columns_ = system_->half_responses(vertices_, tractions_, control);
+    given_ = system_->half_load_responses(loads_, control);
 }
 
 namespace {
@@ -40,15 +44,24 @@ Eigen::MatrixXd GalerkinResponses::small_matrix(const std::vector<int>& nodes, c
     G.noalias() -= F.transpose() * (F / system_->shift());
     G.bottomRightCorner(n_tractions, n_tractions) += system_->single_layer(tractions_, control);
     // The rows of the border stand between those of the vertices and those of the tractions.
-    Eigen::MatrixXd S = Eigen::MatrixXd::Zero(m + n_border, m + n_border);
+    Eigen::MatrixXd S = Eigen::MatrixXd::Zero(m + n_border, m + n_border + n_given());
     S.topLeftCorner(n_loads, m) = G.topRows(n_loads);
     S.block(n_loads, 0, n_border, m) = F;
     S.bottomLeftCorner(n_tractions, m) = G.bottomRows(n_tractions);
-    S.topRightCorner(n_loads, n_border) = F.leftCols(n_loads).transpose();
-    S.bottomRightCorner(n_tractions, n_border) = F.rightCols(n_tractions).transpose();
+    S.block(0, m, n_loads, n_border) = F.leftCols(n_loads).transpose();
+    S.block(n_loads + n_border, m, n_tractions, n_border) = F.rightCols(n_tractions).transpose();
+    if (n_given() > 0) {
+        const Eigen::MatrixXd given = given_.middle(0, n_given()), F_given = given.bottomRows(n_border);
+        Eigen::MatrixXd rows = all.topRows(n).transpose() * given.topRows(n);
+        rows.noalias() -= F.transpose() * (F_given / system_->shift());
+        rows.bottomRows(n_tractions) += system_->given_single_layer(tractions_, loads_, control);
+        S.topRightCorner(n_loads, n_given()) = rows.topRows(n_loads);
+        S.block(n_loads, m + n_border, n_border, n_given()) = F_given;
+        S.bottomRightCorner(n_tractions, n_given()) = rows.bottomRows(n_tractions);
+    }
     // Rows of the border and of the tractions have units of their own: with lengths far from 1 some would look like
-    // nothing beside others. Their right sides are zero, so that any factor will do: they are made as large as those of
-    // the vertices.
+    // nothing beside others. Nothing but the columns of the given loads is on their right sides, so that any factor
+    // will do: they are made as large as those of the vertices.
     const auto scale_rows = [&](Eigen::Index first, Eigen::Index count) {
         const double own = count > 0 && n_loads > 0 ? S.block(first, 0, count, n_loads).cwiseAbs().maxCoeff() : 0.0;
         if (own > 0.0) S.middleRows(first, count) *= S.topLeftCorner(n_loads, n_loads).cwiseAbs().maxCoeff() / own;
@@ -63,7 +76,8 @@ void GalerkinResponses::add_product(const Eigen::MatrixXd& loads, Eigen::Ref<Eig
     control.checkpoint();
     const Eigen::Index n = system_->size();
     Eigen::MatrixXd product = Eigen::MatrixXd::Zero(n + system_->surfaces().rigid.cols(), loads.cols());
-    columns_.add_product(loads, product);
+    columns_.add_product(loads.topRows(cols()), product);
+    given_.add_product(loads.bottomRows(n_given()), product);
     Eigen::MatrixXd u = product.topRows(n);
     system_->finish(u, product.bottomRows(product.rows() - n));
     displacements += u;
@@ -71,10 +85,10 @@ void GalerkinResponses::add_product(const Eigen::MatrixXd& loads, Eigen::Ref<Eig
 
 ReducedSystem galerkin_reduced_system(const std::shared_ptr<const GalerkinSystem>& system,
                                       const std::vector<int>& vertices, const GalerkinTractions& tractions,
-                                      Control& control) {
+                                      std::span<const UnitLoad> loads, Control& control) {
     const Eigen::MatrixXd& C = system->surfaces().rigid;
     ReducedSystem reduced;
-    reduced.responses = std::make_shared<const GalerkinResponses>(system, vertices, tractions, control);
+    reduced.responses = std::make_shared<const GalerkinResponses>(system, vertices, tractions, loads, control);
     reduced.rigid = Eigen::MatrixXd::Zero(C.rows() + C.cols(), C.cols());
     reduced.rigid.topRows(C.rows()) = C;
     reduced.nodes = vertices;
@@ -89,15 +103,21 @@ std::uint64_t galerkin_direct_memory(std::int64_t n_unknowns, std::int64_t n_tra
 }
 
 GalerkinDirectSolver::GalerkinDirectSolver(const GalerkinSystem& system, const std::vector<int>& vertices,
-                                           const GalerkinTractions& tractions, Control& control)
+                                           const GalerkinTractions& tractions, std::span<const UnitLoad> loads,
+                                           Control& control)
     : partition_(system.size(), vertices) {
     control.begin_stage("integrate");
+    if (!loads.empty()) {
+        given_forces_ = system.given_nodal_forces(loads, control);
+        given_ = system.given_single_layer(tractions, loads, control);
+    }
     GalerkinOperators operators = system.operators(tractions, control);
     const Eigen::MatrixXd D = system.hypersingular(control);
     control.begin_stage("factorise");
     single_layer_ = CholeskyFactorization(std::move(operators.single_layer), "single-layer matrix", &control);
     Y_ = std::move(operators.double_layer);
     single_layer_.solve_lower_in_place(Y_);
+    if (given_.size() > 0) single_layer_.solve_lower_in_place(given_);
     D_constrained_ = D(partition_.constrained, Eigen::all);
     Eigen::MatrixXd S = D(partition_.free, partition_.free);
     const Eigen::MatrixXd Y_free = Y_(Eigen::all, partition_.free);
@@ -116,27 +136,36 @@ NodeSolution GalerkinDirectSolver::solve(const Eigen::MatrixXd& prescribed, bool
     const auto& [free, constrained] = partition_;
     NodeSolution solution;
     Eigen::MatrixXd& u = solution.displacements;
-    u = Eigen::MatrixXd::Zero(std::ssize(free) + std::ssize(constrained), prescribed.cols());
-    u(constrained, Eigen::all) = prescribed;
-    const Eigen::MatrixXd Y_u = Y_ * u;
-    Eigen::MatrixXd right = -(D_constrained_.transpose() * prescribed);  // D is symmetric
-    right.noalias() -= Y_.transpose() * Y_u;
+    const Eigen::Index n_constrained = std::ssize(constrained);
+    const Eigen::MatrixXd factors = prescribed.bottomRows(prescribed.rows() - n_constrained);
+    u = Eigen::MatrixXd::Zero(std::ssize(free) + n_constrained, prescribed.cols());
+    u(constrained, Eigen::all) = prescribed.topRows(n_constrained);
+    // Y u - L_V^-1 V g = L_V^T t
+    const auto half_tractions = [&](const Eigen::MatrixXd& of_u) {
+        Eigen::MatrixXd half = Y_ * of_u;
+        if (given_.size() > 0) half.noalias() -= given_ * factors;
+        return half;
+    };
+    Eigen::MatrixXd right = -(D_constrained_.transpose() * prescribed.topRows(n_constrained));  // D is symmetric
+    right.noalias() -= Y_.transpose() * half_tractions(u);
+    if (factors.rows() > 0) right.noalias() += given_forces_ * factors;
     Eigen::MatrixXd x = right(free, Eigen::all);
     free_.solve_in_place(x);
     u(free, Eigen::all) = x;
     if (!want_loads) return solution;
-    const Eigen::MatrixXd Y_all = Y_ * u;
-    Eigen::MatrixXd t = Y_all;
+    const Eigen::MatrixXd half = half_tractions(u);
+    Eigen::MatrixXd t = half;
     single_layer_.solve_upper_in_place(t);
-    solution.loads.resize(std::ssize(constrained) + t.rows(), prescribed.cols());
-    solution.loads.topRows(std::ssize(constrained)) =
-        D_constrained_ * u + Y_(Eigen::all, constrained).transpose() * Y_all;
+    solution.loads.resize(n_constrained + t.rows(), prescribed.cols());
+    solution.loads.topRows(n_constrained) = D_constrained_ * u + Y_(Eigen::all, constrained).transpose() * half;
+    if (factors.rows() > 0) solution.loads.topRows(n_constrained) -= given_forces_(constrained, Eigen::all) * factors;
     solution.loads.bottomRows(t.rows()) = t;
     return solution;
 }
 
 double galerkin_residual(const GalerkinSystem& system, const std::vector<int>& vertices,
-                         const GalerkinTractions& tractions, const NodeSolution& solution, Control& control) {
+                         const GalerkinTractions& tractions, std::span<const UnitLoad> loads,
+                         const NodeSolution& solution, Control& control) {
     const GalerkinOperators operators = system.operators(tractions, control);
     const Eigen::MatrixXd D = system.hypersingular(control);
     const Eigen::MatrixXd &K = operators.double_layer, &V = operators.single_layer;
@@ -145,12 +174,20 @@ double galerkin_residual(const GalerkinSystem& system, const std::vector<int>& v
     const auto ratio = [](const Eigen::VectorXd& part, const Eigen::VectorXd& whole) {
         return whole.norm() > 0.0 ? part.norm() / whole.norm() : 0.0;
     };
+    Eigen::VectorXd given = Eigen::VectorXd::Zero(t.size());
+    if (!loads.empty()) {
+        const Eigen::VectorXd forces = system.given_nodal_forces(loads, control) * solution.factors.col(0);
+        off -= forces;
+        size += forces.cwiseAbs();
+        given = system.given_single_layer(tractions, loads, control) * solution.factors.col(0);
+    }
     // Both equations have units of their own, so each is judged by itself.
     double second = 0.0;
     if (t.size() > 0) {  // without a constrained triangle there is no second; the BLAS complains of empty matrices
         off += K.transpose() * t;
         size += K.cwiseAbs().transpose() * t.cwiseAbs();
-        second = ratio(K * u - V * t, K.cwiseAbs() * u.cwiseAbs() + V.cwiseAbs() * t.cwiseAbs());
+        second =
+            ratio(K * u - V * t - given, K.cwiseAbs() * u.cwiseAbs() + V.cwiseAbs() * t.cwiseAbs() + given.cwiseAbs());
     }
     for (std::size_t i = 0; i < vertices.size(); ++i)
         off.segment<3>(3 * vertices[i]) -= solution.loads.col(0).segment<3>(3 * static_cast<Eigen::Index>(i));

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "bem/galerkin/system.hpp"
@@ -18,9 +19,10 @@ namespace elastolab {
 class GalerkinResponses : public Responses {
 public:
     GalerkinResponses(std::shared_ptr<const GalerkinSystem> system, std::vector<int> vertices,
-                      GalerkinTractions tractions, Control& control);
+                      GalerkinTractions tractions, std::span<const UnitLoad> loads, Control& control);
 
     Eigen::Index cols() const override { return columns_.cols(); }
+    Eigen::Index n_given() const override { return given_.cols(); }
     Eigen::MatrixXd small_matrix(const std::vector<int>& nodes, const Eigen::MatrixXd& rigid,
                                  Control& control) const override;
     void add_product(const Eigen::MatrixXd& loads, Eigen::Ref<Eigen::MatrixXd> displacements,
@@ -30,7 +32,8 @@ private:
     std::shared_ptr<const GalerkinSystem> system_;
     std::vector<int> vertices_;
     GalerkinTractions tractions_;
-    Columns columns_;  ///< L^-1 Z over C^T Z
+    std::vector<UnitLoad> loads_;
+    Columns columns_, given_;  ///< L^-1 Z over C^T Z, of the unknowns and of the given loads
 };
 
 /// Tractions and free displacements by elimination: with V = L_V L_V^T and Y = L_V^-1 K the free block D + Y^T Y is
@@ -39,7 +42,7 @@ class GalerkinDirectSolver : public NodeSolver {
 public:
     /// Throws NotHeldError when the constraints do not hold the body; SolveError, Cancelled.
     GalerkinDirectSolver(const GalerkinSystem& system, const std::vector<int>& vertices,
-                         const GalerkinTractions& tractions, Control& control);
+                         const GalerkinTractions& tractions, std::span<const UnitLoad> loads, Control& control);
     /// loads: reactions at the vertices, then tractions.
     NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const override;
 
@@ -47,6 +50,8 @@ private:
     Partition partition_;
     CholeskyFactorization single_layer_, free_;
     Eigen::MatrixXd Y_;              ///< L_V^-1 K
+    Eigen::MatrixXd given_forces_;   ///< of the given loads, at all nodes
+    Eigen::MatrixXd given_;          ///< L_V^-1 V g
     Eigen::MatrixXd D_constrained_;  ///< rows of D at the constrained vertices
 };
 
@@ -56,11 +61,12 @@ std::uint64_t galerkin_direct_memory(std::int64_t n_unknowns, std::int64_t n_tra
 /// The small system of a constrained set, its responses kept.
 ReducedSystem galerkin_reduced_system(const std::shared_ptr<const GalerkinSystem>& system,
                                       const std::vector<int>& vertices, const GalerkinTractions& tractions,
-                                      Control& control);
+                                      std::span<const UnitLoad> loads, Control& control);
 
-/// The larger of | D u + K^T t - R | and | K u - V t |, each over the same of absolute values, Euclidean, with
-/// integrals computed afresh. loads: as those of a solution.
+/// The larger of | D u + K^T (t + g) - R - B^T g | and | K u - V (t + g) |, g the given loads, each over the same of
+/// absolute values, Euclidean, with integrals computed afresh. loads: as those of a solution.
 double galerkin_residual(const GalerkinSystem& system, const std::vector<int>& vertices,
-                         const GalerkinTractions& tractions, const NodeSolution& solution, Control& control);
+                         const GalerkinTractions& tractions, std::span<const UnitLoad> loads,
+                         const NodeSolution& solution, Control& control);
 
 }  // namespace elastolab

@@ -6,6 +6,8 @@
 #include "base/blas.hpp"
 #include "base/parallel.hpp"
 #include "bem/galerkin/traction_rows.hpp"
+#include "bem/given_loads.hpp"
+#include "deform/load_columns.hpp"
 #include "elasticity/rigid_motion.hpp"
 
 namespace elastolab {
@@ -172,6 +174,29 @@ Columns GalerkinSystem::half_responses(std::span<const int> vertices, const Gale
     return cache_->get(
         keys, [&](const ColumnKey& key) { return row_bytes * static_cast<std::uint64_t>(components_of(key)); },
         [&](const std::vector<ColumnKey>& missing) { return compute(missing, control); }, control);
+}
+
+Columns GalerkinSystem::half_load_responses(std::span<const UnitLoad> loads, Control& control) const {
+    const Eigen::Index n = size(), n_border = surfaces_.rigid.cols();
+    const auto compute = [&](std::span<const UnitLoad> missing) {
+        Eigen::MatrixXd columns(n + n_border, std::ssize(missing));
+        columns.topRows(n) = given_nodal_forces(missing, control);
+        columns.bottomRows(n_border) = surfaces_.rigid.transpose() * columns.topRows(n);
+        factor_.solve_lower_in_place(columns.topRows(n));
+        return columns;
+    };
+    return load_columns(*cache_, loads, n + n_border, compute, control);
+}
+
+Eigen::MatrixXd GalerkinSystem::given_nodal_forces(std::span<const UnitLoad> loads, Control& control) const {
+    const auto pairs = std::make_shared<const BoundaryPairs>(boundary_, tolerance_);
+    return elastolab::given_nodal_forces(pairs, material_, loads, control);
+}
+
+Eigen::MatrixXd GalerkinSystem::given_single_layer(const GalerkinTractions& tractions, std::span<const UnitLoad> loads,
+                                                   Control& control) const {
+    const auto pairs = std::make_shared<const BoundaryPairs>(boundary_, tolerance_);
+    return elastolab::given_single_layer(pairs, surfaces_, tractions, material_, loads, control);
 }
 
 std::vector<Columns::Block> GalerkinSystem::compute(const std::vector<ColumnKey>& missing, Control& control) const {

@@ -11,6 +11,7 @@
 #include "bem/galerkin/tractions.hpp"
 #include "deform/columns.hpp"
 #include "deform/method.hpp"
+#include "deform/unit_load.hpp"
 
 namespace elastolab {
 
@@ -48,6 +49,12 @@ public:
 
     /// L^-1 Z over C^T Z, with Z = [I at these vertices, -K^T of the tractions]; computed once, kept within a budget.
     Columns half_responses(std::span<const int> vertices, const GalerkinTractions& tractions, Control& control) const;
+    /// The same for given loads: Z = (B - K)^T g, a column each.
+    Columns half_load_responses(std::span<const UnitLoad> loads, Control& control) const;
+    /// (B - K)^T g of given loads at all nodes, and V g on the tractions of a set.
+    Eigen::MatrixXd given_nodal_forces(std::span<const UnitLoad> loads, Control& control) const;
+    Eigen::MatrixXd given_single_layer(const GalerkinTractions& tractions, std::span<const UnitLoad> loads,
+                                       Control& control) const;
     /// u <- D^+ Z q from y = (L^-1 Z) q and f = (C^T Z) q.
     void finish(Eigen::MatrixXd& y, const Eigen::MatrixXd& f) const;
     /// a. With Y = L^-1 Z and F = C^T Z: Z^T D^+ Z = Y^T Y - F^T F / a.

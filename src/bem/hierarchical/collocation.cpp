@@ -5,9 +5,11 @@
 #include <numeric>
 #include <utility>
 
+#include "bem/given_loads.hpp"
 #include "bem/hierarchical/free_motions.hpp"
 #include "bem/hierarchical/item_rows.hpp"
 #include "deform/gmres.hpp"
+#include "deform/load_columns.hpp"
 #include "elasticity/rigid_motion.hpp"
 #include "mesh/measures.hpp"
 
@@ -48,6 +50,13 @@ HierarchicalCollocation::HierarchicalCollocation(std::shared_ptr<const Boundary>
       elements_(*boundary_, vertex_elements(*boundary_)),
       H_(*boundary_, vertex_sources(*boundary_), elements_, motions_, material_, tolerance_, options_, control) {}
 
+Eigen::MatrixXd HierarchicalCollocation::given_at_vertices(std::span<const UnitLoad> loads, Control& control) const {
+    const auto compute = [&](std::span<const UnitLoad> missing) {
+        return given_single_layer(*boundary_, vertex_sources(*boundary_), material_, tolerance_, missing, control);
+    };
+    return load_columns(given_, loads, 3 * elements_.n_slots(), compute, control).middle(0, std::ssize(loads));
+}
+
 std::unique_ptr<const HierarchicalDoubleLayer> HierarchicalCollocation::seen_from(Sources sources,
                                                                                   Control& control) const {
     return std::make_unique<const HierarchicalDoubleLayer>(*boundary_, std::move(sources), elements_, motions_,
@@ -55,8 +64,8 @@ std::unique_ptr<const HierarchicalDoubleLayer> HierarchicalCollocation::seen_fro
 }
 
 CollocationProblem::CollocationProblem(std::shared_ptr<const HierarchicalCollocation> matrices,
-                                       const TractionSpace& space, std::vector<int> constrained, bool must_hold,
-                                       Control& control)
+                                       const TractionSpace& space, std::vector<int> constrained,
+                                       std::span<const UnitLoad> loads, bool must_hold, Control& control)
     : matrices_(std::move(matrices)),
       free_(without(all_numbers(n_vertices()), constrained)),
       constrained_(std::move(constrained)),
@@ -68,9 +77,14 @@ CollocationProblem::CollocationProblem(std::shared_ptr<const HierarchicalColloca
     const std::vector<int> collocated = without(constrained_, space.dropped_collocation);
     at_.insert(at_.end(), collocated.begin(), collocated.end());
     loads_ = matrices_->loads_of(space, control);
-    const Positions interior = sources_inside(matrices_->boundary(), space.interior_triangles).points;
-    points_.resize(3, std::ssize(at_) + interior.cols());
-    points_ << matrices_->boundary().mesh().vertices(Eigen::all, at_), interior;
+    const Sources interior = sources_inside(matrices_->boundary(), space.interior_triangles);
+    points_.resize(3, std::ssize(at_) + interior.size());
+    points_ << matrices_->boundary().mesh().vertices(Eigen::all, at_), interior.points;
+    given_.resize(size(), std::ssize(loads));
+    if (!loads.empty())
+        given_ << rows_of(matrices_->given_at_vertices(loads, control), at_),
+            given_single_layer(matrices_->boundary(), interior, matrices_->material(), matrices_->tolerance(), loads,
+                               control);
     // A triangle holds the body: where there is one, with interior points or without, nothing is free.
     assert(holds_the_body() || loads_->n_interior() == 0);
     shift_ = rows_of(free_motions_, at_);
@@ -122,7 +136,9 @@ Eigen::MatrixXd CollocationProblem::sparse_product(const SparseColumns& Z, Contr
 Eigen::MatrixXd CollocationProblem::right_side(const Eigen::MatrixXd& prescribed) const {
     Eigen::MatrixXd displacements = Eigen::MatrixXd::Zero(3 * n_vertices(), prescribed.cols());
     put_rows(prescribed, constrained_, displacements);
-    return -equations(displacements);
+    Eigen::MatrixXd right = -equations(displacements);
+    if (given_.cols() > 0) right.noalias() += given_ * prescribed.bottomRows(given_.cols());
+    return right;
 }
 
 Eigen::MatrixXd CollocationProblem::assemble_answer(const Eigen::MatrixXd& prescribed, const Eigen::MatrixXd& X) const {
@@ -167,9 +183,9 @@ Eigen::MatrixXd CollocationProblem::block(const std::vector<int>& numbers) const
 }
 
 CollocationSolver::CollocationSolver(std::shared_ptr<const HierarchicalCollocation> matrices,
-                                     const TractionSpace& space, const std::vector<int>& constrained, bool must_hold,
-                                     Control& control)
-    : problem_(std::move(matrices), space, constrained, must_hold, control) {
+                                     const TractionSpace& space, const std::vector<int>& constrained,
+                                     std::span<const UnitLoad> loads, bool must_hold, Control& control)
+    : problem_(std::move(matrices), space, constrained, loads, must_hold, control) {
     held_ = problem_.holds_the_body();
     control.begin_stage("precondition");
     preconditioner_ = make_collocation_preconditioner(problem_, control);

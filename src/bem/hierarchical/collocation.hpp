@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <Eigen/Core>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "base/control.hpp"
@@ -10,8 +11,10 @@
 #include "bem/hierarchical/collocation_loads.hpp"
 #include "bem/hierarchical/recycled_solutions.hpp"
 #include "bem/traction_space.hpp"
+#include "deform/columns.hpp"
 #include "deform/linear_operator.hpp"
 #include "deform/node_solver.hpp"
+#include "deform/unit_load.hpp"
 
 namespace elastolab {
 
@@ -27,6 +30,8 @@ public:
     const Material& material() const { return material_; }
     double tolerance() const { return tolerance_; }
     const HierarchicalOptions& options() const { return options_; }
+    /// The single layer of given loads at the vertices, 3*n_vertices x loads.size(); kept.
+    Eigen::MatrixXd given_at_vertices(std::span<const UnitLoad> loads, Control& control) const;
     /// Rigid motions of all vertices, orthonormal: 3*n_vertices x 6.
     const std::shared_ptr<const Eigen::MatrixXd>& motions() const { return motions_; }
     const ClusteredElements& elements() const { return elements_; }
@@ -49,6 +54,7 @@ private:
     ClusteredElements elements_;
     HierarchicalDoubleLayer H_;
     mutable LivingLayers<CollocationLoads> living_;
+    mutable ColumnCache given_{64ull << 20};
 };
 
 /// The equations of one constrained set (MixedProblem in bem/mixed_solver.hpp), with hierarchical matrices. Unknowns:
@@ -58,15 +64,16 @@ private:
 /// be inconsistent; they hold up to a combination of these motions, as with the bordered matrix.)
 class CollocationProblem : public LinearOperator {
 public:
-    /// constrained: vertices. Throws NotHeldError with `must_hold`, Cancelled.
+    /// constrained: vertices; loads: given ones. Throws NotHeldError with `must_hold`, Cancelled.
     CollocationProblem(std::shared_ptr<const HierarchicalCollocation> matrices, const TractionSpace& space,
-                       std::vector<int> constrained, bool must_hold, Control& control);
+                       std::vector<int> constrained, std::span<const UnitLoad> loads, bool must_hold, Control& control);
 
     Eigen::Index size() const override { return 3 * (std::ssize(free_) + n_slots()); }
     Eigen::MatrixXd product(const Eigen::MatrixXd& X) const override;
     /// The same for columns that are zero in most places. Throws Cancelled.
     Eigen::MatrixXd sparse_product(const SparseColumns& Z, Control& control) const;
-    /// -A u for prescribed displacements of the constrained vertices.
+    /// -A u for prescribed displacements of the constrained vertices, and what the given loads add by their factors,
+    /// which stand below.
     Eigen::MatrixXd right_side(const Eigen::MatrixXd& prescribed) const;
     /// Displacements of all vertices over the tractions of all slots, from a solution.
     Eigen::MatrixXd assemble_answer(const Eigen::MatrixXd& prescribed, const Eigen::MatrixXd& X) const;
@@ -96,6 +103,7 @@ private:
     Positions points_;
     double traction_scale_;  ///< [force / L^2] over [L], so that tractions and displacements count alike
     Eigen::MatrixXd free_motions_, shift_;
+    Eigen::MatrixXd given_;  ///< single layer of the given loads in every equation
 };
 
 /// Displacements and tractions of one constrained set by linear collocation, by preconditioned GMRES. Answers are kept:
@@ -105,7 +113,8 @@ public:
     /// Where the constraints leave a rigid motion free, the solution without it is taken; with `must_hold` NotHeldError
     /// is thrown. Throws SolveError, Cancelled.
     CollocationSolver(std::shared_ptr<const HierarchicalCollocation> matrices, const TractionSpace& space,
-                      const std::vector<int>& constrained, bool must_hold, Control& control);
+                      const std::vector<int>& constrained, std::span<const UnitLoad> loads, bool must_hold,
+                      Control& control);
     ~CollocationSolver() override;
 
     NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const override;

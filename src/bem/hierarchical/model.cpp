@@ -3,6 +3,7 @@
 #include "bem/cost.hpp"
 #include "bem/error_estimate.hpp"
 #include "bem/galerkin/field.hpp"
+#include "bem/given_loads.hpp"
 
 namespace elastolab {
 
@@ -23,26 +24,31 @@ HierarchicalGalerkinModel::HierarchicalGalerkinModel(const SurfaceMesh& surface,
 
 std::unique_ptr<ConstrainedSolid> HierarchicalGalerkinModel::constrain(std::span<const int> base,
                                                                        std::span<const int> handles,
+                                                                       std::span<const UnitLoad> given,
                                                                        Control& control) const {
     const std::vector<int> vertices = joined(base, handles);
-    const GalerkinTractions tractions(system_->boundary().mesh(), system_->surfaces(), vertices);
-    auto solver =
-        std::make_unique<HierarchicalSolver>(system_, vertices, tractions, method_.update == Update::direct, control);
-    const auto residual = [system = system_, vertices, tractions](const NodeSolution& solution, Control& its_control) {
-        return hierarchical_residual(*system, vertices, tractions, solution, its_control);
+    const std::vector<UnitLoad> loads(given.begin(), given.end());
+    const SurfaceMesh& mesh = system_->boundary().mesh();
+    const double nu = system_->material().poisson_ratio;
+    const GalerkinTractions tractions(mesh, system_->surfaces(), vertices);
+    auto solver = std::make_unique<HierarchicalSolver>(system_, vertices, tractions, loads,
+                                                       method_.update == Update::direct, control);
+    const auto residual = [system = system_, vertices, tractions, loads](const NodeSolution& solution,
+                                                                         Control& its_control) {
+        return hierarchical_residual(*system, vertices, tractions, loads, solution, its_control);
     };
-    const auto reference = [system = system_, vertices](const Eigen::VectorXd& values, const NodeSolution&,
-                                                        Control& its_control) {
-        return galerkin_self_reference(system->boundary().mesh(), system->material().poisson_ratio, vertices, values,
-                                       its_control);
+    const auto reference = [system = system_, nu, vertices, loads](const Eigen::VectorXd& values, const NodeSolution&,
+                                                                   Control& its_control) {
+        return galerkin_self_reference(system->boundary().mesh(), nu, vertices, loads, values, its_control);
     };
     const auto inside = [boundary = std::shared_ptr<const Boundary>(system_, &system_->boundary()), vertices, tractions,
-                         nu = system_->material().poisson_ratio](NodeSolution&& solution, Control&) {
-        return galerkin_field(boundary, nu, vertices, tractions, std::move(solution));
+                         loads, nu](NodeSolution&& solution, Control&) {
+        return galerkin_field(boundary, nu, vertices, tractions, loads, std::move(solution));
     };
-    return std::make_unique<ConstrainedSolid>(facts_.n_vertices, constrain_vertices(vertices),
-                                              nodal_shares(system_->boundary().mesh().vertices, vertices), nullptr,
-                                              std::move(solver), SolutionChecks{residual, reference, inside});
+    return std::make_unique<ConstrainedSolid>(
+        facts_.n_vertices, constrain_vertices(vertices), nodal_shares(mesh.vertices, vertices), nullptr,
+        std::move(solver), SolutionChecks{residual, reference, inside}, static_cast<int>(loads.size()),
+        particular_field(mesh, nu, mesh.vertices(Eigen::all, vertices), loads));
 }
 
 std::uint64_t HierarchicalGalerkinModel::constrain_memory(std::span<const int> base,

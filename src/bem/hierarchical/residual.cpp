@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
+#include "bem/given_loads.hpp"
 #include "bem/hierarchical/system.hpp"
 
 namespace elastolab {
@@ -27,7 +28,8 @@ int sample(int i, int n_samples, int n) { return static_cast<int>(static_cast<st
 }  // namespace
 
 double hierarchical_residual(const HierarchicalSystem& system, const std::vector<int>& vertices,
-                             const GalerkinTractions& tractions, const NodeSolution& solution, Control& control) {
+                             const GalerkinTractions& tractions, std::span<const UnitLoad> loads,
+                             const NodeSolution& solution, Control& control) {
     const ClusterTree& tree = *system.tree();
     const int n = tree.size(), n_triangles = static_cast<int>(tractions.triangles.size());
     Eigen::VectorXd reactions = Eigen::VectorXd::Zero(system.size());
@@ -54,6 +56,15 @@ double hierarchical_residual(const HierarchicalSystem& system, const std::vector
     const std::vector<int> ordered = in_order(triangles, *triangle_tree);
     const SingleLayerEntries V(system.pairs(), ordered, ordered, system.material());
 
+    Eigen::VectorXd given_forces = Eigen::VectorXd::Zero(system.size());
+    Eigen::VectorXd given_layer = Eigen::VectorXd::Zero(tractions.size());
+    if (!loads.empty()) {
+        given_forces = system.given_nodal_forces(loads, control) * solution.factors.col(0);
+        given_layer =
+            given_single_layer(system.pairs(), system.surfaces(), tractions, system.material(), loads, control) *
+            solution.factors.col(0);
+    }
+
     const int n_rows = std::min(n, kSampleVertices), n_loads = static_cast<int>(triangles.size());
     EquationBalance forces(n_rows);
     parallel_blocks(n_rows, 1, control, [&](int i, int) {
@@ -62,6 +73,7 @@ double hierarchical_residual(const HierarchicalSystem& system, const std::vector
         D.fill({at, at + 1}, {0, n}, row);
         forces.add(i, row, u, 1.0);
         forces.off.segment<3>(3 * i) -= R.segment<3>(3 * at);
+        forces.add(i, Eigen::Matrix3d::Identity(), given_forces.segment<3>(3 * at), -1.0);
         if (n_loads == 0) return;
         K.fill({0, n_loads}, {at, at + 1}, column);
         forces.add(i, column.transpose(), t, 1.0);
@@ -75,6 +87,7 @@ double hierarchical_residual(const HierarchicalSystem& system, const std::vector
         V.fill({at, at + 1}, {0, n_loads}, of_t);
         tests.add(i, of_u, u, 1.0);
         tests.add(i, of_t, t, -1.0);
+        tests.add(i, Eigen::Matrix3d::Identity(), given_layer.segment<3>(3 * sample(i, n_tests, n_triangles)), -1.0);
     });
     return std::max(forces.relative(), tests.relative());
 }

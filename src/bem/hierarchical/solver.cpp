@@ -1,3 +1,4 @@
+#include "bem/given_loads.hpp"
 #include "bem/hierarchical/free_motions.hpp"
 #include "bem/hierarchical/item_rows.hpp"
 #include "bem/hierarchical/system.hpp"
@@ -64,7 +65,8 @@ private:
 };
 
 HierarchicalSolver::HierarchicalSolver(std::shared_ptr<const HierarchicalSystem> system, std::vector<int> vertices,
-                                       const GalerkinTractions& tractions, bool must_hold, Control& control)
+                                       const GalerkinTractions& tractions, std::span<const UnitLoad> loads,
+                                       bool must_hold, Control& control)
     : system_(std::move(system)), vertices_(std::move(vertices)) {
     std::vector<char> is_free(static_cast<std::size_t>(system_->tree()->size()), 1);
     for (const int v : vertices_) {
@@ -76,6 +78,12 @@ HierarchicalSolver::HierarchicalSolver(std::shared_ptr<const HierarchicalSystem>
     if (!held_ && must_hold) throw NotHeldError();
     control.begin_stage("integrate tractions");
     layers_ = std::make_unique<const TractionLayers>(*system_, tractions, control);
+    if (!loads.empty()) {
+        control.begin_stage("integrate loads");
+        given_forces_ = system_->given_nodal_forces(loads, control);
+        given_layer_ =
+            given_single_layer(system_->pairs(), system_->surfaces(), tractions, system_->material(), loads, control);
+    }
     control.begin_stage("precondition");
     const Eigen::MatrixXd loose = loose_motions(system_->surface_motions(), positions_);
     Eigen::MatrixXd energies(loose.cols(), loose.cols());
@@ -101,14 +109,18 @@ Eigen::MatrixXd HierarchicalSolver::transposed_double_layer(const Eigen::MatrixX
     return f;
 }
 
-Eigen::MatrixXd HierarchicalSolver::tractions_of(const Eigen::MatrixXd& u, double tolerance, Control& control) const {
-    return layers_->solve_single_layer(double_layer(u), tolerance, control);
+/// V^-1 (K u - V g)
+Eigen::MatrixXd HierarchicalSolver::tractions_of(const Eigen::MatrixXd& u, const Eigen::MatrixXd& factors,
+                                                 double tolerance, Control& control) const {
+    Eigen::MatrixXd right = double_layer(u);
+    if (factors.rows() > 0) right.noalias() -= given_layer_ * factors;
+    return layers_->solve_single_layer(right, tolerance, control);
 }
 
 /// (P D P + K^T V^-1 K) u
 Eigen::MatrixXd HierarchicalSolver::operate(const Eigen::MatrixXd& u, double inner, Control& control) const {
     Eigen::MatrixXd f = system_->hypersingular(u);
-    if (layers_->size() > 0) f += transposed_double_layer(tractions_of(u, inner, control));
+    if (layers_->size() > 0) f += transposed_double_layer(tractions_of(u, {}, inner, control));
     return f;
 }
 
@@ -118,7 +130,10 @@ Eigen::MatrixXd HierarchicalSolver::iterate(const Eigen::MatrixXd& prescribed, E
     Eigen::MatrixXd u = Eigen::MatrixXd::Zero(system_->size(), prescribed.cols());
     for (std::size_t i = 0; i < positions_.size(); ++i)
         u.middleRows<3>(3 * positions_[i]) = prescribed.middleRows<3>(3 * static_cast<Eigen::Index>(i));
-    Eigen::MatrixXd right = -operate(u, inner, control);
+    const Eigen::MatrixXd factors = factors_of(prescribed);
+    Eigen::MatrixXd right = -system_->hypersingular(u);
+    if (layers_->size() > 0) right -= transposed_double_layer(tractions_of(u, factors, inner, control));
+    if (factors.rows() > 0) right.noalias() += given_forces_ * factors;
     zero_constrained(right);
     zero_constrained(start);
     orthogonalise(right, free_motions_);
@@ -155,9 +170,10 @@ NodeSolution HierarchicalSolver::solve_watched(const Eigen::MatrixXd& prescribed
     if (!want_loads) return solution;
     Eigen::MatrixXd f = system_->hypersingular(u), t(layers_->size(), u.cols());
     if (layers_->size() > 0) {
-        t = tractions_of(u, kInnerOverTolerance * tolerance, control);
+        t = tractions_of(u, factors_of(prescribed), kInnerOverTolerance * tolerance, control);
         f += transposed_double_layer(t);
     }
+    if (given_forces_.cols() > 0) f.noalias() -= given_forces_ * factors_of(prescribed);
     const Eigen::MatrixXd reactions = rows_of(f, positions_);
     solution.loads.resize(reactions.rows() + t.rows(), u.cols());
     solution.loads << reactions, t;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "bem/given_loads.hpp"
+#include "deform/load_columns.hpp"
 #include "elasticity/rigid_motion.hpp"
 
 namespace elastolab {
@@ -38,6 +40,13 @@ Eigen::MatrixXd HierarchicalSystem::hypersingular(const Eigen::MatrixXd& X) cons
     Y = D_->product(Y);
     Y.noalias() -= C * (C.transpose() * Y).eval();
     return Y;
+}
+
+Eigen::MatrixXd HierarchicalSystem::given_nodal_forces(std::span<const UnitLoad> loads, Control& control) const {
+    const auto compute = [&](std::span<const UnitLoad> missing) {
+        return to_tree_order(*tree_, elastolab::given_nodal_forces(pairs_, material_, missing, control));
+    };
+    return load_columns(given_, loads, size(), compute, control).middle(0, std::ssize(loads));
 }
 
 std::shared_ptr<const TriangleLayers> HierarchicalSystem::layers_of(const std::vector<int>& triangles,

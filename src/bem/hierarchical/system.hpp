@@ -13,8 +13,10 @@
 #include "bem/hierarchical/recycled_solutions.hpp"
 #include "bem/hierarchical/schwarz.hpp"
 #include "bem/hierarchical/traction_layers.hpp"
+#include "deform/columns.hpp"
 #include "deform/method.hpp"
 #include "deform/node_solver.hpp"
+#include "deform/unit_load.hpp"
 
 namespace elastolab {
 
@@ -35,6 +37,8 @@ public:
     const HierarchicalOptions& options() const { return options_; }
     Eigen::Index size() const { return 3 * tree_->size(); }
     std::uint64_t memory_bytes() const { return D_->memory_bytes(); }
+    /// (B - K)^T g of given loads, rows in the order of the tree; kept. Throws Cancelled.
+    Eigen::MatrixXd given_nodal_forces(std::span<const UnitLoad> loads, Control& control) const;
 
     /// Rigid motions, orthonormal, rows in the order of the tree: of each closed surface, and of the whole body.
     const Eigen::MatrixXd& surface_motions() const { return surface_motions_; }
@@ -53,6 +57,7 @@ private:
     Eigen::MatrixXd surface_motions_, body_motions_;
     std::unique_ptr<const HierarchicalMatrix> D_;
     mutable LivingLayers<TriangleLayers> living_;
+    mutable ColumnCache given_{64ull << 20};
 };
 
 /// Displacements and tractions of one constrained set by elimination of the tractions: the free block of
@@ -63,7 +68,8 @@ public:
     /// Where the constraints leave a rigid motion free, the solution that moves least is taken; with `must_hold`
     /// NotHeldError is thrown. Throws SolveError, Cancelled.
     HierarchicalSolver(std::shared_ptr<const HierarchicalSystem> system, std::vector<int> vertices,
-                       const GalerkinTractions& tractions, bool must_hold, Control& control);
+                       const GalerkinTractions& tractions, std::span<const UnitLoad> loads, bool must_hold,
+                       Control& control);
 
     /// loads: reactions at the vertices, then tractions.
     NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const override;
@@ -83,19 +89,26 @@ private:
     Eigen::MatrixXd operate(const Eigen::MatrixXd& u, double inner, Control& control) const;
     Eigen::MatrixXd double_layer(Eigen::MatrixXd u) const;
     Eigen::MatrixXd transposed_double_layer(const Eigen::MatrixXd& t) const;
-    Eigen::MatrixXd tractions_of(const Eigen::MatrixXd& u, double tolerance, Control& control) const;
+    /// factors: of the given loads, or none.
+    Eigen::MatrixXd tractions_of(const Eigen::MatrixXd& u, const Eigen::MatrixXd& factors, double tolerance,
+                                 Control& control) const;
+    Eigen::MatrixXd factors_of(const Eigen::MatrixXd& prescribed) const {
+        return prescribed.bottomRows(given_forces_.cols());
+    }
     void zero_constrained(Eigen::MatrixXd& rows) const;
 
     std::shared_ptr<const HierarchicalSystem> system_;
     std::vector<int> vertices_, positions_;  ///< constrained
     std::unique_ptr<const TractionLayers> layers_;
     std::unique_ptr<const SchwarzPreconditioner> preconditioner_;
+    Eigen::MatrixXd given_forces_, given_layer_;  ///< of the given loads: (B - K)^T g at all vertices, V g
     Eigen::MatrixXd free_motions_;  ///< rigid motions that the constraints leave, orthonormal; mostly none
     mutable RecycledSolutions recycled_;
 };
 
 /// As galerkin_residual, over a sample of the equations, with entries computed afresh.
 double hierarchical_residual(const HierarchicalSystem& system, const std::vector<int>& vertices,
-                             const GalerkinTractions& tractions, const NodeSolution& solution, Control& control);
+                             const GalerkinTractions& tractions, std::span<const UnitLoad> loads,
+                             const NodeSolution& solution, Control& control);
 
 }  // namespace elastolab

@@ -112,7 +112,9 @@ NonlinearModel::NonlinearModel(const NonlinearModel& before, double poisson_rati
 }
 
 std::unique_ptr<ConstrainedSolid> NonlinearModel::constrain(std::span<const int> base, std::span<const int> handles,
-                                                            Control& control) const {
+                                                            std::span<const UnitLoad> loads, Control& control) const {
+    if (!loads.empty())
+        throw SolveError("loads: nonlinear-fem does not take them. Choose quadratic-fem, or prescribe displacements.");
     ConstrainedFemNodes nodes = constrain_nodes(mesh_->tets.vertices, mesh_->midpoints, base, handles);
     const bool held = holds(mesh_->tets.vertices, nodes.vertices);
     auto solver = std::make_unique<RememberingSolver>(

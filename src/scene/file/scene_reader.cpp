@@ -157,7 +157,7 @@ Rotation read_rotation(const JsonNode& node) {
 }
 
 Handle read_handle(const JsonNode& node) {
-    node.require_keys({"name", "select", "matrix", "translate", "rotate", "displacements"});
+    node.require_keys({"name", "select", "matrix", "translate", "rotate", "displacements", "force", "moment"});
     Handle handle;
     if (const auto name = node.find("name")) {
         handle.name = name->text();
@@ -165,6 +165,15 @@ Handle read_handle(const JsonNode& node) {
         if (handle.name == "fixed") name->fail("\"fixed\" is what the fixed part is called. Choose another name.");
     }
     handle.select = read_selector(node.at("select", "Say which vertices the handle moves."));
+    if (node.has("force") || node.has("moment")) {
+        if (node.has("matrix") || node.has("translate") || node.has("rotate") || node.has("displacements"))
+            node.fail("has both a force and a motion. Keep one of them.");
+        GripForce grip;
+        if (const auto force = node.find("force")) grip.force = force->vector3();
+        if (const auto moment = node.find("moment")) grip.moment = moment->vector3();
+        handle.force = grip;
+        return handle;
+    }
     const auto displacements = node.find("displacements");
     if (displacements && (node.has("matrix") || node.has("translate") || node.has("rotate")))
         node.fail("has both displacements and matrix, translate or rotate. Keep one kind of motion.");
@@ -261,12 +270,42 @@ std::vector<Handle> read_handles(const JsonNode& node) {
     return handles;
 }
 
+Load read_load(const JsonNode& node) {
+    node.require_keys({"name", "select", "force", "traction", "pressure"});
+    Load load;
+    if (const auto name = node.find("name")) {
+        load.name = name->text();
+        if (load.name.empty()) name->fail("is empty. Give a name, or leave the key out.");
+    }
+    load.select = read_selector(node.at("select", "Say where the load acts."));
+    int n_kinds = 0;
+    for (const char* kind : {"force", "traction", "pressure"}) n_kinds += node.has(kind) ? 1 : 0;
+    if (n_kinds != 1)
+        node.fail("must have one of force, traction, pressure, has " + std::to_string(n_kinds) +
+                  ". Give one of them, or write several loads.");
+    if (const auto force = node.find("force")) load.value = ForceLoad{force->vector3()};
+    if (const auto traction = node.find("traction")) load.value = TractionLoad{traction->vector3()};
+    if (const auto pressure = node.find("pressure")) load.value = PressureLoad{pressure->number()};
+    return load;
+}
+
+std::vector<Load> read_loads(const JsonNode& node) {
+    std::vector<Load> loads;
+    const int n = node.array_size();
+    for (int i = 0; i < n; ++i) {
+        loads.push_back(read_load(node[i]));
+        require_new_name(node[i], loads, "load");
+    }
+    return loads;
+}
+
 }  // namespace
 
 Document parse_scene(std::string_view text, const std::string& name) {
     const JsonTree json = parse_json(text, name);
     const JsonNode root(json.value, "", name);
-    root.require_keys({"elastolab", "mesh", "material", "method", "fixed", "handles", "proxy", "camera"});
+    root.require_keys({"elastolab", "mesh", "material", "method", "fixed", "handles", "gravity", "density", "loads",
+                       "proxy", "camera"});
     read_version(root);
     Document document;
     document.mesh = read_mesh(root.at("mesh", "Give a mesh file or a primitive."));
@@ -274,6 +313,9 @@ Document parse_scene(std::string_view text, const std::string& name) {
     if (const auto method = root.find("method")) document.method = read_method(*method);
     if (const auto fixed = root.find("fixed")) document.fixed = read_fixed(*fixed);
     if (const auto handles = root.find("handles")) document.handles = read_handles(*handles);
+    if (const auto gravity = root.find("gravity")) document.gravity = gravity->vector3();
+    if (const auto density = root.find("density")) document.density = density->positive_number();
+    if (const auto loads = root.find("loads")) document.loads = read_loads(*loads);
     if (const auto proxy = root.find("proxy")) document.proxy = read_proxy(*proxy);
     if (const auto camera = root.find("camera")) document.camera = read_camera(*camera);
     return document;

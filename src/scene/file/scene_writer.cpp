@@ -59,6 +59,11 @@ Json to_json(const Handle& handle) {
     Json json = Json::object();
     if (!handle.name.empty()) json["name"] = handle.name;
     json["select"] = to_json(handle.select);
+    if (handle.force) {
+        json["force"] = to_json(handle.force->force);
+        if (!handle.force->moment.isZero(0.0)) json["moment"] = to_json(handle.force->moment);
+        return json;
+    }
     const auto affine = [&](const AffineMotion& motion) {
         if (!motion.matrix.isZero(0.0)) json["matrix"] = to_json(motion.matrix);
         json["translate"] = to_json(motion.translate);
@@ -69,6 +74,17 @@ Json to_json(const Handle& handle) {
         for (const Eigen::Vector3d& u : motion.displacements) json["displacements"].push_back(to_json(u));
     };
     std::visit(Overloaded{affine, per_vertex}, handle.motion);
+    return json;
+}
+
+Json to_json(const Load& load) {
+    Json json = Json::object();
+    if (!load.name.empty()) json["name"] = load.name;
+    json["select"] = to_json(load.select);
+    std::visit(Overloaded{[&](const ForceLoad& value) { json["force"] = to_json(value.force); },
+                          [&](const TractionLoad& value) { json["traction"] = to_json(value.traction); },
+                          [&](const PressureLoad& value) { json["pressure"] = value.pressure; }},
+               load.value);
     return json;
 }
 
@@ -107,6 +123,12 @@ Json to_json(const Document& document) {
     if (!document.fixed.empty()) json["fixed"] = to_json(document.fixed);
     json["handles"] = Json::array();
     for (const Handle& handle : document.handles) json["handles"].push_back(to_json(handle));
+    if (document.gravity) json["gravity"] = to_json(*document.gravity);
+    if (document.density != 1.0) json["density"] = document.density;
+    if (!document.loads.empty()) {
+        json["loads"] = Json::array();
+        for (const Load& load : document.loads) json["loads"].push_back(to_json(load));
+    }
     if (document.proxy != ProxyChoice{}) json["proxy"] = to_json(document.proxy);
     if (document.camera) json["camera"] = to_json(*document.camera);
     return json;

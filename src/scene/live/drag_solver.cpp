@@ -35,19 +35,22 @@ void DragSolver::prepare(const Eigen::VectorXd& values, double tolerance, Contro
     if (has_start(values)) {
         const Eigen::VectorXd change = values - start_values_;
         handle = changed_handle(change);
-        if (handle >= 0) {
+        if (handle >= 0 && handle != loads()) {
             const Eigen::Matrix3Xd moved = part_of(handle, change);
             affine = turns || (moved.colwise() - moved.col(0)).cwiseAbs().maxCoeff() > tolerance_of(handle, moved);
         }
     }
     if (handle < 0) handle = turns && handle_ >= 0 ? handle_ : static_cast<int>(handle_ends_.size()) - 1;
+    if (handle < 0 && n_loads() > 0) handle = loads();
     if (handle < 0) return start(values, tolerance, control, approach);
+    if (handle == loads()) return grab_loads(values, tolerance, control);
     grab(values, handle, affine, tolerance, control, approach);
 }
 
 void DragSolver::refine(Control& control) {
     const Approach approach{response_.equilibrium, {}};
     if (handle_ == kNone) return start(start_values_, kSolveTolerance, control, approach);
+    if (handle_ == loads()) return grab_loads(start_values_, kSolveTolerance, control);
     grab(start_values_, handle_, shapes_.rows() > 1, kSolveTolerance, control, approach);
 }
 
@@ -59,6 +62,7 @@ bool DragSolver::has(const Eigen::VectorXd& values) const {
     if (!has_start(values)) return false;
     const Eigen::VectorXd change = values - start_values_;
     const int handle = changed_handle(change);
+    if (handle == loads()) return handle_ == handle && deformer_->linear();
     return handle == kNone || (handle >= 0 && deformer_->linear() && parameters_of(handle, part_of(handle, change)));
 }
 
@@ -67,6 +71,10 @@ void DragSolver::displace(const Eigen::VectorXd& values, Eigen::VectorXd& u) {
     if (!has_start(values)) start(values, kSolveTolerance, control);
     const Eigen::VectorXd change = values - start_values_;
     const int handle = changed_handle(change);
+    if (handle == loads() && deformer_->linear()) {
+        if (handle_ != handle) grab_loads(start_values_, kSolveTolerance, control);
+        return response_.displace(values.tail(n_loads()) - start_values_.tail(n_loads()), u);
+    }
     if (handle >= 0 && deformer_->linear()) {  // else columns are right to first order only
         const Eigen::Matrix3Xd moved = part_of(handle, change);
         std::optional<Eigen::VectorXd> parameters = parameters_of(handle, moved);
@@ -92,11 +100,12 @@ int DragSolver::changed_handle(const Eigen::VectorXd& change) const {
         if (changed != kNone) return kSeveral;
         changed = h;
     }
-    return changed;
+    if (change.tail(n_loads()).isZero(0.0)) return changed;
+    return changed == kNone ? loads() : kSeveral;
 }
 
 Eigen::Matrix3Xd DragSolver::part_of(int handle, const Eigen::VectorXd& change) const {
-    return Eigen::Map<const Eigen::Matrix3Xd>(change.data(), 3, change.size() / 3)
+    return Eigen::Map<const Eigen::Matrix3Xd>(change.data(), 3, (change.size() - n_loads()) / 3)
         .middleCols(begin_of(handle), size_of(handle));
 }
 
@@ -126,6 +135,17 @@ void DragSolver::grab(const Eigen::VectorXd& values, int handle, bool affine, do
     shapes_ = std::move(shapes);
     tolerance_ = tolerance;
     handle_ = handle;
+}
+
+/// Columns of all loads about these values.
+void DragSolver::grab_loads(const Eigen::VectorXd& values, double tolerance, Control& control) {
+    Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(values.size(), n_loads());
+    basis.bottomRows(n_loads()).setIdentity();
+    response_ = deformer_->drag_response(values, basis, control, tolerance);
+    start_values_ = values;
+    shapes_.resize(0, 0);
+    tolerance_ = tolerance;
+    handle_ = loads();
 }
 
 double DragSolver::tolerance_of(int handle, const Eigen::Matrix3Xd& change) const {

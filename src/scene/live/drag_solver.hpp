@@ -10,8 +10,9 @@
 namespace elastolab {
 
 /// Displacements for values that change little by little, as they do while a person drags: as long as they differ from
-/// those at the start by an affine motion of one handle, a frame costs one pass over the columns of that motion (three
-/// for a translation). Any other change starts anew. No answer depends on the way to it, but for rounding.
+/// those at the start by an affine motion of one handle, or by the sizes of loads, a frame costs one pass over the
+/// columns of that motion (three for a translation) or those loads (one each). Any other change starts anew. No answer
+/// depends on the way to it, but for rounding.
 ///
 /// Of a method that is not linear, prepare() finds an equilibrium, and the columns are those of the tangent there: what
 /// displace() gives for other values is right to second order in the change, and is not to be asked for without has().
@@ -48,6 +49,10 @@ private:
     bool has_start(const Eigen::VectorXd& values) const;
     int changed_handle(const Eigen::VectorXd& change) const;
     Eigen::Matrix3Xd part_of(int handle, const Eigen::VectorXd& change) const;
+    /// The number that changed_handle() has for the loads, which stand behind the handles.
+    int loads() const { return static_cast<int>(handle_ends_.size()); }
+    Eigen::Index n_loads() const { return std::ssize(deformer_->set().loads); }
+    void grab_loads(const Eigen::VectorXd& values, double tolerance, Control& control);
     int begin_of(int handle) const { return handle == 0 ? 0 : handle_ends_[static_cast<std::size_t>(handle) - 1]; }
     int size_of(int handle) const { return handle_ends_[static_cast<std::size_t>(handle)] - begin_of(handle); }
     void start(const Eigen::VectorXd& values, double tolerance, Control& control, const Approach& approach = {});
@@ -60,7 +65,7 @@ private:
     std::vector<int> handle_ends_;
     Eigen::VectorXd start_values_;
     double tolerance_ = kSolveTolerance;
-    int handle_ = kNone;      ///< whose columns response_ holds
+    int handle_ = kNone;      ///< whose columns response_ holds; loads(): those of the loads
     Eigen::MatrixXd shapes_;  ///< 1 or 4 x vertices of the handle: 1, and the scaled rest position about its mean
     Eigen::MatrixXd fit_;     ///< vertices x 1 or 4, pseudo-inverse of shapes_
     DragResponse response_;   ///< rest: for start_values_; one column for each shape and axis

@@ -237,9 +237,14 @@ Constraints LiveScene::constraints_with_handle(std::span<const int> vertices) co
     if (own.empty()) return all;
     const int begin = all.groups.empty() ? 0 : all.groups.back().end;
     all.set.handles.insert(all.set.handles.end(), own.begin(), own.end());
-    all.values.conservativeResize(all.values.size() + 3 * std::ssize(own));
-    all.values.tail(3 * std::ssize(own)).setZero();
+    // Loads stand behind the handles.
+    const Eigen::VectorXd factors = all.values.tail(std::ssize(all.set.loads));
+    const Eigen::Index n_before = all.values.size() - factors.size(), n_own = 3 * std::ssize(own);
+    all.values.conservativeResize(all.values.size() + n_own);
+    all.values.segment(n_before, n_own).setZero();
+    all.values.tail(factors.size()) = factors;
     all.motions.emplace_back(AffineMotion{});
+    all.forces.emplace_back();
     all.groups.push_back({unused_handle_name(), begin, begin + static_cast<int>(own.size())});
     return all;
 }

@@ -11,7 +11,9 @@ namespace elastolab {
 
 namespace {
 
-bool same(const ConstrainedSet& a, const ConstrainedSet& b) { return a.base == b.base && a.handles == b.handles; }
+bool same(const ConstrainedSet& a, const ConstrainedSet& b) {
+    return a.base == b.base && a.handles == b.handles && a.loads == b.loads;
+}
 
 /// What a motion of a method that is not linear must have rested before it is worth an equilibrium that takes long, and
 /// how long one that nobody waits for any more may take, where no other answers meanwhile.
@@ -185,12 +187,15 @@ SetKeeper::Event SetKeeper::use_or_prepare() {
 /// A prefetched set mostly has one more handle, at rest until it is pulled.
 void SetKeeper::prepare_prefetched(const ConstrainedSet& set) {
     const auto n = static_cast<int>(set.handles.size());
-    Wish wish{.values = Eigen::VectorXd::Zero(3 * n), .motions = wanted_.motions, .ends = wanted_.ends};
+    Wish wish{.values = Eigen::VectorXd::Zero(set.n_values()), .motions = wanted_.motions, .ends = wanted_.ends};
     while (!wish.ends.empty() && wish.ends.back() >= n) wish.ends.pop_back();
     if (n > 0) wish.ends.push_back(n);
     if (!wish.motions.empty()) wish.motions.resize(wish.ends.size());
-    const Eigen::Index n_known = std::min(wish.values.size(), wanted_.values.size());
+    const auto n_loads = static_cast<Eigen::Index>(set.loads.size());
+    const Eigen::Index n_before = std::max(wanted_.values.size() - n_loads, Eigen::Index{0});
+    const Eigen::Index n_known = std::min(wish.values.size() - n_loads, n_before);
     wish.values.head(n_known) = wanted_.values.head(n_known);
+    if (wanted_.values.size() >= n_loads) wish.values.tail(n_loads) = wanted_.values.tail(n_loads);
     prepare(set, std::move(wish));
 }
 

@@ -12,7 +12,9 @@ constexpr double kGaugeRestSeconds = 0.5;
 /// A motion that turns by less than this is called a pull [degree].
 constexpr double kTurn = 5.0;
 
-bool same_vertices(const ConstrainedSet& a, const ConstrainedSet& b) { return a.base == b.base && a.handles == b.handles; }
+bool same_vertices(const ConstrainedSet& a, const ConstrainedSet& b) {
+    return a.base == b.base && a.handles == b.handles && a.loads == b.loads;
+}
 
 bool turns(const Wish& wish) {
     return std::any_of(wish.motions.begin(), wish.motions.end(),
@@ -57,7 +59,7 @@ void TheoryGauge::update(const Body& body, const ConstrainedSet& set, const Wish
         case JobEvent::none:
             break;
     }
-    const bool is_new = !wanted_ || surface_ != body.surface || !same(set_, set) || !elastolab::same(*wanted_, wish);
+    const bool is_new = !wanted_ || surface_ != body.surface || !same_vertices(set_, set) || !elastolab::same(*wanted_, wish);
     if (is_new) {
         job_.cancel();
         error_.reset();

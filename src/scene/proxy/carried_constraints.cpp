@@ -8,6 +8,8 @@
 
 #include "base/parallel.hpp"
 #include "findings/solution.hpp"
+#include "mesh/closest_point.hpp"
+#include "mesh/measures.hpp"
 
 namespace elastolab {
 
@@ -17,10 +19,12 @@ using Eigen::Index;
 using Eigen::Vector3d;
 
 constexpr int kVerticesAtATime = 4096;
+/// Edges of the proxy that a triangle of a filled surface may be from itself: rounding.
+constexpr double kSameTriangle = 1e-6;
 
 bool same_set(const Constraints& a, const Constraints& b) {
     if (a.set.base != b.set.base || a.set.handles != b.set.handles || a.groups.size() != b.groups.size()) return false;
-    if (a.groups != b.groups || a.fixed_sets != b.fixed_sets) return false;
+    if (a.groups != b.groups || a.fixed_sets != b.fixed_sets || a.loads != b.loads) return false;
     // Which of a handle's neighbours follow it depends on whether its motion is defined away from its own vertices.
     return std::equal(a.motions.begin(), a.motions.end(), b.motions.begin(), b.motions.end(),
                       [](const Motion& x, const Motion& y) { return x.index() == y.index(); });
@@ -215,6 +219,46 @@ void CarriedConstraints::choose_vertices() {
         }
         carried_.groups[g].end = end;
     }
+    carry_loads();
+}
+
+/// A triangle of the proxy carries what the shown triangle that its middle is nearest to carries, unless all its
+/// vertices are constrained. A total force stays the same, whatever the area.
+void CarriedConstraints::carry_loads() {
+    carried_.loads = shown_.loads;
+    if (shown_.loads.empty()) return;
+    const SurfaceMesh& surface = *proxy_->surface;
+    std::vector<char> is_held(static_cast<std::size_t>(surface.n_vertices()), 0);
+    for (const std::vector<int>* held : {&carried_.set.base, &carried_.set.handles})
+        for (const int v : *held) is_held[static_cast<std::size_t>(v)] = 1;
+    std::vector<int> nearest(static_cast<std::size_t>(surface.n_triangles()), -1);
+    const ClosestPoint closest(*proxy_->shown);
+    for (int t = 0; t < surface.n_triangles(); ++t) {
+        const Eigen::Vector3i v = surface.triangles.col(t);
+        if (is_held[static_cast<std::size_t>(v[0])] && is_held[static_cast<std::size_t>(v[1])] &&
+            is_held[static_cast<std::size_t>(v[2])])
+            continue;
+        const SurfacePoint found = closest(centroid(surface, t));
+        if (!proxy_->is_filled() || found.distance <= kSameTriangle * proxy_->edge)
+            nearest[static_cast<std::size_t>(t)] = found.triangle;
+    }
+    for (AppliedLoad& load : carried_.loads) {
+        if (load.kind != AppliedLoad::Kind::gravity) {
+            std::vector<char> loaded(static_cast<std::size_t>(proxy_->shown->n_triangles()), 0);
+            for (const int t : load.triangles) loaded[static_cast<std::size_t>(t)] = 1;
+            Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+            for (const int t : load.triangles)
+                middle += centroid(*proxy_->shown, t) / static_cast<double>(load.triangles.size());
+            load.triangles.clear();
+            for (int t = 0; t < surface.n_triangles(); ++t)
+                if (const int own = nearest[static_cast<std::size_t>(t)];
+                    own >= 0 && loaded[static_cast<std::size_t>(own)])
+                    load.triangles.push_back(t);
+            if (load.triangles.empty()) load.triangles.push_back(ClosestPoint(surface)(middle).triangle);
+        }
+        const std::vector<UnitLoad> units = unit_loads(load.kind, surface, load.triangles);
+        carried_.set.loads.insert(carried_.set.loads.end(), units.begin(), units.end());
+    }
 }
 
 /// A walk over the shown surface, outwards from what is constrained.
@@ -263,8 +307,10 @@ void CarriedConstraints::find_followers() {
 void CarriedConstraints::carry_values() {
     const SurfaceMesh& surface = *proxy_->surface;
     carried_.motions = shown_.motions;
+    carried_.forces = shown_.forces;
     maps_.resize(shown_.motions.size());
-    carried_.values.resize(3 * std::ssize(carried_.set.handles));
+    carried_.values.resize(carried_.set.n_values());
+    carried_.values.tail(std::ssize(carried_.set.loads)) = shown_.values.tail(std::ssize(shown_.set.loads));
     const std::size_t first_handle = shown_.has_fixed() ? 1 : 0;
     const auto n_base = static_cast<int>(carried_.set.base.size());
     for (std::size_t h = 0; h < carried_.motions.size(); ++h) {

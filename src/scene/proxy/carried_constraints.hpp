@@ -71,6 +71,7 @@ private:
     void hold_nearest(const Part& part, const Nearest& owner, std::vector<Nearest>& nearest) const;
     std::vector<Nearest> owners(const std::vector<Part>& constrained) const;
     void choose_vertices();
+    void carry_loads();
     void find_followers();
     void carry_values();
     Eigen::Vector3d value_of(const Follower& follower) const;

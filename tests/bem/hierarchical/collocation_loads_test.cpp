@@ -34,7 +34,7 @@ struct HeldCube {
         const auto vertices = held(places);
         const TractionSpace space =
             linear_traction_space(*boundary, VertexTriangles(mesh), Tractions::discontinuous, vertices);
-        return {matrices, space, vertices, true, control};
+        return {matrices, space, vertices, {}, true, control};
     }
 };
 
@@ -96,7 +96,7 @@ TEST(CollocationLoads, DoNotBuildUponASetOfWhichTheyUseLittle) {
     const auto corner = vertices_where(cube.mesh, [](const auto& x) { return x[2] < kEdge && x.norm() < 0.4; });
     const TractionSpace space =
         linear_traction_space(*cube.boundary, VertexTriangles(cube.mesh), Tractions::discontinuous, corner);
-    const CollocationProblem small(cube.matrices, space, corner, true, cube.control);
+    const CollocationProblem small(cube.matrices, space, corner, {}, true, cube.control);
     EXPECT_EQ(small.loads().n_new_slots(), small.n_slots());
     EXPECT_LT(small.loads().memory_bytes(), whole.loads().memory_bytes() / 2);
 }

@@ -80,7 +80,7 @@ TEST(HierarchicalCollocation, AFurtherHandleOnAKeptBaseIsAnsweredAsByTheDenseMat
     const VertexTriangles around(mesh);
     const auto solver_of = [&](const std::vector<int>& held) {
         const TractionSpace space = linear_traction_space(*boundary, around, Tractions::discontinuous, held);
-        return CollocationSolver(matrices, space, held, true, control);
+        return CollocationSolver(matrices, space, held, {}, true, control);
     };
     const CollocationSolver before = solver_of(joined(body.base, body.pull)),
                             after = solver_of(joined(body.base, both));

@@ -68,7 +68,7 @@ TEST(HierarchicalGalerkin, AFurtherHandleOnAKeptBaseIsAnsweredAsByTheDenseMatrix
     const auto system = std::make_shared<const HierarchicalSystem>(body.surface, 0.3, hierarchical(), stages, control);
     const auto solver_of = [&](const std::vector<int>& vertices) {
         const GalerkinTractions tractions(body.surface, system->surfaces(), vertices);
-        return HierarchicalSolver(system, vertices, tractions, true, control);
+        return HierarchicalSolver(system, vertices, tractions, {}, true, control);
     };
     const HierarchicalSolver before = solver_of(body.base), after = solver_of(joined(body.base, body.pull));
     EXPECT_GT(before.layers().n_new_triangles(), 0);
@@ -108,7 +108,7 @@ TEST(HierarchicalGalerkin, GivesTheSecondAnswerThatEstimatesAreMadeOf) {
     const Eigen::VectorXd values = stretched(Eigen::all, ends).reshaped();
     EXPECT_GT(galerkin_reference_memory(mesh, ends), 0u);
     Control control;
-    const auto answer = galerkin_reference(mesh, 0.3, ends, values, control);
+    const auto answer = galerkin_reference(mesh, 0.3, ends, {}, values, control);
     ASSERT_TRUE(answer);
     EXPECT_LT(off(answer->displacements, stretched.reshaped()), 1e-5);
     double pull = 0.0;

@@ -1,0 +1,86 @@
+#include "deform/grip.hpp"
+
+#include <cassert>
+#include <Eigen/Geometry>
+#include <Eigen/QR>
+
+#include "base/error.hpp"
+
+namespace elastolab {
+
+namespace {
+
+/// Below this part of the largest, a stiffness counts as none.
+constexpr double kNoStiffness = 1e-10;
+/// Forces that no motion answers, over the forces.
+constexpr double kUnanswered = 1e-6;
+
+}  // namespace
+
+GripStiffness::GripStiffness(const Deformer& deformer, const Eigen::VectorXd& values, std::vector<Grip> grips,
+                             Control& control)
+    : grips_(std::move(grips)) {
+    assert(deformer.model().method().kind->linear);
+    const Positions& vertices = deformer.model().body().surface->vertices;
+    length_ = (vertices.rowwise().maxCoeff() - vertices.rowwise().minCoeff()).norm();
+    const std::vector<int>& handles = deformer.set().handles;
+    for (const Grip& grip : grips_) {
+        const std::vector<int> patch(handles.begin() + grip.begin, handles.begin() + grip.end);
+        arms_.emplace_back(vertices(Eigen::all, patch));
+        middles_.emplace_back(arms_.back().rowwise().mean());
+        arms_.back().colwise() -= middles_.back();
+    }
+    const Eigen::Index n = 6 * std::ssize(grips_);
+    const Eigen::Index n_base = std::ssize(deformer.set().base);
+    const auto resultants = [&](const Eigen::VectorXd& of) {
+        const Reactions reactions = deformer.answer(of, {}, control).reactions;
+        Eigen::VectorXd sums(n);
+        for (std::size_t g = 0; g < grips_.size(); ++g) {
+            const Eigen::Index first = n_base + grips_[g].begin, count = grips_[g].end - grips_[g].begin;
+            const Eigen::Vector3d force = reactions.forces.middleCols(first, count).rowwise().sum();
+            const Eigen::Vector3d moment = reactions.moments.middleCols(first, count).rowwise().sum();
+            sums.segment<6>(6 * static_cast<Eigen::Index>(g)) << force, moment - middles_[g].cross(force);
+        }
+        return sums;
+    };
+    Eigen::VectorXd others = values;
+    move(Eigen::VectorXd::Zero(n), others);
+    rest_ = resultants(others);
+    matrix_.resize(n, n);
+    for (Eigen::Index k = 0; k < n; ++k) {
+        // Loads stay out of the columns, so that they need not balance there.
+        Eigen::VectorXd unit = Eigen::VectorXd::Zero(values.size());
+        Eigen::VectorXd motion = Eigen::VectorXd::Unit(n, k);
+        move(motion, unit);
+        matrix_.col(k) = resultants(unit);
+    }
+}
+
+void GripStiffness::move(const Eigen::VectorXd& motions, Eigen::VectorXd& values) const {
+    for (std::size_t g = 0; g < grips_.size(); ++g) {
+        const auto motion = motions.segment<6>(6 * static_cast<Eigen::Index>(g));
+        const Eigen::Vector3d shift = motion.head<3>(), turn = motion.tail<3>();
+        for (Eigen::Index i = 0; i < arms_[g].cols(); ++i)
+            values.segment<3>(3 * (grips_[g].begin + i)) = shift + turn.cross(arms_[g].col(i).eval());
+    }
+}
+
+Eigen::VectorXd GripStiffness::motions(const Eigen::VectorXd& forces) const {
+    // In units in which rotations and moments are lengths and forces.
+    Eigen::VectorXd unit = Eigen::VectorXd::Ones(matrix_.rows());
+    for (Eigen::Index g = 0; g < n_grips(); ++g) unit.segment<3>(6 * g + 3).setConstant(1.0 / length_);
+    const Eigen::MatrixXd scaled = unit.asDiagonal() * matrix_ * unit.asDiagonal();
+    const Eigen::VectorXd wanted = unit.asDiagonal() * (forces - rest_);
+    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
+    decomposition.setThreshold(kNoStiffness);
+    decomposition.compute(scaled);
+    const Eigen::VectorXd motion = decomposition.solve(wanted);
+    if (!((scaled * motion - wanted).norm() <= kUnanswered * (wanted.norm() + (unit.asDiagonal() * forces).norm())))
+        throw SolveError(
+            "handles under a force: no motion of theirs balances it. Fix a part of the body, give a handle with a "
+            "moment "
+            "three vertices that are not on one line, or let forces and moments sum to zero.");
+    return unit.asDiagonal() * motion;
+}
+
+}  // namespace elastolab

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "base/control.hpp"
+#include "deform/deformer.hpp"
+
+namespace elastolab {
+
+/// A patch of handle vertices that moves as one rigid piece: places [begin, end) in ConstrainedSet::handles.
+struct Grip {
+    int begin = 0, end = 0;
+};
+
+/// Forces and moments that some rigid grips exert on a body, as a linear function of their motions (of small ones:
+/// u = t + theta x (x - middle)), everything else prescribed and loaded as it is. Everything about a grip is about its
+/// middle, the mean of its vertices at rest.
+///
+/// A product of columns that a Deformer gives: after that a force is 6 k multiplications of 6 k numbers for k grips, no
+/// allocation but the result. By symmetric methods (FEM, Galerkin BEM) the stiffness is symmetric to rounding, so that
+/// the work around a closed path is zero; by collocation it is not, and a grip led around a loop gains or loses the
+/// energy that the discretisation errs by.
+class GripStiffness {
+public:
+    /// values: as Deformer::displace takes them; those of the grips are left out. The method is linear. Takes 6 k + 1
+    /// solves with reactions. Throws SolveError, Cancelled.
+    GripStiffness(const Deformer& deformer, const Eigen::VectorXd& values, std::vector<Grip> grips, Control& control);
+
+    int n_grips() const { return static_cast<int>(grips_.size()); }
+    const Eigen::Vector3d& middle(int grip) const { return middles_[static_cast<std::size_t>(grip)]; }
+    /// 6 k x 6 k: force over moment of each grip, per translation [L] over rotation [rad] of each.
+    const Eigen::MatrixXd& matrix() const { return matrix_; }
+    /// Force over moment of each grip (6 k), for the motions (6 k) of all.
+    Eigen::VectorXd forces(const Eigen::VectorXd& motions) const { return rest_ + matrix_ * motions; }
+    /// The motions at which the grips exert these forces (6 k). Where the body is free to move with the grips, those
+    /// without the motion that no force resists. Throws SolveError where no motion does: forces do not balance on a
+    /// body that nothing else holds, or a grip of one or two vertices is to carry a moment.
+    Eigen::VectorXd motions(const Eigen::VectorXd& forces) const;
+    /// Puts motions (6 k) into the grips' rows of a Deformer's values.
+    void move(const Eigen::VectorXd& motions, Eigen::VectorXd& values) const;
+
+private:
+    std::vector<Grip> grips_;
+    std::vector<Eigen::Vector3d> middles_;
+    std::vector<Eigen::Matrix3Xd> arms_;  ///< of the vertices of each grip, from its middle
+    double length_ = 1.0;                 ///< of the body: a rotation times it counts like a translation
+    Eigen::VectorXd rest_;                ///< forces without motion
+    Eigen::MatrixXd matrix_;
+};
+
+}  // namespace elastolab

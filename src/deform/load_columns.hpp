@@ -1,0 +1,18 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <span>
+
+#include "base/control.hpp"
+#include "deform/columns.hpp"
+#include "deform/unit_load.hpp"
+
+namespace elastolab {
+
+/// One column for each of these loads, of n_rows rows, from a cache: those that it lacks are computed together, a
+/// column each. Waits and throws as ColumnCache::get.
+Columns load_columns(ColumnCache& cache, std::span<const UnitLoad> loads, Eigen::Index n_rows,
+                     const std::function<Eigen::MatrixXd(std::span<const UnitLoad>)>& compute, const Control& control);
+
+}  // namespace elastolab

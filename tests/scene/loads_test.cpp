@@ -1,0 +1,278 @@
+#include <gmock/gmock.h>
+
+#include <chrono>
+#include <cmath>
+#include <numbers>
+#include <thread>
+
+#include "base/error.hpp"
+#include "methods/precompute.hpp"
+#include "methods/registry.hpp"
+#include "scene/file/scene_file.hpp"
+#include "scene/live/drag_solver.hpp"
+#include "scene/live/haptic_loop.hpp"
+#include "scene/solve.hpp"
+
+namespace elastolab {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+/// A cube, fixed at its left face, with weight, a pressure above, a force at its right face and a held front edge.
+constexpr const char* kLoadedCube = R"({"elastolab": 1,
+  "mesh": {"primitive": "cube", "resolution": 4},
+  "material": {"young_modulus": 1000.0, "poisson_ratio": 0.3},
+  "method": "fem",
+  "fixed": {"box": {"min": [0, 0, 0], "max": [0, 1, 1]}},
+  "handles": [{"name": "held", "select": {"box": {"min": [0.9, 0, 0], "max": [1, 0.3, 0.3]}}, "translate": [0, 0, 0.01]}],
+  "gravity": [0, 0, -9.81], "density": 2.0,
+  "loads": [{"name": "above", "select": {"box": {"min": [0, 0, 1], "max": [1, 1, 1]}}, "pressure": 3.0},
+            {"select": {"box": {"min": [1, 0.5, 0.5], "max": [1, 1, 1]}}, "force": [5, 0, 1]},
+            {"name": "side", "select": {"box": {"min": [0.25, 1, 0], "max": [1, 1, 1]}}, "traction": [0, 2, 0]}]})";
+
+Document loaded_cube() { return parse_scene(kLoadedCube, "scene.json"); }
+
+Solution solved(const Document& document, MethodKind kind = kFem) {
+    Control control;
+    return solve({.scene_file = "scene.json", .document = document, .method = {.kind = kind}, .solve_once = true},
+                 control);
+}
+
+std::string refusal(const Document& document) {
+    try {
+        solved(document);
+    } catch (const SceneError& error) {
+        return error.what();
+    }
+    return "no complaint";
+}
+
+const GroupReaction& named(const std::vector<GroupReaction>& all, const std::string& name) {
+    for (const GroupReaction& one : all)
+        if (one.name == name) return one;
+    throw std::out_of_range(name);
+}
+
+TEST(SceneLoads, AreReadAndWrittenAsTheyAre) {
+    const Document document = loaded_cube();
+    EXPECT_EQ(document.loads.size(), 3u);
+    EXPECT_EQ(document.gravity, Eigen::Vector3d(0, 0, -9.81));
+    EXPECT_EQ(std::get<PressureLoad>(document.loads[0].value).pressure, 3.0);
+    const Document again = parse_scene(print_scene(document), "scene.json");
+    EXPECT_TRUE(again == document);
+    Document other = document;
+    other.loads[1].value = ForceLoad{{5, 0, 2}};
+    EXPECT_FALSE(other == document);
+}
+
+TEST(SceneLoads, StandInTheForcesTableAndBalance) {
+    for (const MethodKind kind : {kFem, kGalerkinBem}) {
+        const Solution solution = solved(loaded_cube(), kind);
+        const GroupReaction& weight = named(solution.loads, "gravity");
+        EXPECT_LT((weight.force - Eigen::Vector3d(0, 0, -2.0 * 9.81)).norm(), 1e-9);
+        EXPECT_LT((weight.moment - Eigen::Vector3d(0.5, 0.5, 0.5).cross(weight.force)).norm(), 1e-9);
+        EXPECT_LT((named(solution.loads, "above").force - Eigen::Vector3d(0, 0, -3)).norm(), 1e-12);
+        EXPECT_LT((named(solution.loads, "load-1").force - Eigen::Vector3d(5, 0, 1)).norm(), 1e-12);
+        EXPECT_LT((named(solution.loads, "side").force - Eigen::Vector3d(0, 1.5, 0)).norm(), 1e-12);
+        EXPECT_LT(solution.imbalance.force, 1e-8) << name(kind);
+        EXPECT_LT(solution.imbalance.moment, 1e-8) << name(kind);
+        EXPECT_LT(*solution.residual, 1e-7);
+        EXPECT_TRUE(solution.error_estimate.has_value());
+    }
+}
+
+TEST(SceneLoads, DoTheWorkThatTheBodyStores) {
+    // By Clapeyron, loads and supports do twice the energy; doubling every load quadruples it.
+    Document document = loaded_cube();
+    document.handles.clear();
+    const double work = *solved(document).compliance;
+    EXPECT_GT(work, 0.0);
+    EXPECT_NEAR(*solved(document, kQuadraticFem).compliance, work, 0.1 * work);
+    EXPECT_NEAR(*solved(document, kGalerkinBem).compliance, *solved(document, kQuadraticFem).compliance, 0.02 * work);
+    *document.gravity *= 2.0;
+    document.loads[0].value = PressureLoad{6.0};
+    document.loads[1].value = ForceLoad{{10, 0, 2}};
+    document.loads[2].value = TractionLoad{{0, 4, 0}};
+    EXPECT_NEAR(*solved(document).compliance, 4.0 * work, 1e-8 * work);
+}
+
+TEST(SceneLoads, AreRefusedWithTheirPlaces) {
+    Document document = loaded_cube();
+    document.loads[1].select = {BoxSelector{.min = {0, 0, 0}, .max = {0, 1, 1}}};
+    EXPECT_THAT(refusal(document), AllOf(StartsWith("scene.json: /loads/1/select: "), HasSubstr("constrained")));
+    document = loaded_cube();
+    document.loads[2].select = {VertexSelector{{0, 1}}};
+    EXPECT_THAT(refusal(document), AllOf(StartsWith("scene.json: /loads/2/select: "), HasSubstr("no triangle")));
+    document = loaded_cube();
+    document.loads[2].name = "above";
+    EXPECT_THAT(refusal(document), StartsWith("scene.json: /loads: two of them"));
+    document = loaded_cube();
+    document.fixed.clear();
+    document.handles.clear();
+    EXPECT_THAT(refusal(document), AllOf(StartsWith("scene.json: /loads: "), HasSubstr("balance")));
+    document.loads.clear();
+    EXPECT_THAT(refusal(document), AllOf(StartsWith("scene.json: /gravity: "), HasSubstr("balance")));
+}
+
+TEST(SceneLoads, AHandleUnderAForceMovesRigidlyToWhereItIsHeld) {
+    Document document = loaded_cube();
+    document.handles[0].force = GripForce{{1.0, -2.0, 3.0}, {0.1, 0.2, -0.1}};
+    for (const MethodKind kind : {kFem, kQuadraticFem, kLinearBem, kGalerkinBem}) {
+        const Solution solution = solved(document, kind);
+        const GroupReaction& held = named(solution.reactions, "held");
+        EXPECT_LT((held.force - Eigen::Vector3d(1, -2, 3)).norm(), 1e-9 * 4.0) << name(kind);
+        const std::vector<int> patch = select_vertices(*solution.surface, document.handles[0].select, "");
+        const Eigen::Vector3d middle = solution.surface->vertices(Eigen::all, patch).rowwise().mean();
+        EXPECT_LT((held.moment - middle.cross(held.force) - Eigen::Vector3d(0.1, 0.2, -0.1)).norm(), 1e-9 * 4.0);
+        // Rigid: distances change in second order only.
+        for (const int v : patch) {
+            const Eigen::Vector3d arm = solution.surface->vertices.col(v) - solution.surface->vertices.col(patch[0]);
+            EXPECT_NEAR(arm.dot(solution.displacement.col(v) - solution.displacement.col(patch[0])), 0.0, 1e-13);
+        }
+    }
+    document.fixed.clear();
+    EXPECT_THAT(refusal(document), HasSubstr("balance"));
+}
+
+TEST(SceneLoads, TwoHandlesThatPullAtAFreeBodyAreHeldByEachOther) {
+    Document document = loaded_cube();
+    document.gravity.reset();
+    document.loads.clear();
+    document.fixed.clear();
+    document.handles[0].select = {BoxSelector{.min = {0, 0, 0}, .max = {0, 1, 1}}};
+    document.handles[0].force = GripForce{{-50, 0, 0}, {}};
+    document.handles.push_back(document.handles[0]);
+    document.handles[1].name = "right";
+    document.handles[1].select = {BoxSelector{.min = {1, 0, 0}, .max = {1, 1, 1}}};
+    document.handles[1].force = GripForce{{50, 0, 0}, {}};
+    const Solution solution = solved(document);
+    const auto face = [&](double x) {
+        double sum = 0.0;
+        int n = 0;
+        for (int v = 0; v < solution.surface->n_vertices(); ++v)
+            if (solution.surface->vertices(0, v) == x) sum += solution.displacement(0, v), ++n;
+        return sum / n;
+    };
+    EXPECT_NEAR(face(1.0) - face(0.0), 0.05, 0.01);  // 50 / (E A) times the length, less the clamped ends
+    EXPECT_NEAR(face(1.0) + face(0.0), 0.0, 1e-10);
+}
+
+TEST(SceneLoads, AreCarriedToAFilledSurface) {
+    Document document = loaded_cube();
+    document.proxy.use = ProxyUse::fill;
+    EXPECT_LT(solved(document).imbalance.force, 1e-8);
+}
+
+TEST(DragSolver, ServesChangesOfLoadsFromTheColumnsAtHand) {
+    Control control;
+    const Document document = loaded_cube();
+    const SceneMesh mesh = load_scene_mesh(document.mesh, "scene.json", control);
+    const Constraints constraints = make_constraints(document, mesh.checked.mesh, "scene.json");
+    const Body body{"cube", std::make_shared<const SurfaceMesh>(mesh.checked.mesh), document.material};
+    for (const MethodKind kind : {kFem, kLinearBem, kGalerkinBem}) {
+        auto deformer = std::make_shared<Deformer>(precompute(body, {.kind = kind}, control));
+        deformer->constrain(constraints.set, control);
+        DragSolver drag(deformer, {static_cast<int>(constraints.set.handles.size())});
+        Eigen::VectorXd values = constraints.values, u;
+        drag.prepare(values, kSolveTolerance, control);
+        values[values.size() - 4] += 0.5;
+        drag.displace(values, u);  // the first change of a load takes its columns
+        for (int frame = 0; frame < 3; ++frame) {
+            values.tail(3) += Eigen::Vector3d(0.1, -0.2, 0.3);
+            values[values.size() - 10] -= 1.0;
+            EXPECT_TRUE(drag.has(values)) << name(kind);
+            drag.displace(values, u);
+            EXPECT_LT((u - deformer->displace(values)).norm(), 1e-10 * u.norm()) << name(kind);
+        }
+    }
+}
+
+/// The stiffness of the cube's held edge.
+struct Grasped {
+    Control control;
+    std::shared_ptr<Deformer> deformer;
+    Eigen::VectorXd values;
+
+    explicit Grasped(MethodKind kind) {
+        const Document document = loaded_cube();
+        const SceneMesh mesh = load_scene_mesh(document.mesh, "scene.json", control);
+        const Constraints constraints = make_constraints(document, mesh.checked.mesh, "scene.json");
+        const Body body{"cube", std::make_shared<const SurfaceMesh>(mesh.checked.mesh), document.material};
+        deformer = std::make_shared<Deformer>(precompute(body, {.kind = kind}, control));
+        deformer->constrain(constraints.set, control);
+        values = constraints.values;
+    }
+    GripStiffness stiffness() {
+        return {*deformer, values, {{0, static_cast<int>(deformer->set().handles.size())}}, control};
+    }
+};
+
+Eigen::VectorXd motion_at(double phase) {
+    const double a = 2.0 * std::numbers::pi * phase;
+    Eigen::VectorXd motion(6);
+    motion << 0.03 * std::sin(a), 0.02 * (1.0 - std::cos(a)), 0.02 * std::sin(2.0 * a), 0.1 * std::sin(a),
+        0.2 * (1.0 - std::cos(a)), -0.1 * std::sin(3.0 * a);
+    return motion;
+}
+
+TEST(GripStiffness, IsSymmetricAndDoesNoWorkAroundAClosedPathByFemAndGalerkin) {
+    for (const MethodKind kind : {kFem, kQuadraticFem, kGalerkinBem}) {
+        const GripStiffness grip = Grasped(kind).stiffness();
+        EXPECT_LT((grip.matrix() - grip.matrix().transpose()).norm(), 1e-9 * grip.matrix().norm()) << name(kind);
+        double work = 0.0, size = 0.0;
+        constexpr int kSteps = 500;
+        for (int i = 0; i < kSteps; ++i) {
+            const Eigen::VectorXd a = motion_at(i / double{kSteps}), b = motion_at((i + 1) / double{kSteps});
+            const double step = grip.forces(0.5 * (a + b)).dot(b - a);  // exact: forces are linear
+            work += step;
+            size += std::abs(step);
+        }
+        EXPECT_LT(std::abs(work), 1e-9 * size) << name(kind);
+    }
+}
+
+TEST(HapticLoop, GivesTheForcesOfASolveAndCountsItsTicks) {
+    Grasped grasped(kFem);
+    const GripStiffness grip = grasped.stiffness();
+    std::mutex mutex;
+    std::vector<std::pair<GripPose, FeltForce>> felt;
+    GripPose last;
+    HapticTimings timings;
+    {
+        HapticLoop loop(
+            grip,
+            [&](double seconds) {
+                const Eigen::VectorXd motion = motion_at(seconds);
+                last = {motion.head<3>(), motion.tail<3>()};
+                return last;
+            },
+            [&](double, const FeltForce& force) {
+                const std::scoped_lock lock(mutex);
+                felt.emplace_back(last, force);
+            });
+        const auto enough = [&] {
+            const std::scoped_lock lock(mutex);
+            return felt.size() >= 50;
+        };
+        while (!enough()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        timings = loop.timings();
+    }
+    EXPECT_GE(timings.ticks, 49u);
+    EXPECT_GT(timings.computation_p999_ms, 0.0);
+    for (const std::size_t i : {std::size_t{0}, felt.size() / 2, felt.size() - 1}) {
+        Eigen::VectorXd motion(6), values = grasped.values;
+        motion << felt[i].first.shift, felt[i].first.turn;
+        grip.move(motion, values);
+        const Reactions reactions = grasped.deformer->reactions(values);
+        const Eigen::Index n = std::ssize(grasped.deformer->set().handles);
+        const Eigen::Vector3d force = reactions.forces.rightCols(n).rowwise().sum();
+        const Eigen::Vector3d moment = reactions.moments.rightCols(n).rowwise().sum() - grip.middle(0).cross(force);
+        EXPECT_LT((felt[i].second.force + force).norm(), 1e-9 * force.norm());
+        EXPECT_LT((felt[i].second.moment + moment).norm(), 1e-9 * (moment.norm() + force.norm()));
+    }
+}
+
+}  // namespace
+}  // namespace elastolab
