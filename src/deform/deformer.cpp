@@ -472,8 +472,8 @@ Deformer::Answer Deformer::answer(const Eigen::VectorXd& values, Wanted wanted, 
     error.displacements = off.col(0);
     if (wanted.check) answer.check = check_of(answer, error);
     answer.displacements *= unit;
-    if (const double largest = largest_of(answer.reactions.forces); largest > 0.0)
-        require_normal(largest * unit, model_->body().name);
+    if (const double force = largest_of(answer.reactions.forces); force > 0.0)
+        require_normal(force * unit, model_->body().name);
     answer.reactions.forces *= unit;
     answer.reactions.moments *= unit;
     if (!linear()) remember(std::move(found), answer);
