@@ -32,7 +32,7 @@ std::vector<int> all_triangles(const SurfaceMesh& mesh) {
 }
 
 /// The larger of both, relative.
-double relative_error(const Eigen::VectorXd& u, const Eigen::VectorXd& exact) {
+double relative_difference(const Eigen::VectorXd& u, const Eigen::VectorXd& exact) {
     return (u - exact).norm() / exact.norm();
 }
 
@@ -43,13 +43,13 @@ Eigen::VectorXd deformation(const SurfaceMesh& mesh, const Eigen::VectorXd& u) {
 }
 
 /// What Galerkin BEM's integrals allow where other methods are exact.
-double exactness(const Method& method, double of_the_others) {
+double allowed_error(const Method& method, double of_the_others) {
     return method.kind == kGalerkinBem ? std::max(of_the_others, 10.0 * method.kind->integral_tolerance)
                                        : of_the_others;
 }
 
 /// Methods whose elements contain linear fields.
-std::vector<Method> linear_methods() {
+std::vector<Method> exact_methods() {
     std::vector<Method> methods = method_variants();
     std::erase_if(methods, [](const Method& method) {
         return method.kind == kConstantBem ||
@@ -128,12 +128,12 @@ TEST(Loads, ATractionThatStretchesABarUniformlyIsReproducedWhereElementsContainL
         const Eigen::VectorXd exact = exact_displacements(mesh, stretch);
         const auto end = vertices_where(mesh, [](const auto& x) { return x[0] < kEdge; });
         const auto other = triangles_where(mesh, [](const auto& x) { return x[0] > 1.0 - kEdge; });
-        for (const Method& method : linear_methods()) {
+        for (const Method& method : exact_methods()) {
             ConstrainedSet set{{}, end, {unit_traction(other, Eigen::Vector3d::UnitX())}};
             Eigen::VectorXd values(set.n_values());
             values << at(exact, end), 0.1 * material.young_modulus;
-            EXPECT_LT(relative_error(displaced(precomputed(make_body(mesh, material), method), set, values), exact),
-                      exactness(method, 1e-11))
+            EXPECT_LT(relative_difference(displaced(precomputed(make_body(mesh, material), method), set, values), exact),
+                      allowed_error(method, 1e-11))
                 << describe(method) << ", nu " << nu;
         }
     }
@@ -142,14 +142,14 @@ TEST(Loads, ATractionThatStretchesABarUniformlyIsReproducedWhereElementsContainL
 TEST(Loads, PressureAllAroundShrinksABodyWithoutSupports) {
     const SurfaceMesh mesh = make_box(3);
     for (const double nu : {0.3, 0.5})
-        for (const Method& method : linear_methods()) {
+        for (const Method& method : exact_methods()) {
             if (nu == 0.5 && !method.kind->takes_incompressible) continue;
             const Material material{4.0, nu};
             const ConstrainedSet set{{}, {}, {unit_pressure(mesh, all_triangles(mesh))}};
             const Eigen::VectorXd u =
                 displaced(precomputed(make_body(mesh, material), method), set, Eigen::VectorXd::Constant(1, 0.2));
             const Eigen::VectorXd exact = deformation(mesh, -0.2 * (1.0 - 2.0 * nu) / 4.0 * mesh.vertices.reshaped());
-            EXPECT_LT((deformation(mesh, u) - exact).norm(), exactness(method, 1e-11) * mesh.vertices.norm())
+            EXPECT_LT((deformation(mesh, u) - exact).norm(), allowed_error(method, 1e-11) * mesh.vertices.norm())
                 << describe(method) << ", nu " << nu;
             EXPECT_LT((deformation(mesh, u) - u).norm(), 1e-9 * mesh.vertices.norm()) << describe(method);
         }
@@ -163,7 +163,7 @@ TEST(Loads, WeightThatATractionHoldsIsReproducedByQuadraticElements) {
     const Eigen::VectorXd u = displaced(precomputed(make_body(mesh, bar.material), make_method(kQuadraticFem)), set,
                                         Eigen::Vector2d(-0.7, 0.7));
     const Eigen::VectorXd exact = deformation(mesh, exact_displacements(mesh, bar));
-    EXPECT_LT(relative_error(deformation(mesh, u), exact), 1e-11);
+    EXPECT_LT(relative_difference(deformation(mesh, u), exact), 1e-11);
 }
 
 TEST(Loads, AHangingBarConvergesByEveryMethod) {
@@ -180,7 +180,7 @@ TEST(Loads, AHangingBarConvergesByEveryMethod) {
                 Eigen::VectorXd values(set.n_values());
                 values << at(exact, set.handles), -bar.weight;
                 errors.push_back(
-                    relative_error(displaced(precomputed(make_body(mesh, bar.material), method), set, values), exact));
+                    relative_difference(displaced(precomputed(make_body(mesh, bar.material), method), set, values), exact));
             }
             print_measured("hanging bar, " + describe(method) + ", nu " + std::to_string(nu), errors.back());
             EXPECT_LT(errors.back(), method.kind == kConstantBem ? 0.09 : 0.02) << describe(method) << ", nu " << nu;
@@ -219,7 +219,7 @@ TEST(Loads, AHollowSphereUnderInnerPressureWidensByEveryMethod) {
                 const double r = x.norm(), a3 = 0.125;
                 exact.segment<3>(3 * v) = a3 / (1.0 - a3) * ((1.0 - 2.0 * nu) * r + 0.5 * (1.0 + nu) / (r * r)) * x / r;
             }
-            const double error = relative_error(deformation(mesh, u), deformation(mesh, exact));
+            const double error = relative_difference(deformation(mesh, u), deformation(mesh, exact));
             print_measured("hollow sphere, " + describe(method) + ", nu " + std::to_string(nu), error);
             EXPECT_LT(error, largest_error(method.kind)) << describe(method) << ", nu " << nu;
         }
@@ -275,7 +275,7 @@ TEST(Loads, EveryModeAndUpdateGivesTheSameAnswerWithASmallResidual) {
                 other.update = update;
                 if (!refusal(other, 0.3).empty()) continue;
                 const Deformer::Answer answer = problem.constrained(other).answer(problem.values, {}, control);
-                EXPECT_LT(relative_error(answer.displacements, expected.displacements), 1e-8) << describe(other);
+                EXPECT_LT(relative_difference(answer.displacements, expected.displacements), 1e-8) << describe(other);
                 EXPECT_LT((answer.reactions.forces - expected.reactions.forces).norm(),
                           1e-7 * expected.reactions.forces.norm())
                     << describe(other);
@@ -295,7 +295,7 @@ TEST(Loads, ColumnsOfLoadsAddUpToTheirAnswer) {
         const Eigen::VectorXd change = Eigen::VectorXd::LinSpaced(5, -0.3, 0.4);
         changed.tail<5>() += change;
         response.displace(change, u);
-        EXPECT_LT(relative_error(u, deformer.displace(changed)), 1e-10) << describe(method);
+        EXPECT_LT(relative_difference(u, deformer.displace(changed)), 1e-10) << describe(method);
     }
 }
 
@@ -316,9 +316,9 @@ TEST(Loads, DoNotDependOnUnits) {
         values.head(3 * std::ssize(set.handles)) *= 1000.0;
         values.segment<3>(3 * std::ssize(set.handles)) *= 1e-9;
         values[values.size() - 2] *= 1e-6;
-        EXPECT_LT(relative_error(scaled.displace(values) / 1000.0, u), 1e-10) << describe(method);
+        EXPECT_LT(relative_difference(scaled.displace(values) / 1000.0, u), 1e-10) << describe(method);
         const Eigen::VectorXd forces = scaled.reactions(values).forces.reshaped();
-        EXPECT_LT(relative_error(forces, problem.constrained(method).reactions(problem.values).forces.reshaped()),
+        EXPECT_LT(relative_difference(forces, problem.constrained(method).reactions(problem.values).forces.reshaped()),
                   1e-9);
     }
 }
@@ -373,9 +373,9 @@ TEST(Loads, GalerkinAgreesWithQuadraticFemOnAnOrganicBodyAndEstimatesItsError) {
     EXPECT_LT(rms, 0.05);  // both on 300 vertices
     ASSERT_TRUE(galerkin.check.has_value());
     const double worst = lengths(difference).maxCoeff() / size;
-    print_measured("the estimate over the difference", galerkin.check->relative_error / worst);
-    EXPECT_GT(galerkin.check->relative_error, worst / 5.0);
-    EXPECT_LT(galerkin.check->relative_error, worst * 5.0);
+    print_measured("the estimate over the difference", galerkin.check->relative_difference / worst);
+    EXPECT_GT(galerkin.check->relative_difference, worst / 5.0);
+    EXPECT_LT(galerkin.check->relative_difference, worst * 5.0);
 }
 
 }  // namespace

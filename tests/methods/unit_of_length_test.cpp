@@ -43,7 +43,7 @@ Solution solve(const Method& method, double unit, double pull = 1.0) {
 
 /// The linear methods (large_deformation_test.cpp has the other); those of collocation with the update that solves a
 /// small system of mixed units.
-std::vector<Method> linear_methods() {
+std::vector<Method> methods_of_any_update() {
     std::vector<Method> methods;
     for (const MethodKind kind : all_methods())
         for (const Update update : {Update::reduced, Update::direct}) {
@@ -60,7 +60,7 @@ double relative(const Eigen::MatrixXd& difference, const Eigen::MatrixXd& to) {
 TEST(UnitOfLength, DoesNotMatterAtTheExtremes) {
     // Other units than powers of two round the coordinates, and what is nearly singular takes that up.
     constexpr double kRounding = 1e-9;
-    for (const Method& method : linear_methods()) {
+    for (const Method& method : methods_of_any_update()) {
         const Solution one = solve(method, 1.0);
         EXPECT_LT(one.answer.residual.value(), 1e-9) << describe(method);
         for (const double unit : {1e-12, 1e15}) {
@@ -81,7 +81,7 @@ constexpr double kSame = 1e-13;
 
 TEST(UnitOfLength, ChangesNothingWhenItIsAPowerOfTwo) {
     constexpr double kUnit = 0x1p-70;
-    for (const Method& method : linear_methods()) {
+    for (const Method& method : methods_of_any_update()) {
         SCOPED_TRACE(describe(method));
         const Solution one = solve(method, 1.0), other = solve(method, kUnit);
         EXPECT_LT(relative(other.displacements / kUnit - one.displacements, one.displacements), kSame);
@@ -102,7 +102,7 @@ TEST(UnitOfLength, IsThatOfTheInside) {
 }
 
 TEST(UnitOfLength, DoesNotMatterForTheSizeOfDisplacements) {
-    for (const Method& method : linear_methods()) {
+    for (const Method& method : methods_of_any_update()) {
         SCOPED_TRACE(describe(method));
         const Solution one = solve(method, 1.0);
         for (const double pull : {0x1p-600, 0x1p+600}) {  // squares of these are not representable

@@ -40,7 +40,7 @@ Solution solved(const Document& document, MethodKind kind = kFem) {
                  control);
 }
 
-std::string refusal(const Document& document) {
+std::string refusal_of(const Document& document) {
     try {
         solved(document);
     } catch (const SceneError& error) {
@@ -101,19 +101,19 @@ TEST(SceneLoads, DoTheWorkThatTheBodyStores) {
 TEST(SceneLoads, AreRefusedWithTheirPlaces) {
     Document document = loaded_cube();
     document.loads[1].select = {BoxSelector{.min = {0, 0, 0}, .max = {0, 1, 1}}};
-    EXPECT_THAT(refusal(document), AllOf(StartsWith("scene.json: /loads/1/select: "), HasSubstr("constrained")));
+    EXPECT_THAT(refusal_of(document), AllOf(StartsWith("scene.json: /loads/1/select: "), HasSubstr("constrained")));
     document = loaded_cube();
     document.loads[2].select = {VertexSelector{{0, 1}}};
-    EXPECT_THAT(refusal(document), AllOf(StartsWith("scene.json: /loads/2/select: "), HasSubstr("no triangle")));
+    EXPECT_THAT(refusal_of(document), AllOf(StartsWith("scene.json: /loads/2/select: "), HasSubstr("no triangle")));
     document = loaded_cube();
     document.loads[2].name = "above";
-    EXPECT_THAT(refusal(document), StartsWith("scene.json: /loads: two of them"));
+    EXPECT_THAT(refusal_of(document), StartsWith("scene.json: /loads: two of them"));
     document = loaded_cube();
     document.fixed.clear();
     document.handles.clear();
-    EXPECT_THAT(refusal(document), AllOf(StartsWith("scene.json: /loads: "), HasSubstr("balance")));
+    EXPECT_THAT(refusal_of(document), AllOf(StartsWith("scene.json: /loads: "), HasSubstr("balance")));
     document.loads.clear();
-    EXPECT_THAT(refusal(document), AllOf(StartsWith("scene.json: /gravity: "), HasSubstr("balance")));
+    EXPECT_THAT(refusal_of(document), AllOf(StartsWith("scene.json: /gravity: "), HasSubstr("balance")));
 }
 
 TEST(SceneLoads, AHandleUnderAForceMovesRigidlyToWhereItIsHeld) {
@@ -133,7 +133,7 @@ TEST(SceneLoads, AHandleUnderAForceMovesRigidlyToWhereItIsHeld) {
         }
     }
     document.fixed.clear();
-    EXPECT_THAT(refusal(document), HasSubstr("balance"));
+    EXPECT_THAT(refusal_of(document), HasSubstr("balance"));
 }
 
 TEST(SceneLoads, TwoHandlesThatPullAtAFreeBodyAreHeldByEachOther) {

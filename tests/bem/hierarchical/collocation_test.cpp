@@ -177,7 +177,7 @@ struct CubeProblem {
             linear_traction_space(*boundary, VertexTriangles(mesh), Tractions::discontinuous, held);
         EXPECT_FALSE(space.interior_triangles.empty());
         n_held = static_cast<int>(held.size());
-        problem = std::make_unique<const CollocationProblem>(matrices, space, std::move(held), true, control);
+        problem = std::make_unique<const CollocationProblem>(matrices, space, std::move(held), std::span<const UnitLoad>{}, true, control);
     }
     /// Iterations of a solve with all constrained vertices moved at random.
     int iterations() {
@@ -258,7 +258,7 @@ TEST(HierarchicalCollocation, IsChosenForLargeSurfacesOnDemandAndCancelled) {
     EXPECT_LT(model->facts().memory_bytes, kLinearBem->predict(large, direct).memory_bytes);
     control.cancel();
     const std::array held = {0, 1, 2, 3};
-    EXPECT_THROW(model->constrain(held, {}, control), Cancelled);
+    EXPECT_THROW(model->constrain(held, {}, {}, control), Cancelled);
 }
 
 TEST(RecycledSolutions, ACombinationOfRightHandSidesIsNotComputed) {
