@@ -14,7 +14,7 @@ namespace {
 using test::Stage;
 using test::TemporaryFolder;
 
-constexpr double kRounding = 1e-12;
+constexpr double kPoseRounding = 1e-12;
 
 TEST(KeptCamera, ComesBackWithItsSceneAndIsNoChangeOfIt) {
     const TemporaryFolder folder;
@@ -31,9 +31,9 @@ TEST(KeptCamera, ComesBackWithItsSceneAndIsNoChangeOfIt) {
     other.state.open_now(file);
     other.state.frame_in_viewports(true);
     const CameraPose& pose = other.state.camera.pose();
-    EXPECT_LT((pose.target - saved.target).norm(), kRounding);
+    EXPECT_LT((pose.target - saved.target).norm(), kPoseRounding);
     EXPECT_LT(pose.orientation.angularDistance(saved.orientation), 1e-7);  // of a cosine near 1
-    EXPECT_NEAR(pose.distance, saved.distance, kRounding);
+    EXPECT_NEAR(pose.distance, saved.distance, kPoseRounding);
     EXPECT_EQ(other.state.camera.up_axis(), Eigen::Vector3d::UnitY());
     EXPECT_FALSE(other.scene().modified());
 }
