@@ -11,6 +11,7 @@
 #include "scene/file/scene_file.hpp"
 #include "scene/live/drag_solver.hpp"
 #include "scene/live/haptic_loop.hpp"
+#include "scene/selectors.hpp"
 #include "scene/solve.hpp"
 
 namespace elastolab {

@@ -38,7 +38,7 @@ public:
     NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const override {
         take_long();
         const Eigen::Index n = prescribed.rows() / 3, m = prescribed.cols();
-        NodeSolution solution{.displacements = Eigen::MatrixXd::Zero(3 * n_vertices_, m), .loads = {}};
+        NodeSolution solution{.displacements = Eigen::MatrixXd::Zero(3 * n_vertices_, m), .loads = {}, .prescribed = {}};
         for (Eigen::Index row = 0; row < 3 * n_vertices_; ++row)
             for (Eigen::Index i = 0; i < n; ++i)
                 solution.displacements.row(row) += prescribed.row(3 * i + row % 3) / static_cast<double>(n);
@@ -61,7 +61,7 @@ public:
         facts_.n_triangles = surface.n_triangles();
     }
     std::unique_ptr<ConstrainedSolid> constrain(std::span<const int> base, std::span<const int> handles,
-                                                Control& control) const override {
+                                                std::span<const UnitLoad>, Control& control) const override {
         take_long();
         control.checkpoint();
         SolutionChecks checks;
