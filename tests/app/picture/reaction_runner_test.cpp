@@ -33,7 +33,7 @@ class EndlessModel : public SlowModel {
 public:
     using SlowModel::SlowModel;
     std::unique_ptr<ConstrainedSolid> constrain(std::span<const int> base, std::span<const int> handles,
-                                                Control&) const override {
+                                                std::span<const UnitLoad>, Control&) const override {
         return std::make_unique<ConstrainedSolid>(
             facts_.n_vertices, constrain_vertices(joined(base, handles)), std::vector<LoadShare>{}, nullptr,
             std::make_unique<EndlessSolver>(facts_.n_vertices, false), SolutionChecks{});
