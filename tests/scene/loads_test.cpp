@@ -143,11 +143,11 @@ TEST(SceneLoads, TwoHandlesThatPullAtAFreeBodyAreHeldByEachOther) {
     document.loads.clear();
     document.fixed.clear();
     document.handles[0].select = {BoxSelector{.min = {0, 0, 0}, .max = {0, 1, 1}}};
-    document.handles[0].force = GripForce{{-50, 0, 0}, {}};
+    document.handles[0].force = GripForce{.force = {-50, 0, 0}};
     document.handles.push_back(document.handles[0]);
     document.handles[1].name = "right";
     document.handles[1].select = {BoxSelector{.min = {1, 0, 0}, .max = {1, 1, 1}}};
-    document.handles[1].force = GripForce{{50, 0, 0}, {}};
+    document.handles[1].force = GripForce{.force = {50, 0, 0}};
     const Solution solution = solved(document);
     const auto face = [&](double x) {
         double sum = 0.0;
