@@ -1,12 +1,12 @@
 // What a Deformer promises of every method, on bodies of some fifty vertices.
 #include "deform/deformer.hpp"
-#include "elasticity/rigid_motion.hpp"
 
 #include <gmock/gmock.h>
 
 #include <limits>
 
 #include "base/error.hpp"
+#include "elasticity/rigid_motion.hpp"
 #include "mesh/meshes.hpp"
 #include "mesh/primitives.hpp"
 #include "methods/problem.hpp"
