@@ -102,10 +102,12 @@ std::unique_ptr<ConstrainedSolid> BemModel::constrain(std::span<const int> base,
             "galerkin-bem, or a smaller ratio.");
     BemConstraints setting = constraints_of(base, handles);
     const TractionSpace& space = setting.space;
-    std::unique_ptr<NodeSolver> solver = make_solver(space, setting.nodes.nodes, setting.n_base, loads, control);
-    SolutionChecks its_checks = checks(space, joined(base, handles), loads);
     ParticularField particular = particular_field(system_->boundary().mesh(), poisson_ratio_,
                                                   system_->nodes().points(Eigen::all, setting.nodes.nodes), loads);
+    // With a body force it is u that rests at the base: the rest of it, which is solved for, does not.
+    if (!particular.empty()) setting.n_base = 0;
+    std::unique_ptr<NodeSolver> solver = make_solver(space, setting.nodes.nodes, setting.n_base, loads, control);
+    SolutionChecks its_checks = checks(space, joined(base, handles), loads);
     return std::make_unique<ConstrainedSolid>(facts_.n_vertices, std::move(setting.nodes), space.shares, display_,
                                               std::move(solver), std::move(its_checks), static_cast<int>(loads.size()),
                                               std::move(particular));
