@@ -110,6 +110,7 @@ void Autosave::name_origin(const fs::path& origin) {
 void Autosave::fail(std::string why) {
     failure_ = std::move(why);
     written_.reset();
+    wanted_ = true;
     std::error_code ignored;
     if (place_ && !fs::exists(place_->lock, ignored)) place_.reset();
 }

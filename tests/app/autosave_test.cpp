@@ -122,7 +122,10 @@ TEST(Autosave, SaysThatItFailedAndTriesAgainUnderTheSceneSName) {
         }
         keeper.update(1, true, 5.0);
         wait_for_file();
-        keeper.update(1, true, 5.1);
+        for (int i = 0; i < 2000 && !keeper.autosave.failure().empty(); ++i) {
+            keeper.update(1, true, 5.1);
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        }
         EXPECT_THAT(keeper.autosave.failure(), IsEmpty());
     }
     const std::vector<AutosavedScene> found = find_autosaved();

@@ -63,7 +63,7 @@ bool DragSolver::has(const Eigen::VectorXd& values) const {
     const Eigen::VectorXd change = values - start_values_;
     const int handle = changed_handle(change);
     if (handle == loads()) return handle_ == handle && deformer_->linear();
-    return handle == kNone || (handle >= 0 && deformer_->linear() && parameters_of(handle, part_of(handle, change)));
+    return handle == kNone || (handle >= 0 && parameters_of(handle, part_of(handle, change)));
 }
 
 void DragSolver::displace(const Eigen::VectorXd& values, Eigen::VectorXd& u) {
@@ -75,7 +75,7 @@ void DragSolver::displace(const Eigen::VectorXd& values, Eigen::VectorXd& u) {
         if (handle_ != handle) grab_loads(start_values_, kSolveTolerance, control);
         return response_.displace(values.tail(n_loads()) - start_values_.tail(n_loads()), u);
     }
-    if (handle >= 0 && deformer_->linear()) {  // else columns are right to first order only
+    if (handle >= 0) {
         const Eigen::Matrix3Xd moved = part_of(handle, change);
         std::optional<Eigen::VectorXd> parameters = parameters_of(handle, moved);
         for (int affine = 0; affine <= 1 && !parameters; ++affine) {

@@ -155,6 +155,10 @@ TEST_F(ShownBodyTest, AMotionWithoutASolutionIsToldAndEndsNothing) {
             ASSERT_THAT(shown(kind).reactions(), SizeIs(2));
             stage.scene().set_motion(0, AffineMotion{.translate = {1e308, 1e308, 0}});
             EXPECT_NO_THROW(stage.settle());
+            if (!kind->linear) {  // the last equilibrium stays, and it is said
+                EXPECT_FALSE(state.simulation.runner(kind).failure().empty());
+                continue;
+            }
             EXPECT_FALSE(state.shown.reaction_failure(kind).empty());
             EXPECT_THAT(shown(kind).reactions(), IsEmpty());
             EXPECT_FALSE(shown(kind).is_coloured());
