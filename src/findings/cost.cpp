@@ -5,17 +5,9 @@
 
 #include "base/error.hpp"
 #include "base/memory.hpp"
+#include "base/text.hpp"
 
 namespace elastolab {
-
-namespace {
-
-std::string in_gigabytes(std::uint64_t bytes) {
-    std::string text = std::to_string(static_cast<double>(bytes) / 1e9);
-    return text.substr(0, text.find('.') + 2) + " GB";
-}
-
-}  // namespace
 
 Cost predict_cost(const SurfaceMesh& surface, const Method& method) { return method.kind->predict(surface, method); }
 
@@ -26,8 +18,9 @@ void require_memory(const Cost& cost, const Method& method) {
                                      : method.mode == Mode::full      ? "the mode on-demand"
                                                                       : method.kind->cheaper;
     throw SolveError(std::string(name(method.kind)) + ", mode " + std::string(name(method.mode)) + ": needs " +
-                     in_gigabytes(cost.memory_bytes) + " of memory, " + in_gigabytes(available) +
-                     " is available. Choose " + std::string(cheaper) + ".");
+                     readable_bytes(static_cast<double>(cost.memory_bytes)) + " of memory, " +
+                     readable_bytes(static_cast<double>(available)) + " is available. Choose " + std::string(cheaper) +
+                     ".");
 }
 
 }  // namespace elastolab

@@ -76,7 +76,7 @@ TEST_F(LimitsTest, WorksWithAStackOf4MB) {
 /// A limit of data, which does not count what is only read.
 TEST_F(LimitsTest, SaysOutOfMemoryWhereDataIsLimited) {
     folder_.write("scene.json", cube_scene("linear-bem", 14));
-    const int mib = 150;
+    const int mib = 100;
     for (const char* arguments : {"solve --quiet scene.json", "info scene.json"}) {
         const ProgramRun result = run("ulimit -d " + std::to_string(mib * 1024), arguments);
         ASSERT_NE(result.exit_code, kTimedOut) << arguments;

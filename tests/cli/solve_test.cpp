@@ -228,6 +228,7 @@ TEST_F(SolveTest, WritesAReportWithEveryKey) {
                                            "method",
                                            "mode",
                                            "tractions",
+                                           "elements",
                                            "update",
                                            "vertices",
                                            "faces",
@@ -238,19 +239,18 @@ TEST_F(SolveTest, WritesAReportWithEveryKey) {
                                            "seconds",
                                            "peak_memory_bytes",
                                            "predicted_memory_bytes",
+                                           "residual",
+                                           "condition_estimate",
                                            "fixed_sets",
                                            "loads",
                                            "compliance",
-                                           "elements",
+                                           "force_imbalance",
+                                           "moment_imbalance",
+                                           "error_estimate",
                                            "iterations",
                                            "energy",
                                            "largest_stretch",
                                            "linear_theory_error",
-                                           "force_imbalance",
-                                           "moment_imbalance",
-                                           "error_estimate",
-                                           "residual",
-                                           "condition_estimate",
                                            "warnings"};
     for (const std::string& method : kMethods) {
         SCOPED_TRACE(method);
@@ -282,7 +282,7 @@ TEST_F(SolveTest, PredictsTheMemoryThatItTakes) {
         for (const std::string update : {"direct", "reduced"}) {
             SCOPED_TRACE(method + ", " + update);
             const double program = report_of(method, update, 1)["peak_memory_bytes"].get<double>();
-            const nlohmann::json report = report_of(method, update, 12);
+            const nlohmann::json report = report_of(method, update, 9);
             const double taken = report["peak_memory_bytes"].get<double>() - program;
             EXPECT_GT(report["predicted_memory_bytes"].get<double>(), 0.75 * taken);
             EXPECT_LT(report["predicted_memory_bytes"].get<double>(), 1.7 * taken + 20e6);

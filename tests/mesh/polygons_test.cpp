@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mesh/input/readers/polygons.hpp"
+#include "mesh/input/readers/readers.hpp"
 
 namespace elastolab {
 namespace {
@@ -96,6 +97,35 @@ TEST(Polygons, ThatAreNotFlatBecomeASurfaceWithTheirRim) {
     for (const Eigen::Vector3i& t : triangles)
         for (int k = 0; k < 3; ++k) rim += t[(k + 1) % 3] == (t[k] + 1) % 12 ? 1 : 0;
     EXPECT_EQ(rim, 12);
+}
+
+/// A disc of 100 000 corners is split at once; a comb of as many is refused with a word.
+TEST(Polygons, OfManyCornersAreSplitOrRefusedWithAWord) {
+    constexpr int kCorners = 100'000;
+    std::vector<Eigen::Vector3d> disc, comb;
+    std::vector<int> all;
+    for (int i = 0; i < kCorners; ++i) {
+        const double angle = 2.0 * std::numbers::pi * i / kCorners;
+        disc.emplace_back(std::cos(angle), std::sin(angle), 0.0);
+        const bool is_tooth = i % 2 == 1;
+        comb.emplace_back((is_tooth ? 2.0 : 1.0) * disc.back());
+        all.push_back(i);
+    }
+    std::vector<Eigen::Vector3i> triangles;
+    triangulate(all, disc, triangles);
+    ASSERT_EQ(std::ssize(triangles), kCorners - 2);
+    double area = 0.0;
+    for (const Eigen::Vector3i& t : triangles) {
+        const auto corner = [&](int k) { return disc[static_cast<std::size_t>(t[k])]; };
+        area += 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0)).z();
+    }
+    EXPECT_NEAR(area, std::numbers::pi, 1e-6);
+    try {
+        triangulate(all, comb, triangles);
+        FAIL();
+    } catch (const Refusal& refusal) {
+        EXPECT_NE(std::string(refusal.what()).find("Triangulate the mesh"), std::string::npos) << refusal.what();
+    }
 }
 
 }  // namespace

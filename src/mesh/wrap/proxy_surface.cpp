@@ -298,14 +298,16 @@ std::vector<ProxySurface> collapsed_to(const SurfaceMesh& sound, std::span<const
     return failed ? std::vector<ProxySurface>{} : proxies;
 }
 
-/// The surface itself, or with its holes closed, when that makes it sound: smoothly if possible, else by the caps.
+/// The surface itself, or with its holes closed, when that makes it sound: small ones smoothly if possible, else by
+/// flat caps (half a ball would go on to the whole one).
 std::optional<SurfaceMesh> sound_surface(const SurfaceMesh& surface, const HoleCaps& capped, const MeshReport& report,
                                          Control& control) {
     if (report.usable_for_fem()) return surface;
     if (capped.n_left_open > 0 || !is_sound_but_for_holes(report)) return std::nullopt;
     std::vector<SurfaceMesh> candidates;
-    if (WrapResult filled = fill_holes(surface, HoleFilling::smooth, control); filled.failure.empty())
-        candidates.push_back(std::move(filled.surface));
+    if (cap_holes(surface).n_left_open == 0)
+        if (WrapResult filled = fill_holes(surface, HoleFilling::smooth, control); filled.failure.empty())
+            candidates.push_back(std::move(filled.surface));
     candidates.push_back(capped.closed);
     for (SurfaceMesh& candidate : candidates) {
         CheckedMesh checked = check_and_repair(std::move(candidate), control);

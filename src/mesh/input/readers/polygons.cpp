@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <Eigen/Geometry>
+#include <queue>
 #include <string>
 
 #include "mesh/checks/predicates.hpp"
@@ -21,7 +22,9 @@ auto& at(Vector& values, int i) {
     return values[static_cast<std::size_t>(i)];
 }
 
-/// Cuts ears off one polygon, seen along its normal.
+/// Cuts ears off one polygon, seen along its normal: always the best, of equal ones the first. Only corners that are
+/// not convex can lie in an ear, so that a convex polygon takes n log n steps, others n times the number of such
+/// corners.
 class EarClipping {
 public:
     EarClipping(std::vector<int> corners, const std::vector<Vector3d>& vertices) : corners_(std::move(corners)) {
@@ -31,7 +34,13 @@ public:
             next_.push_back((i + 1) % n);
         }
         project(vertices);
-        for (int i = 0; i < n; ++i) quality_.push_back(ear_quality(i));
+        for (int i = 0; i < n; ++i)
+            if (is_dented(i)) dents_.push_back(i);
+        if (static_cast<double>(n) * static_cast<double>(dents_.size()) > kMostSteps)
+            throw Refusal("a face has " + std::to_string(n) + " corners, " + std::to_string(dents_.size()) +
+                          " of them not convex, too many to split it. Triangulate the mesh and export it again.");
+        quality_.assign(static_cast<std::size_t>(n), 0.0);
+        for (int i = 0; i < n; ++i) judge(i);
     }
 
     void run(std::vector<Vector3i>& triangles) {
@@ -41,14 +50,33 @@ public:
             triangles.push_back(Vector3i(at(corners_, before), at(corners_, tip), at(corners_, after)));
             at(next_, before) = after;
             at(previous_, after) = before;
-            at(quality_, before) = ear_quality(before);
-            at(quality_, after) = ear_quality(after);
+            at(next_, tip) = kCutOff;
+            judge(before);
+            judge(after);
             any = after;
         }
     }
 
 private:
+    static constexpr int kCutOff = -1;
+    static constexpr double kMostSteps = 2e8;  ///< a few seconds
+    /// An ear: the best first, of equal ones the first corner.
+    struct Ear {
+        double quality;
+        int tip;
+        bool operator<(const Ear& other) const {
+            return quality != other.quality ? quality < other.quality : tip > other.tip;
+        }
+    };
+
     int size() const { return static_cast<int>(corners_.size()); }
+    bool is_cut_off(int i) const { return at(next_, i) == kCutOff; }
+    bool is_dented(int i) const { return turn(at(previous_, i), i, at(next_, i)) <= 0; }
+
+    void judge(int tip) {
+        at(quality_, tip) = ear_quality(tip);
+        if (at(quality_, tip) > 0.0) ears_.push({at(quality_, tip), tip});
+    }
     /// The polygon in the plane across its mean normal (Newell), in units of its size.
     void project(const std::vector<Vector3d>& vertices) {
         std::vector<Vector3d> places;
@@ -68,11 +96,18 @@ private:
 
     /// How good a triangle this corner makes with its neighbours: altitude over longest edge; at most 0 when it is no
     /// ear.
-    double ear_quality(int tip) const {
+    double ear_quality(int tip) {
         const int a = at(previous_, tip), c = at(next_, tip);
         if (turn(a, tip, c) <= 0) return 0.0;
-        for (int i = at(next_, c); i != a; i = at(next_, i))
-            if (blocks(i, a, tip, c)) return 0.0;
+        std::size_t n_dents = 0;  // what was cut off or has become convex leaves the list
+        bool is_blocked = false;
+        for (const int i : dents_) {
+            if (is_cut_off(i) || !is_dented(i)) continue;
+            at(dents_, static_cast<int>(n_dents++)) = i;
+            is_blocked = is_blocked || (i != a && i != tip && i != c && blocks(i, a, tip, c));
+        }
+        dents_.resize(n_dents);
+        if (is_blocked) return 0.0;
         const Vector2d u = at(points_, tip) - at(points_, a), v = at(points_, c) - at(points_, a);
         const double longest = std::max({u.squaredNorm(), v.squaredNorm(), (u - v).squaredNorm()});
         return std::abs(u.x() * v.y() - u.y() * v.x()) / longest;
@@ -86,17 +121,20 @@ private:
         return turn(a, tip, i) >= 0 && turn(tip, c, i) >= 0 && turn(c, a, i) >= 0;
     }
 
-    /// The best ear of the ring that corner `any` is in; any corner, when there is no ear left.
-    int best_ear(int any) const {
-        int best = any;
-        for (int i = at(next_, any); i != any; i = at(next_, i))
-            if (at(quality_, i) > at(quality_, best)) best = i;
-        return best;
+    /// The best ear; any corner, when there is no ear left.
+    int best_ear(int any) {
+        for (; !ears_.empty(); ears_.pop()) {
+            const Ear best = ears_.top();  // what was judged anew since is in the queue once more
+            if (!is_cut_off(best.tip) && at(quality_, best.tip) == best.quality) return best.tip;
+        }
+        return any;
     }
 
     std::vector<int> corners_, previous_, next_;
     std::vector<Vector2d> points_;
     std::vector<double> quality_;
+    std::vector<int> dents_;  ///< corners that are not convex
+    std::priority_queue<Ear> ears_;
 };
 
 std::vector<int> without_repetition(std::span<const int> corners, const std::vector<Vector3d>& vertices) {
