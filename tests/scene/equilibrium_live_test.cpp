@@ -10,13 +10,16 @@ namespace {
 
 constexpr double kConverged = 1e-6;  ///< of displacements, where the forces balance to 1e-8
 
-/// A bar of 4 x 1 x 1 held at one end, with its other end as handle 0.
-LiveScene bar() {
+const Selector kEnd{PlaneSelector{{4, 0, 0}, {1, 0, 0}, 1e-9}};
+const Selector kHalf{BoxSelector{{2, 0, 0}, {4, 1, 1}}};
+
+/// A bar of 4 x 1 x 1 held at one end, with `handle` of it as handle 0.
+LiveScene bar(const Selector& handle = kEnd) {
     Document document;
     document.mesh = Primitive{.name = "beam", .resolution = 2, .size = {}};
     document.fixed = {{.select = {PlaneSelector{{0, 0, 0}, {1, 0, 0}, 1e-9}}}};
     document.handles = {
-        {.name = "end", .select = {PlaneSelector{{4, 0, 0}, {1, 0, 0}, 1e-9}}, .motion = AffineMotion{}}};
+        {.name = "end", .select = handle, .motion = AffineMotion{}}};
     return {document, "bar.json"};
 }
 
@@ -97,11 +100,12 @@ TEST_F(LiveEquilibrium, FullTurnsAreWoundUpAndUnwound) {
 }
 
 TEST_F(LiveEquilibrium, AMotionWithoutAnEquilibriumKeepsTheLastAndSaysWhere) {
+    scene = bar(kHalf);
     bench.settle(scene);
     ask(twist(30));
     bench.settle(scene);
     const Eigen::VectorXd last = u();
-    ask({.translate = {-4.5, 0, 0}});  // through the fixed end
+    ask({.matrix = Eigen::Vector3d(0, -2, 0).asDiagonal(), .translate = {0, 1, 0}});  // its mirror image, inside out
     bench.settle(scene);
     bench.update_until(scene, [&] { return runner().state() == State::failed; });
     ASSERT_TRUE(runner().crushed());

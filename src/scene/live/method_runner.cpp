@@ -209,7 +209,7 @@ const std::string& MethodRunner::failure() const {
 
 MethodRunner::State MethodRunner::state() const {
     if (models_.precomputing()) return State::precomputing;
-    if (!failure().empty()) return State::failed;
+    if (!failure().empty() && !sets_.solving()) return State::failed;  // else another motion is tried
     if (!models_.is_wanted()) return State::idle;
     return sets_.is_current() && !sets_.solving() && !following_ ? State::ready : State::preparing;
 }
