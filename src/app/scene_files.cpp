@@ -10,6 +10,7 @@
 #include "mesh/input/export.hpp"
 #include "methods/registry.hpp"
 #include "scene/field_export.hpp"
+#include "scene/figure/gltf.hpp"
 #include "scene/file/scene_file.hpp"
 
 namespace elastolab {
@@ -109,6 +110,7 @@ ExportSource export_source(const LiveScene& scene, const EmbeddedRunner& answer)
     if (answer.proxy() != nullptr) source.proxy = std::make_shared<const Proxy>(*answer.proxy());
     source.deformer = runner.deformer();
     source.values = runner.values();
+    source.groups = answer.constraints().groups;
     source.simulated_displacement = runner.displacement();
     source.refined = runner.refined();
     source.approach = runner.approach();
@@ -138,7 +140,8 @@ SolvedBody solved_body(const ExportSource& source, Control& control) {
     const ConstrainedSet& set = source.deformer->set();
     SolvedBody solved{.shown = source.shown,
                       .proxy = source.proxy,
-                      .model = std::shared_ptr<const Model>(source.deformer, &source.deformer->model()),
+                      .deformer = source.deformer,
+                      .values = source.values,
                       .displacement = source.displacement,
                       .simulated_displacement = source.simulated_displacement,
                       .constrained = set.base,
@@ -149,10 +152,14 @@ SolvedBody solved_body(const ExportSource& source, Control& control) {
 
 }  // namespace
 
+bool takes_solves(const fs::path& file) { return is_field_file(file) || is_figure_file(file) || is_glb_file(file); }
+
 void write_export(const fs::path& file, const ExportSource& source, Control& control) {
     if (!source.refined) return write_export(file, refined(source, control), control);
+    if (source.deformer && (is_figure_file(file) || is_glb_file(file)))
+        return save_figure(file, make_figure(*source.deformer, source.values, source.groups, control));
     if (source.deformer && is_field_file(file)) return save_field_file(file, solved_body(source, control), control);
-    if (is_field_file(file) && !(file.extension() == ".ply"))
+    if (takes_solves(file) && !(file.extension() == ".ply"))
         throw Error(file.string() + ": there is no answer to write yet. Wait until the method is ready.");
     write_moved_mesh(file, source);
 }

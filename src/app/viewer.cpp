@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <memory>
+#include <optional>
 #include <thread>
 #include <utility>
 
@@ -16,6 +17,7 @@
 #include "app/picture/pictures.hpp"
 #include "app/picture/scene_renderer.hpp"
 #include "app/picture/view_point.hpp"
+#include "app/series.hpp"
 #include "app/viewer_outputs.hpp"
 #include "app/viewer_state.hpp"
 #include "app/window/start_timeline.hpp"
@@ -64,6 +66,7 @@ public:
         if (!options.timeline.empty()) timeline_.emplace(options.timeline);
         if (!options.record.empty())
             state_.measurements.recorder = std::make_unique<InteractionRecorder>(options.record, window_.size());
+        if (!options.series.empty()) series_.emplace(options.series);
         for (const std::filesystem::path& file :
              {options.screenshot, options.picture, options.scene_out, options.mesh_out})
             if (!file.empty()) AtomicFile::require_writable(file);
@@ -83,6 +86,7 @@ public:
         if (!options_.picture.empty() && nobody_watches() && !replay_) state_.frame_in_viewports(true);  // as deformed
         pictures_.take_at_end(options_, renderer_, state_, palette());
         write_outputs(options_, state_, pictures_.last());
+        if (series_) series_->finish();
         autosave_.clear();
         end_workers();
     }
@@ -223,6 +227,14 @@ private:
         }
     }
 
+    /// What this frame of a replay answers becomes a step of the series.
+    void keep_step() {
+        if (!series_ || !replay_ || replay_->next == 0 || state_.simulation.busy()) return;
+        const std::vector<LoggedFrame>& frames = replay_->log.frames;
+        series_->add(frames[replay_->next - 1].seconds - frames.front().seconds, state_.scene(),
+                     state_.simulation.answer(state_.method));
+    }
+
     const Palette& palette() const { return state_.display.dark ? dark_palette() : light_palette(); }
 
     void draw_frame() {
@@ -249,6 +261,7 @@ private:
         guarded([&] { state_.update_picture(); });
         if (const ShownBody* body = state_.shown.body(state_.method))
             state_.probes.record(now, state_.scene().mesh().vertices, *body, state_.display);
+        keep_step();
         renderer_.upload(state_, palette());
         times.upload_ms = 1e3 * part.seconds();
 
@@ -364,6 +377,7 @@ private:
     Pictures pictures_;
     Autosave autosave_;
     std::optional<StartTimeline> timeline_;
+    std::optional<SeriesWriter> series_;
     std::vector<InputEvent> queue_;
     int pending_frames_ = kSettlingFrames;
     double last_frame_seconds_ = 0.0, message_seconds_ = -1.0;

@@ -19,6 +19,7 @@ struct ViewerOptions {
     std::filesystem::path timings, replay, record;  ///< likewise
     std::filesystem::path timeline;                 ///< of the start (StartTimeline); empty: none
     std::filesystem::path scene_out, mesh_out;  ///< likewise: the scene and the deformed mesh as they are at the end
+    std::filesystem::path series;               ///< of the replay: a .pvd for ParaView; needs `replay`
     std::filesystem::path picture;              ///< likewise: of the scene alone, or the frames of a film
     Eigen::Vector2i picture_size{1920, 1080};
     bool transparent = false;

@@ -2,7 +2,6 @@
 #include <utility>
 
 #include "app/viewer_state.hpp"
-#include "scene/field_export.hpp"
 
 namespace elastolab {
 
@@ -16,7 +15,7 @@ void ViewerState::export_mesh(const fs::path& file) {
     }
     const bool is_preview = simulation.previewing(method);
     ExportSource source = export_source(*scene_, simulation.answer(method));
-    if (!is_field_file(file) && source.refined) {  // the work of a frame
+    if (!takes_solves(file) && source.refined) {  // the work of a frame
         attempt([&] {
             Control never_cancelled;
             write_export(file, source, never_cancelled);

@@ -25,12 +25,21 @@ namespace fs = std::filesystem;
 /// What the command line says, word for word.
 struct SolveOptions {
     std::string scene, method, mode, tractions, elements, update;
-    std::string displacements, fields, mesh_out, forces, report, matrices;
+    std::string displacements, fields, mesh_out, forces, report, matrices, figure;
     ProxyOptions proxy;
     int threads = 0;
-    bool quiet = false;
+    bool deformed = false, quiet = false;
 
-    OutputPaths outputs() const { return {displacements, fields, mesh_out, forces, report, matrices}; }
+    OutputPaths outputs() const {
+        return {.displacements = displacements,
+                .fields = fields,
+                .mesh = mesh_out,
+                .forces = forces,
+                .report = report,
+                .figure = figure,
+                .matrices = matrices,
+                .mesh_points = deformed ? VtkPoints::moved : VtkPoints::at_rest};
+    }
 };
 
 void add_options(CLI::App& parser, SolveOptions& options) {
@@ -54,7 +63,11 @@ void add_options(CLI::App& parser, SolveOptions& options) {
     parser.add_option("--displacements", options.displacements, "CSV: rest positions and displacements")->check(path);
     parser
         .add_option("--mesh-out", options.mesh_out,
-                    "deformed mesh: .obj or .stl; with fields .ply, .vtp or .vtu (inside)")
+                    "deformed mesh: .obj, .stl or, with fields, .ply; for ParaView .vtp or .vtu (inside): at rest, "
+                    "with the displacement as a field; .glb: with morph targets")
+        ->check(path);
+    parser.add_flag("--deformed", options.deformed, "points of .vtp and .vtu where they have moved to");
+    parser.add_option("--figure", options.figure, "HTML: the body, to be pulled in a browser without network")
         ->check(path);
     parser.add_option("--fields", options.fields, "CSV: displacement, stress and traction of every vertex")
         ->check(path);

@@ -15,6 +15,8 @@
 #include "mesh/input/export.hpp"
 #include "mesh/output/field_files.hpp"
 #include "scene/field_export.hpp"
+#include "scene/figure/figure.hpp"
+#include "scene/figure/gltf.hpp"
 
 namespace elastolab {
 
@@ -24,7 +26,8 @@ namespace {
 
 std::vector<fs::path> files(const OutputPaths& paths) {
     std::vector<fs::path> result;
-    for (const fs::path& path : {paths.displacements, paths.fields, paths.mesh, paths.forces, paths.report})
+    for (const fs::path& path :
+         {paths.displacements, paths.fields, paths.mesh, paths.forces, paths.report, paths.figure})
         if (!path.empty()) result.push_back(path);
     return result;
 }
@@ -63,9 +66,15 @@ private:
     std::deque<AtomicFile> files_;  ///< references to its members stay valid
 };
 
-void write_deformed_mesh(std::ostream& out, const fs::path& name, const Solution& solution) {
+Figure figure_of(const Solution& solution) {
     Control never_cancelled;
-    if (is_field_file(name)) return write_field_file(out, name, solved_body(solution), never_cancelled);
+    return make_figure(*solution.deformer, solution.values, solution.groups, never_cancelled);
+}
+
+void write_mesh(std::ostream& out, const fs::path& name, const Solution& solution, VtkPoints points) {
+    Control never_cancelled;
+    if (is_glb_file(name)) return write_glb(out, figure_of(solution));
+    if (is_field_file(name)) return write_field_file(out, name, solved_body(solution), never_cancelled, points);
     SurfaceMesh mesh = *solution.surface;
     mesh.vertices += solution.displacement;
     write_surface(out, mesh, name);
@@ -123,9 +132,11 @@ void require_distinct(const std::vector<fs::path>& outputs, const std::vector<fs
 
 void require_mesh_extension(const fs::path& mesh) {
     const std::string extension = lower_case(mesh.extension().string());
-    if (extension != ".obj" && extension != ".stl" && (extension == ".csv" || !is_field_file(mesh)))
-        throw UsageError(mesh.string() +
-                         ": a mesh is written as .obj, .ply, .stl, .vtp or .vtu. Choose one of these extensions.");
+    if (extension != ".obj" && extension != ".stl" && extension != ".glb" &&
+        (extension == ".csv" || !is_field_file(mesh)))
+        throw UsageError(
+            mesh.string() +
+            ": a mesh is written as .obj, .ply, .stl, .vtp, .vtu or .glb. Choose one of these extensions.");
 }
 
 void require_inside(MethodKind method, const fs::path& mesh) {
@@ -137,6 +148,8 @@ void require_inside(MethodKind method, const fs::path& mesh) {
 void require_writable(const OutputPaths& paths, const std::vector<fs::path>& inputs) {
     require_distinct(files(paths), inputs);
     if (!paths.mesh.empty()) require_mesh_extension(paths.mesh);
+    if (!paths.figure.empty() && !is_figure_file(paths.figure))
+        throw UsageError(paths.figure.string() + ": a figure is called .html. Choose that extension.");
     for (const fs::path& path : files(paths)) AtomicFile::require_writable(path);
     if (!paths.matrices.empty()) require_writable_folder(paths.matrices);
 }
@@ -149,7 +162,8 @@ void write_outputs(const OutputPaths& paths, const Solution& solution) {
     if (!paths.fields.empty())
         write_field_csv(outputs.add(paths.fields).stream(), solution.surface->vertices,
                         surface_fields(solved_body(solution)));
-    if (!paths.mesh.empty()) write_deformed_mesh(outputs.add(paths.mesh).stream(), paths.mesh, solution);
+    if (!paths.mesh.empty()) write_mesh(outputs.add(paths.mesh).stream(), paths.mesh, solution, paths.mesh_points);
+    if (!paths.figure.empty()) write_figure(outputs.add(paths.figure).stream(), figure_of(solution));
     if (!paths.forces.empty()) {
         std::vector<GroupReaction> rows = solution.reactions;
         rows.insert(rows.end(), solution.loads.begin(), solution.loads.end());

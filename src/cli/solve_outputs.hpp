@@ -4,14 +4,16 @@
 #include <string>
 #include <vector>
 
+#include "mesh/output/field_files.hpp"
 #include "scene/solve.hpp"
 
 namespace elastolab {
 
 /// Where solve writes; an empty path is an output that is not wanted.
 struct OutputPaths {
-    std::filesystem::path displacements, fields, mesh, forces, report;
-    std::filesystem::path matrices;  ///< a folder, made when it is missing
+    std::filesystem::path displacements, fields, mesh, forces, report, figure;
+    std::filesystem::path matrices;              ///< a folder, made when it is missing
+    VtkPoints mesh_points = VtkPoints::at_rest;  ///< of `mesh`, where that is one of VTK's files
 
     bool any() const;
 };

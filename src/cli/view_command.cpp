@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/viewer.hpp"
+#include "base/text.hpp"
 #include "cli/command.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/solve_outputs.hpp"
@@ -21,7 +22,7 @@ constexpr const char* kInterrupted = "Interrupted; no picture, scene or mesh was
 /// What the command line says, word for word.
 struct ViewWords {
     std::string input, method, screenshot, timings, timeline, replay, record, scene_out, mesh_out, size, picture,
-        picture_size, field, cut;
+        picture_size, field, cut, series;
     int frames = 0, threads = 0, turntable = 0, pull_film = 0;
     bool hidden = false, transparent = false, legend = false;
 };
@@ -39,11 +40,12 @@ Eigen::Vector2i parse_size(const std::string& option, const std::string& text) {
 
 /// A scene may be written back to where it was read.
 void require_distinct_files(const ViewWords& words) {
+    require_distinct({words.screenshot, words.picture, words.timings, words.timeline, words.record, words.scene_out,
+                      words.mesh_out, words.series},
+                     {words.replay});
     require_distinct(
-        {words.screenshot, words.picture, words.timings, words.timeline, words.record, words.scene_out, words.mesh_out},
-        {words.replay});
-    require_distinct({words.screenshot, words.picture, words.timings, words.timeline, words.record, words.mesh_out},
-                     {words.input});
+        {words.screenshot, words.picture, words.timings, words.timeline, words.record, words.mesh_out, words.series},
+        {words.input});
 }
 
 ViewerOptions options_of(const ViewWords& words) {
@@ -58,6 +60,9 @@ ViewerOptions options_of(const ViewWords& words) {
     options.record = words.record;
     options.scene_out = words.scene_out;
     options.mesh_out = words.mesh_out;
+    options.series = words.series;
+    if (!words.series.empty() && lower_case(options.series.extension().string()) != ".pvd")
+        throw UsageError("--series " + words.series + ": a series for ParaView is called .pvd. Choose that extension.");
     options.hidden = words.hidden;
     require_distinct_files(words);
     if (!words.mesh_out.empty()) require_mesh_extension(words.mesh_out);
@@ -93,12 +98,16 @@ Command add_view_command(CLI::App& program) {
     parser->add_option("--timeline", words->timeline, "CSV: when the window, the body and its answers are first seen")
         ->check(path);
     parser->add_option("--timings", words->timings, "CSV: records frame timings from the start")->check(path);
-    parser->add_option("--replay", words->replay, "repeats a recorded interaction")->check(path);
+    CLI::Option* const replay =
+        parser->add_option("--replay", words->replay, "repeats a recorded interaction")->check(path);
+    parser->add_option("--series", words->series, "PVD for ParaView: the fields of every step of the replay")
+        ->needs(replay)
+        ->check(path);
     parser->add_option("--record", words->record, "records the interaction")->check(path);
     parser->add_option("--scene-out", words->scene_out, "JSON: the scene as it is at the end")->check(path);
     parser
         ->add_option("--mesh-out", words->mesh_out,
-                     "OBJ or STL, or with fields PLY, VTP or VTU: the deformed mesh at the end")
+                     "the deformed mesh at the end: OBJ, STL or PLY; or VTP, VTU: at rest, with the displacement")
         ->check(path);
     CLI::Option* const picture =
         parser->add_option("--picture", words->picture, "PNG of the scene alone, as it is at the end")->check(path);

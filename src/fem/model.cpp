@@ -13,6 +13,7 @@
 #include "fem/interior.hpp"
 #include "fem/load_vectors.hpp"
 #include "fem/nodal_field.hpp"
+#include "fem/quadratic/interior.hpp"
 #include "mesh/tets/tetrahedralize.hpp"
 
 namespace elastolab {
@@ -312,8 +313,10 @@ decltype(SolutionChecks::reference) FemModel::reference_for(const ConstrainedFem
 
 std::shared_ptr<const Interior> FemModel::interior(Control& control) const {
     control.checkpoint();
-    return std::make_shared<const FemInterior>(std::shared_ptr<const TetMesh>(mesh_, &mesh_->tets), system_->K,
-                                               control);
+    const std::shared_ptr<const TetMesh> tets(mesh_, &mesh_->tets);
+    if (degree() == ElementDegree::quadratic)
+        return std::make_shared<const QuadraticFemInterior>(tets, system_->K, control);
+    return std::make_shared<const FemInterior>(tets, system_->K, control);
 }
 
 void FemModel::visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const {

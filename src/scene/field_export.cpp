@@ -1,16 +1,14 @@
 #include "scene/field_export.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <Eigen/LU>
 #include <utility>
 
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "deform/interior_field.hpp"
 #include "deform/surface_stress.hpp"
 #include "deform/volume.hpp"
-#include "elasticity/neo_hookean.hpp"
 #include "elasticity/stress.hpp"
 #include "mesh/output/field_files.hpp"
 #include "scene/proxy/carried_constraints.hpp"
@@ -40,23 +38,17 @@ SurfaceMesh moved_surface(const SolvedBody& solved) {
     return mesh;
 }
 
-Eigen::Matrix3d corner_differences(const Eigen::Ref<const Eigen::Matrix3Xd>& at, const Eigen::Vector4i& corners) {
-    Eigen::Matrix3d differences;
-    for (int i = 0; i < 3; ++i) differences.col(i) = at.col(corners[i + 1]) - at.col(corners[0]);
-    return differences;
-}
+constexpr const char *kLength = "L", *kStress = "F/L^2";
 
-std::vector<MeshField> cell_stresses(const TetMesh& rest, const Eigen::Ref<const Eigen::Matrix3Xd>& u,
-                                     const Material& material, bool large) {
-    Eigen::MatrixXd stress(6, rest.n_tetrahedra()), size(1, rest.n_tetrahedra());
-    for (Eigen::Index t = 0; t < rest.tetrahedra.cols(); ++t) {
-        const Eigen::Vector4i corners = rest.tetrahedra.col(t);
-        const Eigen::Matrix3d gradient =
-            corner_differences(u, corners) * corner_differences(rest.vertices, corners).inverse();
-        stress.col(t) = stress_of(gradient, material, large);
-        size(0, t) = measure(StressMeasure::von_mises, stress_tensor(stress.col(t)));
-    }
-    return {{"stress", std::move(stress)}, {"von_mises", std::move(size)}};
+FileFacts facts_of(const SolvedBody& solved) {
+    const Model& model = solved.deformer->model();
+    const Material& material = model.body().material;
+    return {{"units", "L: the unit of length of the mesh; F: that of force, in which Young's modulus is F/L^2"},
+            {"unit_of_points", kLength},
+            {"method", std::string(name(model.method().kind))},
+            {"young_modulus", material.young_modulus},
+            {"unit_of_young_modulus", kStress},
+            {"poisson_ratio", material.poisson_ratio}};
 }
 
 /// Throws where a field is not finite: stresses that overflow, of a modulus near the end of the range of numbers.
@@ -68,20 +60,34 @@ std::vector<MeshField> finite(std::vector<MeshField> fields, const std::string& 
     return fields;
 }
 
-void write_inside(std::ostream& out, const fs::path& name, const SolvedBody& solved, Control& control) {
-    const std::shared_ptr<const Volume> volume = Volume::of(solved.model, control);
+Eigen::MatrixXd von_mises(const Eigen::MatrixXd& stresses) {
+    Eigen::MatrixXd sizes(1, stresses.cols());
+    for (Eigen::Index i = 0; i < stresses.cols(); ++i)
+        sizes(0, i) = measure(StressMeasure::von_mises, stress_tensor(stresses.col(i)));
+    return sizes;
+}
+
+void write_inside(std::ostream& out, const fs::path& name, const SolvedBody& solved, VtkPoints points,
+                  Control& control) {
+    const std::shared_ptr<const Model> model(solved.deformer, &solved.deformer->model());
+    const std::shared_ptr<const Volume> volume = Volume::of(model, control);
     if (!volume)
-        throw Error(one_line(name.string()) + ": " + std::string(elastolab::name(solved.model->method().kind)) +
+        throw Error(one_line(name.string()) + ": " + std::string(elastolab::name(model->method().kind)) +
                     " has no tetrahedra inside. Choose .vtp, or a finite-element method.");
-    const Eigen::VectorXd u = volume->displace(solved.simulated_displacement);
-    const Body& body = solved.model->body();
-    const std::vector<MeshField> cells = finite(cell_stresses(volume->mesh(), as_columns(u), body.material,
-                                                              !solved.model->method().kind->linear),
-                                                body.name);
-    TetMesh moved = volume->mesh();
-    moved.vertices += as_columns(u);
-    const std::vector<MeshField> points = {{"displacement", as_columns(u)}};
-    write_vtu(out, moved, points, cells);
+    const Positions& rest = volume->mesh().vertices;
+    const InteriorValues values = solved.deformer->inside(solved.values, control)->at(rest, control);
+    Eigen::Matrix3Xd u = values.displacements.reshaped(3, rest.cols());
+    u.leftCols(solved.simulated_displacement.size() / 3) = as_columns(solved.simulated_displacement);
+    const Eigen::MatrixXd stresses = values.stresses.reshaped(6, rest.cols()),
+                          in_cells = volume->element_stresses(u, model->body().material, !solved.deformer->linear());
+    const std::string& body = model->body().name;
+    const std::vector<MeshField> at_nodes = finite(
+        {{"displacement", u, kLength}, {"von_mises", von_mises(stresses), kStress}, {"stress", stresses, kStress}},
+        body);
+    const std::vector<MeshField> cells =
+        finite({{"von_mises", von_mises(in_cells), kStress}, {"stress", in_cells, kStress}}, body);
+    write_vtu(out, points == VtkPoints::moved ? Positions(rest + u) : rest, volume->elements(), at_nodes, cells,
+              facts_of(solved), points);
 }
 
 }  // namespace
@@ -97,36 +103,37 @@ bool is_field_file(const fs::path& file) {
 }
 
 std::vector<MeshField> surface_fields(const SolvedBody& solved) {
-    const Body& body = solved.model->body();
+    const Body& body = solved.deformer->model().body();
     const Eigen::Matrix3Xd tractions = vertex_tractions(*body.surface, solved.constrained, solved.forces);
     const Eigen::VectorXd& u = solved.simulated_displacement;
-    const bool large = !solved.model->method().kind->linear;
+    const bool large = !solved.deformer->linear();
     Eigen::MatrixXd stress = as_shown(solved, surface_stress(*body.surface, body.material, u, tractions, large));
-    Eigen::MatrixXd size(1, stress.cols());
-    for (Eigen::Index v = 0; v < stress.cols(); ++v)
-        size(0, v) = measure(StressMeasure::von_mises, stress_tensor(stress.col(v)));
-    return finite({{"displacement", as_columns(solved.displacement)},
-                   {"von_mises", std::move(size)},
-                   {"traction", as_shown(solved, tractions)},
-                   {"stress", std::move(stress)}},
+    Eigen::MatrixXd size = von_mises(stress);
+    return finite({{"displacement", as_columns(solved.displacement), kLength},
+                   {"von_mises", std::move(size), kStress},
+                   {"traction", as_shown(solved, tractions), kStress},
+                   {"stress", std::move(stress), kStress}},
                   body.name);
 }
 
-void write_field_file(std::ostream& out, const fs::path& name, const SolvedBody& solved, Control& control) {
+void write_field_file(std::ostream& out, const fs::path& name, const SolvedBody& solved, Control& control,
+                      VtkPoints points) {
     const std::string ending = lower_case(name.extension().string());
-    if (ending == ".vtu") return write_inside(out, name, solved, control);
+    if (ending == ".vtu") return write_inside(out, name, solved, points, control);
     if (!is_field_file(name))
         throw Error(one_line(name.string()) + ": fields are written as .ply, .vtp, .vtu or .csv. Choose one of these.");
     const std::vector<MeshField> fields = surface_fields(solved);
     control.checkpoint();
     if (ending == ".csv") return write_field_csv(out, solved.shown->vertices, fields);
-    if (ending == ".vtp") return write_vtp(out, moved_surface(solved), fields);
+    if (ending == ".vtp")
+        return write_vtp(out, points == VtkPoints::moved ? moved_surface(solved) : *solved.shown, fields,
+                         facts_of(solved), points);
     write_ply(out, moved_surface(solved), fields);
 }
 
-void save_field_file(const fs::path& file, const SolvedBody& solved, Control& control) {
+void save_field_file(const fs::path& file, const SolvedBody& solved, Control& control, VtkPoints points) {
     AtomicFile output(file);
-    write_field_file(output.stream(), file, solved, control);
+    write_field_file(output.stream(), file, solved, control, points);
     output.commit();
 }
 

@@ -137,7 +137,8 @@ void add_imbalance(const Imbalance& imbalance, MethodKind method, Findings& find
 /// Applies the constraints and evaluates what follows from them. shown: those of the shown surface, where a proxy of it
 /// is simulated.
 void apply(Constraints& constraints, Constraints* shown, bool with_checks, Solution& solution, Control& control) {
-    Deformer deformer(solution.model);
+    const auto kept = std::make_shared<Deformer>(solution.model);
+    Deformer& deformer = *kept;
     solution.predicted.memory_bytes =
         std::max(solution.predicted.memory_bytes,
                  solution.model->facts().memory_bytes + deformer.predict_memory(constraints.set));
@@ -187,6 +188,9 @@ void apply(Constraints& constraints, Constraints* shown, bool with_checks, Solut
     solution.condition_estimate =
         std::max(solution.model->facts().condition_estimate, deformer.quality().condition_estimate);
     append(solution.findings, findings_of_set(deformer));
+    solution.deformer = kept;
+    solution.values = constraints.values;
+    solution.groups = constraints.groups;
 }
 
 /// How far linear theory is off for this motion, on the surface itself where that is small, else on a coarse proxy.
@@ -253,7 +257,8 @@ std::vector<std::string> Solution::warnings() const {
 SolvedBody solved_body(const Solution& solution) {
     return {.shown = solution.surface,
             .proxy = solution.proxy,
-            .model = solution.model,
+            .deformer = solution.deformer,
+            .values = solution.values,
             .displacement = solution.displacement.reshaped(),
             .simulated_displacement = solution.simulated_displacement,
             .constrained = solution.constrained,

@@ -53,7 +53,11 @@ struct Solution {
     std::string mesh_name;
     int n_constrained = 0;
     Eigen::Matrix3Xd displacement;  ///< 3 x n_vertices [L]
-    /// For fields: displacements of the model's surface, its constrained vertices, and the reactions there.
+    /// For fields: the deformer of the model's surface and what is prescribed there, displacements, constrained
+    /// vertices and the reactions there.
+    std::shared_ptr<const Deformer> deformer;
+    Eigen::VectorXd values;
+    std::vector<ConstraintGroup> groups;
     Eigen::VectorXd simulated_displacement;
     std::vector<int> constrained;
     Eigen::Matrix3Xd forces;

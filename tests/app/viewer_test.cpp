@@ -78,7 +78,8 @@ protected:
     void record_drag() {
         const Eigen::Vector2d from(400, 240);
         InteractionRecorder recorder(folder.path() / "drag.log", {640, 480});
-        const auto add = [&](InputEvent event) { recorder.add({.seconds = 0.0, .events = {event}}); };
+        double seconds = 0.0;
+        const auto add = [&](InputEvent event) { recorder.add({.seconds = seconds += 0.25, .events = {event}}); };
         using Of = InputEvent::Kind;
         add({.kind = Of::cursor, .cursor = from});
         add({.kind = Of::button, .cursor = from, .pressed = true});
@@ -175,6 +176,24 @@ TEST_F(ViewerTest, AReplayIsRecordedAgainAsItWas) {
     for (std::size_t i = 0; i < first.frames.size(); ++i)
         EXPECT_EQ(again.frames[i].events.front().cursor, first.frames[i].events.front().cursor);
     EXPECT_GT(read_picture(options.screenshot).n_colours, 100u);
+}
+
+TEST_F(ViewerTest, AReplayedDragBecomesASeriesForParaView) {
+    record_drag();
+    options.series = folder.path() / "drag.pvd";
+    options.mesh_out = folder.path() / "out.vtp";
+    run_viewer(options);
+    const std::vector<std::string> lines = split(read_text(options.series), '\n');
+    std::vector<std::string> steps;
+    for (const std::string& line : lines)
+        if (line.find("<DataSet") != std::string::npos) steps.push_back(line);
+    ASSERT_GE(steps.size(), 15u) << "after each move of the cursor";
+    EXPECT_THAT(steps[0], HasSubstr("timestep=\"0\" part=\"0\" file=\"drag-0000.vtp\""));
+    std::string last = std::to_string(steps.size() - 1);
+    last = "drag-" + std::string(4 - last.size(), '0') + last + ".vtp";
+    EXPECT_THAT(steps.back(), HasSubstr("file=\"" + last + "\""));
+    EXPECT_EQ(read_text(folder.path() / last), read_text(options.mesh_out));
+    EXPECT_NE(read_text(folder.path() / "drag-0001.vtp"), read_text(options.mesh_out));
 }
 
 TEST_F(ViewerTest, ABadFileIsAnErrorWhereNobodyWatches) {

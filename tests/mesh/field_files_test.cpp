@@ -36,9 +36,12 @@ TEST(FieldFiles, AVtpHasTheSurfaceAndItsFieldsExactly) {
     mesh.vertices *= 1.0 / 3.0;
     const auto fields = some_fields(mesh.n_vertices());
     std::ostringstream out;
-    write_vtp(out, mesh, fields);
+    write_vtp(out, mesh, fields, {{"young_modulus", 0.1}, {"method", "fem"}});
     const VtkFile file = read_vtk(out.str());
     EXPECT_EQ(file.kind, "PolyData");
+    EXPECT_EQ(file.attributes.at("PointData"), " Scalars=\"size\" Vectors=\"displacement\" Tensors=\"stress\"");
+    EXPECT_EQ(file.facts.at("young_modulus"), "0.10000000000000001");
+    EXPECT_EQ(file.facts.at("method"), "102 101 109 0");
     EXPECT_EQ(file.counts.at("NumberOfPoints"), mesh.n_vertices());
     EXPECT_EQ(file.counts.at("NumberOfPolys"), mesh.n_triangles());
     EXPECT_EQ(file.arrays.at("Points/Points").as<double>(), numbers(mesh.vertices));
@@ -64,7 +67,7 @@ TEST(FieldFiles, AVtuHasTetrahedraWithFieldsAtPointsAndInCells) {
     mesh.tetrahedra << 0, 1, 1, 2, 2, 3, 3, 4;
     const auto points = some_fields(5), cells = some_fields(2);
     std::ostringstream out;
-    write_vtu(out, mesh, points, cells);
+    write_vtu(out, mesh.vertices, mesh.tetrahedra, points, cells);
     const VtkFile file = read_vtk(out.str());
     EXPECT_EQ(file.kind, "UnstructuredGrid");
     EXPECT_EQ(file.counts.at("NumberOfCells"), 2);
@@ -76,6 +79,23 @@ TEST(FieldFiles, AVtuHasTetrahedraWithFieldsAtPointsAndInCells) {
     EXPECT_EQ(file.arrays.at("Cells/offsets").as<std::int64_t>(), (std::vector<std::int64_t>{4, 8}));
     EXPECT_EQ(file.arrays.at("Cells/connectivity").as<std::int64_t>(),
               (std::vector<std::int64_t>{0, 1, 2, 3, 1, 2, 3, 4}));
+}
+
+TEST(FieldFiles, MovedPointsHaveNoActiveVector) {
+    std::ostringstream out;
+    const SurfaceMesh mesh = make_box(1);
+    write_vtp(out, mesh, some_fields(mesh.n_vertices()), {}, VtkPoints::moved);
+    EXPECT_EQ(read_vtk(out.str()).attributes.at("PointData"), " Scalars=\"size\" Tensors=\"stress\"");
+}
+
+TEST(FieldFiles, TenNodeTetrahedraHaveTheOrderOfVtk) {
+    std::ostringstream out;
+    const Positions vertices = Positions::Random(3, 10);
+    write_vtu(out, vertices, Eigen::VectorXi::LinSpaced(10, 0, 9), {}, {});
+    const VtkFile file = read_vtk(out.str());
+    EXPECT_EQ(file.arrays.at("Cells/types").as<std::uint8_t>(), (std::vector<std::uint8_t>{24}));
+    EXPECT_EQ(file.arrays.at("Cells/connectivity").as<std::int64_t>(),
+              (std::vector<std::int64_t>{0, 1, 2, 3, 4, 7, 5, 6, 8, 9}));
 }
 
 TEST(FieldFiles, APlyIsReadByTheProgramItselfAndNamesItsProperties) {

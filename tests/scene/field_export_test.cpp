@@ -23,8 +23,9 @@ constexpr double kRounding = 1e-9;  // relative; systems of a few hundred unknow
 /// A cube all of whose vertices follow u = A x: the stress is that of Hooke's law everywhere.
 class StretchedCube {
 public:
-    explicit StretchedCube(MethodKind kind) {
+    explicit StretchedCube(MethodKind kind, double scale = 1.0) {
         gradient << 0.01, 0.02, 0.0, -0.01, 0.03, 0.005, 0.0, 0.01, -0.02;
+        gradient *= scale;
         SolveRequest request{.scene_file = "cube.json", .document = {}, .method = {}, .with_checks = false};
         request.document.mesh = Primitive{.name = "cube", .resolution = 4, .size = {}};
         request.document.material = {.young_modulus = 7.0, .poisson_ratio = 0.25};
@@ -94,27 +95,42 @@ TEST(FieldExport, VonMisesIsThatOfTheStressBesideIt) {
     }
 }
 
-TEST(FieldExport, EveryTetrahedronOfAUniformStretchHasItsStress) {
-    for (const MethodKind kind : {kFem, kQuadraticFem}) {
-        const StretchedCube cube(kind);
+Eigen::MatrixXd numbers_of(const test::VtkFile& file, const std::string& array) {
+    const test::VtkArray& found = file.arrays.at(array);
+    const std::vector<double> numbers = found.as<double>();
+    return Eigen::Map<const Eigen::MatrixXd>(numbers.data(), found.n_components,
+                                             std::ssize(numbers) / found.n_components);
+}
+
+/// Nodes inside, midpoints on constrained triangles and elements alike. Small motions, so that nonlinear FEM has the
+/// same stress: its difference is of the size of the strain.
+TEST(FieldExport, EveryNodeAndElementOfAUniformStretchMovesAndIsStressedByHookesLaw) {
+    constexpr double kSmall = 1e-6;
+    for (const MethodKind kind : {kFem, kQuadraticFem, kNonlinearFem}) {
+        const StretchedCube cube(kind, kSmall);
         std::ostringstream out;
         Control control;
         write_field_file(out, "cube.vtu", solved_body(cube.solution), control);
         const test::VtkFile file = test::read_vtk(out.str());
-        const int n = file.counts.at("NumberOfCells");
-        const test::VtkArray& stress = file.arrays.at("CellData/stress");
-        ASSERT_GT(n, 100);
-        ASSERT_EQ(stress.n_components, 6);
-        const std::vector<double> numbers = stress.as<double>(),
-                                  sizes = file.arrays.at("CellData/von_mises").as<double>();
-        ASSERT_EQ(std::ssize(numbers), 6 * n);
-        ASSERT_EQ(std::ssize(sizes), n);
-        if (kind != kFem) continue;  // midpoints on constrained triangles are taken as free in such a file
-        const Eigen::Map<const Eigen::MatrixXd> of_cells(numbers.data(), 6, n);
+        const auto types = file.arrays.at("Cells/types").as<std::uint8_t>();
+        ASSERT_GT(types.size(), 100u);
+        EXPECT_THAT(types, testing::Each(kind == kFem ? 10 : 24)) << name(kind);
+        const Eigen::MatrixXd points = numbers_of(file, "Points/Points");
+        EXPECT_GT(points.cols(), cube.solution.surface->n_vertices() + (kind == kFem ? 0 : 500));
+        const Eigen::MatrixXd exact = cube.gradient * points;
+        EXPECT_LT((numbers_of(file, "PointData/displacement") - exact).cwiseAbs().maxCoeff(),
+                  kRounding * exact.cwiseAbs().maxCoeff())
+            << name(kind);
         const Eigen::Matrix<double, 6, 1> s = cube.stress();
-        EXPECT_LT((of_cells.colwise() - s).cwiseAbs().maxCoeff(), kRounding * s.norm());
         const double size = measure(StressMeasure::von_mises, stress_tensor(s));
-        for (const double of_cell : sizes) EXPECT_NEAR(of_cell, size, kRounding * s.norm());
+        const double tolerance = kind->linear ? kRounding : 10.0 * kSmall;
+        for (const std::string where : {"PointData/", "CellData/"}) {
+            // VTK's order: XX YY ZZ XY YZ XZ, which is that of stress() too.
+            EXPECT_LT((numbers_of(file, where + "stress").colwise() - s).cwiseAbs().maxCoeff(), tolerance * s.norm())
+                << name(kind) << where;
+            EXPECT_LT((numbers_of(file, where + "von_mises").array() - size).abs().maxCoeff(), tolerance * size)
+                << name(kind) << where;
+        }
     }
 }
 

@@ -44,15 +44,17 @@ struct VtkArray {
 struct VtkFile {
     std::string kind;
     std::map<std::string, int> counts;
-    std::map<std::string, VtkArray> arrays;  ///< by "section/name"
+    std::map<std::string, VtkArray> arrays;         ///< by "section/name"
+    std::map<std::string, std::string> attributes;  ///< of the last tag of each name
+    std::map<std::string, std::string> facts;       ///< of the field data: what their tags hold
 };
 
 /// Every tag in turn; an end tag that does not belong to the last open one is an error.
 inline VtkFile read_vtk(const std::string& text) {
     VtkFile file;
     std::vector<std::string> open;
-    const std::regex tag(R"(<(/?)([A-Za-z]+)((?:\s+[A-Za-z_]+="[^"]*")*)\s*(/?)>)"),
-        pair(R"rx(([A-Za-z_]+)="([^"]*)")rx");
+    const std::regex tag(R"(<(/?)([A-Za-z]+)((?:\s+[A-Za-z_0-9]+="[^"]*")*)\s*(/?)>)"),
+        pair(R"rx(([A-Za-z_0-9]+)="([^"]*)")rx");
     auto at = std::sregex_iterator(text.begin(), text.end(), tag);
     for (; at != std::sregex_iterator(); ++at) {
         const std::string name = (*at)[2], attributes = (*at)[3];
@@ -72,7 +74,11 @@ inline VtkFile read_vtk(const std::string& text) {
         }
         if (name == "Piece")
             for (const auto& [key, value] : values) file.counts[key] = std::stoi(value);
-        if (name == "DataArray") {
+        file.attributes[name] = attributes;
+        if (name == "DataArray" && !open.empty() && open.back() == "FieldData") {
+            const auto begin = static_cast<std::size_t>(at->position() + at->length());
+            file.facts[values.at("Name")] = text.substr(begin, text.find('<', begin) - begin);
+        } else if (name == "DataArray") {
             if (values.at("format") != "binary") throw std::runtime_error("unknown format");
             const auto begin = static_cast<std::size_t>(at->position() + at->length());
             const std::string bytes = decoded(text.substr(begin, text.find('<', begin) - begin));

@@ -21,13 +21,17 @@ struct ExportKind {
     const char* ending;
     const char* explanation;
 };
-constexpr std::array<ExportKind, 6> kExports = {
+constexpr std::array<ExportKind, 8> kExports = {
     {{"Deformed mesh (OBJ)...", ".obj", "Vertices and triangles as text, all digits."},
      {"Deformed mesh (STL)...", ".stl", "Triangles in single precision."},
      {"With fields (PLY)...", ".ply",
       "Double precision; displacement, traction, stress and von Mises at the vertices."},
-     {"For ParaView: surface (VTP)...", ".vtp", "The moved surface with displacement, traction and stress."},
-     {"For ParaView: inside (VTU)...", ".vtu", "The moved tetrahedra with displacement and stress."},
+     {"For ParaView: surface (VTP)...", ".vtp",
+      "The surface at rest with displacement (Warp By Vector), traction and stress."},
+     {"For ParaView: inside (VTU)...", ".vtu", "The tetrahedra at rest with displacement (Warp By Vector) and stress."},
+     {"Figure for browsers (HTML)...", ".html",
+      "One file in which anyone pulls the handles, without network. Linear methods."},
+     {"Morph targets (glTF)...", ".glb", "For Blender and game engines: six for each handle. Linear methods."},
      {"Table of vertices (CSV)...", ".csv", "Rest positions, displacements, tractions and stresses."}}};
 
 std::string file_name(const ViewerState& state, const std::string& ending) {

@@ -2,7 +2,9 @@
 
 #include "base/error.hpp"
 #include "deform/holds.hpp"
+#include "deform/ten_node_elements.hpp"
 #include "fem/nodal_field.hpp"
+#include "fem/quadratic/quadratic_mesh.hpp"
 #include "mesh/tets/tetrahedralize.hpp"
 
 namespace elastolab {
@@ -40,6 +42,12 @@ private:
     std::shared_ptr<const NonlinearMesh> mesh_;
     Material material_;
     std::shared_ptr<const FoundStates> found_;
+};
+
+class TenNodeNonlinearInterior : public NonlinearInterior, public TenNodeElements {
+public:
+    using NonlinearInterior::NonlinearInterior;
+    Eigen::MatrixXi ten_node_elements() const override { return rejoined(tetrahedra()); }
 };
 
 /// A solver that tells a model what it found.
@@ -163,6 +171,8 @@ const SparseStiffness* NonlinearModel::sparse_stiffness() const {
 }
 
 std::shared_ptr<const Interior> NonlinearModel::interior(Control&) const {
+    if (degree() == ElementDegree::quadratic)
+        return std::make_shared<const TenNodeNonlinearInterior>(mesh_, material(), found_);
     return std::make_shared<const NonlinearInterior>(mesh_, material(), found_);
 }
 

@@ -1,0 +1,44 @@
+#include "app/series.hpp"
+
+#include <array>
+#include <cstdio>
+#include <utility>
+
+#include "app/scene_files.hpp"
+#include "base/atomic_file.hpp"
+#include "base/control.hpp"
+
+namespace elastolab {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string step_name(const fs::path& list, std::size_t number) {
+    std::array<char, 32> ending{};
+    std::snprintf(ending.data(), ending.size(), "-%04zu.vtp", number);
+    return list.stem().string() + ending.data();
+}
+
+}  // namespace
+
+SeriesWriter::SeriesWriter(fs::path list) : list_(std::move(list)) { AtomicFile::require_writable(list_); }
+
+void SeriesWriter::add(double seconds, const LiveScene& scene, const EmbeddedRunner& answer) {
+    const ExportSource source = export_source(scene, answer);
+    if (!source.deformer) return;
+    if (last_.size() == source.displacement.size() && last_ == source.displacement) return;
+    const std::string name = step_name(list_, steps_.size());
+    Control never_cancelled;
+    write_export(list_.parent_path() / name, source, never_cancelled);
+    steps_.push_back({seconds, name});
+    last_ = source.displacement;
+}
+
+void SeriesWriter::finish() const {
+    AtomicFile file(list_);
+    write_pvd(file.stream(), steps_);
+    file.commit();
+}
+
+}  // namespace elastolab

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <iosfwd>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/control.hpp"
+#include "deform/deformer.hpp"
+#include "scene/setup.hpp"
+
+namespace elastolab {
+
+/// How the body answers to one handle: columns for a shift along x, y, z and a turn about x, y, z through `centre`,
+/// that is u = p_1 e_x + p_2 e_y + p_3 e_z + (p_4, p_5, p_6) x (x - centre) at the handle's vertices.
+struct FigureHandle {
+    std::string name;
+    std::vector<int> vertices;
+    Eigen::Vector3d centre;        ///< mean of the vertices [L]
+    Eigen::MatrixXd displacement;  ///< 3*n_vertices x 6
+    Eigen::MatrixXd stress;        ///< 6*n_vertices x 6, StressNumbers of the surface (deform/surface_stress.hpp)
+};
+
+/// A solved body that can be pulled on: as answers are linear, it is exact.
+struct Figure {
+    std::string title, method;
+    std::shared_ptr<const SurfaceMesh> surface;  ///< what is simulated
+    std::vector<int> fixed;                      ///< vertices
+    Eigen::VectorXd displacement;                ///< of the scene as it is, 3*n_vertices [L]
+    Eigen::VectorXd stress;                      ///< likewise, 6*n_vertices [force / L^2]
+    std::vector<FigureHandle> handles;
+};
+
+/// groups: those of the deformer's set (Constraints::groups). Six solves for each handle. Throws Error where the method
+/// is not linear, where no handle is there to be pulled, or where the file would be beyond kLargestFigure; SolveError,
+/// Cancelled.
+Figure make_figure(const Deformer& deformer, const Eigen::VectorXd& values, const std::vector<ConstraintGroup>& groups,
+                   Control& control);
+inline constexpr double kLargestFigure = 200e6;  ///< bytes
+
+/// One HTML file that needs no network: the body can be pulled, turned and looked at in a browser, coloured by
+/// displacement or von Mises stress. Numbers are in single precision.
+void write_figure(std::ostream& out, const Figure& figure);
+
+/// Whether a file is called like a figure (.html).
+bool is_figure_file(const std::filesystem::path& file);
+
+}  // namespace elastolab
