@@ -9,7 +9,7 @@ packages=(
   libassimp-dev libtet1.5-dev libcgal-dev libgmp-dev libmpfr-dev nlohmann-json3-dev libcli11-dev
   libglfw3-dev libimgui-dev libepoxy-dev libstb-dev libfontconfig-dev libgl1-mesa-dri fonts-roboto-unhinted gnuplot-nox xvfb xdotool libx11-dev
   libgtest-dev libgmock-dev libbenchmark-dev
-  pybind11-dev python3-dev python3-numpy python3-pytest python3-vtk9 mypy python3-mypy chromium "$@"
+  pybind11-dev python3-dev python3-numpy python3-pytest python3-distributed python3-vtk9 mypy python3-mypy chromium "$@"
 )
 
 is_installed() { dpkg-query --show --showformat='${db:Status-Status}\n' "$1" 2>/dev/null | grep -qx installed; }

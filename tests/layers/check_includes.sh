@@ -18,6 +18,7 @@ declare -A below=(
   [study]="base mesh elasticity deform fem bem findings methods scene"
   [render]="base"
   [app]="base mesh elasticity deform findings methods scene render"
+  [python]="base mesh elasticity deform findings methods scene"
   [cli]="base mesh elasticity deform findings methods scene study app"
 )
 

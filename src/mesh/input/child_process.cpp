@@ -14,10 +14,12 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <optional>
 #include <system_error>
 #include <thread>
 
 #include "base/error.hpp"
+#include "base/program.hpp"
 
 extern char** environ;  // NOLINT(readability-redundant-declaration): POSIX leaves its declaration to us
 
@@ -66,6 +68,7 @@ std::filesystem::path helper_program(const std::string& name) {
     const auto beside = std::filesystem::read_symlink("/proc/self/exe", ignored).replace_filename(name);
     for (const auto& candidate : {beside, std::filesystem::path(ELASTOLAB_HELPER_DIR) / name})
         if (std::filesystem::is_regular_file(candidate, ignored)) return candidate;
+    if (const std::optional<std::filesystem::path> found = find_program(name)) return *found;
     throw MeshError(beside.string() + ": this helper program is missing. Reinstall elastolab.");
 }
 

@@ -14,8 +14,9 @@
 
 namespace elastolab {
 
-/// Path of a helper program: beside the running program (installed), else where the build has put it (tests, programs
-/// run from the build tree). Throws MeshError when it is in neither place.
+/// Path of a helper program: beside the running program (installed), where the build has put it (tests, programs run
+/// from the build tree), or on $PATH (the Python module, whose running program is the interpreter). Throws MeshError
+/// when it is in neither place.
 std::filesystem::path helper_program(const std::string& name);
 
 /// A program of ours that runs in a process of its own, with a socket as its standard input (both ways) and its

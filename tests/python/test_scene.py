@@ -1,0 +1,98 @@
+import json
+import os
+
+import numpy as np
+import pytest
+
+import elastolab as el
+from conftest import cube_scene, table
+
+
+def test_a_scene_is_read_changed_solved_and_written(tmp_path, program):
+    (tmp_path / "in.json").write_text(json.dumps(cube_scene("fem")))
+    scene = el.Scene.load(tmp_path / "in.json")
+    scene.data["method"] = "galerkin-bem"
+    scene.data["handles"][0]["translate"] = [0, 0.2, 0]
+    scene.save(tmp_path / "out.json")
+    assert el.Scene.load(tmp_path / "out.json") == scene
+    solution = scene.solve()
+    folder = program(scene.data)
+    expected, _ = table(folder / "u.csv")
+    report = json.loads((folder / "r.json").read_text())
+    np.testing.assert_allclose(solution.displacement, expected[:, 3:], atol=1e-9)
+    assert solution.error_estimate == pytest.approx(report["error_estimate"]["displacement"], rel=1e-6)
+    assert solution.residual < 1e-8 and solution.warnings == report["warnings"]
+    forces, names = table(folder / "f.csv")
+    assert [r.name for r in solution.reactions] == names
+    for reaction, row in zip(solution.reactions, forces):
+        np.testing.assert_allclose(np.r_[reaction.force, reaction.moment], row, atol=1e-7 * abs(forces).max())
+
+
+def test_a_mesh_keeps_its_file_when_a_scene_moves_to_another_folder(tmp_path):
+    (tmp_path / "a").mkdir()
+    (tmp_path / "b").mkdir()
+    el.Surface.primitive("cube", 3).save(tmp_path / "a" / "cube.obj")
+    data = {**cube_scene("fem"), "mesh": {"file": "cube.obj"}}
+    scene = el.Scene(data, file=tmp_path / "a" / "scene.json")
+    scene.save(tmp_path / "b" / "scene.json")
+    moved = el.Scene.load(tmp_path / "b" / "scene.json")
+    assert moved.data["mesh"]["file"] == os.path.join("..", "a", "cube.obj")
+    np.testing.assert_array_equal(moved.solve().displacement, scene.solve().displacement)
+
+
+def test_a_proxy_stands_for_an_open_surface(tmp_path):
+    cube = el.Surface.primitive("cube", 5)
+    inside_the_top = np.flatnonzero((cube.vertices[cube.triangles].min(1) > [0.3, 0.3, 0.9]).all(1))
+    el.Surface(cube.vertices, np.delete(cube.triangles, inside_the_top[:1], 0)).save(tmp_path / "open.obj")
+    scene = el.Scene({**cube_scene("linear-bem"), "mesh": {"file": "open.obj"}}, file=tmp_path / "scene.json")
+    solution = scene.solve()
+    assert solution.proxy is not None and solution.displacement.shape == (cube.n_vertices, 3)
+    assert set(solution.fields()) == {"displacement", "von_mises", "traction", "stress"}
+    scene.data["proxy"] = {"use": "never"}
+    with pytest.raises(el.MeshError, match="open.obj: "):
+        scene.solve()
+
+
+def test_outputs_are_written_by_the_ending_of_their_name(tmp_path):
+    solution = el.Scene(cube_scene("quadratic-fem", 2)).solve(checks=False)
+    for name in ("a.obj", "a.ply", "a.stl", "a.vtp", "a.vtu", "a.csv"):
+        solution.save(tmp_path / name)
+        assert (tmp_path / name).stat().st_size > 500
+    deformed = el.Surface.load(tmp_path / "a.obj")
+    np.testing.assert_allclose(deformed.vertices, solution.vertices + solution.displacement, atol=1e-15)
+    with pytest.raises(el.Error, match="a.xyz"):
+        solution.save(tmp_path / "a.xyz")
+
+
+@pytest.mark.parametrize(
+    ("change", "text"),
+    [
+        ({"method": "x"}, "/method"),
+        ({"surprise": 1}, "surprise"),
+        ({"material": {"young_modulus": 0, "poisson_ratio": 0.3}}, "/material/young_modulus"),
+        ({"handles": [{"select": {"vertices": [999]}, "translate": [0, 0, 0]}]}, "/handles/0/select"),
+    ],
+)
+def test_a_wrong_scene_is_refused_with_the_place(change, text):
+    with pytest.raises(el.SceneError, match=text):
+        el.Scene({**cube_scene(), **change}).solve()
+
+
+def test_data_that_are_no_json_are_a_type_error():
+    scene = el.Scene(cube_scene())
+    scene.data["method"] = object()
+    with pytest.raises(TypeError, match="data: is no scene"):
+        scene.text
+    scene.data = scene.data["handles"]
+    scene.data.append(scene.data)
+    with pytest.raises(TypeError, match="data: is no scene"):
+        scene.solve()
+
+
+def test_the_viewer_gives_back_the_scene_as_it_was_left(monkeypatch):
+    monkeypatch.setenv("ELASTOLAB_VIEW_ARGUMENTS", "--hidden --frames 3 --method fem")
+    left = el.show(el.Scene(cube_scene("linear-bem", 3)))
+    assert left.data["method"] == "fem" and left.data["mesh"] == {"primitive": "cube", "resolution": 3}
+    monkeypatch.setenv("ELASTOLAB_VIEW_ARGUMENTS", "--no-such-option")
+    with pytest.raises(el.Error, match="no-such-option"):
+        el.show(el.Scene(cube_scene()))
