@@ -36,7 +36,7 @@ LinearTheoryGauge::LinearTheoryGauge(Body body, ConstrainedSet set, Control& con
 std::optional<double> LinearTheoryGauge::error(const Eigen::VectorXd& values, Control& control,
                                                const Approach& approach) const {
     constexpr double kTolerance = 1e-4;
-    if (values.size() == 0 || values.isZero(0.0)) return {};
+    if (values.isZero(0.0) && approach.path.cols() == 0) return {};  // no motion, and no full turns either
     // The tangent at rest is linear theory.
     const DragResponse rest =
         deformer_->drag_response(Eigen::VectorXd::Zero(values.size()), values, control, kTolerance);

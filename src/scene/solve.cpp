@@ -15,6 +15,7 @@
 #include "methods/precompute.hpp"
 #include "scene/linear_theory.hpp"
 #include "scene/proxy/carried_constraints.hpp"
+#include "scene/wish.hpp"
 
 namespace elastolab {
 
@@ -56,7 +57,8 @@ void take_equilibrium(const Deformer& deformer, Constraints& constraints, Constr
                       Control& control) {
     if (!constraints.has_forces()) return;
     if (!deformer.linear())
-        throw SolveError("handles under a force: nonlinear-fem moves none. Choose quadratic-fem, or prescribe a motion.");
+        throw SolveError(
+            "handles under a force: nonlinear-fem moves none. Choose quadratic-fem, or prescribe a motion.");
     std::vector<Grip> grips;
     std::vector<std::size_t> handles;
     Eigen::VectorXd forces(0);
@@ -134,6 +136,12 @@ void add_imbalance(const Imbalance& imbalance, MethodKind method, Findings& find
     add(FindingKind::moment_imbalance, imbalance.moment);
 }
 
+/// From rest by the turns that the motions of these constraints take; surface: what the set is on.
+Approach approach_to(const Constraints& constraints, const SurfaceMesh& surface) {
+    const Positions rest = surface.vertices(Eigen::all, constraints.set.handles);
+    return {nullptr, way_to(wish_of(constraints), nullptr, rest).path};
+}
+
 /// Applies the constraints and evaluates what follows from them. shown: those of the shown surface, where a proxy of it
 /// is simulated.
 void apply(Constraints& constraints, Constraints* shown, bool with_checks, Solution& solution, Control& control) {
@@ -149,7 +157,8 @@ void apply(Constraints& constraints, Constraints* shown, bool with_checks, Solut
     {
         const Stage stage("displace", control, solution.stages);
         take_equilibrium(deformer, constraints, shown, solution.surface->vertices, control);
-        const Deformer::Answer answer = deformer.answer(constraints.values, {.residual = with_checks}, control);
+        const Deformer::Answer answer = deformer.answer(constraints.values, {.residual = with_checks}, control,
+                                                        approach_to(constraints, *solution.model->body().surface));
         solution.displacement =
             Eigen::Map<const Eigen::Matrix3Xd>(answer.displacements.data(), 3, answer.displacements.size() / 3);
         solution.simulated_displacement = answer.displacements;
@@ -197,7 +206,9 @@ void apply(Constraints& constraints, Constraints* shown, bool with_checks, Solut
 /// The answer is there: where this fails, it is left out.
 void gauge(const SceneMesh& mesh, const Constraints& shown, const Constraints& simulated, Solution& solution,
            Control& control) {
-    if (!solution.model->method().kind->linear || simulated.values.isZero(0.0)) return;
+    const bool moves =
+        !simulated.values.isZero(0.0) || approach_to(simulated, *solution.model->body().surface).path.cols() > 0;
+    if (!moves || !solution.model->method().kind->linear) return;
     const Stage stage("linear theory", control, solution.stages);
     try {
         Body body = solution.model->body();
@@ -214,7 +225,8 @@ void gauge(const SceneMesh& mesh, const Constraints& shown, const Constraints& s
             body.surface = coarse->surface;
         }
         const LinearTheoryGauge linear_theory(body, constraints->set, control);
-        solution.linear_theory_error = linear_theory.error(constraints->values, control);
+        solution.linear_theory_error =
+            linear_theory.error(constraints->values, control, approach_to(*constraints, *body.surface));
     } catch (const Error&) {
         return;
     }

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 
 #include "scene/simulation_bench.hpp"
+#include "scene/solve.hpp"
 
 namespace elastolab::testing_simulation {
 namespace {
@@ -97,6 +98,13 @@ TEST_F(LiveEquilibrium, FullTurnsAreWoundUpAndUnwound) {
     ask(twist(360));
     bench.settle(scene);
     expect_converged(wound);
+    Control control;
+    const Solution solved = solve({.scene_file = "bar.json",
+                                   .document = scene.document(),
+                                   .method = bench.choices.of(kNonlinearFem),
+                                   .with_checks = false},
+                                  control);
+    expect_converged(solved.displacement.reshaped());
 }
 
 TEST_F(LiveEquilibrium, AMotionWithoutAnEquilibriumKeepsTheLastAndSaysWhere) {

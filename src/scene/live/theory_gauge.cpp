@@ -31,9 +31,10 @@ TheoryGauge::Found TheoryGauge::find(std::shared_ptr<const Made> made, const Bod
         made = std::make_shared<const Made>(
             Made{body.surface, body.material.poisson_ratio, set, LinearTheoryGauge(body, set, control)});
     const Positions rest = body.surface->vertices(Eigen::all, set.handles);
-    const std::optional<double> error =
-        made->gauge.error(wish.values, control, {nullptr, way_to(wish, nullptr, rest).path});
-    return {std::move(made), {error.value_or(0.0), !error && !wish.values.isZero(0.0), turns(wish)}};
+    const Approach approach{nullptr, way_to(wish, nullptr, rest).path};
+    const bool moves = !wish.values.isZero(0.0) || approach.path.cols() > 0;
+    const std::optional<double> error = made->gauge.error(wish.values, control, approach);
+    return {std::move(made), {error.value_or(0.0), !error && moves, turns(wish)}};
 }
 
 void TheoryGauge::rest() {
