@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bem/galerkin/close_cost.hpp"
 #include "deform/machine_speed.hpp"
 #include "mesh/surface_mesh.hpp"
 
@@ -87,7 +88,11 @@ std::uint64_t collocation_set_memory(std::int64_t n_vertices, std::int64_t n_poi
 
 /// Half an LU, and half of the pairs of triangles: each once.
 Cost predict_galerkin_bem(const SurfaceMesh& mesh, const Method& method) {
-    if (is_hierarchical(mesh, method)) return predict_hierarchical(mesh, kBytesPerVertexAndLevel, kHierarchicalFlops);
+    if (is_hierarchical(mesh, method)) {
+        Cost cost = predict_hierarchical(mesh, kBytesPerVertexAndLevel, kHierarchicalFlops);
+        cost.seconds += nearly_touching_flops(mesh) / product_speed();
+        return cost;
+    }
     const double n = 3.0 * mesh.n_vertices(), triangles = mesh.n_triangles();
     const double vertices = mesh.n_vertices();
     const double waiting =
@@ -95,7 +100,8 @@ Cost predict_galerkin_bem(const SurfaceMesh& mesh, const Method& method) {
     Cost cost{static_cast<std::int64_t>(n), kLeastMemory + static_cast<std::uint64_t>(waiting), 0.0};
     if (!factorises_ahead(method)) return cost;
     cost.memory_bytes += square_bytes(n);
-    double flops = n * n * n / 3.0 + 0.5 * kFlopsPerPair * triangles * triangles + kGalerkinCloseFlops * triangles;
+    double flops = n * n * n / 3.0 + 0.5 * kFlopsPerPair * triangles * triangles + kGalerkinCloseFlops * triangles +
+                   nearly_touching_flops(mesh);
     if (method.mode != Mode::on_demand) {
         cost.memory_bytes += 4 * square_bytes(n);
         flops += 2.0 * n * n * n;

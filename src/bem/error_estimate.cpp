@@ -1,6 +1,7 @@
 #include "bem/error_estimate.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <Eigen/Geometry>
 #include <memory>
@@ -13,6 +14,7 @@
 #include "bem/given_loads.hpp"
 #include "bem/hierarchical/system.hpp"
 #include "mesh/refine.hpp"
+#include "mesh/topology.hpp"
 
 namespace elastolab {
 
@@ -22,6 +24,11 @@ namespace {
 constexpr double kReferenceTolerance = 1e-6;
 /// Vertices above which the reference would take many minutes.
 constexpr int kMostVertices = 20000;
+/// It may take this many times as long as the answer, or this many seconds.
+constexpr double kMostTimes = 10.0, kAlwaysSeconds = 0.2;
+/// Faces turn into the body at a re-entrant edge by more than this angle, in radians: at less, curved surfaces in flat
+/// triangles have such edges everywhere.
+constexpr double kReentrant = 0.8;
 /// Error of Galerkin BEM over what halving the rims changes. The first order alone would make it 2; what other
 /// triangles contribute is partly of the other sign. tests/methods/discretisation_test.cpp measures it.
 constexpr double kShareOfRims = 1.4;
@@ -43,10 +50,35 @@ std::vector<char> constrained_triangles(const SurfaceMesh& surface, const std::v
     return inside;
 }
 
-/// Marks those around the rims, and around constrained vertices without a constrained triangle.
+void mark_around_reentrant_edges(const SurfaceMesh& surface, std::vector<char>& marked) {
+    const auto corner = [&](int t, int k) -> Eigen::Vector3d {
+        return surface.vertices.col(surface.triangles(k % 3, t));
+    };
+    const auto normal = [&](int t) -> Eigen::Vector3d {
+        return (corner(t, 1) - corner(t, 0)).cross(corner(t, 2) - corner(t, 0)).normalized();
+    };
+    const EdgeTable edges(surface);
+    std::vector<char> at_edge(static_cast<std::size_t>(surface.n_vertices()), 0);
+    for (int e = 0; e < edges.size(); ++e) {
+        const auto halves = edges.half_edges(e);
+        if (halves.size() != 2) continue;
+        const int t = halves[0] / 3, s = halves[1] / 3;
+        const Eigen::Vector3d along = corner(t, halves[0] % 3 + 1) - corner(t, halves[0] % 3);
+        const double turn = std::atan2(normal(t).cross(normal(s)).dot(along.normalized()), normal(t).dot(normal(s)));
+        if (turn > -kReentrant) continue;  // convex edges turn by a positive angle
+        at_edge[static_cast<std::size_t>(edges[e].a)] = at_edge[static_cast<std::size_t>(edges[e].b)] = 1;
+    }
+    for (int t = 0; t < surface.n_triangles(); ++t)
+        for (const int v : surface.triangles.col(t))
+            if (at_edge[static_cast<std::size_t>(v)]) marked[static_cast<std::size_t>(t)] = 1;
+}
+
+/// Marks those around the rims, and those at re-entrant edges, and around constrained vertices without a constrained
+/// triangle.
 std::vector<char> triangles_to_split(const SurfaceMesh& surface, const std::vector<int>& place,
                                      const std::vector<char>& inside) {
     std::vector<char> marked = around_rim(unrefined(surface), inside);
+    mark_around_reentrant_edges(surface, marked);
     std::vector<char> lone(place.size(), 0);
     for (std::size_t v = 0; v < place.size(); ++v) lone[v] = place[v] >= 0 ? 1 : 0;
     for (int t = 0; t < surface.n_triangles(); ++t)
@@ -119,8 +151,17 @@ Method reference_method() {
     return {.kind = kGalerkinBem, .update = Update::direct, .integral_tolerance = kReferenceTolerance};
 }
 
+/// Whether it takes at most ten times as long as the answer, or a fifth of a second.
+bool is_quick(const SurfaceMesh& surface, const SurfaceMesh& fine, Method answer) {
+    Method reference = reference_method();
+    answer.mode = Mode::on_demand;
+    answer.update = reference.update = Update::reduced;  // which factorises what the others do for each set
+    const double seconds = reference.kind->predict(fine, reference).seconds;
+    return seconds <= kAlwaysSeconds || seconds <= kMostTimes * answer.kind->predict(surface, answer).seconds;
+}
+
 /// Nothing where it would take too long or more memory than there is.
-std::uint64_t affordable_memory(const RimProblem& problem) {
+std::uint64_t affordable_memory(const SurfaceMesh& surface, const Method& answer, const RimProblem& problem) {
     const SurfaceMesh& fine = problem.surface.mesh;
     const std::int64_t n_tractions = 3 * problem.n_constrained_triangles;
     const std::uint64_t bytes =
@@ -128,7 +169,8 @@ std::uint64_t affordable_memory(const RimProblem& problem) {
             ? predict_galerkin_bem(fine, reference_method()).memory_bytes +
                   hierarchical_set_memory(fine.n_vertices(), problem.n_constrained_triangles, n_tractions)
             : galerkin_direct_memory(3 * fine.n_vertices(), n_tractions);
-    return fine.n_vertices() <= kMostVertices && bytes < available_memory_bytes() ? bytes : 0;
+    const bool fits = fine.n_vertices() <= kMostVertices && bytes < available_memory_bytes();
+    return fits && is_quick(surface, fine, answer) ? bytes : 0;
 }
 
 /// Throws NotHeldError, SolveError, Cancelled.
@@ -159,11 +201,12 @@ NodeSolution solve_by_galerkin(const RimProblem& problem, double poisson_ratio, 
 
 }  // namespace
 
-std::optional<ReferenceAnswer> galerkin_reference(const SurfaceMesh& surface, double poisson_ratio,
-                                                  std::span<const int> vertices, std::span<const UnitLoad> loads,
-                                                  const Eigen::VectorXd& values, Control& control) {
+std::optional<ReferenceAnswer> galerkin_reference(const SurfaceMesh& surface, const Method& answer,
+                                                  double poisson_ratio, std::span<const int> vertices,
+                                                  std::span<const UnitLoad> loads, const Eigen::VectorXd& values,
+                                                  Control& control) {
     const RimProblem problem = with_finer_rims(surface, vertices, loads, values);
-    if (affordable_memory(problem) == 0) return {};
+    if (affordable_memory(surface, answer, problem) == 0) return {};
     try {
         const NodeSolution solution = solve_by_galerkin(problem, poisson_ratio, control);
         return ReferenceAnswer{solution.displacements.col(0).head(3 * surface.n_vertices()),
@@ -173,15 +216,18 @@ std::optional<ReferenceAnswer> galerkin_reference(const SurfaceMesh& surface, do
     }
 }
 
-std::uint64_t galerkin_reference_memory(const SurfaceMesh& surface, std::span<const int> vertices) {
-    return affordable_memory(with_finer_rims(surface, vertices, {}, Eigen::VectorXd::Zero(3 * std::ssize(vertices))));
+std::uint64_t galerkin_reference_memory(const SurfaceMesh& surface, const Method& answer,
+                                        std::span<const int> vertices) {
+    return affordable_memory(surface, answer,
+                             with_finer_rims(surface, vertices, {}, Eigen::VectorXd::Zero(3 * std::ssize(vertices))));
 }
 
-std::optional<ReferenceAnswer> galerkin_self_reference(const SurfaceMesh& surface, double poisson_ratio,
-                                                       std::span<const int> vertices, std::span<const UnitLoad> loads,
-                                                       const Eigen::VectorXd& values, Control& control) {
+std::optional<ReferenceAnswer> galerkin_self_reference(const SurfaceMesh& surface, const Method& answer,
+                                                       double poisson_ratio, std::span<const int> vertices,
+                                                       std::span<const UnitLoad> loads, const Eigen::VectorXd& values,
+                                                       Control& control) {
     std::optional<ReferenceAnswer> reference =
-        galerkin_reference(surface, poisson_ratio, vertices, loads, values, control);
+        galerkin_reference(surface, answer, poisson_ratio, vertices, loads, values, control);
     if (reference) reference->share = kShareOfRims;
     return reference;
 }

@@ -14,24 +14,29 @@ namespace elastolab {
 /// The answer that boundary elements are judged by: symmetric Galerkin on the same surface, with the triangles along
 /// the rims of the constrained patches (and around lone constrained vertices) refined once. Galerkin itself is 2 to 14
 /// times more accurate than collocation on organic bodies, and most of what is left comes from the rims, where
-/// tractions are singular: refining there gains nearly what refining everywhere does. Solved afresh each time, large
-/// surfaces by hierarchical matrices. Nothing where the body is not held, where it would take too much memory or time,
-/// or where it cannot be solved.
+/// tractions are singular: refining there gains nearly what refining everywhere does. Triangles at
+/// re-entrant edges of the body, where stresses are singular too, are refined with them. Solved afresh each time, large
+/// surfaces by hierarchical matrices. Nothing where the body is not held, where it would take too much memory, more
+/// than ten times as long as the answer (and a fifth of a second), or where it cannot be solved.
+/// answer          the method that is judged
 /// vertices  constrained, all different
 /// loads     given ones, on triangles of the surface
 /// values    the vertices' displacements, 3*vertices.size(), then a factor for each load
 /// Throws Cancelled.
-std::optional<ReferenceAnswer> galerkin_reference(const SurfaceMesh& surface, double poisson_ratio,
-                                                  std::span<const int> vertices, std::span<const UnitLoad> loads,
-                                                  const Eigen::VectorXd& values, Control& control);
+std::optional<ReferenceAnswer> galerkin_reference(const SurfaceMesh& surface, const Method& answer,
+                                                  double poisson_ratio, std::span<const int> vertices,
+                                                  std::span<const UnitLoad> loads, const Eigen::VectorXd& values,
+                                                  Control& control);
 
 /// Bytes that it takes; nothing where it would not be computed. Milliseconds.
-std::uint64_t galerkin_reference_memory(const SurfaceMesh& surface, std::span<const int> vertices);
+std::uint64_t galerkin_reference_memory(const SurfaceMesh& surface, const Method& answer,
+                                        std::span<const int> vertices);
 
 /// The same for an answer by Galerkin on the surface as it is: errors at a rim fall with the first power of the size of
 /// its triangles, so that halving their edges shows only part of the error.
-std::optional<ReferenceAnswer> galerkin_self_reference(const SurfaceMesh& surface, double poisson_ratio,
-                                                       std::span<const int> vertices, std::span<const UnitLoad> loads,
-                                                       const Eigen::VectorXd& values, Control& control);
+std::optional<ReferenceAnswer> galerkin_self_reference(const SurfaceMesh& surface, const Method& answer,
+                                                       double poisson_ratio, std::span<const int> vertices,
+                                                       std::span<const UnitLoad> loads, const Eigen::VectorXd& values,
+                                                       Control& control);
 
 }  // namespace elastolab

@@ -130,15 +130,16 @@ SolutionChecks BemModel::checks(const TractionSpace& space, std::vector<int> ver
         return with_body_forces(std::make_shared<const BoundaryField>(boundary, nu, std::move(u), std::move(tractions)),
                                 boundary->mesh(), nu, loads, solution.factors);
     };
-    checks.reference = [boundary = system_->shared_boundary(), nu = poisson_ratio_, vertices = std::move(vertices),
+    checks.reference = [boundary = system_->shared_boundary(), method = method_, nu = poisson_ratio_,
+                        vertices = std::move(vertices),
                         loads](const Eigen::VectorXd& values, const NodeSolution&, Control& control) {
-        return galerkin_reference(boundary->mesh(), nu, vertices, loads, values, control);
+        return galerkin_reference(boundary->mesh(), method, nu, vertices, loads, values, control);
     };
     return checks;
 }
 
 std::uint64_t BemModel::check_memory(std::span<const int> base, std::span<const int> handles) const {
-    return galerkin_reference_memory(system_->shared_boundary()->mesh(), joined(base, handles));
+    return galerkin_reference_memory(system_->shared_boundary()->mesh(), method_, joined(base, handles));
 }
 
 void BemModel::visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const {

@@ -24,6 +24,7 @@ enum class FindingKind {
     singular_though_held,  ///< the constraints hold the body, and yet their system is singular
     coarse_mesh,           ///< estimated error of the displacement of the worst vertex, over the largest displacement
     coarse_forces,         ///< estimated error of the reactions of the worst patch, over the largest
+    no_estimate,           ///< the error of an answer is not estimated: its second answer takes too much time or memory
     force_imbalance,       ///< resultant of all reaction forces, over the largest
     moment_imbalance,      ///< resultant of all reaction moments, over the largest
     nothing_constrained,   ///< no vertex of the scene `object` is fixed or moved

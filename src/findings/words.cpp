@@ -160,6 +160,10 @@ std::string words(const Finding& finding) {
             return coarse_mesh(finding);
         case FindingKind::coarse_forces:
             return coarse_forces(finding);
+        case FindingKind::no_estimate:
+            return std::string(finding.method->name) +
+                   ": the error is not estimated. The second, better answer that it is told by would take more than "
+                   "ten times as long as this one, more memory than there is, or cannot be computed.";
         case FindingKind::force_imbalance:
             return imbalance(finding, "forces");
         case FindingKind::moment_imbalance:

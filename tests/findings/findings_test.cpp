@@ -170,6 +170,15 @@ TEST(Findings, TellOfABodyThatIsNotHeldWhateverTheMethod) {
         }
 }
 
+TEST(Findings, BlameCollocationForItsOwnImbalanceOnly) {
+    for (const MethodKind method : all_methods())
+        for (const FindingKind kind : {FindingKind::force_imbalance, FindingKind::moment_imbalance}) {
+            const std::string text = words(Finding{.kind = kind, .value = 0.4, .method = method});
+            EXPECT_EQ(text.find("Collocation") != std::string::npos, !method->balances_forces) << text;
+            EXPECT_EQ(text.find("lost in rounding") != std::string::npos, method->balances_forces) << text;
+        }
+}
+
 TEST(Findings, WritePercentagesOut) {
     const auto told = [](double part) {
         return words(Finding{.kind = FindingKind::coarse_forces, .value = part, .method = kLinearBem});

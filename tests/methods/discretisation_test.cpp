@@ -1,7 +1,14 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
+#include <functional>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "bem/error_estimate.hpp"
 #include "elasticity/rigid_motion.hpp"
 #include "findings/solution.hpp"
 #include "findings/words.hpp"
@@ -53,11 +60,10 @@ Eigen::VectorXd values_of(const Example& example, const SurfaceMesh& mesh, Const
 }
 
 /// The largest error of a vertex of the coarse mesh, over the largest displacement, with the fine mesh for the truth.
-double true_error(const Example& example, const Eigen::VectorXd& u) {
+double true_error(const Example& example, const Eigen::VectorXd& u, MethodKind judge = kLinearBem) {
     ConstrainedSet set;
     const Eigen::VectorXd values = values_of(example, example.fine, set);
-    const Eigen::VectorXd truth =
-        displaced(precomputed(make_body(example.fine), Method{.kind = kLinearBem}), set, values);
+    const Eigen::VectorXd truth = displaced(precomputed(make_body(example.fine), Method{.kind = judge}), set, values);
     double worst = 0.0, size = 0.0;
     for (int v = 0; v < example.coarse.n_vertices(); ++v) {
         Eigen::Index same = 0;
@@ -141,6 +147,85 @@ TEST(DiscretisationCheck, FindsNothingInARotation) {
         if (method.kind == kConstantBem) continue;                   // resists a rotation
         EXPECT_LT(check->relative_error, 1e-4) << describe(method);  // integrals to five digits
         EXPECT_LT(check->relative_force_error, 1e-4) << describe(method);
+    }
+}
+
+/// The surface of some cells of a grid, each in n x n x n cubes of edge 1 / n.
+SurfaceMesh surface_of_cells(const Eigen::Array3i& size, const std::function<bool(int, int, int)>& is_kept, int n) {
+    const auto filled = [&](const Eigen::Array3i& cube) {
+        if ((cube < 0).any() || (cube >= n * size).any()) return false;
+        return is_kept(cube[0] / n, cube[1] / n, cube[2] / n);
+    };
+    std::map<std::array<int, 3>, int> numbers;
+    std::vector<Eigen::Vector3i> triangles;
+    const auto number = [&](const Eigen::Array3i& at) {
+        return numbers.try_emplace({at[0], at[1], at[2]}, static_cast<int>(numbers.size())).first->second;
+    };
+    Eigen::Array3i cube;
+    for (cube[0] = 0; cube[0] < n * size[0]; ++cube[0])
+        for (cube[1] = 0; cube[1] < n * size[1]; ++cube[1])
+            for (cube[2] = 0; cube[2] < n * size[2]; ++cube[2])
+                for (int side = 0; side < 6 && filled(cube); ++side) {
+                    const int axis = side / 2, up = side % 2;
+                    Eigen::Array3i out = cube, a = cube, p = Eigen::Array3i::Zero(), q = p;
+                    out[axis] += up == 1 ? 1 : -1;
+                    if (filled(out)) continue;
+                    a[axis] += up;
+                    p[(axis + 1) % 3] = q[(axis + 2) % 3] = 1;
+                    if (up == 0) std::swap(p, q);
+                    const int v[4] = {number(a), number(a + p), number(a + p + q), number(a + q)};
+                    triangles.emplace_back(v[0], v[1], v[2]);
+                    triangles.emplace_back(v[0], v[2], v[3]);
+                }
+    SurfaceMesh mesh;
+    mesh.vertices.resize(3, std::ssize(numbers));
+    for (const auto& [at, v] : numbers) mesh.vertices.col(v) = Eigen::Vector3d(at[0], at[1], at[2]) / n;
+    mesh.triangles.resize(3, std::ssize(triangles));
+    for (std::size_t t = 0; t < triangles.size(); ++t) mesh.triangles.col(static_cast<Eigen::Index>(t)) = triangles[t];
+    return mesh;
+}
+
+/// A plate with a notch in its middle, pulled at its ends: the error sits at the re-entrant edges of the notch, far
+/// from the rims of the constrained faces.
+TEST(DiscretisationCheck, SeesTheErrorOfGalerkinAtReentrantEdges) {
+    const auto is_kept = [](int x, int y, int) { return x != 4 || y > 1; };
+    const auto plate = [&](int n) { return surface_of_cells({9, 4, 1}, is_kept, n); };
+    const Example example{"notched plate",
+                          plate(1),
+                          plate(3),
+                          [](const auto& x) { return x[0] < kEdge; },
+                          [](const auto& x) { return x[0] > 9.0 - kEdge; },
+                          {0.5, 0.0, 0.0}};
+    Control control;
+    Deformer deformer(precomputed(make_body(example.coarse), Method{.kind = kGalerkinBem}));
+    ConstrainedSet set;
+    const Eigen::VectorXd values = values_of(example, example.coarse, set);
+    deformer.constrain(set, control);
+    const DiscretisationCheck check = deformer.discretisation_check(values, control).value();
+    const double error = true_error(example, deformer.displace(values), kGalerkinBem);
+    print_measured("notched plate, largest error", error);
+    print_measured("notched plate, estimate", check.relative_error);
+    EXPECT_LT(check.relative_error, 2.0 * error);
+    EXPECT_GT(check.relative_error, 0.5 * error);
+    EXPECT_LT((example.coarse.vertices.col(check.vertex) - Eigen::Vector3d(4.5, 1.0, 0.5)).norm(), 2.5);
+}
+
+/// A plate on which Galerkin BEM integrates far longer than linear BEM is not judged by it, and the user is told.
+TEST(DiscretisationCheck, IsLeftOutWhereItTakesTenTimesAsLongAsTheAnswer) {
+    Control control;
+    for (const bool thin : {false, true}) {
+        const SurfaceMesh mesh = flattened(make_box(8), thin ? 1e-6 : 0.3);
+        const auto ends = vertices_where(mesh, [](const auto& x) { return x[0] < kEdge || x[0] > 1.0 - kEdge; });
+        EXPECT_EQ(galerkin_reference_memory(mesh, Method{.kind = kLinearBem}, ends) == 0, thin);
+        Deformer deformer(precomputed(make_body(mesh), Method{.kind = kLinearBem}));
+        deformer.constrain({{}, ends}, control);
+        const Deformer::Answer answer =
+            deformer.answer(Eigen::VectorXd::Zero(3 * std::ssize(ends)), {.check = true}, control);
+        EXPECT_EQ(answer.check.has_value(), !thin);
+        const auto told = words(findings_of_answer(deformer, answer));
+        EXPECT_EQ(std::any_of(told.begin(), told.end(),
+                              [](const std::string& text) { return text.find("not estimated") != std::string::npos; }),
+                  thin);
     }
 }
 

@@ -1,8 +1,11 @@
 #include "bem/galerkin/model.hpp"
 
+#include <algorithm>
+
 #include "base/memory.hpp"
 #include "bem/error_estimate.hpp"
 #include "bem/galerkin/field.hpp"
+#include "bem/galerkin/residual.hpp"
 #include "bem/galerkin/solvers.hpp"
 #include "bem/given_loads.hpp"
 
@@ -73,11 +76,18 @@ std::unique_ptr<ConstrainedSolid> GalerkinModel::constrain(std::span<const int> 
                                                  control);
     const auto residual = [system = system_, vertices, tractions, loads](const NodeSolution& solution,
                                                                          Control& its_control) {
-        return galerkin_residual(*system, vertices, tractions, loads, solution, its_control);
+        const auto pairs = std::make_shared<const BoundaryPairs>(system->shared_boundary(), system->tolerance());
+        const GalerkinEquations equations{pairs, pairs->cluster_vertices(kVerticesOfALeaf), system->surfaces(),
+                                          system->material()};
+        GivenTerms given;
+        if (!loads.empty())
+            given = {system->given_nodal_forces(loads, its_control) * solution.factors.col(0),
+                     system->given_single_layer(tractions, loads, its_control) * solution.factors.col(0)};
+        return galerkin_residual(equations, vertices, tractions, given, solution, its_control);
     };
-    const auto reference = [system = system_, nu = poisson_ratio_, vertices, loads](
+    const auto reference = [system = system_, method = method_, nu = poisson_ratio_, vertices, loads](
                                const Eigen::VectorXd& values, const NodeSolution&, Control& its_control) {
-        return galerkin_self_reference(system->boundary().mesh(), nu, vertices, loads, values, its_control);
+        return galerkin_self_reference(system->boundary().mesh(), method, nu, vertices, loads, values, its_control);
     };
     const auto inside = [boundary = std::shared_ptr<const Boundary>(system_, &system_->boundary()), vertices, tractions,
                          loads, nu = poisson_ratio_](NodeSolution&& solution, Control&) {
@@ -98,7 +108,10 @@ std::uint64_t GalerkinModel::constrain_memory(std::span<const int> base, std::sp
 }
 
 std::uint64_t GalerkinModel::check_memory(std::span<const int> base, std::span<const int> handles) const {
-    return galerkin_reference_memory(system_->boundary().mesh(), joined(base, handles));
+    const std::vector<int> vertices = joined(base, handles);
+    const GalerkinTractions tractions(system_->boundary().mesh(), system_->surfaces(), vertices);
+    return std::max(galerkin_reference_memory(system_->boundary().mesh(), method_, vertices),
+                    galerkin_residual_memory(system_->boundary().mesh(), tractions.n_loaded(system_->surfaces())));
 }
 
 void GalerkinModel::visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const {

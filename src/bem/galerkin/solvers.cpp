@@ -163,36 +163,4 @@ NodeSolution GalerkinDirectSolver::solve(const Eigen::MatrixXd& prescribed, bool
     return solution;
 }
 
-double galerkin_residual(const GalerkinSystem& system, const std::vector<int>& vertices,
-                         const GalerkinTractions& tractions, std::span<const UnitLoad> loads,
-                         const NodeSolution& solution, Control& control) {
-    const GalerkinOperators operators = system.operators(tractions, control);
-    const Eigen::MatrixXd D = system.hypersingular(control);
-    const Eigen::MatrixXd &K = operators.double_layer, &V = operators.single_layer;
-    const Eigen::VectorXd u = solution.displacements.col(0), t = solution.loads.col(0).tail(tractions.size());
-    Eigen::VectorXd off = D * u, size = D.cwiseAbs() * u.cwiseAbs();
-    const auto ratio = [](const Eigen::VectorXd& part, const Eigen::VectorXd& whole) {
-        return whole.norm() > 0.0 ? part.norm() / whole.norm() : 0.0;
-    };
-    Eigen::VectorXd given = Eigen::VectorXd::Zero(t.size());
-    if (!loads.empty()) {
-        const Eigen::VectorXd forces = system.given_nodal_forces(loads, control) * solution.factors.col(0);
-        off -= forces;
-        size += forces.cwiseAbs();
-        given = system.given_single_layer(tractions, loads, control) * solution.factors.col(0);
-    }
-    // Both equations have units of their own, so each is judged by itself.
-    double second = 0.0;
-    if (t.size() > 0) {  // without a constrained triangle there is no second; the BLAS complains of empty matrices
-        off += K.transpose() * t;
-        size += K.cwiseAbs().transpose() * t.cwiseAbs();
-        second =
-            ratio(K * u - V * t - given, K.cwiseAbs() * u.cwiseAbs() + V.cwiseAbs() * t.cwiseAbs() + given.cwiseAbs());
-    }
-    for (std::size_t i = 0; i < vertices.size(); ++i)
-        off.segment<3>(3 * vertices[i]) -= solution.loads.col(0).segment<3>(3 * static_cast<Eigen::Index>(i));
-    const double first = ratio(off, size);
-    return std::max(first, second);
-}
-
 }  // namespace elastolab

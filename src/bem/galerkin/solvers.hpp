@@ -63,10 +63,4 @@ ReducedSystem galerkin_reduced_system(const std::shared_ptr<const GalerkinSystem
                                       const std::vector<int>& vertices, const GalerkinTractions& tractions,
                                       std::span<const UnitLoad> loads, Control& control);
 
-/// The larger of | D u + K^T (t + g) - R - B^T g | and | K u - V (t + g) |, g the given loads, each over the same of
-/// absolute values, Euclidean, with integrals computed afresh. loads: as those of a solution.
-double galerkin_residual(const GalerkinSystem& system, const std::vector<int>& vertices,
-                         const GalerkinTractions& tractions, std::span<const UnitLoad> loads,
-                         const NodeSolution& solution, Control& control);
-
 }  // namespace elastolab

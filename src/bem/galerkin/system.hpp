@@ -36,6 +36,8 @@ public:
     std::shared_ptr<const Boundary> shared_boundary() const { return boundary_; }
     const ClosedSurfaces& surfaces() const { return surfaces_; }
     std::shared_ptr<const HypersingularParts> parts() const { return parts_; }
+    const Material& material() const { return material_; }
+    double tolerance() const { return tolerance_; }
     Eigen::Index size() const { return 3 * boundary_->mesh().n_vertices(); }
     double reciprocal_condition() const { return factor_.reciprocal_condition(); }
     std::uint64_t memory_bytes() const;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <Eigen/Core>
 #include <span>
 #include <vector>
@@ -18,6 +19,12 @@ struct GalerkinTractions {
 
     GalerkinTractions() = default;
     GalerkinTractions(const SurfaceMesh& mesh, const ClosedSurfaces& surfaces, std::span<const int> vertices);
+    /// Triangles that carry tractions, those of whole surfaces too.
+    std::int64_t n_loaded(const ClosedSurfaces& surfaces) const {
+        std::int64_t n = std::ssize(triangles);
+        for (const int s : free_surfaces) n += std::ssize(surfaces.triangles[static_cast<std::size_t>(s)]);
+        return n;
+    }
     /// Scalar unknowns: those of the triangles, then those of the surfaces.
     Eigen::Index size() const { return 3 * std::ssize(triangles) + 6 * std::ssize(free_surfaces); }
 };

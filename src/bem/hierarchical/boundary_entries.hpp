@@ -13,6 +13,9 @@
 
 namespace elastolab {
 
+/// Size of the leaves of a tree of vertices.
+constexpr int kVerticesOfALeaf = 48;
+
 /// The pairs of triangles of one boundary, for the entries of all its Galerkin operators.
 class BoundaryPairs {
 public:

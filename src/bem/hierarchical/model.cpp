@@ -1,8 +1,11 @@
 #include "bem/hierarchical/model.hpp"
 
+#include <algorithm>
+
 #include "bem/cost.hpp"
 #include "bem/error_estimate.hpp"
 #include "bem/galerkin/field.hpp"
+#include "bem/galerkin/residual.hpp"
 #include "bem/given_loads.hpp"
 
 namespace elastolab {
@@ -35,11 +38,19 @@ std::unique_ptr<ConstrainedSolid> HierarchicalGalerkinModel::constrain(std::span
                                                        method_.update == Update::direct, control);
     const auto residual = [system = system_, vertices, tractions, loads](const NodeSolution& solution,
                                                                          Control& its_control) {
-        return hierarchical_residual(*system, vertices, tractions, loads, solution, its_control);
+        const GalerkinEquations equations{system->pairs(), system->tree(), system->surfaces(), system->material()};
+        GivenTerms given;
+        if (!loads.empty())
+            given = {to_item_order(*system->tree(), system->given_nodal_forces(loads, its_control)) *
+                         solution.factors.col(0),
+                     given_single_layer(system->pairs(), system->surfaces(), tractions, system->material(), loads,
+                                        its_control) *
+                         solution.factors.col(0)};
+        return galerkin_residual(equations, vertices, tractions, given, solution, its_control);
     };
-    const auto reference = [system = system_, nu, vertices, loads](const Eigen::VectorXd& values, const NodeSolution&,
-                                                                   Control& its_control) {
-        return galerkin_self_reference(system->boundary().mesh(), nu, vertices, loads, values, its_control);
+    const auto reference = [system = system_, method = method_, nu, vertices, loads](
+                               const Eigen::VectorXd& values, const NodeSolution&, Control& its_control) {
+        return galerkin_self_reference(system->boundary().mesh(), method, nu, vertices, loads, values, its_control);
     };
     const auto inside = [boundary = std::shared_ptr<const Boundary>(system_, &system_->boundary()), vertices, tractions,
                          loads, nu](NodeSolution&& solution, Control&) {
@@ -55,14 +66,14 @@ std::uint64_t HierarchicalGalerkinModel::constrain_memory(std::span<const int> b
                                                           std::span<const int> handles) const {
     const std::vector<int> vertices = joined(base, handles);
     const GalerkinTractions tractions(system_->boundary().mesh(), system_->surfaces(), vertices);
-    std::int64_t n_loaded = std::ssize(tractions.triangles);
-    for (const int s : tractions.free_surfaces)
-        n_loaded += std::ssize(system_->surfaces().triangles[static_cast<std::size_t>(s)]);
-    return hierarchical_set_memory(facts_.n_vertices, n_loaded, tractions.size());
+    return hierarchical_set_memory(facts_.n_vertices, tractions.n_loaded(system_->surfaces()), tractions.size());
 }
 
 std::uint64_t HierarchicalGalerkinModel::check_memory(std::span<const int> base, std::span<const int> handles) const {
-    return galerkin_reference_memory(system_->boundary().mesh(), joined(base, handles));
+    const std::vector<int> vertices = joined(base, handles);
+    const GalerkinTractions tractions(system_->boundary().mesh(), system_->surfaces(), vertices);
+    return std::max(galerkin_reference_memory(system_->boundary().mesh(), method_, vertices),
+                    galerkin_residual_memory(system_->boundary().mesh(), tractions.n_loaded(system_->surfaces())));
 }
 
 }  // namespace elastolab

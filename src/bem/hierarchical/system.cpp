@@ -10,7 +10,6 @@ namespace elastolab {
 
 namespace {
 
-constexpr int kVerticesOfALeaf = 48;
 /// Tolerance of a far block over that of an integral, and its upper bound: the far field is a small part of D, whose
 /// entries fall with the cube of the distance. Displacements then differ by 3e-8 from those of the dense matrix (rabbit
 /// of 2500 vertices, integrals to 1e-8), by 2e-7 at ten times as much and 1e-8 at a tenth.

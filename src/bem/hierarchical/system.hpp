@@ -106,9 +106,4 @@ private:
     mutable RecycledSolutions recycled_;
 };
 
-/// As galerkin_residual, over a sample of the equations, with entries computed afresh.
-double hierarchical_residual(const HierarchicalSystem& system, const std::vector<int>& vertices,
-                             const GalerkinTractions& tractions, std::span<const UnitLoad> loads,
-                             const NodeSolution& solution, Control& control);
-
 }  // namespace elastolab

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "mesh/surface_mesh.hpp"
+
+namespace elastolab {
+
+/// Flops, at the speed of the matrix product, of the pairs of triangles that nearly touch without a common corner, as
+/// on both sides of a thin plate: from the quadrature points of a few of them and the number around some triangles.
+/// Zero for bodies without such walls. Milliseconds.
+double nearly_touching_flops(const SurfaceMesh& surface);
+
+}  // namespace elastolab
