@@ -44,6 +44,7 @@ bool tells_of(const Finding& finding, Wrong what) {
         case FindingKind::unstable_equilibrium:
             return true;
         case FindingKind::linear_theory:  // of the theory; answers are judged within it
+        case FindingKind::no_estimate:
         case FindingKind::contact:
         case FindingKind::nothing_constrained:
         case FindingKind::choice_left_aside:
