@@ -63,9 +63,10 @@ GalerkinModel::GalerkinModel(const SurfaceMesh& surface, double poisson_ratio, c
 }
 
 std::unique_ptr<ConstrainedSolid> GalerkinModel::constrain(std::span<const int> base, std::span<const int> handles,
-                                                           std::span<const UnitLoad> given, Control& control) const {
+                                                           std::span<const UnitLoad> unit_loads,
+                                                           Control& control) const {
     const std::vector<int> vertices = joined(base, handles);
-    const std::vector<UnitLoad> loads(given.begin(), given.end());
+    const std::vector<UnitLoad> loads(unit_loads.begin(), unit_loads.end());
     const SurfaceMesh& mesh = system_->boundary().mesh();
     const GalerkinTractions tractions(mesh, system_->surfaces(), vertices);
     std::unique_ptr<NodeSolver> solver;

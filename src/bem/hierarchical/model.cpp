@@ -27,10 +27,10 @@ HierarchicalGalerkinModel::HierarchicalGalerkinModel(const SurfaceMesh& surface,
 
 std::unique_ptr<ConstrainedSolid> HierarchicalGalerkinModel::constrain(std::span<const int> base,
                                                                        std::span<const int> handles,
-                                                                       std::span<const UnitLoad> given,
+                                                                       std::span<const UnitLoad> unit_loads,
                                                                        Control& control) const {
     const std::vector<int> vertices = joined(base, handles);
-    const std::vector<UnitLoad> loads(given.begin(), given.end());
+    const std::vector<UnitLoad> loads(unit_loads.begin(), unit_loads.end());
     const SurfaceMesh& mesh = system_->boundary().mesh();
     const double nu = system_->material().poisson_ratio;
     const GalerkinTractions tractions(mesh, system_->surfaces(), vertices);
