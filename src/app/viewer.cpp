@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "app/autosave.hpp"
-#include "app/input/dispatch.hpp"
+#include "app/dispatch.hpp"
 #include "app/input/interaction_log.hpp"
 #include "app/panels/gui.hpp"
 #include "app/panels/layout.hpp"

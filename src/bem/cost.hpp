@@ -4,19 +4,19 @@
 
 namespace elastolab {
 
-Cost predict_constant_bem(const SurfaceMesh& surface, const Method& method);
-Cost predict_linear_bem(const SurfaceMesh& surface, const Method& method);
-Cost predict_galerkin_bem(const SurfaceMesh& surface, const Method& method);
-
 /// Whether Galerkin and linear BEM keep their operators as hierarchical matrices: on demand, on surfaces for which that
 /// is cheaper.
 bool is_hierarchical(const SurfaceMesh& surface, const Method& method);
-/// Number of scalar tractions of a constrained set up to which the single layer is then factorised: 0.3 GB.
-constexpr std::int64_t kMostFactorisedTractions = 6000;
-/// Bytes of a constrained set by iteration: its tractions, the preconditioner and vectors. n_loaded: triangles that
-/// carry tractions, those of surfaces with rigid fields too.
-std::uint64_t hierarchical_set_memory(std::int64_t n_vertices, std::int64_t n_loaded, std::int64_t n_tractions);
-/// The same by linear collocation. n_points: equations, n_slots: tractions, three scalars each.
-std::uint64_t collocation_set_memory(std::int64_t n_vertices, std::int64_t n_points, std::int64_t n_slots);
+
+/// Arithmetic per pair of point and triangle, in flops at the speed of the matrix product: about 0.1 us on a core.
+constexpr double kFlopsPerPair = 3000.0;
+/// Bytes that every boundary method needs besides its matrices.
+constexpr std::uint64_t kLeastMemory = 12u << 20;
+
+/// Levels of clusters of hierarchical matrices.
+double cluster_levels(std::int64_t n_vertices);
+/// Of a method with hierarchical matrices. bytes: per vertex and level of clusters; flops: beside the power 4/3 of the
+/// number of vertices, with which time was measured to grow.
+Cost predict_hierarchical(const SurfaceMesh& surface, double bytes, double flops);
 
 }  // namespace elastolab

@@ -3,15 +3,12 @@
 #include <Eigen/Core>
 #include <memory>
 #include <span>
+#include <vector>
 
-#include "base/control.hpp"
 #include "bem/boundary.hpp"
 #include "bem/boundary_field.hpp"
-#include "bem/galerkin/tractions.hpp"
-#include "bem/hierarchical/boundary_entries.hpp"
 #include "deform/solid_model.hpp"
 #include "deform/unit_load.hpp"
-#include "elasticity/material.hpp"
 
 namespace elastolab {
 
@@ -35,20 +32,14 @@ struct BodyForceField {
 ParticularField particular_field(const SurfaceMesh& mesh, double poisson_ratio, const Positions& prescribed,
                                  std::span<const UnitLoad> loads);
 
-/// Collocation: the single layer of the loads' tractions, seen from sources: 3*sources x loads.size(). Integrates in
-/// strips. Throws Cancelled.
-Eigen::MatrixXd given_single_layer(const Boundary& boundary, const Sources& sources, const Material& material,
-                                   double tolerance, std::span<const UnitLoad> loads, Control& control);
-
-/// Galerkin: (B - K)^T g, what the loads' tractions add to the nodes' equations: 3*n_vertices x loads.size(),
-/// node-major. Their resultant is exact. In K^T g the tractions of a body force are those at the triangles' centroids.
-/// Throws Cancelled.
-Eigen::MatrixXd given_nodal_forces(const std::shared_ptr<const BoundaryPairs>& pairs, const Material& material,
-                                   std::span<const UnitLoad> loads, Control& control);
-/// Galerkin: V g on the tractions of a constrained set: tractions.size() x loads.size(). Throws Cancelled.
-Eigen::MatrixXd given_single_layer(const std::shared_ptr<const BoundaryPairs>& pairs, const ClosedSurfaces& surfaces,
-                                   const GalerkinTractions& tractions, const Material& material,
-                                   std::span<const UnitLoad> loads, Control& control);
+/// The tractions of some loads, body forces' or others': shape functions on the loaded triangles, and coefficients.
+struct GivenTractions {
+    Elements elements;
+    Eigen::MatrixXd coefficients;       ///< 3*elements.n_slots x columns.size()
+    std::vector<Eigen::Index> columns;  ///< which of all the loads these are
+};
+/// At most two: body forces' (b . x) n, linear on every triangle, and those constant on the triangles that carry them.
+std::vector<GivenTractions> given_tractions(const Boundary& boundary, std::span<const UnitLoad> loads);
 
 /// The tractions of the loads with these factors (loads.size() x m).
 void add_given(const Boundary& boundary, std::span<const UnitLoad> loads, const Eigen::MatrixXd& factors,

@@ -2,7 +2,7 @@
 
 #include "base/control.hpp"
 #include "elasticity/material.hpp"
-#include "fem/quadratic/quadratic_mesh.hpp"
+#include "fem/quadratic_mesh.hpp"
 #include "fem/sparse_matrix.hpp"
 #include "mesh/surface_mesh.hpp"
 

@@ -29,48 +29,36 @@ double roundness(const SurfaceMesh& mesh) {
     return std::min(1.0, std::max(squared, 1e-6));
 }
 
-/// What a sparse factorisation takes. Powers of the nodes, of the roundness and of nodes per vertex of the surface (how
-/// fine the inside is), fitted to 41 bodies of 390 to 40 000 vertices: cubes, bars, plates, rings, organic ones.
-struct FactorEstimate {
-    double entries = 0.0;  ///< of the factor
-    double flops = 0.0;
-    double nonzeros = 0.0;  ///< of the stiffness
-
-    /// nodes: of linear elements; those of quadratic ones have their own powers.
-    FactorEstimate(const SurfaceMesh& mesh, double nodes, bool quadratic) {
-        const double N = std::log(nodes), round = std::log(roundness(mesh)),
-                     inside = std::log(nodes / mesh.n_vertices());
-        if (quadratic) {
-            entries = 1e6 * std::exp(-7.878 + 1.4935 * N + 0.4956 * round + 0.1344 * inside);
-            flops = 1e9 * std::exp(-11.309 + 2.0683 * N + 1.0013 * round - 0.1498 * inside);
-            nonzeros = std::exp(6.721 + 1.1148 * N + 0.1653 * round + 0.0168 * inside);
-        } else {
-            entries = 1e6 * std::exp(-10.884 + 1.3441 * N + 0.1874 * round + 1.2735 * inside);
-            flops = 1e9 * std::exp(-13.930 + 1.6799 * N + 0.4645 * round + 1.3856 * inside);
-            nonzeros = std::exp(4.2565 + 1.0423 * N + 0.0504 * round + 0.3334 * inside);
-        }
-    }
-};
-
 /// Until TetGen's process runs [s].
 constexpr double kStart = 0.005;
 
-/// On demand, first set included. `elements_work`: what is done for nodes and tetrahedra, in flops of a product.
+}  // namespace
+
+FactorEstimate::FactorEstimate(const SurfaceMesh& mesh, double nodes, bool quadratic) {
+    const double N = std::log(nodes), round = std::log(roundness(mesh)), inside = std::log(nodes / mesh.n_vertices());
+    if (quadratic) {
+        entries = 1e6 * std::exp(-7.878 + 1.4935 * N + 0.4956 * round + 0.1344 * inside);
+        flops = 1e9 * std::exp(-11.309 + 2.0683 * N + 1.0013 * round - 0.1498 * inside);
+        nonzeros = std::exp(6.721 + 1.1148 * N + 0.1653 * round + 0.0168 * inside);
+    } else {
+        entries = 1e6 * std::exp(-10.884 + 1.3441 * N + 0.1874 * round + 1.2735 * inside);
+        flops = 1e9 * std::exp(-13.930 + 1.6799 * N + 0.4645 * round + 1.3856 * inside);
+        nonzeros = std::exp(4.2565 + 1.0423 * N + 0.0504 * round + 0.3334 * inside);
+    }
+}
+
+/// Measured: half the speed of a product; copies, the estimate of the condition and the first columns by entries.
+double FactorEstimate::seconds() const { return (2.4 * flops + 1500.0 * entries) / product_speed(); }
+
 Cost predict_sparse(const FactorEstimate& factor, double unknowns, double elements_work) {
     Cost cost{static_cast<std::int64_t>(unknowns), 0, 0.0};
     // The factor with its blocks' corners; K, its two parts and K with the base eliminated; tetrahedra and columns;
     // what the allocator keeps.
     cost.memory_bytes =
         static_cast<std::uint64_t>(10.5 * factor.entries + 4.0 * 13.0 * factor.nonzeros + 200.0 * unknowns + 8e6);
-    // Measured: half the speed of a product; copies, the estimate of the condition and the first columns by entries.
-    cost.seconds = kStart + (2.4 * factor.flops + 1500.0 * factor.entries + elements_work) / product_speed();
+    cost.seconds = kStart + factor.seconds() + elements_work / product_speed();
     return cost;
 }
-
-/// TetGen, assembly and ordering, for a node [flops of a product].
-constexpr double kNodeWork = 5e6;
-
-}  // namespace
 
 Cost predict_linear_fem(const SurfaceMesh& mesh, const Method& method) {
     const double all = estimated_tet_nodes(mesh), n = 3.0 * all, surface = 3.0 * mesh.n_vertices();
@@ -80,24 +68,6 @@ Cost predict_linear_fem(const SurfaceMesh& mesh, const Method& method) {
     const double dense = method.mode == Mode::full ? surface : n;
     cost.memory_bytes += 4 * square_bytes(dense + 6.0);
     cost.seconds += (2.0 * dense * dense * dense + 4.0 * surface * factor.entries) / product_speed();
-    return cost;
-}
-
-/// One more node for every edge, of which there are about six per vertex.
-Cost predict_quadratic_fem(const SurfaceMesh& mesh, const Method&) {
-    const double vertices = estimated_tet_nodes(mesh), nodes = 7.0 * vertices;
-    return predict_sparse(FactorEstimate(mesh, vertices, true), 3.0 * nodes, kNodeWork * (vertices + nodes / 3.0));
-}
-
-Cost predict_nonlinear_fem(const SurfaceMesh& mesh, const Method& method) {
-    constexpr double kIterations = 5.0;  // from rest to a motion of some 60 degrees
-    constexpr double kFactors = 5.0;     // at rest, of the equilibria that are remembered, and the next one
-    const bool quadratic = method.elements == ElementDegree::quadratic;
-    const double vertices = estimated_tet_nodes(mesh);
-    const FactorEstimate factor(mesh, vertices, quadratic);
-    Cost cost = quadratic ? predict_quadratic_fem(mesh, method) : predict_linear_fem(mesh, method);
-    cost.memory_bytes += static_cast<std::uint64_t>(10.5 * (kFactors - 1.0) * factor.entries);
-    cost.seconds += kIterations * (2.4 * factor.flops + 1500.0 * factor.entries) / product_speed();
     return cost;
 }
 

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "deform/unit_load.hpp"
-#include "fem/quadratic/quadratic_mesh.hpp"
+#include "fem/quadratic_mesh.hpp"
 #include "mesh/surface_mesh.hpp"
 
 namespace elastolab {

@@ -11,8 +11,9 @@ constinit const MethodTraits kLinearFemTraits = {
     .colour = 0,
     .matrix = "stiffness matrix",
     .cheaper = "a coarser mesh",
-    .against_coarseness = "Choose galerkin-bem or quadratic-fem, or halve the triangles along the rims of the "
-                          "constrained patches.",
+    .against_coarseness =
+        "Choose galerkin-bem or quadratic-fem, or halve the triangles along the rims of the "
+        "constrained patches.",
     .modes = kAllModes,
     .updates = kAllUpdates,
     .has_inside = true,

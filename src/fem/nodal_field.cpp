@@ -12,7 +12,7 @@
 #include "base/parallel.hpp"
 #include "elasticity/neo_hookean.hpp"
 #include "elasticity/stress.hpp"
-#include "fem/quadratic/quadratic_mesh.hpp"
+#include "fem/quadratic_mesh.hpp"
 
 namespace elastolab {
 

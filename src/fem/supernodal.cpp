@@ -75,7 +75,7 @@ private:
     const std::string& name_;
     Control& control_;
     std::vector<int> supernode_;             ///< of a row
-    std::vector<BlockUpdate> updates_;            ///< of all supernodes
+    std::vector<BlockUpdate> updates_;       ///< of all supernodes
     std::vector<std::size_t> first_update_;  ///< of each
     std::vector<Part> parts_;
     std::vector<int> top_;

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "bem/collocation/method.hpp"
 #include "bem/galerkin/method.hpp"
-#include "bem/method.hpp"
 #include "deform/method.hpp"
 #include "fem/method.hpp"
 #include "fem/nonlinear/method.hpp"

@@ -7,8 +7,8 @@
 
 #include "base/blas.hpp"
 #include "base/lapack.hpp"
-#include "bem/assembly.hpp"
-#include "bem/traction_space.hpp"
+#include "bem/collocation/assembly.hpp"
+#include "bem/collocation/traction_space.hpp"
 #include "benchmarks/tools.hpp"
 #include "elasticity/rigid_motion.hpp"
 #include "methods/registry.hpp"

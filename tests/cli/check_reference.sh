@@ -61,7 +61,7 @@ require "key" '## Scene files' < <(tr -d '\n' <"$scene_reader" | grep -oE 'requi
 require "primitive" '## Scene files' < <(sed -nE 's/^        \{"([a-z-]+)",$/\1/p' \
   "$root/src/mesh/primitive_names.cpp" | code)
 # The keys by what they do, since methods' keys and pairs share a row.
-readonly shortcuts=$root/src/app/input/shortcuts.cpp
+readonly shortcuts=$root/src/app/shortcuts.cpp
 require "shortcut" '### Keys' < <(sed -nE 's/^ *\{GLFW_KEY_[^"]*"[^"]+", "([^"]+)".*/\1/p' "$shortcuts")
 require "gesture" '### Mouse' < <(sed -n '/gesture_help()/,/^}/p' "$shortcuts" | sed -nE 's/^ *\{+"([^"]+)", .*/\1/p')
 require "option" '## Building and testing' < <(sed -nE 's/^(option\(|set\()(ELASTOLAB_[A-Z]+) .*/\2/p' \

@@ -12,7 +12,7 @@
 #include "elasticity/rigid_motion.hpp"
 #include "fem/fem_body.hpp"
 #include "fem/prescribed.hpp"
-#include "fem/quadratic/quadratic_mesh.hpp"
+#include "fem/quadratic_mesh.hpp"
 #include "mesh/tets/boundary.hpp"
 
 namespace elastolab {

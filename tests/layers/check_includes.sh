@@ -53,6 +53,13 @@ while IFS=: read -r file included; do
   [[ $included == "$layer" || " ${below[$layer]-} " == *" $included "* ]] || complain "$file: includes $included/..."
 done < <(includes '"[a-z_]+/')
 
+# Among the folders of a layer arrows go one way too: what two need lies in the layer itself, or in a third.
+while read -r layer; do
+  loop=$(includes "\"$layer/[a-z_]+/" | sed -E 's|^(.*)/[^/:]*:"(.*)/$|\1 \2|' | awk 'split($1, parts, "/") > 1 && $1 != $2' |
+    tsort 2>&1 >/dev/null | sed -n 's/^tsort: \([a-z].*\)/\1/p' | sort -u | tr '\n' ' ') || true
+  [[ -z $loop ]] || complain "$layer: folders include each other in a circle: $loop"
+done < <(printf '%s\n' "${!below[@]}" | sort)
+
 for entry in "${wrapped[@]}"; do
   pattern=${entry%|^*} allowed="^${entry##*|^}"
   while IFS=: read -r file _; do

@@ -30,4 +30,10 @@ try scene/document.hpp '#include <nlohmann/json_fwd.hpp>' 'includes nlohmann'
 try scene/a.cpp '#include <CLI/CLI.hpp>' 'includes CLI'
 try fem/a.hpp '#include <suitesparse/cholmod.h>' 'includes (.*/)?cholmod'
 try fem/b.cpp '#include <GL/gl.h>' 'includes'
+mkdir -p "$tree"/fem/{linear,nonlinear,dense}
+echo '#include "fem/linear/a.hpp"' > "$tree/fem/nonlinear/a.hpp"
+echo '#include "fem/nonlinear/a.hpp"' > "$tree/fem/dense/a.hpp"
+expect 0 "0 findings"
+echo '#include "fem/dense/a.hpp"' > "$tree/fem/linear/a.hpp"
+expect 1 "fem: folders include each other in a circle: fem/dense fem/linear fem/nonlinear"
 echo "all found"

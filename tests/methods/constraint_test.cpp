@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
-#include "bem/constant_constraints.hpp"
+#include "bem/collocation/constant_constraints.hpp"
 #include "deform/node_solver.hpp"
 #include "elasticity/rigid_motion.hpp"
 #include "findings/cost.hpp"

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "bem/error_estimate.hpp"
+#include "bem/galerkin/error_estimate.hpp"
 #include "elasticity/rigid_motion.hpp"
 #include "findings/solution.hpp"
 #include "findings/words.hpp"

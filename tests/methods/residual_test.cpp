@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "bem/mixed_solver.hpp"
+#include "bem/collocation/mixed_solver.hpp"
 #include "elasticity/exact_fields.hpp"
 #include "fem/assembly.hpp"
 #include "fem/solvers.hpp"

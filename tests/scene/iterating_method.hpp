@@ -1,7 +1,7 @@
 #pragma once
 
-#include "bem/method.hpp"
-#include "bem/model.hpp"
+#include "bem/collocation/method.hpp"
+#include "bem/collocation/model.hpp"
 
 namespace elastolab::test {
 

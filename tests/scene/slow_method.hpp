@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "base/control.hpp"
-#include "bem/method.hpp"
+#include "bem/collocation/method.hpp"
 #include "deform/solid_model.hpp"
 
 namespace elastolab::test {
@@ -38,7 +38,8 @@ public:
     NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const override {
         take_long();
         const Eigen::Index n = prescribed.rows() / 3, m = prescribed.cols();
-        NodeSolution solution{.displacements = Eigen::MatrixXd::Zero(3 * n_vertices_, m), .loads = {}, .prescribed = {}};
+        NodeSolution solution{
+            .displacements = Eigen::MatrixXd::Zero(3 * n_vertices_, m), .loads = {}, .prescribed = {}};
         for (Eigen::Index row = 0; row < 3 * n_vertices_; ++row)
             for (Eigen::Index i = 0; i < n; ++i)
                 solution.displacements.row(row) += prescribed.row(3 * i + row % 3) / static_cast<double>(n);

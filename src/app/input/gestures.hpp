@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "app/input/gizmo.hpp"
-#include "app/input/input_event.hpp"
 #include "app/input/patch.hpp"
 #include "app/settings.hpp"
+#include "app/window/input_event.hpp"
 #include "render/camera.hpp"
 #include "render/geometry/picking.hpp"
 #include "scene/live/live_scene.hpp"

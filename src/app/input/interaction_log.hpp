@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "app/input/input_event.hpp"
+#include "app/window/input_event.hpp"
 #include "base/atomic_file.hpp"
 
 namespace elastolab {

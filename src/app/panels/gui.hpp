@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "app/input/input_event.hpp"
 #include "app/window/fonts.hpp"
+#include "app/window/input_event.hpp"
 #include "app/window/window.hpp"
 
 struct ImFont;

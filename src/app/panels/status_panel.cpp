@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <span>
 
-#include "app/input/shortcuts.hpp"
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
+#include "app/shortcuts.hpp"
 #include "base/text.hpp"
 
 namespace elastolab {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/input/input_event.hpp"
+#include "app/window/input_event.hpp"
 
 struct GLFWwindow;
 

@@ -1,8 +1,9 @@
 #include "bem/galerkin/method.hpp"
 
 #include "bem/cost.hpp"
+#include "bem/galerkin/cost.hpp"
+#include "bem/galerkin/hierarchical_model.hpp"
 #include "bem/galerkin/model.hpp"
-#include "bem/hierarchical/model.hpp"
 
 namespace elastolab {
 

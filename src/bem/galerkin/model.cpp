@@ -3,8 +3,9 @@
 #include <algorithm>
 
 #include "base/memory.hpp"
-#include "bem/error_estimate.hpp"
+#include "bem/galerkin/error_estimate.hpp"
 #include "bem/galerkin/field.hpp"
+#include "bem/galerkin/given_loads.hpp"
 #include "bem/galerkin/residual.hpp"
 #include "bem/galerkin/solvers.hpp"
 #include "bem/given_loads.hpp"

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "base/control.hpp"
+#include "bem/galerkin/boundary_entries.hpp"
 #include "bem/galerkin/surfaces.hpp"
 #include "bem/galerkin/tractions.hpp"
-#include "bem/hierarchical/boundary_entries.hpp"
 #include "bem/hierarchical/cluster_tree.hpp"
 #include "deform/node_solver.hpp"
 #include "elasticity/material.hpp"

@@ -9,7 +9,7 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "elasticity/neo_hookean.hpp"
-#include "fem/quadratic/quadratic_mesh.hpp"
+#include "fem/quadratic_mesh.hpp"
 
 namespace elastolab {
 

@@ -1,6 +1,6 @@
 #include "fem/nonlinear/mesh.hpp"
 
-#include "fem/quadratic/quadratic_mesh.hpp"
+#include "fem/quadratic_mesh.hpp"
 
 namespace elastolab {
 

@@ -1,6 +1,6 @@
 #include "fem/nonlinear/method.hpp"
 
-#include "fem/cost.hpp"
+#include "fem/nonlinear/cost.hpp"
 #include "fem/nonlinear/model.hpp"
 
 namespace elastolab {

@@ -4,7 +4,7 @@
 #include "deform/holds.hpp"
 #include "deform/ten_node_elements.hpp"
 #include "fem/nodal_field.hpp"
-#include "fem/quadratic/quadratic_mesh.hpp"
+#include "fem/quadratic_mesh.hpp"
 #include "mesh/tets/tetrahedralize.hpp"
 
 namespace elastolab {

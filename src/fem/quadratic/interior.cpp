@@ -1,6 +1,6 @@
 #include "fem/quadratic/interior.hpp"
 
-#include "fem/quadratic/quadratic_mesh.hpp"
+#include "fem/quadratic_mesh.hpp"
 
 namespace elastolab {
 

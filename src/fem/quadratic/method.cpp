@@ -1,7 +1,7 @@
 #include "fem/quadratic/method.hpp"
 
-#include "fem/cost.hpp"
 #include "fem/model.hpp"
+#include "fem/quadratic/cost.hpp"
 
 namespace elastolab {
 

@@ -10,7 +10,7 @@
 #include "deform/patch_reactions.hpp"
 #include "fem/assembly.hpp"
 #include "fem/prescribed.hpp"
-#include "fem/quadratic/quadratic_mesh.hpp"
+#include "fem/quadratic_mesh.hpp"
 #include "mesh/measures.hpp"
 #include "mesh/refine.hpp"
 #include "mesh/tets/tetrahedralize.hpp"

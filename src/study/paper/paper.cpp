@@ -3,7 +3,7 @@
 #include <numeric>
 #include <utility>
 
-#include "bem/constant_constraints.hpp"
+#include "bem/collocation/constant_constraints.hpp"
 #include "deform/constraint_map.hpp"
 #include "elasticity/material.hpp"
 #include "mesh/primitives.hpp"

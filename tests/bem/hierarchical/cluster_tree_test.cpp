@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bem/boundary.hpp"
-#include "bem/hierarchical/boundary_entries.hpp"
+#include "bem/galerkin/boundary_entries.hpp"
 #include "bem/hierarchical/cluster_tree.hpp"
 #include "mesh/primitives.hpp"
 

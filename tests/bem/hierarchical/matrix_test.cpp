@@ -8,9 +8,9 @@
 
 #include "base/blas.hpp"
 #include "bem/common.hpp"
+#include "bem/galerkin/boundary_entries.hpp"
 #include "bem/galerkin/hypersingular.hpp"
 #include "bem/galerkin/traction_rows.hpp"
-#include "bem/hierarchical/boundary_entries.hpp"
 #include "bem/hierarchical/hierarchical_matrix.hpp"
 #include "mesh/primitives.hpp"
 #include "study/error/organic_body.hpp"

@@ -8,7 +8,7 @@
 
 #include "fem/nonlinear/elements.hpp"
 #include "fem/nonlinear/solver.hpp"
-#include "fem/quadratic/quadratic_mesh.hpp"
+#include "fem/quadratic_mesh.hpp"
 #include "support/tet_box.hpp"
 
 namespace elastolab::test {

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "deform/method.hpp"
+
+namespace elastolab {
+
+Cost predict_galerkin_bem(const SurfaceMesh& surface, const Method& method);
+
+/// With hierarchical matrices: number of scalar tractions of a constrained set up to which the single layer is
+/// factorised: 0.3 GB.
+constexpr std::int64_t kMostFactorisedTractions = 6000;
+/// Bytes of a constrained set by iteration: its tractions, the preconditioner and vectors. n_loaded: triangles that
+/// carry tractions, those of surfaces with rigid fields too.
+std::uint64_t hierarchical_set_memory(std::int64_t n_vertices, std::int64_t n_loaded, std::int64_t n_tractions);
+
+}  // namespace elastolab

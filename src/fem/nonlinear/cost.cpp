@@ -1,0 +1,21 @@
+#include "fem/nonlinear/cost.hpp"
+
+#include "fem/cost.hpp"
+#include "fem/quadratic/cost.hpp"
+#include "mesh/tets/node_estimate.hpp"
+
+namespace elastolab {
+
+Cost predict_nonlinear_fem(const SurfaceMesh& mesh, const Method& method) {
+    constexpr double kIterations = 5.0;  // from rest to a motion of some 60 degrees
+    constexpr double kFactors = 5.0;     // at rest, of the equilibria that are remembered, and the next one
+    const bool quadratic = method.elements == ElementDegree::quadratic;
+    const double vertices = estimated_tet_nodes(mesh);
+    const FactorEstimate factor(mesh, vertices, quadratic);
+    Cost cost = quadratic ? predict_quadratic_fem(mesh, method) : predict_linear_fem(mesh, method);
+    cost.memory_bytes += static_cast<std::uint64_t>(10.5 * (kFactors - 1.0) * factor.entries);
+    cost.seconds += kIterations * factor.seconds();
+    return cost;
+}
+
+}  // namespace elastolab
