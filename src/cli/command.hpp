@@ -34,5 +34,6 @@ Command add_info_command(CLI::App& program);
 Command add_view_command(CLI::App& program);
 Command add_bench_command(CLI::App& program);
 Command add_feel_command(CLI::App& program);
+Command add_thumbnail_command(CLI::App& program);
 
 }  // namespace elastolab

@@ -34,7 +34,7 @@ int run(int argc, char** argv) {
     program.require_subcommand(0, 1);
     const std::vector<Command> commands = {add_view_command(program), add_solve_command(program),
                                            add_info_command(program), add_bench_command(program),
-                                           add_feel_command(program)};
+                                           add_feel_command(program), add_thumbnail_command(program)};
     try {
         program.parse(argc, argv);
     } catch (const CLI::Success& request) {

@@ -33,7 +33,7 @@ code() { sed 's/.*/`&`/'; }                                   # words as code
 keys_of() { grep -oE '"[a-z_ ]+":' | tr -d '":' | sort -u; }  # of JSON
 options_of() { "$program" "$1" --help | grep -oE -- '--[a-z][a-z-]+' | grep -vx -- --help | sort -u; }
 
-for command in view solve info feel bench; do
+for command in view solve info feel bench thumbnail; do
   require "option" "## \`elastolab $command\`" < <(options_of "$command" | code)
 done
 require "study" '## `elastolab bench`' < <(sed -nE 's/^ +\{"([a-z-]+)", ".*/\1/p' "$root/src/study/studies.cpp" | code)
