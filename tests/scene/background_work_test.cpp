@@ -118,6 +118,7 @@ TEST(BackgroundWork, TellsTheProgressOfASetThatIsBeingPrepared) {
         return !seen.empty() && !prepares;
     });
     EXPECT_GT(seen.front().seconds, 0.0);
+    EXPECT_THAT(seen.back().stage, ::testing::AnyOf(::testing::StrEq("constrain"), ::testing::StrEq("solve")));
     for (std::size_t i = 0; i < seen.size(); ++i) {
         EXPECT_GE(seen[i].progress, 0.0);
         EXPECT_LE(seen[i].progress, 1.0);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/parallel.hpp"
+#include "bem/space_curve.hpp"
 #include "elasticity/far_field.hpp"
 
 namespace elastolab {
@@ -19,26 +20,6 @@ constexpr int kPacksPerBlock = 4;
 int numbers_of(Layer layer) { return layer == Layer::single_layer ? kSingleLayerNumbers : kDoubleLayerNumbers; }
 
 int n_packs(int n_sources, int lanes) { return (n_sources + lanes - 1) / lanes; }
-
-/// Sources along a space-filling (Morton) curve, so that those integrated together lie together, however the mesh is
-/// numbered: one rule serves them all, chosen for the nearest.
-std::vector<int> along_a_curve(const Sources& sources) {
-    constexpr int kBits = 20;
-    const Eigen::Array3d low = sources.points.rowwise().minCoeff(), high = sources.points.rowwise().maxCoeff();
-    const double step = std::max((high - low).maxCoeff(), 1e-300) / ((1 << kBits) - 1);
-    std::vector<std::pair<std::uint64_t, int>> keys;
-    for (int i = 0; i < sources.size(); ++i) {
-        const Eigen::Array3d cell = (sources.points.col(i).array() - low) / step;
-        std::uint64_t key = 0;
-        for (int bit = kBits - 1; bit >= 0; --bit)
-            for (int axis = 0; axis < 3; ++axis) key = 2 * key + ((static_cast<std::uint64_t>(cell[axis]) >> bit) & 1u);
-        keys.emplace_back(key, i);
-    }
-    std::sort(keys.begin(), keys.end());
-    std::vector<int> order;
-    for (const auto& [key, source] : keys) order.push_back(source);
-    return order;
-}
 
 /// As many sources as a kernel takes at once, and the ball around them.
 struct Pack {
@@ -71,7 +52,7 @@ public:
           sources_(sources),
           elements_(elements),
           far_field_(tolerance),
-          order_(along_a_curve(sources)) {
+          order_(along_a_curve(sources.points)) {
         const bool linear = elements.order == Elements::Order::linear;
         if (layer == Layer::single_layer)
             kernel_ = linear ? kernels_.single_layer_linear : kernels_.single_layer_constant;

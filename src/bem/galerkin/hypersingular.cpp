@@ -9,6 +9,7 @@
 
 #include "base/parallel.hpp"
 #include "bem/galerkin/hat_curls.hpp"
+#include "bem/space_curve.hpp"
 #include "elasticity/pair_integrals.hpp"
 
 namespace elastolab {

@@ -6,6 +6,7 @@
 
 #include "base/parallel.hpp"
 #include "bem/galerkin/hat_curls.hpp"
+#include "bem/space_curve.hpp"
 #include "elasticity/pair_integrals.hpp"
 
 namespace elastolab {
@@ -25,7 +26,7 @@ public:
           integrals_(triangles_, tolerance) {
         for (std::size_t i = 0; i < tests.size(); ++i)
             row_of_[static_cast<std::size_t>(tests[i])] = static_cast<int>(i);
-        order_ = triangles_along_a_curve(boundary, {tests.begin(), tests.end()});
+        order_ = triangles_along_a_curve(boundary, tests);
     }
 
     int n_packs() const { return (static_cast<int>(order_.size()) + integrals_.lanes() - 1) / integrals_.lanes(); }
