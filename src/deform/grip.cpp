@@ -31,29 +31,36 @@ GripStiffness::GripStiffness(const Deformer& deformer, const Eigen::VectorXd& va
         arms_.back().colwise() -= middles_.back();
     }
     const Eigen::Index n = 6 * std::ssize(grips_);
-    const Eigen::Index n_base = std::ssize(deformer.set().base);
-    const auto resultants = [&](const Eigen::VectorXd& of) {
-        const Reactions reactions = deformer.answer(of, {}, control).reactions;
-        Eigen::VectorXd sums(n);
-        for (std::size_t g = 0; g < grips_.size(); ++g) {
-            const Eigen::Index first = n_base + grips_[g].begin, count = grips_[g].end - grips_[g].begin;
-            const Eigen::Vector3d force = reactions.forces.middleCols(first, count).rowwise().sum();
-            const Eigen::Vector3d moment = reactions.moments.middleCols(first, count).rowwise().sum();
-            sums.segment<6>(6 * static_cast<Eigen::Index>(g)) << force, moment - middles_[g].cross(force);
-        }
-        return sums;
-    };
-    Eigen::VectorXd others = values;
-    move(Eigen::VectorXd::Zero(n), others);
-    rest_ = resultants(others);
+    set_others(deformer, values, control);
     matrix_.resize(n, n);
     for (Eigen::Index k = 0; k < n; ++k) {
         // Loads stay out of the columns, so that they need not balance there.
         Eigen::VectorXd unit = Eigen::VectorXd::Zero(values.size());
         Eigen::VectorXd motion = Eigen::VectorXd::Unit(n, k);
         move(motion, unit);
-        matrix_.col(k) = resultants(unit);
+        matrix_.col(k) = resultants(deformer, unit, control);
     }
+}
+
+/// Force over moment about its middle of each grip, for these values.
+Eigen::VectorXd GripStiffness::resultants(const Deformer& deformer, const Eigen::VectorXd& values,
+                                          Control& control) const {
+    const Reactions reactions = deformer.answer(values, {}, control).reactions;
+    const Eigen::Index n_base = std::ssize(deformer.set().base);
+    Eigen::VectorXd sums(6 * std::ssize(grips_));
+    for (std::size_t g = 0; g < grips_.size(); ++g) {
+        const Eigen::Index first = n_base + grips_[g].begin, count = grips_[g].end - grips_[g].begin;
+        const Eigen::Vector3d force = reactions.forces.middleCols(first, count).rowwise().sum();
+        const Eigen::Vector3d moment = reactions.moments.middleCols(first, count).rowwise().sum();
+        sums.segment<6>(6 * static_cast<Eigen::Index>(g)) << force, moment - middles_[g].cross(force);
+    }
+    return sums;
+}
+
+void GripStiffness::set_others(const Deformer& deformer, const Eigen::VectorXd& values, Control& control) {
+    Eigen::VectorXd others = values;
+    move(Eigen::VectorXd::Zero(6 * std::ssize(grips_)), others);
+    rest_ = resultants(deformer, others, control);
 }
 
 void GripStiffness::move(const Eigen::VectorXd& motions, Eigen::VectorXd& values) const {
@@ -65,11 +72,13 @@ void GripStiffness::move(const Eigen::VectorXd& motions, Eigen::VectorXd& values
     }
 }
 
-Eigen::VectorXd GripStiffness::motions(const Eigen::VectorXd& forces) const {
+Eigen::VectorXd GripStiffness::motions(const Eigen::VectorXd& forces, const Eigen::VectorXd& springs) const {
     // In units in which rotations and moments are lengths and forces.
     Eigen::VectorXd unit = Eigen::VectorXd::Ones(matrix_.rows());
     for (Eigen::Index g = 0; g < n_grips(); ++g) unit.segment<3>(6 * g + 3).setConstant(1.0 / length_);
-    const Eigen::MatrixXd scaled = unit.asDiagonal() * matrix_ * unit.asDiagonal();
+    Eigen::MatrixXd held = matrix_;
+    for (Eigen::Index g = 0; g < springs.size(); ++g) held.diagonal().segment<3>(6 * g).array() += springs[g];
+    const Eigen::MatrixXd scaled = unit.asDiagonal() * held * unit.asDiagonal();
     const Eigen::VectorXd wanted = unit.asDiagonal() * (forces - rest_);
     Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
     decomposition.setThreshold(kNoStiffness);

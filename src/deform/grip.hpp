@@ -11,6 +11,7 @@ namespace elastolab {
 /// A patch of handle vertices that moves as one rigid piece: places [begin, end) in ConstrainedSet::handles.
 struct Grip {
     int begin = 0, end = 0;
+    bool operator==(const Grip&) const = default;
 };
 
 /// Forces and moments that some rigid grips exert on a body, as a linear function of their motions (of small ones:
@@ -27,6 +28,11 @@ public:
     /// solves with reactions. Throws SolveError, Cancelled.
     GripStiffness(const Deformer& deformer, const Eigen::VectorXd& values, std::vector<Grip> grips, Control& control);
 
+    /// Everything else prescribed and loaded by other values: one solve with reactions. deformer: that of the
+    /// constructor. Throws SolveError, Cancelled.
+    void set_others(const Deformer& deformer, const Eigen::VectorXd& values, Control& control);
+
+    const std::vector<Grip>& grips() const { return grips_; }
     int n_grips() const { return static_cast<int>(grips_.size()); }
     const Eigen::Vector3d& middle(int grip) const { return middles_[static_cast<std::size_t>(grip)]; }
     /// 6 k x 6 k: force over moment of each grip, per translation [L] over rotation [rad] of each.
@@ -36,11 +42,14 @@ public:
     /// The motions at which the grips exert these forces (6 k). Where the body is free to move with the grips, those
     /// without the motion that no force resists. Throws SolveError where no motion does: forces do not balance on a
     /// body that nothing else holds, or a grip of one or two vertices is to carry a moment.
-    Eigen::VectorXd motions(const Eigen::VectorXd& forces) const;
+    /// springs: one a grip [force / L], or none at all: a force is less by this times the shift of the grip's middle.
+    Eigen::VectorXd motions(const Eigen::VectorXd& forces, const Eigen::VectorXd& springs = {}) const;
     /// Puts motions (6 k) into the grips' rows of a Deformer's values.
     void move(const Eigen::VectorXd& motions, Eigen::VectorXd& values) const;
 
 private:
+    Eigen::VectorXd resultants(const Deformer& deformer, const Eigen::VectorXd& values, Control& control) const;
+
     std::vector<Grip> grips_;
     std::vector<Eigen::Vector3d> middles_;
     std::vector<Eigen::Matrix3Xd> arms_;  ///< of the vertices of each grip, from its middle

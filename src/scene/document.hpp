@@ -92,6 +92,9 @@ struct VertexMotion {
 struct GripForce {
     Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< [force]
     Eigen::Vector3d moment = Eigen::Vector3d::Zero();  ///< [force * L]
+    /// While a person pulls through a spring: the force is less by this times the shift of the middle [force / L]. Not
+    /// part of scene files.
+    double spring = 0.0;
     bool operator==(const GripForce&) const = default;
 };
 
@@ -123,11 +126,12 @@ struct PressureLoad {
     bool operator==(const PressureLoad&) const = default;
 };
 
+using LoadValue = std::variant<ForceLoad, TractionLoad, PressureLoad>;
 /// A load on the triangles whose vertices are all selected.
 struct Load {
     std::string name;  ///< empty: called after its place in the list
     Selector select;
-    std::variant<ForceLoad, TractionLoad, PressureLoad> value;
+    LoadValue value;
     bool operator==(const Load&) const = default;
 };
 /// What a load without a name of its own is called.

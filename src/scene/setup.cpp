@@ -47,20 +47,20 @@ SurfaceMesh make_mesh(const Primitive& primitive, const fs::path& scene_file) {
 /// Collects constraints and notices a vertex that is claimed twice.
 class Collector {
 public:
-    Collector(const Document& document, const SurfaceMesh& mesh, const fs::path& scene_file)
+    Collector(const Document& document, const SurfaceMesh& mesh, const fs::path& scene_file,
+              ConstrainedTriangles loaded)
         : document_(document),
           mesh_(mesh),
           scene_file_(scene_file),
+          loaded_(loaded),
           owner_(static_cast<std::size_t>(mesh.n_vertices()), kNobody) {}
 
     Constraints collect() && {
         for (std::size_t i = 0; i < document_.fixed.size(); ++i) add_fixed(i);
         if (!result_.fixed_sets.empty()) result_.groups.push_back({"fixed", 0, result_.fixed_sets.back().end});
         for (std::size_t i = 0; i < document_.handles.size(); ++i) add_handle(i);
-        if (document_.gravity) add_load("gravity", AppliedLoad::Kind::gravity, {});
+        if (document_.gravity) apply({.name = "gravity", .kind = AppliedLoad::Kind::gravity});
         for (std::size_t i = 0; i < document_.loads.size(); ++i) add_load(i);
-        const Eigen::VectorXd factors = load_factors(document_);
-        values_.insert(values_.end(), factors.begin(), factors.end());
         result_.values = Eigen::Map<const Eigen::VectorXd>(values_.data(), std::ssize(values_));
         return std::move(result_);
     }
@@ -98,6 +98,7 @@ private:
         for (const int v : select_vertices(mesh_, load.select, place(scene_file_, path + "/select")))
             selected[static_cast<std::size_t>(v)] = 1;
         std::vector<int> triangles;
+        bool selects_any = false;
         for (int t = 0; t < mesh_.n_triangles(); ++t) {
             bool whole = true, constrained = true;
             for (const int v : mesh_.triangles.col(t)) {
@@ -105,6 +106,8 @@ private:
                 constrained = constrained && owner_[static_cast<std::size_t>(v)] != kNobody;
             }
             if (!whole) continue;
+            selects_any = true;
+            if (constrained && loaded_ == ConstrainedTriangles::left_out) continue;
             if (constrained)
                 fail(scene_file_, path + "/select",
                      "triangle " + std::to_string(t) +
@@ -112,20 +115,27 @@ private:
                          "Load triangles that are free.");
             triangles.push_back(t);
         }
-        if (triangles.empty())
+        if (!selects_any)
             fail(scene_file_, path + "/select",
                  "selects no triangle: of none are all three vertices selected. Select more vertices.");
         const std::string name = load.name.empty() ? default_load_name(i) : load.name;
         for (const AppliedLoad& other : result_.loads)
             if (other.name == name) fail_named_twice("/loads", name);
-        add_load(name, static_cast<AppliedLoad::Kind>(1 + load.value.index()), std::move(triangles));
+        if (triangles.empty()) return;
+        apply({.name = name,
+               .kind = static_cast<AppliedLoad::Kind>(1 + load.value.index()),
+               .triangles = std::move(triangles),
+               .number = static_cast<int>(i)});
     }
 
-    void add_load(std::string name, AppliedLoad::Kind kind, std::vector<int> triangles) {
-        const std::vector<UnitLoad> units = unit_loads(kind, mesh_, triangles);
-        result_.loads.push_back({std::move(name), kind, std::move(triangles),
-                                 static_cast<int>(result_.set.loads.size()), static_cast<int>(units.size())});
+    void apply(AppliedLoad load) {
+        const std::vector<UnitLoad> units = unit_loads(load.kind, mesh_, load.triangles);
+        load.first = static_cast<int>(result_.set.loads.size());
+        load.count = static_cast<int>(units.size());
+        const Eigen::VectorXd factors = load_factors(document_, load);
+        values_.insert(values_.end(), factors.begin(), factors.end());
         result_.set.loads.insert(result_.set.loads.end(), units.begin(), units.end());
+        result_.loads.push_back(std::move(load));
     }
 
     std::vector<int> claim(const Selector& selector, const std::string& path, int owner) {
@@ -190,6 +200,7 @@ private:
     const Document& document_;
     const SurfaceMesh& mesh_;
     const fs::path& scene_file_;
+    ConstrainedTriangles loaded_;
     std::vector<int> owner_;  ///< for every vertex: kNobody, its handle, or kFirstFixed and below
     std::vector<double> values_;
     Constraints result_;
@@ -248,22 +259,56 @@ std::vector<UnitLoad> unit_loads(AppliedLoad::Kind kind, const SurfaceMesh& surf
     return loads;
 }
 
-Eigen::VectorXd load_factors(const Document& document) {
-    std::vector<double> factors;
-    const auto add = [&](const Eigen::Vector3d& vector) {
-        factors.insert(factors.end(), vector.begin(), vector.end());
-    };
-    if (document.gravity) add(document.density * *document.gravity);
-    for (const Load& load : document.loads)
-        std::visit(Overloaded{[&](const ForceLoad& value) { add(value.force); },
-                              [&](const TractionLoad& value) { add(value.traction); },
-                              [&](const PressureLoad& value) { factors.push_back(value.pressure); }},
-                   load.value);
-    return Eigen::Map<const Eigen::VectorXd>(factors.data(), std::ssize(factors));
+Eigen::VectorXd load_factors(const LoadValue& value) {
+    return std::visit(Overloaded{[](const ForceLoad& load) -> Eigen::VectorXd { return load.force; },
+                                 [](const TractionLoad& load) -> Eigen::VectorXd { return load.traction; },
+                                 [](const PressureLoad& load) -> Eigen::VectorXd {
+                                     return Eigen::VectorXd::Constant(1, load.pressure);
+                                 }},
+                      value);
+}
+
+Eigen::VectorXd load_factors(const Document& document, const AppliedLoad& load) {
+    if (load.kind == AppliedLoad::Kind::gravity) return document.density * *document.gravity;
+    return load_factors(document.loads[static_cast<std::size_t>(load.number)].value);
 }
 
 bool Constraints::has_forces() const {
     return std::any_of(forces.begin(), forces.end(), [](const auto& force) { return force.has_value(); });
+}
+
+std::vector<std::size_t> Constraints::gripped() const {
+    std::vector<std::size_t> handles;
+    for (std::size_t h = 0; h < forces.size(); ++h)
+        if (const auto [begin, end] = range_of(h); forces[h] && begin < end) handles.push_back(h);
+    return handles;
+}
+
+std::vector<Grip> Constraints::grips() const {
+    std::vector<Grip> all;
+    for (const std::size_t h : gripped()) all.push_back({range_of(h).first, range_of(h).second});
+    return all;
+}
+
+std::vector<AffineMotion> Constraints::move_grips(const GripStiffness& stiffness, const Positions& vertices) {
+    const std::vector<std::size_t> handles = gripped();
+    Eigen::VectorXd wanted(6 * std::ssize(handles)), springs(std::ssize(handles));
+    for (Eigen::Index g = 0; g < springs.size(); ++g) {
+        const GripForce& grip = *forces[handles[static_cast<std::size_t>(g)]];
+        wanted.segment<6>(6 * g) << grip.force, grip.moment;
+        springs[g] = grip.spring;
+    }
+    const Eigen::VectorXd found = stiffness.motions(wanted, springs);
+    std::vector<AffineMotion> moved;
+    for (std::size_t g = 0; g < handles.size(); ++g) {
+        const Eigen::Vector3d shift = found.segment<3>(6 * static_cast<Eigen::Index>(g));
+        const Eigen::Vector3d turn = found.segment<3>(6 * static_cast<Eigen::Index>(g) + 3);
+        AffineMotion& motion = moved.emplace_back();
+        for (int axis = 0; axis < 3; ++axis) motion.matrix.col(axis) = turn.cross(Eigen::Vector3d::Unit(axis));
+        motion.translate = shift - motion.matrix * stiffness.middle(static_cast<int>(g));
+        move(handles[g], motion, vertices);
+    }
+    return moved;
 }
 
 std::pair<int, int> Constraints::range_of(std::size_t handle) const {
@@ -376,8 +421,9 @@ void require_balance(const Document& document, const Constraints& constraints, c
     }
 }
 
-Constraints make_constraints(const Document& document, const SurfaceMesh& mesh, const fs::path& scene_file) {
-    return Collector(document, mesh, scene_file).collect();
+Constraints make_constraints(const Document& document, const SurfaceMesh& mesh, const fs::path& scene_file,
+                             ConstrainedTriangles loaded) {
+    return Collector(document, mesh, scene_file, loaded).collect();
 }
 
 }  // namespace elastolab

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "deform/deformer.hpp"
+#include "deform/grip.hpp"
 #include "deform/model.hpp"
 #include "mesh/checks/check.hpp"
 #include "scene/document.hpp"
@@ -48,13 +49,16 @@ struct AppliedLoad {
     Kind kind = Kind::gravity;
     std::vector<int> triangles = {};  ///< loaded ones of the surface; none: the whole body's weight
     int first = 0;
-    int count = 0;  ///< 3 for a vector, one unit load for each axis; 1 for a pressure
+    int count = 0;    ///< 3 for a vector, one unit load for each axis; 1 for a pressure
+    int number = -1;  ///< among the document's loads; -1: its gravity
     bool operator==(const AppliedLoad&) const = default;
 };
 /// Its unit loads on these triangles of a surface, which may be another than that of the scene.
 std::vector<UnitLoad> unit_loads(AppliedLoad::Kind kind, const SurfaceMesh& surface, const std::vector<int>& triangles);
-/// The factors of a document's gravity (density times acceleration), then of each of its loads.
-Eigen::VectorXd load_factors(const Document& document);
+/// The factors of its unit loads: of a load of this size; of gravity, the density times the acceleration.
+Eigen::VectorXd load_factors(const LoadValue& value);
+/// Those of the document's gravity or load that was applied.
+Eigen::VectorXd load_factors(const Document& document, const AppliedLoad& load);
 
 /// What a scene prescribes, in the form that a Deformer takes.
 struct Constraints {
@@ -70,18 +74,28 @@ struct Constraints {
 
     bool has_fixed() const { return groups.size() > motions.size(); }
     bool has_forces() const;
+    /// Handles that move by a force, those without vertices left out, and their patches as grips.
+    std::vector<std::size_t> gripped() const;
+    std::vector<Grip> grips() const;
+    /// Moves them to where their forces are in equilibrium; stiffness: of grips(), with everything else at these
+    /// values. Returns their motions. Throws SolveError (GripStiffness::motions).
+    std::vector<AffineMotion> move_grips(const GripStiffness& stiffness, const Positions& vertices);
     /// Places of a handle's vertices in set.handles: [begin, end).
     std::pair<int, int> range_of(std::size_t handle) const;
     /// Gives a handle another motion; vertices: of the surface that the set is on.
     void move(std::size_t handle, const AffineMotion& motion, const Positions& vertices);
 };
 
+/// What becomes of a load's triangles whose vertices are all constrained, where it has no effect: they are an error, or
+/// left out, and with them a load that acts on no other. A total force is spread over those that are left.
+enum class ConstrainedTriangles { error, left_out };
+
 /// Throws SceneError naming the JSON path when a selector selects nothing or a vertex that is not there, when a vertex
 /// is constrained twice, when a load acts on no triangle or on one whose vertices are all constrained, when a handle is
 /// called "fixed", when two sets or handles have the same name, or when its displacements are not one for each of its
 /// vertices or not finite. The constraints of a document on its mesh.
-Constraints make_constraints(const Document& document, const SurfaceMesh& mesh,
-                             const std::filesystem::path& scene_file);
+Constraints make_constraints(const Document& document, const SurfaceMesh& mesh, const std::filesystem::path& scene_file,
+                             ConstrainedTriangles loaded = ConstrainedTriangles::error);
 
 /// Throws SceneError that names /gravity or /loads when loads on a solid of this surface do not balance though its
 /// constraints leave it free to move. Handles that move by a force do not hold it, and their forces count.

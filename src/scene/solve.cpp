@@ -59,28 +59,11 @@ void take_equilibrium(const Deformer& deformer, Constraints& constraints, Constr
     if (!deformer.linear())
         throw SolveError(
             "handles under a force: nonlinear-fem moves none. Choose quadratic-fem, or prescribe a motion.");
-    std::vector<Grip> grips;
-    std::vector<std::size_t> handles;
-    Eigen::VectorXd forces(0);
-    for (std::size_t h = 0; h < constraints.forces.size(); ++h) {
-        if (!constraints.forces[h]) continue;
-        const auto [begin, end] = constraints.range_of(h);
-        grips.push_back({begin, end});
-        handles.push_back(h);
-        forces.conservativeResize(forces.size() + 6);
-        forces.tail<6>() << constraints.forces[h]->force, constraints.forces[h]->moment;
-    }
-    const GripStiffness stiffness(deformer, constraints.values, grips, control);
-    const Eigen::VectorXd motions = stiffness.motions(forces);
-    for (std::size_t g = 0; g < grips.size(); ++g) {
-        const Eigen::Vector3d shift = motions.segment<3>(6 * static_cast<Eigen::Index>(g));
-        const Eigen::Vector3d turn = motions.segment<3>(6 * static_cast<Eigen::Index>(g) + 3);
-        AffineMotion motion;
-        for (int axis = 0; axis < 3; ++axis) motion.matrix.col(axis) = turn.cross(Eigen::Vector3d::Unit(axis));
-        motion.translate = shift - motion.matrix * stiffness.middle(static_cast<int>(g));
-        constraints.move(handles[g], motion, deformer.model().body().surface->vertices);
-        if (shown != nullptr) shown->move(handles[g], motion, vertices);
-    }
+    const GripStiffness stiffness(deformer, constraints.values, constraints.grips(), control);
+    const std::vector<std::size_t> handles = constraints.gripped();
+    const std::vector<AffineMotion> motions =
+        constraints.move_grips(stiffness, deformer.model().body().surface->vertices);
+    for (std::size_t g = 0; g < handles.size() && shown != nullptr; ++g) shown->move(handles[g], motions[g], vertices);
 }
 
 void append(Findings& all, const Findings& more) { all.insert(all.end(), more.begin(), more.end()); }

@@ -167,6 +167,26 @@ TEST(SceneLoads, AreCarriedToAFilledSurface) {
     EXPECT_LT(solved(document).imbalance.force, 1e-8);
 }
 
+/// A proxy around the body takes over patches by what is near them: totals of forces stay, areas nearly.
+TEST(SceneLoads, AreCarriedToAProxyAroundTheBody) {
+    Document document = loaded_cube();
+    document.mesh = Primitive{.name = "cube", .resolution = 10, .size = {}};
+    document.handles.clear();
+    const Solution own = solved(document, kQuadraticFem);
+    document.proxy = {.use = ProxyUse::always, .n_vertices = 600};
+    const Solution proxy = solved(document, kQuadraticFem);
+    ASSERT_TRUE(proxy.proxy);
+    EXPECT_FALSE(proxy.proxy->is_filled());
+    EXPECT_LT(proxy.imbalance.force, 1e-8);
+    EXPECT_LT((named(proxy.loads, "load-1").force - Eigen::Vector3d(5, 0, 1)).norm(), 1e-9);
+    for (const char* load : {"gravity", "above", "side"}) {
+        const Eigen::Vector3d force = named(own.loads, load).force;
+        EXPECT_LT((named(proxy.loads, load).force - force).norm(), 0.15 * force.norm()) << load;
+    }
+    EXPECT_LT((proxy.displacement - own.displacement).norm(), 0.15 * own.displacement.norm());
+    EXPECT_NEAR(*proxy.compliance, *own.compliance, 0.25 * *own.compliance);
+}
+
 TEST(DragSolver, ServesChangesOfLoadsFromTheColumnsAtHand) {
     Control control;
     const Document document = loaded_cube();

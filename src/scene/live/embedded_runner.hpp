@@ -38,7 +38,7 @@ public:
     void set_constraints(const Constraints& constraints) override;
     /// Constraints that may be asked for soon.
     void prefetch(const Constraints& constraints);
-    void poll() override { runner_.poll(); }
+    void poll() override;
 
     bool has_answer() const override { return runner_.has_answer(); }
     bool ready() const { return runner_.state() == MethodRunner::State::ready; }
@@ -47,14 +47,25 @@ public:
     /// Findings of the body that is computed on, and of its proxy; point constraints are those of the shown surface.
     Findings findings() const override;
 
+    /// Where handles under a force have come to, in the order of Constraints::gripped(); empty until that is known.
+    const std::vector<AffineMotion>& grip_motions() const { return grip_motions_; }
+
     /// One value for each vertex of surface(), carried to the shown vertices.
     Eigen::VectorXd shown_values(const Eigen::VectorXd& of_surface) const;
 
 private:
+    void give(const Constraints& constraints);
+    bool holds_grips();
+    void move_grips(const Constraints& constraints);
+
     MethodRunner runner_;
     std::string name_;  ///< of the body
     Constraints shown_;
+    std::optional<Constraints> asked_;  ///< the last ones of the shown surface, where a handle is under a force
     std::optional<CarriedConstraints> carried_, prefetched_;
+    std::vector<AffineMotion> grip_motions_;
+    Eigen::VectorXd grip_values_;  ///< that the stiffness of the grips was told of
+    std::weak_ptr<GripStiffness> grip_stiffness_;
     // What was carried back last; made when it is asked for.
     mutable Eigen::VectorXd displacement_;
     mutable std::optional<std::uint64_t> displacement_version_;

@@ -31,6 +31,7 @@ std::size_t bytes_of(const Document& document) {
     std::size_t bytes = sizeof(Document);
     for (const FixedSet& set : document.fixed) bytes += sizeof(FixedSet) + set.name.size() + bytes_of(set.select);
     for (const Handle& handle : document.handles) bytes += bytes_of(handle);
+    for (const Load& load : document.loads) bytes += sizeof(Load) + load.name.size() + bytes_of(load.select);
     return bytes;
 }
 

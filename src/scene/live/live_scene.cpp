@@ -1,6 +1,7 @@
 #include "scene/live/live_scene.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -35,6 +36,8 @@ LiveScene::LiveScene(Document document, std::filesystem::path scene_file, Contro
         if (std::string& name = document_.handles[i].name; name.empty()) name = "handle-" + std::to_string(i);
     for (std::size_t i = 0; i < document_.fixed.size(); ++i)
         if (std::string& name = document_.fixed[i].name; name.empty()) name = default_fixed_name(i);
+    for (std::size_t i = 0; i < document_.loads.size(); ++i)
+        if (std::string& name = document_.loads[i].name; name.empty()) name = default_load_name(i);
     saved_ = document_;
     history_ = History(document_);
     surface_ = std::make_shared<const SurfaceMesh>(std::move(mesh_.checked.mesh));
@@ -189,9 +192,26 @@ void LiveScene::set_motion(int handle, const Motion& motion) {
     const Eigen::VectorXd values = u.reshaped();
     if (!values.allFinite()) return;
     document_.handles[static_cast<std::size_t>(handle)].motion = motion;
+    document_.handles[static_cast<std::size_t>(handle)].force.reset();
     constraints_.motions[static_cast<std::size_t>(handle)] = motion;
+    constraints_.forces[static_cast<std::size_t>(handle)].reset();
     constraints_.values.segment(3 * begin, values.size()) = values;
     ++revision_;
+}
+
+void LiveScene::set_force(int handle, const std::optional<GripForce>& force) {
+    const auto h = static_cast<std::size_t>(handle);
+    if (force && !(force->force.allFinite() && force->moment.allFinite() && std::isfinite(force->spring))) return;
+    if (!force) return set_motion(handle, Motion(document_.handles[h].motion));
+    document_.handles[h].force = constraints_.forces[h] = force;
+    ++revision_;
+}
+
+void LiveScene::set_equilibrium(int handle, const AffineMotion& motion) {
+    const auto h = static_cast<std::size_t>(handle);
+    if (!document_.handles[h].force || !displacements(motion, rest_positions(handle)).allFinite()) return;
+    document_.handles[h].motion = motion;
+    constraints_.motions[h] = motion;
 }
 
 void LiveScene::set_material(const Material& material) {
@@ -235,6 +255,11 @@ Constraints LiveScene::constraints_with_handle(std::span<const int> vertices) co
     Constraints all = constraints_;
     const std::vector<int> own = only_free(vertices);
     if (own.empty()) return all;
+    if (n_loads() > 0) {  // triangles of theirs may be constrained then
+        Document with_handle = document_;
+        with_handle.handles.push_back({.name = unused_handle_name(), .select = {VertexSelector{own}}, .motion = {}});
+        return make_constraints(with_handle, *surface_, file_, ConstrainedTriangles::left_out);
+    }
     const int begin = all.groups.empty() ? 0 : all.groups.back().end;
     all.set.handles.insert(all.set.handles.end(), own.begin(), own.end());
     // Loads stand behind the handles.
@@ -251,7 +276,7 @@ Constraints LiveScene::constraints_with_handle(std::span<const int> vertices) co
 
 /// Takes over the whole document or, on an exception, nothing of it.
 void LiveScene::become(Document document) {
-    constraints_ = make_constraints(document, *surface_, file_);
+    constraints_ = make_constraints(document, *surface_, file_, ConstrainedTriangles::left_out);
     document_ = std::move(document);
     owners_.assign(static_cast<std::size_t>(surface_->n_vertices()), kNobody);
     for (const int v : vertices(kFixed)) owners_[static_cast<std::size_t>(v)] = kFixed;

@@ -49,11 +49,18 @@ public:
     std::span<const int> vertices(int owner) const;
     Positions rest_positions(int handle) const;  ///< of its vertices, in their order
     std::span<const int> fixed_vertices(int set) const;
+    std::vector<int> loaded_vertices(int load) const;  ///< that its selector names
     int owner(int vertex) const { return owners_[static_cast<std::size_t>(vertex)]; }
     /// The fixed set of a vertex that kFixed owns; kNobody for others.
     int fixed_set_of(int vertex) const;
     /// Name of a handle as constraints().groups has it.
     const std::string& handle_name(int handle) const;
+    int n_loads() const { return static_cast<int>(document_.loads.size()); }
+    const std::string& load_name(int load) const { return document_.loads[static_cast<std::size_t>(load)].name; }
+    /// A load, or with kGravity the gravity, as it acts here; null where all its triangles are constrained, which may
+    /// be while a patch of it is pulled: then it has no effect.
+    static constexpr int kGravity = -1;
+    const AppliedLoad* applied_load(int load) const;
     const std::string& fixed_name(int set) const { return document_.fixed[static_cast<std::size_t>(set)].name; }
 
     /// Grows with every edit.
@@ -81,9 +88,31 @@ public:
     /// False when the name is empty, or that of a handle or fixed set: then nothing changes.
     bool rename_fixed_set(int set, const std::string& name);
 
+    // Edits of loads.
+    /// On the triangles whose vertices are all in this list. Returns the new load's number, or kNobody when there is
+    /// none that is free to move.
+    int add_load(std::span<const int> vertices, const LoadValue& value);
+    /// Other vertices for a load; false when they have no triangle that is free to move: then nothing changes.
+    bool set_loaded_vertices(int load, std::span<const int> vertices);
+    void remove_load(int load);
+    void clear_loads();
+    /// False when the name is empty, "gravity", or that of another load: then nothing changes.
+    bool rename_load(int load, const std::string& name);
+    /// Another kind of load makes another constrained set; another size of the same kind only other values. A size
+    /// that is not finite is ignored.
+    void set_load(int load, const LoadValue& value);
+    /// Nothing: there is none. density: > 0; finite.
+    void set_gravity(const std::optional<Eigen::Vector3d>& gravity, double density);
+
     // Edits of values.
     /// A motion that is not finite at every vertex of the handle is ignored.
     void set_motion(int handle, const Motion& motion);
+    /// The handle moves as a rigid patch, by this force; with nothing, it stays where it is. A force that is not finite
+    /// is ignored.
+    void set_force(int handle, const std::optional<GripForce>& force);
+    /// Where a handle under a force has come to: what is shown of it, and where it stays if its force is taken away.
+    /// Not an edit.
+    void set_equilibrium(int handle, const AffineMotion& motion);
     void set_material(const Material& material);
     void set_proxy(const ProxyChoice& choice);
     void set_method(MethodKind kind, const MethodSettings& settings);
@@ -103,7 +132,10 @@ public:
 private:
     std::vector<int> only_free(std::span<const int> vertices) const;
     bool is_taken(const std::string& name) const;
-    std::string unused_handle_name() const, unused_fixed_name() const;
+    std::string unused_handle_name() const, unused_fixed_name() const, unused_load_name() const;
+    bool load_is_named(const std::string& name) const;
+    bool try_loads(Document document, int load);
+    void take_factors(int load, const Eigen::VectorXd& factors);
     void become(Document document);
 
     Document document_;

@@ -60,6 +60,7 @@ void SetKeeper::want(const Constraints& constraints) {
         wanted_set_ = constraints.set;
         failure_.clear();
     }
+    wanted_grips_ = constraints.grips();
     Wish wish = wish_of(constraints);
     if (!elastolab::same(wish, wanted_)) {
         may_refine_ = true;
@@ -205,7 +206,9 @@ void SetKeeper::prepare(const ConstrainedSet& set, Wish wish) {
     solving_ = {};
     failed_.reset();
     const bool drags = rule_ == FrameRule::drag_columns || !model_->method().kind->linear;
-    job_.start([model = model_, set, drags, wish = std::move(wish)](Control& control) {
+    std::vector<Grip> grips =
+        same_as_wanted(set) && model_->method().kind->linear ? wanted_grips_ : std::vector<Grip>();
+    job_.start([model = model_, set, drags, wish = std::move(wish), grips = std::move(grips)](Control& control) {
         auto deformer = std::make_shared<Deformer>(model);
         control.begin_stage("constrain");
         deformer->constrain(set, control);
@@ -214,6 +217,8 @@ void SetKeeper::prepare(const ConstrainedSet& set, Wish wish) {
         prepared.findings = findings_of_set(*prepared.deformer);
         prepared.memory_bytes = prepared.deformer->predict_memory(set) + prepared.deformer->predict_check_memory(set);
         control.begin_stage("solve");
+        if (!grips.empty())
+            prepared.grips = std::make_shared<GripStiffness>(*prepared.deformer, wish.values, grips, control);
         if (drags)
             solve_ahead(prepared, wish, control);
         else

@@ -303,7 +303,7 @@ void Simulation::gauge_theory(const LiveScene& scene) {
     const Constraints& asked = scene.constraints();
     const bool moves = std::any_of(asked.motions.begin(), asked.motions.end(),
                                    [](const Motion& motion) { return !(motion == Motion{}); });
-    if (!kind->linear || !moves) return gauge_.rest();
+    if (!kind->linear || !moves || !asked.loads.empty() || asked.has_forces()) return gauge_.rest();
     if (Wish wish = wish_of(asked); !same(wish, gauged_)) {
         gauge_.rest();
         gauged_ = std::move(wish);

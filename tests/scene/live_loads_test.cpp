@@ -1,0 +1,183 @@
+// Loads of a scene while a person edits it.
+#include <gtest/gtest.h>
+
+#include "scene/file/scene_file.hpp"
+#include "scene/live/live_scene.hpp"
+#include "scene/live/simulation.hpp"
+#include "scene/solve.hpp"
+#include "support/wait_until.hpp"
+
+namespace elastolab {
+namespace {
+
+using test::wait_until;
+
+Document fixed_cube() {
+    Document document;
+    document.mesh = Primitive{.name = "cube", .resolution = 4, .size = {}};
+    document.material = {1000.0, 0.3};
+    document.fixed = {{.name = "wall", .select = {PlaneSelector{{0, 0, 0}, {1, 0, 0}, 1e-9}}}};
+    return document;
+}
+
+std::vector<int> vertices_at(const LiveScene& scene, int axis, double place) {
+    std::vector<int> vertices;
+    for (int v = 0; v < scene.mesh().n_vertices(); ++v)
+        if (std::abs(scene.mesh().vertices(axis, v) - place) < 1e-9) vertices.push_back(v);
+    return vertices;
+}
+
+double factor(const LiveScene& scene, int load, int row = 0) {
+    const Constraints& all = scene.constraints();
+    return all.values[all.values.size() - std::ssize(all.set.loads) + scene.applied_load(load)->first + row];
+}
+
+TEST(LiveLoads, AreAddedNamedRemovedAndTakenBack) {
+    LiveScene scene(fixed_cube(), "scene.json");
+    const int above = scene.add_load(vertices_at(scene, 2, 1.0), PressureLoad{3.0});
+    scene.commit();
+    const int end = scene.add_load(vertices_at(scene, 0, 1.0), ForceLoad{{5, 0, 1}});
+    scene.commit();
+    ASSERT_EQ(above, 0);
+    ASSERT_EQ(end, 1);
+    EXPECT_EQ(scene.load_name(1), "load-1");
+    EXPECT_FALSE(scene.rename_load(1, "load-0"));
+    EXPECT_FALSE(scene.rename_load(1, "gravity"));
+    EXPECT_TRUE(scene.rename_load(1, "tip"));
+    EXPECT_TRUE(scene.modified());
+    scene.set_gravity(Eigen::Vector3d(0, 0, -9.81), 2.0);
+    EXPECT_EQ(factor(scene, LiveScene::kGravity, 2), -19.62);
+    EXPECT_EQ(factor(scene, above), 3.0);
+    EXPECT_EQ(factor(scene, end, 2), 1.0);
+    scene.remove_load(0);
+    EXPECT_EQ(scene.load_name(0), "tip");
+    EXPECT_EQ(factor(scene, 0), 5.0);
+    scene.commit();
+    scene.undo();
+    scene.undo();
+    ASSERT_EQ(scene.n_loads(), 1);
+    EXPECT_FALSE(scene.document().gravity.has_value());
+    scene.redo();
+    EXPECT_EQ(scene.n_loads(), 2);
+    EXPECT_EQ(scene.add_load(std::vector<int>{0, 1}, ForceLoad{}), LiveScene::kNobody) << "has no triangle";
+    EXPECT_EQ(scene.add_load(vertices_at(scene, 0, 0.0), ForceLoad{}), LiveScene::kNobody) << "all constrained";
+}
+
+TEST(LiveLoads, ChangeOfSizeKeepsTheConstrainedSet) {
+    LiveScene scene(fixed_cube(), "scene.json");
+    scene.add_load(vertices_at(scene, 2, 1.0), PressureLoad{3.0});
+    scene.set_gravity(Eigen::Vector3d(0, 0, -1.0), 1.0);
+    const std::vector<UnitLoad> before = scene.constraints().set.loads;
+    const std::uint64_t revision = scene.revision();
+    scene.set_load(0, PressureLoad{-7.0});
+    scene.set_gravity(Eigen::Vector3d(1.0, 0, 0), 3.0);
+    EXPECT_GT(scene.revision(), revision);
+    EXPECT_EQ(scene.constraints().set.loads, before);
+    EXPECT_EQ(factor(scene, 0), -7.0);
+    EXPECT_EQ(factor(scene, LiveScene::kGravity), 3.0);
+    scene.set_load(0, PressureLoad{std::nan("")});
+    scene.set_gravity(Eigen::Vector3d(1.0, 0, 0), 0.0);
+    EXPECT_EQ(factor(scene, 0), -7.0);
+    EXPECT_EQ(factor(scene, LiveScene::kGravity), 3.0);
+    scene.set_load(0, TractionLoad{{0, 0, 2}});
+    EXPECT_EQ(scene.applied_load(0)->count, 3);
+    EXPECT_EQ(factor(scene, 0, 2), 2.0);
+}
+
+/// A patch that is pulled may cover loaded triangles; a total force then acts on those that are left.
+TEST(LiveLoads, ActOnWhatIsFreeWhileAPatchOfThemIsPulled) {
+    LiveScene scene(fixed_cube(), "scene.json");
+    const std::vector<int> end = vertices_at(scene, 0, 1.0);
+    scene.add_load(end, ForceLoad{{5, 0, 1}});
+    const auto force = [&] {
+        Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+        const AppliedLoad& load = *scene.applied_load(0);
+        for (int k = 0; k < 3; ++k)
+            sum +=
+                factor(scene, 0, k) *
+                resultant(scene.mesh(), scene.constraints().set.loads[static_cast<std::size_t>(load.first + k)]).force;
+        return sum;
+    };
+    const std::size_t n_before = scene.applied_load(0)->triangles.size();
+    std::vector<int> lower;
+    for (const int v : end)
+        if (scene.mesh().vertices(2, v) < 0.51) lower.push_back(v);
+    scene.add_handle(lower);
+    EXPECT_EQ(scene.applied_load(0)->triangles.size(), n_before / 2);
+    EXPECT_LT((force() - Eigen::Vector3d(5, 0, 1)).norm(), 1e-12);
+    scene.remove_handle(0);
+    EXPECT_EQ(scene.applied_load(0)->triangles.size(), n_before);
+    const Constraints foreseen = scene.constraints_with_handle(end);
+    scene.add_handle(end);
+    EXPECT_EQ(scene.applied_load(0), nullptr);
+    EXPECT_EQ(foreseen.set.loads, scene.constraints().set.loads);
+    EXPECT_EQ(foreseen.values.size(), scene.constraints().values.size());
+    EXPECT_EQ(scene.n_loads(), 1) << "it comes back when the handle goes";
+}
+
+/// What the viewer shows is what `solve` says.
+TEST(LiveLoads, MoveTheShownBodyAsSolveDoes) {
+    for (const MethodKind kind : {kFem, kGalerkinBem}) {
+        LiveScene scene(fixed_cube(), "scene.json");
+        Simulation simulation([] {});
+        const MethodChoices choices;
+        const auto settle = [&] {
+            return wait_until([&] {
+                simulation.update(scene, {kind}, choices);
+                return !simulation.busy() && !simulation.previewing(kind);
+            });
+        };
+        ASSERT_TRUE(settle());
+        scene.add_load(vertices_at(scene, 0, 1.0), ForceLoad{{1, 0, 0}});
+        scene.set_gravity(Eigen::Vector3d(0, 0, -9.81), 0.5);
+        ASSERT_TRUE(settle());
+        scene.set_load(0, ForceLoad{{5, -2, 1}});
+        ASSERT_TRUE(settle());
+        Control control;
+        const Solution solution =
+            solve({.scene_file = "scene.json", .document = scene.document(), .method = {.kind = kind}}, control);
+        const Eigen::VectorXd truth = solution.displacement.reshaped();
+        EXPECT_LT((simulation.answer(kind).displacement() - truth).norm(), 1e-9 * truth.norm()) << name(kind);
+    }
+}
+
+/// A handle under a force is shown where `solve` puts it, while another is moved and loads change; on a proxy, too.
+TEST(LiveLoads, HandlesUnderAForceStandWhereSolvePutsThem) {
+    for (const bool on_proxy : {false, true}) {
+        Document document = fixed_cube();
+        document.handles = {{.name = "edge", .select = {BoxSelector{{0.9, 0, 0}, {1, 0.3, 1}}}},
+                            {.name = "held", .select = {BoxSelector{{0.9, 0.7, 0}, {1, 1, 1}}}}};
+        document.handles[0].force = GripForce{{2.0, -1.0, 3.0}, {0.1, 0.2, -0.1}};
+        if (on_proxy) document.proxy = {.use = ProxyUse::always, .n_vertices = 200};
+        LiveScene scene(document, "scene.json");
+        Simulation simulation([] {});
+        const MethodChoices choices;
+        const auto settle = [&] {
+            return wait_until([&] {
+                simulation.update(scene, {kFem}, choices);
+                return !simulation.busy() && !simulation.previewing(kFem);
+            });
+        };
+        const auto expect_as_solved = [&] {
+            ASSERT_TRUE(settle());
+            simulation.update(scene, {kFem}, choices);
+            Control control;
+            const Solution solution =
+                solve({.scene_file = "scene.json", .document = scene.document(), .method = {.kind = kFem}}, control);
+            const Eigen::VectorXd truth = solution.displacement.reshaped();
+            // Proxies of the two may differ.
+            const double allowed = on_proxy ? 0.1 : 1e-8;
+            EXPECT_LT((simulation.answer(kFem).displacement() - truth).norm(), allowed * truth.norm()) << on_proxy;
+        };
+        expect_as_solved();
+        scene.set_motion(1, AffineMotion{.translate = {0, 0.02, 0}});
+        expect_as_solved();
+        scene.set_gravity(Eigen::Vector3d(0, 0, -9.81), 0.5);
+        expect_as_solved();
+        scene.set_force(0, GripForce{{0, 0, -1.0}});
+        expect_as_solved();
+    }
+}
+
+}  // namespace
+}  // namespace elastolab
