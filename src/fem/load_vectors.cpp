@@ -63,7 +63,11 @@ Eigen::MatrixXd load_vectors(const FemMesh& mesh, std::span<const UnitLoad> load
 }
 
 Eigen::MatrixXd load_vectors(const QuadraticMesh& mesh, const FemMesh& linear, std::span<const UnitLoad> loads) {
-    return Loaded{mesh.positions, mesh.elements, linear.surface, midpoints_of(linear.surface, mesh)}.vectors(loads);
+    return load_vectors(mesh, linear.surface, loads);
+}
+
+Eigen::MatrixXd load_vectors(const QuadraticMesh& mesh, const Triangles& surface, std::span<const UnitLoad> loads) {
+    return Loaded{mesh.positions, mesh.elements, surface, midpoints_of(surface, mesh)}.vectors(loads);
 }
 
 }  // namespace elastolab

@@ -19,6 +19,9 @@ Eigen::MatrixXd load_vectors(const FemMesh& mesh, std::span<const UnitLoad> load
 /// The same for quadratic elements on the tetrahedra of a linear mesh.
 Eigen::MatrixXd load_vectors(const QuadraticMesh& mesh, const FemMesh& linear, std::span<const UnitLoad> loads);
 
+/// The same; surface: triangles of the mesh's surface, in the order by which the loads number them.
+Eigen::MatrixXd load_vectors(const QuadraticMesh& mesh, const Triangles& surface, std::span<const UnitLoad> loads);
+
 /// The midpoints of the edges of these triangles (vertex numbers), in the order of SurfaceMidpoints.
 Triangles midpoints_of(const Triangles& triangles, const QuadraticMesh& mesh);
 

@@ -26,20 +26,26 @@ double or_nothing(const std::optional<double>& value) {
 
 /// Mesh to displacements with one factorisation, as `solve` does it.
 double once_seconds(const Problem& problem, Method method, const Repeats& repeats, Control& control) {
-    method.update = Update::direct;
+    if (!problem.constrained.empty()) method.update = Update::direct;  // which a body that nothing holds has not
     return median_seconds(
         [&] {
             Deformer deformer(precompute(problem.body, method, control));
-            deformer.constrain({{}, problem.constrained}, control);
+            deformer.constrain(problem.set(), control);
             deformer.displace(problem.values());
         },
         repeats.budget_seconds, repeats.most);
 }
 
 double frame_seconds(const Deformer& deformer, const Problem& problem) {
-    const DragResponse drag = deformer.drag_response(problem.values(), translation_basis(problem.constrained.size()));
+    const auto n_loads = std::ssize(problem.loads);
+    Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(problem.values().size(), n_loads > 0 ? n_loads : 3);
+    if (n_loads > 0)
+        basis.bottomRows(n_loads).setIdentity();  // the sizes of loads change
+    else
+        basis = translation_basis(problem.constrained.size());
+    const DragResponse drag = deformer.drag_response(problem.values(), basis);
     Eigen::VectorXd u;
-    const Eigen::VectorXd shift = Eigen::Vector3d(0.1, 0.2, 0.3);
+    const Eigen::VectorXd shift = Eigen::VectorXd::LinSpaced(basis.cols(), 0.1, 0.3);
     return median_seconds_of_short([&] { drag.displace(shift, u); }, 0.02);
 }
 
@@ -53,7 +59,7 @@ Row measure(const Problem& problem, const Method& method, const Repeats& repeats
             const Stopwatch watch;
             deformer.emplace(precompute(problem.body, method, control));
             precomputed.push_back(watch.seconds());
-            deformer->constrain({{}, problem.constrained}, control);
+            deformer->constrain(problem.set(), control);
             ready.push_back(watch.seconds());
             set_change.push_back(ready.back() - precomputed.back());
         },

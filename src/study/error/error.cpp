@@ -112,8 +112,9 @@ void add_reproduced(CaseList& cases, bool quick) {
 void add_ratios(CaseList& cases, bool quick) {
     const std::vector<double> ratios =
         quick ? std::vector{-0.5, 0.3, 0.49, 0.4999, 0.5} : std::vector{-0.5, 0.0, 0.3, 0.45, 0.49, 0.499, 0.4999, 0.5};
-    std::vector<std::pair<std::string, int>> problems = {{"bending", 6}, {"torsion", 4}, {"hollow-sphere", 4}};
-    if (quick) problems = {{"bending", 3}};
+    std::vector<std::pair<std::string, int>> problems = {
+        {"bending", 6}, {"torsion", 4}, {"hollow-sphere", 4}, {"hanging-bar", 6}, {"pressed-bar", 4}};
+    if (quick) problems = {{"bending", 3}, {"pressed-bar", 2}};
     for (const auto& [problem, size] : problems)
         for (const double nu : ratios)
             for (const Variant& variant : main_variants(quick))
@@ -146,12 +147,13 @@ void add_choices(CaseList& cases, bool quick) {
         }
 }
 
-/// Organic bodies pulled at a small patch, and turned there. In the quick run the smallest of them.
+/// Organic bodies pulled at a small patch, and turned there, and a bar bent by its weight. In the quick run the
+/// smallest of them.
 void add_organic(CaseList& cases, bool quick) {
-    std::vector<std::pair<std::string, int>> bodies = {{"potato", 350}, {"potato-turned", 350},
-                                                       {"rabbit", 600}, {"rabbit-turned", 600},
-                                                       {"cactus", 850}, {"cactus-turned", 850}};
-    if (quick) bodies = {{"potato", 150}, {"potato-turned", 150}};
+    std::vector<std::pair<std::string, int>> bodies = {
+        {"potato", 350}, {"potato-turned", 350}, {"rabbit", 600},  {"rabbit-turned", 600},
+        {"cactus", 850}, {"cactus-turned", 850}, {"cantilever", 4}};
+    if (quick) bodies = {{"potato", 150}, {"potato-turned", 150}, {"cantilever", 2}};
     for (const auto& [body, size] : bodies)
         for (const double nu : {0.0, 0.3, 0.45, 0.49}) {
             if (quick && nu != 0.3) continue;

@@ -52,7 +52,8 @@ std::string order_findings(const Table& table) {
     return "## Orders\n\nError against the exact solution, root mean square over the free vertices, relative; order "
            "fitted over the three finest meshes. Forces: total force and moment of the worst constrained patch, over "
            "the "
-           "largest (those of the hollow sphere add up to nothing). Nothing here is compared with a finer mesh of the "
+           "largest (those of hollow spheres add up to nothing, or there are none). Nothing here is compared with a "
+           "finer mesh of the "
            "same method.\n\n" +
            markdown_table({"problem", "nu", "variant", "order", "theory", "vertices of the finest", "its error",
                            "order of forces", "error of forces", "ready to drag after"},
@@ -153,7 +154,8 @@ std::string organic_findings(const Table& table) {
         }
     std::vector<std::string> titles = {"body", "nu", "vertices", "truth known to"};
     titles.insert(titles.end(), kVariants.begin(), kVariants.end());
-    return "## Organic bodies\n\nMoved at a small patch; error (rms) and time until ready, the worst vertex and the "
+    return "## Organic bodies\n\nMoved at a small patch, or bent by its weight (cantilever); error (rms) and time "
+           "until ready, the worst vertex and the "
            "forces of "
            "the worst patch with what the program says of them. Truth: quadratic finite elements "
            "on the same polyhedron, graded towards the rims of the patches and extrapolated.\n\n" +

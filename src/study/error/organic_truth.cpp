@@ -9,6 +9,7 @@
 
 #include "deform/patch_reactions.hpp"
 #include "fem/assembly.hpp"
+#include "fem/load_vectors.hpp"
 #include "fem/prescribed.hpp"
 #include "fem/quadratic_mesh.hpp"
 #include "mesh/measures.hpp"
@@ -26,11 +27,12 @@ struct TruthProblem {
     std::vector<char> is_free;    // by vertex
     std::vector<char> in_region;  // by triangle
     Material material;
+    const GivenLoads& given;
 };
 
 TruthProblem make_problem(const SurfaceMesh& surface, std::span<const int> constrained, const Positions& values,
-                          const Material& material) {
-    TruthProblem problem{surface, Positions::Zero(3, surface.n_vertices()), {}, {}, material};
+                          const Material& material, const GivenLoads& given) {
+    TruthProblem problem{surface, Positions::Zero(3, surface.n_vertices()), {}, {}, material, given};
     problem.is_free.assign(static_cast<std::size_t>(surface.n_vertices()), 1);
     for (std::size_t k = 0; k < constrained.size(); ++k) {
         problem.is_free[static_cast<std::size_t>(constrained[k])] = 0;
@@ -76,6 +78,27 @@ TetMesh fill(const RefinedSurface& refined, double edge, double inside) {
                           control);
 }
 
+/// Nodal forces of the loads, 3*n_nodes; empty where there are none.
+Eigen::MatrixXd given_forces(const RefinedSurface& refined, const QuadraticMesh& mesh, const TruthProblem& problem) {
+    if (problem.given.loads.empty()) return {};
+    std::vector<UnitLoad> loads = problem.given.loads;
+    for (UnitLoad& load : loads) {
+        if (load.is_body_force()) continue;
+        std::vector<int> place(static_cast<std::size_t>(problem.surface.n_triangles()), -1), fine, from;
+        for (std::size_t k = 0; k < load.triangles.size(); ++k)
+            place[static_cast<std::size_t>(load.triangles[k])] = static_cast<int>(k);
+        for (int t = 0; t < refined.mesh.n_triangles(); ++t)
+            if (const int k = place[static_cast<std::size_t>(refined.coarse_triangle[static_cast<std::size_t>(t)])];
+                k >= 0) {
+                fine.push_back(t);
+                from.push_back(k);
+            }
+        load.tractions = Eigen::Matrix3Xd(load.tractions(Eigen::all, from));
+        load.triangles = std::move(fine);
+    }
+    return load_vectors(mesh, refined.mesh.triangles, loads) * problem.given.factors;
+}
+
 Solution solve_on(const RefinedSurface& refined, const TetMesh& tetrahedra, const TruthProblem& problem) {
     const QuadraticMesh mesh(tetrahedra);
     const Positions prescribed = refined.interpolate(problem.values);
@@ -101,7 +124,8 @@ Solution solve_on(const RefinedSurface& refined, const TetMesh& tetrahedra, cons
     Control control;
     const SparseMatrix K = stiffness(assemble_stiffness_parts(mesh, control), problem.material);
     const Positions values = at_nodes(Eigen::all, nodes);
-    const PrescribedSolution solved = solve_prescribed(K, CholeskyAnalysis(K), nodes, values.reshaped(), control);
+    const PrescribedSolution solved = solve_prescribed(K, CholeskyAnalysis(K), nodes, values.reshaped(), control,
+                                                       given_forces(refined, mesh, problem));
     Positions forces = Positions::Zero(3, mesh.n_nodes()), moments = forces;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         const Eigen::Vector3d force = solved.forces.col(0).segment<3>(3 * static_cast<Eigen::Index>(i));
@@ -143,9 +167,9 @@ Reactions reactions_of(const Solution& solution, std::span<const int> constraine
 }  // namespace
 
 OrganicTruth compute_truth(const SurfaceMesh& surface, std::span<const int> constrained, const Positions& values,
-                           const Material& material, const TruthOptions& options) {
+                           const Material& material, const TruthOptions& options, const GivenLoads& given) {
     assert(options.rim_refinements >= 1);
-    const TruthProblem problem = make_problem(surface, constrained, values, material);
+    const TruthProblem problem = make_problem(surface, constrained, values, material, given);
     const double edge = mean_edge(surface);
     RefinedSurface refined = unrefined(surface);
     Solution before, last;

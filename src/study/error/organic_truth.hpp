@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "deform/deformer.hpp"
 #include "elasticity/material.hpp"
@@ -25,6 +26,12 @@ struct TruthOptions {
     int rim_refinements = 1;
 };
 
+/// Loads beside the prescribed displacements: unit loads on the coarse surface, and their factors.
+struct GivenLoads {
+    std::vector<UnitLoad> loads = {};
+    Eigen::VectorXd factors = {};
+};
+
 /// The displacement problem on the same polyhedron with the same constrained region (all triangles whose three
 /// vertices are constrained, displaced linearly between them; the rest free), by quadratic tetrahedra.
 ///
@@ -36,6 +43,6 @@ struct TruthOptions {
 /// constrained  vertices, each a corner of a constrained triangle (asserted): a single point has no converged answer
 /// values       3 x constrained.size()
 OrganicTruth compute_truth(const SurfaceMesh& surface, std::span<const int> constrained, const Positions& values,
-                           const Material& material, const TruthOptions& options = {});
+                           const Material& material, const TruthOptions& options = {}, const GivenLoads& given = {});
 
 }  // namespace elastolab

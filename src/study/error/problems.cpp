@@ -11,6 +11,7 @@
 #include "elasticity/exact_fields.hpp"
 #include "mesh/primitives.hpp"
 #include "study/error/exact_reactions.hpp"
+#include "study/error/loaded_problems.hpp"
 #include "study/error/organic_body.hpp"
 #include "study/error/organic_truth.hpp"
 #include "study/setups.hpp"
@@ -103,7 +104,11 @@ constexpr const char* kConverged = "quadratic finite elements graded towards the
 
 }  // namespace
 
-Eigen::VectorXd Problem::values() const { return values_at(truth, constrained); }
+Eigen::VectorXd Problem::values() const {
+    Eigen::VectorXd values(3 * std::ssize(constrained) + factors.size());
+    values << values_at(truth, constrained), factors;
+    return values;
+}
 
 double Problem::error(const Eigen::VectorXd& u) const {
     const std::set<int> fixed(constrained.begin(), constrained.end());
@@ -154,6 +159,10 @@ const std::vector<ProblemFamily>& problem_families() {
         {"torsion", kExact, false, false, [](int size, double nu) { return twist(size, nu, false); }},
         {"torsion-irregular", kExact, false, false, [](int size, double nu) { return twist(size, nu, true); }},
         {"hollow-sphere", kExact, false, false, [](int size, double nu) { return inflate(size, nu); }},
+        {"hanging-bar", kExact, false, false, [](int size, double nu) { return hanging_bar(size, nu); }},
+        {"pressed-sphere", kExact, false, false, [](int size, double nu) { return pressed_sphere(size, nu); }},
+        {"pressed-bar", kExact, false, true, [](int size, double nu) { return pressed_bar(size, nu); }},
+        {"cantilever", kConverged, true, false, [](int size, double nu) { return cantilever(size, nu); }},
         {"rabbit", kConverged, true, false, [](int size, double nu) { return pull(make_rabbit(size), nu); }},
         {"potato", kConverged, true, false, [](int size, double nu) { return pull(make_potato(size), nu); }},
         {"cactus", kConverged, true, false, [](int size, double nu) { return pull(make_cactus(size), nu); }},

@@ -19,7 +19,11 @@ struct Problem {
     double truth_error = 0.0;                 ///< how far the truth itself may be off, relative; 0: exact
     std::optional<Reactions> reactions = {};  ///< true ones at the constrained vertices, where they are known
     double truth_force_error = 0.0;           ///< how far those may be off, as force_error() measures it
+    std::vector<UnitLoad> loads = {};
+    Eigen::VectorXd factors = {};  ///< of the loads
 
+    ConstrainedSet set() const { return {{}, constrained, loads}; }
+    /// As a Deformer takes them for set(): displacements of the constrained vertices, then the factors of the loads.
     Eigen::VectorXd values() const;
     /// Root mean square error over the free vertices, relative to that of their true displacements.
     double error(const Eigen::VectorXd& u) const;
@@ -30,7 +34,7 @@ struct Problem {
     std::optional<double> force_error(const Reactions& at_constrained) const;
 };
 
-/// Problems of one kind in all sizes. Their surface is free of traction except where it is constrained.
+/// Problems of one kind in all sizes. Their surface is free of traction except where it is constrained or loaded.
 ///   rotation            bar of 2 x 1 x 1, vertices moved at random, both ends turned by the same rotation
 ///   stretch             the same bar pulled along its axis
 ///   bending             bar of 2 x 1 x 1 in pure bending, both ends prescribed
@@ -38,6 +42,10 @@ struct Problem {
 ///   torsion             circular cylinder twisted, both ends prescribed: a curved free side
 ///   torsion-irregular   the same, vertices moved at random on the surface
 ///   hollow-sphere       inner sphere displaced, outer free: curved everywhere, two surfaces
+///   hanging-bar         bar that hangs from its top under its weight
+///   pressed-sphere      hollow sphere under inner pressure, constrained nowhere
+///   pressed-bar         bar under pressure on its sides, both ends prescribed
+///   cantilever          bar of 3 x 1 x 1, fixed at one end and bent by its weight; truth as of organic bodies
 ///   rabbit, potato, cactus   organic bodies pulled at a small patch; ...-turned: the patch turned by 20 degrees. Truth
 ///                       by quadratic FEM graded towards the rims, refined and extrapolated, which shares no code with
 ///                       the paper's three methods but the sparse solver

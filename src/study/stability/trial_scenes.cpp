@@ -8,6 +8,7 @@
 #include "elasticity/rigid_motion.hpp"
 #include "mesh/primitives.hpp"
 #include "study/error/exact_reactions.hpp"
+#include "study/error/loaded_problems.hpp"
 #include "study/setups.hpp"
 #include "study/stability/trials.hpp"
 
@@ -258,6 +259,18 @@ Problem stiff(double young_modulus) {
     return problem;
 }
 
+Problem weight(double factor) {
+    Problem problem = hanging_bar(4, 0.3);
+    problem.factors *= factor;
+    problem.truth *= factor;
+    problem.reactions->forces *= factor;
+    problem.reactions->moments *= factor;
+    return problem;
+}
+
+/// Inside and outside have the same cells, so that those of a thin wall are wide.
+Problem pressed_wall(double thickness) { return pressed_sphere(5, 0.3, 1.0 - thickness); }
+
 std::vector<TrialGroup> all_groups() {
     return {
         {"nu-to-half",
@@ -333,6 +346,26 @@ std::vector<TrialGroup> all_groups() {
          "factor",
          {1.0, 1e-300, 1e-100, 1e-12, 1e12, 1e100, 1e300},
          large_values},
+        {"pressure",
+         "bar under pressure on its sides, Poisson's ratio towards 1/2",
+         "nu",
+         {0.3, 0.49, 0.4999, 0.499999, 0.5},
+         [](double nu) { return pressed_bar(4, nu); }},
+        {"pressed-wall",
+         "hollow sphere under inner pressure, held by nothing, its wall thinner and thinner",
+         "thickness / radius",
+         {0.5, 0.3, 0.2, 0.1, 0.05},
+         pressed_wall},
+        {"weight",
+         "bar that hangs under its weight",
+         "factor",
+         {1.0, 1e-300, 1e-100, 1e-12, 1e12, 1e100, 1e300},
+         weight},
+        {"cantilever",
+         "bar fixed at one end and bent by its weight, longer and longer",
+         "length / width",
+         {1.0, 2.0, 4.0},
+         [](double length) { return cantilever(3, 0.3, length); }},
         {"young", "bending bar, Young's modulus", "E", {1.0, 1e-300, 1e-100, 1e-12, 1e12, 1e100, 1e300}, stiff},
     };
 }
@@ -345,7 +378,8 @@ const std::vector<TrialGroup>& trial_groups(bool quick) {
         std::vector<TrialGroup> groups = all_groups();
         for (TrialGroup& group : groups) {  // the middle and the last level
             const std::vector<double> levels = group.levels;
-            const bool costly = group.name == "graded" || group.name == "plate" || group.name == "slivers";
+            const bool costly = group.name == "graded" || group.name == "plate" || group.name == "slivers" ||
+                                group.name == "cantilever";
             group.levels = {levels[levels.size() / 2]};
             if (!costly) group.levels.push_back(levels.back());
         }

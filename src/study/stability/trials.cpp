@@ -105,7 +105,7 @@ Row attempt(const Problem& problem, const Method& method, Control& control) {
         Deformer deformer(precompute(checked_body(problem, method.kind, warnings), method, control));
         Findings findings = findings_of_model(deformer.model());
         const auto append = [&](const Findings& more) { findings.insert(findings.end(), more.begin(), more.end()); };
-        deformer.constrain({{}, problem.constrained}, control);
+        deformer.constrain(problem.set(), control);
         append(findings_of_set(deformer));
         const Deformer::Answer answer = deformer.answer(problem.values(), {.residual = true, .check = true}, control);
         append(findings_of_answer(deformer, answer));
