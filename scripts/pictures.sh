@@ -100,17 +100,17 @@ film() {
   mkdir "$work/film"
   tests/support/with_display.sh "$program" view "$scene" --hidden --frames 2 --picture "$work/film/frame.png" \
     --picture-size 960x540 --pull-film "$frames"
-  convert -delay 6 -loop 0 "$work"/film/frame-*.png -resize 50% -colors 96 -layers optimize \
-    "assets/pictures/$name.gif"
+  convert -delay 6 -loop 0 "$work"/film/frame-*.png -resize 50% -crop 400x240+60+20 +repage +dither -colors 64 \
+    -layers optimize "assets/pictures/$name.gif"
   rm -r "$work/film"
   echo "assets/pictures/$name.gif"
 }
 
-# A rubber bar whose end is turned twice.
+# A rubber bar whose end is turned twice and pulled, without which it would buckle.
 cat > "$work/turns.json" << 'END'
 {"elastolab": 1, "mesh": {"primitive": "beam", "resolution": 4}, "method": "nonlinear-fem",
  "fixed": {"box": {"min": [0, 0, 0], "max": [0, 1, 1]}},
  "handles": [{"name": "end", "select": {"box": {"min": [4, 0, 0], "max": [4, 1, 1]}},
-              "rotate": {"axis": [1, 0, 0], "degrees": 720, "center": [4, 0.5, 0.5]}}]}
+              "translate": [0.8, 0, 0], "rotate": {"axis": [1, 0, 0], "degrees": 720, "center": [4, 0.5, 0.5]}}]}
 END
 film turn "$work/turns.json" 48
