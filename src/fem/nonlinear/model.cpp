@@ -14,9 +14,24 @@ namespace {
 /// Error that ten-node elements leave, over how much they change the answer of four-node ones; that of linear theory
 /// (fem/error_estimate.cpp).
 constexpr double kLeftByTenNodes = 0.45;
-/// Factors that are held at once: at rest, of the equilibria that are remembered, and the next one.
-constexpr std::uint64_t kHeldFactors = 5;
+/// Factors that are held at once: at rest, of the last equilibrium, and of the next one.
+constexpr std::uint64_t kHeldFactors = 3;
 constexpr int kCheckIterations = 30;
+
+/// Positions, elements, gradients of their shapes, and the elements around each node.
+std::uint64_t bytes_of_mesh(const FiniteElements& elements) {
+    const auto n = static_cast<std::uint64_t>(elements.nodes_per_element());
+    return static_cast<std::uint64_t>(elements.n_elements()) * (104 + 12 * n) +
+           static_cast<std::uint64_t>(elements.n_nodes()) * 28;
+}
+
+/// What a set takes but for factors: the pattern of the tangent, the tangent and its copy in another order; places of
+/// the elements' blocks, and the blocks themselves.
+std::uint64_t bytes_of_tangent(const FiniteElements& elements, Eigen::Index entries) {
+    const auto n = static_cast<std::uint64_t>(elements.nodes_per_element());
+    const std::uint64_t blocks = 8 * (9 * n * (n + 1) / 2 + 3 * n) + 4 * n * n;
+    return 3 * 12 * static_cast<std::uint64_t>(entries) + blocks * static_cast<std::uint64_t>(elements.n_elements());
+}
 
 std::shared_ptr<const TetMesh> tets_of(const std::shared_ptr<const NonlinearMesh>& mesh) { return {mesh, &mesh->tets}; }
 
@@ -71,6 +86,7 @@ std::optional<ReferenceAnswer> linear_answer(const NonlinearMesh& mesh, const Ma
                                              const std::vector<int>& vertices, const NodeSolution& solution,
                                              Control& control) {
     if (!mesh.linear || !holds(mesh.tets.vertices, vertices)) return {};
+    if (std::ssize(vertices) == mesh.linear->n_nodes()) return {};  // nothing is free
     const Newton newton(std::make_shared<const FreeTangent>(mesh.linear, vertices, control), material, 0.0);
     ElementWork work = mesh.linear->make_work();
     Eigen::VectorXd u(3 * mesh.linear->n_nodes());
@@ -108,13 +124,18 @@ NonlinearModel::NonlinearModel(const SurfaceMesh& surface, const std::string& na
     facts_.n_degrees_of_freedom = 3 * mesh_->elements->n_nodes();
     {
         const Stage stage("analyse", control, facts_.stages);
-        factor_bytes_ = FreeTangent(mesh_->elements, {}, control).analysis().factor_bytes();
+        const FreeTangent all(mesh_->elements, {}, control);
+        factor_bytes_ = all.analysis().factor_bytes();
+        tangent_bytes_ = bytes_of_tangent(*mesh_->elements, all.make_matrix().nonZeros());
     }
-    facts_.memory_bytes = factor_bytes_;
+    facts_.memory_bytes = bytes_of_mesh(*mesh_->elements);
 }
 
 NonlinearModel::NonlinearModel(const NonlinearModel& before, double poisson_ratio)
-    : poisson_ratio_(poisson_ratio), mesh_(before.mesh_), factor_bytes_(before.factor_bytes_) {
+    : poisson_ratio_(poisson_ratio),
+      mesh_(before.mesh_),
+      factor_bytes_(before.factor_bytes_),
+      tangent_bytes_(before.tangent_bytes_) {
     facts_ = before.facts_;
     facts_.stages.clear();
 }
@@ -147,10 +168,7 @@ std::unique_ptr<ConstrainedSolid> NonlinearModel::constrain(std::span<const int>
 }
 
 std::uint64_t NonlinearModel::constrain_memory(std::span<const int>, std::span<const int>) const {
-    const auto n = static_cast<std::uint64_t>(mesh_->elements->nodes_per_element());
-    // The element blocks of an assembly, the tangent, and factors.
-    const std::uint64_t work = static_cast<std::uint64_t>(mesh_->elements->n_elements()) * 8 * (9 * n * n + 6 * n);
-    return kHeldFactors * factor_bytes_ + 2 * work;
+    return kHeldFactors * factor_bytes_ + tangent_bytes_;
 }
 
 std::uint64_t NonlinearModel::check_memory(std::span<const int>, std::span<const int>) const {

@@ -38,7 +38,7 @@ private:
 
     double poisson_ratio_;
     std::shared_ptr<const NonlinearMesh> mesh_;
-    std::uint64_t factor_bytes_ = 0;  ///< of the free body
+    std::uint64_t factor_bytes_ = 0, tangent_bytes_ = 0;  ///< of the free body
     mutable std::mutex rest_mutex_;
     mutable std::unique_ptr<const SparseStiffness> rest_;  ///< made when it is asked for
     std::shared_ptr<FoundStates> found_ = std::make_shared<FoundStates>();

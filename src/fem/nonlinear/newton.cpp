@@ -12,6 +12,8 @@ constexpr double kRoundedEnergy = 1e-6;
 /// Part of the decrease that the slope promises, which a step must bring.
 constexpr double kArmijo = 1e-4;
 constexpr double kShortestStep = 1e-8;
+/// Projected tangents, which a body takes that buckles, converge slowly: so many times as many iterations are allowed.
+constexpr int kMoreWhereProjected = 4;
 /// Reactions below this part of modulus times displacement times edge are rounding.
 constexpr double kNoForce = 1e-5;
 
@@ -53,12 +55,16 @@ NewtonState Newton::run(Eigen::VectorXd u, double tolerance, int most_iterations
     const double size = state.u.lpNorm<Eigen::Infinity>();
     state.residual = residual(size, forces);
     const double first = std::log(std::max(state.residual, tolerance));
-    while (state.residual > tolerance && state.iterations < most_iterations) {
+    int unhindered = 0;
+    while (state.residual > tolerance && unhindered < most_iterations &&
+           state.iterations < kMoreWhereProjected * most_iterations) {
         control.set_progress(first > std::log(tolerance) ? 1.0 - (std::log(state.residual) - std::log(tolerance)) /
                                                                      (first - std::log(tolerance))
                                                          : 0.0);
+        state.factor.reset();  // not two at once
         state.factor = factor_at(state.u, work, K, state.stable, control);
         if (!state.factor) break;
+        unhindered += state.stable ? 1 : 0;
         state.factor_residual = state.residual;
         ++state.iterations;
         const Eigen::VectorXd gradient = tangent_->free_rows(forces);

@@ -37,8 +37,9 @@ public:
         : tangent_(std::move(tangent)), material_(material), shift_(shift) {}
 
     /// From u, which inverts no element, to this relative residual: of the forces at the free nodes over those at the
-    /// constrained ones. Not converged when there is no step that helps or so many iterations do not suffice; what was
-    /// reached is returned all the same. Throws SolveError, Cancelled.
+    /// constrained ones. Not converged when there is no step that helps or so many iterations with the true tangent, or
+    /// four times as many with any, do not suffice; what was reached is returned all the same. Throws SolveError,
+    /// Cancelled.
     NewtonState run(Eigen::VectorXd u, double tolerance, int most_iterations, ElementWork& work,
                     Control& control) const;
     /// A push along the most unstable direction that lowers the energy; u itself where there is none.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <Eigen/Geometry>
 #include <numbers>
 
 #include "elasticity/neo_hookean.hpp"
@@ -24,6 +25,8 @@ constexpr double kCrushed = 0.05;
 /// Part of the stiffness that keeps a free body from moving as a whole.
 constexpr double kShift = 1e-8;
 constexpr int kPushes = 3;
+/// A prescribed triangle with less than this part of its area is flattened to a line.
+constexpr double kFlattened = 1e-6;
 
 double shift_of(const FiniteElements& elements, const Material& material, bool held) {
     return held ? 0.0 : kShift * material.young_modulus * elements.edge();
@@ -39,6 +42,31 @@ NonlinearSolver::NonlinearSolver(std::shared_ptr<const FiniteElements> elements,
       newton_(std::make_shared<const FreeTangent>(elements, nodes_.nodes, control), material,
               shift_of(*elements, material, nodes_.held)) {
     held_ = nodes_.held;
+    find_faces();
+}
+
+void NonlinearSolver::find_faces() {
+    std::vector<int> place(static_cast<std::size_t>(elements().n_nodes()), -1);
+    for (std::size_t i = 0; i < nodes_.nodes.size(); ++i)
+        place[static_cast<std::size_t>(nodes_.nodes[i])] = static_cast<int>(i);
+    for (int e = 0; e < elements().n_elements(); ++e)
+        for (int opposite = 0; opposite < 4; ++opposite) {
+            Eigen::Vector3i face;
+            for (int c = 0; c < 3; ++c)
+                face[c] = place[static_cast<std::size_t>(elements().elements()((opposite + 1 + c) % 4, e))];
+            if (face.minCoeff() >= 0 && face.maxCoeff() >= nodes_.n_base) faces_.push_back(face);
+        }
+}
+
+void NonlinearSolver::require_faces(const Eigen::VectorXd& prescribed) const {
+    const Positions present = rest_positions_ + prescribed.reshaped(3, rest_positions_.cols());
+    const auto area = [](const Positions& x, const Eigen::Vector3i& face) {
+        const Eigen::Vector3d a = x.col(face[1]) - x.col(face[0]), b = x.col(face[2]) - x.col(face[0]);
+        return a.cross(b).norm();
+    };
+    for (const Eigen::Vector3i& face : faces_)
+        if (!(area(present, face) > kFlattened * area(rest_positions_, face)))
+            throw NoEquilibriumError("these motions flatten a part of a handle.", rest_positions_.col(face[0]));
 }
 
 std::shared_ptr<const WarpedStart> NonlinearSolver::rest(ElementWork& work, Control& control) const {
@@ -101,7 +129,7 @@ NodeSolution NonlinearSolver::solve_task(const NodeTask& task, double tolerance,
         state = advance(*state, task.prescribed.col(c), far, tolerance, work, control);
         EquilibriumFacts facts = state->facts();
         facts.iterations += iterations;
-        state = std::make_shared<const NonlinearState>(state->newton(), facts);
+        state = std::make_shared<const NonlinearState>(state->with_factor(), facts);
         solution.displacements.col(c) = state->newton().u;
         if (task.want_loads)
             solution.loads.col(c) =
@@ -115,7 +143,7 @@ NodeSolution NonlinearSolver::solve_task(const NodeTask& task, double tolerance,
 
 Eigen::MatrixXd NonlinearSolver::derivatives(const NonlinearState& state, const Eigen::MatrixXd& changes,
                                              ElementWork& work, Control& control) const {
-    const NewtonState& at = state.newton();
+    const NewtonState at = state.with_factor();
     std::shared_ptr<const SparseCholesky> factor = at.factor;
     if (!factor || at.factor_residual > kGoodTangent) {
         SparseMatrix K = newton_.tangent().make_matrix();
@@ -143,7 +171,7 @@ NewtonState NonlinearSolver::warped(const MotionPath& path, double tolerance, El
 /// From one equilibrium to the next by predicted steps, which are halved where they fail.
 NewtonState NonlinearSolver::followed(const NonlinearState& from, const MotionPath& path, double tolerance,
                                       ElementWork& work, Control& control) const {
-    NewtonState at = from.newton();
+    NewtonState at = from.with_factor();
     at.iterations = 0;
     double part = 0.0, length = 1.0 / std::max(1.0, std::ceil(path.largest_angle() / kStepAngle - 1e-6));
     NewtonState failed;
@@ -166,8 +194,9 @@ NewtonState NonlinearSolver::followed(const NonlinearState& from, const MotionPa
             length *= 0.5;
             continue;
         }
-        NewtonState reached = newton_.run(u, next < 1.0 ? std::max(kPassing, tolerance) : tolerance,
-                                          next < 1.0 ? kMostPassing : kMostIterations, work, control);
+        const double wanted = next < 1.0 ? std::max(kPassing, tolerance) : tolerance;
+        NewtonState reached = newton_.run(u, wanted, next < 1.0 ? kMostPassing : kMostIterations, work, control);
+        if (reached.converged) reached = stabilised(std::move(reached), wanted, work, control);
         iterations += reached.iterations;
         if (!reached.converged) {
             failed.crushed = reached.crushed;
@@ -180,6 +209,7 @@ NewtonState NonlinearSolver::followed(const NonlinearState& from, const MotionPa
             reached.stable = at.stable;
         }
         at = std::move(reached);
+        keep(at.factor);
         part = next;
         length = std::min(2.0 * length, 1.0);
         if (part < 1.0 && path.largest_angle() > 0.0) length = std::min(length, kStepAngle / path.largest_angle());
@@ -198,11 +228,12 @@ NonlinearSolver::StatePtr NonlinearSolver::advance(const NonlinearState& from, c
                                                    Control& control) const {
     const Eigen::VectorXd present = of_prescribed(from.newton().u);
     if (present == prescribed && from.newton().residual <= tolerance)
-        return std::make_shared<const NonlinearState>(from.newton(), [&] {
+        return std::make_shared<const NonlinearState>(from.with_factor(), [&] {
             EquilibriumFacts facts = from.facts();
             facts.iterations = 0;
             return facts;
         }());
+    require_faces(prescribed);
     const MotionPath path(rest_positions_, patches_, present, prescribed);
     NewtonState state;
     int iterations = 0;
@@ -215,21 +246,15 @@ NonlinearSolver::StatePtr NonlinearSolver::advance(const NonlinearState& from, c
         state.iterations += iterations;
     }
     if (!state.converged) {
-        const int element = std::max(state.crushed, 0);
-        const Eigen::VectorXd& u = state.u;
-        Eigen::Vector3d place = Eigen::Vector3d::Zero();
-        for (int c = 0; c < 4; ++c) {
-            const int node = elements().elements()(c, element);
-            place += 0.25 * (elements().positions().col(node) + u.segment<3>(3 * node));
-        }
-        throw NoEquilibriumError("no equilibrium was found for these motions.", place);
+        const Eigen::Vector4i corners = elements().elements().col(std::max(state.crushed, 0)).head<4>();
+        throw NoEquilibriumError("no equilibrium was found for these motions.",
+                                 elements().positions()(Eigen::all, corners).rowwise().mean());
     }
     return settled(std::move(state), tolerance, work, control);
 }
 
-/// What is known of a state; one that is not stable is left for a stable one, where there is one.
-NonlinearSolver::StatePtr NonlinearSolver::settled(NewtonState state, double tolerance, ElementWork& work,
-                                                   Control& control) const {
+NewtonState NonlinearSolver::stabilised(NewtonState state, double tolerance, ElementWork& work,
+                                        Control& control) const {
     for (int push = 0; push < kPushes && !state.stable && state.factor; ++push) {
         const Eigen::VectorXd u = newton_.pushed(state, work, control);
         if (u == state.u) break;
@@ -238,6 +263,18 @@ NonlinearSolver::StatePtr NonlinearSolver::settled(NewtonState state, double tol
         left.iterations += state.iterations;
         state = std::move(left);
     }
+    return state;
+}
+
+void NonlinearSolver::keep(std::shared_ptr<const SparseCholesky> factor) const {
+    const std::scoped_lock lock(kept_mutex_);
+    kept_ = std::move(factor);
+}
+
+NonlinearSolver::StatePtr NonlinearSolver::settled(NewtonState state, double tolerance, ElementWork& work,
+                                                   Control& control) const {
+    state = stabilised(std::move(state), tolerance, work, control);
+    keep(state.factor);
     EquilibriumFacts facts{.iterations = state.iterations, .energy = state.energy, .stable = state.stable};
     for (int e = 0; e < elements().n_elements(); ++e)
         for (int point = 0; point < elements().n_points(); ++point)

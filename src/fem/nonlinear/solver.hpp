@@ -23,19 +23,31 @@ struct PrescribedNodes {
     bool held = true;  ///< false: the body can move as a whole, and of all motions the smallest is taken
 };
 
-/// An equilibrium of one solid.
+/// An equilibrium of one solid. Its factorised tangent is there for as long as the solver keeps it: equilibria that are
+/// remembered would each hold one.
 class NonlinearState : public NodeState {
 public:
-    NonlinearState(NewtonState newton, EquilibriumFacts facts) : newton_(std::move(newton)), facts_(facts) {}
+    NonlinearState(NewtonState newton, EquilibriumFacts facts)
+        : newton_(std::move(newton)), factor_(newton_.factor), facts_(facts) {
+        newton_.factor.reset();
+    }
     EquilibriumFacts facts() const override { return facts_; }
+    /// Without the factor.
     const NewtonState& newton() const { return newton_; }
+    NewtonState with_factor() const {
+        NewtonState state = newton_;
+        state.factor = factor_.lock();
+        return state;
+    }
 
 private:
     NewtonState newton_;
+    std::weak_ptr<const SparseCholesky> factor_;
     EquilibriumFacts facts_;
 };
 
-/// Equilibria of a neo-Hookean body for one constrained set. Its loads are the forces at the constrained nodes.
+/// Equilibria of a neo-Hookean body for one constrained set. Its loads are the forces at the constrained nodes. Throws
+/// NoEquilibriumError where none is found, with the place of the crushed element at rest.
 class NonlinearSolver : public NodeSolver {
 public:
     NonlinearSolver(std::shared_ptr<const FiniteElements> elements, const Material& material, PrescribedNodes nodes,
@@ -59,7 +71,11 @@ private:
     NewtonState warped(const MotionPath& path, double tolerance, ElementWork& work, Control& control) const;
     NewtonState followed(const NonlinearState& from, const MotionPath& path, double tolerance, ElementWork& work,
                          Control& control) const;
+    /// The state itself where it is stable, else the stable one that it is left for, where there is one.
+    NewtonState stabilised(NewtonState state, double tolerance, ElementWork& work, Control& control) const;
     StatePtr settled(NewtonState state, double tolerance, ElementWork& work, Control& control) const;
+    /// Keeps a factor, in place of the last one.
+    void keep(std::shared_ptr<const SparseCholesky> factor) const;
     StatePtr at_rest(ElementWork& work, Control& control) const;
     Eigen::MatrixXd derivatives(const NonlinearState& state, const Eigen::MatrixXd& changes, ElementWork& work,
                                 Control& control) const;
@@ -67,12 +83,21 @@ private:
     Eigen::VectorXd of_prescribed(const Eigen::VectorXd& all) const;
     std::shared_ptr<const WarpedStart> rest(ElementWork& work, Control& control) const;
 
+    void find_faces();
+    /// Throws NoEquilibriumError where a prescribed face is flattened: the Gauss points of ten-node elements do not see
+    /// that their volume vanishes there.
+    void require_faces(const Eigen::VectorXd& prescribed) const;
+
     PrescribedNodes nodes_;
+    /// Faces of elements with all corners on handles: their places among the prescribed nodes.
+    std::vector<Eigen::Vector3i> faces_;
     std::vector<int> patches_;
     Positions rest_positions_;
     Newton newton_;
     mutable std::mutex rest_mutex_;
     mutable std::shared_ptr<const WarpedStart> rest_;
+    mutable std::mutex kept_mutex_;
+    mutable std::shared_ptr<const SparseCholesky> kept_;  ///< of the last equilibrium, from which the next one begins
 };
 
 }  // namespace elastolab
