@@ -34,7 +34,7 @@ struct Bent {
           u(3 * elements->n_nodes()) {
         for (int node = 0; node < elements->n_nodes(); ++node) {
             const Eigen::Vector3d x = elements->positions().col(node);
-            u.segment<3>(3 * node) = test::rotation(Eigen::Vector3d::UnitZ(), 40 * x[0]) * x - x;
+            u.segment<3>(3 * node) = test::rotation(Eigen::Vector3d::UnitZ(), 10 * x[0]) * x - x;
         }
     }
     void iterate() {
