@@ -35,15 +35,11 @@ std::vector<Growth> growths(bool quick) {
             if (n <= (quick ? std::min(largest, 6) : largest)) all.push_back(n);
         return all;
     };
-    return {{method(kGalerkinBem, Mode::on_demand), cells(82)},
-            {method(kGalerkinBem, Mode::full), cells(16)},
-            {method(kQuadraticFem, Mode::on_demand), cells(30)},
-            {method(kFem, Mode::on_demand), cells(82)},
-            {method(kFem, Mode::full), cells(16)},
-            {method(kFem, Mode::full_volume), cells(10)},
-            {method(kConstantBem, Mode::on_demand), cells(20)},
-            {method(kConstantBem, Mode::full), cells(10)},
-            {method(kLinearBem, Mode::on_demand), cells(82)},
+    return {{method(kGalerkinBem, Mode::on_demand), cells(82)},  {method(kGalerkinBem, Mode::full), cells(16)},
+            {method(kQuadraticFem, Mode::on_demand), cells(30)}, {method(kNonlinearFem, Mode::on_demand), cells(13)},
+            {method(kFem, Mode::on_demand), cells(82)},          {method(kFem, Mode::full), cells(16)},
+            {method(kFem, Mode::full_volume), cells(10)},        {method(kConstantBem, Mode::on_demand), cells(20)},
+            {method(kConstantBem, Mode::full), cells(10)},       {method(kLinearBem, Mode::on_demand), cells(82)},
             {method(kLinearBem, Mode::full), cells(16)}};
 }
 
@@ -57,6 +53,8 @@ std::vector<Row> measure_growth(const Method& method, int cells, Control& contro
     const Body body = study_body(make_box(cells), Material{1.0, 0.3}, "cube");
     const ConstrainedSet set = held_and_pulled(*body.surface);
     const Cost predicted = predict_cost(*body.surface, method);
+    const Eigen::VectorXd rest = Eigen::VectorXd::Zero(3 * std::ssize(set.handles));
+    const Eigen::MatrixXd basis = translation_basis(set.handles.size());
     std::vector<double> precomputed, set_change;
     double model_bytes = 0.0, all_bytes = 0.0;
     std::optional<Deformer> deformer;
@@ -69,17 +67,25 @@ std::vector<Row> measure_growth(const Method& method, int cells, Control& contro
             precomputed.push_back(watch.seconds());
             model_bytes = std::max(model_bytes, peak.bytes());
             deformer->constrain(set, control);
+            if (!deformer->linear()) deformer->drag_response(rest, basis);  // which factorises
             set_change.push_back(watch.seconds() - precomputed.back());
             all_bytes = std::max(all_bytes, peak.bytes());
         },
         0.5, 5);
-    const DragResponse drag = deformer->drag_response(Eigen::VectorXd::Zero(3 * std::ssize(set.handles)),
-                                                      translation_basis(set.handles.size()));
+    const DragResponse drag = deformer->drag_response(rest, basis);
     Eigen::VectorXd u;
     const Eigen::VectorXd shift = Eigen::Vector3d(0.1, 0.2, 0.3);
     const double frame = median_seconds_of_short([&] { drag.displace(shift, u); });
-    return {Row()
-                .set("vertices", body.surface->n_vertices())
+    Row row;
+    if (!deformer->linear()) {
+        const Eigen::VectorXd values = 0.2 * basis * shift;
+        row.set("equilibrium_s", median_seconds(
+                                     [&] {
+                                         deformer->displace(values, control, kSolveTolerance, {drag.equilibrium, {}});
+                                     },
+                                     0.5, 3));
+    }
+    return {row.set("vertices", body.surface->n_vertices())
                 .set("unknowns", deformer->model().facts().n_degrees_of_freedom)
                 .set("constrained", std::ssize(set.base) + std::ssize(set.handles))
                 .set("precompute_s", median(precomputed))
