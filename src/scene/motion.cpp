@@ -17,9 +17,10 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kRigid = 1e-9;    ///< what rounding leaves of a turn
-constexpr double kNearTurn = 1.6;  ///< between a rotation vector and the one it continues [radians]
-constexpr double kNoTurn = 1e-13;  ///< [degree]
+constexpr double kRigid = 1e-9;         ///< what rounding leaves of a turn
+constexpr double kRoundedMove = 1e-14;  ///< of a position, in what a stretch about a point leaves of a move
+constexpr double kNearTurn = 1.6;       ///< between a rotation vector and the one it continues [radians]
+constexpr double kNoTurn = 1e-13;       ///< [degree]
 
 /// A rotation vector, along the axis and as long as the angle [radians].
 Vector3d vector_of(const Rotation& rotation) { return kDegree * rotation.degrees * rotation.axis.stableNormalized(); }
@@ -222,7 +223,11 @@ std::optional<Placement> placement_of(const Motion& motion, const Positions& res
         if (!turn.isZero(0.0)) return std::nullopt;
         turn = rotation_vector(own, Vector3d::Zero()) / kDegree;
     }
-    return Placement{mean_displacement(motion, rest), turn.array() + 0.0, scale};  // + 0: no "-0"
+    Vector3d move = mean_displacement(motion, rest);
+    const double rounding = kRoundedMove * rest.cwiseAbs().maxCoeff();
+    for (double& along : move)
+        if (std::abs(along) < rounding) along = 0.0;
+    return Placement{move, turn.array() + 0.0, scale};  // + 0: no "-0"
 }
 
 AffineMotion motion_of(const Placement& placement, const Positions& rest) {

@@ -101,7 +101,7 @@ void Panels::draw_display(const PanelContext& context) {
          {"flat", &DisplaySettings::flat, "One shade for each triangle."},
          {"creases", &DisplaySettings::feature_edges, "Sharp edges of the rest shape."},
          {"rest shape", &DisplaySettings::rest_shape, "The undeformed body, drawn faintly."},
-         {"constrained vertices", &DisplaySettings::constraints, "Fixed vertices and handles as points."},
+         {"constraints", &DisplaySettings::constraints, "Fixed vertices and handles as points."},
          {"forces", &DisplaySettings::arrows, "Forces that the fixed sets and every handle exert on the body."},
          {"grid", &DisplaySettings::grid, ""},
          {"defects", &DisplaySettings::defects,

@@ -94,7 +94,10 @@ float Panels::draw_warnings(const PanelContext& context) {
     for (const Warning& warning : warnings_) {
         paragraph(warning.text, warning.is_problem ? context.palette.bad : context.palette.busy);
         if (!warning.better) continue;
+        ImGui::PushStyleColor(ImGuiCol_Button, imgui_colour(context.palette.border));  // not that of this window
+        ImGui::PushStyleColor(ImGuiCol_ButtonHovered, imgui_colour(context.palette.accent));
         if (ImGui::Button(("Switch to " + title(warning.better)).c_str())) state.select_method(warning.better);
+        ImGui::PopStyleColor(2);
         tooltip(
             "Both theories on a coarse mesh: the largest difference of a displacement, over the largest displacement.");
     }
