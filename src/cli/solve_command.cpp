@@ -145,7 +145,7 @@ void run_solve(const SolveOptions& options) {
         solution.findings.push_back({.kind = FindingKind::choice_left_aside, .object = "--tractions"});
     if (!options.elements.empty() && !request.method.kind->chooses_elements)
         solution.findings.push_back({.kind = FindingKind::choice_left_aside, .first = 1, .object = "--elements"});
-    write_outputs(options.outputs(), solution);
+    write_outputs(options.outputs(), solution, control);
     if (options.quiet) return;
     lseek(STDOUT_FILENO, 0, SEEK_END);  // after an output that went to /dev/stdout, if that is a file
     print_summary(std::cout, request, solution);

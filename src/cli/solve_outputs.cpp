@@ -66,15 +66,13 @@ private:
     std::deque<AtomicFile> files_;  ///< references to its members stay valid
 };
 
-Figure figure_of(const Solution& solution) {
-    Control never_cancelled;
-    return make_figure(*solution.deformer, solution.values, solution.groups, never_cancelled);
+Figure figure_of(const Solution& solution, Control& control) {
+    return make_figure(*solution.deformer, solution.values, solution.groups, control);
 }
 
-void write_mesh(std::ostream& out, const fs::path& name, const Solution& solution, VtkPoints points) {
-    Control never_cancelled;
-    if (is_glb_file(name)) return write_glb(out, figure_of(solution));
-    if (is_field_file(name)) return write_field_file(out, name, solved_body(solution), never_cancelled, points);
+void write_mesh(std::ostream& out, const fs::path& name, const Solution& solution, VtkPoints points, Control& control) {
+    if (is_glb_file(name)) return write_glb(out, figure_of(solution, control));
+    if (is_field_file(name)) return write_field_file(out, name, solved_body(solution), control, points);
     SurfaceMesh mesh = *solution.surface;
     mesh.vertices += solution.displacement;
     write_surface(out, mesh, name);
@@ -154,7 +152,7 @@ void require_writable(const OutputPaths& paths, const std::vector<fs::path>& inp
     if (!paths.matrices.empty()) require_writable_folder(paths.matrices);
 }
 
-void write_outputs(const OutputPaths& paths, const Solution& solution) {
+void write_outputs(const OutputPaths& paths, const Solution& solution, Control& control) {
     const NewFolder folder(paths.matrices);  // destroyed after `outputs`, whose temporaries lie in it
     OutputSet outputs;
     if (!paths.displacements.empty())
@@ -162,8 +160,9 @@ void write_outputs(const OutputPaths& paths, const Solution& solution) {
     if (!paths.fields.empty())
         write_field_csv(outputs.add(paths.fields).stream(), solution.surface->vertices,
                         surface_fields(solved_body(solution)));
-    if (!paths.mesh.empty()) write_mesh(outputs.add(paths.mesh).stream(), paths.mesh, solution, paths.mesh_points);
-    if (!paths.figure.empty()) write_figure(outputs.add(paths.figure).stream(), figure_of(solution));
+    if (!paths.mesh.empty())
+        write_mesh(outputs.add(paths.mesh).stream(), paths.mesh, solution, paths.mesh_points, control);
+    if (!paths.figure.empty()) write_figure(outputs.add(paths.figure).stream(), figure_of(solution, control));
     if (!paths.forces.empty()) {
         std::vector<GroupReaction> rows = solution.reactions;
         rows.insert(rows.end(), solution.loads.begin(), solution.loads.end());

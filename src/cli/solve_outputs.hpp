@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/control.hpp"
 #include "mesh/output/field_files.hpp"
 #include "scene/solve.hpp"
 
@@ -32,7 +33,8 @@ void require_mesh_extension(const std::filesystem::path& mesh);
 /// Throws UsageError when this is a file of tetrahedra (.vtu) and the method has none.
 void require_inside(MethodKind method, const std::filesystem::path& mesh);
 
-/// Writes all outputs, then puts them in their places together: when one fails, none is there.
-void write_outputs(const OutputPaths& paths, const Solution& solution);
+/// Writes all outputs, then puts them in their places together: when one fails, none is there. Solves for what figures
+/// and fields need besides. Throws Error, Cancelled.
+void write_outputs(const OutputPaths& paths, const Solution& solution, Control& control);
 
 }  // namespace elastolab

@@ -1,5 +1,7 @@
+import base64
 import json
 import os
+import re
 
 import numpy as np
 import pytest
@@ -96,3 +98,37 @@ def test_the_viewer_gives_back_the_scene_as_it_was_left(monkeypatch):
     monkeypatch.setenv("ELASTOLAB_VIEW_ARGUMENTS", "--no-such-option")
     with pytest.raises(el.Error, match="no-such-option"):
         el.show(el.Scene(cube_scene()))
+
+
+def figure_of(page):
+    """What a figure for browsers holds: columns of displacement and stress, as its script reads them."""
+    data = json.loads(re.search(r'<script type="application/json" id="data">(.*?)</script>', page, re.S).group(1))
+
+    def reals(text, *shape):
+        return np.frombuffer(base64.b64decode(text), np.float32).reshape(*shape)
+
+    handle = data["handles"][0]
+    return (reals(data["displacement"], -1, 3), reals(data["stress"], -1, 6), reals(handle["displacement"], 6, -1, 3),
+            reals(handle["stress"], 6, -1, 6))
+
+
+@pytest.mark.parametrize("method", ["fem", "linear-bem"])
+def test_a_figure_of_a_loaded_body_is_right_when_its_handle_is_pulled(tmp_path, method):
+    data = {**cube_scene(method, 3), "gravity": [0, 0, -9.81], "density": 3.0}
+    el.Scene(data).solve(checks=False).save(tmp_path / "figure.html")
+    u, stress, columns, stress_columns = figure_of((tmp_path / "figure.html").read_text())
+    data["handles"][0]["translate"] = [0.3, -0.1, 0.05]
+    pulled = el.Scene(data).solve(checks=False)
+    np.testing.assert_allclose(u + 0.2 * columns[0] - 0.1 * columns[1], pulled.displacement, atol=1e-6)
+    expected = pulled.fields()["stress"]
+    np.testing.assert_allclose(stress + 0.2 * stress_columns[0] - 0.1 * stress_columns[1], expected,
+                               atol=1e-5 * abs(expected).max())
+
+
+def test_a_figure_needs_a_linear_method_and_a_handle(tmp_path):
+    with pytest.raises(el.Error, match="a figure needs a linear method"):
+        el.Scene(cube_scene("nonlinear-fem", 2)).solve(checks=False).save(tmp_path / "figure.html")
+    alone = {**cube_scene("fem", 2), "handles": []}
+    with pytest.raises(el.Error, match="there is no handle to pull"):
+        el.Scene(alone).solve(checks=False).save(tmp_path / "figure.html")
+    assert not (tmp_path / "figure.html").exists()
