@@ -114,3 +114,25 @@ cat > "$work/turns.json" << 'END'
               "translate": [0.8, 0, 0], "rotate": {"axis": [1, 0, 0], "degrees": 720, "center": [4, 0.5, 0.5]}}]}
 END
 film turn "$work/turns.json" 48
+
+# The rabbit's ear turned by 30, 60 and 90 degrees: nonlinear FEM above, linear elasticity by quadratic FEM below.
+if [[ ${#wanted[@]} -eq 0 || " ${wanted[*]} " == *" ear "* ]]; then
+  columns=()
+  for degrees in 30 60 90; do
+    for method in nonlinear-fem quadratic-fem; do
+      cat > "$work/ear.json" << END
+{"elastolab": 1, "mesh": {"file": "$PWD/assets/meshes/rabbit.obj"}, "method": "$method",
+ "proxy": {"use": "always", "vertices": 500},
+ "fixed": {"box": {"min": [-1, -1, -1], "max": [1, 1, 0.12]}},
+ "handles": [{"name": "ear", "select": {"sphere": {"center": [0.3, -0.21, 2.25], "radius": 0.16}},
+              "rotate": {"axis": [0, 1, 0], "degrees": $degrees, "center": [0.3, -0.21, 2.25]}}]}
+END
+      tests/support/with_display.sh "$program" view "$work/ear.json" --hidden --frames 2 \
+        --picture "$work/ear-$degrees-$method.png" --picture-size 500x500
+    done
+    columns+=('(' "$work/ear-$degrees-nonlinear-fem.png" "$work/ear-$degrees-quadratic-fem.png"
+              -crop 260x250+120+60 +repage -append ')')
+  done
+  convert "${columns[@]}" +append -strip -colors 240 -define png:compression-level=9 assets/pictures/ear.png
+  echo assets/pictures/ear.png
+fi
