@@ -1,0 +1,99 @@
+// Betti's theorem in the equations of Galerkin BEM (docs/formulation.md section 13).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "bem/galerkin/method.hpp"
+#include "bem/galerkin/solvers.hpp"
+#include "mesh/measures.hpp"
+#include "methods/problem.hpp"
+#include "study/error/organic_body.hpp"
+
+namespace elastolab::test {
+namespace {
+
+/// A load g on a body that is fixed and held at a patch, and a motion of the patch without the load.
+struct LoadAndMotion {
+    explicit LoadAndMotion(int n_vertices) : body(make_rabbit(n_vertices)), vertices(body.base) {
+        vertices.insert(vertices.end(), body.pull.begin(), body.pull.end());
+        std::vector<char> is_constrained(static_cast<std::size_t>(body.surface.n_vertices()), 0);
+        for (const int v : vertices) is_constrained[static_cast<std::size_t>(v)] = 1;
+        std::vector<int> pressed;
+        for (int t = 0; t < body.surface.n_triangles(); ++t) {
+            const auto corners = body.surface.triangles.col(t);
+            const auto is_free = [&](int v) { return is_constrained[static_cast<std::size_t>(v)] == 0; };
+            if (std::all_of(corners.begin(), corners.end(), is_free) && body.surface.vertices(0, corners[0]) < 0.0)
+                pressed.push_back(t);
+        }
+        load = {unit_pressure(body.surface, pressed)};
+        tractions = GalerkinTractions(body.surface, surfaces, vertices);
+        const GalerkinDirectSolver solver(system, vertices, tractions, load, control);
+        Eigen::VectorXd prescribed = Eigen::VectorXd::Zero(3 * std::ssize(vertices) + 1);
+        prescribed.segment(3 * std::ssize(body.base), 3 * std::ssize(body.pull)) =
+            Eigen::Vector3d(0.3, -0.1, 0.2).replicate(std::ssize(body.pull), 1);
+        motion = prescribed.head(3 * std::ssize(vertices));
+        moved = solver.solve(prescribed, true);
+        prescribed.setZero();
+        prescribed[3 * std::ssize(vertices)] = 1.0;
+        loaded = solver.solve(prescribed, true);
+    }
+    /// Of the load's reactions, in the motion.
+    double work_of_reactions() const { return motion.dot(loaded.loads.col(0).head(motion.size())); }
+    /// Of the load in what the motion causes, as the equations have it: v^T (B - H)^T g + s^T G g.
+    double work_in_equations() {
+        const Eigen::VectorXd s = moved.loads.col(0).tail(tractions.size());
+        return moved.displacements.col(0).dot(system.given_nodal_forces(load, control).col(0)) +
+               s.dot(system.given_single_layer(tractions, load, control).col(0));
+    }
+    /// The same, int g . v.
+    double work_on_surface() const {
+        double work = 0.0;
+        for (std::size_t k = 0; k < load[0].triangles.size(); ++k) {
+            const double area = 0.5 * area_vector(triangle_points(body.surface, load[0].triangles[k])).norm();
+            for (const int v : body.surface.triangles.col(load[0].triangles[k]))
+                work += area / 3.0 *
+                        load[0]
+                            .tractions.col(static_cast<Eigen::Index>(k))
+                            .dot(moved.displacements.col(0).segment<3>(3 * v));
+        }
+        return work;
+    }
+
+    Control control;
+    OrganicBody body;
+    std::vector<int> vertices;
+    std::vector<UnitLoad> load;
+    StageTimes stages;
+    GalerkinSystem system{std::make_shared<const Boundary>(body.surface),
+                          0.3,
+                          Method{.kind = kGalerkinBem, .update = Update::direct},
+                          nullptr,
+                          stages,
+                          control};
+    ClosedSurfaces surfaces{body.surface};
+    GalerkinTractions tractions;
+    Eigen::VectorXd motion;
+    NodeSolution moved, loaded;
+};
+
+TEST(GalerkinLoads, AreReciprocalWithMotionsInTheEquations) {
+    LoadAndMotion problem(300);
+    const double work = problem.work_in_equations();
+    EXPECT_NEAR(problem.work_of_reactions(), -work, 1e-9 * std::abs(work));
+}
+
+/// H v = G s is asked on constrained triangles only; elsewhere it holds to the error of the discretisation.
+TEST(GalerkinLoads, WorkOnTheSurfaceIsThatOfTheEquationsButForTheDiscretisation) {
+    const auto off = [](int n_vertices) {
+        LoadAndMotion problem(n_vertices);
+        return std::abs(problem.work_on_surface() / problem.work_in_equations() - 1.0);
+    };
+    const double coarse = off(300), fine = off(1200);
+    EXPECT_LT(coarse, 1e-2);
+    EXPECT_LT(fine, 0.5 * coarse);
+}
+
+}  // namespace
+}  // namespace elastolab::test
