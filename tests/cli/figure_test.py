@@ -1,26 +1,19 @@
 """The figure for browsers, in headless Chromium: figure_test.py PROGRAM [unittest's arguments]."""
 
-import csv
 import html
 import json
-import pathlib
 import re
 import shutil
 import subprocess
-import sys
-import tempfile
 import unittest
 
 import numpy as np
 
-PROGRAM = sys.argv.pop(1)
+from program_case import ProgramCase, plane
+
 BROWSER = shutil.which("chromium") or "chromium"
 SHIFT, TURN = np.array([0.1, 0.02, -0.05]), np.array([0.1, -0.2, 0.3])
 ACCURACY = 1e-5  # relative: numbers in the figure are of single precision
-
-
-def plane(x):
-    return {"plane": {"point": [x, 0, 0], "normal": [1, 0, 0], "tolerance": 1e-6}}
 
 
 def scene(method, translate, turn=(0, 0, 0), centre=(0, 0, 0)):
@@ -33,23 +26,7 @@ def scene(method, translate, turn=(0, 0, 0), centre=(0, 0, 0)):
             "material": {"young_modulus": 1000.0, "poisson_ratio": 0.3}, "handles": [handle]}
 
 
-def columns(file, first, last):
-    with open(file, encoding="utf-8") as table:
-        rows = list(csv.reader(table))
-    begin, end = rows[0].index(first), rows[0].index(last) + 1
-    return np.array([[float(x) for x in row[begin:end]] for row in rows[1:]])
-
-
-class Figure(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
-    def solve(self, description, *options):
-        (self.folder / "scene.json").write_text(json.dumps(description))
-        subprocess.run([PROGRAM, "solve", "scene.json", "--quiet", *options], cwd=self.folder, check=True)
-
+class Figure(ProgramCase):
     def run_in_browser(self, script):
         """What a script, which sees the page when it is shown, puts into `result`."""
         page = (self.folder / "figure.html").read_text(encoding="utf-8")
@@ -74,9 +51,9 @@ class Figure(unittest.TestCase):
                 "result.centre = figure.handles[0].centre")
             np.testing.assert_allclose(shown["centre"], [1, 0.5, 0.5], atol=1e-12)
             self.solve(scene(method, SHIFT + [0.05, 0, 0], TURN, [1, 0.5, 0.5]), "--fields", "f.csv")
-            u = columns(self.folder / "f.csv", "displacement_x", "displacement_z")
+            u = self.columns("f.csv", "displacement_x", "displacement_z")
             np.testing.assert_allclose(np.reshape(shown["u"], (-1, 3)), u, atol=ACCURACY * abs(u).max())
-            von_mises = columns(self.folder / "f.csv", "von_mises", "von_mises")[:, 0]
+            von_mises = self.columns("f.csv", "von_mises", "von_mises")[:, 0]
             np.testing.assert_allclose(shown["s"], von_mises, atol=ACCURACY * von_mises.max())
 
     def test_a_pointer_pulls_a_handle_and_looks_around(self):

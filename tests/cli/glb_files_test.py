@@ -1,22 +1,15 @@
 """glTF with morph targets, read back as its specification says: glb_files_test.py PROGRAM [unittest's arguments]."""
 
-import csv
 import json
-import pathlib
 import struct
 import subprocess
-import sys
-import tempfile
 import unittest
 
 import numpy as np
 
-PROGRAM = sys.argv.pop(1)
+from program_case import PROGRAM, ProgramCase, plane
+
 ACCURACY = 1e-6  # relative: single precision
-
-
-def plane(x):
-    return {"plane": {"point": [x, 0, 0], "normal": [1, 0, 0], "tolerance": 1e-6}}
 
 
 def scene(translate):
@@ -54,20 +47,7 @@ def read_glb(file):
     return root, arrays
 
 
-class Glb(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
-    def solve(self, description, *options):
-        (self.folder / "scene.json").write_text(json.dumps(description))
-        subprocess.run([PROGRAM, "solve", "scene.json", "--quiet", *options], cwd=self.folder, check=True)
-
-    def displacements(self):
-        with open(self.folder / "u.csv", encoding="utf-8") as table:
-            return np.array([[float(x) for x in row[1:]] for row in list(csv.reader(table))[1:]])
-
+class Glb(ProgramCase):
     def test_weighted_targets_are_what_solve_says(self):
         self.solve(scene([0.05, 0, 0]), "--mesh-out", "cube.glb")
         root, arrays = read_glb(self.folder / "cube.glb")
@@ -79,10 +59,10 @@ class Glb(unittest.TestCase):
         targets = [arrays[target["POSITION"]] for target in primitive["targets"]]
         rest = arrays[primitive["attributes"]["POSITION"]]
         self.solve(scene([0.15, -0.2, 0.1]), "--displacements", "u.csv")
-        expected = self.displacements()
-        np.testing.assert_allclose(rest, expected[:, :3], atol=ACCURACY)
+        start, moved = self.columns("u.csv", "x", "z"), self.columns("u.csv", "ux", "uz")
+        np.testing.assert_allclose(rest, start, atol=ACCURACY)
         pulled = targets[0] + 0.1 * targets[1] - 0.2 * targets[2] + 0.1 * targets[3]
-        np.testing.assert_allclose(pulled, expected[:, 3:], atol=ACCURACY)
+        np.testing.assert_allclose(pulled, moved, atol=ACCURACY)
         right = rest[:, 0] == 1
         np.testing.assert_allclose(targets[6][right], np.cross([0, 0, 1], (rest - [1, 0.5, 0.5])[right]), atol=ACCURACY)
         corners = arrays[primitive["indices"]].reshape(-1, 3)

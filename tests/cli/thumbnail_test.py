@@ -1,25 +1,18 @@
 """Thumbnails, read by VTK: thumbnail_test.py PROGRAM [unittest's arguments]."""
 
 import json
-import pathlib
 import subprocess
-import sys
-import tempfile
 import unittest
 
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOImage import vtkPNGReader
 
-PROGRAM = sys.argv.pop(1)
+from program_case import PROGRAM, ProgramCase
 
 
-class Thumbnail(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
 
+class Thumbnail(ProgramCase):
     def run_program(self, *words):
         return subprocess.run([PROGRAM, "thumbnail", *words], cwd=self.folder, capture_output=True, text=True,
                               env={"PATH": "/usr/bin:/bin"}, check=False)

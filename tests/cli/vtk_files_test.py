@@ -1,11 +1,5 @@
 """Files for ParaView, read back by VTK itself: vtk_files_test.py PROGRAM [unittest's arguments]."""
 
-import csv
-import json
-import pathlib
-import subprocess
-import sys
-import tempfile
 import unittest
 
 import numpy as np
@@ -14,7 +8,8 @@ from vtkmodules.vtkFiltersGeneral import vtkWarpVector
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLUnstructuredGridReader
 from vtkmodules.vtkCommonDataModel import VTK_QUADRATIC_TETRA, VTK_TETRA
 
-PROGRAM = sys.argv.pop(1)
+from program_case import ProgramCase, plane
+
 GRADIENT = np.array([[0.01, 0.02, 0.0], [-0.01, 0.03, 0.005], [0.0, 0.01, -0.02]])
 YOUNG, POISSON = 7.0, 0.25
 
@@ -38,9 +33,7 @@ def stretched(method):
 
 
 def pulled(method):
-    right = {"plane": {"point": [1, 0, 0], "normal": [1, 0, 0], "tolerance": 1e-6}}
-    left = {"plane": {"point": [0, 0, 0], "normal": [1, 0, 0], "tolerance": 1e-6}}
-    return scene(method, [{"select": right, "translate": [0.1, 0, 0.05]}], left)
+    return scene(method, [{"select": plane(1), "translate": [0.1, 0, 0.05]}], plane(0))
 
 
 def uniform_stress():
@@ -51,24 +44,14 @@ def uniform_stress():
     return np.array([s[0, 0], s[1, 1], s[2, 2], s[0, 1], s[1, 2], s[0, 2]])
 
 
-class Solved(unittest.TestCase):
-    def setUp(self):
-        self.folder_ = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder_.cleanup)
-        self.folder = pathlib.Path(self.folder_.name)
-
-    def solve(self, description, name, *options):
-        """The file that solve writes, as VTK reads it, and the table of the vertices."""
-        (self.folder / "scene.json").write_text(json.dumps(description))
-        subprocess.run(
-            [PROGRAM, "solve", "scene.json", "--quiet", "--mesh-out", name, "--displacements", "u.csv", *options],
-            cwd=self.folder, check=True)
+class Solved(ProgramCase):
+    def read(self, description, name, *options):
+        """The file that solve writes, as VTK reads it, and rest positions and displacements of the vertices."""
+        self.solve(description, "--mesh-out", name, "--displacements", "u.csv", *options)
         reader = vtkXMLPolyDataReader() if name.endswith(".vtp") else vtkXMLUnstructuredGridReader()
         reader.SetFileName(str(self.folder / name))
         reader.Update()
-        with open(self.folder / "u.csv", encoding="utf-8") as table:
-            rows = np.array([[float(x) for x in row] for row in list(csv.reader(table))[1:]])
-        return reader.GetOutput(), rows[:, 1:4], rows[:, 4:7]
+        return reader.GetOutput(), self.columns("u.csv", "x", "z"), self.columns("u.csv", "ux", "uz")
 
     def check_facts(self, data):
         facts = data.GetFieldData()
@@ -84,7 +67,7 @@ class Solved(unittest.TestCase):
 
     def test_a_surface_is_at_rest_and_warps_to_where_it_was_pulled(self):
         for method in ("linear-bem", "fem"):
-            data, rest, u = self.solve(pulled(method), "out.vtp")
+            data, rest, u = self.read(pulled(method), "out.vtp")
             np.testing.assert_array_equal(vtk_to_numpy(data.GetPoints().GetData()), rest)
             self.assertEqual(data.GetPointData().GetVectors().GetName(), "displacement")
             self.assertEqual(data.GetPointData().GetScalars().GetName(), "von_mises")
@@ -96,7 +79,7 @@ class Solved(unittest.TestCase):
             self.check_components(data.GetPointData())
 
     def test_moved_points_have_no_active_vector(self):
-        data, rest, u = self.solve(pulled("fem"), "out.vtp", "--deformed")
+        data, rest, u = self.read(pulled("fem"), "out.vtp", "--deformed")
         np.testing.assert_array_equal(vtk_to_numpy(data.GetPoints().GetData()), rest + u)
         self.assertIsNone(data.GetPointData().GetVectors())
         np.testing.assert_array_equal(vtk_to_numpy(data.GetPointData().GetArray("displacement")), u)
@@ -104,7 +87,7 @@ class Solved(unittest.TestCase):
     def test_the_inside_of_a_uniform_stretch_has_its_stress(self):
         stress = uniform_stress()
         for method, cell in (("fem", VTK_TETRA), ("quadratic-fem", VTK_QUADRATIC_TETRA)):
-            data, rest, u = self.solve(stretched(method), "out.vtu")
+            data, rest, u = self.read(stretched(method), "out.vtu")
             points = vtk_to_numpy(data.GetPoints().GetData())
             np.testing.assert_array_equal(points[: len(rest)], rest)
             displacement = vtk_to_numpy(data.GetPointData().GetVectors())
@@ -118,7 +101,7 @@ class Solved(unittest.TestCase):
             self.check_facts(data)
 
     def test_a_midpoint_lies_on_its_edge_and_the_cells_fill_the_cube(self):
-        data, _, _ = self.solve(pulled("quadratic-fem"), "out.vtu")
+        data, _, _ = self.read(pulled("quadratic-fem"), "out.vtu")
         points = vtk_to_numpy(data.GetPoints().GetData())
         edges = [(0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)]  # of vtkQuadraticTetra
         volume = 0.0
