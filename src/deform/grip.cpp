@@ -12,6 +12,9 @@ namespace {
 
 /// Below this part of the largest, a stiffness counts as none.
 constexpr double kNoStiffness = 1e-10;
+/// Below this part of Young's modulus times the size of the body all of it is rounding, and what the integrals leave of
+/// a rigid motion: nothing but the grips holds the body. A thread of 1 : 1000 resists a pull by 1e-6 of it.
+constexpr double kNothingHolds = 1e-7;
 /// Forces that no motion answers, over the forces.
 constexpr double kUnanswered = 1e-6;
 
@@ -40,6 +43,15 @@ GripStiffness::GripStiffness(const Deformer& deformer, const Eigen::VectorXd& va
         move(motion, unit);
         matrix_.col(k) = resultants(deformer, unit, control);
     }
+    const Eigen::VectorXd unit = units();
+    const double largest = n == 0 ? 0.0 : (unit.asDiagonal() * matrix_ * unit.asDiagonal()).cwiseAbs().maxCoeff();
+    if (largest < kNothingHolds * deformer.model().body().material.young_modulus * length_) matrix_.setZero();
+}
+
+Eigen::VectorXd GripStiffness::units() const {
+    Eigen::VectorXd unit = Eigen::VectorXd::Ones(6 * std::ssize(grips_));
+    for (Eigen::Index g = 0; g < n_grips(); ++g) unit.segment<3>(6 * g + 3).setConstant(1.0 / length_);
+    return unit;
 }
 
 /// Force over moment about its middle of each grip, for these values.
@@ -73,9 +85,7 @@ void GripStiffness::move(const Eigen::VectorXd& motions, Eigen::VectorXd& values
 }
 
 Eigen::VectorXd GripStiffness::motions(const Eigen::VectorXd& forces, const Eigen::VectorXd& springs) const {
-    // In units in which rotations and moments are lengths and forces.
-    Eigen::VectorXd unit = Eigen::VectorXd::Ones(matrix_.rows());
-    for (Eigen::Index g = 0; g < n_grips(); ++g) unit.segment<3>(6 * g + 3).setConstant(1.0 / length_);
+    const Eigen::VectorXd unit = units();
     Eigen::MatrixXd held = matrix_;
     for (Eigen::Index g = 0; g < springs.size(); ++g) held.diagonal().segment<3>(6 * g).array() += springs[g];
     const Eigen::MatrixXd scaled = unit.asDiagonal() * held * unit.asDiagonal();
@@ -87,8 +97,7 @@ Eigen::VectorXd GripStiffness::motions(const Eigen::VectorXd& forces, const Eige
     if (!((scaled * motion - wanted).norm() <= kUnanswered * (wanted.norm() + (unit.asDiagonal() * forces).norm())))
         throw SolveError(
             "handles under a force: no motion of theirs balances it. Fix a part of the body, give a handle with a "
-            "moment "
-            "three vertices that are not on one line, or let forces and moments sum to zero.");
+            "moment three vertices that are not on one line, or let forces and moments sum to zero.");
     return unit.asDiagonal() * motion;
 }
 

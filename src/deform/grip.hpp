@@ -35,7 +35,8 @@ public:
     const std::vector<Grip>& grips() const { return grips_; }
     int n_grips() const { return static_cast<int>(grips_.size()); }
     const Eigen::Vector3d& middle(int grip) const { return middles_[static_cast<std::size_t>(grip)]; }
-    /// 6 k x 6 k: force over moment of each grip, per translation [L] over rotation [rad] of each.
+    /// 6 k x 6 k: force over moment of each grip, per translation [L] over rotation [rad] of each. Zero where nothing
+    /// but one grip holds the body.
     const Eigen::MatrixXd& matrix() const { return matrix_; }
     /// Force over moment of each grip (6 k), for the motions (6 k) of all.
     Eigen::VectorXd forces(const Eigen::VectorXd& motions) const { return rest_ + matrix_ * motions; }
@@ -48,6 +49,8 @@ public:
     void move(const Eigen::VectorXd& motions, Eigen::VectorXd& values) const;
 
 private:
+    /// Of each grip's motion or force: in them rotations and moments are lengths and forces.
+    Eigen::VectorXd units() const;
     Eigen::VectorXd resultants(const Deformer& deformer, const Eigen::VectorXd& values, Control& control) const;
 
     std::vector<Grip> grips_;

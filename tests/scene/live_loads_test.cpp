@@ -179,5 +179,32 @@ TEST(LiveLoads, HandlesUnderAForceStandWhereSolvePutsThem) {
     }
 }
 
+TEST(LiveLoads, AHandleUnderAForceOnABodyThatNothingHoldsStaysAndSaysWhy) {
+    for (const MethodKind kind : {kFem, kLinearBem, kGalerkinBem}) {
+        Document document = fixed_cube();
+        document.fixed.clear();
+        document.handles = {{.name = "edge", .select = {BoxSelector{{0.9, 0, 0}, {1, 0.3, 1}}}}};
+        document.handles[0].force = GripForce{{2.0, -1.0, 3.0}, {0, 0, 0}};
+        LiveScene scene(document, "scene.json");
+        Simulation simulation([] {});
+        const MethodChoices choices;
+        const auto settle = [&] {
+            const bool settled = wait_until([&] {
+                simulation.update(scene, {kind}, choices);
+                return !simulation.busy() && !simulation.previewing(kind);
+            });
+            simulation.update(scene, {kind}, choices);
+            return settled;
+        };
+        ASSERT_TRUE(settle());
+        EXPECT_NE(simulation.problem(kind).find("no motion of theirs balances it"), std::string::npos) << name(kind);
+        EXPECT_EQ(simulation.answer(kind).displacement().norm(), 0.0) << name(kind);
+        scene.set_force(0, GripForce{{0, 0, 0}, {0, 0, 0}});
+        ASSERT_TRUE(settle());
+        EXPECT_EQ(simulation.problem(kind), "") << name(kind);
+        EXPECT_LT(simulation.answer(kind).displacement().norm(), 1e-9) << name(kind);
+    }
+}
+
 }  // namespace
 }  // namespace elastolab

@@ -1,6 +1,7 @@
 #include "scene/live/embedded_runner.hpp"
 
 #include "base/error.hpp"
+#include "scene/user_text.hpp"
 
 namespace elastolab {
 
@@ -31,6 +32,7 @@ void EmbeddedRunner::give(const Constraints& constraints) {
 
 void EmbeddedRunner::set_constraints(const Constraints& constraints) {
     give(constraints);
+    grip_failure_.clear();
     if (constraints.has_forces()) {
         asked_ = constraints;
         move_grips(constraints);
@@ -85,7 +87,8 @@ void EmbeddedRunner::move_grips(const Constraints& constraints) {
             grip_values_ = std::move(others);
         }
         grip_motions_ = own.move_grips(stiffness, surface()->vertices);
-    } catch (const SolveError&) {  // nothing holds them: they stay, and the answer says why, if there is none
+    } catch (const SolveError& error) {  // nothing holds them: they stay
+        grip_failure_ = user_text(error);
         return;
     }
     Constraints moved = constraints;

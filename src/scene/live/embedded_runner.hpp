@@ -49,6 +49,8 @@ public:
 
     /// Where handles under a force have come to, in the order of Constraints::gripped(); empty until that is known.
     const std::vector<AffineMotion>& grip_motions() const { return grip_motions_; }
+    /// Why they stay where the scene has them though their set is there; else empty.
+    const std::string& grip_failure() const { return grip_failure_; }
 
     /// One value for each vertex of surface(), carried to the shown vertices.
     Eigen::VectorXd shown_values(const Eigen::VectorXd& of_surface) const;
@@ -64,6 +66,7 @@ private:
     std::optional<Constraints> asked_;  ///< the last ones of the shown surface, where a handle is under a force
     std::optional<CarriedConstraints> carried_, prefetched_;
     std::vector<AffineMotion> grip_motions_;
+    std::string grip_failure_;
     Eigen::VectorXd grip_values_;  ///< that the stiffness of the grips was told of
     std::weak_ptr<GripStiffness> grip_stiffness_;
     // What was carried back last; made when it is asked for.

@@ -89,7 +89,9 @@ const EmbeddedRunner& Simulation::answer(MethodKind kind) const {
 
 std::string Simulation::problem(MethodKind kind) const {
     const Entry& found = entries_[place(kind)];
-    return found.unfit.empty() ? found.runner->runner().failure() : found.unfit;
+    if (!found.unfit.empty()) return found.unfit;
+    const std::string& failure = found.runner->runner().failure();
+    return failure.empty() ? found.runner->grip_failure() : failure;
 }
 
 const SurfaceMesh* Simulation::simulated_surface(MethodKind kind, const LiveScene& scene) const {
