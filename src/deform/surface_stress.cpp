@@ -102,7 +102,8 @@ Eigen::Matrix3d large_stress(const Material& material, const TriangleState& at) 
 /// each(corners, weight, stress in world axes) for every triangle; weight: its rest area.
 template <class Each>
 void for_triangle_stresses(const SurfaceMesh& surface, const Material& material, const Eigen::VectorXd& u,
-                           const Eigen::Matrix3Xd& tractions, bool large, const Each& each) {
+                           const Eigen::Matrix3Xd& tractions, bool large, const Eigen::Matrix3Xd& of_loads,
+                           const Each& each) {
     const Eigen::Map<const Eigen::Matrix3Xd> moved(u.data(), 3, u.size() / 3);
     for (Eigen::Index k = 0; k < surface.triangles.cols(); ++k) {
         const Eigen::Vector3i t = surface.triangles.col(k);
@@ -116,6 +117,7 @@ void for_triangle_stresses(const SurfaceMesh& surface, const Material& material,
         const Eigen::Matrix3d at_corners = tractions(Eigen::all, t);
         const bool loaded = (at_corners.colwise().squaredNorm().array() > 0.0).all();
         if (loaded) at.traction = at_corners.rowwise().mean();
+        if (of_loads.cols() > 0) at.traction += of_loads.col(k);
         each(t, 0.5 * a.cross(b).norm(), large ? large_stress(material, at) : small_stress(material, at));
     }
 }
@@ -140,11 +142,22 @@ Eigen::Matrix3Xd vertex_tractions(const SurfaceMesh& surface, std::span<const in
     return tractions;
 }
 
+Eigen::Matrix3Xd load_tractions(const SurfaceMesh& surface, std::span<const UnitLoad> loads,
+                                const Eigen::VectorXd& factors) {
+    if (loads.empty()) return {};
+    Eigen::Matrix3Xd tractions = Eigen::Matrix3Xd::Zero(3, surface.n_triangles());
+    for (std::size_t i = 0; i < loads.size(); ++i)
+        for (std::size_t k = 0; k < loads[i].triangles.size(); ++k)
+            tractions.col(loads[i].triangles[k]) +=
+                factors[static_cast<Eigen::Index>(i)] * loads[i].tractions.col(static_cast<Eigen::Index>(k));
+    return tractions;
+}
+
 Eigen::VectorXd surface_stress_measure(StressMeasure which, const SurfaceMesh& surface, const Material& material,
                                        const Eigen::VectorXd& u, const Eigen::Matrix3Xd& tractions,
-                                       bool large_deformations) {
+                                       bool large_deformations, const Eigen::Matrix3Xd& of_loads) {
     Eigen::VectorXd sums = Eigen::VectorXd::Zero(surface.n_vertices()), areas = sums;
-    for_triangle_stresses(surface, material, u, tractions, large_deformations,
+    for_triangle_stresses(surface, material, u, tractions, large_deformations, of_loads,
                           [&](const Eigen::Vector3i& t, double weight, const Eigen::Matrix3d& sigma) {
                               sums(t).array() += weight * measure(which, sigma);
                               areas(t).array() += weight;
@@ -153,10 +166,11 @@ Eigen::VectorXd surface_stress_measure(StressMeasure which, const SurfaceMesh& s
 }
 
 Eigen::MatrixXd surface_stress(const SurfaceMesh& surface, const Material& material, const Eigen::VectorXd& u,
-                               const Eigen::Matrix3Xd& tractions, bool large_deformations) {
+                               const Eigen::Matrix3Xd& tractions, bool large_deformations,
+                               const Eigen::Matrix3Xd& of_loads) {
     Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(6, surface.n_vertices());
     Eigen::RowVectorXd areas = Eigen::RowVectorXd::Zero(surface.n_vertices());
-    for_triangle_stresses(surface, material, u, tractions, large_deformations,
+    for_triangle_stresses(surface, material, u, tractions, large_deformations, of_loads,
                           [&](const Eigen::Vector3i& t, double weight, const Eigen::Matrix3d& sigma) {
                               for (const int v : t) {
                                   sums.col(v) += weight * stress_numbers(sigma);

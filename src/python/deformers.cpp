@@ -124,13 +124,15 @@ py::dict surface_fields(const Deformer& deformer, const py::object& values, cons
                         const py::object& progress) {
     const Deformer::Answer a = answer(deformer, values, factors, progress);
     const Body& body = deformer.model().body();
+    const Eigen::VectorXd load_factors = factors_of(deformer, factors);
     Eigen::Matrix3Xd tractions;
     Eigen::MatrixXd stress;
     Eigen::VectorXd von_mises;
     {
         const py::gil_scoped_release others;
         tractions = vertex_tractions(*body.surface, constrained_vertices(deformer), a.reactions.forces);
-        stress = surface_stress(*body.surface, body.material, a.displacements, tractions, !deformer.linear());
+        stress = surface_stress(*body.surface, body.material, a.displacements, tractions, !deformer.linear(),
+                                load_tractions(*body.surface, deformer.set().loads, load_factors));
         von_mises.resize(stress.cols());
         for (Eigen::Index v = 0; v < stress.cols(); ++v)
             von_mises[v] = measure(StressMeasure::von_mises, stress_tensor(stress.col(v)));

@@ -107,7 +107,10 @@ std::vector<MeshField> surface_fields(const SolvedBody& solved) {
     const Eigen::Matrix3Xd tractions = vertex_tractions(*body.surface, solved.constrained, solved.forces);
     const Eigen::VectorXd& u = solved.simulated_displacement;
     const bool large = !solved.deformer->linear();
-    Eigen::MatrixXd stress = as_shown(solved, surface_stress(*body.surface, body.material, u, tractions, large));
+    const std::vector<UnitLoad>& loads = solved.deformer->set().loads;
+    const Eigen::Matrix3Xd of_loads = load_tractions(*body.surface, loads, solved.values.tail(std::ssize(loads)));
+    Eigen::MatrixXd stress =
+        as_shown(solved, surface_stress(*body.surface, body.material, u, tractions, large, of_loads));
     Eigen::MatrixXd size = von_mises(stress);
     return finite({{"displacement", as_columns(solved.displacement), kLength},
                    {"von_mises", std::move(size), kStress},

@@ -62,6 +62,28 @@ TEST(SurfaceStress, PressureOnEverySideMakesNoVonMisesStress) {
         for (const int v : face.triangles.col(0)) EXPECT_NEAR(stress[v], 0.0, 1e-9 * pressure) << t;
 }
 
+/// A bar that is pulled at one end by a traction, and held by the opposite one at the other.
+TEST(SurfaceStress, ALoadedTriangleHasTheStressOfItsLoad) {
+    const SurfaceMesh bar = make_box(3, {2, 1, 1});
+    const double nu = kRubber.poisson_ratio, pull = 30.0;
+    const Eigen::Matrix3Xd u =
+        pull / kRubber.young_modulus * (Eigen::Vector3d(1, -nu, -nu).asDiagonal() * bar.vertices).eval();
+    const auto end = [&](double x) {
+        std::vector<int> triangles;
+        for (int t = 0; t < bar.n_triangles(); ++t)
+            if ((bar.vertices(0, bar.triangles.col(t)).array() - x).abs().maxCoeff() < 1e-9) triangles.push_back(t);
+        return triangles;
+    };
+    const std::vector<UnitLoad> loads = {unit_traction(end(2.0), Eigen::Vector3d::UnitX()),
+                                         unit_pressure(bar, end(0.0)), body_force_along(2)};
+    const Eigen::Matrix3Xd of_loads = load_tractions(bar, loads, Eigen::Vector3d(pull, -pull, 7.0));
+    const Eigen::MatrixXd stress = surface_stress(bar, kRubber, Eigen::Map<const Eigen::VectorXd>(u.data(), u.size()),
+                                                  Eigen::Matrix3Xd::Zero(3, bar.n_vertices()), false, of_loads);
+    const Eigen::VectorXd expected = pull * Eigen::VectorXd::Unit(6, 0);
+    for (int v = 0; v < bar.n_vertices(); ++v)
+        EXPECT_LT((stress.col(v) - expected).cwiseAbs().maxCoeff(), 1e-10 * pull) << v;
+}
+
 TEST(SurfaceStress, ARotationMakesNone) {
     const SurfaceMesh sphere = make_sphere(4);
     const Eigen::Matrix3d spin = (Eigen::Matrix3d() << 0, -0.3, 0.2, 0.3, 0, -0.1, -0.2, 0.1, 0).finished();

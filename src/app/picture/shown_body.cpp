@@ -158,6 +158,7 @@ void ShownBody::update_filling(const Sources& sources, double scale) {
 void ShownBody::update_reactions(const Sources& sources) {
     reactions_.clear();
     tractions_.resize(3, 0);
+    load_tractions_.resize(3, 0);
     const EmbeddedRunner& answer = sources.answer;
     const ReactionRunner* known = sources.reactions;
     if (known == nullptr || known->surface() == nullptr || known->surface() != answer.surface()) return;
@@ -165,6 +166,8 @@ void ShownBody::update_reactions(const Sources& sources) {
     const Reactions& reactions = known->reactions();
     tractions_ = vertex_tractions(*answer.surface(), constrained, reactions.forces);
     const Constraints &computed = answer.constraints(), &shown = sources.scene.constraints();
+    load_tractions_ =
+        load_tractions(*answer.surface(), computed.set.loads, computed.values.tail(std::ssize(computed.set.loads)));
     if (constrained != joined(computed.set.base, computed.set.handles)) return;  // the new set is on its way
     const std::vector<int> shown_vertices = joined(shown.set.base, shown.set.handles);
     const std::vector<ConstraintGroup> seen_groups = told_groups(shown);
@@ -250,7 +253,8 @@ Eigen::VectorXd ShownBody::simulated_values(const Sources& sources, Field field)
     if (field == Field::displacement) return columns(u).colwise().norm();
     if (field == Field::traction && tractions_.cols() > 0) return tractions_.colwise().norm();
     if (const auto which = stress_of(field); which && tractions_.cols() > 0)
-        return surface_stress_measure(*which, *answer.surface(), material_of(answer), u, tractions_, is_large(answer));
+        return surface_stress_measure(*which, *answer.surface(), material_of(answer), u, tractions_, is_large(answer),
+                                      load_tractions_);
     const bool differs = field == Field::difference && comparable(answer, sources.reference);
     if (!differs || sources.reference->surface() != answer.surface()) return {};
     return (columns(u) - columns(sources.reference->runner().displacement())).colwise().norm();
@@ -272,8 +276,9 @@ void ShownBody::update_probed(const Sources& sources) {
     if (!sources.probed || sources.reactions == nullptr || sources.reactions->running()) return;
     if (tractions_.cols() == 0 || answer.displacement().size() != positions_.size()) return;
     shown_tractions_ = shown_rows(answer, tractions_);
-    shown_stresses_ = shown_rows(answer, surface_stress(*answer.surface(), material_of(answer),
-                                                        answer.runner().displacement(), tractions_, is_large(answer)));
+    shown_stresses_ =
+        shown_rows(answer, surface_stress(*answer.surface(), material_of(answer), answer.runner().displacement(),
+                                          tractions_, is_large(answer), load_tractions_));
 }
 
 std::string field_title(Field field, MethodKind reference) {

@@ -126,7 +126,8 @@ private:
     std::optional<ShownSection> section_;
     std::optional<ShownFilling> filling_;
     double section_seconds_ = 0.0;
-    Eigen::Matrix3Xd tractions_;  ///< of the simulated vertices [force / L^2]; no columns when not known
+    Eigen::Matrix3Xd tractions_;       ///< of the simulated vertices [force / L^2]; no columns when not known
+    Eigen::Matrix3Xd load_tractions_;  ///< of the simulated triangles; no columns without loads
     Eigen::MatrixXd shown_tractions_, shown_stresses_;
 };
 

@@ -41,8 +41,10 @@ void solve_for(const Deformer& deformer, const Eigen::VectorXd& values, const st
     const Body& body = deformer.model().body();
     const Deformer::Answer answer = deformer.answer(values, {}, control);
     displacement = answer.displacements;
+    const std::vector<UnitLoad>& loads = deformer.set().loads;
     stress = surface_stress(*body.surface, body.material, answer.displacements,
-                            vertex_tractions(*body.surface, constrained, answer.reactions.forces))
+                            vertex_tractions(*body.surface, constrained, answer.reactions.forces), false,
+                            load_tractions(*body.surface, loads, values.tail(std::ssize(loads))))
                  .reshaped();
 }
 
