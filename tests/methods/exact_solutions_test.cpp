@@ -228,7 +228,8 @@ TEST(Residual, IsRoundingForASolution) {
         Control control;
         Deformer deformer(precomputed(make_body(mesh), method));
         deformer.constrain({base, pull}, control);
-        EXPECT_LT(deformer.residual(values, control), 1e-12) << describe(method);
+        // That of Galerkin BEM integrates some rows afresh, which shows what the integrals' tolerance of 1e-8 leaves.
+        EXPECT_LT(deformer.residual(values, control), method.kind == kGalerkinBem ? 1e-9 : 1e-12) << describe(method);
     }
 }
 

@@ -166,7 +166,7 @@ TEST(RealPanel, ShowIsWithinReachInASmallWindow) {
     RealWindow window({"cube.json", "--method", "fem", "--size", "800x600", "--screenshot", "panel.png"},
                       folder.path());
     window.settle();
-    window.click({126, 251});  // "Show"
+    window.click({158, 251});  // "Show"
     window.settle();
     window.click({136, 518});  // "light theme"
     window.settle();
@@ -237,7 +237,8 @@ TEST(RealPanel, AWarningDoesNotMoveWhatIsToBeClicked) {
     ASSERT_EQ(left.handles.size(), 1u);
     EXPECT_EQ(left.handles[0].name, "tip");
     ASSERT_EQ(run_program({"solve", "out.json", "--report", "report.json", "--quiet"}, folder.path()).exit_code, 0);
-    EXPECT_NE(read_text(folder.path() / "report.json").find("constrained alone"), std::string::npos) << "nothing warned of";
+    EXPECT_NE(read_text(folder.path() / "report.json").find("constrained alone"), std::string::npos)
+        << "nothing warned of";
 }
 
 }  // namespace
