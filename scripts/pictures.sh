@@ -71,6 +71,7 @@ picture hand assets/scenes/hand.json
 picture section assets/scenes/liver.json --field von-mises --cut x
 picture ghosts assets/scenes/rabbit-nod.json 'key 71'
 picture probes assets/scenes/hand.json --field von-mises 'key 73' 'click 700 400' 'click 800 560'
+picture loads assets/scenes/liver-pressed.json
 picture gizmo assets/scenes/rabbit-nod.json 'click 690 540'
 
 # The rabbit as a careless scan has it: holes, and every ninth triangle facing inward.

@@ -25,7 +25,7 @@ bool dispatch(const std::vector<InputEvent>& events, double now, const Gui& gui,
         const bool keys_are_free = !gui.wants_keys();
         if (event.kind == InputEvent::Kind::text && event.code == '?' && keys_are_free)
             state.show_help = !state.show_help;
-        if (event.kind == InputEvent::Kind::key && keys_are_free && !state.gestures.pulling() && !state.blank() &&
+        if (event.kind == InputEvent::Kind::key && keys_are_free && !state.gestures.dragging() && !state.blank() &&
             run_shortcut(event, state, panels)) {
             context.targets = state.gesture_context().targets;
             continue;

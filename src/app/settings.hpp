@@ -16,11 +16,12 @@
 
 namespace elastolab {
 
-enum class Tool { pull, brush, box, probe };
+enum class Tool { pull, brush, box, probe, force, pressure };
 enum class Release { pin, spring_back };
 
-/// How the cursor moves what is pulled: in the plane of the screen, along a direction, or otherwise.
-enum class PullMode { plane, normal, axis_x, axis_y, axis_z, turn, scale };
+/// How the cursor moves what is pulled: in the plane of the screen, along a direction, or otherwise. Through a spring: a
+/// patch that is grabbed anew, or is under a force already, gives way as a real body does.
+enum class PullMode { plane, normal, axis_x, axis_y, axis_z, turn, scale, spring };
 
 /// The axes by which a handle's gizmo moves and turns it: those of the world, those of the surface there (the third is
 /// its normal), or the world's turned as the handle was.
@@ -34,6 +35,8 @@ struct ToolSettings {
     bool snap = false;  ///< pulls go in round steps
     Release release = Release::pin;
     double patch_radius = 0.0;   ///< [L]; 0: a single vertex
+    double pressure = 0.0;       ///< that the brush puts on [force / L^2]
+    double spring = 0.0;         ///< stiffness of the spring that pulls [force / L]
     double brush_pixels = 24.0;  ///< radius on the screen
     Reach box_reach = Reach::visible;
 };

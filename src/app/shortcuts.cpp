@@ -44,6 +44,8 @@ std::vector<Shortcut> make_shortcuts() {
         {GLFW_KEY_B, 0, "B", "brush: fix vertices", [](ViewerState& s, Panels&) { s.tools.tool = Tool::brush; }},
         {GLFW_KEY_N, 0, "N", "box: fix vertices", [](ViewerState& s, Panels&) { s.tools.tool = Tool::box; }},
         {GLFW_KEY_I, 0, "I", "probe: values at a vertex", [](ViewerState& s, Panels&) { s.tools.tool = Tool::probe; }},
+        {GLFW_KEY_L, 0, "L", "force tool", [](ViewerState& s, Panels&) { s.tools.tool = Tool::force; }},
+        {GLFW_KEY_K, 0, "K", "brush: pressure", [](ViewerState& s, Panels&) { s.tools.tool = Tool::pressure; }},
         {GLFW_KEY_LEFT_BRACKET, 0, "[", "smaller patch",
          [](ViewerState& s, Panels&) { change_radius(s, 1.0 / kRadiusStep); }},
         {GLFW_KEY_RIGHT_BRACKET, 0, "]", "larger patch",
@@ -54,7 +56,7 @@ std::vector<Shortcut> make_shortcuts() {
          [](ViewerState& s, Panels&) { s.begin_fixed_set(); }},
         {GLFW_KEY_F2, 0, "F2", "rename the selected handle or fixed set",
          [](ViewerState& s, Panels& p) { p.rename_selection(s); }},
-        {GLFW_KEY_DELETE, 0, "Del", "remove the selected handle or fixed set",
+        {GLFW_KEY_DELETE, 0, "Del", "remove the selected handle, fixed set or load",
          [](ViewerState& s, Panels&) { s.remove_selection(); }},
         {GLFW_KEY_DELETE, GLFW_MOD_SHIFT, "Shift+Del", "remove all handles",
          [](ViewerState& s, Panels&) { s.clear_handles(); }},
@@ -98,7 +100,7 @@ const std::vector<Shortcut>& shortcuts() {
 }
 
 std::span<const GestureHelp> gesture_help() {
-    static constexpr std::array<GestureHelp, 15> all = {
+    static constexpr std::array<GestureHelp, 18> all = {
         {{"drag on the body", "pull the patch under the cursor, in the plane of the screen"},
          {"... with Shift", "along the surface normal"},
          {"... with X, Y or Z", "along an axis"},
@@ -113,6 +115,9 @@ std::span<const GestureHelp> gesture_help() {
          {"brush: drag, click", "fix vertices; with Shift free them"},
          {"probe: click", "keep or forget the values at a vertex"},
          {"box: drag", "fix the vertices in the box; with Shift free them"},
+         {"force: drag", "a force on the patch under the cursor; its arrow grows with the mouse"},
+         {"pressure: drag", "a pressure where it is painted; with Shift take the paint off"},
+         {"end of an arrow", "drag it: another size or direction of the load; keys as for a pull"},
          {"drop a file", "open it"}}};
     return all;
 }

@@ -10,6 +10,7 @@
 #include "app/autosave.hpp"
 #include "app/dispatch.hpp"
 #include "app/input/interaction_log.hpp"
+#include "app/six_axis.hpp"
 #include "app/panels/gui.hpp"
 #include "app/panels/layout.hpp"
 #include "app/panels/panels.hpp"
@@ -71,6 +72,7 @@ public:
              {options.screenshot, options.picture, options.scene_out, options.mesh_out})
             if (!file.empty()) AtomicFile::require_writable(file);
         open_input();
+        if (!nobody_watches()) six_axis_mouse_.emplace([] { Window::wake(); });
         if (!nobody_watches()) state_.recoverable = find_autosaved();
     }
 
@@ -140,8 +142,9 @@ private:
         if (replay_ && !replay_->done() && !state_.simulation.busy()) return 0.0;
         if (computing() || state_.simulation.busy()) return kProgressSeconds;
         if (state_.simulation.checking()) return kCheckSeconds;
+        if (const double rest = six_axis_.due_in(Window::seconds()); rest >= 0.0) return rest + 0.01;
         if (message_seconds_ >= 0.0) return std::max(message_seconds_, 0.01);
-        const double keeping = state_.gestures.pulling() ? -1.0 : autosave_.due_in(Window::seconds());
+        const double keeping = state_.gestures.dragging() ? -1.0 : autosave_.due_in(Window::seconds());
         if (!gui_.wants_text()) return keeping;
         return keeping < 0.0 ? kCaretSeconds : std::min(kCaretSeconds, keeping);
     }
@@ -149,7 +152,7 @@ private:
     /// A copy of what is not saved, for the case that this process is killed. Not in the midst of a pull, which would
     /// be kept as it began until the next copy is due, nor of a film, which moves handles.
     void keep_scene() {
-        if (nobody_watches() || state_.gestures.pulling() || pictures_.filming()) return;
+        if (nobody_watches() || state_.gestures.dragging() || pictures_.filming()) return;
         if (std::optional<AutosavedScene> recovered = state_.take_recovered()) autosave_.adopt(std::move(*recovered));
         autosave_.update(
             {.revision = state_.scene().revision() + (state_.scene_number() << 32),
@@ -170,6 +173,8 @@ private:
             state_.open(file);
             pending_frames_ = kSettlingFrames;  // for the question that it may raise
         }
+        if (six_axis_mouse_ && six_axis_.apply(six_axis_mouse_->take(), Window::seconds(), state_))
+            pending_frames_ = kSettlingFrames;
         if (pictures_.poll(state_) || pictures_.filming()) pending_frames_ = kSettlingFrames;
         const bool damaged = window_.take_damage();
         if (!queue_.empty() || damaged || state_.simulation.busy() || computing()) pending_frames_ = kSettlingFrames;
@@ -376,6 +381,8 @@ private:
     Panels panels_;
     Pictures pictures_;
     Autosave autosave_;
+    std::optional<SixAxisMouse> six_axis_mouse_;  ///< none where nobody watches
+    SixAxisControl six_axis_;
     std::optional<StartTimeline> timeline_;
     std::optional<SeriesWriter> series_;
     std::vector<InputEvent> queue_;

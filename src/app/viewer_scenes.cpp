@@ -6,6 +6,7 @@
 #include "app/picture/view_point.hpp"
 #include "app/viewer_state.hpp"
 #include "app/window/recent_files.hpp"
+#include "render/drawing/legend.hpp"
 
 namespace elastolab {
 
@@ -13,9 +14,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kPatchPart = 0.07;   ///< default radius of a patch: of the body's diagonal,
-constexpr double kPatchEdges = 1.6;   ///< but at least so many edges, so that it has whole triangles
-constexpr int kDenseVertices = 2000;  ///< above, a wireframe hides more than it shows
+constexpr double kPatchPart = 0.07;     ///< default radius of a patch: of the body's diagonal,
+constexpr double kPatchEdges = 1.6;     ///< but at least so many edges, so that it has whole triangles
+constexpr double kPressurePart = 0.01;  ///< default of a pressure: of Young's modulus
+constexpr double kSpringPart = 1.0;     ///< default of a spring: of Young's modulus times the radius of a patch
+constexpr int kDenseVertices = 2000;    ///< above, a wireframe hides more than it shows
 
 double diagonal(const MeshReport& report) { return (report.max_corner - report.min_corner).norm(); }
 
@@ -107,6 +110,8 @@ void ViewerState::take_scene(LoadedScene loaded) {
     method = std::exchange(first_method_, std::nullopt).value_or(scene_->document().method);
     scene_->start_with(method, choices.settings());
     tools.patch_radius = std::max(kPatchPart * diagonal(scene_->report()), kPatchEdges * scene_->report().mean_edge);
+    tools.pressure = round_step(kPressurePart * scene_->document().material.young_modulus);
+    tools.spring = round_step(kSpringPart * scene_->document().material.young_modulus * tools.patch_radius);
     shown.forget();
     probes.clear();
     display.wireframe = scene_->mesh().n_vertices() <= kDenseVertices;

@@ -26,6 +26,17 @@ std::string ViewerState::selected_name() const {
 }
 
 void ViewerState::remove_selection() {
+    if (gestures.load_is_latest()) {
+        if (gestures.selected_load() == LiveScene::kGravity) {
+            finish_gesture();
+            scene_->set_gravity(std::nullopt, scene_->document().density);
+            scene_->commit();
+            gestures.select_load(std::nullopt);
+        } else {
+            remove_load(gestures.selected_load().value_or(-1));
+        }
+        return;
+    }
     const std::optional<Selection> chosen = selection();
     if (!chosen) return;
     if (chosen->fixed)

@@ -118,7 +118,10 @@ GestureContext ViewerState::gesture_context() {
                            .tools = tools,
                            .display = display,
                            .targets = {},
-                           .gizmos = gizmos()};
+                           .gizmos = gizmos(),
+                           .load_arrows = {}};
+    if (const ShownBody* body = shown.body(method); body != nullptr && display.constraints)
+        context.load_arrows = load_arrows(*scene_, body->positions(), camera.scene().radius, gestures.dragged_load());
     for (const SceneViewport& viewport : shown.viewports) {
         const ShownBody* body = shown.body(viewport.kinds.front());
         if (body == nullptr) continue;
@@ -139,6 +142,9 @@ std::vector<Gizmo> ViewerState::gizmos() const {
         all.push_back(handle_gizmo(*scene_, handle, body->positions(), tools.gizmo_axes));
     if (display.section && display.section_gizmo && (tools.tool == Tool::pull || tools.tool == Tool::probe))
         all.push_back(plane_gizmo(scene_->mesh().vertices, display));
+    const bool turns_gravity = scene_->document().gravity && gestures.selected_load() == LiveScene::kGravity;
+    if (tools.gizmo && turns_gravity && body != nullptr && (tools.tool == Tool::pull || tools.tool == Tool::force))
+        all.push_back(gravity_gizmo(body->positions()));
     for (Gizmo& gizmo : all) gizmo.pixels *= display.ui_scale;
     return all;
 }
@@ -181,6 +187,7 @@ void ViewerState::take_step(const std::string& selected_handle, const std::strin
     take_method();
     gestures.select_handle(-1);
     gestures.keep_fixed(-1);
+    gestures.select_load(std::nullopt);
     for (int handle = 0; handle < scene_->n_handles(); ++handle)
         if (scene_->handle_name(handle) == selected_handle) gestures.select_handle(handle);
     for (int set = 0; set < scene_->n_fixed_sets(); ++set)
@@ -218,6 +225,26 @@ void ViewerState::clear_handles() {
     scene_->clear_handles();
     scene_->commit();
     gestures.select_handle(-1);
+}
+
+void ViewerState::remove_load(int load) {
+    if (load < 0 || load >= scene_->n_loads()) return;
+    const std::string name = scene_->load_name(load);
+    finish_gesture();  // which may remove another one: numbers change, names do not
+    for (int l = 0; l < scene_->n_loads(); ++l) {
+        if (scene_->load_name(l) != name) continue;
+        scene_->remove_load(l);
+        scene_->commit();
+        break;
+    }
+    gestures.select_load(std::nullopt);
+}
+
+void ViewerState::clear_loads() {
+    finish_gesture();
+    scene_->clear_loads();
+    scene_->commit();
+    gestures.select_load(std::nullopt);
 }
 
 void ViewerState::remove_fixed_set(int set) {
@@ -260,10 +287,15 @@ bool ViewerState::update_displacements() {
     if (blank()) return has_exported;  // the default scene would be computed for nothing
     simulated_ = true;
     const bool changed = simulation.update(*scene_, needed_kinds(), choices) || has_exported;
+    const std::vector<AffineMotion>& motions = simulation.answer(method).grip_motions();
+    const std::vector<std::size_t> gripped = scene_->constraints().gripped();
+    for (std::size_t g = 0; g < gripped.size() && motions.size() == gripped.size(); ++g)
+        scene_->set_equilibrium(static_cast<int>(gripped[g]), motions[g]);
     for (const MethodKind kind : simulation.take_dropped())
         messages.note(title(kind) + " was let go to keep memory free. It is computed again when it is chosen.");
     const std::vector<int>& patch = gestures.hover().patch;
-    if (gestures.action() == Gestures::Action::none && !patch.empty() && patch != prefetched_)
+    const bool springs = tools.pull_mode == PullMode::spring;  // whose stiffness belongs to the set
+    if (gestures.action() == Gestures::Action::none && !springs && !patch.empty() && patch != prefetched_)
         simulation.prefetch(scene_->constraints_with_handle(patch));
     prefetched_ = patch;
     return changed;

@@ -129,6 +129,8 @@ public:
     void redo();
     void remove_handle(int handle);
     void clear_handles();
+    void remove_load(int load);
+    void clear_loads();  ///< and gravity
     void remove_fixed_set(int set);
     /// The next stroke of brush or box, of which one becomes the tool, makes a fixed set.
     void begin_fixed_set();

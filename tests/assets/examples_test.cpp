@@ -35,7 +35,8 @@ struct Example {
 const std::vector<Example> kExamples{
     // clang-format off
     {"beam-twist", 0.03}, {"bracket", 0.03}, {"cube-pull", 0.03}, {"dog-bone", 0.03}, {"dog-bone-bend", 0.03},
-    {"hand"}, {"heart"}, {"liver", 0.03}, {"rabbit"}, {"rabbit-nod"}, {"ring", 0.10}, {"sphere-squeeze", 0.50}
+    {"hand"}, {"hand-weight"}, {"heart"}, {"liver", 0.03}, {"liver-pressed"}, {"rabbit"}, {"rabbit-nod"}, {"ring", 0.10}, {"sphere-squeeze", 0.50},
+    {"torus-blown-up"}
     // clang-format on
 };
 

@@ -43,6 +43,10 @@ void Gestures::handle(const InputEvent& event, GestureContext& context) {
             if (event.pressed) held_keys_.push_back(event.code);
             if (pulling() && event.pressed && event.code == GLFW_KEY_DELETE)
                 remove_pulled(context);
+            else if (action_ == Action::load && event.pressed && event.code == GLFW_KEY_DELETE)
+                remove_dragged_load(context);
+            else if (action_ == Action::load)
+                drag_load(context);
             else if (pulling())
                 pull(context);
             break;
@@ -97,6 +101,8 @@ void Gestures::press(const InputEvent& event, GestureContext& context) {
         action_ = Action::box;
         return;
     }
+    const bool brushes = context.tools.tool == Tool::brush || context.tools.tool == Tool::pressure;
+    if (!brushes && press_arrow(context, *target)) return;
     if (press_gizmo(context, *target)) return;
     const std::optional<PickHit> hit = hit_in(context, *target);
     if (hit && is_on_surface(context, hit->vertex))
@@ -106,10 +112,12 @@ void Gestures::press(const InputEvent& event, GestureContext& context) {
 }
 
 void Gestures::press_body(GestureContext& context, const PickHit& hit) {
-    if (context.tools.tool == Tool::brush) {
+    if (context.tools.tool == Tool::brush || context.tools.tool == Tool::pressure) {
         action_ = Action::paint;
+        painted_.clear();
         return;
     }
+    if (context.tools.tool == Tool::force) return press_force(context, hit);
     if (context.tools.tool == Tool::probe) {
         action_ = Action::orbit;
         return;
@@ -131,12 +139,16 @@ void Gestures::release(GestureContext& context) {
     const Action ended = std::exchange(action_, Action::none);
     button_ = -1;
     if (ended == Action::pull) end_pull(context);
+    if (ended == Action::load && load_drag_) end_load(context);
     gizmo_drag_.reset();
     if (ended == Action::box) end_box(context);
     if (ended == Action::orbit && context.tools.tool == Tool::probe && !dragged_ && hover_.vertex >= 0)
         probed_ = hover_.vertex;
     if (ended == Action::paint) {
-        if (!dragged_ && hover_.vertex >= 0) toggle_fixed(context, hover_.vertex);
+        if (context.tools.tool == Tool::pressure)
+            paint(context);
+        else if (!dragged_ && hover_.vertex >= 0)
+            toggle_fixed(context, hover_.vertex);
         context.scene.commit();
     }
     point(context);
@@ -156,6 +168,7 @@ void Gestures::move(GestureContext& context) {
     if (action_ == Action::pan) context.camera.pan(before, cursor_, viewport);
     if (action_ == Action::pull) pull(context);
     if (action_ == Action::plane) move_plane(context);
+    if (action_ == Action::load && load_drag_) drag_load(context);
     if (action_ == Action::paint && dragged_) paint(context);
 }
 
@@ -163,6 +176,9 @@ void Gestures::point(GestureContext& context) {
     hover_ = {};
     const PointingTarget* target = target_at(context);
     if (target == nullptr) return;
+    if (context.tools.tool != Tool::brush && context.tools.tool != Tool::pressure)
+        hover_.load = arrow_at(context, *target);
+    if (hover_.load) return;
     for (const Gizmo& gizmo : context.gizmos) {
         if (const auto part = part_at(gizmo, context.camera, target->viewport, cursor_)) {
             hover_.part = {gizmo.handle, *part};
@@ -189,14 +205,18 @@ void Gestures::scroll(const InputEvent& event, GestureContext& context) {
     const Eigen::Vector3d anchor = hit ? hit->point : context.camera.pose().target;
     context.camera.zoom_to(cursor_, std::pow(kZoomStep, event.cursor.y()), anchor, target->viewport);
     if (pulling()) set_baseline(context);
+    if (load_drag_ && !gizmo_drag_) set_load_baseline(context);
 }
 
 void Gestures::paint(GestureContext& context) {
+    if (target_ >= context.targets.size()) return;
     const PointingTarget& target = context.targets[target_];
-    fix_or_free(context,
-                vertices_in_brush(context.camera, target.viewport, cursor_, context.tools.brush_pixels,
-                                  *target.positions, *target.triangles, Reach::visible),
-                hold_);
+    std::vector<int> vertices = vertices_in_brush(context.camera, target.viewport, cursor_, context.tools.brush_pixels,
+                                                  *target.positions, *target.triangles, Reach::visible);
+    if (context.tools.tool == Tool::pressure)
+        paint_pressure(context, std::move(vertices));
+    else
+        fix_or_free(context, std::move(vertices), hold_);
 }
 
 /// Fixes or frees these vertices, except those inside the body, in the selected set.
@@ -261,12 +281,14 @@ void Gestures::end_spring(GestureContext& context) {
 void Gestures::finish(GestureContext& context) {
     if (action_ == Action::pull) end_pull(context);
     if (action_ == Action::paint) context.scene.commit();
+    if (load_drag_) end_load(context);
     gizmo_drag_.reset();
     action_ = Action::none;
     button_ = -1;
     end_spring(context);
     selected_ = std::min(selected_, context.scene.n_handles() - 1);
     selected_fixed_ = std::min(selected_fixed_, context.scene.n_fixed_sets());
+    if (selected_load_ && *selected_load_ >= context.scene.n_loads()) select_load(std::nullopt);
     hover_ = {};
 }
 

@@ -8,6 +8,7 @@
 
 #include "app/input/gizmo.hpp"
 #include "app/input/patch.hpp"
+#include "app/picture/load_arrows.hpp"
 #include "app/settings.hpp"
 #include "app/window/input_event.hpp"
 #include "render/camera.hpp"
@@ -33,6 +34,7 @@ struct GestureContext {
     DisplaySettings& display;  ///< the plane of the cut is moved
     std::vector<PointingTarget> targets;
     std::vector<Gizmo> gizmos = {};  ///< that can be taken hold of
+    std::vector<LoadArrow> load_arrows = {};
 };
 
 /// What the cursor points at when no button is down.
@@ -40,6 +42,7 @@ struct Hover {
     int vertex = -1;
     std::vector<int> patch = {};  ///< that a press would grab: of the handle it belongs to, or a new one
     std::optional<std::pair<int, GizmoPart>> part = {};  ///< of a gizmo, by the gizmo's handle
+    std::optional<int> load = {};                        ///< whose arrow has its end there
 
     bool operator==(const Hover&) const = default;
 };
@@ -58,10 +61,13 @@ enum class Hold { fix, free };
 ///            with one vertex
 ///   box      left draws a box, likewise
 ///   probe    a click chooses a vertex, a drag turns the view
+///   arrow    left: the end of a load's arrow is dragged, and the load changes; with the same keys as a pull
+///   force    left on the body: takes the force there or makes one, whose arrow grows with the mouse
+///   pressure left adds the triangles under the brush to the selected pressure or a new one, with Shift takes them out
 class Gestures {
 public:
     /// blocked: the button is down where it can do nothing, which hint() explains.
-    enum class Action { none, orbit, pan, pull, plane, paint, box, blocked };
+    enum class Action { none, orbit, pan, pull, plane, paint, box, load, blocked };
 
     void handle(const InputEvent& event, GestureContext& context);
     /// Moves what springs back; true while something does.
@@ -73,13 +79,15 @@ public:
 
     Action action() const { return action_; }
     bool pulling() const { return action_ == Action::pull; }
+    /// A handle or a load follows the mouse.
+    bool dragging() const { return pulling() || action_ == Action::load; }
     const Hover& hover() const { return hover_; }
     void clear_hover() { hover_ = {}; }
     /// The handle that was grabbed last (or chosen), for the panel and for removal; -1: none.
     int selected_handle() const { return selected_; }
     void select_handle(int handle) {
         selected_ = handle;
-        if (handle >= 0) fixed_is_latest_ = false;
+        if (handle >= 0) fixed_is_latest_ = load_is_latest_ = false;
     }
     /// The fixed set that brush and box change: -1: add to the last one, and free vertices of all; n_fixed_sets(): a
     /// new one, from the next stroke on.
@@ -87,7 +95,18 @@ public:
     void select_fixed(int set) {
         keep_fixed(set);
         fixed_is_latest_ = set >= 0;
+        if (set >= 0) load_is_latest_ = false;
     }
+    /// The load that was dragged last (or chosen), LiveScene::kGravity for gravity.
+    const std::optional<int>& selected_load() const { return selected_load_; }
+    void select_load(std::optional<int> load) {
+        selected_load_ = load;
+        load_is_latest_ = load.has_value();
+    }
+    /// Whether it was selected after handles and fixed sets.
+    bool load_is_latest() const { return load_is_latest_; }
+    /// The load whose arrow is dragged.
+    std::optional<DraggedLoad> dragged_load() const;
     /// The same set under a new number: which selection is the latest stays.
     void keep_fixed(int set) { selected_fixed_ = set; }
     /// Of a handle and a fixed set that are both selected, whether the fixed set was selected last.
@@ -99,6 +118,13 @@ public:
     const std::string& hint() const { return hint_; }
     /// The vertex that was clicked with the probe, once.
     std::optional<int> take_probed() { return std::exchange(probed_, std::nullopt); }
+    /// What is pulled through a spring: the place on the patch where the spring is fastened, as shown, and the force in
+    /// it; nothing where none is.
+    struct SpringPull {
+        int vertex = -1;
+        Eigen::Vector3d force = Eigen::Vector3d::Zero();
+    };
+    std::optional<SpringPull> spring_pull(const LiveScene& scene) const;
     /// A part of a gizmo while it is dragged.
     struct GizmoDrag {
         Gizmo gizmo;  ///< as it was taken hold of
@@ -127,11 +153,23 @@ private:
         Eigen::Vector2d cursor = Eigen::Vector2d::Zero();
         Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< of the vertex, as shown
         Motion motion;
+        double spring = 0.0;                                ///< that it is pulled through; 0: none
+        Eigen::Vector3d tension = Eigen::Vector3d::Zero();  ///< of the spring, were the patch at rest [force]
     };
     struct Spring {
         int handle = -1;
         Motion from;
         double begin = -1.0;  ///< set when it first moves
+    };
+
+    struct LoadDrag {
+        LoadArrow arrow;  ///< as it was taken hold of
+        bool is_new = false, moved = false;
+        // At the beginning, or when the mode last changed:
+        PullMode mode = PullMode::plane;
+        Eigen::Vector2d cursor = Eigen::Vector2d::Zero();
+        Eigen::VectorXd before = {};                    ///< the load: 3, or 1 for a pressure
+        Eigen::Vector3d end = Eigen::Vector3d::Zero();  ///< of the arrow
     };
 
     void press(const InputEvent& event, GestureContext& context);
@@ -144,6 +182,16 @@ private:
     void move_plane(GestureContext& context);
     double gizmo_amount(const GestureContext& context);
     bool snaps(const ToolSettings& tools) const;
+    std::optional<int> arrow_at(const GestureContext& context, const PointingTarget& target) const;
+    bool press_arrow(GestureContext& context, const PointingTarget& target);
+    void press_force(GestureContext& context, const PickHit& hit);
+    void begin_load(GestureContext& context, const LoadArrow& arrow, bool is_new);
+    void set_load_baseline(const GestureContext& context);
+    Eigen::Vector3d load_shift(const GestureContext& context) const;
+    void drag_load(GestureContext& context);
+    void end_load(GestureContext& context);
+    void remove_dragged_load(GestureContext& context);
+    void paint_pressure(GestureContext& context, std::vector<int> vertices);
     void begin_pull(GestureContext& context, int handle, Grabbed grabbed, const PickHit& hit);
     void remove_pulled(GestureContext& context);
     void set_baseline(GestureContext& context);
@@ -151,6 +199,7 @@ private:
     PullMode pull_mode(const ToolSettings& tools) const;
     Eigen::Vector3d pull_shift(const GestureContext& context) const;
     void pull_by_gizmo(GestureContext& context);
+    void pull_by_spring(GestureContext& context);
     Eigen::Vector3d pulled_center(const Positions& rest) const;
     void turn_pulled(GestureContext& context, const Eigen::Vector3d& turn);
     void end_pull(GestureContext& context);
@@ -175,9 +224,12 @@ private:
     Pull pull_;
     std::optional<Spring> spring_;
     std::optional<GizmoDrag> gizmo_drag_;
+    std::optional<LoadDrag> load_drag_;
+    std::vector<int> painted_;      ///< by the stroke of a pressure that has no triangle yet
     DisplaySettings plane_before_;  ///< as it was taken hold of
     int selected_ = -1, selected_fixed_ = -1;
-    bool fixed_is_latest_ = false;
+    std::optional<int> selected_load_;
+    bool fixed_is_latest_ = false, load_is_latest_ = false;
     double last_press_seconds_ = -1.0;
     Eigen::Vector2d last_press_ = Eigen::Vector2d::Zero();
     bool frame_requested_ = false;

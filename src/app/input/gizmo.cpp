@@ -103,6 +103,12 @@ Gizmo handle_gizmo(const LiveScene& scene, int handle, const Positions& position
     return gizmo;
 }
 
+Gizmo gravity_gizmo(const Positions& positions) {
+    Gizmo gizmo{.handle = Gizmo::kGravity, .center = positions.rowwise().mean()};
+    for (int axis = 0; axis < 3; ++axis) gizmo.parts.push_back({GizmoPart::Kind::ring, axis});
+    return gizmo;
+}
+
 Gizmo plane_gizmo(const Positions& rest, const DisplaySettings& display) {
     const Plane plane = section_plane(rest, display);
     const Eigen::Vector3d middle = 0.5 * (rest.rowwise().minCoeff() + rest.rowwise().maxCoeff());

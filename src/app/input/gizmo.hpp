@@ -22,7 +22,8 @@ struct GizmoPart {
 
 /// Arrows and rings of one size on the screen around a point: to move and turn a handle, or the plane of the cut.
 struct Gizmo {
-    static constexpr int kPlane = -1;  ///< instead of a handle: the plane that cuts the body open
+    static constexpr int kPlane = -1;    ///< instead of a handle: the plane that cuts the body open
+    static constexpr int kGravity = -2;  ///< likewise: the direction of gravity
 
     int handle = kPlane;
     Eigen::Vector3d center = Eigen::Vector3d::Zero();    ///< as shown [L]
@@ -33,6 +34,8 @@ struct Gizmo {
 
 /// At a handle as it is shown: `positions` are those of all vertices.
 Gizmo handle_gizmo(const LiveScene& scene, int handle, const Positions& positions, GizmoAxes axes);
+/// Around the middle of the body as it is shown: rings that turn gravity.
+Gizmo gravity_gizmo(const Positions& positions);
 /// At the plane of the cut, through the middle of the body at rest: an arrow normal to it and rings for turn and tilt.
 Gizmo plane_gizmo(const Positions& rest, const DisplaySettings& display);
 

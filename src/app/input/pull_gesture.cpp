@@ -41,6 +41,9 @@ void Gestures::begin_pull(GestureContext& context, int handle, Grabbed grabbed, 
     if (hit.triangle >= 0) pull_.normal = triangle_normal(context.targets[target_], hit.triangle);
     pull_.motion = context.scene.document().handles[static_cast<std::size_t>(handle)].motion;
     pull_.place = context.targets[target_].positions->col(hit.vertex);
+    const bool gives_way = grabbed == Grabbed::new_handle ||
+                           context.scene.document().handles[static_cast<std::size_t>(handle)].force.has_value();
+    if (context.tools.pull_mode == PullMode::spring && gives_way) pull_.spring = context.tools.spring;
     set_baseline(context);
 }
 
@@ -56,6 +59,10 @@ void Gestures::set_baseline(GestureContext& context) {
     pull_.place +=
         context.display.deformation_scale * (mean_displacement(motion, x) - mean_displacement(pull_.motion, x));
     pull_.motion = motion;
+    const GripForce force =
+        context.scene.document().handles[static_cast<std::size_t>(pull_.handle)].force.value_or(GripForce{});
+    pull_.tension = force.force + (pull_.spring - force.spring) *
+                                      mean_displacement(motion, context.scene.rest_positions(pull_.handle));
 }
 
 PullMode Gestures::pull_mode(const ToolSettings& tools) const {
@@ -72,7 +79,8 @@ PullMode Gestures::pull_mode(const ToolSettings& tools) const {
 /// How far the vertex is to go, as shown.
 Eigen::Vector3d Gestures::pull_shift(const GestureContext& context) const {
     const Viewport& viewport = context.targets[target_].viewport;
-    if (pull_.mode == PullMode::plane)
+    const bool in_plane = pull_.mode == PullMode::plane || pull_.mode == PullMode::spring;
+    if (in_plane || (pull_.spring > 0.0 && (pull_.mode == PullMode::turn || pull_.mode == PullMode::scale)))
         return context.camera.drag_in_plane(pull_.place, pull_.cursor, cursor_, viewport);
     Eigen::Vector3d direction = pull_.normal;
     if (pull_.mode != PullMode::normal)
@@ -85,9 +93,11 @@ void Gestures::pull(GestureContext& context) {
     if (!pull_.moved && (cursor_ - press_cursor_).norm() < kClickPixels) return;
     pull_.moved = true;
     if (gizmo_drag_) return pull_by_gizmo(context);
+    if (pull_.spring > 0.0) return pull_by_spring(context);
     if (pull_.mode != PullMode::turn && pull_.mode != PullMode::scale) {
         Eigen::Vector3d shift = pull_shift(context) / context.display.deformation_scale;
-        if (context.tools.snap) shift = in_steps(shift, pull_.mode != PullMode::plane, snap_length(context.scene));
+        const bool along_a_line = pull_.mode != PullMode::plane && pull_.mode != PullMode::spring;
+        if (context.tools.snap) shift = in_steps(shift, along_a_line, snap_length(context.scene));
         context.scene.set_motion(pull_.handle, translated(pull_.motion, shift));
         return;
     }
@@ -108,6 +118,22 @@ void Gestures::pull(GestureContext& context) {
                 rotation_vector((about_up * about_right).toRotationMatrix(), angles.x() * up + angles.y() * right));
 }
 
+/// The far end of the spring follows the cursor; where the patch goes, the equilibrium says.
+void Gestures::pull_by_spring(GestureContext& context) {
+    const Eigen::Vector3d shift = pull_shift(context) / context.display.deformation_scale;
+    context.scene.set_force(pull_.handle,
+                            GripForce{.force = pull_.tension + pull_.spring * shift, .spring = pull_.spring});
+}
+
+std::optional<Gestures::SpringPull> Gestures::spring_pull(const LiveScene& scene) const {
+    if (pull_.spring <= 0.0 || pull_.handle < 0 || pull_.handle >= scene.n_handles()) return std::nullopt;
+    const Handle& handle = scene.document().handles[static_cast<std::size_t>(pull_.handle)];
+    if (!handle.force) return std::nullopt;
+    return SpringPull{pull_.vertex,
+                      handle.force->force -
+                          handle.force->spring * mean_displacement(handle.motion, scene.rest_positions(pull_.handle))};
+}
+
 /// Where the middle of the pulled handle was at the baseline.
 Eigen::Vector3d Gestures::pulled_center(const Positions& rest) const {
     return rest.rowwise().mean() + mean_displacement(pull_.motion, rest);
@@ -126,6 +152,11 @@ bool Gestures::press_gizmo(GestureContext& context, const PointingTarget& target
         if (gizmo.handle == Gizmo::kPlane) {
             plane_before_ = context.display;
             action_ = Action::plane;
+        } else if (gizmo.handle == Gizmo::kGravity) {
+            const auto gravity = std::find_if(context.load_arrows.begin(), context.load_arrows.end(),
+                                              [](const LoadArrow& arrow) { return arrow.load == LiveScene::kGravity; });
+            if (gravity == context.load_arrows.end()) continue;
+            begin_load(context, *gravity, false);
         } else {
             begin_pull(context, gizmo.handle, Grabbed::present_handle,
                        {.vertex = context.scene.vertices(gizmo.handle).front()});
@@ -180,6 +211,7 @@ void Gestures::move_plane(GestureContext& context) {
 }
 
 void Gestures::end_pull(GestureContext& context) {
+    const std::optional<SpringPull> sprung = spring_pull(context.scene);
     if (!pull_.moved) {
         if (pull_.grabbed == Grabbed::new_handle) {
             context.scene.remove_handle(pull_.handle);  // a click pulls nothing
@@ -190,6 +222,7 @@ void Gestures::end_pull(GestureContext& context) {
             Spring{pull_.handle, context.scene.document().handles[static_cast<std::size_t>(pull_.handle)].motion});
         selected_ = -1;
     } else {
+        if (sprung) context.scene.set_force(pull_.handle, GripForce{.force = sprung->force});  // it stays where it is
         context.scene.commit();
     }
 }

@@ -7,6 +7,7 @@
 
 #include "app/panels/overlays.hpp"
 #include "app/panels/widgets.hpp"
+#include "app/picture/load_arrows.hpp"
 
 namespace elastolab {
 
@@ -139,6 +140,43 @@ void draw_forces(const PanelContext& context, ImDrawList& list, const Viewport& 
                       number_text(reaction.moment_about_middle().norm()));
 }
 
+/// The size of the load that is selected, dragged or pointed at, at the end of its arrow.
+void draw_load_sizes(const PanelContext& context, ImDrawList& list, const Viewport& viewport, const ShownBody& body) {
+    const ViewerState& state = context.state;
+    const Gestures& gestures = state.gestures;
+    for (const LoadArrow& arrow :
+         load_arrows(state.scene(), body.positions(), state.camera.scene().radius, gestures.dragged_load())) {
+        const bool chosen = gestures.selected_load() == arrow.load || gestures.hover().load == arrow.load;
+        if (!chosen && !state.display.arrows) continue;
+        const std::string name = arrow.load == LiveScene::kGravity ? "" : state.scene().load_name(arrow.load) + ": ";
+        draw_mark(context, list, viewport, arrow.end, chosen ? context.palette.active : context.palette.load,
+                  name + load_text(state.scene(), arrow.load));
+    }
+}
+
+/// The spring that a patch is pulled through, and the force in it.
+void draw_spring(const PanelContext& context, ImDrawList& list, const Viewport& viewport, const ShownBody& body) {
+    const ViewerState& state = context.state;
+    if (!state.gestures.pulling()) return;
+    const auto spring = state.gestures.spring_pull(state.scene());
+    if (!spring || spring->vertex < 0 || spring->vertex >= body.positions().cols()) return;
+    const Eigen::Vector3d place = body.positions().col(spring->vertex);
+    const Eigen::Vector2d from = state.camera.project(place, viewport).pixel, to = state.gestures.cursor();
+    constexpr int kTurns = 8;
+    const Eigen::Vector2d along = (to - from) / (2 * kTurns);
+    Eigen::Vector2d side(-along.y(), along.x());
+    if (const double length = side.norm(); length > 0.0) side *= 4.0 * context.gui.scale() / length;
+    std::vector<ImVec2> line = {im_point(from.x(), from.y())};
+    for (int i = 1; i < 2 * kTurns; ++i) {
+        const Eigen::Vector2d at = from + i * along + (i % 2 == 0 ? -side : side);
+        line.push_back(im_point(at.x(), at.y()));
+    }
+    line.push_back(im_point(to.x(), to.y()));
+    list.AddPolyline(line.data(), static_cast<int>(line.size()), imgui_packed(context.palette.active), 0,
+                     2.0f * context.gui.scale());
+    draw_mark(context, list, viewport, place, context.palette.active, "force " + number_text(spring->force.norm()));
+}
+
 }  // namespace
 
 namespace {
@@ -172,9 +210,11 @@ void draw_marks(const PanelContext& context, ImDrawList& list, const SceneViewpo
     const ShownBody* body = state.shown.body(viewport.kinds.front());
     if (body == nullptr) return;
     if (state.display.arrows) draw_forces(context, list, viewport.place, *body);
+    if (state.display.constraints) draw_load_sizes(context, list, viewport.place, *body);
     if (state.display.extremes) draw_extremes(context, list, viewport.place, *body);
     draw_probes(context, list, viewport.place, *body);
     draw_crushed(context, list, viewport, *body);
+    draw_spring(context, list, viewport.place, *body);
     for (const Gizmo& gizmo : state.gizmos()) draw_gizmo(context, list, viewport.place, gizmo);
 }
 

@@ -159,20 +159,23 @@ void draw_tools(const PanelContext& context, ImDrawList& list) {
         list.AddRect(low, high, imgui_packed(palette.fixed), 0.0f, 0, 1.5f);
     }
     const Eigen::Vector2d& cursor = state.gestures.cursor();
-    if (state.tools.tool == Tool::brush && context.layout.scene.contains(cursor) && !context.gui.wants_mouse())
+    const bool brushes = state.tools.tool == Tool::brush || state.tools.tool == Tool::pressure;
+    if (brushes && context.layout.scene.contains(cursor) && !context.gui.wants_mouse())
         list.AddCircle(im_point(cursor.x(), cursor.y()), static_cast<float>(state.tools.brush_pixels),
-                       imgui_packed(palette.fixed), 48, 1.5f);
+                       imgui_packed(state.tools.tool == Tool::brush ? palette.fixed : palette.load), 48, 1.5f);
 }
 
 /// What to do next, for those who see this for the first time.
 std::string hint_text(const ViewerState& state) {
     if (!state.gestures.hint().empty()) return state.gestures.hint();
-    if (state.scene().n_handles() > 0 || state.gestures.pulling()) return "";
+    if (state.scene().n_handles() > 0 || state.scene().n_loads() > 0 || state.gestures.dragging()) return "";
     const Simulation& simulation = state.simulation;
     if (!simulation.problem(state.method).empty() && !simulation.previewing(state.method))
         return title(state.method) + " cannot compute this body; choose another method with the keys 1 to " +
                std::to_string(all_methods().size()) + ".";
     if (state.tools.tool == Tool::brush) return "Paint over the vertices that are to be fixed; with Shift, free them.";
+    if (state.tools.tool == Tool::force) return "Press on the body and drag: the arrow is the force.";
+    if (state.tools.tool == Tool::pressure) return "Paint where the pressure acts; with Shift, take the paint off.";
     if (state.tools.tool == Tool::probe) return "";
     if (state.tools.tool == Tool::box) return "Draw a box around the vertices that are to be fixed.";
     if (state.scene().vertices(LiveScene::kFixed).empty())

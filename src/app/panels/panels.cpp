@@ -140,6 +140,7 @@ void Panels::visit_user_texts(const ViewerState& state, const std::function<void
     visit(scene.file().string());
     for (int handle = 0; handle < scene.n_handles(); ++handle) visit(scene.handle_name(handle));
     for (int set = 0; set < scene.n_fixed_sets(); ++set) visit(scene.fixed_name(set));
+    for (int load = 0; load < scene.n_loads(); ++load) visit(scene.load_name(load));
     for (const Messages::Message& message : state.messages.all()) visit(message.text);
     for (const std::filesystem::path& file : state.recent_files()) visit(file.string());
     files_.visit_texts(visit);
@@ -170,8 +171,10 @@ void Panels::draw_side(const PanelContext& context) {
 /// first and the others share what is left, so that each is one click away.
 void Panels::draw_sections(const PanelContext& context) {
     const bool tall = context.layout.panel.height >= kTallPanel * context.gui.scale();
-    const std::array<Section, 7> sections = {{{"Method", &Panels::draw_method, true},
+    const bool has_loads = !context.state.scene().constraints().loads.empty();
+    const std::array<Section, 8> sections = {{{"Method", &Panels::draw_method, true},
                                               {"Pull", &Panels::draw_pull, true},
+                                              {"Loads", &Panels::draw_loads, has_loads},
                                               {"Show", &Panels::draw_display, tall},
                                               {"Body", &Panels::draw_body, tall},
                                               {"Compare", &Panels::draw_compare, tall},

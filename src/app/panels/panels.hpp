@@ -14,6 +14,7 @@
 #include "app/examples.hpp"
 #include "app/panels/gui.hpp"
 #include "app/panels/layout.hpp"
+#include "app/panels/loads_panel.hpp"
 #include "app/picture/palette.hpp"
 #include "app/viewer_state.hpp"
 #include "app/window/file_dialog.hpp"
@@ -68,6 +69,7 @@ private:
     void draw_mode(const PanelContext& context);
     void draw_body(const PanelContext& context);
     void draw_pull(const PanelContext& context);
+    void draw_loads(const PanelContext& context) { loads_.draw(context); }
     void draw_tool_settings(const PanelContext& context);
     void draw_fixed_sets(const PanelContext& context);
     void draw_handles(const PanelContext& context);
@@ -104,6 +106,7 @@ private:
     std::uint64_t memory_of_comparison(const ViewerState& state);
 
     FileDialog files_;
+    LoadsPanel loads_;
     struct ShownExample {
         Example example;
         std::unique_ptr<PictureTexture> picture;  ///< null when there is none

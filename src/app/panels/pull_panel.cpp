@@ -13,10 +13,34 @@ namespace elastolab {
 
 namespace {
 
-/// Numbers with a label to their right; true while they are typed.
-bool draw_numbers(const char* label, double* values, int n, const char* format, float scale) {
-    set_item_width(scale);
-    return ImGui::InputScalarN(label, ImGuiDataType_Double, values, n, nullptr, nullptr, format);
+/// The force on a handle that moves by it; true when the typing has ended.
+bool draw_grip_force(LiveScene& scene, std::optional<int> handle, float scale) {
+    GripForce typed;
+    bool by_force = false, ended = false;
+    if (handle) {
+        const Handle& present = scene.document().handles[static_cast<std::size_t>(*handle)];
+        by_force = present.force.has_value();
+        if (by_force) typed = *present.force;
+        typed.force -= typed.spring * mean_displacement(present.motion, scene.rest_positions(*handle));
+        typed.spring = 0.0;  // what a spring pulls with by now
+    }
+    const bool was_by_force = by_force;
+    ImGui::BeginDisabled(!handle);
+    if (ImGui::Checkbox("moved by a force", &by_force)) {
+        scene.set_force(*handle, by_force ? std::optional(GripForce{}) : std::nullopt);
+        ended = true;
+    }
+    tooltip("The patch stays rigid and goes where this force holds it. Without: it is where it was put.");
+    ImGui::EndDisabled();
+    ImGui::BeginDisabled(!was_by_force);
+    if (draw_numbers("force", typed.force.data(), 3, "%.4g", scale)) scene.set_force(*handle, typed);
+    ended = ImGui::IsItemDeactivatedAfterEdit() || ended;
+    tooltip("Total force on the patch along x, y and z.");
+    if (draw_numbers("moment", typed.moment.data(), 3, "%.4g", scale)) scene.set_force(*handle, typed);
+    ended = ImGui::IsItemDeactivatedAfterEdit() || ended;
+    tooltip("Moment about the middle of the patch.");
+    ImGui::EndDisabled();
+    return ended;
 }
 
 /// How a handle is moved, turned and scaled, as numbers that can be typed. The fields are there where nothing can be
@@ -47,6 +71,7 @@ void draw_placement(ViewerState& state, std::optional<int> handle, float scale) 
     ended = ended || ImGui::IsItemDeactivatedAfterEdit();
     tooltip("Scale about the middle of the handle.");
     ImGui::EndDisabled();
+    ended = draw_grip_force(scene, handle, scale) || ended;
     if (ended) scene.commit();
 }
 
@@ -76,22 +101,6 @@ void draw_reaction(const PanelContext& context, const std::string& name) {
 
 std::string vertices_text(const std::string& name, std::span<const int> vertices) {
     return name + ": " + count_text(std::ssize(vertices)) + (vertices.size() == 1 ? " vertex" : " vertices");
-}
-
-/// What was done to a row of a list of handles or fixed sets.
-struct RowAnswer {
-    bool clicked = false, removed = false;
-};
-
-/// A row that can be selected, with a button at its right that removes what it stands for.
-RowAnswer draw_row(const std::string& text, bool selected, const Colour& colour, float scale) {
-    ImGui::PushStyleColor(ImGuiCol_Text, imgui_colour(colour));
-    const float room = ImGui::GetContentRegionAvail().x - 60.0f * scale;
-    const bool clicked = ImGui::Selectable((text + "###row").c_str(), selected, 0, {room, 0});
-    ImGui::PopStyleColor();
-    if (ImGui::CalcTextSize(text.c_str()).x > room) tooltip(text.c_str());
-    ImGui::SameLine();
-    return {clicked, ImGui::SmallButton("remove")};
 }
 
 bool is_very_tall(const PanelContext& context) {

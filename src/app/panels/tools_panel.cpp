@@ -18,14 +18,17 @@ constexpr std::array<Segment, 4> kTools = {
      {"probe", "I: shows the values at the vertex under the cursor; a click keeps it (see Probes)."}}};
 constexpr std::array<Tool, 4> kToolOf = {Tool::pull, Tool::brush, Tool::box, Tool::probe};
 
-constexpr std::array<Choice<PullMode>, 7> kPullModes = {
+constexpr std::array<Choice<PullMode>, 8> kPullModes = {
     {{PullMode::plane, "in the screen", "Follows the cursor in the plane of the screen."},
      {PullMode::normal, "along the normal", "Along the normal of the surface; also with Shift."},
      {PullMode::axis_x, "along x", "Also with X held down."},
      {PullMode::axis_y, "along y", "Also with Y held down."},
      {PullMode::axis_z, "along z", "Also with Z held down."},
      {PullMode::turn, "turn", "Turns what is pulled about its middle; also with Ctrl or R."},
-     {PullMode::scale, "scale", "Up larger, down smaller; also with Alt or S."}}};
+     {PullMode::scale, "scale", "Up larger, down smaller; also with Alt or S."},
+     {PullMode::spring, "through a spring",
+      "The cursor pulls a new patch, or one under a force, through a spring: the body gives way. Let go, the patch "
+      "keeps the spring's force."}}};
 
 constexpr std::array<Choice<GizmoAxes>, 3> kGizmoAxes = {
     {{GizmoAxes::world, "world axes", "The gizmo moves and turns along x, y and z."},
@@ -64,6 +67,10 @@ void draw_patch(ViewerState& state, float scale) {
 void draw_pull_settings(ViewerState& state, float scale) {
     set_item_width(scale);
     choose<PullMode>("movement", state.tools.pull_mode, kPullModes);
+    if (state.tools.pull_mode == PullMode::spring) {
+        draw_numbers("spring", &state.tools.spring, 1, "%.4g", scale);
+        tooltip("Stiffness of the spring: force per length.");
+    }
     draw_gizmo_settings(state, scale);
     draw_patch(state, scale);
 }
@@ -103,6 +110,14 @@ void Panels::draw_tool_settings(const PanelContext& context) {
             break;
         case Tool::box:
             draw_box_settings(state, context.palette.text_dim);
+            break;
+        case Tool::force:
+        case Tool::pressure:
+            paragraph(state.tools.tool == Tool::force
+                          ? "Drag on the body: a force on the patch under the cursor (see Loads)."
+                          : "Paint where a pressure acts; with Shift take the paint off (see Loads).",
+                      context.palette.text_dim);
+            if (state.tools.tool == Tool::force) draw_patch(state, scale);
             break;
         case Tool::probe:
             paragraph("Point at a vertex: a card shows its values. A click keeps it (see Probes).",

@@ -154,4 +154,19 @@ bool choice_entry(const char* label, const char* explanation, bool selected) {
 
 void end_choice() { ImGui::EndCombo(); }
 
+bool draw_numbers(const char* label, double* values, int n, const char* format, float scale) {
+    set_item_width(scale);
+    return ImGui::InputScalarN(label, ImGuiDataType_Double, values, n, nullptr, nullptr, format);
+}
+
+RowAnswer draw_row(const std::string& text, bool selected, const Colour& colour, float scale) {
+    ImGui::PushStyleColor(ImGuiCol_Text, imgui_colour(colour));
+    const float room = ImGui::GetContentRegionAvail().x - 60.0f * scale;
+    const bool clicked = ImGui::Selectable((text + "###row").c_str(), selected, 0, {room, 0});
+    ImGui::PopStyleColor();
+    if (ImGui::CalcTextSize(text.c_str()).x > room) tooltip(text.c_str());
+    ImGui::SameLine();
+    return {clicked, ImGui::SmallButton("remove")};
+}
+
 }  // namespace elastolab

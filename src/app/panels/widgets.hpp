@@ -43,6 +43,16 @@ std::optional<std::size_t> draw_segments(const SegmentColours& colours, std::spa
 /// Width for items whose label stands to their right.
 void set_item_width(float scale);
 
+/// Numbers with a label to their right; true while they are typed.
+bool draw_numbers(const char* label, double* values, int n, const char* format, float scale);
+/// What was done to a row of a list.
+struct RowAnswer {
+    bool clicked = false, removed = false;
+};
+
+/// A row that can be selected, with a button at its right that removes what it stands for.
+RowAnswer draw_row(const std::string& text, bool selected, const Colour& colour, float scale);
+
 /// What is typed into a slider (after Ctrl + click) is kept between its ends, too.
 bool slider(const char* label, double& value, double low, double high, const char* format, float scale);
 bool slider(const char* label, int& value, int low, int high, const char* format, float scale);

@@ -34,6 +34,7 @@ Palette make_dark() {
             .active = hex(0xffd166),
             .hover = hex(0xfff4d6),
             .probe = hex(0xf2c6ff),
+            .load = hex(0x8fe36b),
             .axes = {hex(0xe0605a), hex(0x6cbf63), hex(0x5a8fe6)},
             .bodies = {hex(0x7fa8d6), hex(0xdba06a), hex(0x83bf9f), hex(0xb79ad6), hex(0xd68fae), hex(0xbfc07a)}};
 }
@@ -60,6 +61,7 @@ Palette make_light() {
             .active = hex(0x7d5900),
             .hover = hex(0x8a5a00),
             .probe = hex(0x7a1fa0),
+            .load = hex(0x2c6e12),
             .axes = {hex(0xc8413b), hex(0x3f9440), hex(0x2f66d0)},
             .bodies = {hex(0x86aedb), hex(0xe0a873), hex(0x8ac7a6), hex(0xbea3dc), hex(0xdc9ab6), hex(0xc7c886)}};
 }

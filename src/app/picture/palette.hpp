@@ -14,7 +14,7 @@ struct Palette {
     Colour panel, panel_raised, border, text, text_dim, accent;
     Colour good, busy, bad;
     Colour wire, grid, outline;
-    Colour fixed, fixed_active, handle, active, hover, probe;
+    Colour fixed, fixed_active, handle, active, hover, probe, load;
     std::array<Colour, 3> axes;
     std::array<Colour, 6> bodies;  ///< by MethodTraits::colour
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "app/picture/load_arrows.hpp"
 #include "render/drawing/legend.hpp"
 
 namespace elastolab {
@@ -14,7 +15,7 @@ namespace {
 
 constexpr double kArrowPart = 0.3;   ///< length of the longest reaction arrow, of the scene's radius
 constexpr double kGizmoSize = 72.0;  ///< [logical pixels]
-constexpr float kPointSize = 6.0f, kActivePointSize = 8.0f, kHoverPointSize = 7.0f;
+constexpr float kPointSize = 6.0f, kActivePointSize = 8.0f, kHoverPointSize = 7.0f, kLoadedPointSize = 4.0f;
 constexpr int kBands = 10;
 constexpr double kGroundPart = 3.0, kShadowPart = 1.4;  ///< radii of the ground and of the shadow, of the scene's
 constexpr double kLeastDeformation = 0.01;              ///< of the scene's radius, from which a ghost is drawn
@@ -39,6 +40,16 @@ std::vector<char> seen_vertices(const ShownBody& body) {
     for (const int v : body.section()->shape->triangles().reshaped())
         if (static_cast<std::size_t>(v) < seen.size()) seen[static_cast<std::size_t>(v)] = 1;
     return seen;
+}
+
+/// Each once.
+std::vector<int> corners_of(const AppliedLoad& load, const SurfaceMesh& surface) {
+    std::vector<int> corners;
+    for (const int t : load.triangles)
+        for (const int v : surface.triangles.col(t)) corners.push_back(v);
+    std::sort(corners.begin(), corners.end());
+    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+    return corners;
 }
 
 }  // namespace
@@ -100,10 +111,7 @@ void SceneRenderer::upload_body(const ViewerState& state, const ShownBody& body,
         upload_section(body, target);
         upload_filling(body, target);
     }
-    if (is_new || target.palette != &palette) {
-        target.palette = &palette;
-        upload_arrows(state, body, target, palette);
-    }
+    upload_arrows(state, body, target, palette);
     upload_points(state, body, target, palette);
 }
 
@@ -168,9 +176,13 @@ void SceneRenderer::upload_points(const ViewerState& state, const ShownBody& bod
             add_points(scene.vertices(h), active ? palette.active : palette.handle,
                        crowd * (active ? kActivePointSize : kPointSize));
         }
+        for (const AppliedLoad& load : scene.constraints().loads)
+            add_points(corners_of(load, scene.mesh()),
+                       state.gestures.selected_load() == load.number ? palette.active : palette.load,
+                       crowd * kLoadedPointSize);
     }
     const Hover& hover = state.gestures.hover();
-    if (!state.gestures.pulling()) {
+    if (!state.gestures.dragging()) {
         add_points(hover.patch, palette.hover, crowd * kHoverPointSize);
         if (hover.vertex >= 0)
             points.push_back({body.positions().col(hover.vertex), palette.hover, kHoverPointSize + 3.0f});
@@ -187,6 +199,14 @@ void SceneRenderer::upload_arrows(const ViewerState& state, const ShownBody& bod
         for (const ShownReaction& reaction : body.reactions()) {
             const Eigen::Vector3d vector = kArrowPart * frame_.radius / largest * reaction.force;
             arrows.push_back({reaction.place, vector, reaction.fixed ? palette.fixed : palette.handle});
+        }
+    if (state.display.constraints)
+        for (const LoadArrow& load :
+             load_arrows(state.scene(), body.positions(), frame_.radius, state.gestures.dragged_load())) {
+            const bool active = state.gestures.selected_load() == load.load || state.gestures.hover().load == load.load;
+            const Eigen::Vector3d vector = load.end - load.place;
+            arrows.push_back({load.inward ? load.end : load.place, load.inward ? Eigen::Vector3d(-vector) : vector,
+                              active ? palette.active : palette.load});
         }
     target.arrows.update(arrows, frame_);
 }
@@ -323,7 +343,8 @@ SceneRenderer::Look SceneRenderer::look_of(const ViewerState& state, const Scene
     look.hover = state.gestures.hover();
     look.selected_handle = state.gestures.selected_handle();
     look.selected_fixed = state.gestures.selected_fixed();
-    look.pulling = state.gestures.pulling();
+    look.pulling = state.gestures.dragging();
+    look.selected_load = state.gestures.selected_load();
     look.scene_number = state.scene_number();
     look.scene_revision = state.scene().revision();
     look.palette = &palette;

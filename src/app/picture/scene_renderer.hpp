@@ -57,7 +57,6 @@ private:
         PointsDrawing points;
         ArrowsDrawing arrows;
         std::uint64_t revision = 0;
-        const Palette* palette = nullptr;  ///< of the arrows
     };
     /// All that the picture of a viewport depends on.
     struct Look {
@@ -70,6 +69,7 @@ private:
         std::pair<double, double> range;
         Hover hover;
         int selected_handle = -1, selected_fixed = -1;
+        std::optional<int> selected_load = {};
         bool pulling = false;
         std::uint64_t scene_number = 0, scene_revision = 0;
         const Palette* palette = nullptr;

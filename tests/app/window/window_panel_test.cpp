@@ -166,7 +166,7 @@ TEST(RealPanel, ShowIsWithinReachInASmallWindow) {
     RealWindow window({"cube.json", "--method", "fem", "--size", "800x600", "--screenshot", "panel.png"},
                       folder.path());
     window.settle();
-    window.click({126, 251});  // "Show"
+    window.click({158, 251});  // "Show"
     window.settle();
     window.click({136, 518});  // "light theme"
     window.settle();

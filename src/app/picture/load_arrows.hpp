@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/live/live_scene.hpp"
+
+namespace elastolab {
+
+/// A load as an arrow that can be dragged. It stands on the surface: away from it what pulls, towards it what presses.
+/// Gravity points away from the middle of the body.
+struct LoadArrow {
+    int load = LiveScene::kGravity;                     ///< of the scene
+    Eigen::Vector3d place = Eigen::Vector3d::Zero();    ///< where it acts, as shown [L]
+    Eigen::Vector3d end = Eigen::Vector3d::Zero();      ///< what the mouse takes hold of [L]
+    Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< of the surface at its place, as shown
+    bool inward = false;                                ///< points from its end to its place
+    /// What the load grows by when the end moves away by one: [force / L], [force / L^3] or [1 / time^2].
+    double value_per_length = 1.0;
+    bool operator==(const LoadArrow&) const = default;
+};
+
+/// A load whose arrow keeps this ratio, and the way it points, while it is dragged.
+struct DraggedLoad {
+    int load = LiveScene::kGravity;
+    double value_per_length = 1.0;
+    bool inward = false;
+    bool operator==(const DraggedLoad&) const = default;
+};
+
+/// The arrow of a load, or of gravity; nothing where it has no effect. positions: of the surface, as shown; radius: of
+/// the scene, which keeps arrows from being too long or too short. A load of size zero has an arrow of no length, whose
+/// ratio is such that a force dragged by a length moves its patch by about as much.
+std::optional<LoadArrow> load_arrow(const LiveScene& scene, int load, const Positions& positions, double radius);
+/// Those of gravity and all loads.
+std::vector<LoadArrow> load_arrows(const LiveScene& scene, const Positions& positions, double radius,
+                                   const std::optional<DraggedLoad>& dragged = std::nullopt);
+
+/// How large a load is, with its sign if it is a pressure: force, traction, acceleration or pressure.
+double load_size(const LiveScene& scene, int load);
+/// "force 12", "pressure -3": for rows and marks.
+std::string load_text(const LiveScene& scene, int load);
+
+}  // namespace elastolab
