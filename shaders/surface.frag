@@ -5,6 +5,7 @@ uniform vec4 colour, inside;  // linear, as the colours of the map
 uniform vec4 wire;
 uniform float opacity, light, wire_width;
 uniform int scalar_source;
+uniform bool scalar_log;
 uniform float scalar_low, scalar_scale, scalar_offset, contour_bands;
 uniform sampler2D colour_map;
 
@@ -31,8 +32,9 @@ vec3 mapped(float t) {
 }
 
 vec3 surface_colour() {
-    float t = (fragment.scalar - scalar_low) * scalar_scale + scalar_offset;
-    bool has_value = scalar_source != 0 && !isnan(t) && !isinf(t);
+    float value = scalar_log ? log(max(fragment.scalar, 1e-37)) / log(10.0) : fragment.scalar;
+    float t = (value - scalar_low) * scalar_scale + scalar_offset;
+    bool has_value = scalar_source != 0 && !isnan(fragment.scalar) && !isinf(t);
     return has_value ? mapped(t) : colour.rgb;
 }
 

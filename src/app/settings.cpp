@@ -9,8 +9,9 @@ namespace {
 
 /// By the numbers of Field.
 constexpr std::array kFieldNames = {
-    "none",      "displacement", "difference", "traction",  "von-mises", "first-principal", "third-principal",
-    "stress-xx", "stress-yy",    "stress-zz",  "stress-xy", "stress-yz", "stress-xz"};
+    "none",           "displacement", "difference",      "traction",        "displacement-x", "displacement-y",
+    "displacement-z", "von-mises",    "first-principal", "third-principal", "stress-xx",      "stress-yy",
+    "stress-zz",      "stress-xy",    "stress-yz",       "stress-xz"};
 static_assert(kFieldNames.size() == static_cast<std::size_t>(Field::stress_xz) + 1);
 
 }  // namespace
@@ -30,7 +31,12 @@ std::optional<StressMeasure> stress_of(Field field) {
     return static_cast<StressMeasure>(static_cast<int>(field) - static_cast<int>(Field::von_mises));
 }
 
-bool is_signed(Field field) { return field > Field::von_mises; }
+std::optional<int> displacement_axis(Field field) {
+    if (field < Field::displacement_x || field > Field::displacement_z) return std::nullopt;
+    return static_cast<int>(field) - static_cast<int>(Field::displacement_x);
+}
+
+bool is_signed(Field field) { return field > Field::von_mises || displacement_axis(field); }
 
 const ColourMap& shown_colour_map(const DisplaySettings& display) {
     return colour_map(is_signed(display.field) ? display.signed_colour_map : display.colour_map);

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/input/navigation.hpp"
 #include "deform/method.hpp"
 #include "elasticity/stress.hpp"
 #include "methods/registry.hpp"
@@ -19,8 +20,8 @@ namespace elastolab {
 enum class Tool { pull, brush, box, probe, force, pressure };
 enum class Release { pin, spring_back };
 
-/// How the cursor moves what is pulled: in the plane of the screen, along a direction, or otherwise. Through a spring: a
-/// patch that is grabbed anew, or is under a force already, gives way as a real body does.
+/// How the cursor moves what is pulled: in the plane of the screen, along a direction, or otherwise. Through a spring:
+/// a patch that is grabbed anew, or is under a force already, gives way as a real body does.
 enum class PullMode { plane, normal, axis_x, axis_y, axis_z, turn, scale, spring };
 
 /// The axes by which a handle's gizmo moves and turns it: those of the world, those of the surface there (the third is
@@ -30,7 +31,8 @@ enum class GizmoAxes { world, surface, own };
 struct ToolSettings {
     Tool tool = Tool::pull;
     PullMode pull_mode = PullMode::plane;  ///< where no key asks for another
-    bool gizmo = true;                     ///< arrows and rings at the selected handle
+    Navigation navigation = Navigation::standard;
+    bool gizmo = true;  ///< arrows and rings at the selected handle
     GizmoAxes gizmo_axes = GizmoAxes::world;
     bool snap = false;  ///< pulls go in round steps
     Release release = Release::pin;
@@ -48,8 +50,9 @@ enum class CompareMode { off, side_by_side, ghosts };
 
 struct CompareSettings {
     CompareMode mode = CompareMode::off;
-    std::vector<MethodKind> kinds{kFem, kConstantBem, kLinearBem};  ///< shown when comparing
-    MethodKind reference = default_method();                        ///< differences are to this one
+    std::vector<MethodKind> kinds{kFem, kConstantBem, kLinearBem, kGalerkinBem};  ///< shown when comparing
+    bool chosen = false;                                                          ///< by hand, so that they stay
+    MethodKind reference = default_method();                                      ///< differences are to this one
 };
 
 /// What colours the body: lengths and measures, which are not negative, or a stress of either sign.
@@ -58,6 +61,9 @@ enum class Field {
     displacement,
     difference,
     traction,
+    displacement_x,
+    displacement_y,
+    displacement_z,
     von_mises,
     first_principal,
     third_principal,
@@ -74,6 +80,8 @@ std::vector<std::string> field_names();
 std::optional<Field> parse_field(std::string_view name);
 /// The stress that a field is; nothing for the others.
 std::optional<StressMeasure> stress_of(Field field);
+/// The axis along which a field is the displacement; nothing for others.
+std::optional<int> displacement_axis(Field field);
 /// Whether it has values of either sign, so that zero is in the middle of the colours.
 bool is_signed(Field field);
 
@@ -81,6 +89,9 @@ struct DisplaySettings {
     Field field = Field::none;
     std::string colour_map = "lagoon", signed_colour_map = "balance";  ///< the second where is_signed(field)
     bool auto_range = true;
+    double range_part = 1.0;   ///< of the data in the automatic range; what is more extreme has the colour of its end
+    bool hold_range = false;   ///< while something is pulled
+    bool logarithmic = false;  ///< colours, where !is_signed(field)
     double range_low = 0.0, range_high = 1.0;  ///< when not automatic, in the unit of the field
     bool bands = false;
     bool extremes = false;  ///< marks where the field is largest and, of either sign, smallest

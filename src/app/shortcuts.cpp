@@ -17,11 +17,6 @@ namespace {
 constexpr int kModifiers = GLFW_MOD_CONTROL | GLFW_MOD_SHIFT | GLFW_MOD_ALT;
 constexpr double kRadiusStep = 1.2;
 
-void toggle_compare(ViewerState& state, CompareMode mode) {
-    state.finish_gesture();
-    state.compare.mode = state.compare.mode == mode ? CompareMode::off : mode;
-}
-
 /// Below half an edge a patch is a single vertex.
 void change_radius(ViewerState& state, double factor) {
     const double edge = state.scene().report().mean_edge;
@@ -29,6 +24,31 @@ void change_radius(ViewerState& state, double factor) {
     radius *= factor;
     if (factor > 1.0) radius = std::max(radius, edge);
     if (radius < 0.5 * edge) radius = 0.0;
+}
+
+/// Keys of the number block that share a line of the help with another.
+struct ViewKey {
+    int key, modifiers;
+    ViewDirection from;
+};
+constexpr std::array<ViewKey, 5> kViewKeys = {{{GLFW_KEY_KP_1, GLFW_MOD_CONTROL, ViewDirection::back},
+                                               {GLFW_KEY_KP_3, 0, ViewDirection::right},
+                                               {GLFW_KEY_KP_3, GLFW_MOD_CONTROL, ViewDirection::left},
+                                               {GLFW_KEY_KP_7, 0, ViewDirection::top},
+                                               {GLFW_KEY_KP_7, GLFW_MOD_CONTROL, ViewDirection::bottom}}};
+
+/// What keys of the number block do to the view; false for others.
+bool run_view_key(int key, int modifiers, Camera& camera) {
+    if (key == GLFW_KEY_KP_5 && modifiers == 0) {
+        toggle_projection(camera);
+        return true;
+    }
+    for (const ViewKey& view : kViewKeys)
+        if (view.key == key && view.modifiers == modifiers) {
+            camera.set_view(view.from);
+            return true;
+        }
+    return false;
 }
 
 std::vector<Shortcut> make_shortcuts() {
@@ -65,10 +85,14 @@ std::vector<Shortcut> make_shortcuts() {
         {GLFW_KEY_F, 0, "F", "frame the body", [](ViewerState& s, Panels&) { s.frame_body(); }},
         {GLFW_KEY_F, GLFW_MOD_SHIFT, "Shift+F", "frame the selected handle or fixed set",
          [](ViewerState& s, Panels&) { s.frame_selection(); }},
+        {GLFW_KEY_O, 0, "O or Num 5", "orthographic or perspective",
+         [](ViewerState& s, Panels&) { toggle_projection(s.camera); }},
+        {GLFW_KEY_KP_1, 0, "Num 1, 3, 7", "look from the front, right, top; with Ctrl from the other side",
+         [](ViewerState& s, Panels&) { s.camera.set_view(ViewDirection::front); }},
         {GLFW_KEY_C, 0, "C", "compare side by side",
-         [](ViewerState& s, Panels&) { toggle_compare(s, CompareMode::side_by_side); }},
+         [](ViewerState& s, Panels&) { s.toggle_comparison(CompareMode::side_by_side); }},
         {GLFW_KEY_G, 0, "G", "compare as ghosts",
-         [](ViewerState& s, Panels&) { toggle_compare(s, CompareMode::ghosts); }},
+         [](ViewerState& s, Panels&) { s.toggle_comparison(CompareMode::ghosts); }},
         {GLFW_KEY_W, 0, "W", "wireframe on or off",
          [](ViewerState& s, Panels&) { s.display.wireframe = !s.display.wireframe; }},
         {GLFW_KEY_P, 0, "P", "show or fold the panel",
@@ -100,7 +124,7 @@ const std::vector<Shortcut>& shortcuts() {
 }
 
 std::span<const GestureHelp> gesture_help() {
-    static constexpr std::array<GestureHelp, 18> all = {
+    static constexpr std::array<GestureHelp, 19> all = {
         {{"drag on the body", "pull the patch under the cursor, in the plane of the screen"},
          {"... with Shift", "along the surface normal"},
          {"... with X, Y or Z", "along an axis"},
@@ -111,6 +135,7 @@ std::span<const GestureHelp> gesture_help() {
          {"middle button", "turn the view, on the body too"},
          {"right, Shift + drag, Shift + middle", "move the view"},
          {"wheel", "zoom to the cursor"},
+         {"letter of the axes", "look along that axis; again: from the other side"},
          {"double click", "frame the body"},
          {"brush: drag, click", "fix vertices; with Shift free them"},
          {"probe: click", "keep or forget the values at a vertex"},
@@ -124,12 +149,13 @@ std::span<const GestureHelp> gesture_help() {
 
 bool run_shortcut(const InputEvent& event, ViewerState& state, Panels& panels) {
     if (event.kind != InputEvent::Kind::key || !event.pressed) return false;
+    const int modifiers = event.modifiers & kModifiers;
     for (const Shortcut& shortcut : shortcuts())
-        if (shortcut.key == event.code && shortcut.modifiers == (event.modifiers & kModifiers)) {
+        if (shortcut.key == event.code && shortcut.modifiers == modifiers) {
             shortcut.run(state, panels);
             return true;
         }
-    return false;
+    return run_view_key(event.code, modifiers, state.camera);
 }
 
 }  // namespace elastolab

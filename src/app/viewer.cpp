@@ -10,7 +10,6 @@
 #include "app/autosave.hpp"
 #include "app/dispatch.hpp"
 #include "app/input/interaction_log.hpp"
-#include "app/six_axis.hpp"
 #include "app/panels/gui.hpp"
 #include "app/panels/layout.hpp"
 #include "app/panels/panels.hpp"
@@ -19,8 +18,10 @@
 #include "app/picture/scene_renderer.hpp"
 #include "app/picture/view_point.hpp"
 #include "app/series.hpp"
+#include "app/six_axis.hpp"
 #include "app/viewer_outputs.hpp"
 #include "app/viewer_state.hpp"
+#include "app/window/preferences.hpp"
 #include "app/window/start_timeline.hpp"
 #include "app/window/window.hpp"
 #include "base/atomic_file.hpp"
@@ -71,6 +72,7 @@ public:
         for (const std::filesystem::path& file :
              {options.screenshot, options.picture, options.scene_out, options.mesh_out})
             if (!file.empty()) AtomicFile::require_writable(file);
+        if (!nobody_watches()) take(load_preferences());
         open_input();
         if (!nobody_watches()) six_axis_mouse_.emplace([] { Window::wake(); });
         if (!nobody_watches()) state_.recoverable = find_autosaved();
@@ -82,6 +84,7 @@ public:
             control_.checkpoint();
             if (must_draw()) draw_frame();
             keep_scene();
+            keep_preferences();
         }
         pictures_.stop(state_);  // a film that is cut short leaves the handles where they were
         draw_last_picture();
@@ -102,6 +105,19 @@ private:
     Eigen::Vector2i window_size() const {
         if (options_.size) return *options_.size;
         return replay_ ? replay_->log.window_size : kDefaultSize;
+    }
+
+    Preferences preferences() const { return {state_.tools.navigation, state_.display.dark, state_.display.ui_scale}; }
+    void take(const Preferences& preferences) {
+        state_.tools.navigation = preferences.navigation;
+        state_.display.dark = preferences.dark;
+        state_.display.ui_scale = preferences.ui_scale;
+        kept_preferences_ = preferences;
+    }
+    void keep_preferences() {
+        if (nobody_watches() || kept_preferences_ == preferences()) return;
+        kept_preferences_ = preferences();
+        save_preferences(kept_preferences_);
     }
 
     bool nobody_watches() const { return options_.hidden || options_.n_frames > 0; }
@@ -136,6 +152,11 @@ private:
     }
 
     double timeout() const {
+        const double rest = timeout_of_work(), detail = detail_.due_in(Window::seconds());
+        return detail < 0.0 || (rest >= 0.0 && rest < detail) ? rest : detail;
+    }
+
+    double timeout_of_work() const {
         if (pictures_.filming()) return pictures_.waiting() ? kWaitingSeconds : 0.0;
         if (held_back()) return kProgressSeconds;
         if (options_.n_frames > 0 || pending_frames_ > 0 || !queue_.empty()) return 0.0;
@@ -178,6 +199,7 @@ private:
         if (pictures_.poll(state_) || pictures_.filming()) pending_frames_ = kSettlingFrames;
         const bool damaged = window_.take_damage();
         if (!queue_.empty() || damaged || state_.simulation.busy() || computing()) pending_frames_ = kSettlingFrames;
+        if (detail_.due_in(Window::seconds()) == 0.0) pending_frames_ = std::max(pending_frames_, 1);
         if (message_seconds_ >= 0.0 || gui_.wants_text()) pending_frames_ = std::max(pending_frames_, 1);
         if (window_.close_requested() && !may_close()) pending_frames_ = kSettlingFrames;  // for the question
         if (window_.close_requested()) return false;
@@ -252,6 +274,7 @@ private:
         panels_.visit_user_texts(state_, [&](std::string_view text) { gui_.want_characters(text); });
         gui_.begin(events, now - std::exchange(last_frame_seconds_, now));
         const Layout layout = layout_of(window_.size(), gui_.scale(), state_.display);
+        window_.set_title(state_.blank() ? "Elastolab" : state_.scene_title() + " \u2013 Elastolab");
         arrange(layout);
         times.gui_ms = 1e3 * part.seconds();
 
@@ -272,7 +295,7 @@ private:
 
         part = {};
         const double ratio = static_cast<double>(window_.framebuffer_size().x()) / window_.size().x();
-        renderer_.draw(state_, palette(), ratio);
+        const int n_drawn = renderer_.draw(state_, palette(), ratio, detail_at(now, ratio));
         renderer_.show(state_, ratio, window_.framebuffer_size());
         times.draw_ms = 1e3 * part.seconds();
 
@@ -283,9 +306,18 @@ private:
         if (!options_.screenshot.empty() && is_last_frame()) pictures_.keep_last(window_);
         pictures_.take_of_window(state_, window_);
         pictures_.take_of_scene(renderer_, state_, palette(), window_);
+        part = {};
         window_.swap_buffers();
+        if (n_drawn > 0) detail_.took(1e-3 * times.draw_ms + part.seconds());
         times.frame_ms = 1e3 * whole.seconds();
         end_frame(times, now);
+    }
+
+    /// All of it where nobody watches.
+    DrawingDetail detail_at(double now, double pixel_ratio) {
+        if (nobody_watches()) return {};
+        if (std::exchange(detailed_scene_, state_.scene_number()) != state_.scene_number()) detail_.forget();
+        return detail_.choose(renderer_.has_moved(state_, palette(), pixel_ratio), now);
     }
 
     /// Lays out the viewports. When their number changes, the body is made to fit again; when their width does, what
@@ -389,6 +421,9 @@ private:
     int pending_frames_ = kSettlingFrames;
     double last_frame_seconds_ = 0.0, message_seconds_ = -1.0;
     const Palette* styled_palette_ = nullptr;
+    Preferences kept_preferences_;
+    DetailKeeper detail_;
+    std::uint64_t detailed_scene_ = 0;  ///< the number of the scene that it knows
 };
 
 }  // namespace

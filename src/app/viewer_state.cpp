@@ -7,6 +7,7 @@
 #include "app/job_notes.hpp"
 #include "app/names.hpp"
 #include "app/window/recent_files.hpp"
+#include "findings/cost.hpp"
 
 namespace elastolab {
 
@@ -29,6 +30,9 @@ std::string recorded_name(MethodRunner::State state, bool following) {
     return "idle";
 }
 
+/// What a comparison may wait for a method that nobody chose.
+constexpr double kComparisonSeconds = 15.0;
+
 /// The handles' vertices where they are shown once a method has answered.
 Positions handles_put(const LiveScene& scene, double scale) {
     const Constraints& constraints = scene.constraints();
@@ -42,6 +46,25 @@ Positions handles_put(const LiveScene& scene, double scale) {
 ViewerState::ViewerState(const std::function<void()>& wake)
     : simulation(wake), shown(wake), recent_(load_recent_files()), load_job_(wake), export_job_(wake) {
     take_scene({.scene = std::make_unique<LiveScene>(default_document(), fs::path("cube.json")), .file = {}});
+}
+
+std::string ViewerState::scene_title() const {
+    const fs::path name = scene_file_.empty() ? fs::path(scene_->name()) : scene_file_;
+    return name.filename().string() + (scene_->modified() ? " (not saved)" : "");
+}
+
+/// Those of the paper and the reference, but for what nobody would wait for.
+void ViewerState::toggle_comparison(CompareMode mode) {
+    finish_gesture();
+    compare.mode = compare.mode == mode ? CompareMode::off : mode;
+    if (!comparing() || compare.chosen) return;
+    compare.kinds.clear();
+    for (const MethodKind kind : {kFem, kConstantBem, kLinearBem, kGalerkinBem}) {
+        const SurfaceMesh* surface = simulation.simulated_surface(kind, *scene_);
+        const bool is_ready = simulation.runner(kind).model() != nullptr;
+        if (is_ready || surface == nullptr || predict_cost(*surface, choices.of(kind)).seconds <= kComparisonSeconds)
+            compare.kinds.push_back(kind);
+    }
 }
 
 std::vector<MethodKind> ViewerState::shown_kinds() const {
@@ -315,7 +338,8 @@ bool ViewerState::update_picture() {
                          .kinds = shown_kinds(),
                          .reference = reference(),
                          .display = display,
-                         .probed = tools.tool == Tool::probe || !probes.vertices().empty()});
+                         .probed = tools.tool == Tool::probe || !probes.vertices().empty(),
+                         .pulling = gestures.dragging()});
 }
 
 }  // namespace elastolab

@@ -75,6 +75,8 @@ public:
     Probes probes;
     bool show_help = false;
     bool comparing() const { return compare.mode != CompareMode::off; }
+    /// Compares in this way, or no more. Which methods: those chosen, else all that are ready or will be soon.
+    void toggle_comparison(CompareMode mode);
     /// Methods on the screen, the active one first; and those that must be computed for them.
     std::vector<MethodKind> shown_kinds() const;
     std::vector<MethodKind> needed_kinds() const;
@@ -105,6 +107,8 @@ public:
     void answer_unsaved(UnsavedAnswer answer);
     /// The file that the scene came from or was last saved to; empty when there is none.
     const std::filesystem::path& scene_file() const { return scene_file_; }
+    /// What the scene is called: its file's name, or that of its body; " (not saved)" follows where it was changed.
+    std::string scene_title() const;
     /// Whether that file was written here already, so that it may be written again without a question.
     bool owns_scene_file() const { return owns_scene_file_; }
     /// False when it could not be written.

@@ -69,10 +69,20 @@ Eigen::VectorXd GripStiffness::resultants(const Deformer& deformer, const Eigen:
     return sums;
 }
 
-void GripStiffness::set_others(const Deformer& deformer, const Eigen::VectorXd& values, Control& control) {
+Eigen::VectorXd GripStiffness::others_of(const Eigen::VectorXd& values) const {
     Eigen::VectorXd others = values;
     move(Eigen::VectorXd::Zero(6 * std::ssize(grips_)), others);
+    return others;
+}
+
+void GripStiffness::set_others(const Deformer& deformer, const Eigen::VectorXd& values, Control& control) {
+    Eigen::VectorXd others = others_of(values);
     rest_ = resultants(deformer, others, control);
+    others_ = std::move(others);
+}
+
+bool GripStiffness::is_for(const Eigen::VectorXd& values) const {
+    return values.size() == others_.size() && others_of(values) == others_;
 }
 
 void GripStiffness::move(const Eigen::VectorXd& motions, Eigen::VectorXd& values) const {

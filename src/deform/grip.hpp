@@ -31,6 +31,8 @@ public:
     /// Everything else prescribed and loaded by other values: one solve with reactions. deformer: that of the
     /// constructor. Throws SolveError, Cancelled.
     void set_others(const Deformer& deformer, const Eigen::VectorXd& values, Control& control);
+    /// Whether these values, but for those of the grips, are the ones that it was made or set for last.
+    bool is_for(const Eigen::VectorXd& values) const;
 
     const std::vector<Grip>& grips() const { return grips_; }
     int n_grips() const { return static_cast<int>(grips_.size()); }
@@ -51,12 +53,14 @@ public:
 private:
     /// Of each grip's motion or force: in them rotations and moments are lengths and forces.
     Eigen::VectorXd units() const;
+    Eigen::VectorXd others_of(const Eigen::VectorXd& values) const;
     Eigen::VectorXd resultants(const Deformer& deformer, const Eigen::VectorXd& values, Control& control) const;
 
     std::vector<Grip> grips_;
     std::vector<Eigen::Vector3d> middles_;
     std::vector<Eigen::Matrix3Xd> arms_;  ///< of the vertices of each grip, from its middle
     double length_ = 1.0;                 ///< of the body: a rotation times it counts like a translation
+    Eigen::VectorXd others_;              ///< the last values, zero for the grips
     Eigen::VectorXd rest_;                ///< forces without motion
     Eigen::MatrixXd matrix_;
 };

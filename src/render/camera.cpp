@@ -9,18 +9,15 @@ namespace elastolab {
 
 namespace {
 
-constexpr double kNearestZoom = 1e-4, kFarthestZoom = 1e3;  // distance / scene radius
-constexpr double kFrameMargin = 1.08;                       // room around a framed ball
-constexpr double kInFront = 1.6, kBehind = 8.0;             // scene radii in sight in front of its centre and behind
-constexpr double kNearestPlane = 0.02;                      // of the distance
-constexpr double kRounding = 1e-9;                          // of an orientation, after many turns
+constexpr double kFieldOfView = 0.6, kNarrowFieldOfView = 0.002;  // vertical [radians]
+constexpr double kNearestZoom = 1e-4, kFarthestZoom = 1e3;        // distance / scene radius
+constexpr double kFrameMargin = 1.08;                             // room around a framed ball
+constexpr double kInFront = 1.6, kBehind = 8.0;  // scene radii in sight in front of its centre and behind
+constexpr double kNearestPlane = 0.02;           // of the distance
+constexpr double kRounding = 1e-9;               // of an orientation, after many turns
 
 Eigen::Quaterniond turn(double angle, const Eigen::Vector3d& axis) {
     return Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis));
-}
-
-double slope_per_pixel(const Viewport& viewport) {
-    return 2.0 * std::tan(0.5 * Camera::kFieldOfView) / viewport.height;
 }
 
 /// Any direction perpendicular to this one.
@@ -31,6 +28,13 @@ Eigen::Vector3d across(const Eigen::Vector3d& direction) {
 }
 
 }  // namespace
+
+/// From the middle of the picture to its upper edge, at depth 1.
+double Camera::slope() const {
+    return std::tan(0.5 * (kind_ == Projection::perspective ? kFieldOfView : kNarrowFieldOfView));
+}
+
+double Camera::remoteness() const { return std::tan(0.5 * kFieldOfView) / slope(); }
 
 /// Eye coordinates, at depth 1, of what a pixel shows.
 Eigen::Vector3d Camera::eye_direction(const Eigen::Vector2d& pixel, const Viewport& viewport) const {
@@ -48,10 +52,10 @@ Eigen::Matrix4d Camera::view() const {
 
 Eigen::Matrix4d Camera::projection(const Viewport& viewport, double unit) const {
     const double depth = (eye() - scene_.center).dot(backward());
-    const double least = kNearestPlane * pose_.distance;
+    const double least = kNearestPlane * eye_distance();
     const double near = std::max(depth - kInFront * scene_.radius, least) / unit;
     const double far = std::max((depth + kBehind * scene_.radius) / unit, 2.0 * near);
-    const double scale = 1.0 / std::tan(0.5 * kFieldOfView);
+    const double scale = 1.0 / slope();
     Eigen::Matrix4d matrix = Eigen::Matrix4d::Zero();
     matrix(0, 0) = scale / viewport.aspect();
     matrix(0, 2) = viewport.covered / viewport.width;  // half of it, times the width, which is 2 in clip coordinates
@@ -84,14 +88,14 @@ void Camera::zoom_to(const Eigen::Vector2d& cursor, double factor, const Eigen::
     const double distance =
         std::clamp(pose_.distance / factor, kNearestZoom * scene_.radius, kFarthestZoom * scene_.radius);
     const double depth = (eye() - anchor).dot(backward());
-    const Eigen::Vector3d fixed = unproject(cursor, depth > 0.0 ? depth : pose_.distance, viewport);
+    const Eigen::Vector3d fixed = unproject(cursor, depth > 0.0 ? depth : eye_distance(), viewport);
     pose_.target = fixed + (pose_.target - fixed) * (distance / pose_.distance);
     pose_.distance = distance;
 }
 
 void Camera::fit(const PositionsView& points, double aspect) {
     constexpr double kMargin = 0.86;  // of half the picture
-    const double slope_y = kMargin * std::tan(0.5 * kFieldOfView), slope_x = slope_y * aspect;
+    const double slope_y = kMargin * slope(), slope_x = slope_y * aspect;
     const Eigen::Matrix3d axes = pose_.orientation.toRotationMatrix();
     const Eigen::Vector3d origin = points.col(0);
     const Eigen::Matrix3Xd local = axes.transpose() * (points.colwise() - origin);
@@ -107,13 +111,13 @@ void Camera::fit(const PositionsView& points, double aspect) {
     const double middle = 0.5 * (local.row(2).maxCoeff() + local.row(2).minCoeff());
     const double distance = std::max(z_of_x, z_of_y) - middle;
     pose_.target = origin + axes * Eigen::Vector3d(x, y, middle);
-    pose_.distance = std::max(distance, 1e-3 * scene_.radius);
+    pose_.distance = std::max(distance / remoteness(), 1e-3 * scene_.radius);
 }
 
 void Camera::frame(const SceneFrame& ball, double aspect) {
-    const double half = std::atan(std::tan(0.5 * kFieldOfView) * std::min(aspect, 1.0));
+    const double half = std::atan(slope() * std::min(aspect, 1.0));
     pose_.target = ball.center;
-    pose_.distance = kFrameMargin * ball.radius / std::sin(half);
+    pose_.distance = kFrameMargin * ball.radius / std::sin(half) / remoteness();
 }
 
 void Camera::set_view(ViewDirection from) {
@@ -137,6 +141,12 @@ void Camera::set_view(ViewDirection from) {
         case ViewDirection::isometric:
             return look_from(1.1 * facing + 0.75 * side + 0.7 * up_axis_, up_axis_);
     }
+}
+
+void Camera::look_along(const Eigen::Vector3d& direction) {
+    const double along = direction.normalized().dot(up_axis_);
+    if (std::abs(along) < 1.0 - kRounding) return look_from(direction, up_axis_);
+    set_view(along > 0.0 ? ViewDirection::top : ViewDirection::bottom);
 }
 
 void Camera::look_from(const Eigen::Vector3d& direction, const Eigen::Vector3d& top) {

@@ -26,14 +26,23 @@ enum class ViewDirection { front, back, left, right, top, bottom, isometric };
 struct CameraPose {
     Eigen::Vector3d target = Eigen::Vector3d::Zero();                 ///< the point it turns about
     Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< camera axes (right, up, backward) to world
-    double distance = 4.0;                                            ///< from the eye to the target [L]
+    double distance = 4.0;  ///< from the eye to the target, seen in perspective [L]
 };
 
-/// Perspective camera. Pixels are logical, with the origin at the top left of the window and y downward. Everything is
-/// relative to the size of the scene, which may be anything between 1e-9 and 1e9 and far from the origin.
+/// What the picture is like: as an eye sees it, or with parallel lines of sight, so that lengths can be compared.
+enum class Projection { perspective, orthographic };
+
+/// A camera. Orthographic pictures are those of an eye that is so far away, with so long a lens, that depth changes
+/// lengths by less than a thousandth; everything else then holds for both. Pixels are logical, with the origin at the
+/// top left of the window and y downward. Everything is relative to the size of the scene, which may be anything
+/// between 1e-9 and 1e9 and far from the origin.
 class Camera {
 public:
-    static constexpr double kFieldOfView = 0.6;  ///< vertical [radians]
+    /// Changes what is seen in the plane of the target by nothing.
+    void set_projection_kind(Projection kind) { kind_ = kind; }
+    Projection projection_kind() const { return kind_; }
+    /// How much farther away the eye is than in perspective: 1 there.
+    double remoteness() const;
 
     /// What must be in sight: sets the near and far planes and the range of zoom, not the view.
     void set_scene(const SceneFrame& scene) { scene_ = scene; }
@@ -44,7 +53,7 @@ public:
 
     const CameraPose& pose() const { return pose_; }
     void set_pose(const CameraPose& pose) { pose_ = pose; }
-    Eigen::Vector3d eye() const { return pose_.target + pose_.distance * backward(); }
+    Eigen::Vector3d eye() const { return pose_.target + eye_distance() * backward(); }
     Eigen::Vector3d right() const { return pose_.orientation * Eigen::Vector3d::UnitX(); }
     Eigen::Vector3d up() const { return pose_.orientation * Eigen::Vector3d::UnitY(); }
     Eigen::Vector3d backward() const { return pose_.orientation * Eigen::Vector3d::UnitZ(); }
@@ -70,6 +79,8 @@ public:
     void fit(const PositionsView& points, double aspect);
     /// Turns about the target to look from there.
     void set_view(ViewDirection from);
+    /// Turns about the target to look from this direction, the up axis on top; along that axis as set_view() does.
+    void look_along(const Eigen::Vector3d& direction);
     /// Turns about the target to look from this direction (any length but 0) with `top` on top where possible.
     void look_from(const Eigen::Vector3d& direction, const Eigen::Vector3d& top);
 
@@ -87,10 +98,20 @@ public:
 
 private:
     Eigen::Vector3d eye_direction(const Eigen::Vector2d& pixel, const Viewport& viewport) const;
+    double slope() const;
+    double slope_per_pixel(const Viewport& viewport) const { return 2.0 * slope() / viewport.height; }
+    double eye_distance() const { return remoteness() * pose_.distance; }
 
     CameraPose pose_;
+    Projection kind_ = Projection::perspective;
     SceneFrame scene_;
     Eigen::Vector3d up_axis_ = Eigen::Vector3d::UnitZ();
 };
+
+/// The other one.
+inline void toggle_projection(Camera& camera) {
+    camera.set_projection_kind(camera.projection_kind() == Projection::perspective ? Projection::orthographic
+                                                                                   : Projection::perspective);
+}
 
 }  // namespace elastolab

@@ -12,6 +12,7 @@ SceneView::SceneView(const Camera& camera, const Viewport& viewport, double pixe
       size_(Eigen::Vector2d(viewport.width * pixel_ratio, viewport.height * pixel_ratio).cast<float>()),
       pixel_ratio_(static_cast<float>(pixel_ratio)),
       pixel_slope_(static_cast<float>(camera.pixel_size(1.0, viewport) / pixel_ratio)),
+      nearness_(static_cast<float>(1.0 / camera.remoteness())),
       up_((to_eye_ * camera.up_axis()).cast<float>()) {}
 
 Eigen::Matrix4f SceneView::model_view(const SceneFrame& frame) const {

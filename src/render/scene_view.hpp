@@ -21,6 +21,8 @@ public:
     /// Width and height of the picture [framebuffer pixels].
     const Eigen::Vector2f& size() const { return size_; }
     float pixel_ratio() const { return pixel_ratio_; }
+    /// How near the eye is, over how near it is in perspective.
+    float nearness() const { return nearness_; }
 
     /// Sets the uniforms that every shader has: model_view, projection, picture_size, pixel_slope and up.
     void set_uniforms(ShaderProgram& shader, const SceneFrame& frame) const;
@@ -31,7 +33,7 @@ private:
     Eigen::Vector3d eye_;
     Eigen::Matrix4f projection_;
     Eigen::Vector2f size_;
-    float pixel_ratio_, pixel_slope_;
+    float pixel_ratio_, pixel_slope_, nearness_;
     Eigen::Vector3f up_;
 };
 

@@ -59,6 +59,61 @@ TEST(Camera, ProjectsEveryPointOfARayToItsPixel) {
     }
 }
 
+/// Lengths are the same in front and behind, and what was at the target is where it was.
+TEST(Camera, OrthographicPicturesKeepLengthsAndTheSizeOfTheBody) {
+    for (const SceneFrame& ball : scenes()) {
+        Camera camera = camera_at(ball, kPlace);
+        const auto seen = [&](double along_view, double across) {
+            const Eigen::Vector3d point =
+                camera.pose().target + ball.radius * (along_view * camera.backward() + across * camera.right());
+            return camera.project(point, kPlace);
+        };
+        const double before = distance(seen(0.0, 0.0).pixel, seen(0.0, 0.7).pixel);
+        camera.set_projection_kind(Projection::orthographic);
+        const double middle = distance(seen(0.0, 0.0).pixel, seen(0.0, 0.7).pixel);
+        EXPECT_NEAR(middle, before, 1e-6 * before);
+        for (const double depth : {-0.9, 0.9}) {
+            EXPECT_NEAR(distance(seen(depth, 0.0).pixel, seen(depth, 0.7).pixel), middle, 1e-3 * middle);
+            EXPECT_GT(seen(depth, 0.0).depth, 0.0);
+        }
+        const Eigen::Vector2d pixel(300.0, 500.0);
+        const Ray ray = camera.ray(pixel, kPlace);
+        const Eigen::Vector3d point = ray.origin + camera.project(ball.center, kPlace).depth * ray.direction;
+        EXPECT_LT(distance(camera.project(point, kPlace).pixel, pixel), 1e-5);
+        toggle_projection(camera);
+        EXPECT_NEAR(distance(seen(0.0, 0.0).pixel, seen(0.0, 0.7).pixel), before, kTight * before);
+    }
+}
+
+TEST(Camera, OrthographicViewsFrameAndZoomAsPerspectiveOnesDo) {
+    const SceneFrame ball{{3.0, -2.0, 5.0}, 1.0};
+    Camera camera = camera_at(ball, kPlace);
+    camera.set_projection_kind(Projection::orthographic);
+    camera.frame(ball, kPlace.aspect());
+    const double half = distance(camera.project(ball.center, kPlace).pixel,
+                                 camera.project(ball.center + ball.radius * camera.up(), kPlace).pixel);
+    EXPECT_LT(half, 0.5 * kPlace.height);
+    EXPECT_GT(half, 0.4 * kPlace.height);
+    const Eigen::Vector3d point = ball.center + Eigen::Vector3d(0.3, 0.2, 0.1);
+    const Eigen::Vector2d cursor = camera.project(point, kPlace).pixel;
+    camera.zoom_to(cursor, 2.0, point, kPlace);
+    EXPECT_LT(distance(camera.project(point, kPlace).pixel, cursor), 1e-4);
+    EXPECT_NEAR(distance(camera.project(point, kPlace).pixel, camera.project(point + 0.1 * camera.up(), kPlace).pixel),
+                0.2 * half, 1e-3 * half);
+    const Eigen::Vector3d shift = camera.drag_in_plane(point, cursor, cursor + Eigen::Vector2d(40, 30), kPlace);
+    EXPECT_LT(distance(camera.project(point + shift, kPlace).pixel, cursor + Eigen::Vector2d(40, 30)), 1e-4);
+}
+
+TEST(Camera, LooksAlongAxesWithTheUpAxisOnTop) {
+    Camera camera = camera_at({{0, 0, 0}, 1.0}, kPlace);
+    for (int axis = 0; axis < 3; ++axis)
+        for (const double side : {1.0, -1.0}) {
+            camera.look_along(side * Eigen::Vector3d::Unit(axis));
+            EXPECT_LT((camera.backward() - side * Eigen::Vector3d::Unit(axis)).norm(), 1e-12);
+            if (axis != 2) EXPECT_LT((camera.up() - camera.up_axis()).norm(), 1e-12);
+        }
+}
+
 TEST(Camera, UnprojectsWhatItProjects) {
     Random random;
     for (const SceneFrame& ball : scenes()) {

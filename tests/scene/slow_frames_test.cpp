@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "scene/live/embedded_runner.hpp"
 #include "simulation_bench.hpp"
 #include "slow_method.hpp"
 
@@ -82,6 +83,39 @@ TEST_P(SlowFrames, FollowAMotionThatGoesOn) {
         frame();
         return runner.version() > before + 2 && runner.displacement()[0] > 0.0;
     });
+    EXPECT_EQ(slow_calls.by_watcher, 0);
+}
+
+/// Where a force holds a handle is a matter of several solves.
+TEST(SlowForces, AreAnsweredByTheWorkers) {
+    slow_calls.restart();
+    LiveScene scene = cube(2);
+    const int held = scene.add_handle(where(scene, 0.9, 0.6));
+    std::vector<int> corner = where(scene, 0.9, -0.1);
+    std::erase_if(corner, [&](int v) { return scene.mesh().vertices(1, v) > 0.1; });
+    const int moved = scene.add_handle(corner);
+    scene.set_force(held, GripForce{{0.5, 0.0, 0.0}});
+    for (const Method& method : {test::slow_method<false>(), test::slow_method<true>()}) {
+        EmbeddedRunner runner{[] {}};
+        const auto settle = [&] {
+            test::wait_for([&] {
+                runner.set_body(scene.body(kLinearBem), method, nullptr);
+                runner.set_constraints(scene.constraints());
+                runner.poll();
+                return runner.ready() && runner.runner().answers() && runner.runner().refined();
+            });
+        };
+        settle();
+        ASSERT_EQ(runner.grip_motions().size(), 1u) << runner.grip_failure();
+        const double first = runner.grip_motions()[0].translate.x();
+        EXPECT_GT(first, 0.0);
+        scene.set_motion(moved, AffineMotion{.translate = {0.1, 0.0, 0.0}});
+        settle();
+        scene.set_force(held, GripForce{{1.0, 0.0, 0.0}});
+        settle();
+        EXPECT_NEAR(runner.grip_motions()[0].translate.x(), 2.0 * first, 1e-9 * first);
+        scene.set_force(held, GripForce{{0.5, 0.0, 0.0}});
+    }
     EXPECT_EQ(slow_calls.by_watcher, 0);
 }
 

@@ -31,7 +31,7 @@ inline void take_long() {
     std::this_thread::sleep_for(std::chrono::milliseconds(60));
 }
 
-/// Moves every vertex by the mean of what is prescribed.
+/// Moves every vertex by the mean of what is prescribed, and resists every prescribed vertex as a spring does.
 class SlowSolver : public NodeSolver {
 public:
     SlowSolver(int n_vertices, bool iterates) : n_vertices_(n_vertices), iterates_(iterates) {}
@@ -43,7 +43,7 @@ public:
         for (Eigen::Index row = 0; row < 3 * n_vertices_; ++row)
             for (Eigen::Index i = 0; i < n; ++i)
                 solution.displacements.row(row) += prescribed.row(3 * i + row % 3) / static_cast<double>(n);
-        if (want_loads) solution.loads = Eigen::MatrixXd::Zero(3 * n, m);
+        if (want_loads) solution.loads = prescribed;
         return solution;
     }
     bool iterates() const override { return iterates_; }
@@ -56,7 +56,7 @@ private:
 /// Everything that is asked of it takes long.
 class SlowModel : public SolidModel {
 public:
-    SlowModel(const SurfaceMesh& surface, bool iterates) : iterates_(iterates) {
+    SlowModel(const SurfaceMesh& surface, bool iterates) : vertices_(surface.vertices), iterates_(iterates) {
         take_long();
         facts_.n_vertices = surface.n_vertices();
         facts_.n_triangles = surface.n_triangles();
@@ -67,9 +67,10 @@ public:
         control.checkpoint();
         SolutionChecks checks;
         checks.residual = [](const NodeSolution&, Control&) { return 0.0; };
-        return std::make_unique<ConstrainedSolid>(
-            facts_.n_vertices, constrain_vertices(joined(base, handles)), std::vector<LoadShare>{}, nullptr,
-            std::make_unique<SlowSolver>(facts_.n_vertices, iterates_), std::move(checks));
+        return std::make_unique<ConstrainedSolid>(facts_.n_vertices, constrain_vertices(joined(base, handles)),
+                                                  nodal_shares(vertices_, joined(base, handles)), nullptr,
+                                                  std::make_unique<SlowSolver>(facts_.n_vertices, iterates_),
+                                                  std::move(checks));
     }
     std::uint64_t constrain_memory(std::span<const int>, std::span<const int>) const override {
         take_long();
@@ -82,6 +83,7 @@ public:
     void visit_matrices(const std::function<void(const NamedMatrix&)>&) const override {}
 
 private:
+    Positions vertices_;
     bool iterates_;
 };
 

@@ -5,13 +5,22 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/drawing/axes_gizmo.hpp"
+
 namespace elastolab {
 
 namespace {
 
 constexpr double kDoubleClickSeconds = 0.35;
-constexpr double kZoomStep = 1.15;  ///< for a notch of the wheel
+constexpr double kZoomStep = 1.15;      ///< for a notch of the wheel
+constexpr double kDragZoom = 4.0;       ///< logarithm of the zoom by a drag over the height of the viewport
+constexpr double kFingerPixels = 24.0;  ///< that two fingers move the view by, for a notch of the wheel
 constexpr double kSpringSeconds = 0.25;
+
+Gestures::Action action_of(ViewDrag drag) {
+    if (drag == ViewDrag::zoom) return Gestures::Action::zoom;
+    return drag == ViewDrag::pan ? Gestures::Action::pan : Gestures::Action::orbit;
+}
 
 /// False for vertices inside the body: they show where it is cut open, and cannot be grabbed.
 bool is_on_surface(const GestureContext& context, int vertex) { return vertex < context.scene.mesh().n_vertices(); }
@@ -92,10 +101,10 @@ void Gestures::press(const InputEvent& event, GestureContext& context) {
     }
     const bool shifted = (event.modifiers & GLFW_MOD_SHIFT) != 0;
     if (event.code != GLFW_MOUSE_BUTTON_LEFT) {
-        const bool pans = shifted || (event.modifiers & GLFW_MOD_CONTROL) != 0;
-        action_ = event.code == GLFW_MOUSE_BUTTON_MIDDLE && !pans ? Action::orbit : Action::pan;
+        action_ = action_of(view_drag(context.tools.navigation, event.code, event.modifiers));
         return;
     }
+    if (press_axes(context, *target)) return;
     hold_ = shifted ? Hold::free : Hold::fix;
     if (context.tools.tool == Tool::box) {
         action_ = Action::box;
@@ -108,7 +117,18 @@ void Gestures::press(const InputEvent& event, GestureContext& context) {
     if (hit && is_on_surface(context, hit->vertex))
         press_body(context, *hit);
     else
-        action_ = shifted ? Action::pan : Action::orbit;
+        action_ = action_of(view_drag(context.tools.navigation, event.code, event.modifiers));
+}
+
+/// Looks along the axis whose letter is pressed; from the other side where that is so already.
+bool Gestures::press_axes(GestureContext& context, const PointingTarget& target) {
+    Camera& camera = context.camera;
+    const auto axis = AxesGizmo::axis_at(camera, AxesGizmo::place_in(target.viewport), cursor_);
+    if (!axis) return false;
+    const bool is_there = camera.backward()[*axis] > 1.0 - 1e-9;
+    camera.look_along((is_there ? -1.0 : 1.0) * Eigen::Vector3d::Unit(*axis));
+    action_ = Action::blocked;
+    return true;
 }
 
 void Gestures::press_body(GestureContext& context, const PickHit& hit) {
@@ -162,14 +182,21 @@ void Gestures::move(GestureContext& context) {
     }
     if (target_ >= context.targets.size()) return;
     dragged_ = dragged_ || (cursor_ - press_cursor_).norm() >= kClickPixels;
-    const Viewport& viewport = context.targets[target_].viewport;
-    const Eigen::Vector2d d = cursor_ - before;
-    if (action_ == Action::orbit) context.camera.orbit(d.x(), d.y(), viewport);
-    if (action_ == Action::pan) context.camera.pan(before, cursor_, viewport);
+    move_view(context, before);
     if (action_ == Action::pull) pull(context);
     if (action_ == Action::plane) move_plane(context);
     if (action_ == Action::load && load_drag_) drag_load(context);
     if (action_ == Action::paint && dragged_) paint(context);
+}
+
+void Gestures::move_view(GestureContext& context, const Eigen::Vector2d& before) {
+    const Viewport& viewport = context.targets[target_].viewport;
+    const Eigen::Vector2d d = cursor_ - before;
+    if (action_ == Action::orbit) context.camera.orbit(d.x(), d.y(), viewport);
+    if (action_ == Action::pan) context.camera.pan(before, cursor_, viewport);
+    if (action_ == Action::zoom)
+        context.camera.zoom_to(press_cursor_, std::exp(-kDragZoom * d.y() / viewport.height),
+                               context.camera.pose().target, viewport);
 }
 
 void Gestures::point(GestureContext& context) {
@@ -201,11 +228,26 @@ void Gestures::point(GestureContext& context) {
 void Gestures::scroll(const InputEvent& event, GestureContext& context) {
     const PointingTarget* target = target_at(context);
     if (target == nullptr) return;
-    const std::optional<PickHit> hit = hit_in(context, *target);
-    const Eigen::Vector3d anchor = hit ? hit->point : context.camera.pose().target;
-    context.camera.zoom_to(cursor_, std::pow(kZoomStep, event.cursor.y()), anchor, target->viewport);
+    const Eigen::Vector2d fingers = kFingerPixels * event.cursor;
+    switch (view_scroll(context.tools.navigation, event.modifiers)) {
+        case ViewDrag::orbit:
+            context.camera.orbit(fingers.x(), fingers.y(), target->viewport);
+            break;
+        case ViewDrag::pan:
+            context.camera.pan(cursor_, cursor_ + fingers, target->viewport);
+            break;
+        case ViewDrag::zoom:
+            scroll_zoom(event.cursor.y(), context, *target);
+            break;
+    }
     if (pulling()) set_baseline(context);
     if (load_drag_ && !gizmo_drag_) set_load_baseline(context);
+}
+
+void Gestures::scroll_zoom(double notches, GestureContext& context, const PointingTarget& target) {
+    const std::optional<PickHit> hit = hit_in(context, target);
+    const Eigen::Vector3d anchor = hit ? hit->point : context.camera.pose().target;
+    context.camera.zoom_to(cursor_, std::pow(kZoomStep, notches), anchor, target.viewport);
 }
 
 void Gestures::paint(GestureContext& context) {

@@ -54,7 +54,8 @@ enum class Hold { fix, free };
 ///   body     left: grab a handle or make one, and pull it. While pulling: Shift along the normal, X/Y/Z along an axis,
 ///            Ctrl (or R) turns the patch, Alt (or S) scales it, Delete removes it. A fixed vertex cannot be pulled
 ///   empty    left: orbit; Shift + left: pan; double click: frame the body
-///   anywhere middle: orbit; right, Shift + middle or Ctrl + middle: pan
+///   anywhere middle: orbit; right, Shift + middle or Ctrl + middle: pan. These three by the choice of Navigation
+///   axes     a click on a letter: look along that axis, at the second click from the other side
 ///   gizmo    left: an arrow moves the handle (or the plane of the cut), a ring turns it, by any angle; Ctrl snaps
 ///   wheel    zoom to the cursor
 ///   brush    left adds vertices under the brush to the selected fixed set, with Shift frees them; a click does so
@@ -67,7 +68,7 @@ enum class Hold { fix, free };
 class Gestures {
 public:
     /// blocked: the button is down where it can do nothing, which hint() explains.
-    enum class Action { none, orbit, pan, pull, plane, paint, box, load, blocked };
+    enum class Action { none, orbit, pan, zoom, pull, plane, paint, box, load, blocked };
 
     void handle(const InputEvent& event, GestureContext& context);
     /// Moves what springs back; true while something does.
@@ -173,9 +174,12 @@ private:
     };
 
     void press(const InputEvent& event, GestureContext& context);
+    bool press_axes(GestureContext& context, const PointingTarget& target);
     void press_body(GestureContext& context, const PickHit& hit);
     void release(GestureContext& context);
     void move(GestureContext& context);
+    void move_view(GestureContext& context, const Eigen::Vector2d& before);
+    void scroll_zoom(double notches, GestureContext& context, const PointingTarget& target);
     void scroll(const InputEvent& event, GestureContext& context);
     void point(GestureContext& context);
     bool press_gizmo(GestureContext& context, const PointingTarget& target);

@@ -17,7 +17,7 @@ constexpr std::array<Choice<CompareMode>, 3> kCompareModes = {
      {CompareMode::side_by_side, "side by side",
       "C: every method in a view of its own, with the same handles and "
       "camera. Pull in any of them."},
-     {CompareMode::ghosts, "as ghosts", "G: the chosen method solid, the others as wireframes over it."}}};
+     {CompareMode::ghosts, "as ghosts", "G: the chosen method solid, the others as glass over it."}}};
 
 void draw_kinds(ViewerState& state, const Palette& palette) {
     for (const MethodKind kind : all_methods()) {
@@ -28,6 +28,7 @@ void draw_kinds(ViewerState& state, const Palette& palette) {
         if (ImGui::Checkbox(title(kind).c_str(), &shown)) {
             std::erase(kinds, kind);
             if (shown) kinds.push_back(kind);
+            state.compare.chosen = true;
         }
         ImGui::EndDisabled();
         ImGui::PopStyleColor();
@@ -78,7 +79,9 @@ void Panels::draw_compare(const PanelContext& context) {
     ViewerState& state = context.state;
     const float scale = context.gui.scale();
     set_item_width(scale);
-    if (choose<CompareMode>("views", state.compare.mode, kCompareModes)) state.finish_gesture();
+    CompareMode mode = state.compare.mode;
+    if (choose<CompareMode>("views", mode, kCompareModes))
+        state.toggle_comparison(mode == CompareMode::off ? state.compare.mode : mode);
     if (!state.comparing()) return;
     draw_kinds(state, context.palette);
     draw_reference(state, scale);

@@ -12,9 +12,12 @@ namespace elastolab {
 
 namespace {
 
-constexpr std::array<Choice<Field>, 13> kFields = {
+constexpr std::array<Choice<Field>, 16> kFields = {
     {{Field::none, "plain", "One colour for each method."},
      {Field::displacement, "displacement", "How far every vertex has moved."},
+     {Field::displacement_x, "displacement x", "How far every vertex has moved along x."},
+     {Field::displacement_y, "displacement y", "How far every vertex has moved along y."},
+     {Field::displacement_z, "displacement z", "How far every vertex has moved along z."},
      {Field::difference, "difference", "How far each vertex is from its place by the reference method (see Compare)."},
      {Field::traction, "traction", "Force per area on the constrained parts of the surface; zero elsewhere."},
      {Field::von_mises, "von Mises stress",
@@ -35,6 +38,26 @@ constexpr std::array<Choice<SurfaceMaterial>, 4> kMaterials = {
      {SurfaceMaterial::wax, "wax", "Light scatters below the surface, as in skin and rubber."},
      {SurfaceMaterial::metal, "metal", "Reflects a horizon: shows every dent."}}};
 
+enum class RangeRule { data, most, typed };
+constexpr std::array<Choice<RangeRule>, 3> kRangeRules = {
+    {{RangeRule::data, "of all data", "From the smallest to the largest value that is seen."},
+     {RangeRule::most, "of 98 % of the data",
+      "Leaves out the two per cent that are most extreme, such as at sharp rims."},
+     {RangeRule::typed, "typed", "Stays as it is typed."}}};
+constexpr double kMostOfData = 0.98;
+
+void draw_range_rule(ViewerState& state) {
+    DisplaySettings& display = state.display;
+    RangeRule rule = !display.auto_range        ? RangeRule::typed
+                     : display.range_part < 1.0 ? RangeRule::most
+                                                : RangeRule::data;
+    const auto range = state.shown.field_range(display);
+    if (!choose<RangeRule>("range", rule, kRangeRules)) return;
+    display.auto_range = rule != RangeRule::typed;
+    display.range_part = rule == RangeRule::most ? kMostOfData : 1.0;
+    if (!display.auto_range) std::tie(display.range_low, display.range_high) = range;
+}
+
 void draw_range(ViewerState& state, float scale) {
     DisplaySettings& display = state.display;
     set_item_width(scale);
@@ -44,15 +67,20 @@ void draw_range(ViewerState& state, float scale) {
             if (choice_entry(map.name().c_str(), "", map.name() == chosen)) chosen = map.name();
         end_choice();
     }
-    const auto range = state.shown.field_range(display);
-    if (ImGui::Checkbox("range from the data", &display.auto_range) && !display.auto_range)
-        std::tie(display.range_low, display.range_high) = range;
+    draw_range_rule(state);
     if (!display.auto_range) {
         ImGui::SetNextItemWidth(80.0f * scale);
         ImGui::InputDouble("##low", &display.range_low, 0.0, 0.0, "%.3g");
         ImGui::SameLine();
         ImGui::SetNextItemWidth(80.0f * scale);
         ImGui::InputDouble("from, to", &display.range_high, 0.0, 0.0, "%.3g");
+    }
+    ImGui::Checkbox("hold while pulling", &display.hold_range);
+    tooltip("The range stays as it was when the pull began, so that colours can be compared.");
+    if (!is_signed(display.field)) {
+        ImGui::SameLine();
+        ImGui::Checkbox("log", &display.logarithmic);
+        tooltip("Equal steps of colour for equal factors: shows what is small beside what is large.");
     }
     ImGui::Checkbox("mark extremes", &display.extremes);
     tooltip("Marks where the field is largest and, if it has a sign, smallest; also beside the colours.");

@@ -13,6 +13,7 @@ constexpr double kPanel = 320.0, kLeastPanel = 216.0, kPanelPart = 0.34;  ///< o
 constexpr double kLeastScene = 160.0;
 constexpr double kShortPanel = 690.0;
 constexpr double kLegendWidth = kLegendHeadingWidth + 26.0;  // with the chip's margins
+constexpr std::size_t kMostInARow = 3;                       ///< viewports; more share two rows
 constexpr double kMostOfScene = 0.3;                         // of its width, for the legend
 
 /// As wide as the person made it, else by the window's width; 0 where it leaves no room for the scene.
@@ -57,15 +58,22 @@ std::vector<SceneViewport> viewports_of(const ViewerState& state, const Viewport
     std::vector<SceneViewport> viewports;
     for (const MethodKind kind : all_methods())
         if (std::find(kinds.begin(), kinds.end(), kind) != kinds.end()) viewports.push_back({scene, {kind}});
-    const auto n = static_cast<double>(viewports.size());
-    const double width = std::max(1.0, (scene.width - legend - kGap * (n - 1.0)) / n);
+    const std::size_t n_columns = viewports.size() < kMostInARow + 1 ? viewports.size() : (viewports.size() + 1) / 2;
+    const std::size_t n_rows = (viewports.size() + n_columns - 1) / n_columns;
+    const auto part = [](double whole, double taken, std::size_t n) {
+        return std::max(1.0, (whole - taken - kGap * static_cast<double>(n - 1)) / static_cast<double>(n));
+    };
+    const double width = part(scene.width, legend, n_columns), height = part(scene.height, 0.0, n_rows);
     for (std::size_t i = 0; i < viewports.size(); ++i) {
-        viewports[i].place.x = scene.x + static_cast<double>(i) * (width + kGap);
-        viewports[i].place.width = width;
-    }
-    if (!viewports.empty()) {
-        viewports.back().place.width += legend;
-        viewports.back().place.covered = legend;
+        const std::size_t column = i % n_columns, row = i / n_columns;
+        Viewport& place = viewports[i].place;
+        place.x = scene.x + static_cast<double>(column) * (width + kGap);
+        place.y = scene.y + static_cast<double>(row) * (height + kGap);
+        place.width = width;
+        place.height = height;
+        if (column + 1 < n_columns) continue;
+        place.width += legend;
+        place.covered = legend;
     }
     return viewports;
 }

@@ -25,8 +25,8 @@ Layout layout_of(const Eigen::Vector2i& window, float scale, const DisplaySettin
 /// Width of the legend's heading, which takes as many lines as it needs [pixels at scale 1].
 constexpr double kLegendHeadingWidth = 104.0;
 
-/// The viewports for what is compared, within the part of the window that shows the scene. When a field is shown, the
-/// last one is wider by what its legend covers. `scale`: of the legend.
+/// The viewports for what is compared, within the part of the window that shows the scene: up to three in a row, more
+/// in two rows. When a field is shown, those at the right are wider by what its legend covers. `scale`: of the legend.
 std::vector<SceneViewport> viewports_of(const ViewerState& state, const Viewport& scene, double scale = 1.0);
 
 }  // namespace elastolab

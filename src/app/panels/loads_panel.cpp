@@ -30,9 +30,9 @@ Eigen::Vector3d downwards(const ViewerState& state) { return -kStandardGravity *
 /// Number fields of a load's size; true while they are typed.
 bool draw_value(LoadValue& value, float scale) {
     return std::visit(
-        Overloaded{[&](ForceLoad& load) { return draw_numbers("force", load.force.data(), 3, "%.4g", scale); },
-                   [&](TractionLoad& load) { return draw_numbers("traction", load.traction.data(), 3, "%.4g", scale); },
-                   [&](PressureLoad& load) { return draw_numbers("pressure", &load.pressure, 1, "%.4g", scale); }},
+        Overloaded{[&](ForceLoad& load) { return draw_numbers("force", load.force.data(), 3, "", scale); },
+                   [&](TractionLoad& load) { return draw_numbers("traction", load.traction.data(), 3, "", scale); },
+                   [&](PressureLoad& load) { return draw_numbers("pressure", &load.pressure, 1, "", scale); }},
         value);
 }
 
@@ -59,7 +59,7 @@ void LoadsPanel::draw_tools(const PanelContext& context) {
     const std::size_t chosen = state.tools.tool == Tool::force ? 0 : state.tools.tool == Tool::pressure ? 1 : 2;
     if (const auto clicked = draw_segments({context.palette.accent, context.palette.panel}, kLoadTools, chosen))
         state.tools.tool = clicked == chosen ? Tool::pull : kLoadToolOf[*clicked];
-    draw_numbers("new pressure", &state.tools.pressure, 1, "%.4g", context.gui.scale());
+    draw_numbers("new pressure", &state.tools.pressure, 1, "", context.gui.scale());
     tooltip("What the pressure tool puts on; negative sucks.");
 }
 
@@ -81,11 +81,11 @@ void LoadsPanel::draw_gravity(const PanelContext& context) {
         "rings.");
     ImGui::BeginDisabled(!on);
     Eigen::Vector3d gravity = scene.document().gravity.value_or(Eigen::Vector3d::Zero());
-    if (draw_numbers("g", gravity.data(), 3, "%.4g", scale)) scene.set_gravity(gravity, density);
+    if (draw_numbers("g", gravity.data(), 3, "", scale)) scene.set_gravity(gravity, density);
     bool ended = ImGui::IsItemDeactivatedAfterEdit();
     tooltip("Acceleration along x, y and z.");
     double typed = typed_density_.value_or(density);
-    if (draw_numbers("density", &typed, 1, "%.4g", scale)) typed_density_ = typed;
+    if (draw_numbers("density", &typed, 1, "", scale)) typed_density_ = typed;
     if (ImGui::IsItemDeactivatedAfterEdit() && typed_density_) {  // "0.5" passes through "0"
         if (*typed_density_ > 0.0)
             scene.set_gravity(scene.document().gravity, *typed_density_);

@@ -35,7 +35,7 @@ void draw_mark(const PanelContext& context, ImDrawList& list, const Viewport& vi
 
 void draw_extremes(const PanelContext& context, ImDrawList& list, const Viewport& viewport, const ShownBody& body) {
     if (!body.is_coloured() || body.largest_magnitude() <= 0.0) return;
-    const Extremes extremes = extremes_of(body.values());
+    const Extremes extremes = extremes_of(body);
     const auto mark = [&](Eigen::Index v, const char* name) {
         if (v >= 0)
             draw_mark(context, list, viewport, body.positions().col(v), context.palette.text,
@@ -116,6 +116,7 @@ void draw_probes(const PanelContext& context, ImDrawList& list, const Viewport& 
     const Positions& rest = state.scene().mesh().vertices;
     const auto value_at = [&](int vertex) { return probe(vertex, rest, body, state.display.deformation_scale); };
     for (const int vertex : state.probes.vertices()) {
+        if (body.is_cut_away(vertex)) continue;
         const ProbeValue value = value_at(vertex);
         draw_mark(context, list, viewport, body.positions().col(vertex), context.palette.probe,
                   std::to_string(vertex) + ": " + number_text(value.field.value_or(value.displacement.norm())));
@@ -194,11 +195,12 @@ void draw_crushed(const PanelContext& context, ImDrawList& list, const SceneView
 
 }  // namespace
 
-Extremes extremes_of(const std::vector<float>& values) {
+Extremes extremes_of(const ShownBody& body) {
     Extremes result;
+    const std::vector<float>& values = body.values();
     for (Eigen::Index v = 0; v < std::ssize(values); ++v) {
         const auto value = [&](Eigen::Index at) { return values[static_cast<std::size_t>(at)]; };
-        if (!std::isfinite(value(v))) continue;
+        if (!std::isfinite(value(v)) || body.is_cut_away(static_cast<int>(v))) continue;
         if (result.largest < 0 || value(v) > value(result.largest)) result.largest = v;
         if (result.smallest < 0 || value(v) < value(result.smallest)) result.smallest = v;
     }
@@ -212,10 +214,10 @@ void draw_marks(const PanelContext& context, ImDrawList& list, const SceneViewpo
     if (state.display.arrows) draw_forces(context, list, viewport.place, *body);
     if (state.display.constraints) draw_load_sizes(context, list, viewport.place, *body);
     if (state.display.extremes) draw_extremes(context, list, viewport.place, *body);
-    draw_probes(context, list, viewport.place, *body);
     draw_crushed(context, list, viewport, *body);
     draw_spring(context, list, viewport.place, *body);
     for (const Gizmo& gizmo : state.gizmos()) draw_gizmo(context, list, viewport.place, gizmo);
+    draw_probes(context, list, viewport.place, *body);  // over the gizmos: numbers are to be read
 }
 
 }  // namespace elastolab

@@ -43,18 +43,41 @@ namespace {
 
 void draw_directions(ViewerState& state) {
     struct Direction {
-        const char* label;
+        const char *label, *keys;
         ViewDirection direction;
     };
-    constexpr std::array<Direction, 7> kDirections = {{{"Oblique", ViewDirection::isometric},
-                                                       {"Front", ViewDirection::front},
-                                                       {"Back", ViewDirection::back},
-                                                       {"Left", ViewDirection::left},
-                                                       {"Right", ViewDirection::right},
-                                                       {"Top", ViewDirection::top},
-                                                       {"Bottom", ViewDirection::bottom}}};
-    for (const auto& [label, direction] : kDirections)
-        if (ImGui::MenuItem(label)) state.camera.set_view(direction);
+    constexpr std::array<Direction, 7> kDirections = {{{"Oblique", "", ViewDirection::isometric},
+                                                       {"Front", "Num 1", ViewDirection::front},
+                                                       {"Back", "Ctrl+Num 1", ViewDirection::back},
+                                                       {"Left", "Ctrl+Num 3", ViewDirection::left},
+                                                       {"Right", "Num 3", ViewDirection::right},
+                                                       {"Top", "Num 7", ViewDirection::top},
+                                                       {"Bottom", "Ctrl+Num 7", ViewDirection::bottom}}};
+    for (const auto& [label, keys, direction] : kDirections)
+        if (ImGui::MenuItem(label, keys)) state.camera.set_view(direction);
+}
+
+void draw_navigation(ViewerState& state) {
+    struct Preset {
+        const char* label;
+        Navigation navigation;
+        const char* explanation;
+    };
+    constexpr std::array<Preset, 5> kPresets = {
+        {{"Standard", Navigation::standard, "Middle button: turn; right, or Shift with the middle one: move."},
+         {"as in Blender", Navigation::blender, "Middle button: turn; with Shift: move; with Ctrl: zoom."},
+         {"as in ParaView", Navigation::paraview,
+          "Left beside the body: turn; middle: move; right, or Ctrl with the left: zoom; Shift with the middle: turn "
+          "anywhere."},
+         {"as in polyscope", Navigation::polyscope,
+          "Left beside the body: turn; right or Shift: move; Ctrl and Shift: zoom; middle: turn anywhere."},
+         {"Trackpad", Navigation::trackpad, "Two fingers: turn; with Shift: move; with Ctrl: zoom."}}};
+    if (!ImGui::BeginMenu("Mouse")) return;
+    for (const auto& [label, navigation, explanation] : kPresets) {
+        if (ImGui::MenuItem(label, nullptr, state.tools.navigation == navigation)) state.tools.navigation = navigation;
+        tooltip(explanation);
+    }
+    ImGui::EndMenu();
 }
 
 void draw_view(ViewerState& state) {
@@ -69,6 +92,9 @@ void draw_view(ViewerState& state) {
             state.camera.set_up_axis(Eigen::Vector3d::Unit(axis));
             state.camera.set_view(ViewDirection::isometric);
         }
+    const bool is_flat = state.camera.projection_kind() == Projection::orthographic;
+    if (ImGui::MenuItem("Orthographic", "O", is_flat)) toggle_projection(state.camera);
+    draw_navigation(state);
     ImGui::Separator();
     if (ImGui::MenuItem("Side panel", "P", state.display.panel)) state.display.panel = !state.display.panel;
     if (ImGui::MenuItem("Light theme", "T", !state.display.dark)) state.display.dark = !state.display.dark;

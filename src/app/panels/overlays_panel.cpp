@@ -90,7 +90,7 @@ void draw_title(const PanelContext& context, ImDrawList& list, const SceneViewpo
 }
 
 void draw_axes_letters(const PanelContext& context, ImDrawList& list, const SceneViewport& viewport) {
-    const AxesGizmo::Labels labels = AxesGizmo::labels(context.state.camera, gizmo_place(viewport.place));
+    const AxesGizmo::Labels labels = AxesGizmo::labels(context.state.camera, AxesGizmo::place_in(viewport.place));
     constexpr std::array<const char*, 3> kLetters = {"x", "y", "z"};
     for (std::size_t i = 0; i < 3; ++i) {
         const ImVec2 size = ImGui::CalcTextSize(kLetters[i]);
@@ -126,20 +126,18 @@ void draw_legend(const PanelContext& context, ImDrawList& list) {
         list.AddRectFilled({x, top}, {x + width, bottom + 0.5f}, imgui_packed(map.sample((i + 0.5) / kSteps)));
     }
     list.AddRect({x, y}, {x + width, y + height}, imgui_packed(context.palette.border));
-    const std::pair<double, double> range = state.shown.field_range(state.display);
-    const double low = range.first, high = range.second;
+    const ColourScale scale_of_colours = state.shown.field_scale(state.display);
     const auto place_of = [&](double value) {
-        const double t = high > low ? std::clamp((value - low) / (high - low), 0.0, 1.0) : 0.5;
-        return y + height * (1.0f - static_cast<float>(t));
+        return y + height * (1.0f - static_cast<float>(scale_of_colours.place(value)));
     };
     if (const ShownBody* body = state.shown.body(state.method); body && state.display.extremes)
-        for (const Eigen::Index v : {extremes_of(body->values()).smallest, extremes_of(body->values()).largest}) {
+        for (const Eigen::Index v : {extremes_of(*body).smallest, extremes_of(*body).largest}) {
             if (v < 0) continue;
             const float ty = place_of(body->values()[static_cast<std::size_t>(v)]), s = 6.0f * scale;
             list.AddTriangleFilled({x - 1.0f, ty}, {x - s - 1.0f, ty - 0.6f * s}, {x - s - 1.0f, ty + 0.6f * s},
                                    imgui_packed(context.palette.text));
         }
-    for (const LegendTick& tick : legend_ticks(low, high, 5)) {
+    for (const LegendTick& tick : scale_of_colours.ticks(5)) {
         const float ty = place_of(tick.value);
         list.AddLine({x + width, ty}, {x + width + 4.0f * scale, ty}, imgui_packed(context.palette.text));
         list.AddText({x + width + 7.0f * scale, ty - 0.5f * size}, imgui_packed(context.palette.text),
@@ -203,7 +201,9 @@ void draw_messages(const PanelContext& context) {
     const Viewport& scene = context.layout.scene;
     const float scale = context.gui.scale();
     const float width = std::min(440.0f * scale, static_cast<float>(scene.width) - 20.0f * scale);
-    float y = static_cast<float>(scene.y) + kMargin * scale;
+    // Below the titles of the viewports: two lines of numbers follow them in a comparison.
+    const float title_lines = context.state.comparing() ? 5.0f : 2.2f;
+    float y = static_cast<float>(scene.y) + kMargin * scale + title_lines * ImGui::GetFontSize();
     for (std::size_t i = 0; i < messages.all().size(); ++i) {
         const Messages::Message& message = messages.all()[i];
         ImGui::SetNextWindowPos({static_cast<float>(scene.x + scene.width) - width - kMargin * scale, y});

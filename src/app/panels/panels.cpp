@@ -163,6 +163,7 @@ void Panels::draw_side(const PanelContext& context) {
     ImGui::PopStyleVar();
     side_fits_ = ImGui::GetScrollMaxY() <= 0.0f;
     draw_sections(context);
+    side_room_ = ImGui::GetContentRegionAvail().y + ImGui::GetScrollY() - ImGui::GetScrollMaxY();
     ImGui::End();
     draw_splitter(context);
 }

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -73,6 +74,7 @@ private:
     void draw_tool_settings(const PanelContext& context);
     void draw_fixed_sets(const PanelContext& context);
     void draw_handles(const PanelContext& context);
+    float held_height(const PanelContext& context);
     void draw_held(const PanelContext& context);
     bool draw_name(const PanelContext& context);
     void draw_name_alone(const PanelContext& context);
@@ -127,7 +129,9 @@ private:
     std::optional<ViewerState::Selection> listed_;  ///< as the list was last scrolled to it
     std::size_t tab_ = 0;                           ///< of the sections of a short panel
     float tool_settings_height_ = 0.0f;             ///< of those for pulling
-    bool side_fits_ = true;                         ///< the side panel's content did, in the last frame
+    float held_height_ = 0.0f;                      ///< of the list of handles; 0: not drawn yet
+    float side_room_ = 0.0f;  ///< below the side panel's content in the last frame; negative: what did not fit
+    bool side_fits_ = true;   ///< the side panel's content did, in the last frame
     std::uint64_t costs_of_scene_ = 0;
     struct Warning {
         std::string text;
@@ -137,7 +141,8 @@ private:
     static std::vector<Warning> present_warnings(const ViewerState& state);
     std::vector<Warning> warnings_;  ///< as they are shown, of this scene and method:
     std::pair<std::uint64_t, MethodKind> warnings_of_;
-    std::size_t n_flights_ = 0;  ///< to places of defects
+    std::set<std::string> unfolded_;  ///< warnings that are shown with all their lines
+    std::size_t n_flights_ = 0;       ///< to places of defects
     std::map<std::tuple<MethodKind, Mode, Update, int, int>, Cost>
         costs_;  ///< by vertices and triangles of what is simulated
     std::map<std::tuple<MethodKind, Mode, Update, int, int, int>, std::uint64_t> completed_bytes_;  ///< likewise

@@ -2,6 +2,7 @@
 
 #include <imgui_stdlib.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "app/panels/overlays.hpp"
@@ -12,6 +13,9 @@
 namespace elastolab {
 
 namespace {
+
+/// Of the body's size, of a full turn and of a force: less is rounding.
+constexpr double kRoundingPart = 1e-9;
 
 /// The force on a handle that moves by it; true when the typing has ended.
 bool draw_grip_force(LiveScene& scene, std::optional<int> handle, float scale) {
@@ -33,10 +37,12 @@ bool draw_grip_force(LiveScene& scene, std::optional<int> handle, float scale) {
     tooltip("The patch stays rigid and goes where this force holds it. Without: it is where it was put.");
     ImGui::EndDisabled();
     ImGui::BeginDisabled(!was_by_force);
-    if (draw_numbers("force", typed.force.data(), 3, "%.4g", scale)) scene.set_force(*handle, typed);
+    if (draw_numbers("force", typed.force.data(), 3, "", scale, kRoundingPart * typed.force.norm()))
+        scene.set_force(*handle, typed);
     ended = ImGui::IsItemDeactivatedAfterEdit() || ended;
     tooltip("Total force on the patch along x, y and z.");
-    if (draw_numbers("moment", typed.moment.data(), 3, "%.4g", scale)) scene.set_force(*handle, typed);
+    if (draw_numbers("moment", typed.moment.data(), 3, "", scale, kRoundingPart * typed.moment.norm()))
+        scene.set_force(*handle, typed);
     ended = ImGui::IsItemDeactivatedAfterEdit() || ended;
     tooltip("Moment about the middle of the patch.");
     ImGui::EndDisabled();
@@ -52,21 +58,26 @@ void draw_placement(ViewerState& state, std::optional<int> handle, float scale) 
     const std::optional<Placement> present = handle ? placement_of(motion, rest) : std::nullopt;
     const Eigen::Vector3d moved = handle ? mean_displacement(motion, rest) : Eigen::Vector3d::Zero();
     Placement typed = present.value_or(Placement{.move = moved});
+    const double size = (scene.report().max_corner - scene.report().min_corner).norm();
     bool ended = false;
     ImGui::BeginDisabled(!handle);
-    if (draw_numbers("move", typed.move.data(), 3, "%.4g", scale))
+    if (draw_numbers("move", typed.move.data(), 3, "", scale, kRoundingPart * size))
         scene.set_motion(*handle, translated(motion, typed.move - moved));
     ended = ImGui::IsItemDeactivatedAfterEdit();
     tooltip("Displacement of the middle of the handle along x, y and z [mesh units].");
     ImGui::EndDisabled();
     ImGui::BeginDisabled(!present || rest.cols() < 2);
-    if (draw_numbers("turn", typed.turn.data(), 3, present ? "%.4g\u00b0" : "\u2013", scale))
+    if (!present)
+        draw_no_numbers("turn", 3, scale);
+    else if (draw_numbers("turn", typed.turn.data(), 3, "\u00b0", scale, kRoundingPart * 360.0))
         scene.set_motion(*handle, motion_of(typed, rest));
     ended = ended || ImGui::IsItemDeactivatedAfterEdit();
     tooltip(
         "Rotation vector about the middle of the handle: along the axis, as long as the angle [degrees]. 0, 0, 720: "
         "two full turns about z.");
-    if (draw_numbers("scale", &typed.scale, 1, present ? "%.4g" : "\u2013", scale) && typed.scale > 0.0)
+    if (!present)
+        draw_no_numbers("scale", 1, scale);
+    else if (draw_numbers("scale", &typed.scale, 1, "", scale) && typed.scale > 0.0)
         scene.set_motion(*handle, motion_of(typed, rest));
     ended = ended || ImGui::IsItemDeactivatedAfterEdit();
     tooltip("Scale about the middle of the handle.");
@@ -223,15 +234,31 @@ void Panels::draw_handles(const PanelContext& context) {
     if (scene.n_handles() == 0) paragraph("No handle yet: press on the body and pull.", context.palette.text_dim);
 }
 
+/// Between what it takes at least, whose half line shows that there are more, and what its rows need, as the side panel
+/// has room. While something is dragged or pressed it stays.
+float Panels::held_height(const PanelContext& context) {
+    const ViewerState& state = context.state;
+    const auto height_of = [](float lines) {
+        return lines * ImGui::GetTextLineHeightWithSpacing() + 2.0f * ImGui::GetStyle().WindowPadding.y;
+    };
+    const bool is_low = is_short(context.layout, context.gui.scale());
+    const float least = height_of(is_very_tall(context) ? 4.5f : is_low ? 2.5f : 3.5f);
+    if (is_low) return least;
+    const float per_row = state.shown.wants_reactions() ? 2.0f : 1.0f;
+    const int n_rows = state.scene().n_fixed_sets() + state.scene().n_handles();
+    const float needed = std::max(least, height_of(per_row * static_cast<float>(n_rows) + 0.5f));
+    if (held_height_ == 0.0f) held_height_ = least;
+    if (!state.gestures.dragging() && !ImGui::IsAnyItemActive())
+        held_height_ = std::clamp(held_height_ + side_room_, least, needed);
+    return held_height_;
+}
+
 /// What is fixed and what is pulled, in a list of its own height: a drag adds to it and takes from it, and nothing
 /// below is to move.
 void Panels::draw_held(const PanelContext& context) {
     ViewerState& state = context.state;
-    const float lines = is_very_tall(context) ? 4.5f : is_short(context.layout, context.gui.scale()) ? 2.5f : 3.5f;
-    // Half a line shows that there are more.
-    const float height = lines * ImGui::GetTextLineHeightWithSpacing() + 2.0f * ImGui::GetStyle().WindowPadding.y;
     const std::optional<ViewerState::Selection> chosen = state.selection();
-    if (ImGui::BeginChild("held", {0.0f, height}, true)) {
+    if (ImGui::BeginChild("held", {0.0f, held_height(context)}, true)) {
         draw_fixed_sets(context);
         draw_handles(context);
     }

@@ -30,8 +30,7 @@ std::string left_text(const ViewerState& state) {
         if (n > 0) text += ", patch of " + count_text(n) + (n == 1 ? " vertex" : " vertices");
         return text;
     }
-    return std::filesystem::path(state.scene().name()).filename().string() +
-           (state.scene().modified() ? " (changed)" : "");
+    return state.scene_title();
 }
 
 std::string right_text(const ViewerState& state) {

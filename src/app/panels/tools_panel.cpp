@@ -68,7 +68,7 @@ void draw_pull_settings(ViewerState& state, float scale) {
     set_item_width(scale);
     choose<PullMode>("movement", state.tools.pull_mode, kPullModes);
     if (state.tools.pull_mode == PullMode::spring) {
-        draw_numbers("spring", &state.tools.spring, 1, "%.4g", scale);
+        draw_numbers("spring", &state.tools.spring, 1, "", scale);
         tooltip("Stiffness of the spring: force per length.");
     }
     draw_gizmo_settings(state, scale);

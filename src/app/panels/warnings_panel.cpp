@@ -20,6 +20,7 @@ namespace elastolab {
 namespace {
 
 constexpr float kMostOfPanel = 0.3f;  ///< of its height; more is scrolled to
+constexpr const char *kFolded = "+ ", *kUnfolded = "\u2013 ";
 
 /// How far linear theory is off for what is shown, in the words of a student; empty where it is hardly off.
 std::string theory_words(const ViewerState& state) {
@@ -33,11 +34,27 @@ std::string theory_words(const ViewerState& state) {
            " shows what a rubber body does.";
 }
 
+/// What a window of this width leaves for text [pixels].
+float room_in(float width) { return width - 2.0f * ImGui::GetStyle().WindowPadding.x; }
+
 /// Height of a paragraph in a window of this width.
 float height_of(const std::string& paragraph, float width) {
-    const ImGuiStyle& style = ImGui::GetStyle();
-    const float room = width - 2.0f * style.WindowPadding.x;
-    return ImGui::CalcTextSize(paragraph.c_str(), nullptr, false, room).y + style.ItemSpacing.y;
+    return ImGui::CalcTextSize(paragraph.c_str(), nullptr, false, room_in(width)).y + ImGui::GetStyle().ItemSpacing.y;
+}
+
+bool fits_in_a_line(const std::string& text, float width) {
+    return text.find('\n') == std::string::npos && ImGui::CalcTextSize(text.c_str()).x <= room_in(width);
+}
+
+/// As much of the text as a line of this window holds.
+std::string first_line(const std::string& text, float width) {
+    std::string line = kFolded + text.substr(0, text.find('\n'));
+    while (ImGui::CalcTextSize((line + " ...").c_str()).x > room_in(width)) {
+        const std::size_t space = line.find_last_of(' ');
+        if (space == std::string::npos || space < 3) break;
+        line.resize(space);
+    }
+    return line + " ...";
 }
 
 }  // namespace
@@ -79,8 +96,12 @@ float Panels::draw_warnings(const PanelContext& context) {
     const Viewport& panel = context.layout.panel;
     const auto width = static_cast<float>(panel.width), bottom = static_cast<float>(panel.y + panel.height);
     float wanted = 2.0f * ImGui::GetStyle().WindowPadding.y - ImGui::GetStyle().ItemSpacing.y;
+    const auto as_shown = [&](const Warning& warning) {
+        if (fits_in_a_line(warning.text, width)) return warning.text;
+        return unfolded_.contains(warning.text) ? kUnfolded + warning.text : first_line(warning.text, width);
+    };
     for (const Warning& warning : warnings_)
-        wanted += height_of(warning.text, width) + (warning.better ? ImGui::GetFrameHeightWithSpacing() : 0.0f);
+        wanted += height_of(as_shown(warning), width) + (warning.better ? ImGui::GetFrameHeightWithSpacing() : 0.0f);
     const float height = std::ceil(std::min(wanted, kMostOfPanel * static_cast<float>(panel.height)));
     ImGui::SetNextWindowPos({static_cast<float>(panel.x), bottom - height});
     ImGui::SetNextWindowSize({width, height});
@@ -92,7 +113,12 @@ float Panels::draw_warnings(const PanelContext& context) {
     ImGui::PopStyleColor();
     ImGui::PopStyleVar();
     for (const Warning& warning : warnings_) {
-        paragraph(warning.text, warning.is_problem ? context.palette.bad : context.palette.busy);
+        const std::string shown = as_shown(warning);
+        paragraph(shown, warning.is_problem ? context.palette.bad : context.palette.busy);
+        if (shown != warning.text) {
+            if (!unfolded_.contains(warning.text)) tooltip(warning.text.c_str());
+            if (ImGui::IsItemClicked() && unfolded_.erase(warning.text) == 0) unfolded_.insert(warning.text);
+        }
         if (!warning.better) continue;
         ImGui::PushStyleColor(ImGuiCol_Button, imgui_colour(context.palette.border));  // not that of this window
         ImGui::PushStyleColor(ImGuiCol_ButtonHovered, imgui_colour(context.palette.accent));

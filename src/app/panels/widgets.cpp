@@ -154,9 +154,53 @@ bool choice_entry(const char* label, const char* explanation, bool selected) {
 
 void end_choice() { ImGui::EndCombo(); }
 
-bool draw_numbers(const char* label, double* values, int n, const char* format, float scale) {
+namespace {
+
+/// n items of equal width with a label to their right.
+void draw_fields(const char* label, int n, const auto& draw_field) {
+    const float gap = ImGui::GetStyle().ItemInnerSpacing.x, whole = ImGui::CalcItemWidth();
+    const float width = std::max(1.0f, std::floor((whole - gap * static_cast<float>(n - 1)) / static_cast<float>(n)));
+    ImGui::BeginGroup();
+    ImGui::PushID(label);
+    for (int i = 0; i < n; ++i) {
+        if (i > 0) ImGui::SameLine(0.0f, gap);
+        const bool is_last = i + 1 == n;
+        ImGui::SetNextItemWidth(is_last ? std::max(1.0f, whole - (width + gap) * static_cast<float>(n - 1)) : width);
+        ImGui::PushID(i);
+        draw_field(i, width - 2.0f * ImGui::GetStyle().FramePadding.x);
+        ImGui::PopID();
+    }
+    ImGui::PopID();
+    ImGui::SameLine(0.0f, gap);
+    ImGui::TextUnformatted(label);
+    ImGui::EndGroup();
+}
+
+/// The longest that fits, as a format of Dear ImGui.
+std::string format_for(double value, const std::string& unit, float room) {
+    for (const char* format : {"%.4g", "%.3g", "%.2g"})
+        if (ImGui::CalcTextSize((formatted(format, value) + unit).c_str()).x <= room) return format + unit;
+    return "%.1g" + unit;
+}
+
+}  // namespace
+
+bool draw_numbers(const char* label, double* values, int n, const char* unit, float scale, double noise) {
     set_item_width(scale);
-    return ImGui::InputScalarN(label, ImGuiDataType_Double, values, n, nullptr, nullptr, format);
+    bool typed = false;
+    draw_fields(label, n, [&](int i, float room) {
+        double shown = std::abs(values[i]) <= noise ? 0.0 : values[i];
+        if (!ImGui::InputDouble("", &shown, 0.0, 0.0, format_for(shown, unit, room).c_str())) return;
+        values[i] = shown;
+        typed = true;
+    });
+    return typed;
+}
+
+void draw_no_numbers(const char* label, int n, float scale) {
+    set_item_width(scale);
+    double nothing = 0.0;
+    draw_fields(label, n, [&](int, float) { ImGui::InputDouble("", &nothing, 0.0, 0.0, "\u2013"); });
 }
 
 RowAnswer draw_row(const std::string& text, bool selected, const Colour& colour, float scale) {

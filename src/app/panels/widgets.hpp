@@ -43,8 +43,11 @@ std::optional<std::size_t> draw_segments(const SegmentColours& colours, std::spa
 /// Width for items whose label stands to their right.
 void set_item_width(float scale);
 
-/// Numbers with a label to their right; true while they are typed.
-bool draw_numbers(const char* label, double* values, int n, const char* format, float scale);
+/// Numbers with a label to their right; true while they are typed. unit: written behind each. noise: what is not larger
+/// is rounding, and shown as 0. Each has as many digits as its field holds.
+bool draw_numbers(const char* label, double* values, int n, const char* unit, float scale, double noise = 0.0);
+/// Fields in which nothing can be typed, as nothing has a value there.
+void draw_no_numbers(const char* label, int n, float scale);
 /// What was done to a row of a list.
 struct RowAnswer {
     bool clicked = false, removed = false;

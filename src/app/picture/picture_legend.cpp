@@ -26,9 +26,8 @@ std::optional<PictureLegend> legend_of(const ViewerState& state) {
     if (state.display.field == Field::none ||
         std::none_of(bodies.begin(), bodies.end(), [](const ShownBody& body) { return body.is_coloured(); }))
         return {};
-    const auto [low, high] = state.shown.field_range(state.display);
-    return PictureLegend{field_title(state.display.field, state.compare.reference), low, high,
-                         &shown_colour_map(state.display)};
+    return PictureLegend{field_title(state.display.field, state.compare.reference),
+                         state.shown.field_scale(state.display), &shown_colour_map(state.display)};
 }
 
 void draw_legend(Canvas& canvas, const PictureLegend& legend, const Palette& palette, double scale) {
@@ -37,7 +36,7 @@ void draw_legend(Canvas& canvas, const PictureLegend& legend, const Palette& pal
     const Lettering lettering(*font);
     const double size = kLegendFontSize * scale, pad = kLegendPad * scale;
     const double bar_height = std::min(kMostBarHeight * scale, 0.5 * canvas.height());
-    const std::vector<LegendTick> ticks = legend_ticks(legend.low, legend.high, kLegendTicks);
+    const std::vector<LegendTick> ticks = legend.scale.ticks(kLegendTicks);
     double beside = 0.0;
     for (const LegendTick& tick : ticks) beside = std::max(beside, lettering.width(tick.text, size));
     const double bar_and_ticks = (kBarWidth + kTickGap) * scale + beside;
@@ -54,8 +53,7 @@ void draw_legend(Canvas& canvas, const PictureLegend& legend, const Palette& pal
     for (auto y = static_cast<int>(top); y < static_cast<int>(bottom); ++y)
         canvas.fill_rectangle(bar, y, bar_right, y + 1, legend.colours->sample((bottom - y - 0.5) / bar_height));
     for (const LegendTick& tick : ticks) {
-        const double part = legend.high > legend.low ? (tick.value - legend.low) / (legend.high - legend.low) : 0.5;
-        const double y = bottom - std::clamp(part, 0.0, 1.0) * bar_height;
+        const double y = bottom - legend.scale.place(tick.value) * bar_height;
         canvas.fill_rectangle(bar_right, y - 0.5 * scale, bar_right + kTickLength * scale, y + 0.5 * scale,
                               palette.text);
         lettering.draw(canvas, bar_right + kTickGap * scale, y, tick.text, size, palette.text);

@@ -13,7 +13,7 @@ namespace elastolab {
 /// The colour bar of a picture: what is shown, and which colours it has.
 struct PictureLegend {
     std::string heading;
-    double low = 0.0, high = 1.0;
+    ColourScale scale = {};
     const ColourMap* colours = nullptr;
 };
 

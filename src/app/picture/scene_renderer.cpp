@@ -13,8 +13,7 @@ namespace elastolab {
 
 namespace {
 
-constexpr double kArrowPart = 0.3;   ///< length of the longest reaction arrow, of the scene's radius
-constexpr double kGizmoSize = 72.0;  ///< [logical pixels]
+constexpr double kArrowPart = 0.3;  ///< length of the longest reaction arrow, of the scene's radius
 constexpr float kPointSize = 6.0f, kActivePointSize = 8.0f, kHoverPointSize = 7.0f, kLoadedPointSize = 4.0f;
 constexpr int kBands = 10;
 constexpr double kGroundPart = 3.0, kShadowPart = 1.4;  ///< radii of the ground and of the shadow, of the scene's
@@ -53,10 +52,6 @@ std::vector<int> corners_of(const AppliedLoad& load, const SurfaceMesh& surface)
 }
 
 }  // namespace
-
-Viewport gizmo_place(const Viewport& viewport) {
-    return {viewport.x + 8.0, viewport.y + viewport.height - kGizmoSize - 8.0, kGizmoSize, kGizmoSize};
-}
 
 float filling_opacity(const ViewerState& state, MethodKind kind) {
     const ShownBody* shown = state.shown.body(kind);
@@ -223,21 +218,24 @@ SurfaceStyle SceneRenderer::surface_style(const ViewerState& state, MethodKind k
     style.feature_edges = display.feature_edges;
     style.feature_opacity = 0.55f;
     style.colour_map = &shown_colour_map(display);
-    std::tie(style.low, style.high) = state.shown.field_range(state.display);
+    const ColourScale scale = state.shown.field_scale(state.display);
+    style.low = scale.even(scale.low);
+    style.high = scale.even(scale.high);
+    style.logarithmic = scale.logarithmic;
     style.contour_bands = display.bands ? kBands : 0;
     if (display.field != Field::none) style.light = 0.75f;
     return style;
 }
 
 void SceneRenderer::draw_ground(const ViewerState& state, const SceneView& view, const Palette& palette,
-                                const SurfaceDrawing& body, const Framebuffer& target) {
+                                const SurfaceDrawing& body, const Framebuffer& target, bool soft_shadows) {
     const Eigen::Vector3d up = state.camera.up_axis();
     const double floor = (up.transpose() * mesh_->vertices).minCoeff();
     SceneFrame area = frame_;
     area.center += up * (floor - up.dot(frame_.center) - 1e-3 * frame_.radius);
     GroundStyle style{.line = palette.grid.with_opacity(state.display.grid ? 0.30f : 0.0f),
                       .spacing = round_step(frame_.radius / 8.0)};
-    if (state.display.soft_shadows) {
+    if (soft_shadows) {
         area.radius *= kShadowPart;
         shadow_.update(body, area, up);
         target.bind();
@@ -267,16 +265,17 @@ void SceneRenderer::draw_filling(const ViewerState& state, const SceneView& view
 
 /// The other methods of a comparison, and the body as it was: seen where they are apart from the solid one.
 void SceneRenderer::draw_ghosts(const ViewerState& state, const SceneView& view, const SceneViewport& viewport,
-                                const Palette& palette) {
+                                const Palette& palette, const DrawingDetail& detail) {
     SurfaceStyle style;
     style.ghost = true;
     style.feature_edges = state.display.feature_edges;
     style.feature_width = 1.2f;
+    const bool has_field = state.display.field != Field::none;
     const ShownBody* shown = state.shown.body(viewport.kinds.front());
-    if (state.display.rest_shape && shown != nullptr && !shown->section() &&
+    if (state.display.rest_shape && detail.wireframe && shown != nullptr && !shown->section() &&
         shown->max_displacement() * state.display.deformation_scale > kLeastDeformation * frame_.radius) {
         style.colour = style.inside = style.feature = palette.text_dim;
-        style.opacity = 0.10f;
+        style.opacity = has_field ? 0.0f : 0.10f;  // an outline that leaves the colours of the data as they are
         style.feature_opacity = 2.5f;
         rest_->draw(view, style);
     }
@@ -284,17 +283,21 @@ void SceneRenderer::draw_ghosts(const ViewerState& state, const SceneView& view,
         style.colour = style.inside = style.feature = palette.body(viewport.kinds[i]);
         style.opacity = 0.45f;
         style.feature_opacity = 1.5f;
-        drawing(viewport.kinds[i]).surface.draw(view, style);
+        style.plain = true;  // in the colour of its method, which no legend explains otherwise
+        BodyDrawing& ghost = drawing(viewport.kinds[i]);
+        (ghost.section ? *ghost.section : ghost.surface).draw(view, style);
     }
 }
 
 /// The background, and the opaque body in front of it, whole or cut open.
 const SurfaceDrawing& SceneRenderer::draw_solid(const ViewerState& state, const SceneView& view, MethodKind solid,
-                                                const Palette& palette) {
+                                                const Palette& palette, const DrawingDetail& detail) {
     background_.draw(palette.background_top, palette.background_bottom);
     BodyDrawing& main = drawing(solid);
     SurfaceDrawing& body = main.section ? *main.section : main.surface;
-    body.draw(view, surface_style(state, solid, palette));
+    SurfaceStyle style = surface_style(state, solid, palette);
+    if (!detail.wireframe) style.wireframe = style.feature_edges = false;
+    body.draw(view, style);
     return body;
 }
 
@@ -308,18 +311,19 @@ void SceneRenderer::draw_viewport(const ViewerState& state, const SceneViewport&
                                   double pixel_ratio, const Framebuffer& target, const Extent& extent) {
     const SceneView view(state.camera, viewport.place, pixel_ratio);
     BodyDrawing& main = drawing(viewport.kinds.front());
-    const SurfaceDrawing& body = draw_solid(state, view, viewport.kinds.front(), palette);
-    if (state.display.soft_shadows && extent.whole != nullptr) occlusion_.draw_tile(view, target, *extent.whole);
-    if (state.display.soft_shadows && !target.is_tile()) occlusion_.draw(view, target);
-    if (state.display.grid || state.display.soft_shadows) draw_ground(state, view, palette, body, target);
+    const SurfaceDrawing& body = draw_solid(state, view, viewport.kinds.front(), palette, extent.detail);
+    const bool soft_shadows = state.display.soft_shadows && extent.detail.soft_shadows;
+    if (soft_shadows && extent.whole != nullptr) occlusion_.draw_tile(view, target, *extent.whole);
+    if (soft_shadows && !target.is_tile()) occlusion_.draw(view, target);
+    if (state.display.grid || soft_shadows) draw_ground(state, view, palette, body, target, soft_shadows);
     draw_filling(state, view, viewport.kinds.front(), palette);
-    draw_ghosts(state, view, viewport, palette);
+    draw_ghosts(state, view, viewport, palette, extent.detail);
     if (state.display.defects && main.rim)
         main.rim->draw(view, {.colour = palette.bad, .width = 1.8f, .hidden_opacity = 0.25f});
     const float hidden = mesh_->n_vertices() > kMostHidden ? 0.0f : 0.12f;
     main.points.draw(view, {.outline = palette.wire, .outline_width = 1.0f, .hidden_opacity = hidden});
     main.arrows.draw(view, {.width = 6.0f, .hidden_opacity = 0.5f});
-    if (extent.axes) gizmo_->draw(state.camera, viewport.place, gizmo_place(viewport.place), pixel_ratio);
+    if (extent.axes) gizmo_->draw(state.camera, viewport.place, AxesGizmo::place_in(viewport.place), pixel_ratio);
 }
 
 SceneRenderer::Look SceneRenderer::look_of(const ViewerState& state, const SceneViewport& viewport,
@@ -334,12 +338,14 @@ SceneRenderer::Look SceneRenderer::look_of(const ViewerState& state, const Scene
     look.camera_up = state.camera.up_axis();
     look.camera_scene = state.camera.scene().center;
     look.camera_distance = pose.distance;
+    look.projection = state.camera.projection_kind();
     look.pixel_ratio = pixel_ratio;
     look.width = viewport.place.width;
     look.height = viewport.place.height;
     look.covered = viewport.place.covered;
     look.display = state.display;
-    look.range = state.shown.field_range(state.display);
+    const ColourScale scale = state.shown.field_scale(state.display);
+    look.range = {scale.low, scale.high};
     look.hover = state.gestures.hover();
     look.selected_handle = state.gestures.selected_handle();
     look.selected_fixed = state.gestures.selected_fixed();
@@ -351,21 +357,36 @@ SceneRenderer::Look SceneRenderer::look_of(const ViewerState& state, const Scene
     return look;
 }
 
-int SceneRenderer::draw(const ViewerState& state, const Palette& palette, double pixel_ratio) {
+bool SceneRenderer::has_moved(const ViewerState& state, const Palette& palette, double pixel_ratio) const {
+    if (pictures_.size() != state.shown.viewports.size()) return true;
+    for (std::size_t i = 0; i < pictures_.size(); ++i) {
+        Look look = look_of(state, state.shown.viewports[i], palette, pixel_ratio);
+        look.detail = pictures_[i].look.detail;
+        if (look != pictures_[i].look) return true;
+    }
+    return false;
+}
+
+int SceneRenderer::draw(const ViewerState& state, const Palette& palette, double pixel_ratio,
+                        const DrawingDetail& detail) {
     int n_drawn = 0;
     pictures_.resize(state.shown.viewports.size());
     for (std::size_t i = 0; i < pictures_.size(); ++i) {
         const SceneViewport& viewport = state.shown.viewports[i];
         Picture& picture = pictures_[i];
         Look look = look_of(state, viewport, palette, pixel_ratio);
+        look.detail = detail;
         if (picture.framebuffer && look == picture.look) continue;
         picture.look = std::move(look);
-        const int width = std::max(1, static_cast<int>(std::lround(viewport.place.width * pixel_ratio)));
-        const int height = std::max(1, static_cast<int>(std::lround(viewport.place.height * pixel_ratio)));
-        if (!picture.framebuffer) picture.framebuffer = std::make_unique<Framebuffer>(width, height);
+        const double ratio = pixel_ratio * detail.resolution;
+        const int width = std::max(1, static_cast<int>(std::lround(viewport.place.width * ratio)));
+        const int height = std::max(1, static_cast<int>(std::lround(viewport.place.height * ratio)));
+        if (!picture.framebuffer || picture.samples != detail.samples)
+            picture.framebuffer = std::make_unique<Framebuffer>(width, height, detail.samples);
+        picture.samples = detail.samples;
         picture.framebuffer->resize(width, height);
         picture.framebuffer->bind();
-        draw_viewport(state, viewport, palette, pixel_ratio, *picture.framebuffer, {});
+        draw_viewport(state, viewport, palette, ratio, *picture.framebuffer, {.detail = detail});
         ++n_drawn;
     }
     return n_drawn;
@@ -379,7 +400,8 @@ void SceneRenderer::show(const ViewerState& state, double pixel_ratio, const Eig
         const Viewport& place = state.shown.viewports[i].place;
         const int x = static_cast<int>(std::lround(place.x * pixel_ratio));
         const int y = framebuffer.y() - static_cast<int>(std::lround((place.y + place.height) * pixel_ratio));
-        pictures_[i].framebuffer->copy_to_window(x, y);
+        pictures_[i].framebuffer->copy_to_window(x, y, static_cast<int>(std::lround(place.width * pixel_ratio)),
+                                                 static_cast<int>(std::lround(place.height * pixel_ratio)));
     }
     bind_window(framebuffer.x(), framebuffer.y());
 }

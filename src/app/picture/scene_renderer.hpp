@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/picture/drawing_detail.hpp"
 #include "app/picture/palette.hpp"
 #include "app/viewer_state.hpp"
 #include "render/drawing/arrows_drawing.hpp"
@@ -30,7 +31,13 @@ public:
     void upload(const ViewerState& state, const Palette& palette);
     /// Draws the viewports whose look has changed since they were last drawn; `pixel_ratio` framebuffer pixels make one
     /// logical pixel. Returns how many were drawn.
-    int draw(const ViewerState& state, const Palette& palette, double pixel_ratio);
+    int draw(const ViewerState& state, const Palette& palette, double pixel_ratio) {
+        return draw(state, palette, pixel_ratio, {});
+    }
+    /// The same with this detail.
+    int draw(const ViewerState& state, const Palette& palette, double pixel_ratio, const DrawingDetail& detail);
+    /// Whether a viewport looks otherwise than when it was last drawn, whatever the detail.
+    bool has_moved(const ViewerState& state, const Palette& palette, double pixel_ratio) const;
     /// Copies the drawn viewports to the window of this size [framebuffer pixels].
     void show(const ViewerState& state, double pixel_ratio, const Eigen::Vector2i& framebuffer);
 
@@ -65,6 +72,7 @@ private:
         Eigen::Vector3d camera_target, camera_up, camera_scene;
         Eigen::Vector4d camera_turn;
         double camera_distance = 0.0, pixel_ratio = 0.0, width = 0.0, height = 0.0, covered = 0.0;
+        Projection projection = Projection::perspective;
         DisplaySettings display;
         std::pair<double, double> range;
         Hover hover;
@@ -73,15 +81,18 @@ private:
         bool pulling = false;
         std::uint64_t scene_number = 0, scene_revision = 0;
         const Palette* palette = nullptr;
+        DrawingDetail detail;
         bool operator==(const Look&) const = default;
     };
     struct Picture {
         Look look;
+        int samples = 0;  ///< that were asked for
         std::unique_ptr<Framebuffer> framebuffer;
     };
     struct Extent {
         bool axes = true;
         const DepthBuffer* whole = nullptr;  ///< the depths of the whole that a tile belongs to
+        DrawingDetail detail = {};
     };
     Look look_of(const ViewerState& state, const SceneViewport& viewport, const Palette& palette,
                  double pixel_ratio) const;
@@ -96,12 +107,12 @@ private:
     void draw_viewport(const ViewerState& state, const SceneViewport& viewport, const Palette& palette,
                        double pixel_ratio, const Framebuffer& target, const Extent& extent);
     const SurfaceDrawing& draw_solid(const ViewerState& state, const SceneView& view, MethodKind solid,
-                                     const Palette& palette);
+                                     const Palette& palette, const DrawingDetail& detail = {});
     void draw_ground(const ViewerState& state, const SceneView& view, const Palette& palette,
-                     const SurfaceDrawing& body, const Framebuffer& target);
+                     const SurfaceDrawing& body, const Framebuffer& target, bool soft_shadows);
     void draw_filling(const ViewerState& state, const SceneView& view, MethodKind kind, const Palette& palette);
     void draw_ghosts(const ViewerState& state, const SceneView& view, const SceneViewport& viewport,
-                     const Palette& palette);
+                     const Palette& palette, const DrawingDetail& detail);
     SurfaceStyle surface_style(const ViewerState& state, MethodKind kind, const Palette& palette) const;
 
     std::uint64_t scene_number_ = 0;
@@ -119,9 +130,6 @@ private:
     const Palette* gizmo_palette_ = nullptr;
     const SurfaceMesh* mesh_ = nullptr;
 };
-
-/// Where the axes are drawn in a viewport [logical pixels].
-Viewport gizmo_place(const Viewport& viewport);
 
 /// Of what closes the holes of what is simulated: faint, so that the surface is still seen to be open; less so where it
 /// has the colours of a field.

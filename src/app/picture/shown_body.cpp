@@ -134,6 +134,7 @@ bool ShownBody::update(const Sources& sources, const DisplaySettings& display) {
     const Stopwatch watch;
     update_section(sources, display);
     section_seconds_ = watch.seconds();
+    update_seen();
     return true;
 }
 
@@ -219,6 +220,7 @@ void ShownBody::colour_section(const SectionRunner* inside, Field field) {
     Eigen::MatrixXd within = Eigen::MatrixXd::Constant(1, shape.n_inside(), std::numeric_limits<double>::quiet_NaN());
     if (largest_magnitude_ == 0.0) within.setZero();  // at rest
     if (inside && field == Field::displacement) within = inside->displacements().colwise().norm();
+    if (const auto axis = displacement_axis(field); inside && axis) within = inside->displacements().row(*axis);
     if (const auto which = stress_of(field); inside && which) {
         const Eigen::Matrix<double, 6, -1> stresses = inside->stresses();
         for (Eigen::Index i = 0; i < within.cols(); ++i) within(0, i) = measure(*which, stress_tensor(stresses.col(i)));
@@ -233,6 +235,7 @@ void ShownBody::update_values(const Sources& sources, Field field) {
     if (field == Field::none || answer.displacement().size() != positions_.size()) return;
     const Eigen::VectorXd& u = answer.displacement();
     if (field == Field::displacement) values_ = magnitudes(columns(u));
+    if (const auto axis = displacement_axis(field)) values_ = as_floats(columns(u).row(*axis).transpose());
     if (field == Field::difference) {
         if (comparable(answer, sources.reference))
             values_ = magnitudes(columns(u) - columns(sources.reference->displacement()));
@@ -251,6 +254,7 @@ Eigen::VectorXd ShownBody::simulated_values(const Sources& sources, Field field)
     const EmbeddedRunner& answer = sources.answer;
     const Eigen::VectorXd& u = answer.runner().displacement();
     if (field == Field::displacement) return columns(u).colwise().norm();
+    if (const auto axis = displacement_axis(field)) return columns(u).row(*axis);
     if (field == Field::traction && tractions_.cols() > 0) return tractions_.colwise().norm();
     if (const auto which = stress_of(field); which && tractions_.cols() > 0)
         return surface_stress_measure(*which, *answer.surface(), material_of(answer), u, tractions_, is_large(answer),
@@ -266,6 +270,38 @@ void ShownBody::colour_filling(const Sources& sources, Field field) {
     const Eigen::VectorXd own = answers(sources.answer, shape) ? simulated_values(sources, field) : Eigen::VectorXd();
     const Eigen::MatrixXd values = own.size() > 0 ? shape.taken(own.transpose()) : shape.spread(as_row(values_));
     filling_->values = as_floats(values.row(0).transpose());
+}
+
+void ShownBody::update_seen() {
+    seen_magnitudes_.clear();
+    largest_magnitude_ = 0.0;
+    const auto see = [&](float value) {
+        if (std::isfinite(value)) seen_magnitudes_.push_back(std::abs(value));
+    };
+    if (section_ && !section_->values.empty()) {
+        std::vector<char> is_seen(section_->values.size(), 0);
+        for (const int v : section_->shape->triangles().reshaped()) is_seen[static_cast<std::size_t>(v)] = 1;
+        for (std::size_t v = 0; v < is_seen.size(); ++v)
+            if (is_seen[v] != 0) see(section_->values[v]);
+    } else {
+        for (const float value : values_) see(value);
+    }
+    for (const float value : seen_magnitudes_) largest_magnitude_ = std::max(largest_magnitude_, double{value});
+}
+
+double ShownBody::largest_magnitude(double part) const {
+    if (part >= 1.0 || seen_magnitudes_.empty()) return largest_magnitude_;
+    std::vector<float> sorted = seen_magnitudes_;
+    const auto place = static_cast<std::ptrdiff_t>(part * static_cast<double>(sorted.size() - 1));
+    std::nth_element(sorted.begin(), sorted.begin() + place, sorted.end());
+    const double found = sorted[static_cast<std::size_t>(place)];
+    return found > 0.0 ? found : largest_magnitude_;
+}
+
+bool ShownBody::is_cut_away(int vertex) const {
+    if (!section_) return false;
+    const Plane& plane = section_->shape->plane();
+    return plane.normal.dot(section_->shape->surface()->vertices.col(vertex)) > plane.offset;
 }
 
 void ShownBody::update_probed(const Sources& sources) {
@@ -294,6 +330,8 @@ std::string field_title(Field field, MethodKind reference) {
     if (const auto found = stresses.find(field); found != stresses.end())
         return found->second + " [force / unit\u00b2]";
     if (field == Field::displacement) return "displacement [mesh units]";
+    if (const auto axis = displacement_axis(field))
+        return std::string("displacement ") + "xyz"[*axis] + " [mesh units]";
     if (field == Field::difference) return "difference to " + std::string(title(reference)) + " [mesh units]";
     return field == Field::traction ? "traction [force / unit\u00b2]" : "";
 }

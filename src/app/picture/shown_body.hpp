@@ -72,7 +72,12 @@ public:
     const Positions& positions() const { return positions_; }  ///< rest + scale * displacement
     /// One value a vertex for the chosen field; empty when there is none, or when it is not known yet.
     const std::vector<float>& values() const { return values_; }
+    /// The largest that is seen: where the body is cut away nothing is.
     double largest_magnitude() const { return largest_magnitude_; }
+    /// The same of this part of the values that are seen, the smallest ones.
+    double largest_magnitude(double part) const;
+    /// Whether a vertex of the surface is seen no more, as the body is cut away there.
+    bool is_cut_away(int vertex) const;
     /// For every vertex, 3 x n and 6 x n [force / L^2]; without columns when not asked for, or not known yet.
     const Eigen::MatrixXd& tractions() const { return shown_tractions_; }
     const Eigen::MatrixXd& stresses() const { return shown_stresses_; }
@@ -113,6 +118,7 @@ private:
     void update_values(const Sources& sources, Field field);
     void colour_filling(const Sources& sources, Field field);
     Eigen::VectorXd simulated_values(const Sources& sources, Field field) const;
+    void update_seen();
     void update_probed(const Sources& sources);
 
     MethodKind kind_;
@@ -120,6 +126,7 @@ private:
     std::uint64_t revision_ = 0;
     Positions positions_;
     std::vector<float> values_;
+    std::vector<float> seen_magnitudes_;  ///< of the values that are seen, in no order
     double largest_magnitude_ = 0.0, max_displacement_ = 0.0;
     std::optional<Difference> difference_;
     std::vector<ShownReaction> reactions_;

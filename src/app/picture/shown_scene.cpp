@@ -38,10 +38,20 @@ const std::string& ShownScene::reaction_failure(MethodKind kind) const {
 
 std::pair<double, double> ShownScene::field_range(const DisplaySettings& display) const {
     if (!display.auto_range) return {display.range_low, display.range_high};
-    double high = 0.0;
-    for (const ShownBody& shown : bodies_) high = std::max(high, shown.largest_magnitude());
+    double high = held_range_ ? *held_range_ : largest_magnitude(display);
     if (high == 0.0) high = 1.0;
     return {is_signed(display.field) ? -high : 0.0, high};
+}
+
+double ShownScene::largest_magnitude(const DisplaySettings& display) const {
+    double largest = 0.0;
+    for (const ShownBody& shown : bodies_) largest = std::max(largest, shown.largest_magnitude(display.range_part));
+    return largest;
+}
+
+ColourScale ShownScene::field_scale(const DisplaySettings& display) const {
+    const auto [low, high] = field_range(display);
+    return colour_scale(low, high, display.logarithmic && !is_signed(display.field));
 }
 
 void ShownScene::forget() {
@@ -99,6 +109,10 @@ const SectionRunner* ShownScene::inside(const ShownAnswers& answers, MethodKind 
 
 bool ShownScene::update(const ShownAnswers& answers) {
     const Stopwatch watch;
+    if (!answers.pulling || !answers.display.hold_range)
+        held_range_.reset();
+    else if (!held_range_)
+        held_range_ = largest_magnitude(answers.display);
     wants_reactions_ = needs_reactions(answers);
     update_filling(answers);
     section_ = section(answers);

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/picture/colour_scale.hpp"
 #include "app/picture/reaction_runner.hpp"
 #include "app/picture/section_runner.hpp"
 #include "app/picture/shown_body.hpp"
@@ -31,7 +32,8 @@ struct ShownAnswers {
     std::vector<MethodKind> kinds;              ///< of the methods on the screen
     const EmbeddedRunner* reference = nullptr;  ///< of differences; null when nothing needs one
     const DisplaySettings& display;
-    bool probed = false;  ///< a person looks at tractions and stresses of vertices
+    bool probed = false;   ///< a person looks at tractions and stresses of vertices
+    bool pulling = false;  ///< the range of the colours may be held meanwhile
 };
 
 /// What is on the screen: the bodies as the methods' answers have them, and what only the picture needs of the answers
@@ -48,8 +50,9 @@ public:
     const std::string& reaction_failure(MethodKind kind) const;
     /// Whether something is shown that needs them, so that they are known as soon as they can be.
     bool wants_reactions() const { return wants_reactions_; }
-    /// The range of the colours.
+    /// The range of the colours, and their scale.
     std::pair<double, double> field_range(const DisplaySettings& display) const;
+    ColourScale field_scale(const DisplaySettings& display) const;
 
     /// The scene was replaced.
     void forget();
@@ -71,6 +74,7 @@ public:
     bool working() const;
 
 private:
+    double largest_magnitude(const DisplaySettings& display) const;
     ShownBody& body_of(MethodKind kind);
     const ReactionRunner* reactions(const ShownAnswers& answers, MethodKind kind);
     void update_filling(const ShownAnswers& answers);
@@ -86,6 +90,7 @@ private:
     std::shared_ptr<const SectionShape> section_;
     std::map<MethodKind, std::unique_ptr<SectionRunner>> insides_;
     std::optional<SectionCost> section_cost_;
+    std::optional<double> held_range_;  ///< its upper end
 };
 
 }  // namespace elastolab

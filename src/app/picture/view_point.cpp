@@ -8,8 +8,13 @@ constexpr double kNearest = 0.99e-4, kFarthest = 1.01e3;  ///< distance / scene 
 
 }  // namespace
 
+/// The eye as in perspective, so that a view is one for every projection.
 ViewPoint view_point_of(const Camera& camera) {
-    return {.eye = camera.eye(), .target = camera.pose().target, .up = camera.up(), .vertical = camera.up_axis()};
+    const CameraPose& pose = camera.pose();
+    return {.eye = pose.target + pose.distance * camera.backward(),
+            .target = pose.target,
+            .up = camera.up(),
+            .vertical = camera.up_axis()};
 }
 
 bool can_see(const ViewPoint& view, const SceneFrame& scene) {

@@ -87,7 +87,7 @@ struct Window::Callbacks {
     }
 };
 
-Window::Window(const Options& options) : state_(std::make_unique<State>()) {
+Window::Window(const Options& options) : state_(std::make_unique<State>()), title_(options.title) {
     if (glfwInit() != GLFW_TRUE)
         throw Error("window: there is no display (" + last_glfw_error() +
                     "). Start it on a desktop, or under xvfb-run; elastolab solve needs none.");
@@ -159,6 +159,12 @@ float Window::content_scale() const {
     float x = 1.0f, y = 1.0f;
     glfwGetWindowContentScale(handle_, &x, &y);
     return x;
+}
+
+void Window::set_title(const std::string& title) {
+    if (title == title_) return;
+    title_ = title;
+    glfwSetWindowTitle(handle_, title_.c_str());
 }
 
 void Window::swap_buffers() { glfwSwapBuffers(handle_); }

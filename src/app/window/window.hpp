@@ -16,8 +16,8 @@ namespace elastolab {
 class Window {
 public:
     struct Options {
-        std::string title = "Elastolab";
-        int width = 1280, height = 800;  ///< logical pixels
+        std::string title = "Elastolab";  ///< at first
+        int width = 1280, height = 800;   ///< logical pixels
         bool visible = true;
     };
 
@@ -44,6 +44,8 @@ public:
     Eigen::Vector2i size() const;              ///< logical pixels; zero when minimised
     Eigen::Vector2i framebuffer_size() const;  ///< physical pixels
     float content_scale() const;               ///< suggested size of text: 1 on an ordinary screen
+    /// Does nothing where that is its title already.
+    void set_title(const std::string& title);
     void swap_buffers();
     /// From now on swap_buffers() does not wait for the screen's refresh, as it does in a visible window otherwise.
     void disable_vsync();
@@ -61,6 +63,7 @@ private:
     struct State;
     std::unique_ptr<State> state_;
     GLFWwindow* handle_ = nullptr;
+    std::string title_;
 };
 
 }  // namespace elastolab

@@ -6,9 +6,9 @@
 
 #include "render/colour.hpp"
 #include "render/gl/gl_object.hpp"
+#include "render/gl/shader.hpp"
 #include "render/scene_frame.hpp"
 #include "render/scene_view.hpp"
-#include "render/gl/shader.hpp"
 
 namespace elastolab {
 

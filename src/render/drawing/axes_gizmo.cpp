@@ -10,6 +10,8 @@ namespace {
 
 constexpr double kLabelPlace = 1.22;  // along an axis of length 1
 constexpr float kShaft = 0.045f;      // of the width of the gizmo
+constexpr double kSize = 72.0, kGap = 8.0;
+constexpr double kReach = 13.0;  // of a letter, for the cursor [pixels]
 
 Camera gizmo_camera(const Camera& camera) {
     Camera own = camera;
@@ -44,6 +46,23 @@ void AxesGizmo::draw(const Camera& camera, const Viewport& viewport, const Viewp
     arrows_.draw(SceneView(gizmo_camera(camera), place, pixel_ratio),
                  {.width = kShaft * static_cast<float>(place.width)});
     glViewport(whole[0], whole[1], whole[2], whole[3]);
+}
+
+Viewport AxesGizmo::place_in(const Viewport& viewport) {
+    return {viewport.x + kGap, viewport.y + viewport.height - kSize - kGap, kSize, kSize};
+}
+
+std::optional<int> AxesGizmo::axis_at(const Camera& camera, const Viewport& place, const Eigen::Vector2d& cursor) {
+    const Labels all = labels(camera, place);
+    std::optional<int> nearest;
+    double depth = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto k = static_cast<std::size_t>(axis);
+        if ((all.pixel[k] - cursor).norm() > kReach || (nearest && all.depth[k] > depth)) continue;
+        nearest = axis;
+        depth = all.depth[k];
+    }
+    return nearest;
 }
 
 AxesGizmo::Labels AxesGizmo::labels(const Camera& camera, const Viewport& place) {

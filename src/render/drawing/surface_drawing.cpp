@@ -83,15 +83,16 @@ void SurfaceDrawing::set_uniforms(const SceneView& view, const SurfaceStyle& sty
     shader_->set("colour", linear(style.colour));
     shader_->set("inside", linear(style.inside));
     shader_->set("opacity", style.opacity);
-    shader_->set("push", style.ghost ? kGhostPush : 0.0f);
+    shader_->set("push", style.ghost ? kGhostPush * view.nearness() : 0.0f);
     shader_->set("light", style.light);
     shader_->set("material", static_cast<int>(style.material));
     shader_->set("flat_normals", style.flat ? 1 : 0);
     shader_->set("wire", style.wire.with_opacity(style.wireframe ? style.wire_opacity : 0.0f));
     shader_->set("wire_width", style.wire_width * view.pixel_ratio());
-    shader_->set("scalar_source", static_cast<int>(scalars_));
+    shader_->set("scalar_source", static_cast<int>(style.plain ? Scalars::none : scalars_));
     const double range = style.high - style.low;
     shader_->set("scalar_scale", range > 0.0 ? static_cast<float>(1.0 / range) : 0.0f);
+    shader_->set("scalar_log", style.logarithmic ? 1 : 0);
     shader_->set("scalar_low", static_cast<float>(style.low));
     shader_->set("scalar_offset", range > 0.0 ? 0.0f : 0.5f);
     shader_->set("contour_bands", static_cast<float>(style.contour_bands));

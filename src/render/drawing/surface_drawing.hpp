@@ -24,7 +24,8 @@ struct SurfaceStyle {
     float opacity = 1.0f;                      ///< below 1: back faces show through front faces
     bool flat = false;                         ///< one normal a triangle
     SurfaceMaterial material = SurfaceMaterial::studio;
-    bool ghost = false;                        ///< translucent, seen where it is apart from what is drawn already
+    bool plain = false;  ///< without the colours of scalars
+    bool ghost = false;  ///< translucent, seen where it is apart from what is drawn already
 
     bool wireframe = false;
     Colour wire{0.05f, 0.07f, 0.10f, 1.0f};
@@ -36,6 +37,7 @@ struct SurfaceStyle {
 
     const ColourMap* colour_map = nullptr;  ///< the default one if null
     double low = 0.0, high = 1.0;           ///< the scalars at its ends; equal: all in the middle
+    bool logarithmic = false;               ///< low and high, and colours, are of decimal logarithms
     int contour_bands = 0;                  ///< 0: smooth; else as many bands of one colour, with lines between
     float light = 1.0f;                     ///< contrast of the shading: 1 full, 0 the plain colours
 };

@@ -116,11 +116,13 @@ Image Framebuffer::read() const {
     return image;
 }
 
-void Framebuffer::copy_to_window(int x, int y) const {
+void Framebuffer::copy_to_window(int x, int y, int width, int height) const {
     resolve();
     glBindFramebuffer(GL_READ_FRAMEBUFFER, resolved_.id());
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
-    glBlitFramebuffer(0, 0, width_, height_, x, y, x + width_, y + height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    const bool same = width == width_ && height == height_;
+    glBlitFramebuffer(0, 0, width_, height_, x, y, x + width, y + height, GL_COLOR_BUFFER_BIT,
+                      same ? GL_NEAREST : GL_LINEAR);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 

@@ -1,7 +1,6 @@
 #include "scene/live/embedded_runner.hpp"
 
-#include "base/error.hpp"
-#include "scene/user_text.hpp"
+#include <utility>
 
 namespace elastolab {
 
@@ -18,6 +17,7 @@ void EmbeddedRunner::set_body(const Body& body, const Method& method, const std:
 
 void EmbeddedRunner::clear() {
     runner_.clear();
+    placer_.clear();
     carried_.reset();
     prefetched_.reset();
     displacement_version_.reset();
@@ -32,13 +32,13 @@ void EmbeddedRunner::give(const Constraints& constraints) {
 
 void EmbeddedRunner::set_constraints(const Constraints& constraints) {
     give(constraints);
-    grip_failure_.clear();
     if (constraints.has_forces()) {
         asked_ = constraints;
-        move_grips(constraints);
-    } else {
+        place_grips();
+    } else if (asked_) {
         asked_.reset();
         grip_motions_.clear();
+        placer_.clear();
     }
     runner_.set_constraints(this->constraints());
 }
@@ -47,51 +47,29 @@ void EmbeddedRunner::set_constraints(const Constraints& constraints) {
 void EmbeddedRunner::poll() {
     const std::shared_ptr<const Deformer> before = runner_.deformer();
     runner_.poll();
-    if (!asked_ || runner_.deformer() == before) return;
+    if (!asked_) return;
+    const bool placed = placer_.poll();
+    if (!placed && runner_.deformer() == before) return;
     set_constraints(Constraints(*asked_));
     runner_.poll();
 }
 
-/// Whether the stiffness of the present grips is at hand; makes it where that takes a moment only. Mostly the worker
-/// that prepared the set has made it.
-bool EmbeddedRunner::holds_grips() {
+/// Whether what answers is of the present constrained set, by a method that has a stiffness.
+bool EmbeddedRunner::may_place_grips() const {
     const std::shared_ptr<const Deformer>& deformer = runner_.deformer();
     if (!deformer || !deformer->linear()) return false;
     const ConstrainedSet& set = constraints().set;
-    if (deformer->set().base != set.base || deformer->set().handles != set.handles ||
-        deformer->set().loads != set.loads)
-        return false;
-    std::shared_ptr<GripStiffness>& stiffness = runner_.grips();
-    if (stiffness && stiffness->grips() == constraints().grips()) return true;
-    if (deformer->iterates()) return false;
-    Control control;
-    stiffness = std::make_shared<GripStiffness>(*deformer, constraints().values, constraints().grips(), control);
-    return true;
+    return deformer->set().base == set.base && deformer->set().handles == set.handles &&
+           deformer->set().loads == set.loads;
 }
 
-/// Puts handles under a force where that holds them: a 6 x 6 system for one handle, and a solve where anything else has
-/// changed. Until that is known they stay where the scene has them.
-void EmbeddedRunner::move_grips(const Constraints& constraints) {
-    try {
-        if (!holds_grips()) return;
-        GripStiffness& stiffness = *runner_.grips();
-        Constraints own = this->constraints();
-        Eigen::VectorXd others = own.values;
-        for (const Grip& grip : stiffness.grips())
-            others.segment(3 * grip.begin, 3 * (grip.end - grip.begin)).setZero();
-        if (grip_stiffness_.lock() != runner_.grips() || grip_values_.size() != others.size() ||
-            grip_values_ != others) {
-            Control control;
-            stiffness.set_others(*runner_.deformer(), others, control);
-            grip_stiffness_ = runner_.grips();
-            grip_values_ = std::move(others);
-        }
-        grip_motions_ = own.move_grips(stiffness, surface()->vertices);
-    } catch (const SolveError& error) {  // nothing holds them: they stay
-        grip_failure_ = user_text(error);
-        return;
-    }
-    Constraints moved = constraints;
+/// Until it is known where their forces hold handles, they stay where the scene has them.
+void EmbeddedRunner::place_grips() {
+    if (!may_place_grips()) return;
+    auto motions = placer_.place(runner_.deformer(), constraints(), runner_.grips());
+    if (!motions) return;
+    grip_motions_ = std::move(*motions);
+    Constraints moved = *asked_;
     const std::vector<std::size_t> handles = moved.gripped();
     const Positions& shown = carried_ ? carried_->proxy().shown->vertices : surface()->vertices;
     for (std::size_t g = 0; g < handles.size() && g < grip_motions_.size(); ++g)

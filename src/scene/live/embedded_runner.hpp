@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "scene/live/grip_placer.hpp"
 #include "scene/live/method_runner.hpp"
 #include "scene/proxy/carried_constraints.hpp"
 
@@ -15,7 +16,7 @@ namespace elastolab {
 class EmbeddedRunner : public Answer {
 public:
     /// `wake` is called by the workers when poll() will find something.
-    explicit EmbeddedRunner(const std::function<void()>& wake) : runner_(wake) {}
+    explicit EmbeddedRunner(const std::function<void()>& wake) : runner_(wake), placer_(wake) {}
 
     /// The body's surface is that of `proxy`, or, when there is none, the one that is shown.
     void set_body(const Body& body, const Method& method, const std::shared_ptr<const Proxy>& proxy);
@@ -41,7 +42,7 @@ public:
     void poll() override;
 
     bool has_answer() const override { return runner_.has_answer(); }
-    bool ready() const { return runner_.state() == MethodRunner::State::ready; }
+    bool ready() const { return runner_.state() == MethodRunner::State::ready && !placing_grips(); }
     const Eigen::VectorXd& displacement() const override;
     std::uint64_t version() const override { return runner_.version(); }
     /// Findings of the body that is computed on, and of its proxy; point constraints are those of the shown surface.
@@ -50,25 +51,27 @@ public:
     /// Where handles under a force have come to, in the order of Constraints::gripped(); empty until that is known.
     const std::vector<AffineMotion>& grip_motions() const { return grip_motions_; }
     /// Why they stay where the scene has them though their set is there; else empty.
-    const std::string& grip_failure() const { return grip_failure_; }
+    const std::string& grip_failure() const { return placer_.failure(); }
+    /// Where they stand is being computed.
+    bool placing_grips() const { return placer_.placing(); }
+    /// Whether a worker has not ended yet.
+    bool stopping() const { return runner_.stopping() || placer_.working(); }
 
     /// One value for each vertex of surface(), carried to the shown vertices.
     Eigen::VectorXd shown_values(const Eigen::VectorXd& of_surface) const;
 
 private:
     void give(const Constraints& constraints);
-    bool holds_grips();
-    void move_grips(const Constraints& constraints);
+    bool may_place_grips() const;
+    void place_grips();
 
     MethodRunner runner_;
+    GripPlacer placer_;
     std::string name_;  ///< of the body
     Constraints shown_;
     std::optional<Constraints> asked_;  ///< the last ones of the shown surface, where a handle is under a force
     std::optional<CarriedConstraints> carried_, prefetched_;
     std::vector<AffineMotion> grip_motions_;
-    std::string grip_failure_;
-    Eigen::VectorXd grip_values_;  ///< that the stiffness of the grips was told of
-    std::weak_ptr<GripStiffness> grip_stiffness_;
     // What was carried back last; made when it is asked for.
     mutable Eigen::VectorXd displacement_;
     mutable std::optional<std::uint64_t> displacement_version_;

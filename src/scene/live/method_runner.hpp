@@ -76,9 +76,8 @@ public:
     const Method& method() const { return models_.method(); }
     /// What answers now (null before the first), for reactions and quality.
     const std::shared_ptr<const Deformer>& deformer() const { return sets_.current().deformer; }
-    /// Of handles under a force, with everything else as it was when it was made or used last; null where there are
-    /// none, and before the set is prepared.
-    std::shared_ptr<GripStiffness>& grips() { return sets_.current().grips; }
+    /// Of handles under a force, with everything else as it was when the set was prepared; null where there were none.
+    const std::shared_ptr<const GripStiffness>& grips() const { return sets_.current().grips; }
     /// The values that displacement() belongs to, as Deformer::displace takes them; empty before the first answer.
     const Eigen::VectorXd& values() const { return values_; }
     /// Whether these are what the scene asks for.

@@ -218,7 +218,7 @@ void SetKeeper::prepare(const ConstrainedSet& set, Wish wish) {
         prepared.memory_bytes = prepared.deformer->predict_memory(set) + prepared.deformer->predict_check_memory(set);
         control.begin_stage("solve");
         if (!grips.empty())
-            prepared.grips = std::make_shared<GripStiffness>(*prepared.deformer, wish.values, grips, control);
+            prepared.grips = std::make_shared<const GripStiffness>(*prepared.deformer, wish.values, grips, control);
         if (drags)
             solve_ahead(prepared, wish, control);
         else

@@ -43,9 +43,9 @@ struct PreparedSet {
     std::optional<WholeUpdate> whole = std::nullopt;  ///< not yet shown
     /// That the last solve took; before the first one nobody knows, and a frame must not find out.
     double solve_seconds = std::numeric_limits<double>::infinity();
-    Findings findings = {};                          ///< of the set
-    std::shared_ptr<GripStiffness> grips = nullptr;  ///< of handles under a force, where there are any
-    std::uint64_t memory_bytes = 0;                  ///< of the set and, while it is made, of the estimate of its error
+    Findings findings = {};                                ///< of the set
+    std::shared_ptr<const GripStiffness> grips = nullptr;  ///< of handles under a force, where there are any
+    std::uint64_t memory_bytes = 0;  ///< of the set and, while it is made, of the estimate of its error
     // Of methods that are not linear:
     std::shared_ptr<const Wish> at = nullptr;       ///< that drag was prepared for
     std::optional<Crushed> crushed = std::nullopt;  ///< the last motion that was tried has no equilibrium

@@ -355,7 +355,8 @@ bool Simulation::waiting() const {
     if (proxies_.running()) return true;
     return std::any_of(shown_.begin(), shown_.end(), [&](MethodKind kind) {
         const State state = runner(kind).state();
-        return state == State::precomputing || state == State::preparing || making_proxy(kind);
+        return state == State::precomputing || state == State::preparing || making_proxy(kind) ||
+               embedded(kind).placing_grips();
     });
 }
 
@@ -379,10 +380,8 @@ void Simulation::cancel() {
 }
 
 bool Simulation::stopping() const {
-    return proxies_.working() || preview_.runner().stopping() || finite_preview_.runner().stopping() ||
-           gauge_.working() || std::any_of(entries_.begin(), entries_.end(), [](const Entry& entry) {
-               return entry.runner->runner().stopping();
-           });
+    return proxies_.working() || preview_.stopping() || finite_preview_.stopping() || gauge_.working() ||
+           std::any_of(entries_.begin(), entries_.end(), [](const Entry& entry) { return entry.runner->stopping(); });
 }
 
 }  // namespace elastolab

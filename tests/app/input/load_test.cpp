@@ -267,7 +267,7 @@ TEST(SpringPull, FollowsTheCursorWithoutAWorker) {
 TEST(SpringPull, IsTakenOverByAnOrdinaryPull) {
     Stage stage(4);
     Document document = cube_document_with_handle(4);
-    document.handles[0].force = GripForce{.force = {0.0, 0.0, 0.05}};
+    document.handles[0].force = GripForce{.force = {0.0, 0.0, 0.02 * document.material.young_modulus}};
     stage.open(document);
     const int v = stage.vertex_near({1.0, 0.5, 0.5});
     const Eigen::Vector3d before = stage.place(v);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "app/stage.hpp"
+#include "render/drawing/axes_gizmo.hpp"
 
 namespace elastolab::test {
 namespace {
@@ -39,6 +40,78 @@ TEST(Navigation, RightAndShiftedDragsMoveTheView) {
         stage.drag(stage.empty_place(), stage.empty_place() + kStroke, button);
         EXPECT_LT((stage.pixel(target) - before - kStroke).norm(), 1e-6) << button;
     }
+}
+
+/// What a drag did to the view.
+enum class Moved { turned, panned, zoomed };
+Moved moved_by(Navigation navigation, int button, int modifiers) {
+    Stage stage;
+    stage.state.tools.navigation = navigation;
+    const CameraPose before = stage.state.camera.pose();
+    stage.modifiers = modifiers;
+    stage.drag(stage.empty_place(), stage.empty_place() + Eigen::Vector2d(20.0, -60.0), button);
+    const CameraPose& after = stage.state.camera.pose();
+    if (after.orientation.angularDistance(before.orientation) > 0.05) return Moved::turned;
+    return after.distance < 0.9 * before.distance ? Moved::zoomed : Moved::panned;
+}
+
+TEST(Navigation, PresetsDoWhatOtherProgramsDo) {
+    constexpr int kLeft = GLFW_MOUSE_BUTTON_LEFT, kMiddle = GLFW_MOUSE_BUTTON_MIDDLE, kRight = GLFW_MOUSE_BUTTON_RIGHT;
+    constexpr int kShift = GLFW_MOD_SHIFT, kControl = GLFW_MOD_CONTROL;
+    EXPECT_EQ(moved_by(Navigation::blender, kMiddle, 0), Moved::turned);
+    EXPECT_EQ(moved_by(Navigation::blender, kMiddle, kShift), Moved::panned);
+    EXPECT_EQ(moved_by(Navigation::blender, kMiddle, kControl), Moved::zoomed);
+    EXPECT_EQ(moved_by(Navigation::paraview, kLeft, 0), Moved::turned);
+    EXPECT_EQ(moved_by(Navigation::paraview, kMiddle, 0), Moved::panned);
+    EXPECT_EQ(moved_by(Navigation::paraview, kRight, 0), Moved::zoomed);
+    EXPECT_EQ(moved_by(Navigation::paraview, kLeft, kControl), Moved::zoomed);
+    EXPECT_EQ(moved_by(Navigation::paraview, kMiddle, kShift), Moved::turned);
+    EXPECT_EQ(moved_by(Navigation::polyscope, kLeft, 0), Moved::turned);
+    EXPECT_EQ(moved_by(Navigation::polyscope, kRight, 0), Moved::panned);
+    EXPECT_EQ(moved_by(Navigation::polyscope, kLeft, kShift | kControl), Moved::zoomed);
+    EXPECT_EQ(moved_by(Navigation::trackpad, kLeft, 0), Moved::turned);
+}
+
+TEST(Navigation, TwoFingersOnATrackpadTurnMoveAndZoom) {
+    Stage stage;
+    stage.state.tools.navigation = Navigation::trackpad;
+    stage.move(stage.empty_place());
+    const CameraPose before = stage.state.camera.pose();
+    stage.scroll(2.0);
+    EXPECT_GT(stage.state.camera.pose().orientation.angularDistance(before.orientation), 0.1);
+    EXPECT_EQ(stage.state.camera.pose().distance, before.distance);
+    stage.modifiers = GLFW_MOD_SHIFT;
+    stage.scroll(2.0);
+    EXPECT_GT((stage.state.camera.pose().target - before.target).norm(), 0.01);
+    EXPECT_EQ(stage.state.camera.pose().distance, before.distance);
+    stage.modifiers = GLFW_MOD_CONTROL;
+    stage.scroll(2.0);
+    EXPECT_LT(stage.state.camera.pose().distance, 0.9 * before.distance);
+}
+
+TEST(Navigation, AClickOnALetterOfTheAxesLooksAlongThatAxisAndThenFromTheOtherSide) {
+    Stage stage;
+    for (int axis = 0; axis < 3; ++axis)
+        for (const double side : {1.0, -1.0}) {
+            const Viewport place = AxesGizmo::place_in(stage.state.shown.viewports.front().place);
+            stage.wait(1.0);
+            stage.click(AxesGizmo::labels(stage.state.camera, place).pixel[static_cast<std::size_t>(axis)]);
+            EXPECT_LT((stage.state.camera.backward() - side * Eigen::Vector3d::Unit(axis)).norm(), 1e-9) << axis;
+        }
+    EXPECT_EQ(stage.scene().n_handles(), 0);
+}
+
+/// Pulled exactly as in perspective: what is under the cursor stays there.
+TEST(Navigation, APullInAnOrthographicViewStaysUnderTheCursor) {
+    Stage stage;
+    stage.settle();
+    stage.state.camera.set_projection_kind(Projection::orthographic);
+    const int v = stage.vertex_near({1, 2.0 / 3, 2.0 / 3});
+    const Eigen::Vector2d from = stage.pixel(v);
+    stage.drag(from, from + kStroke);
+    stage.settle();
+    ASSERT_EQ(stage.scene().n_handles(), 1);
+    EXPECT_LT((stage.pixel(v) - from - kStroke).norm(), 1e-3);
 }
 
 TEST(Navigation, TheWheelComesCloserToWhatIsUnderTheCursor) {

@@ -278,14 +278,19 @@ TEST(Pull, WorksInEveryViewOfAComparison) {
     stage.state.compare.mode = CompareMode::side_by_side;
     stage.settle();
     stage.state.frame_body();
-    ASSERT_THAT(stage.state.shown.viewports, SizeIs(3));
+    ASSERT_THAT(stage.state.shown.viewports, SizeIs(4));
     const int v = top_vertex(stage);
     const Eigen::Vector2d before = stage.pixel(v, 2);
     stage.move(before);
     ASSERT_EQ(stage.hovered(), v);
     stage.drag(before, before + 0.3 * kDrag);
     stage.settle();
-    for (std::size_t view = 0; view < 3; ++view) EXPECT_LT((stage.pixel(v, view) - stage.pixel(v, 2)).y(), kPixels);
+    for (std::size_t view = 0; view < 4; ++view) {
+        const Eigen::Vector2d corner(stage.state.shown.viewports[view].place.x,
+                                     stage.state.shown.viewports[view].place.y);
+        const Eigen::Vector2d of_pulled(stage.state.shown.viewports[2].place.x, stage.state.shown.viewports[2].place.y);
+        EXPECT_LT((stage.pixel(v, view) - corner - stage.pixel(v, 2) + of_pulled).norm(), kPixels) << view;
+    }
     EXPECT_LT((stage.pixel(v, 2) - before - 0.3 * kDrag).norm(), kPixels);
 }
 

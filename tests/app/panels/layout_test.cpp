@@ -65,6 +65,7 @@ TEST(Viewports, OneForTheActiveMethod) {
 TEST(Viewports, OfAComparisonSideBySideShareTheWidthInTheOrderOfAllMethods) {
     test::Stage stage(2);
     stage.state.compare.mode = CompareMode::side_by_side;
+    stage.state.compare.kinds = {kLinearBem, kFem, kConstantBem};
     const auto viewports = viewports_of(stage.state, {320, 27, 960, 746});
     ASSERT_THAT(viewports, SizeIs(3));
     for (std::size_t i = 0; i < 3; ++i) {
@@ -74,6 +75,27 @@ TEST(Viewports, OfAComparisonSideBySideShareTheWidthInTheOrderOfAllMethods) {
     for (std::size_t i = 1; i < 3; ++i)
         EXPECT_GE(viewports[i].place.x, viewports[i - 1].place.x + viewports[i - 1].place.width);
     EXPECT_NEAR(viewports[2].place.x + viewports[2].place.width, 1280.0, 1e-9);
+}
+
+/// Four and more share two rows, so that bodies are large enough to be seen.
+TEST(Viewports, OfFourAndMoreMethodsAreInTwoRows) {
+    test::Stage stage(2);
+    stage.state.compare.mode = CompareMode::side_by_side;
+    const Viewport scene{320, 27, 960, 746};
+    for (const std::size_t n : {4u, 5u, 6u}) {
+        stage.state.compare.kinds.assign(all_methods().begin(), all_methods().begin() + static_cast<std::ptrdiff_t>(n));
+        const auto viewports = viewports_of(stage.state, scene);
+        ASSERT_THAT(viewports, SizeIs(n));
+        const std::size_t n_columns = (n + 1) / 2;
+        for (std::size_t i = 0; i < n; ++i) {
+            const Viewport& place = viewports[i].place;
+            EXPECT_EQ(place.y == scene.y, i < n_columns);
+            EXPECT_LE(place.y + place.height, scene.y + scene.height + 1e-9);
+            EXPECT_LE(place.x + place.width, scene.x + scene.width + 1e-9);
+            for (std::size_t j = 0; j < i; ++j)
+                EXPECT_FALSE(viewports[j].place.contains(place.center())) << "no overlap";
+        }
+    }
 }
 
 /// Whatever is compared, the legend stands over no body: its strip is free, and all bodies have the same room.
@@ -100,7 +122,7 @@ TEST(Viewports, OfGhostsLieOverEachOtherTheActiveMethodFirst) {
     stage.state.method = kConstantBem;
     const auto viewports = viewports_of(stage.state, {320, 27, 960, 746});
     ASSERT_THAT(viewports, SizeIs(1));
-    EXPECT_THAT(viewports[0].kinds, ElementsAre(kConstantBem, kFem, kLinearBem));
+    EXPECT_THAT(viewports[0].kinds, ElementsAre(kConstantBem, kFem, kLinearBem, kGalerkinBem));
 }
 
 TEST(Viewports, OfASliverAreStillThere) {

@@ -1,0 +1,58 @@
+#include "app/window/preferences.hpp"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "app/window/state_folder.hpp"
+#include "base/atomic_file.hpp"
+
+namespace elastolab {
+
+namespace {
+
+constexpr std::array kNavigations = {"standard", "blender", "paraview", "polyscope", "trackpad"};
+constexpr float kLeastScale = 0.5f, kMostScale = 4.0f;
+
+std::filesystem::path preferences_file() {
+    const std::filesystem::path folder = state_folder();
+    return folder.empty() ? folder : folder / "preferences.json";
+}
+
+}  // namespace
+
+Preferences load_preferences() {
+    Preferences preferences;
+    try {
+        std::ifstream in(preferences_file());
+        if (!in) return preferences;
+        const nlohmann::json file = nlohmann::json::parse(in);
+        const std::string navigation = file.value("navigation", kNavigations.front());
+        const auto* found = std::find(kNavigations.begin(), kNavigations.end(), navigation);
+        if (found != kNavigations.end()) preferences.navigation = static_cast<Navigation>(found - kNavigations.begin());
+        preferences.dark = file.value("dark", true);
+        preferences.ui_scale = std::clamp(file.value("size", 1.0f), kLeastScale, kMostScale);
+    } catch (const std::exception&) {  // a convenience: nothing is lost without it
+    }
+    return preferences;
+}
+
+void save_preferences(const Preferences& preferences) {
+    const std::filesystem::path path = preferences_file();
+    if (path.empty()) return;
+    try {
+        std::filesystem::create_directories(path.parent_path());
+        AtomicFile file(path);
+        file.stream() << nlohmann::json{{"navigation", kNavigations[static_cast<std::size_t>(preferences.navigation)]},
+                                        {"dark", preferences.dark},
+                                        {"size", preferences.ui_scale}}
+                             .dump(2)
+                      << '\n';
+        file.commit();
+    } catch (const std::exception&) {
+    }
+}
+
+}  // namespace elastolab

@@ -1,0 +1,111 @@
+#include "scene/live/grip_placer.hpp"
+
+#include "base/error.hpp"
+#include "base/timer.hpp"
+#include "scene/user_text.hpp"
+
+namespace elastolab {
+
+namespace {
+
+/// A solve that takes no longer may be part of a frame.
+constexpr double kFrameSeconds = 0.005;
+
+}  // namespace
+
+std::optional<std::vector<AffineMotion>> GripPlacer::place(const std::shared_ptr<const Deformer>& deformer,
+                                                           Constraints constraints,
+                                                           const std::shared_ptr<const GripStiffness>& made) {
+    failure_.clear();
+    if (deformer != deformer_) {
+        clear();
+        deformer_ = deformer;
+        made_ = {made};
+    }
+    const std::vector<Grip> grips = constraints.grips();
+    if (!holds(grips))
+        make(constraints.values, grips);
+    else if (!made_.stiffness->is_for(constraints.values))
+        update(constraints.values);
+    if (!failure_.empty() || !holds(grips)) return std::nullopt;
+    try {
+        return constraints.move_grips(*made_.stiffness, deformer->model().body().surface->vertices);
+    } catch (const SolveError& error) {  // nothing holds them
+        failure_ = user_text(error);
+        return std::nullopt;
+    }
+}
+
+void GripPlacer::make(const Eigen::VectorXd& values, const std::vector<Grip>& grips) {
+    if (asked_grips_ == grips && asked_.size() > 0) {
+        if (failed_) failure_ = job_.failure();
+        if (failed_ || job_.running()) return;
+    }
+    asked_grips_ = grips;
+    asked_ = values;
+    failed_ = false;
+    job_.start([deformer = deformer_, values, grips](Control& control) {
+        const Stopwatch watch;
+        auto stiffness = std::make_shared<const GripStiffness>(*deformer, values, grips, control);
+        return Made{std::move(stiffness), watch.seconds() / static_cast<double>(6 * grips.size() + 1)};
+    });
+}
+
+GripPlacer::Made GripPlacer::updated(GripStiffness stiffness, const Deformer& deformer, const Eigen::VectorXd& values,
+                                     Control& control) {
+    const Stopwatch watch;
+    stiffness.set_others(deformer, values, control);
+    const double seconds = watch.seconds();
+    return {std::make_shared<const GripStiffness>(std::move(stiffness)), seconds};
+}
+
+/// Values that go on changing are not waited for one by one: the newest is next when the worker is free.
+void GripPlacer::update(const Eigen::VectorXd& values) {
+    if (made_.solve_seconds <= kFrameSeconds) {
+        job_.cancel();
+        Control control;
+        try {
+            made_ = updated(*made_.stiffness, *deformer_, values, control);
+        } catch (const SolveError& error) {
+            failure_ = user_text(error);
+        }
+        return;
+    }
+    if (failed_ && asked_ == values) failure_ = job_.failure();
+    if (job_.running() || !failure_.empty()) return;
+    asked_grips_ = made_.stiffness->grips();
+    asked_ = values;
+    failed_ = false;
+    job_.start([deformer = deformer_, stiffness = made_.stiffness, values](Control& control) {
+        return updated(*stiffness, *deformer, values, control);
+    });
+}
+
+bool GripPlacer::poll() {
+    switch (job_.poll()) {
+        case JobEvent::finished:
+            made_ = job_.take();
+            return true;
+        case JobEvent::failed:
+            failed_ = true;
+            return true;
+        case JobEvent::cancelled:
+            return true;
+        case JobEvent::none:
+            break;
+    }
+    return false;
+}
+
+void GripPlacer::clear() {
+    job_.cancel();
+    job_.poll();
+    deformer_.reset();
+    made_ = {};
+    asked_grips_.clear();
+    asked_.resize(0);
+    failed_ = false;
+    failure_.clear();
+}
+
+}  // namespace elastolab

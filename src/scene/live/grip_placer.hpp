@@ -1,0 +1,61 @@
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "deform/grip.hpp"
+#include "scene/live/background_job.hpp"
+#include "scene/setup.hpp"
+
+namespace elastolab {
+
+/// Where handles under a force stand, for a watcher that never waits: forces that change cost a small dense system, and
+/// anything else that changes costs a solve, on a worker where that takes longer than a frame has. Meanwhile handles
+/// stand where they would if nothing else had changed. All members are for one thread.
+class GripPlacer {
+public:
+    /// `wake` is called by the worker when poll() will find something.
+    explicit GripPlacer(std::function<void()> wake) : job_(std::move(wake)) {}
+
+    /// The motions of constraints.gripped(); none where they are not known yet, or nothing holds them (failure()).
+    /// deformer: linear, of the constraints' set. made: stiffness that came with the set, if any; null else.
+    std::optional<std::vector<AffineMotion>> place(const std::shared_ptr<const Deformer>& deformer,
+                                                   Constraints constraints,
+                                                   const std::shared_ptr<const GripStiffness>& made);
+    /// Whether place() would say something new.
+    bool poll();
+    /// No handle is under a force any more.
+    void clear();
+
+    /// Whether the worker is at it: what place() said last is not the last word.
+    bool placing() const { return job_.running(); }
+    bool working() const { return job_.working(); }
+    /// Why place() has none; else empty.
+    const std::string& failure() const { return failure_; }
+
+private:
+    /// Stiffness, and what one solve took.
+    struct Made {
+        std::shared_ptr<const GripStiffness> stiffness = nullptr;
+        double solve_seconds = std::numeric_limits<double>::infinity();
+    };
+    static Made updated(GripStiffness stiffness, const Deformer& deformer, const Eigen::VectorXd& values,
+                        Control& control);
+    bool holds(const std::vector<Grip>& grips) const { return made_.stiffness && made_.stiffness->grips() == grips; }
+    void make(const Eigen::VectorXd& values, const std::vector<Grip>& grips);
+    void update(const Eigen::VectorXd& values);
+
+    std::shared_ptr<const Deformer> deformer_;
+    Made made_;
+    std::vector<Grip> asked_grips_;  ///< of the worker
+    Eigen::VectorXd asked_;          ///< values of the worker
+    bool failed_ = false;            ///< the worker, for these
+    std::string failure_;
+    BackgroundJob<Made> job_;  // last: its thread ends before what it wakes is destroyed
+};
+
+}  // namespace elastolab

@@ -1,0 +1,70 @@
+#include "app/picture/drawing_detail.hpp"
+
+#include <gtest/gtest.h>
+
+namespace elastolab {
+namespace {
+
+constexpr double kStep = 0.1;
+
+/// A picture takes this long, times what its detail leaves.
+struct Screen {
+    double full_seconds = 0.0;
+    double now = 0.0;
+    DetailKeeper keeper;
+
+    double cost(const DrawingDetail& detail) const {
+        return full_seconds * (detail.soft_shadows ? 1.0 : 0.6) * (detail.samples == 1 ? 0.5 : 1.0) *
+               (detail.wireframe ? 1.0 : 0.5) * detail.resolution;
+    }
+    DrawingDetail frame(bool moved) {
+        now += kStep;
+        const DrawingDetail detail = keeper.choose(moved, now);
+        keeper.took(cost(detail));
+        return detail;
+    }
+};
+
+TEST(DetailKeeper, LeavesNothingOutWhereDrawingIsQuick) {
+    Screen screen{.full_seconds = 0.02};
+    for (int i = 0; i < 20; ++i) EXPECT_EQ(screen.frame(true), DrawingDetail{});
+    EXPECT_LT(screen.keeper.due_in(screen.now), 0.0);
+}
+
+TEST(DetailKeeper, LeavesOutAsMuchAsItMustWhileSomethingMovesAndNothingAtRest) {
+    for (const double seconds : {0.07, 0.3, 0.9}) {
+        Screen screen{.full_seconds = seconds};
+        screen.frame(true);
+        DrawingDetail moving;
+        for (int i = 0; i < 8; ++i) moving = screen.frame(true);
+        EXPECT_FALSE(moving.soft_shadows);
+        EXPECT_LE(screen.cost(moving), seconds > 0.5 ? 0.06 : DetailKeeper::kSlowSeconds) << seconds;
+        EXPECT_GT(screen.keeper.due_in(screen.now), 0.0);
+        screen.now += DetailKeeper::kRestSeconds;
+        EXPECT_EQ(screen.keeper.due_in(screen.now), 0.0);
+        EXPECT_EQ(screen.frame(false), DrawingDetail{});
+        EXPECT_LT(screen.keeper.due_in(screen.now), 0.0);
+        // The next motion begins as the last one ended.
+        EXPECT_EQ(screen.frame(true), moving);
+    }
+}
+
+/// A pause that is shorter than rest changes nothing: pictures do not flicker.
+TEST(DetailKeeper, KeepsTheDetailThroughShortPauses) {
+    Screen screen{.full_seconds = 0.3};
+    DrawingDetail moving;
+    for (int i = 0; i < 8; ++i) moving = screen.frame(true);
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(screen.frame(false), moving);
+    EXPECT_EQ(screen.frame(true), moving);
+}
+
+TEST(DetailKeeper, LearnsAnewForAnotherBody) {
+    Screen screen{.full_seconds = 0.9};
+    for (int i = 0; i < 8; ++i) screen.frame(true);
+    screen.keeper.forget();
+    screen.full_seconds = 0.01;
+    for (int i = 0; i < 8; ++i) EXPECT_EQ(screen.frame(true), DrawingDetail{});
+}
+
+}  // namespace
+}  // namespace elastolab
