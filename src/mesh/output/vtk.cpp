@@ -118,7 +118,7 @@ std::string active_fields(std::span<const MeshField> fields, VtkPoints points) {
          {std::pair<Eigen::Index, const char*>{1, "Scalars"}, {3, "Vectors"}, {6, "Tensors"}}) {
         if (rows == 3 && points == VtkPoints::moved) continue;
         const auto first =
-            std::find_if(fields.begin(), fields.end(), [&](const MeshField& f) { return f.values.rows() == rows; });
+            std::find_if(fields.begin(), fields.end(), [n = rows](const MeshField& f) { return f.values.rows() == n; });
         if (first != fields.end()) active += std::string(" ") + kind + "=\"" + first->name + "\"";
     }
     return active;
