@@ -294,7 +294,9 @@ NodeSolution Deformer::solve(std::size_t part, const Eigen::MatrixXd& values, co
         const Model::Part& of = model_->parts()[part];
         const Eigen::Vector3d place = error.place() / of.scale + of.origin;
         throw NoEquilibriumError(model_->body().name + ": " + error.what() + " The body is crushed most near " +
-                                     readable_point(place) + ". Pull less far, or in smaller steps.",
+                                     readable_point(place) +
+                                     (state.loads.empty() ? ". Pull less far, or in smaller steps."
+                                                          : ". Pull less far, or make the loads smaller."),
                                  place);
     }
 }
@@ -369,6 +371,18 @@ void Deformer::add_reactions(std::size_t part, Reactions own, Reactions& sum) co
     };
     for (const int row : state.base_rows) place_at(row);
     for (const int row : state.handle_rows) place_at(std::ssize(set_.base) + row);
+}
+
+void Deformer::add_loads_of(std::size_t part, const Eigen::MatrixXd& own, std::vector<Resultant>& sum) const {
+    const SolidState& state = solids_[part];
+    const double unit = 1.0 / model_->parts()[part].scale, E = model_->body().material.young_modulus;
+    for (Eigen::Index i = 0; i < own.cols(); ++i) {
+        const Eigen::Index row = state.load_rows[static_cast<std::size_t>(i)] - 3 * std::ssize(set_.handles);
+        Resultant& load = sum[static_cast<std::size_t>(row)];
+        const Eigen::Vector3d force = E * unit * unit * own.col(i).head<3>();
+        load.force += force;
+        load.moment += E * unit * unit * unit * own.col(i).tail<3>() + model_->parts()[part].origin.cross(force);
+    }
 }
 
 Reactions Deformer::reactions(const Eigen::VectorXd& values) const {
@@ -446,6 +460,7 @@ Deformer::Answer Deformer::answer(const Eigen::VectorXd& values, Wanted wanted, 
     SolutionError error{{}, answer.reactions};
     auto found = std::make_shared<Equilibrium>();
     found->values = values;
+    if (!linear()) answer.loads.resize(set_.loads.size());
     if (wanted.residual) answer.residual = 0.0;
     wanted.check = wanted.check && model_->method().kind->reported_error.has_value();
     for (std::size_t s = 0; s < solids_.size(); ++s) {
@@ -455,6 +470,7 @@ Deformer::Answer Deformer::answer(const Eigen::VectorXd& values, Wanted wanted, 
         NodeSolution solution = solve(s, unit_values, {}, true, from, kSolveTolerance, control);
         found->solids.back() = solution.state;
         add_reactions(s, solid->reactions(solution), answer.reactions);
+        if (!linear()) add_loads_of(s, solution.resultants, answer.loads);
         if (wanted.residual) answer.residual = std::max(*answer.residual, solid->residual(solution, control));
         if (wanted.check) {
             std::optional<SolutionError> own =
@@ -490,7 +506,9 @@ void Deformer::remember(std::shared_ptr<const Equilibrium> found, Answer& answer
         if (!found->solids[s]) continue;
         const EquilibriumFacts facts = found->solids[s]->facts();
         sum.iterations += facts.iterations;
-        sum.energy += facts.energy * model_->body().material.young_modulus / std::pow(model_->parts()[s].scale, 3);
+        const double unit = model_->body().material.young_modulus / std::pow(model_->parts()[s].scale, 3);
+        sum.energy += facts.energy * unit;
+        sum.work_of_loads += facts.work_of_loads * unit;
         sum.largest_stretch = std::max(sum.largest_stretch, facts.largest_stretch);
         sum.stable = sum.stable && facts.stable;
     }

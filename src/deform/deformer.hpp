@@ -139,6 +139,8 @@ public:
         std::optional<DiscretisationCheck> check = {};             ///< when asked for, and where there is one
         std::shared_ptr<const Equilibrium> equilibrium = nullptr;  ///< of methods that are not linear
         std::optional<EquilibriumFacts> facts = {};                ///< likewise, of all solids together
+        /// Likewise: what each of set().loads exerts with its factor, moments of forces at present positions.
+        std::vector<Resultant> loads = {};
     };
     /// What an answer is to tell besides displacements and reactions.
     struct Wanted {
@@ -198,6 +200,8 @@ private:
     void require_finite(const Eigen::MatrixXd& u) const;
     /// Adds the reactions of a part, for unit Young's modulus and about its own origin, to those of the whole body.
     void add_reactions(std::size_t part, Reactions own, Reactions& sum) const;
+    /// The same of loads, 6 x those of the part.
+    void add_loads_of(std::size_t part, const Eigen::MatrixXd& own, std::vector<Resultant>& sum) const;
     std::optional<DiscretisationCheck> check_of(const Answer& answer, const SolutionError& error) const;
 
     std::shared_ptr<const Model> model_;

@@ -13,6 +13,7 @@ namespace elastolab {
 struct EquilibriumFacts {
     int iterations = 0;            ///< linear systems factorised on the way to it
     double energy = 0.0;           ///< stored in the body [force * L]
+    double work_of_loads = 0.0;    ///< of the present loads along the straight way from rest [force * L]
     double largest_stretch = 1.0;  ///< largest ratio of a length after and before, in any element
     bool stable = true;            ///< false: a small push would make the body leave it
 };

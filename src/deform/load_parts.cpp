@@ -4,6 +4,7 @@ namespace elastolab {
 
 UnitLoad on_triangles(const UnitLoad& load, const std::vector<int>& numbers) {
     UnitLoad part{.body_force = load.body_force};
+    part.follows = load.follows;
     std::vector<int> columns;
     for (std::size_t k = 0; k < load.triangles.size(); ++k)
         if (const int t = numbers[static_cast<std::size_t>(load.triangles[k])]; t >= 0) {

@@ -35,6 +35,9 @@ struct NodeSolution {
     Eigen::MatrixXd prescribed;     ///< what it is a solution for, of methods that are not linear; else empty
     Eigen::MatrixXd factors = {};   ///< n_unit_loads x m, of the given loads
     std::shared_ptr<const NodeState> state = nullptr;  ///< of the last column, of methods that are not linear
+    /// Likewise of the first column, where loads are asked for: force over moment about the origin that each given load
+    /// exerts at present positions, 6 x n_unit_loads.
+    Eigen::MatrixXd resultants = {};
 };
 
 /// What a node solver is asked for at once.

@@ -143,13 +143,26 @@ Eigen::Matrix3Xd vertex_tractions(const SurfaceMesh& surface, std::span<const in
 }
 
 Eigen::Matrix3Xd load_tractions(const SurfaceMesh& surface, std::span<const UnitLoad> loads,
-                                const Eigen::VectorXd& factors) {
+                                const Eigen::VectorXd& factors, const Eigen::VectorXd& u) {
     if (loads.empty()) return {};
+    const auto cross = [](const Positions& x, const Eigen::Vector3i& t) -> Eigen::Vector3d {
+        return (x.col(t[1]) - x.col(t[0])).cross(x.col(t[2]) - x.col(t[0]));
+    };
+    const Positions present = u.size() > 0 ? Positions(surface.vertices + u.reshaped(3, u.size() / 3)) : Positions();
+    // -p n of a pressure, on the present area over that at rest.
+    const auto follow = [&](const Eigen::Vector3d& traction, const Eigen::Vector3i& t) -> Eigen::Vector3d {
+        const Eigen::Vector3d rest = cross(surface.vertices, t);
+        return traction.dot(rest) / rest.squaredNorm() * cross(present, t);
+    };
     Eigen::Matrix3Xd tractions = Eigen::Matrix3Xd::Zero(3, surface.n_triangles());
     for (std::size_t i = 0; i < loads.size(); ++i)
         for (std::size_t k = 0; k < loads[i].triangles.size(); ++k)
             tractions.col(loads[i].triangles[k]) +=
-                factors[static_cast<Eigen::Index>(i)] * loads[i].tractions.col(static_cast<Eigen::Index>(k));
+                factors[static_cast<Eigen::Index>(i)] *
+                (loads[i].follows && u.size() > 0
+                     ? follow(loads[i].tractions.col(static_cast<Eigen::Index>(k)),
+                              surface.triangles.col(loads[i].triangles[k]))
+                     : Eigen::Vector3d(loads[i].tractions.col(static_cast<Eigen::Index>(k))));
     return tractions;
 }
 

@@ -17,9 +17,10 @@ Eigen::Matrix3Xd vertex_tractions(const SurfaceMesh& surface, std::span<const in
                                   const Eigen::Matrix3Xd& forces);
 
 /// The tractions of loads with these factors on every triangle, 3 x n_triangles [force / L^2]; no columns without
-/// loads.
+/// loads. u (3*n_vertices [L]), of large deformations: pressures act on the present triangles, and are given per rest
+/// area as all tractions are.
 Eigen::Matrix3Xd load_tractions(const SurfaceMesh& surface, std::span<const UnitLoad> loads,
-                                const Eigen::VectorXd& factors);
+                                const Eigen::VectorXd& factors, const Eigen::VectorXd& u = {});
 
 /// A measure of the stress on the surface, at every vertex the mean over its triangles by area [force / L^2]. In a
 /// triangle the strain within its plane comes from the displacements u (3*n_vertices [L]) of its corners, the stress on

@@ -19,7 +19,7 @@ constexpr double kNoSpread = 1e-12;
 }  // namespace
 
 bool UnitLoad::operator==(const UnitLoad& other) const {
-    return body_force == other.body_force && triangles == other.triangles &&
+    return body_force == other.body_force && triangles == other.triangles && follows == other.follows &&
            tractions.cols() == other.tractions.cols() && (tractions.size() == 0 || tractions == other.tractions);
 }
 
@@ -46,6 +46,7 @@ UnitLoad unit_traction(std::vector<int> triangles, const Eigen::Vector3d& tracti
 
 UnitLoad unit_pressure(const SurfaceMesh& surface, std::vector<int> triangles) {
     UnitLoad load = unit_traction(std::move(triangles), Eigen::Vector3d::Zero());
+    load.follows = true;
     for (std::size_t i = 0; i < load.triangles.size(); ++i)
         load.tractions.col(static_cast<Eigen::Index>(i)) =
             -area_vector(triangle_points(surface, load.triangles[i])).normalized();

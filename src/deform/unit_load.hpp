@@ -11,11 +11,14 @@ namespace elastolab {
 /// A load of size one on a body, of which a factor is given later: either a body force everywhere inside, or tractions
 /// on some triangles of the surface. With the body force along axis k of length 1, the factor is density times gravity
 /// along k; with tractions -n, it is a pressure; with tractions d / (area of the triangles), a total force along d.
-/// Loads are dead: they keep their size and direction while the body moves (linear methods know nothing else).
+/// Loads are dead: they keep their size and direction while the body moves (linear methods know nothing else). Under
+/// large deformations a pressure follows the surface instead.
 struct UnitLoad {
     Eigen::Vector3d body_force = Eigen::Vector3d::Zero();  ///< [force / L^3], per unit of the factor
     std::vector<int> triangles = {};                       ///< loaded ones, all different
     Eigen::Matrix3Xd tractions = {};                       ///< 3 x triangles.size(), constant on each [force / L^2]
+    /// A pressure: under large deformations -p n on the present surface, p that of the tractions along the rest normal.
+    bool follows = false;
 
     bool is_body_force() const { return triangles.empty(); }
     bool operator==(const UnitLoad& other) const;

@@ -70,4 +70,9 @@ Eigen::MatrixXd load_vectors(const QuadraticMesh& mesh, const Triangles& surface
     return Loaded{mesh.positions, mesh.elements, surface, midpoints_of(surface, mesh)}.vectors(loads);
 }
 
+Eigen::MatrixXd load_vectors(const Positions& positions, const Eigen::MatrixXi& elements, const Triangles& surface,
+                             const Triangles& midpoints, std::span<const UnitLoad> loads) {
+    return Loaded{positions, elements, surface, midpoints}.vectors(loads);
+}
+
 }  // namespace elastolab

@@ -22,6 +22,10 @@ Eigen::MatrixXd load_vectors(const QuadraticMesh& mesh, const FemMesh& linear, s
 /// The same; surface: triangles of the mesh's surface, in the order by which the loads number them.
 Eigen::MatrixXd load_vectors(const QuadraticMesh& mesh, const Triangles& surface, std::span<const UnitLoad> loads);
 
+/// The same; elements: their nodes, 4 or 10 rows; midpoints: of the surface's triangles, none for four nodes.
+Eigen::MatrixXd load_vectors(const Positions& positions, const Eigen::MatrixXi& elements, const Triangles& surface,
+                             const Triangles& midpoints, std::span<const UnitLoad> loads);
+
 /// The midpoints of the edges of these triangles (vertex numbers), in the order of SurfaceMidpoints.
 Triangles midpoints_of(const Triangles& triangles, const QuadraticMesh& mesh);
 

@@ -132,7 +132,8 @@ py::dict surface_fields(const Deformer& deformer, const py::object& values, cons
         const py::gil_scoped_release others;
         tractions = vertex_tractions(*body.surface, constrained_vertices(deformer), a.reactions.forces);
         stress = surface_stress(*body.surface, body.material, a.displacements, tractions, !deformer.linear(),
-                                load_tractions(*body.surface, deformer.set().loads, load_factors));
+                                load_tractions(*body.surface, deformer.set().loads, load_factors,
+                                               deformer.linear() ? Eigen::VectorXd() : a.displacements));
         von_mises.resize(stress.cols());
         for (Eigen::Index v = 0; v < stress.cols(); ++v)
             von_mises[v] = measure(StressMeasure::von_mises, stress_tensor(stress.col(v)));

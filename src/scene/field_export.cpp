@@ -108,7 +108,8 @@ std::vector<MeshField> surface_fields(const SolvedBody& solved) {
     const Eigen::VectorXd& u = solved.simulated_displacement;
     const bool large = !solved.deformer->linear();
     const std::vector<UnitLoad>& loads = solved.deformer->set().loads;
-    const Eigen::Matrix3Xd of_loads = load_tractions(*body.surface, loads, solved.values.tail(std::ssize(loads)));
+    const Eigen::Matrix3Xd of_loads =
+        load_tractions(*body.surface, loads, solved.values.tail(std::ssize(loads)), large ? u : Eigen::VectorXd());
     Eigen::MatrixXd stress =
         as_shown(solved, surface_stress(*body.surface, body.material, u, tractions, large, of_loads));
     Eigen::MatrixXd size = von_mises(stress);

@@ -36,16 +36,20 @@ std::vector<GroupReaction> totals(const std::vector<ConstraintGroup>& groups, co
     return result;
 }
 
-/// Total force and moment of each load at its size, on the surface that is simulated.
-std::vector<GroupReaction> load_totals(const Constraints& constraints, const SurfaceMesh& surface) {
+/// Total force and moment of each load at its size, on the surface that is simulated: at rest, or of methods that are
+/// not linear where it is by now.
+std::vector<GroupReaction> load_totals(const Constraints& constraints, const SurfaceMesh& surface,
+                                       const std::vector<Resultant>& present) {
     std::vector<GroupReaction> result;
     const Eigen::VectorXd factors = constraints.values.tail(std::ssize(constraints.set.loads));
     for (const AppliedLoad& load : constraints.loads) {
         result.push_back({load.name, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()});
         for (int i = load.first; i < load.first + load.count; ++i) {
-            const Resultant sum = resultant(surface, constraints.set.loads[static_cast<std::size_t>(i)]);
-            result.back().force += factors[i] * sum.force;
-            result.back().moment += factors[i] * sum.moment;
+            const auto at = static_cast<std::size_t>(i);
+            const Resultant unit = present.empty() ? resultant(surface, constraints.set.loads[at]) : present[at];
+            const double factor = present.empty() ? factors[i] : 1.0;
+            result.back().force += factor * unit.force;
+            result.back().moment += factor * unit.moment;
         }
     }
     return result;
@@ -158,12 +162,14 @@ void apply(Constraints& constraints, Constraints* shown, bool with_checks, Solut
         if (answer.facts && !answer.facts->stable)
             solution.findings.push_back(
                 {.kind = FindingKind::unstable_equilibrium, .method = solution.model->method().kind});
-        solution.loads = load_totals(constraints, *solution.model->body().surface);
+        solution.loads = load_totals(constraints, *solution.model->body().surface, answer.loads);
         std::vector<GroupReaction> all = solution.reactions;
         all.insert(all.end(), solution.loads.begin(), solution.loads.end());
         solution.imbalance = imbalance_of(all, *solution.model->body().surface);
         if (!constraints.loads.empty())
-            solution.compliance = work_of_loads(*solution.model, constraints.set, constraints.values, answer);
+            solution.compliance = answer.facts
+                                      ? answer.facts->work_of_loads
+                                      : work_of_loads(*solution.model, constraints.set, constraints.values, answer);
         add_imbalance(solution.imbalance, solution.model->method().kind, solution.findings);
     }
     if (with_checks) {

@@ -106,7 +106,9 @@ TEST(GalerkinAccuracy, IsTheBestOnOrganicBodies) {
     const std::vector<MethodKind> others = {kFem, kConstantBem, kLinearBem, kQuadraticFem};
     std::vector<double> gain(others.size(), 0.0), force_gain = gain;
     int cases = 0;
-    for (const auto& [body, nu] : bodies) {
+    for (const auto& named : bodies) {  // clang 14 captures no structured binding
+        const auto& body = named.first;
+        const double nu = named.second;
         const std::vector<Eigen::Matrix3Xd> motions = {body.pulled(), body.turned()};
         const std::vector<KnownAnswer> truths = refined_answers(body, motions, nu, 1);
         for (std::size_t m = 0; m < motions.size(); ++m) {

@@ -84,6 +84,40 @@ TEST(SceneLoads, StandInTheForcesTableAndBalance) {
     }
 }
 
+/// A softer cube, so that it matters where the loads act by now.
+TEST(SceneLoads, BalanceUnderLargeDeformations) {
+    Document document = loaded_cube();
+    document.material.young_modulus = 100.0;
+    document.loads[0].value = PressureLoad{30.0};
+    const Solution solution = solved(document, kNonlinearFem);
+    const GroupReaction& weight = named(solution.loads, "gravity");
+    EXPECT_LT((weight.force - Eigen::Vector3d(0, 0, -2.0 * 9.81)).norm(), 1e-9);
+    EXPECT_GT((weight.moment - Eigen::Vector3d(0.5, 0.5, 0.5).cross(weight.force)).norm(), 0.1) << "it has sunk";
+    EXPECT_LT((named(solution.loads, "load-1").force - Eigen::Vector3d(5, 0, 1)).norm(), 1e-9);
+    EXPECT_GT((named(solution.loads, "above").force - Eigen::Vector3d(0, 0, -30)).norm(), 1.0) << "it follows";
+    EXPECT_LT(solution.imbalance.force, 1e-8);
+    EXPECT_LT(solution.imbalance.moment, 1e-8);
+    EXPECT_LT(*solution.residual, 1e-7);
+    EXPECT_GT(*solution.compliance, 0.0);
+    // Without handles half of the work is stored, but for what is not linear.
+    document.material.young_modulus = 1e5;
+    document.handles.clear();
+    const Solution stiff = solved(document, kNonlinearFem);
+    EXPECT_NEAR(2.0 * stiff.facts->energy, *stiff.compliance, 0.01 * *stiff.compliance);
+    EXPECT_NEAR(*solved(document, kQuadraticFem).compliance, *stiff.compliance, 0.01 * *stiff.compliance);
+}
+
+TEST(SceneLoads, AHandleUnderAForceIsRefusedByNonlinearFem) {
+    Document document = loaded_cube();
+    document.handles[0].force = GripForce{{0, 0, 1}, {0, 0, 0}};
+    try {
+        solved(document, kNonlinearFem);
+        FAIL() << "an answer";
+    } catch (const SolveError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("nonlinear-fem moves none"));
+    }
+}
+
 TEST(SceneLoads, DoTheWorkThatTheBodyStores) {
     // By Clapeyron, loads and supports do twice the energy; doubling every load quadruples it.
     Document document = loaded_cube();
@@ -209,6 +243,39 @@ TEST(DragSolver, ServesChangesOfLoadsFromTheColumnsAtHand) {
             EXPECT_LT((u - deformer->displace(values)).norm(), 1e-10 * u.norm()) << name(kind);
         }
     }
+}
+
+/// Of large deformations: the tangent's columns, once the worker has found the equilibrium with the first change.
+TEST(DragSolver, ShowsAChangedLoadByTheTangentsColumns) {
+    Control control;
+    const Document document = loaded_cube();
+    const SceneMesh mesh = load_scene_mesh(document.mesh, "scene.json", control);
+    const Constraints constraints = make_constraints(document, mesh.checked.mesh, "scene.json");
+    const Body body{"cube", std::make_shared<const SurfaceMesh>(mesh.checked.mesh), document.material};
+    auto deformer = std::make_shared<Deformer>(precompute(body, {.kind = kNonlinearFem}, control));
+    deformer->constrain(constraints.set, control);
+    DragSolver drag(deformer, {static_cast<int>(constraints.set.handles.size())});
+    Eigen::VectorXd values = constraints.values, u;
+    drag.prepare(values, kSolveTolerance, control);
+    const auto change = [&](double part) {
+        Eigen::VectorXd changed = values;
+        changed[values.size() - 4] += 20.0 * part;
+        changed.tail<3>() += part * Eigen::Vector3d(10, 20, -30);
+        return changed;
+    };
+    EXPECT_FALSE(drag.has(change(1.0))) << "the columns are those of the handle";
+    drag.prepare(change(0.01), kSolveTolerance, control, {drag.equilibrium(), {}});
+    values = change(0.01);
+    std::vector<double> off;
+    for (const double part : {1.0, 0.5}) {
+        ASSERT_TRUE(drag.has(change(part)));
+        EXPECT_FALSE(drag.is_exact(change(part)));
+        drag.displace(change(part), u);
+        const Eigen::VectorXd truth = deformer->displace(change(part));
+        off.push_back((u - truth).norm());
+        EXPECT_LT(off.back(), 0.5 * (truth - drag.at_start()).norm());
+    }
+    EXPECT_NEAR(off[0] / off[1], 4.0, 0.5) << "right to second order";
 }
 
 /// The stiffness of the cube's held edge.

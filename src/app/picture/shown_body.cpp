@@ -167,8 +167,10 @@ void ShownBody::update_reactions(const Sources& sources) {
     const Reactions& reactions = known->reactions();
     tractions_ = vertex_tractions(*answer.surface(), constrained, reactions.forces);
     const Constraints &computed = answer.constraints(), &shown = sources.scene.constraints();
-    load_tractions_ =
-        load_tractions(*answer.surface(), computed.set.loads, computed.values.tail(std::ssize(computed.set.loads)));
+    const Eigen::VectorXd& moved = answer.runner().displacement();
+    load_tractions_ = load_tractions(
+        *answer.surface(), computed.set.loads, computed.values.tail(std::ssize(computed.set.loads)),
+        is_large(answer) && moved.size() == answer.surface()->vertices.size() ? moved : Eigen::VectorXd());
     if (constrained != joined(computed.set.base, computed.set.handles)) return;  // the new set is on its way
     const std::vector<int> shown_vertices = joined(shown.set.base, shown.set.handles);
     const std::vector<ConstraintGroup> seen_groups = told_groups(shown);

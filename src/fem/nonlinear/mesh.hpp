@@ -16,6 +16,8 @@ struct NonlinearMesh {
     TetMesh tets;
     int n_surface_nodes = 0;
     SurfaceMidpoints midpoints;  ///< of ten nodes, else none
+    Triangles surface;           ///< the surface as it was given, and the midpoints of its edges where there are any
+    Triangles surface_midpoints;
     std::shared_ptr<const FiniteElements> elements;
     /// For ten nodes: the same tetrahedra with four, and the node of each of their vertices.
     std::shared_ptr<const FiniteElements> linear;
@@ -24,6 +26,6 @@ struct NonlinearMesh {
     int n_vertices() const { return tets.n_surface_vertices; }
 };
 
-std::shared_ptr<const NonlinearMesh> make_nonlinear_mesh(TetMesh tets, ElementDegree degree);
+std::shared_ptr<const NonlinearMesh> make_nonlinear_mesh(TetMesh tets, const Triangles& surface, ElementDegree degree);
 
 }  // namespace elastolab

@@ -69,8 +69,10 @@ public:
 class RememberingSolver : public NonlinearSolver {
 public:
     RememberingSolver(const NonlinearMesh& mesh, const Material& material, PrescribedNodes nodes,
-                      std::shared_ptr<FoundStates> found, Control& control)
-        : NonlinearSolver(mesh.elements, material, std::move(nodes), control), found_(std::move(found)) {}
+                      std::span<const UnitLoad> loads, std::shared_ptr<FoundStates> found, Control& control)
+        : NonlinearSolver(mesh.elements, material, std::move(nodes), control,
+                          {mesh.elements, mesh.surface, mesh.surface_midpoints, loads}),
+          found_(std::move(found)) {}
     NodeSolution solve_task(const NodeTask& task, double tolerance, Control& control) const override {
         NodeSolution solution = NonlinearSolver::solve_task(task, tolerance, control);
         if (task.prescribed.cols() == 1) found_->add(solution.displacements.col(0));
@@ -83,20 +85,22 @@ private:
 
 /// Four nodes an element on the same tetrahedra, from where the ten nodes' corners are.
 std::optional<ReferenceAnswer> linear_answer(const NonlinearMesh& mesh, const Material& material,
-                                             const std::vector<int>& vertices, const NodeSolution& solution,
-                                             Control& control) {
+                                             const std::vector<int>& vertices, std::span<const UnitLoad> loads,
+                                             const NodeSolution& solution, Control& control) {
     if (!mesh.linear || !holds(mesh.tets.vertices, vertices)) return {};
     if (std::ssize(vertices) == mesh.linear->n_nodes()) return {};  // nothing is free
-    const Newton newton(std::make_shared<const FreeTangent>(mesh.linear, vertices, control), material, 0.0);
+    const Newton newton(std::make_shared<const FreeTangent>(mesh.linear, vertices, control), material, 0.0,
+                        {mesh.linear, mesh.surface, {}, loads});
+    const Eigen::VectorXd factors = solution.factors.col(0);
     ElementWork work = mesh.linear->make_work();
     Eigen::VectorXd u(3 * mesh.linear->n_nodes());
     for (int v = 0; v < mesh.linear->n_nodes(); ++v)
         u.segment<3>(3 * v) =
             solution.displacements.col(0).segment<3>(3 * mesh.corner_nodes[static_cast<std::size_t>(v)]);
     if (!(newton.energy(u, work, control).least_J > 0.0)) return {};
-    const NewtonState state = newton.run(std::move(u), kSolveTolerance, kCheckIterations, work, control);
+    const NewtonState state = newton.run(std::move(u), factors, kSolveTolerance, kCheckIterations, work, control);
     if (!state.converged) return {};
-    const Eigen::VectorXd forces = mesh.linear->forces(state.u, material, work, control);
+    const Eigen::VectorXd forces = newton.forces(state.u, factors, work, control);
     const Positions present = mesh.linear->positions() + state.u.reshaped(3, mesh.linear->n_nodes());
     Eigen::VectorXd at_vertices(3 * std::ssize(vertices));
     for (std::size_t i = 0; i < vertices.size(); ++i)
@@ -120,7 +124,7 @@ NonlinearModel::NonlinearModel(const SurfaceMesh& surface, const std::string& na
     facts_.n_vertices = tets.n_surface_vertices;
     facts_.n_triangles = surface.n_triangles();
     facts_.n_tetrahedra = tets.n_tetrahedra();
-    mesh_ = make_nonlinear_mesh(std::move(tets), method.elements);
+    mesh_ = make_nonlinear_mesh(std::move(tets), surface.triangles, method.elements);
     facts_.n_degrees_of_freedom = 3 * mesh_->elements->n_nodes();
     {
         const Stage stage("analyse", control, facts_.stages);
@@ -142,29 +146,30 @@ NonlinearModel::NonlinearModel(const NonlinearModel& before, double poisson_rati
 
 std::unique_ptr<ConstrainedSolid> NonlinearModel::constrain(std::span<const int> base, std::span<const int> handles,
                                                             std::span<const UnitLoad> loads, Control& control) const {
-    if (!loads.empty())
-        throw SolveError("loads: nonlinear-fem does not take them. Choose quadratic-fem, or prescribe displacements.");
     ConstrainedFemNodes nodes = constrain_nodes(mesh_->tets.vertices, mesh_->midpoints, base, handles);
     const bool held = holds(mesh_->tets.vertices, nodes.vertices);
     auto solver = std::make_unique<RememberingSolver>(
-        *mesh_, material(), PrescribedNodes{nodes.prescribed.nodes, nodes.n_base, held}, found_, control);
+        *mesh_, material(), PrescribedNodes{nodes.prescribed.nodes, nodes.n_base, held}, loads, found_, control);
     SolutionChecks checks;
     checks.residual = [its = solver.get()](const NodeSolution& solution, Control& its_control) {
         ElementWork work = its->elements().make_work();
         const Eigen::VectorXd u = solution.displacements.col(0);
-        return its->newton().residual(u.lpNorm<Eigen::Infinity>(),
-                                      its->elements().forces(u, its->newton().material(), work, its_control));
+        const Eigen::VectorXd factors = solution.factors.col(0);
+        return its->newton().residual(u.lpNorm<Eigen::Infinity>(), its->newton().forces(u, factors, work, its_control),
+                                      u, factors);
     };
-    checks.reference = [mesh = mesh_, its = material(), vertices = nodes.vertices](
+    checks.reference = [mesh = mesh_, its = material(), vertices = nodes.vertices,
+                        given = std::vector<UnitLoad>(loads.begin(), loads.end())](
                            const Eigen::VectorXd&, const NodeSolution& solution, Control& its_control) {
-        return linear_answer(*mesh, its, vertices, solution, its_control);
+        return linear_answer(*mesh, its, vertices, given, solution, its_control);
     };
     checks.inside = [mesh = mesh_, nu = poisson_ratio_](NodeSolution&& solution, Control&) {
         return std::make_shared<const NodalField>(tets_of(mesh), mesh->elements->degree(), nu,
                                                   std::move(solution.displacements), true);
     };
     return std::make_unique<ConstrainedSolid>(mesh_->n_vertices(), std::move(nodes.prescribed), std::move(nodes.shares),
-                                              nullptr, std::move(solver), std::move(checks));
+                                              nullptr, std::move(solver), std::move(checks),
+                                              static_cast<int>(loads.size()));
 }
 
 std::uint64_t NonlinearModel::constrain_memory(std::span<const int>, std::span<const int>) const {

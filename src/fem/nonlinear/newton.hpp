@@ -2,22 +2,25 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 
 #include "base/control.hpp"
 #include "elasticity/material.hpp"
 #include "fem/nonlinear/elements.hpp"
 #include "fem/nonlinear/free_tangent.hpp"
+#include "fem/nonlinear/loads.hpp"
 #include "fem/sparse_cholesky.hpp"
 
 namespace elastolab {
 
 /// A state that Newton's method has reached, and its last linear system.
 struct NewtonState {
-    Eigen::VectorXd u;  ///< 3*n_nodes [L]
+    Eigen::VectorXd u;        ///< 3*n_nodes [L]
+    Eigen::VectorXd factors;  ///< of the loads
     bool converged = false;
     int iterations = 0;  ///< linear systems factorised
     double residual = 0.0;
-    double energy = 0.0;
+    double energy = 0.0;  ///< stored in the body
     double least_J = 1.0;
     int crushed = -1;  ///< the element of least J
     /// Factorised tangent: at the state itself, or where the residual was `factor_residual` before the last step.
@@ -28,43 +31,74 @@ struct NewtonState {
 
 /// Equilibria of a body whose constrained nodes have their displacements already. Newton's method: the true tangent,
 /// and the one of projected element tangents where that is not positive definite; steps that invert no element and
-/// lower the energy, but close to the solution, where energies drown in rounding, full steps as long as the residual
-/// falls. Immutable; any thread may use it.
+/// lower the energy less the work of the loads, but close to the solution, where energies drown in rounding, full steps
+/// as long as the residual falls. Under pressures that follow the surface the tangent is not symmetric where the rim of
+/// a pressed part is free: its symmetric part is factorised, and preconditions GMRES for the whole; a step may also
+/// lower the residual instead of the energy. Immutable; any thread may use it.
 class Newton {
 public:
     /// shift: added to the tangent's diagonal, for bodies that can move as a whole; else 0
-    Newton(std::shared_ptr<const FreeTangent> tangent, const Material& material, double shift)
-        : tangent_(std::move(tangent)), material_(material), shift_(shift) {}
+    Newton(std::shared_ptr<const FreeTangent> tangent, const Material& material, double shift,
+           NonlinearLoads loads = {})
+        : tangent_(std::move(tangent)), material_(material), shift_(shift), loads_(std::move(loads)) {}
 
-    /// From u, which inverts no element, to this relative residual: of the forces at the free nodes over those at the
-    /// constrained ones. Not converged when there is no step that helps or so many iterations with the true tangent, or
-    /// four times as many with any, do not suffice; what was reached is returned all the same. Throws SolveError,
-    /// Cancelled.
-    NewtonState run(Eigen::VectorXd u, double tolerance, int most_iterations, ElementWork& work,
-                    Control& control) const;
-    /// A push along the most unstable direction that lowers the energy; u itself where there is none.
+    /// From u, which inverts no element, with loads of these factors, to this relative residual: of the forces at the
+    /// free nodes over those of the loads and at the constrained ones. Not converged when there is no step that helps
+    /// or so many iterations with the true tangent, or four times as many with any, do not suffice; what was reached is
+    /// returned all the same. Throws SolveError, Cancelled.
+    NewtonState run(Eigen::VectorXd u, const Eigen::VectorXd& factors, double tolerance, int most_iterations,
+                    ElementWork& work, Control& control) const;
+    /// A push along the most unstable direction that lowers the energy less the loads' work; u itself where there is
+    /// none.
     Eigen::VectorXd pushed(const NewtonState& state, ElementWork& work, Control& control) const;
 
     BodyEnergy energy(const Eigen::VectorXd& u, ElementWork& work, Control& control) const {
         return tangent_->elements().energy(u, material_, work, control);
     }
-    /// Residual of these forces at all nodes. size: of the displacements, below which part of it forces are rounding.
-    double residual(double size, const Eigen::VectorXd& forces) const;
+    /// Forces that the nodes take at u less those that the loads give.
+    Eigen::VectorXd forces(const Eigen::VectorXd& u, const Eigen::VectorXd& factors, ElementWork& work,
+                           Control& control) const {
+        return tangent_->elements().forces(u, material_, work, control) - loads_.forces(u, factors);
+    }
+    /// Relative residual of forces(u, factors). size: of the displacements, below which part of it forces are rounding.
+    double residual(double size, const Eigen::VectorXd& forces, const Eigen::VectorXd& u,
+                    const Eigen::VectorXd& factors) const;
+    /// Change of forces(u, factors) with u along `motion` and with the factors, to first order.
+    Eigen::VectorXd force_change(const Eigen::VectorXd& u, const Eigen::VectorXd& factors,
+                                 const Eigen::VectorXd& motion, const Eigen::VectorXd& factor_change, ElementWork& work,
+                                 Control& control) const {
+        return tangent_->elements().force_change(u, motion, material_, work, control) -
+               loads_.force_change(u, factors, motion, factor_change);
+    }
+    /// Energy of one state less that of another, and less the work of the loads on the straight way between them.
+    double rise(const NewtonState& from, const Eigen::VectorXd& to, double energy) const {
+        return energy - from.energy - loads_.work(from.u, to - from.u, from.factors);
+    }
     const FreeTangent& tangent() const { return *tangent_; }
     const std::shared_ptr<const FreeTangent>& shared_tangent() const { return tangent_; }
     const Material& material() const { return material_; }
-    /// The factorised tangent at u: the true one, or (stable false) the projected one.
-    std::shared_ptr<const SparseCholesky> factor_at(const Eigen::VectorXd& u, ElementWork& work, SparseMatrix& K,
-                                                    bool& stable, Control& control) const;
+    const NonlinearLoads& loads() const { return loads_; }
+    /// The factorised tangent at u: the true one, or (stable false) the projected one, which leaves loads out.
+    std::shared_ptr<const SparseCholesky> factor_at(const Eigen::VectorXd& u, const Eigen::VectorXd& factors,
+                                                    ElementWork& work, SparseMatrix& K, bool& stable,
+                                                    Control& control) const;
+
+    /// X at the free nodes with tangent X = B, the true tangent at u, loads included, by GMRES; factor: of one close to
+    /// it. Nothing where so many iterations do not reach the relative tolerance.
+    std::optional<Eigen::MatrixXd> solve_tangent(const Eigen::VectorXd& u, const Eigen::VectorXd& factors,
+                                                 const SparseCholesky& factor, const Eigen::MatrixXd& B,
+                                                 double tolerance, int most_iterations, ElementWork& work) const;
 
 private:
-    /// A step that inverts nothing and lowers the energy enough: its length, 0 when there is none.
-    double step_length(const Eigen::VectorXd& u, const Eigen::VectorXd& step, double slope, double energy,
+    /// A step that inverts nothing and lowers the energy enough: its length, 0 when there is none. slope: of the energy
+    /// along it; gradient: norm of what is to vanish.
+    double step_length(const NewtonState& state, const Eigen::VectorXd& step, double slope, double gradient,
                        ElementWork& work, Control& control) const;
 
     std::shared_ptr<const FreeTangent> tangent_;
     Material material_;
     double shift_;
+    NonlinearLoads loads_;
 };
 
 }  // namespace elastolab

@@ -18,8 +18,10 @@ constexpr double kPassing = 1e-3;
 constexpr int kMostIterations = 40, kMostPassing = 30, kMostAltogether = 400;
 /// Steps shorter than this part of the way are given up.
 constexpr double kShortestPart = 1.0 / 512.0;
-/// Residual at which a tangent was taken, up to which its columns are those of the solution.
-constexpr double kGoodTangent = 1e-3;
+/// Residual at which a tangent was taken, up to which its factor serves the columns of the solution as a
+/// preconditioner; their own tolerance.
+constexpr double kGoodTangent = 0.1, kColumnTolerance = 1e-6;
+constexpr int kFewIterations = 8, kMostColumnIterations = 60;
 /// Smallest ratio of volumes that a predicted state may have: those below are far from any equilibrium.
 constexpr double kCrushed = 0.05;
 /// Part of the stiffness that keeps a free body from moving as a whole.
@@ -35,12 +37,12 @@ double shift_of(const FiniteElements& elements, const Material& material, bool h
 }  // namespace
 
 NonlinearSolver::NonlinearSolver(std::shared_ptr<const FiniteElements> elements, const Material& material,
-                                 PrescribedNodes nodes, Control& control)
+                                 PrescribedNodes nodes, Control& control, NonlinearLoads loads)
     : nodes_(std::move(nodes)),
       patches_(patches_of_nodes(elements->elements(), elements->n_nodes(), nodes_.nodes, nodes_.n_base)),
       rest_positions_(elements->positions()(Eigen::all, nodes_.nodes)),
       newton_(std::make_shared<const FreeTangent>(elements, nodes_.nodes, control), material,
-              shift_of(*elements, material, nodes_.held)) {
+              shift_of(*elements, material, nodes_.held), std::move(loads)) {
     held_ = nodes_.held;
     find_faces();
 }
@@ -92,6 +94,7 @@ Eigen::VectorXd NonlinearSolver::of_prescribed(const Eigen::VectorXd& all) const
 NonlinearSolver::StatePtr NonlinearSolver::at_rest(ElementWork& work, Control& control) const {
     NewtonState state;
     state.u = Eigen::VectorXd::Zero(3 * elements().n_nodes());
+    state.factors = newton_.loads().none();
     state.converged = true;
     state.factor = rest(work, control)->rest();
     return std::make_shared<const NonlinearState>(std::move(state), EquilibriumFacts{});
@@ -112,7 +115,7 @@ NodeSolution NonlinearSolver::solve_task(const NodeTask& task, double tolerance,
     const Eigen::Index m = task.prescribed.cols(), k = task.changes.cols();
     NodeSolution solution;
     solution.displacements.resize(3 * elements().n_nodes(), m + k);
-    if (task.want_loads) solution.loads.setZero(task.prescribed.rows(), m + k);
+    if (task.want_loads) solution.loads.setZero(3 * std::ssize(nodes_.nodes), m + k);
     StatePtr first;
     for (Eigen::Index c = 0; c < m; ++c) {
         StatePtr state;
@@ -133,7 +136,9 @@ NodeSolution NonlinearSolver::solve_task(const NodeTask& task, double tolerance,
         solution.displacements.col(c) = state->newton().u;
         if (task.want_loads)
             solution.loads.col(c) =
-                of_prescribed(elements().forces(state->newton().u, newton_.material(), work, control));
+                of_prescribed(newton_.forces(state->newton().u, state->newton().factors, work, control));
+        if (task.want_loads && c == 0)
+            solution.resultants = newton_.loads().resultants(state->newton().u, state->newton().factors);
         if (c == 0) first = state;
         solution.state = state;
     }
@@ -144,49 +149,62 @@ NodeSolution NonlinearSolver::solve_task(const NodeTask& task, double tolerance,
 Eigen::MatrixXd NonlinearSolver::derivatives(const NonlinearState& state, const Eigen::MatrixXd& changes,
                                              ElementWork& work, Control& control) const {
     const NewtonState at = state.with_factor();
-    std::shared_ptr<const SparseCholesky> factor = at.factor;
-    if (!factor || at.factor_residual > kGoodTangent) {
+    Eigen::MatrixXd all(at.u.size(), changes.cols());
+    for (Eigen::Index c = 0; c < changes.cols(); ++c) all.col(c) = of_all_nodes(changes.col(c));
+    Eigen::MatrixXd loads(all.rows(), all.cols());
+    for (Eigen::Index c = 0; c < all.cols(); ++c)
+        loads.col(c) = newton_.force_change(at.u, at.factors, all.col(c), factors_of(changes.col(c)), work, control);
+    const FreeTangent& tangent = newton_.tangent();
+    const Eigen::MatrixXd right = tangent.free_rows(loads);
+    const auto by_iteration = [&](const SparseCholesky& its, int most) {
+        return newton_.solve_tangent(at.u, at.factors, its, right, kColumnTolerance, most, work);
+    };
+    // The factor of the last step is that of a state close by: a preconditioner that spares another factorisation.
+    std::optional<Eigen::MatrixXd> solved;
+    if (at.factor && at.stable && at.factor_residual <= kGoodTangent) solved = by_iteration(*at.factor, kFewIterations);
+    if (!solved) {
         SparseMatrix K = newton_.tangent().make_matrix();
         bool stable = true;
-        factor = newton_.factor_at(at.u, work, K, stable, control);
+        const auto factor = newton_.factor_at(at.u, at.factors, work, K, stable, control);
+        if (!factor) throw SolveError("tangent stiffness: is not finite. Check the mesh for degenerate tetrahedra.");
+        if (newton_.loads().follow()) solved = by_iteration(*factor, kMostColumnIterations);
+        if (!solved) solved = factor->solve(right);
     }
-    Eigen::MatrixXd all(at.u.size(), changes.cols()), loads = all;
-    for (Eigen::Index c = 0; c < changes.cols(); ++c) {
-        all.col(c) = of_all_nodes(changes.col(c));
-        loads.col(c) = elements().force_change(at.u, all.col(c), newton_.material(), work, control);
-    }
-    const FreeTangent& tangent = newton_.tangent();
-    return all - tangent.all_rows(factor->solve(tangent.free_rows(loads)));
+    return all - tangent.all_rows(*solved);
 }
 
 /// The best that warping leads to; not converged where it does not.
-NewtonState NonlinearSolver::warped(const MotionPath& path, double tolerance, ElementWork& work,
-                                    Control& control) const {
+NewtonState NonlinearSolver::warped(const MotionPath& path, const Eigen::VectorXd& factors, double tolerance,
+                                    ElementWork& work, Control& control) const {
     const Eigen::VectorXd u =
         rest(work, control)->displace(of_all_nodes(path.logarithm()), of_all_nodes(path.at(1.0)), work, control);
     if (!(newton_.energy(u, work, control).least_J > kCrushed)) return {};
-    return newton_.run(u, tolerance, kMostIterations, work, control);
+    return newton_.run(u, factors, tolerance, kMostIterations, work, control);
 }
 
 /// From one equilibrium to the next by predicted steps, which are halved where they fail.
-NewtonState NonlinearSolver::followed(const NonlinearState& from, const MotionPath& path, double tolerance,
-                                      ElementWork& work, Control& control) const {
+NewtonState NonlinearSolver::followed(const NonlinearState& from, const MotionPath& path,
+                                      const Eigen::VectorXd& factors, double tolerance, ElementWork& work,
+                                      Control& control) const {
     NewtonState at = from.with_factor();
     at.iterations = 0;
     double part = 0.0, length = 1.0 / std::max(1.0, std::ceil(path.largest_angle() / kStepAngle - 1e-6));
     NewtonState failed;
     int iterations = 0;
+    const Eigen::VectorXd before = at.factors;
     while (part < 1.0 && length >= kShortestPart && iterations < kMostAltogether) {
         control.checkpoint();
         const double next = part + length > 1.0 - 1e-9 ? 1.0 : part + length;
         const Eigen::VectorXd change = of_all_nodes(path.at(next)) - of_all_nodes(of_prescribed(at.u));
+        const Eigen::VectorXd next_factors = next < 1.0 ? before + next * (factors - before) : factors;
         if (!at.factor) {
             SparseMatrix K = newton_.tangent().make_matrix();
-            at.factor = newton_.factor_at(at.u, work, K, at.stable, control);
+            at.factor = newton_.factor_at(at.u, at.factors, work, K, at.stable, control);
             ++iterations;
         }
         const FreeTangent& tangent = newton_.tangent();
-        const Eigen::VectorXd load = elements().force_change(at.u, change, newton_.material(), work, control);
+        const Eigen::VectorXd load =
+            newton_.force_change(at.u, at.factors, change, next_factors - at.factors, work, control);
         const Eigen::VectorXd u = at.u + change - tangent.all_rows(at.factor->solve(tangent.free_rows(load)));
         const BodyEnergy energy = newton_.energy(u, work, control);
         if (!(energy.least_J > kCrushed * std::min(1.0, at.least_J))) {
@@ -195,7 +213,8 @@ NewtonState NonlinearSolver::followed(const NonlinearState& from, const MotionPa
             continue;
         }
         const double wanted = next < 1.0 ? std::max(kPassing, tolerance) : tolerance;
-        NewtonState reached = newton_.run(u, wanted, next < 1.0 ? kMostPassing : kMostIterations, work, control);
+        NewtonState reached =
+            newton_.run(u, next_factors, wanted, next < 1.0 ? kMostPassing : kMostIterations, work, control);
         if (reached.converged) reached = stabilised(std::move(reached), wanted, work, control);
         iterations += reached.iterations;
         if (!reached.converged) {
@@ -223,11 +242,11 @@ NewtonState NonlinearSolver::followed(const NonlinearState& from, const MotionPa
     return at;
 }
 
-NonlinearSolver::StatePtr NonlinearSolver::advance(const NonlinearState& from, const Eigen::VectorXd& prescribed,
-                                                   bool far, double tolerance, ElementWork& work,
-                                                   Control& control) const {
-    const Eigen::VectorXd present = of_prescribed(from.newton().u);
-    if (present == prescribed && from.newton().residual <= tolerance)
+NonlinearSolver::StatePtr NonlinearSolver::advance(const NonlinearState& from, const Eigen::VectorXd& values, bool far,
+                                                   double tolerance, ElementWork& work, Control& control) const {
+    const Eigen::VectorXd present = of_prescribed(from.newton().u), prescribed = displacements_of(values),
+                          factors = factors_of(values);
+    if (present == prescribed && from.newton().factors == factors && from.newton().residual <= tolerance)
         return std::make_shared<const NonlinearState>(from.with_factor(), [&] {
             EquilibriumFacts facts = from.facts();
             facts.iterations = 0;
@@ -238,16 +257,17 @@ NonlinearSolver::StatePtr NonlinearSolver::advance(const NonlinearState& from, c
     NewtonState state;
     int iterations = 0;
     if (far && path.largest_angle() > 0.5 * kStepAngle) {
-        state = warped(path, tolerance, work, control);
+        state = warped(path, factors, tolerance, work, control);
         iterations = state.iterations;
     }
     if (!state.converged) {
-        state = followed(from, path, tolerance, work, control);
+        state = followed(from, path, factors, tolerance, work, control);
         state.iterations += iterations;
     }
     if (!state.converged) {
         const Eigen::Vector4i corners = elements().elements().col(std::max(state.crushed, 0)).head<4>();
-        throw NoEquilibriumError("no equilibrium was found for these motions.",
+        throw NoEquilibriumError(newton_.loads().size() > 0 ? "no equilibrium was found for these motions and loads."
+                                                            : "no equilibrium was found for these motions.",
                                  elements().positions()(Eigen::all, corners).rowwise().mean());
     }
     return settled(std::move(state), tolerance, work, control);
@@ -258,8 +278,8 @@ NewtonState NonlinearSolver::stabilised(NewtonState state, double tolerance, Ele
     for (int push = 0; push < kPushes && !state.stable && state.factor; ++push) {
         const Eigen::VectorXd u = newton_.pushed(state, work, control);
         if (u == state.u) break;
-        NewtonState left = newton_.run(u, tolerance, 2 * kMostIterations, work, control);
-        if (!left.converged || !(left.energy < state.energy)) break;
+        NewtonState left = newton_.run(u, state.factors, tolerance, 2 * kMostIterations, work, control);
+        if (!left.converged || !(newton_.rise(state, left.u, left.energy) < 0.0)) break;
         left.iterations += state.iterations;
         state = std::move(left);
     }
@@ -275,7 +295,11 @@ NonlinearSolver::StatePtr NonlinearSolver::settled(NewtonState state, double tol
                                                    Control& control) const {
     state = stabilised(std::move(state), tolerance, work, control);
     keep(state.factor);
-    EquilibriumFacts facts{.iterations = state.iterations, .energy = state.energy, .stable = state.stable};
+    const Eigen::VectorXd rest = Eigen::VectorXd::Zero(state.u.size());
+    EquilibriumFacts facts{.iterations = state.iterations,
+                           .energy = state.energy,
+                           .work_of_loads = newton_.loads().work(rest, state.u, state.factors),
+                           .stable = state.stable};
     for (int e = 0; e < elements().n_elements(); ++e)
         for (int point = 0; point < elements().n_points(); ++point)
             facts.largest_stretch =

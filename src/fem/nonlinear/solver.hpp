@@ -46,12 +46,13 @@ private:
     EquilibriumFacts facts_;
 };
 
-/// Equilibria of a neo-Hookean body for one constrained set. Its loads are the forces at the constrained nodes. Throws
-/// NoEquilibriumError where none is found, with the place of the crushed element at rest.
+/// Equilibria of a neo-Hookean body for one constrained set under given loads; on the way from one to the next the
+/// loads grow with the motion. NodeSolution::loads are the forces at the constrained nodes. Throws NoEquilibriumError
+/// where none is found, with the place of the crushed element at rest.
 class NonlinearSolver : public NodeSolver {
 public:
     NonlinearSolver(std::shared_ptr<const FiniteElements> elements, const Material& material, PrescribedNodes nodes,
-                    Control& control);
+                    Control& control, NonlinearLoads loads = {});
 
     NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const override;
     NodeSolution solve_watched(const Eigen::MatrixXd& prescribed, bool want_loads, double tolerance,
@@ -65,12 +66,18 @@ public:
 
 private:
     using StatePtr = std::shared_ptr<const NonlinearState>;
-    /// The equilibrium at `prescribed`, from one before it. far: rotation-strain warping may begin.
-    StatePtr advance(const NonlinearState& from, const Eigen::VectorXd& prescribed, bool far, double tolerance,
+    /// The equilibrium for these values (NodeTask::prescribed), from one before it. far: rotation-strain warping may
+    /// begin.
+    StatePtr advance(const NonlinearState& from, const Eigen::VectorXd& values, bool far, double tolerance,
                      ElementWork& work, Control& control) const;
-    NewtonState warped(const MotionPath& path, double tolerance, ElementWork& work, Control& control) const;
-    NewtonState followed(const NonlinearState& from, const MotionPath& path, double tolerance, ElementWork& work,
-                         Control& control) const;
+    NewtonState warped(const MotionPath& path, const Eigen::VectorXd& factors, double tolerance, ElementWork& work,
+                       Control& control) const;
+    NewtonState followed(const NonlinearState& from, const MotionPath& path, const Eigen::VectorXd& factors,
+                         double tolerance, ElementWork& work, Control& control) const;
+    Eigen::VectorXd factors_of(const Eigen::VectorXd& values) const { return values.tail(newton_.loads().size()); }
+    Eigen::VectorXd displacements_of(const Eigen::VectorXd& values) const {
+        return values.head(3 * std::ssize(nodes_.nodes));
+    }
     /// The state itself where it is stable, else the stable one that it is left for, where there is one.
     NewtonState stabilised(NewtonState state, double tolerance, ElementWork& work, Control& control) const;
     StatePtr settled(NewtonState state, double tolerance, ElementWork& work, Control& control) const;

@@ -44,7 +44,8 @@ WarpedStart::WarpedStart(const Newton& newton, ElementWork& work, Control& contr
     : tangent_(newton.shared_tangent()), material_(newton.material()) {
     SparseMatrix K = tangent_->make_matrix();
     bool stable = true;
-    rest_ = newton.factor_at(Eigen::VectorXd::Zero(3 * elements().n_nodes()), work, K, stable, control);
+    rest_ = newton.factor_at(Eigen::VectorXd::Zero(3 * elements().n_nodes()), newton.loads().none(), work, K, stable,
+                             control);
     if (!rest_)
         throw SolveError("stiffness at rest: is not positive definite. Check the mesh for degenerate tetrahedra.");
     const SparseMatrix L =

@@ -43,14 +43,14 @@ void DragSolver::prepare(const Eigen::VectorXd& values, double tolerance, Contro
     if (handle < 0) handle = turns && handle_ >= 0 ? handle_ : static_cast<int>(handle_ends_.size()) - 1;
     if (handle < 0 && n_loads() > 0) handle = loads();
     if (handle < 0) return start(values, tolerance, control, approach);
-    if (handle == loads()) return grab_loads(values, tolerance, control);
+    if (handle == loads()) return grab_loads(values, tolerance, control, approach);
     grab(values, handle, affine, tolerance, control, approach);
 }
 
 void DragSolver::refine(Control& control) {
     const Approach approach{response_.equilibrium, {}};
     if (handle_ == kNone) return start(start_values_, kSolveTolerance, control, approach);
-    if (handle_ == loads()) return grab_loads(start_values_, kSolveTolerance, control);
+    if (handle_ == loads()) return grab_loads(start_values_, kSolveTolerance, control, approach);
     grab(start_values_, handle_, shapes_.rows() > 1, kSolveTolerance, control, approach);
 }
 
@@ -62,7 +62,7 @@ bool DragSolver::has(const Eigen::VectorXd& values) const {
     if (!has_start(values)) return false;
     const Eigen::VectorXd change = values - start_values_;
     const int handle = changed_handle(change);
-    if (handle == loads()) return handle_ == handle && deformer_->linear();
+    if (handle == loads()) return handle_ == handle;
     return handle == kNone || (handle >= 0 && parameters_of(handle, part_of(handle, change)));
 }
 
@@ -71,7 +71,7 @@ void DragSolver::displace(const Eigen::VectorXd& values, Eigen::VectorXd& u) {
     if (!has_start(values)) start(values, kSolveTolerance, control);
     const Eigen::VectorXd change = values - start_values_;
     const int handle = changed_handle(change);
-    if (handle == loads() && deformer_->linear()) {
+    if (handle == loads()) {
         if (handle_ != handle) grab_loads(start_values_, kSolveTolerance, control);
         return response_.displace(values.tail(n_loads()) - start_values_.tail(n_loads()), u);
     }
@@ -138,10 +138,11 @@ void DragSolver::grab(const Eigen::VectorXd& values, int handle, bool affine, do
 }
 
 /// Columns of all loads about these values.
-void DragSolver::grab_loads(const Eigen::VectorXd& values, double tolerance, Control& control) {
+void DragSolver::grab_loads(const Eigen::VectorXd& values, double tolerance, Control& control,
+                            const Approach& approach) {
     Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(values.size(), n_loads());
     basis.bottomRows(n_loads()).setIdentity();
-    response_ = deformer_->drag_response(values, basis, control, tolerance);
+    response_ = deformer_->drag_response(values, basis, control, tolerance, approach);
     start_values_ = values;
     shapes_.resize(0, 0);
     tolerance_ = tolerance;

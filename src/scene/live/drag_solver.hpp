@@ -52,7 +52,7 @@ private:
     /// The number that changed_handle() has for the loads, which stand behind the handles.
     int loads() const { return static_cast<int>(handle_ends_.size()); }
     Eigen::Index n_loads() const { return std::ssize(deformer_->set().loads); }
-    void grab_loads(const Eigen::VectorXd& values, double tolerance, Control& control);
+    void grab_loads(const Eigen::VectorXd& values, double tolerance, Control& control, const Approach& approach = {});
     int begin_of(int handle) const { return handle == 0 ? 0 : handle_ends_[static_cast<std::size_t>(handle) - 1]; }
     int size_of(int handle) const { return handle_ends_[static_cast<std::size_t>(handle)] - begin_of(handle); }
     void start(const Eigen::VectorXd& values, double tolerance, Control& control, const Approach& approach = {});
