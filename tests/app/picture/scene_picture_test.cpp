@@ -141,8 +141,8 @@ TEST_F(ScenePicture, HasALegendWithTheColoursOfTheFieldWhereThatIsWanted) {
     renderer.upload(stage.state, palette);
     const std::optional<PictureLegend> legend = legend_of(stage.state);
     ASSERT_TRUE(legend);
-    EXPECT_EQ(legend->low, 0.0);
-    EXPECT_EQ(legend->high, 2.0);
+    EXPECT_EQ(legend->scale.low, 0.0);
+    EXPECT_EQ(legend->scale.high, 2.0);
     EXPECT_NE(legend->heading.find("displacement"), std::string::npos);
 
     const Image plain = scene_picture(renderer, stage.state, palette, {640, 400});
