@@ -69,6 +69,19 @@ done
 inside sh -c 'cd /tmp/project && cmake -B build >log 2>&1 && cmake --build build >>log 2>&1 && build/pull || { cat log; exit 1; }'
 inside test -s /usr/share/man/man1/elastolab-solve.1.gz
 inside bash -c '. /usr/share/bash-completion/completions/elastolab; COMP_WORDS=(elastolab so); COMP_CWORD=1; _elastolab; [[ ${COMPREPLY[*]} == solve ]]'
+inside apt-get install -y -qq --no-install-recommends zsh fish shared-mime-info >/dev/null 2>&1
+[[ $(inside fish -c "complete -C 'elastolab so'") == solve ]]
+inside zsh -fc 'autoload -Uz compinit && compinit -u -D && [[ $_comps[elastolab] == _elastolab ]] && autoload -Uz +X _elastolab &&
+  compadd() { shift; print -rl -- $@ } && words=(elastolab solve --dis) && CURRENT=3 && _elastolab' | grep -qx -- --displacements
+# File managers: each kind of file of the thumbnailer is known, and its command makes a picture.
+entry=$root/usr/share/thumbnailers/elastolab.thumbnailer
+for type in $(sed -n 's/^MimeType=//p' "$entry" | tr ';' ' '); do
+  grep -qx "$type" "$root/usr/share/mime/types" || { echo "thumbnailer: $type is no known type"; exit 1; }
+done
+for file in cube.elastolab.json cube.obj; do
+  inside sh -c "$(sed -n 's/^Exec=//p' "$entry" | sed "s,%s,128,; s,%i,/tmp/$file,; s,%o,/tmp/$file.png,")"
+  inside test -s "/tmp/$file.png"
+done
 
 echo "Removing"
 inside apt-get purge -y -qq elastolab libelastolab-dev python3-elastolab >/dev/null 2>&1

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
+#include <utility>
 
 #include "base/error.hpp"
 #include "cli/command.hpp"
@@ -97,10 +98,11 @@ void require_sensible(const Method& method, bool with_matrices) {
                          ". Add --mode full.");
 }
 
-Method choose_method(const SolveOptions& options, const Document& document) {
+Method choose_method(const SolveOptions& options, const Document& document, const SolveVariant& variant) {
     Method method;
     method.kind = document.method;
     choose(method.kind, options.method, parse_method_kind);
+    if (variant.method) method.kind = variant.method(method.kind);
     choose(method.mode, options.mode, parse_mode);
     choose(method.tractions, options.tractions, parse_tractions);
     choose(method.update, options.update, parse_update);
@@ -126,7 +128,7 @@ Solution solve_with_progress(const SolveRequest& request, Control& control, bool
     }
 }
 
-void run_solve(const SolveOptions& options) {
+void run_solve(const SolveOptions& options, const SolveVariant& variant) {
     Control control;
     const InterruptGuard interrupt(control);
     apply_threads_option(options.threads);
@@ -134,7 +136,7 @@ void run_solve(const SolveOptions& options) {
     request.scene_file = options.scene;
     request.document = load_scene(request.scene_file);
     options.proxy.apply(request.document.proxy);
-    request.method = choose_method(options, request.document);
+    request.method = choose_method(options, request.document, variant);
     request.solve_once = options.update.empty() && request.method.mode == Mode::on_demand;
     request.with_checks = !options.quiet || !options.report.empty();
     require_writable(options.outputs(), input_files(request));
@@ -149,15 +151,16 @@ void run_solve(const SolveOptions& options) {
     if (options.quiet) return;
     lseek(STDOUT_FILENO, 0, SEEK_END);  // after an output that went to /dev/stdout, if that is a file
     print_summary(std::cout, request, solution);
+    if (variant.summary) variant.summary(std::cout, solution);
 }
 
 }  // namespace
 
-Command add_solve_command(CLI::App& program) {
+Command add_solve_command(CLI::App& program, SolveVariant variant) {
     const auto options = std::make_shared<SolveOptions>();
     CLI::App* parser = program.add_subcommand("solve", "computes the displacements of a scene, without a window");
     add_options(*parser, *options);
-    return {parser, [options] { run_solve(*options); }};
+    return {parser, [options, variant = std::move(variant)] { run_solve(*options, variant); }};
 }
 
 }  // namespace elastolab

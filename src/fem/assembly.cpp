@@ -213,6 +213,12 @@ StiffnessParts assemble_stiffness_parts(const QuadraticMesh& mesh, Control& cont
     return assemble<10>({mesh.positions, mesh.elements}, control);
 }
 
+StiffnessParts assemble_stiffness_parts(const Positions& nodes, const Eigen::MatrixXi& elements, Control& control) {
+    assert(elements.rows() == 4 || elements.rows() == 10);
+    if (elements.rows() == 4) return assemble<4>({nodes, elements.topRows<4>()}, control);
+    return assemble<10>({nodes, elements.topRows<10>()}, control);
+}
+
 SparseMatrix stiffness(const StiffnessParts& parts, const Material& material) {
     assert(material.poisson_ratio < 0.5);
     SparseMatrix K = parts.mu;

@@ -22,6 +22,8 @@ struct StiffnessParts {
 /// Throws MeshError when a tetrahedron has no positive volume, SolveError when the pattern is too large, Cancelled.
 StiffnessParts assemble_stiffness_parts(const TetMesh& mesh, Control& control);
 StiffnessParts assemble_stiffness_parts(const QuadraticMesh& mesh, Control& control);
+/// Of elements of 4 or 10 nodes a column: corners, positively oriented, then midpoints by kTetEdges.
+StiffnessParts assemble_stiffness_parts(const Positions& nodes, const Eigen::MatrixXi& elements, Control& control);
 
 /// K for a material, poisson_ratio < 1/2 (asserted): force = K * displacement [force / L]. Has the pattern of the
 /// parts.

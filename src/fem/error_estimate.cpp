@@ -18,9 +18,6 @@ namespace elastolab {
 
 namespace {
 
-/// Error that quadratic elements leave, over how much they change the answer. Along the rim of a constrained patch
-/// errors fall like 1 / degree^2, elsewhere faster; measured in tests/methods/discretisation_test.cpp.
-constexpr double kLeftByQuadratic = 0.45;
 /// Estimated energy norm of the error, over that of the first guess, at which conjugate gradients stop.
 constexpr double kEnoughReduction = 0.01;
 constexpr int kMostSteps = 150;
@@ -71,19 +68,19 @@ private:
 /// Corrects a vector of all nodes by both levels.
 class TwoLevelPreconditioner {
 public:
-    TwoLevelPreconditioner(const SparseMatrix& K, const CornerNodes& corners, const SparseMatrix& prolongation,
-                           const SparseCholesky& coarse, std::vector<char> is_prescribed)
-        : prolongation_(prolongation), coarse_(coarse), is_prescribed_(std::move(is_prescribed)) {
+    TwoLevelPreconditioner(const ReferenceOperators& apply, const CornerNodes& corners,
+                           const SparseMatrix& prolongation, std::vector<char> is_prescribed)
+        : apply_(apply), prolongation_(prolongation), is_prescribed_(std::move(is_prescribed)) {
         for (int node = 0; node < static_cast<int>(is_prescribed_.size()); ++node) {
             Eigen::Matrix3d block = Eigen::Matrix3d::Zero();
             if (corners.is_midpoint(node) && !is_prescribed_[static_cast<std::size_t>(node)])
-                block = Eigen::Matrix3d(K.block(3 * node, 3 * node, 3, 3)).inverse();
+                block = apply_.diagonal(node).inverse();
             of_midpoints_.push_back(block);
         }
     }
     Eigen::VectorXd operator()(const Eigen::VectorXd& residual) const {
         const Eigen::VectorXd on_corners = prolongation_.transpose() * residual;
-        Eigen::VectorXd z = prolongation_ * coarse_.solve(on_corners);
+        Eigen::VectorXd z = prolongation_ * apply_.solve_linear(on_corners);
         for (std::size_t node = 0; node < of_midpoints_.size(); ++node)
             z.segment<3>(3 * static_cast<Eigen::Index>(node)) +=
                 of_midpoints_[node] * residual.segment<3>(3 * static_cast<Eigen::Index>(node));
@@ -96,21 +93,21 @@ public:
     }
 
 private:
+    const ReferenceOperators& apply_;
     const SparseMatrix& prolongation_;
-    const SparseCholesky& coarse_;
     std::vector<char> is_prescribed_;
     std::vector<Eigen::Matrix3d> of_midpoints_;
 };
 
 /// Conjugate gradients for K x = f from the first guess x, which has the prescribed displacements.
-void improve(const SparseMatrix& K, const Eigen::VectorXd& f, const TwoLevelPreconditioner& precondition,
+void improve(const ReferenceOperators::Product& K, const Eigen::VectorXd& f, const TwoLevelPreconditioner& precondition,
              Eigen::VectorXd& x, Control& control) {
-    Eigen::VectorXd r = precondition.without_prescribed(f - K * x), z = precondition(r), p = z;
+    Eigen::VectorXd r = precondition.without_prescribed(f - K(x)), z = precondition(r), p = z;
     double rz = r.dot(z);
     const double enough = kEnoughReduction * kEnoughReduction * rz;
     for (int step = 0; step < kMostSteps && rz > enough; ++step) {
         control.checkpoint();
-        const Eigen::VectorXd q = precondition.without_prescribed(K * p);
+        const Eigen::VectorXd q = precondition.without_prescribed(K(p));
         const double alpha = rz / p.dot(q);
         x += alpha * p;
         r -= alpha * q;
@@ -120,10 +117,15 @@ void improve(const SparseMatrix& K, const Eigen::VectorXd& f, const TwoLevelPrec
     }
 }
 
-Reactions reactions_of(const SparseMatrix& K, const Eigen::VectorXd& u, const Eigen::VectorXd& given,
+/// forces: of all nodes, the given ones among them.
+Reactions reactions_of(const Eigen::VectorXd& forces, const Eigen::VectorXd& given,
                        const ConstrainedFemNodes& constrained, std::size_t n_vertices) {
-    return gathered_reactions(constrained.shares, static_cast<int>(n_vertices),
-                              support_forces(K, u, constrained.prescribed.nodes, given).col(0));
+    const std::vector<int>& nodes = constrained.prescribed.nodes;
+    Eigen::VectorXd at(3 * std::ssize(nodes));
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+        at.segment<3>(3 * static_cast<Eigen::Index>(i)) =
+            forces.segment<3>(3 * nodes[i]) - given.segment<3>(3 * nodes[i]);
+    return gathered_reactions(constrained.shares, static_cast<int>(n_vertices), at);
 }
 
 }  // namespace
@@ -147,6 +149,18 @@ std::optional<ReferenceAnswer> quadratic_reference(const FemSystem& linear, doub
     const QuadraticMesh mesh(linear.mesh->tets);
     if (quadratic_reference_memory(linear) > available_memory_bytes()) return {};
     const SparseMatrix K = stiffness(assemble_stiffness_parts(mesh, control), Material{1.0, poisson_ratio});
+    const SparseCholesky coarse(*linear.mesh->analysis, eliminated(linear.K, vertices), "stiffness matrix", &control);
+    ReferenceOperators apply;
+    apply.linear = [&](const Eigen::VectorXd& u) -> Eigen::VectorXd { return linear.K * u; };
+    apply.quadratic = [&](const Eigen::VectorXd& u) -> Eigen::VectorXd { return K * u; };
+    apply.solve_linear = [&](const Eigen::VectorXd& f) -> Eigen::VectorXd { return coarse.solve(f).col(0); };
+    apply.diagonal = [&](int node) -> Eigen::Matrix3d { return K.block(3 * node, 3 * node, 3, 3); };
+    return quadratic_reference(mesh, *linear.mesh, apply, vertices, loads, values, control);
+}
+
+ReferenceAnswer quadratic_reference(const QuadraticMesh& mesh, const FemMesh& linear, const ReferenceOperators& apply,
+                                    std::span<const int> vertices, std::span<const UnitLoad> loads,
+                                    const Eigen::VectorXd& values, Control& control) {
     const CornerNodes corners(mesh.elements, mesh.n_nodes());
     const SparseMatrix prolongation = corners.prolongation();
     const ConstrainedFemNodes constrained =
@@ -154,19 +168,20 @@ std::optional<ReferenceAnswer> quadratic_reference(const FemSystem& linear, doub
     std::vector<char> is_prescribed(static_cast<std::size_t>(mesh.n_nodes()), 0);
     for (const int node : constrained.prescribed.nodes) is_prescribed[static_cast<std::size_t>(node)] = 1;
 
-    const SparseCholesky coarse(*linear.mesh->analysis, eliminated(linear.K, vertices), "stiffness matrix", &control);
-    Eigen::VectorXd u = Eigen::VectorXd::Zero(linear.K.rows());
+    Eigen::VectorXd u = Eigen::VectorXd::Zero(linear.tets.vertices.size());
     for (std::size_t i = 0; i < vertices.size(); ++i)
         u.segment<3>(3 * vertices[i]) = values.segment<3>(3 * static_cast<Eigen::Index>(i));
     const Eigen::VectorXd factors = values.tail(std::ssize(loads));
-    const Eigen::VectorXd given = load_vectors(mesh, *linear.mesh, loads) * factors;
-    Eigen::VectorXd load = load_vectors(*linear.mesh, loads) * factors - linear.K * u;
+    const Eigen::VectorXd given = load_vectors(mesh, linear, loads) * factors;
+    Eigen::VectorXd load = load_vectors(linear, loads) * factors - apply.linear(u);
     for (const int v : vertices) load.segment<3>(3 * v).setZero();
     control.checkpoint();
-    u += coarse.solve(load).col(0);
+    u += apply.solve_linear(load);
     u = (prolongation * u).eval();
-    improve(K, given, TwoLevelPreconditioner(K, corners, prolongation, coarse, std::move(is_prescribed)), u, control);
-    return ReferenceAnswer{u.head(3 * linear.n_vertices()), reactions_of(K, u, given, constrained, vertices.size()),
+    improve(apply.quadratic, given, TwoLevelPreconditioner(apply, corners, prolongation, std::move(is_prescribed)), u,
+            control);
+    return ReferenceAnswer{u.head(3 * linear.tets.n_surface_vertices),
+                           reactions_of(apply.quadratic(u), given, constrained, vertices.size()),
                            1.0 + kLeftByQuadratic};
 }
 

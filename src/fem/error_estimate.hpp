@@ -2,14 +2,28 @@
 
 #include <cstdint>
 #include <Eigen/Core>
+#include <functional>
 #include <optional>
 #include <span>
 
 #include "base/control.hpp"
 #include "deform/solid_model.hpp"
+#include "fem/quadratic_mesh.hpp"
 #include "fem/solvers.hpp"
 
 namespace elastolab {
+
+/// Error that quadratic elements leave, over how much they change the answer. Along the rim of a constrained patch
+/// errors fall like 1 / degree^2, elsewhere faster; measured in tests/methods/discretisation_test.cpp.
+inline constexpr double kLeftByQuadratic = 0.45;
+
+/// What the estimate of linear elements needs of the two stiffnesses, wherever these are kept.
+struct ReferenceOperators {
+    using Product = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
+    Product linear, quadratic;                     ///< forces for displacements of all nodes
+    Product solve_linear;                          ///< by the linear one with the constrained vertices eliminated
+    std::function<Eigen::Matrix3d(int)> diagonal;  ///< block of a node on the diagonal of the quadratic one
+};
 
 /// The answer that linear tetrahedra are judged by: quadratic elements on the same tetrahedra, solved by conjugate
 /// gradients to a few per cent in energy. Two levels precondition them: the factorised linear stiffness on the corners,
@@ -22,6 +36,11 @@ namespace elastolab {
 std::optional<ReferenceAnswer> quadratic_reference(const FemSystem& linear, double poisson_ratio,
                                                    std::span<const int> vertices, std::span<const UnitLoad> loads,
                                                    const Eigen::VectorXd& values, Control& control);
+
+/// The same with these operators. mesh: the quadratic elements on the tetrahedra of the linear mesh.
+ReferenceAnswer quadratic_reference(const QuadraticMesh& mesh, const FemMesh& linear, const ReferenceOperators& apply,
+                                    std::span<const int> vertices, std::span<const UnitLoad> loads,
+                                    const Eigen::VectorXd& values, Control& control);
 
 /// Bytes that these references take.
 std::uint64_t quadratic_reference_memory(const FemSystem& linear);

@@ -19,6 +19,7 @@ declare -A below=(
   [render]="base"
   [app]="base mesh elasticity deform findings methods scene render"
   [python]="base mesh elasticity deform findings methods scene"
+  [petsc]="base mesh elasticity deform fem methods scene cli"
   [cli]="base mesh elasticity deform findings methods scene study app"
 )
 
@@ -29,12 +30,13 @@ wrapped=(
   'CGAL/|^mesh/wrap/(cgal_mesh\.hpp|hole_filling\.cpp|wrap_main\.cpp)$'
   '(.*/)?cholmod|^fem/[a-z_/]*\.cpp$'
   'nlohmann/|^(scene/file/json_(text|node)\.hpp|cli/json_parts\.hpp|(scene|study|cli|app)/[a-z_/]*\.cpp)$'
-  'CLI/|^cli/[a-z_/]*\.cpp$'
+  '(petsc[a-z]*|mpi)\.h|^petsc/[a-z_/]*\.(cpp|hpp)$'
+  'CLI/|^(cli|petsc)/[a-z_/]*\.cpp$'
   '(GL|GLES2|GLES3|glad|EGL|epoxy)/|^(render|app)/[a-z_/]*\.(cpp|hpp)$'
   'GLFW/|^(app|cli)/[a-z_/]*\.(cpp|hpp)$'
   'spnav\.h|^app/window/six_axis_mouse\.cpp$'
   'imgui|^app/[a-z_/]*\.(cpp|hpp)$'
-  '(cblas|lapacke|openblas_config)\.h|^(base|elasticity|fem|bem|deform)/[a-z_/]*\.cpp$'
+  '(cblas|lapacke|openblas_config)\.h|^(base|elasticity|fem|bem|deform|petsc)/[a-z_/]*\.cpp$'
 )
 
 failures=0

@@ -8,7 +8,7 @@ namespace elastolab {
 
 Cost predict_nonlinear_fem(const SurfaceMesh& mesh, const Method& method) {
     constexpr double kIterations = 5.0;  // from rest to a motion of some 60 degrees
-    constexpr double kFactors = 3.0;     // at rest, of the last equilibrium, and of the next one
+    constexpr double kFactors = 2.0;     // at rest, and of the last equilibrium or the next one
     const bool quadratic = method.elements == ElementDegree::quadratic;
     const double vertices = estimated_tet_nodes(mesh);
     const FactorEstimate factor(mesh, vertices, quadratic);

@@ -14,8 +14,8 @@ namespace {
 /// Error that ten-node elements leave, over how much they change the answer of four-node ones; that of linear theory
 /// (fem/error_estimate.cpp).
 constexpr double kLeftByTenNodes = 0.45;
-/// Factors that are held at once: at rest, of the last equilibrium, and of the next one.
-constexpr std::uint64_t kHeldFactors = 3;
+/// Factors that are held at once: at rest, and of the last equilibrium or the next one.
+constexpr std::uint64_t kHeldFactors = 2;
 constexpr int kCheckIterations = 30;
 
 /// Positions, elements, gradients of their shapes, and the elements around each node.

@@ -108,9 +108,11 @@ double Newton::step_length(const NewtonState& state, const Eigen::VectorXd& step
 }
 
 NewtonState Newton::run(Eigen::VectorXd u, const Eigen::VectorXd& factors, double tolerance, int most_iterations,
-                        ElementWork& work, Control& control) const {
+                        ElementWork& work, Control& control, std::shared_ptr<const SparseCholesky> before) const {
     NewtonState state;
     state.u = std::move(u);
+    state.factor = std::move(before);
+    state.factor_residual = 1.0;
     state.factors = factors;
     SparseMatrix K = tangent_->make_matrix();
     BodyEnergy energy = this->energy(state.u, work, control);

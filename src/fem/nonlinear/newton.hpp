@@ -46,8 +46,10 @@ public:
     /// free nodes over those of the loads and at the constrained ones. Not converged when there is no step that helps
     /// or so many iterations with the true tangent, or four times as many with any, do not suffice; what was reached is
     /// returned all the same. Throws SolveError, Cancelled.
+    /// before: a factor of a tangent near by, which is what state.factor is where no iteration is needed, and which is
+    /// let go of where one is, so that there are not two at once.
     NewtonState run(Eigen::VectorXd u, const Eigen::VectorXd& factors, double tolerance, int most_iterations,
-                    ElementWork& work, Control& control) const;
+                    ElementWork& work, Control& control, std::shared_ptr<const SparseCholesky> before = nullptr) const;
     /// A push along the most unstable direction that lowers the energy less the loads' work; u itself where there is
     /// none.
     Eigen::VectorXd pushed(const NewtonState& state, ElementWork& work, Control& control) const;

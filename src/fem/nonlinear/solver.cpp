@@ -4,6 +4,7 @@
 #include <cmath>
 #include <Eigen/Geometry>
 #include <numbers>
+#include <utility>
 
 #include "elasticity/neo_hookean.hpp"
 
@@ -179,6 +180,7 @@ NewtonState NonlinearSolver::warped(const MotionPath& path, const Eigen::VectorX
     const Eigen::VectorXd u =
         rest(work, control)->displace(of_all_nodes(path.logarithm()), of_all_nodes(path.at(1.0)), work, control);
     if (!(newton_.energy(u, work, control).least_J > kCrushed)) return {};
+    keep(nullptr);
     return newton_.run(u, factors, tolerance, kMostIterations, work, control);
 }
 
@@ -213,19 +215,17 @@ NewtonState NonlinearSolver::followed(const NonlinearState& from, const MotionPa
             continue;
         }
         const double wanted = next < 1.0 ? std::max(kPassing, tolerance) : tolerance;
-        NewtonState reached =
-            newton_.run(u, next_factors, wanted, next < 1.0 ? kMostPassing : kMostIterations, work, control);
+        const bool stable = at.stable;
+        keep(nullptr);  // a factor less at the same time; where the step fails, it is made again
+        NewtonState reached = newton_.run(u, next_factors, wanted, next < 1.0 ? kMostPassing : kMostIterations, work,
+                                          control, std::exchange(at.factor, nullptr));
+        if (reached.iterations == 0) reached.stable = stable;
         if (reached.converged) reached = stabilised(std::move(reached), wanted, work, control);
         iterations += reached.iterations;
         if (!reached.converged) {
             failed.crushed = reached.crushed;
             length *= 0.5;
             continue;
-        }
-        if (!reached.factor) {  // the prediction was right
-            reached.factor = at.factor;
-            reached.factor_residual = 1.0;
-            reached.stable = at.stable;
         }
         at = std::move(reached);
         keep(at.factor);

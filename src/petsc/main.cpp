@@ -1,0 +1,120 @@
+#include <algorithm>
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <vector>
+
+#include "base/blas.hpp"
+#include "base/blas_memory.hpp"
+#include "base/error.hpp"
+#include "base/memory.hpp"
+#include "base/stack.hpp"
+#include "base/text.hpp"
+#include "cli/command.hpp"
+#include "cli/interrupt.hpp"
+#include "petsc/growth_command.hpp"
+#include "petsc/method.hpp"
+#include "petsc/model.hpp"
+#include "petsc/session.hpp"
+#include "scene/solve.hpp"
+#include "scene/user_text.hpp"
+
+namespace {
+
+using namespace elastolab;
+
+constexpr int kSuccess = 0, kFailure = 1, kBadUsage = 2;
+
+int complain(const std::string& text, int exit_code) {
+    std::cerr << "elastolab-petsc: " << one_line(text) << std::endl;
+    return exit_code;
+}
+
+MethodKind distributed_method(MethodKind kind) {
+    if (const MethodKind other = distributed(kind)) return other;
+    throw UsageError("--method " + std::string(name(kind)) +
+                     ": runs on one process only, by elastolab solve. Choose fem or quadratic-fem.");
+}
+
+/// What solved each solid, and on how many processes.
+void print_engine(std::ostream& out, const Solution& solution) {
+    const Session& session = Session::current();
+    for (const Model::Part& part : solution.model->parts()) {
+        const auto* model = dynamic_cast<const PetscFemModel*>(part.solid.get());
+        if (model == nullptr) continue;
+        const SolverFacts& facts = model->solver_facts();
+        out << "  engine        ";
+        if (facts.engine == Engine::mumps)
+            out << "MUMPS, factor within " << readable_bytes(facts.factor_bytes);
+        else
+            out << "conjugate gradients with GAMG, " << facts.n_levels << " levels, " << facts.iterations
+                << " iterations";
+        out << ", " << session.n_processes() << (session.n_processes() == 1 ? " process\n" : " processes\n");
+    }
+}
+
+void add_engine_option(CLI::App& parser) {
+    const std::map<std::string, Engine> engines = {
+        {"auto", Engine::automatic}, {"mumps", Engine::mumps}, {"gamg", Engine::gamg}};
+    parser
+        .add_option("--engine", Session::current().engine,
+                    "mumps: a factor; gamg: conjugate gradients with multigrid; auto: the factor where it fits into "
+                    "memory (default)")
+        ->transform(CLI::CheckedTransformer(engines));
+}
+
+/// The first process runs a command and gives orders; the others run what all run alike, and follow.
+int run(int argc, char** argv) {
+    const Session& session = Session::current();
+    CLI::App program("Elastolab's FEM on several processes, by MPI and PETSc.", "elastolab-petsc");
+    program.set_version_flag("--version", "elastolab-petsc " ELASTOLAB_VERSION);
+    program.require_subcommand(1, 1);
+    const Command solve = add_solve_command(program, {distributed_method, print_engine});
+    const Command grow = add_growth_command(program);
+    add_engine_option(*solve.parser);
+    add_engine_option(*grow.parser);
+    try {
+        program.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        if (!session.first()) return kSuccess;
+        if (error.get_exit_code() == 0) return program.exit(error);  // --help and --version
+        const std::string finding = error.what();
+        return complain(finding + (finding.ends_with('.') ? "" : ".") + " See elastolab-petsc --help.", kBadUsage);
+    }
+    if (grow.parser->parsed())
+        grow.run();
+    else if (session.first())
+        solve.run();
+    return kSuccess;
+}
+
+int run_and_say(int argc, char** argv) {
+    try {
+        const int code = run(argc, argv);
+        std::cout.flush();
+        return std::cout ? code : complain("Standard output cannot be written. Is the disk full?", kFailure);
+    } catch (const UsageError& error) {
+        return complain(error.what(), kBadUsage);
+    } catch (const Cancelled&) {
+        return complain("Interrupted; no output was written.", interrupt_exit_code());
+    } catch (const std::exception& error) {
+        return Session::current().first() ? complain(user_text(error), kFailure) : kFailure;
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        ensure_stack(argv);
+        start_blas_within_limits(argv);
+        prepare_parallel_libraries(argv);
+        reserve_blas_buffers();
+        Session session;
+        set_thread_count(std::max(1, thread_count() / session.n_on_this_machine()));
+        const int code = run_and_say(argc, argv);
+        if (!session.first()) session.serve();
+        return session.first() ? code : kSuccess;
+    } catch (const std::exception& error) {
+        return complain(error.what(), kFailure);
+    }
+}

@@ -1,0 +1,169 @@
+#include "petsc/model.hpp"
+
+#include "base/memory.hpp"
+#include "deform/holds.hpp"
+#include "fem/error_estimate.hpp"
+#include "fem/interior.hpp"
+#include "fem/load_vectors.hpp"
+#include "fem/nodal_field.hpp"
+#include "fem/quadratic/interior.hpp"
+#include "mesh/tets/tetrahedralize.hpp"
+#include "petsc/session.hpp"
+
+namespace elastolab {
+
+namespace {
+
+/// Elements of this degree on the tetrahedra, without their integrals.
+FemMesh bare_mesh(const TetMesh& tets, const Triangles& surface, ElementDegree degree) {
+    FemMesh mesh;
+    mesh.n_elements = tets.n_tetrahedra();
+    mesh.surface = surface;
+    if (degree == ElementDegree::linear) {
+        mesh.n_surface_nodes = tets.n_surface_vertices;
+        mesh.tets = tets;
+        return mesh;
+    }
+    QuadraticMesh quadratic(tets);
+    mesh.tets = quadratic.split();
+    mesh.n_surface_nodes = quadratic.n_surface_nodes;
+    mesh.surface_midpoints = midpoints_of(surface, quadratic);
+    mesh.midpoints = {std::move(quadratic.triangles), std::move(quadratic.midpoints)};
+    return mesh;
+}
+
+std::shared_ptr<PetscStiffness> distribute(const FemMesh& mesh, double poisson_ratio, Control& control) {
+    if (mesh.degree() == ElementDegree::linear)
+        return std::make_shared<PetscStiffness>(mesh.tets.vertices, mesh.tets.tetrahedra, poisson_ratio, control);
+    return std::make_shared<PetscStiffness>(mesh.tets.vertices, rejoined(mesh.tets), poisson_ratio, control);
+}
+
+/// Bytes of the constrained matrix, of GAMG's coarse ones or MUMPS's front, for each node on average.
+constexpr std::uint64_t kBytesOfNode = 8000;
+
+}  // namespace
+
+PetscFemModel::PetscFemModel(const SurfaceMesh& surface, const std::string& name, double poisson_ratio,
+                             const Method& method, Control& control, ElementDegree degree)
+    : poisson_ratio_(poisson_ratio), update_(method.update) {
+    {
+        const Stage stage("tetrahedralize", control, facts_.stages);
+        tets_ = std::make_shared<const TetMesh>(tetrahedralize(surface, name, TetOptions{}, control));
+    }
+    {
+        const Stage stage("integrate", control, facts_.stages);
+        mesh_ = std::make_shared<const FemMesh>(bare_mesh(*tets_, surface.triangles, degree));
+        stiffness_ = distribute(*mesh_, poisson_ratio, control);
+    }
+    facts_.n_triangles = surface.n_triangles();
+    facts_.n_vertices = mesh_->tets.n_surface_vertices;
+    facts_.n_tetrahedra = mesh_->n_elements;
+    facts_.n_degrees_of_freedom = 3 * mesh_->tets.n_vertices();
+    facts_.memory_bytes = static_cast<std::uint64_t>(8 * mesh_->tets.vertices.size());
+}
+
+PetscFemModel::PetscFemModel(const PetscFemModel& before, const Method& method)
+    : poisson_ratio_(before.poisson_ratio_),
+      update_(method.update),
+      tets_(before.tets_),
+      mesh_(before.mesh_),
+      stiffness_(before.stiffness_) {
+    facts_ = before.facts_;
+    facts_.stages.clear();
+}
+
+std::uint64_t PetscFemModel::constrain_memory(std::span<const int>, std::span<const int>) const {
+    return kBytesOfNode * static_cast<std::uint64_t>(mesh_->tets.n_vertices()) /
+           static_cast<std::uint64_t>(Session::current().n_processes());
+}
+
+std::uint64_t PetscFemModel::check_memory(std::span<const int>, std::span<const int>) const {
+    const FemSystem system{std::shared_ptr<const FemMesh>(mesh_), {}};
+    const std::uint64_t all =
+        degree() == ElementDegree::linear ? quadratic_reference_memory(system) : linear_reference_memory(system);
+    return all / static_cast<std::uint64_t>(Session::current().n_processes());
+}
+
+std::unique_ptr<ConstrainedSolid> PetscFemModel::constrain(std::span<const int> base, std::span<const int> handles,
+                                                           std::span<const UnitLoad> loads, Control& control) const {
+    ConstrainedFemNodes constrained = constrain_nodes(mesh_->tets.vertices, mesh_->midpoints, base, handles);
+    const std::vector<int> nodes = constrained.prescribed.nodes;
+    const Eigen::MatrixXd given = load_vectors(*mesh_, loads);
+    std::unique_ptr<NodeSolver> solver;
+    if (update_ == Update::direct || holds(mesh_->tets.vertices, nodes))
+        solver = std::make_unique<PetscHeldSolver>(stiffness_, mesh_->tets.vertices, nodes, given, control);
+    else
+        solver = std::make_unique<PetscFreeSolver>(*stiffness_, mesh_->tets.vertices, mesh_->n_surface_nodes, nodes,
+                                                   given, control);
+    SolutionChecks checks;
+    checks.residual = [K = stiffness_, nodes, given](const NodeSolution& solution, Control& its_control) {
+        return petsc_residual(*K, solution.displacements, nodes, solution.loads, given * solution.factors, its_control);
+    };
+    checks.reference = [this, vertices = constrained.vertices, all = std::vector<UnitLoad>(loads.begin(), loads.end())](
+                           Values values, const NodeSolution&, Control& its_control) {
+        return degree() == ElementDegree::linear ? better_answer(vertices, all, values, its_control)
+                                                 : simpler_answer(vertices, all, values, its_control);
+    };
+    checks.inside = [mesh = mesh_, nu = poisson_ratio_](NodeSolution&& solution, Control&) {
+        return std::make_shared<const NodalField>(std::shared_ptr<const TetMesh>(mesh, &mesh->tets), mesh->degree(), nu,
+                                                  std::move(solution.displacements));
+    };
+    return std::make_unique<ConstrainedSolid>(mesh_->tets.n_surface_vertices, std::move(constrained.prescribed),
+                                              std::move(constrained.shares), nullptr, std::move(solver),
+                                              std::move(checks), static_cast<int>(loads.size()));
+}
+
+/// As quadratic_reference. The solver of the constrained set, which is still there, is that of the corners, too.
+std::optional<ReferenceAnswer> PetscFemModel::better_answer(const std::vector<int>& vertices,
+                                                            std::span<const UnitLoad> loads, Values values,
+                                                            Control& control) const {
+    if (!holds(mesh_->tets.vertices, vertices)) return {};
+    if (check_memory({}, {}) > available_memory_bytes()) return {};
+    stiffness_->ensure_eliminated(vertices, control);
+    const QuadraticMesh mesh(*tets_);
+    const PetscStiffness quadratic(mesh.positions, mesh.elements, poisson_ratio_, control);
+    const Eigen::Matrix3Xd diagonal = quadratic.diagonal(control);
+    ReferenceOperators apply;
+    apply.linear = [&](Values u) -> Eigen::VectorXd { return stiffness_->multiply(u, control); };
+    apply.quadratic = [&](Values u) -> Eigen::VectorXd { return quadratic.multiply(u, control); };
+    apply.solve_linear = [&](Values f) -> Eigen::VectorXd { return stiffness_->solve(f, kPetscTolerance, control); };
+    apply.diagonal = [&](int node) -> Eigen::Matrix3d { return diagonal.middleCols<3>(3 * node); };
+    return quadratic_reference(mesh, *mesh_, apply, vertices, loads, values, control);
+}
+
+/// As linear_reference, on linear elements of their own.
+std::optional<ReferenceAnswer> PetscFemModel::simpler_answer(const std::vector<int>& vertices,
+                                                             std::span<const UnitLoad> loads, Values values,
+                                                             Control& control) const {
+    if (!holds(mesh_->tets.vertices, vertices)) return {};
+    const FemMesh mesh = bare_mesh(*tets_, mesh_->surface, ElementDegree::linear);
+    const Eigen::MatrixXd given = load_vectors(mesh, loads);
+    const PetscHeldSolver solver(distribute(mesh, poisson_ratio_, control), mesh.tets.vertices, vertices, given,
+                                 control);
+    const NodeSolution solution = solver.solve_watched(values, true, kPetscTolerance, control);
+    const std::vector<LoadShare> shares = nodal_shares(mesh.tets.vertices, vertices);
+    return ReferenceAnswer{solution.displacements.col(0).head(3 * mesh.tets.n_surface_vertices),
+                           gathered_reactions(shares, static_cast<int>(vertices.size()), solution.loads.col(0)),
+                           -kLeftByQuadratic};
+}
+
+const SparseStiffness* PetscFemModel::sparse_stiffness() const {
+    std::call_once(assembled_once_, [this] {
+        Control control;
+        const Eigen::MatrixXi elements = degree() == ElementDegree::linear ? Eigen::MatrixXi(mesh_->tets.tetrahedra)
+                                                                           : Eigen::MatrixXi(rejoined(mesh_->tets));
+        assembled_ =
+            stiffness(assemble_stiffness_parts(mesh_->tets.vertices, elements, control), Material{1.0, poisson_ratio_});
+    });
+    return &assembled_;
+}
+
+std::shared_ptr<const Interior> PetscFemModel::interior(Control& control) const {
+    control.checkpoint();
+    const std::shared_ptr<const TetMesh> tets(mesh_, &mesh_->tets);
+    if (degree() == ElementDegree::quadratic)
+        return std::make_shared<const QuadraticFemInterior>(tets, *sparse_stiffness(), control);
+    return std::make_shared<const FemInterior>(tets, *sparse_stiffness(), control);
+}
+
+}  // namespace elastolab

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "base/control.hpp"
+
+namespace elastolab {
+
+class DistributedSystem;
+
+/// How a stiffness is solved.
+///   automatic  by mumps where its own prediction fits into the memory of every process, else by gamg
+///   mumps      a distributed Cholesky factor
+///   gamg       conjugate gradients, preconditioned by PETSc's algebraic multigrid
+enum class Engine { automatic, mumps, gamg };
+
+/// What the first process asks all of them to do together.
+struct Order {
+    enum class What : int { quit, create, release, eliminate, ground, solve, multiply, multiply_sizes, diagonal };
+    What what = What::quit;
+    int system = 0;
+    std::int64_t n = 0;      ///< columns, or nodes
+    double tolerance = 0.0;  ///< of a solve
+    Engine engine = Engine::automatic;
+};
+
+/// MPI and PETSc, from construction to destruction; one in a program. The first process runs the program and gives
+/// orders, the others serve() them. Destroying it on the first process sends the others home.
+class Session {
+public:
+    Session();
+    ~Session();
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
+    /// The one that lives (asserted).
+    static Session& current();
+
+    int process() const { return process_; }
+    int n_processes() const { return n_processes_; }
+    bool first() const { return process_ == 0; }
+    /// Processes on this one's machine.
+    int n_on_this_machine() const { return n_here_; }
+
+    /// On all processes but the first: follows orders until told to quit. Sleeps while there are none.
+    void serve();
+    /// On the first: all processes follow the order, this one by `work`. Throws SolveError when it failed on one of
+    /// them, Cancelled.
+    void together(const Order& order, const std::function<void()>& work, Control& control);
+
+    /// On all processes, inside an order: whether the first one's control was cancelled.
+    bool cancelled() const;
+    /// On all processes, inside an order or outside of any: sums and least values over processes.
+    double sum(double value) const;
+    double least(double value) const;
+    double largest(double value) const;
+
+    /// A number for a new system, and the system of a number.
+    int add(std::shared_ptr<DistributedSystem> system);
+    void remove(int number) { systems_.erase(number); }
+    DistributedSystem& system(int number) const { return *systems_.at(number); }
+
+    Engine engine = Engine::automatic;  ///< that the user asked for
+
+private:
+    Order receive() const;
+    void follow(const Order& order);
+    /// The words of the first process that failed, of all together; empty: none.
+    std::string agree(const std::string& failure) const;
+
+    int process_ = 0, n_processes_ = 1, n_here_ = 1, next_ = 0;
+    const Control* control_ = nullptr;
+    std::map<int, std::shared_ptr<DistributedSystem>> systems_;
+};
+
+}  // namespace elastolab
