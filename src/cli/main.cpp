@@ -3,6 +3,7 @@
 #include <csignal>
 #include <cstdio>
 #include <iostream>
+#include <string>
 #include <vector>
 
 #include "base/blas.hpp"
@@ -11,6 +12,7 @@
 #include "base/error.hpp"
 #include "base/stack.hpp"
 #include "base/text.hpp"
+#include "base/version.hpp"
 #include "cli/command.hpp"
 #include "cli/interrupt.hpp"
 #include "scene/user_text.hpp"
@@ -30,7 +32,7 @@ int complain(const std::string& text, int exit_code) {
 
 int run(int argc, char** argv) {
     CLI::App program("Elastolab: elastic bodies by finite and boundary elements.", "elastolab");
-    program.set_version_flag("--version", "elastolab " ELASTOLAB_VERSION);
+    program.set_version_flag("--version", std::string("elastolab ") + version());
     program.require_subcommand(0, 1);
     const std::vector<Command> commands = {add_view_command(program), add_solve_command(program),
                                            add_info_command(program), add_bench_command(program),

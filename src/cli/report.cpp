@@ -8,6 +8,7 @@
 #include "base/machine.hpp"
 #include "base/memory.hpp"
 #include "base/text.hpp"
+#include "base/version.hpp"
 #include "cli/json_parts.hpp"
 
 namespace elastolab {
@@ -139,7 +140,7 @@ void write_report(std::ostream& out, const Solution& solution) {
     const Method& method = solution.model->method();
     const ModelFacts& facts = solution.model->facts();
     const Json json = {
-        {"version", ELASTOLAB_VERSION},
+        {"version", version()},
         {"machine", machine()},
         {"blas_kernels", blas_kernels()},
         {"threads", thread_count()},

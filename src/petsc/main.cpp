@@ -9,6 +9,7 @@
 #include "base/memory.hpp"
 #include "base/stack.hpp"
 #include "base/text.hpp"
+#include "base/version.hpp"
 #include "cli/command.hpp"
 #include "cli/interrupt.hpp"
 #include "petsc/growth_command.hpp"
@@ -66,7 +67,7 @@ void add_engine_option(CLI::App& parser) {
 int run(int argc, char** argv) {
     const Session& session = Session::current();
     CLI::App program("Elastolab's FEM on several processes, by MPI and PETSc.", "elastolab-petsc");
-    program.set_version_flag("--version", "elastolab-petsc " ELASTOLAB_VERSION);
+    program.set_version_flag("--version", std::string("elastolab-petsc ") + version());
     program.require_subcommand(1, 1);
     const Command solve = add_solve_command(program, {distributed_method, print_engine});
     const Command grow = add_growth_command(program);

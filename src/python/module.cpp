@@ -8,6 +8,7 @@
 #include "base/blas_memory.hpp"
 #include "base/control.hpp"
 #include "base/error.hpp"
+#include "base/version.hpp"
 #include "python/deformers.hpp"
 #include "python/loads.hpp"
 #include "python/models.hpp"
@@ -58,5 +59,5 @@ PYBIND11_MODULE(_core, module) {
     module.def("blas_kernels", &blas_kernels, "Name of the BLAS kernels that run, as OpenBLAS calls them.");
     module.def("thread_count", &thread_count);
     module.def("set_threads", &set_threads, py::arg("n"), "At most this many threads, and at most one for each core.");
-    module.attr("__version__") = ELASTOLAB_VERSION;
+    module.attr("__version__") = version();
 }

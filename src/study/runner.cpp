@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "base/machine.hpp"
 #include "base/timer.hpp"
+#include "base/version.hpp"
 #include "study/report/folder_lock.hpp"
 #include "study/report/journal.hpp"
 #include "study/report/report.hpp"
@@ -127,7 +128,7 @@ std::string Case::key() const {
 Row provenance(const StudyOptions& options) {
     const Machine machine = this_machine();
     return Row()
-        .set("version", std::string(ELASTOLAB_VERSION))
+        .set("version", std::string(version()))
         .set("cpu", machine.cpu)
         .set("cores", machine.cores)
         .set("memory_bytes", machine.memory_bytes)

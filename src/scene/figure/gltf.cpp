@@ -9,6 +9,7 @@
 
 #include "base/atomic_file.hpp"
 #include "base/text.hpp"
+#include "base/version.hpp"
 #include "scene/file/json_text.hpp"
 
 namespace elastolab {
@@ -99,7 +100,7 @@ void write_glb(std::ostream& out, const Figure& figure) {
         {"attributes", {{"POSITION", position}}}, {"indices", corners}, {"mode", 4}, {"targets", targets}};
     const double half = 0.70710678118654752;
     const Json root = {
-        {"asset", {{"version", "2.0"}, {"generator", "elastolab " ELASTOLAB_VERSION}}},
+        {"asset", {{"version", "2.0"}, {"generator", std::string("elastolab ") + version()}}},
         {"scene", 0},
         {"scenes", Json::array({{{"nodes", {0}}}})},
         {"nodes", Json::array({{{"mesh", 0}, {"name", figure.title}, {"rotation", {-half, 0.0, 0.0, half}}}})},
