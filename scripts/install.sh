@@ -18,6 +18,7 @@ missing=()
 for package in "${packages[@]}"; do
   is_installed "$package" || missing+=("$package")
 done
+command -v ffmpeg >/dev/null || echo "Films become videos where ffmpeg is installed: scripts/install.sh ffmpeg"
 if [[ ${#missing[@]} -eq 0 ]]; then exit 0; fi
 
 as_root=()

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <CLI/CLI.hpp>
 #include <iostream>
+#include <string>
 #include <vector>
 
 #include "base/blas.hpp"

@@ -39,6 +39,12 @@ constexpr std::array<Choice<OpenSurface>, 3> kOpenSurfaces = {
 /// Range of a proxy's vertices that a person can choose.
 constexpr int kFewestChosen = 100, kMostChosen = 10000;
 
+/// What a defect is, where a proxy is simulated in spite of it.
+std::string without_advice(const std::string& defect) {
+    constexpr std::string_view kConsequence = ", so it bounds no solid";
+    return defect.substr(0, defect.find(kConsequence)) + " (a proxy is simulated)";
+}
+
 }  // namespace
 
 /// How a surface that bounds no solid is simulated.
@@ -86,6 +92,7 @@ void Panels::draw_young_modulus(ViewerState& state, float scale) {
 void Panels::draw_defects(const PanelContext& context) {
     ViewerState& state = context.state;
     const MeshReport& report = state.scene().report();
+    const bool has_proxy = state.simulation.embedded(state.method).proxy() != nullptr;
     for (std::size_t i = 0; i < report.defects.size(); ++i) {
         const Defect& defect = report.defects[i];
         if (!defect.fatal || defect.repaired) continue;
@@ -97,7 +104,8 @@ void Panels::draw_defects(const PanelContext& context) {
         }
         tooltip("Flies to its places one after another; F frames the body again.");
         if (!defect.places.empty()) ImGui::SameLine();
-        paragraph(defect.text, context.palette.bad);
+        paragraph(has_proxy ? without_advice(defect.text) : defect.text,
+                  has_proxy ? context.palette.busy : context.palette.bad);
         ImGui::PopID();
     }
 }

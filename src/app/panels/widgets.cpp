@@ -176,8 +176,10 @@ void draw_fields(const char* label, int n, const auto& draw_field) {
     ImGui::EndGroup();
 }
 
-/// The longest that fits, as a format of Dear ImGui.
+/// The longest that fits, as a format of Dear ImGui: without an exponent where that is as short.
 std::string format_for(double value, const std::string& unit, float room) {
+    constexpr double kLeastPlain = 999.5, kLargestPlain = 999999.5;
+    if (std::abs(value) >= kLeastPlain && std::abs(value) < kLargestPlain) return "%.0f" + unit;
     for (const char* format : {"%.4g", "%.3g", "%.2g"})
         if (ImGui::CalcTextSize((formatted(format, value) + unit).c_str()).x <= room) return format + unit;
     return "%.1g" + unit;

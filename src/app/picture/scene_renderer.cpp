@@ -107,7 +107,7 @@ void SceneRenderer::upload_body(const ViewerState& state, const ShownBody& body,
         upload_filling(body, target);
     }
     upload_arrows(state, body, target, palette);
-    upload_points(state, body, target, palette);
+    upload_patches(state, body, target, palette, is_new);
 }
 
 void SceneRenderer::upload_section(const ShownBody& body, BodyDrawing& target) {
@@ -150,32 +150,57 @@ void SceneRenderer::upload_surface(const Positions& positions, const std::vector
         target.set_vertex_scalars(values);
 }
 
-void SceneRenderer::upload_points(const ViewerState& state, const ShownBody& body, BodyDrawing& target,
-                                  const Palette& palette) {
+namespace {
+
+/// A fixed set, a handle or the corners of a load, and how large its dots are.
+struct ShownPatch {
+    std::vector<int> vertices;
+    Colour colour;
+    float dot_size;
+};
+
+std::vector<ShownPatch> shown_patches(const ViewerState& state, const Palette& palette) {
     const LiveScene& scene = state.scene();
-    const float crowd = crowd_factor(scene.mesh().n_vertices()) * view_factor(state);
+    std::vector<ShownPatch> patches;
+    const auto add = [&](std::span<const int> vertices, const Colour& colour, float size) {
+        patches.push_back({{vertices.begin(), vertices.end()}, colour, size});
+    };
+    for (int s = 0; s < scene.n_fixed_sets(); ++s) {
+        const bool active = s == state.gestures.selected_fixed();
+        add(scene.fixed_vertices(s), active ? palette.fixed_active : palette.fixed,
+            active ? kActivePointSize : kPointSize);
+    }
+    for (int h = 0; h < scene.n_handles(); ++h) {
+        const bool active = h == state.gestures.selected_handle();
+        add(scene.vertices(h), active ? palette.active : palette.handle, active ? kActivePointSize : kPointSize);
+    }
+    for (const AppliedLoad& load : scene.constraints().loads)
+        add(corners_of(load, scene.mesh()),
+            state.gestures.selected_load() == load.number ? palette.active : palette.load, kLoadedPointSize);
+    return patches;
+}
+
+}  // namespace
+
+/// Large ones as areas, and small ones as dots; where the body is cut open, all as dots at what is left of it.
+void SceneRenderer::upload_patches(const ViewerState& state, const ShownBody& body, BodyDrawing& target,
+                                   const Palette& palette, bool moved) {
+    const float crowd = crowd_factor(state.scene().mesh().n_vertices()) * view_factor(state);
     const std::vector<char> seen = seen_vertices(body);
     std::vector<PointSprite> points;
     const auto add_points = [&](std::span<const int> vertices, const Colour& colour, float size) {
         for (const int v : vertices)
             if (seen[static_cast<std::size_t>(v)] != 0) points.push_back({body.positions().col(v), colour, size});
     };
-    if (state.display.constraints) {
-        for (int s = 0; s < scene.n_fixed_sets(); ++s) {
-            const bool active = s == state.gestures.selected_fixed();
-            add_points(scene.fixed_vertices(s), active ? palette.fixed_active : palette.fixed,
-                       crowd * (active ? kActivePointSize : kPointSize));
-        }
-        for (int h = 0; h < scene.n_handles(); ++h) {
-            const bool active = h == state.gestures.selected_handle();
-            add_points(scene.vertices(h), active ? palette.active : palette.handle,
-                       crowd * (active ? kActivePointSize : kPointSize));
-        }
-        for (const AppliedLoad& load : scene.constraints().loads)
-            add_points(corners_of(load, scene.mesh()),
-                       state.gestures.selected_load() == load.number ? palette.active : palette.load,
-                       crowd * kLoadedPointSize);
-    }
+    const std::vector<ShownPatch> patches =
+        state.display.constraints ? shown_patches(state, palette) : std::vector<ShownPatch>();
+    std::vector<PatchAreas::Patch> areas;
+    if (!body.section())
+        for (const ShownPatch& patch : patches) areas.push_back({patch.vertices, patch.colour});
+    const std::vector<char> is_area = target.areas.update(state.scene().mesh(), body.positions(), frame_, areas, moved);
+    for (std::size_t i = 0; i < patches.size(); ++i)
+        if (i >= is_area.size() || is_area[i] == 0)
+            add_points(patches[i].vertices, patches[i].colour, crowd * patches[i].dot_size);
     const Hover& hover = state.gestures.hover();
     if (!state.gestures.dragging()) {
         add_points(hover.patch, palette.hover, crowd * kHoverPointSize);
@@ -316,6 +341,7 @@ void SceneRenderer::draw_viewport(const ViewerState& state, const SceneViewport&
     if (soft_shadows && extent.whole != nullptr) occlusion_.draw_tile(view, target, *extent.whole);
     if (soft_shadows && !target.is_tile()) occlusion_.draw(view, target);
     if (state.display.grid || soft_shadows) draw_ground(state, view, palette, body, target, soft_shadows);
+    main.areas.draw(view);
     draw_filling(state, view, viewport.kinds.front(), palette);
     draw_ghosts(state, view, viewport, palette, extent.detail);
     if (state.display.defects && main.rim)

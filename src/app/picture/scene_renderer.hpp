@@ -8,6 +8,7 @@
 
 #include "app/picture/drawing_detail.hpp"
 #include "app/picture/palette.hpp"
+#include "app/picture/patch_areas.hpp"
 #include "app/viewer_state.hpp"
 #include "render/drawing/arrows_drawing.hpp"
 #include "render/drawing/axes_gizmo.hpp"
@@ -61,6 +62,7 @@ private:
         std::shared_ptr<const SectionShape> section_shape;
         std::optional<SurfaceDrawing> filling;      ///< of its holes
         std::shared_ptr<const void> filling_shape;  ///< whose triangles it has: of the filling, or of the section
+        PatchAreas areas;
         PointsDrawing points;
         ArrowsDrawing arrows;
         std::uint64_t revision = 0;
@@ -102,7 +104,8 @@ private:
     void upload_section(const ShownBody& body, BodyDrawing& target);
     void upload_filling(const ShownBody& body, BodyDrawing& target);
     void upload_surface(const Positions& positions, const std::vector<float>& values, SurfaceDrawing& target);
-    void upload_points(const ViewerState& state, const ShownBody& body, BodyDrawing& target, const Palette& palette);
+    void upload_patches(const ViewerState& state, const ShownBody& body, BodyDrawing& target, const Palette& palette,
+                        bool moved);
     void upload_arrows(const ViewerState& state, const ShownBody& body, BodyDrawing& target, const Palette& palette);
     void draw_viewport(const ViewerState& state, const SceneViewport& viewport, const Palette& palette,
                        double pixel_ratio, const Framebuffer& target, const Extent& extent);

@@ -37,11 +37,16 @@ void FileDialog::open(Purpose purpose) {
     problem_.clear();
     to_replace_.clear();
     std::error_code error;
-    if (!purpose_.folder.empty()) folder_ = purpose_.folder;
-    if (folder_.empty()) folder_ = load_last_folder();
+    if (fs::path last = purpose_.folder.empty() ? load_last_folder(kind()) : purpose_.folder; !last.empty())
+        folder_ = std::move(last);
     if (folder_.empty()) folder_ = fs::current_path(error);
     list_folder();
     open_ = opening_ = true;
+}
+
+/// What folders are remembered by.
+std::string FileDialog::kind() const {
+    return is_saving() ? fs::path(purpose_.suggestion).extension().string() : "open";
 }
 
 void FileDialog::list_folder() {
@@ -82,7 +87,7 @@ void FileDialog::accept(const fs::path& typed) {
     }
     open_ = false;
     ImGui::CloseCurrentPopup();
-    save_last_folder(fs::absolute(file, error).parent_path());
+    save_last_folder(kind(), fs::absolute(file, error).parent_path());
     purpose_.done(file);
 }
 
@@ -119,7 +124,8 @@ void FileDialog::draw_entries(float scale) {
 void FileDialog::draw_name(float scale) {
     if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
     ImGui::SetNextItemWidth(360.0f * scale);
-    bool go = ImGui::InputText("##name", &name_, ImGuiInputTextFlags_EnterReturnsTrue);
+    bool go =
+        ImGui::InputText("##name", &name_, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
     if (ImGui::IsItemEdited()) to_replace_.clear();
     ImGui::SameLine();
     const bool replaces = !to_replace_.empty();

@@ -33,6 +33,7 @@ private:
         std::string shown;
         bool is_folder = false;
     };
+    std::string kind() const;
     void list_folder();
     void draw_places();
     void draw_entries(float scale);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace elastolab {
@@ -11,8 +12,10 @@ std::vector<std::filesystem::path> load_recent_files();
 void save_recent_files(const std::vector<std::filesystem::path>& files);
 
 /// The folder last used in a file dialog; empty when there is none, or none any more.
-std::filesystem::path load_last_folder();
-void save_last_folder(const std::filesystem::path& folder);
+/// kind: of what is opened or saved there, such as "open" or ".png"; each kind remembers its own, and begins in the
+/// one last used for anything.
+std::filesystem::path load_last_folder(const std::string& kind);
+void save_last_folder(const std::string& kind, const std::filesystem::path& folder);
 
 /// The list with `file` in front, each name once, at most ten.
 std::vector<std::filesystem::path> with_recent_file(std::vector<std::filesystem::path> files,

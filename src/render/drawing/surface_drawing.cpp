@@ -83,7 +83,7 @@ void SurfaceDrawing::set_uniforms(const SceneView& view, const SurfaceStyle& sty
     shader_->set("colour", linear(style.colour));
     shader_->set("inside", linear(style.inside));
     shader_->set("opacity", style.opacity);
-    shader_->set("push", style.ghost ? kGhostPush * view.nearness() : 0.0f);
+    shader_->set("push", view.nearness() * (style.ghost ? kGhostPush : style.overlay ? -kGhostPush : 0.0f));
     shader_->set("light", style.light);
     shader_->set("material", static_cast<int>(style.material));
     shader_->set("flat_normals", style.flat ? 1 : 0);
@@ -132,6 +132,8 @@ void SurfaceDrawing::draw(const SceneView& view, const SurfaceStyle& style) {
     bind_textures(style);
     if (style.ghost) {
         draw_triangles({.blend = true, .write_depth = false, .cull = GlState::Cull::front});
+        draw_triangles({.blend = true, .write_depth = false, .cull = GlState::Cull::back});
+    } else if (style.overlay) {
         draw_triangles({.blend = true, .write_depth = false, .cull = GlState::Cull::back});
     } else if (style.opacity < 1.0f) {
         draw_triangles({.blend = true, .write_depth = false, .cull = GlState::Cull::front});

@@ -24,8 +24,9 @@ struct SurfaceStyle {
     float opacity = 1.0f;                      ///< below 1: back faces show through front faces
     bool flat = false;                         ///< one normal a triangle
     SurfaceMaterial material = SurfaceMaterial::studio;
-    bool plain = false;  ///< without the colours of scalars
-    bool ghost = false;  ///< translucent, seen where it is apart from what is drawn already
+    bool plain = false;    ///< without the colours of scalars
+    bool overlay = false;  ///< translucent, a tint over a surface in the same place
+    bool ghost = false;    ///< translucent, seen where it is apart from what is drawn already
 
     bool wireframe = false;
     Colour wire{0.05f, 0.07f, 0.10f, 1.0f};

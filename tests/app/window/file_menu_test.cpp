@@ -97,7 +97,7 @@ TEST_F(FileMenu, AFolderOnceUsedIsWhereTheNextDialogBegins) {
     window->settle();
     window->type((folder.path() / "deep" / "saved.json").string());
     window->settle();
-    EXPECT_EQ(load_last_folder(), folder.path() / "deep");
+    EXPECT_EQ(load_last_folder("open"), folder.path() / "deep");
     end();
 }
 
