@@ -9,7 +9,7 @@ namespace elastolab {
 
 namespace {
 
-constexpr float kTint = 0.38f, kOutlineWidth = 2.2f;
+constexpr float kOutlineWidth = 2.2f;
 
 /// The triangles all of whose corners are marked.
 Triangles triangles_within(const SurfaceMesh& mesh, const std::vector<char>& marked) {
@@ -65,6 +65,7 @@ std::vector<char> PatchAreas::update(const SurfaceMesh& mesh, const Positions& p
         std::unique_ptr<Area> area = is_new ? make(mesh, patch.vertices) : std::move(*known);
         if (!area) continue;
         area->colour = patch.colour;
+        area->tint = patch.tint;
         if (is_new || moved) {
             const Positions places = positions(Eigen::all, area->corners);
             area->surface->update(places, frame);
@@ -80,9 +81,9 @@ void PatchAreas::draw(const SceneView& view) {
     for (const std::unique_ptr<Area>& area : areas_) {
         SurfaceStyle style;
         style.colour = style.inside = area->colour;
-        style.opacity = kTint;
+        style.opacity = area->tint;
         style.overlay = style.plain = true;
-        area->surface->draw(view, style);
+        if (area->tint > 0.0f) area->surface->draw(view, style);
         if (area->outline) area->outline->draw(view, {.colour = area->colour, .width = kOutlineWidth});
     }
 }

@@ -18,10 +18,11 @@ public:
     /// Up to so many vertices a patch is shown by dots.
     static constexpr std::size_t kMostDots = 300;
 
-    /// A set of vertices (ascending or not, each once) and its colour.
+    /// A set of vertices (ascending or not, each once), its colour, and how much of it is seen inside the outline.
     struct Patch {
         std::span<const int> vertices;
         Colour colour;
+        float tint = 0.38f;
     };
     /// Shows these patches of the mesh at these positions (of its vertices). Returns for each whether it is an area;
     /// the others are too small, or have no triangle, and are left to dots. moved: positions are others than before.
@@ -35,6 +36,7 @@ private:
         std::vector<int> vertices;  ///< as they were asked for
         std::vector<int> corners;   ///< those of its triangles, ascending
         Colour colour;
+        float tint = 0.0f;
         std::unique_ptr<SurfaceDrawing> surface;
         std::unique_ptr<LinesDrawing> outline;
     };

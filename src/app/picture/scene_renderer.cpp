@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kArrowPart = 0.3;  ///< length of the longest reaction arrow, of the scene's radius
 constexpr float kPointSize = 6.0f, kActivePointSize = 8.0f, kHoverPointSize = 7.0f, kLoadedPointSize = 4.0f;
+constexpr float kPatchTint = 0.38f, kLoadTint = 0.12f;  ///< a load may cover all of the body
 constexpr int kBands = 10;
 constexpr double kGroundPart = 3.0, kShadowPart = 1.4;  ///< radii of the ground and of the shadow, of the scene's
 constexpr double kLeastDeformation = 0.01;              ///< of the scene's radius, from which a ghost is drawn
@@ -157,13 +158,15 @@ struct ShownPatch {
     std::vector<int> vertices;
     Colour colour;
     float dot_size;
+    float tint;  ///< where it is an area
 };
 
 std::vector<ShownPatch> shown_patches(const ViewerState& state, const Palette& palette) {
     const LiveScene& scene = state.scene();
     std::vector<ShownPatch> patches;
-    const auto add = [&](std::span<const int> vertices, const Colour& colour, float size) {
-        patches.push_back({{vertices.begin(), vertices.end()}, colour, size});
+    const bool has_field = state.display.field != Field::none;  // whose colours stay as they are
+    const auto add = [&](std::span<const int> vertices, const Colour& colour, float size, float tint = kPatchTint) {
+        patches.push_back({{vertices.begin(), vertices.end()}, colour, size, has_field ? 0.0f : tint});
     };
     for (int s = 0; s < scene.n_fixed_sets(); ++s) {
         const bool active = s == state.gestures.selected_fixed();
@@ -176,7 +179,7 @@ std::vector<ShownPatch> shown_patches(const ViewerState& state, const Palette& p
     }
     for (const AppliedLoad& load : scene.constraints().loads)
         add(corners_of(load, scene.mesh()),
-            state.gestures.selected_load() == load.number ? palette.active : palette.load, kLoadedPointSize);
+            state.gestures.selected_load() == load.number ? palette.active : palette.load, kLoadedPointSize, kLoadTint);
     return patches;
 }
 
@@ -196,7 +199,7 @@ void SceneRenderer::upload_patches(const ViewerState& state, const ShownBody& bo
         state.display.constraints ? shown_patches(state, palette) : std::vector<ShownPatch>();
     std::vector<PatchAreas::Patch> areas;
     if (!body.section())
-        for (const ShownPatch& patch : patches) areas.push_back({patch.vertices, patch.colour});
+        for (const ShownPatch& patch : patches) areas.push_back({patch.vertices, patch.colour, patch.tint});
     const std::vector<char> is_area = target.areas.update(state.scene().mesh(), body.positions(), frame_, areas, moved);
     for (std::size_t i = 0; i < patches.size(); ++i)
         if (i >= is_area.size() || is_area[i] == 0)

@@ -131,6 +131,37 @@ TEST_F(ScenePicture, WithoutBackgroundIsOpaqueOnTheBodyAndClearBesideIt) {
         EXPECT_EQ(at(x, y)[3], 0);
 }
 
+/// Dots at a patch of more than 300 vertices would hide the body: most of what it changes is a tint.
+TEST_F(ScenePicture, TintsALargePatch) {
+    Document document;
+    document.mesh = Primitive{.name = "cube", .resolution = 20, .size = {}};
+    document.fixed = {{.select = {PlaneSelector{{0, 0, 0}, {0, 1, 0}, 1e-9}}}};
+    stage.open(document);
+    stage.state.frame_body();
+    stage.state.display.wireframe = false;
+    const auto picture = [&](bool constraints) {
+        stage.state.display.constraints = constraints;
+        stage.settle();
+        stage.state.update_picture();
+        renderer.upload(stage.state, palette);
+        return scene_picture(renderer, stage.state, palette, {640, 400});
+    };
+    ASSERT_GT(stage.scene().fixed_vertices(0).size(), PatchAreas::kMostDots);
+    const Image with = picture(true), without = picture(false);
+    const Eigen::Vector3f dot = 255.0f * Eigen::Vector3f(palette.fixed.r, palette.fixed.g, palette.fixed.b);
+    int changed = 0, tinted = 0;
+    for (std::size_t i = 0; i + 2 < with.pixels.size(); i += 3) {
+        const auto at = [&](const Image& image) {
+            return Eigen::Vector3f(image.pixels[i], image.pixels[i + 1], image.pixels[i + 2]);
+        };
+        if ((at(with) - at(without)).norm() < 12.0f) continue;
+        ++changed;
+        if ((at(with) - dot).norm() > 30.0f) ++tinted;
+    }
+    EXPECT_GT(changed, 4000) << "a face of the cube";
+    EXPECT_GT(tinted, 0.8 * changed);
+}
+
 TEST_F(ScenePicture, HasALegendWithTheColoursOfTheFieldWhereThatIsWanted) {
     EXPECT_FALSE(legend_of(stage.state)) << "nothing is coloured";
     stage.state.display.field = Field::displacement;
