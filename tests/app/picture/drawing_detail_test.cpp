@@ -11,7 +11,7 @@ constexpr double kStep = 0.1;
 struct Screen {
     double full_seconds = 0.0;
     double now = 0.0;
-    DetailKeeper keeper;
+    DetailKeeper keeper = {};
 
     double cost(const DrawingDetail& detail) const {
         return full_seconds * (detail.soft_shadows ? 1.0 : 0.6) * (detail.samples == 1 ? 0.5 : 1.0) *
