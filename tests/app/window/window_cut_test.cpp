@@ -32,9 +32,9 @@ protected:
                            "--picture-size", text(place.width) + "x" + text(place.height)},
                           folder_.path());
         window.settle();
-        window.click({24, 682});  // no wireframe
+        window.click({24, 711});  // no wireframe
         window.settle();
-        window.click({24, 827});  // "cut open"
+        window.click({24, 856});  // "cut open"
         window.settle();
         window.drag(from, to);
         window.settle();
