@@ -74,11 +74,12 @@ TEST(RealPanel, KeysNameAndRemoveWhatIsSelected) {
     EXPECT_EQ(left.fixed[0].name, "wall");
 }
 
-/// Where the bars that head the sections of the panel begin and end: right of everything else in it.
+/// Where the bars that head the sections of the panel begin and end: right of everything else in it, and above where
+/// warnings come up, which cover what is below them and move nothing.
 std::vector<int> bars(const std::filesystem::path& picture) {
     const Pixels pixels(picture);
     std::vector<int> places;
-    for (int y = 30; y < 960; ++y)
+    for (int y = 30; y < 850; ++y)
         if (pixels.at({299, y}) != pixels.at({299, y - 1})) places.push_back(y);
     return places;
 }
