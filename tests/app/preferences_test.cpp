@@ -1,4 +1,4 @@
-#include "app/window/preferences.hpp"
+#include "app/preferences.hpp"
 
 #include <gtest/gtest.h>
 
