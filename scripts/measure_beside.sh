@@ -41,5 +41,5 @@ printf '%-14s %-16s %8s %8s %6s\n' method stage alone beside times
 for method in $methods; do
   join -j 1 <(sort "$folder/$method-alone") <(sort "$folder/$method-beside") |
     awk -v method="$method" '$1 == "whole" || $2 + $3 > 0.05 {
-      printf "%-14s %-16s %8.3f %8.3f %6.1f\n", method, $1, $2, $3, $2 > 0 ? $3 / $2 : 0 }'
+      printf "%-14s %-16s %8.3f %8.3f %6.1f\n", method, $1, $2, $3, ($2 > 0 ? $3 / $2 : 0) }'
 done
