@@ -1,19 +1,24 @@
 #include "fem/sparse_cholesky.hpp"
 
 #include <cholmod.h>
-#include <lapacke.h>
 
 #include <cassert>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include "base/blas.hpp"
 #include "base/error.hpp"
+#include "fem/inverse_norm.hpp"
 #include "fem/supernodal.hpp"
 
 namespace elastolab {
 
 namespace {
+
+/// Columns that are solved for on one thread.
+constexpr Eigen::Index kFewColumns = 4;
 
 /// CHOLMOD's settings and workspace. One per call, because it is not safe to share between threads; starting one is
 /// cheap. It never prints.
@@ -201,6 +206,10 @@ std::uint64_t SparseCholesky::memory_bytes() const { return impl_->bytes; }
 Eigen::MatrixXd SparseCholesky::solve(const Eigen::Ref<const Eigen::MatrixXd>& B) const {
     assert(B.rows() == size());
     if (B.size() == 0) return B;
+    // A few columns give each supernode too little work for several threads to share: beside busy processes they would
+    // wait for each other at every one of them.
+    std::optional<SerialBlas> serial;
+    if (B.cols() <= kFewColumns) serial.emplace();
     Common common;
     cholmod_dense view = dense_view(B);
     cholmod_dense* solution = cholmod_solve(CHOLMOD_A, impl_->factor.get(), &view, common);
@@ -215,15 +224,8 @@ Eigen::MatrixXd SparseCholesky::solve(const Eigen::Ref<const Eigen::MatrixXd>& B
 double SparseCholesky::reciprocal_condition() const {
     const int n = size();
     if (n == 0) return 1.0;
-    Eigen::VectorXd x(n), v(n);
-    std::vector<int> signs(static_cast<std::size_t>(n)), state(3);
-    double inverse_norm = 0.0;
-    for (int request = 0;;) {
-        LAPACKE_dlacn2_work(n, v.data(), x.data(), signs.data(), &inverse_norm, &request, state.data());
-        if (request == 0) break;
-        x = solve(x).col(0).eval();  // A is symmetric, so both of dlacn2's requests are this
-    }
-    return 1.0 / (impl_->norm * inverse_norm);
+    const auto solve_one = [this](const Eigen::VectorXd& x) -> Eigen::VectorXd { return solve(x); };
+    return 1.0 / (impl_->norm * estimate_inverse_norm(n, solve_one));
 }
 
 SupernodalView SparseCholesky::view() const {

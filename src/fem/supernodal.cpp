@@ -7,6 +7,7 @@
 #include <cassert>
 #include <Eigen/Dense>
 #include <numeric>
+#include <optional>
 #include <vector>
 
 #include "base/blas.hpp"
@@ -21,6 +22,21 @@ using Block = Eigen::Map<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
 
 /// Columns of a block product at once: a fraction of a second for the largest bodies, between two checks for a cancel.
 constexpr int kPanel = 192;
+
+/// Floating-point operations of a BLAS call from which on it is worth several threads. Beside busy processes they wait
+/// for each other in every call, for a time slice of the scheduler: with thousands of small calls, ten times as long.
+constexpr double kWorthThreads = 1.5e8;
+
+/// Keeps a call of fewer operations on its caller's thread.
+class SmallCall {
+public:
+    explicit SmallCall(double operations) {
+        if (operations < kWorthThreads) serial_.emplace();
+    }
+
+private:
+    std::optional<SerialBlas> serial_;
+};
 
 /// The update of a supernode by an earlier one, `from`, whose rows from `first_row` on are rows of this one.
 struct BlockUpdate {
@@ -170,7 +186,10 @@ void Factorisation::take_over(const BlockUpdate& update, int s, Workspace& works
         const int count = std::min(kPanel, n_shared - begin);
         const Block source = block(from, first + begin, 0, n_columns(from));
         workspace.product.resize(n - begin, count);
-        workspace.product.noalias() = source * source.topRows(count).transpose();
+        {
+            const SmallCall call(2.0 * (n - begin) * count * n_columns(from));
+            workspace.product.noalias() = source * source.topRows(count).transpose();
+        }
         for (int j = 0; j < count; ++j) {
             const double* products = workspace.product.col(j).data() - begin;
             double* target = block(s, 0, theirs[at(begin + j)] - first_column(s), 1).data();
@@ -185,6 +204,7 @@ void Factorisation::factorise_own(int s) {
         control_.checkpoint();
         const int count = std::min(kPanel, n - begin);
         Block panel = block(s, begin, begin, count);
+        const SmallCall call(static_cast<double>(panel.rows()) * count * count);
         if (LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'L', count, panel.data(), n_rows(s)) != 0)
             throw NotPositiveDefiniteError(name_ +
                                            ": is not positive definite. Check the mesh for degenerate tetrahedra.");
@@ -196,6 +216,7 @@ void Factorisation::factorise_own(int s) {
             control_.checkpoint();
             const int n_next = std::min(kPanel, n - next);
             const auto from_next = panel.bottomRows(n_rows(s) - next);
+            const SmallCall update(2.0 * static_cast<double>(from_next.rows()) * n_next * count);
             block(s, next, next, n_next).noalias() -= from_next * from_next.topRows(n_next).transpose();
         }
     }

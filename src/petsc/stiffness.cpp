@@ -1,10 +1,9 @@
 #include "petsc/stiffness.hpp"
 
-#include <lapacke.h>
-
 #include <algorithm>
 #include <Eigen/SparseCore>
 
+#include "fem/inverse_norm.hpp"
 #include "petsc/session.hpp"
 
 namespace elastolab {
@@ -141,16 +140,8 @@ Eigen::MatrixXd PetscStiffness::solve(const Eigen::MatrixXd& loads, double toler
 /// As SparseCholesky::reciprocal_condition: an estimate, for which conjugate gradients need not be exact.
 double PetscStiffness::condition(Control& control) const {
     constexpr double kForEstimate = 1e-8;
-    const auto n = static_cast<int>(size());
-    Eigen::VectorXd x(n), v(n);
-    std::vector<int> signs(static_cast<std::size_t>(n)), state(3);
-    double inverse_norm = 0.0;
-    for (int request = 0;;) {
-        LAPACKE_dlacn2_work(n, v.data(), x.data(), signs.data(), &inverse_norm, &request, state.data());
-        if (request == 0) break;
-        x = solve(x, kForEstimate, control).col(0).eval();
-    }
-    return facts().norm * inverse_norm;
+    const auto solve_one = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return solve(x, kForEstimate, control); };
+    return facts().norm * estimate_inverse_norm(static_cast<int>(size()), solve_one);
 }
 
 }  // namespace elastolab

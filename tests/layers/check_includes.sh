@@ -36,7 +36,7 @@ wrapped=(
   'GLFW/|^(app|cli)/[a-z_/]*\.(cpp|hpp)$'
   'spnav\.h|^app/window/six_axis_mouse\.cpp$'
   'imgui|^app/[a-z_/]*\.(cpp|hpp)$'
-  '(cblas|lapacke|openblas_config)\.h|^(base|elasticity|fem|bem|deform|petsc)/[a-z_/]*\.cpp$'
+  '(cblas|lapacke|openblas_config)\.h|^(base|elasticity|fem|bem|deform)/[a-z_/]*\.cpp$'
 )
 
 failures=0
