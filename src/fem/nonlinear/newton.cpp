@@ -26,14 +26,20 @@ constexpr int kMostStepIterations = 40;
 class FreeTangentProduct : public LinearOperator {
 public:
     FreeTangentProduct(const Newton& newton, const Eigen::VectorXd& u, const Eigen::VectorXd& factors, double shift,
-                       ElementWork& work)
-        : newton_(newton), u_(u), factors_(factors), none_(newton.loads().none()), shift_(shift), work_(work) {}
+                       ElementWork& work, Control& control)
+        : newton_(newton),
+          u_(u),
+          factors_(factors),
+          none_(newton.loads().none()),
+          shift_(shift),
+          work_(work),
+          control_(control) {}
     Eigen::Index size() const override { return newton_.tangent().size(); }
     Eigen::MatrixXd product(const Eigen::MatrixXd& X) const override {
-        Control control;
+        control_.checkpoint();
         Eigen::MatrixXd all = newton_.tangent().all_rows(X);
         for (auto column : all.colwise())
-            column = newton_.force_change(u_, factors_, Eigen::VectorXd(column), none_, work_, control);
+            column = newton_.force_change(u_, factors_, Eigen::VectorXd(column), none_, work_, control_);
         return newton_.tangent().free_rows(all) + shift_ * X;
     }
 
@@ -43,6 +49,7 @@ private:
     Eigen::VectorXd none_;
     double shift_;
     ElementWork& work_;
+    Control& control_;
 };
 
 class FactorSolve : public LinearOperator {
@@ -59,12 +66,13 @@ private:
 
 std::optional<Eigen::MatrixXd> Newton::solve_tangent(const Eigen::VectorXd& u, const Eigen::VectorXd& factors,
                                                      const SparseCholesky& factor, const Eigen::MatrixXd& B,
-                                                     double tolerance, int most_iterations, ElementWork& work) const {
-    Control control;
+                                                     double tolerance, int most_iterations, ElementWork& work,
+                                                     Control& control) const {
+    Control of_its_own;  // its progress is not that of Newton's method; products watch for a cancel
     try {
-        return gmres(FreeTangentProduct(*this, u, factors, shift_, work), FactorSolve(factor), B,
+        return gmres(FreeTangentProduct(*this, u, factors, shift_, work, control), FactorSolve(factor), B,
                      {.tolerance = tolerance, .start = {}, .max_iterations = most_iterations}, "tangent stiffness",
-                     control);
+                     of_its_own);
     } catch (const SolveError&) {
         return std::nullopt;
     }
@@ -136,8 +144,8 @@ NewtonState Newton::run(Eigen::VectorXd u, const Eigen::VectorXd& factors, doubl
         const Eigen::VectorXd gradient = tangent_->free_rows(forces);
         Eigen::VectorXd reduced = -state.factor->solve(gradient);
         if (loads_.follow())
-            if (const std::optional<Eigen::MatrixXd> whole =
-                    solve_tangent(state.u, factors, *state.factor, gradient, kStepTolerance, kMostStepIterations, work))
+            if (const std::optional<Eigen::MatrixXd> whole = solve_tangent(
+                    state.u, factors, *state.factor, gradient, kStepTolerance, kMostStepIterations, work, control))
                 reduced = -whole->col(0);
         const Eigen::VectorXd step = tangent_->all_rows(reduced);
         double length = 1.0;

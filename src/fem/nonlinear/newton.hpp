@@ -86,10 +86,11 @@ public:
                                                     Control& control) const;
 
     /// X at the free nodes with tangent X = B, the true tangent at u, loads included, by GMRES; factor: of one close to
-    /// it. Nothing where so many iterations do not reach the relative tolerance.
+    /// it. Nothing where so many iterations do not reach the relative tolerance. Throws Cancelled.
     std::optional<Eigen::MatrixXd> solve_tangent(const Eigen::VectorXd& u, const Eigen::VectorXd& factors,
                                                  const SparseCholesky& factor, const Eigen::MatrixXd& B,
-                                                 double tolerance, int most_iterations, ElementWork& work) const;
+                                                 double tolerance, int most_iterations, ElementWork& work,
+                                                 Control& control) const;
 
 private:
     /// A step that inverts nothing and lowers the energy enough: its length, 0 when there is none. slope: of the energy

@@ -158,7 +158,7 @@ Eigen::MatrixXd NonlinearSolver::derivatives(const NonlinearState& state, const 
     const FreeTangent& tangent = newton_.tangent();
     const Eigen::MatrixXd right = tangent.free_rows(loads);
     const auto by_iteration = [&](const SparseCholesky& its, int most) {
-        return newton_.solve_tangent(at.u, at.factors, its, right, kColumnTolerance, most, work);
+        return newton_.solve_tangent(at.u, at.factors, its, right, kColumnTolerance, most, work, control);
     };
     // The factor of the last step is that of a state close by: a preconditioner that spares another factorisation.
     std::optional<Eigen::MatrixXd> solved;
