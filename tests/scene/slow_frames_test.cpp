@@ -119,6 +119,41 @@ TEST(SlowForces, AreAnsweredByTheWorkers) {
     EXPECT_EQ(slow_calls.by_watcher, 0);
 }
 
+/// What was stopped says so, and begins again when it is told to.
+TEST(SlowForces, CanBeStopped) {
+    LiveScene scene = cube(2);
+    scene.set_force(scene.add_handle(where(scene, 0.9, 0.6)), GripForce{{0.5, 0.0, 0.0}});
+    std::vector<int> corner = where(scene, 0.9, -0.1);
+    std::erase_if(corner, [&](int v) { return scene.mesh().vertices(1, v) > 0.1; });
+    const int moved = scene.add_handle(corner);
+    const Method method = test::slow_method<false>();
+    EmbeddedRunner runner{[] {}};
+    const auto frame = [&] {
+        runner.set_body(scene.body(kLinearBem), method, nullptr);
+        runner.set_constraints(scene.constraints());
+        runner.poll();
+    };
+    const auto settle = [&] {
+        test::wait_for([&] {
+            frame();
+            return runner.ready() && runner.runner().answers();
+        });
+    };
+    settle();
+    scene.set_motion(moved, AffineMotion{.translate = {0.1, 0.0, 0.0}});
+    frame();
+    ASSERT_TRUE(runner.placing_grips());
+    runner.cancel();
+    test::wait_for([&] {
+        frame();
+        return !runner.placing_grips();
+    });
+    EXPECT_THAT(runner.grip_failure(), testing::HasSubstr("stopped"));
+    runner.retry();
+    settle();
+    EXPECT_THAT(runner.grip_failure(), testing::IsEmpty());
+}
+
 INSTANTIATE_TEST_SUITE_P(Rules, SlowFrames,
                          testing::Values(std::pair{FrameRule::drag_columns, false},
                                          std::pair{FrameRule::drag_columns, true},

@@ -65,7 +65,7 @@ bool EmbeddedRunner::may_place_grips() const {
 
 /// Until it is known where their forces hold handles, they stay where the scene has them.
 void EmbeddedRunner::place_grips() {
-    if (!may_place_grips()) return;
+    if (!may_place_grips()) return placer_.wait();
     auto motions = placer_.place(runner_.deformer(), constraints(), runner_.grips());
     if (!motions) return;
     grip_motions_ = std::move(*motions);

@@ -54,6 +54,15 @@ public:
     const std::string& grip_failure() const { return placer_.failure(); }
     /// Where they stand is being computed.
     bool placing_grips() const { return placer_.placing(); }
+    /// Stops its workers; what they were stopped at begins again with retry() or with the next change.
+    void cancel() {
+        runner_.cancel();
+        placer_.cancel();
+    }
+    void retry() {
+        runner_.retry();
+        placer_.retry();
+    }
     /// Whether a worker has not ended yet.
     bool stopping() const { return runner_.stopping() || placer_.working(); }
 

@@ -37,13 +37,11 @@ std::optional<std::vector<AffineMotion>> GripPlacer::place(const std::shared_ptr
 }
 
 void GripPlacer::make(const Eigen::VectorXd& values, const std::vector<Grip>& grips) {
-    if (asked_grips_ == grips && asked_.size() > 0) {
-        if (failed_) failure_ = job_.failure();
-        if (failed_ || job_.running()) return;
-    }
+    if (asked_grips_ == grips && job_.running()) return;
+    if (asked_grips_ == grips && was_asked(values)) failure_ = worker_failure_;
+    if (!failure_.empty()) return;
     asked_grips_ = grips;
-    asked_ = values;
-    failed_ = false;
+    ask(values);
     job_.start([deformer = deformer_, values, grips](Control& control) {
         const Stopwatch watch;
         auto stiffness = std::make_shared<const GripStiffness>(*deformer, values, grips, control);
@@ -59,6 +57,15 @@ GripPlacer::Made GripPlacer::updated(GripStiffness stiffness, const Deformer& de
     return {std::make_shared<const GripStiffness>(std::move(stiffness)), seconds};
 }
 
+bool GripPlacer::was_asked(const Eigen::VectorXd& values) const {
+    return asked_.size() == values.size() && asked_ == values;
+}
+
+void GripPlacer::ask(const Eigen::VectorXd& values) {
+    asked_ = values;
+    worker_failure_.clear();
+}
+
 /// Values that go on changing are not waited for one by one: the newest is next when the worker is free.
 void GripPlacer::update(const Eigen::VectorXd& values) {
     if (made_.solve_seconds <= kFrameSeconds) {
@@ -71,11 +78,10 @@ void GripPlacer::update(const Eigen::VectorXd& values) {
         }
         return;
     }
-    if (failed_ && asked_ == values) failure_ = job_.failure();
+    if (was_asked(values)) failure_ = worker_failure_;
     if (job_.running() || !failure_.empty()) return;
     asked_grips_ = made_.stiffness->grips();
-    asked_ = values;
-    failed_ = false;
+    ask(values);
     job_.start([deformer = deformer_, stiffness = made_.stiffness, values](Control& control) {
         return updated(*stiffness, *deformer, values, control);
     });
@@ -87,7 +93,7 @@ bool GripPlacer::poll() {
             made_ = job_.take();
             return true;
         case JobEvent::failed:
-            failed_ = true;
+            worker_failure_ = job_.failure();
             return true;
         case JobEvent::cancelled:
             return true;
@@ -104,8 +110,16 @@ void GripPlacer::clear() {
     made_ = {};
     asked_grips_.clear();
     asked_.resize(0);
-    failed_ = false;
+    worker_failure_.clear();
     failure_.clear();
 }
+
+void GripPlacer::cancel() {
+    if (!job_.running()) return;
+    job_.cancel();
+    worker_failure_ = "Placing the handles under a force was stopped. Retry, or change something.";
+}
+
+void GripPlacer::retry() { worker_failure_.clear(); }
 
 }  // namespace elastolab

@@ -30,6 +30,11 @@ public:
     bool poll();
     /// No handle is under a force any more.
     void clear();
+    /// The set is being prepared: nothing is known of it, and no failure.
+    void wait() { failure_.clear(); }
+    /// Stops the worker. What it was stopped at begins again with retry() or with the next change.
+    void cancel();
+    void retry();
 
     /// Whether the worker is at it: what place() said last is not the last word.
     bool placing() const { return job_.running(); }
@@ -48,12 +53,14 @@ private:
     bool holds(const std::vector<Grip>& grips) const { return made_.stiffness && made_.stiffness->grips() == grips; }
     void make(const Eigen::VectorXd& values, const std::vector<Grip>& grips);
     void update(const Eigen::VectorXd& values);
+    bool was_asked(const Eigen::VectorXd& values) const;
+    void ask(const Eigen::VectorXd& values);
 
     std::shared_ptr<const Deformer> deformer_;
     Made made_;
     std::vector<Grip> asked_grips_;  ///< of the worker
     Eigen::VectorXd asked_;          ///< values of the worker
-    bool failed_ = false;            ///< the worker, for these
+    std::string worker_failure_;     ///< for these; empty where it has not failed
     std::string failure_;
     BackgroundJob<Made> job_;  // last: its thread ends before what it wakes is destroyed
 };

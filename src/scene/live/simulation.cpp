@@ -346,9 +346,9 @@ void Simulation::prefetch(const Constraints& constraints) {
 
 void Simulation::retry(MethodKind kind) {
     proxies_.retry();
-    preview_.runner().retry();
-    finite_preview_.runner().retry();
-    runner(kind).retry();
+    preview_.retry();
+    finite_preview_.retry();
+    own(kind).retry();
 }
 
 bool Simulation::waiting() const {
@@ -373,10 +373,10 @@ bool Simulation::checking() const {
 
 void Simulation::cancel() {
     proxies_.cancel();
-    preview_.runner().cancel();
-    finite_preview_.runner().cancel();
+    preview_.cancel();
+    finite_preview_.cancel();
     gauge_.cancel();
-    for (Entry& entry : entries_) entry.runner->runner().cancel();
+    for (Entry& entry : entries_) entry.runner->cancel();
 }
 
 bool Simulation::stopping() const {
