@@ -221,18 +221,29 @@ TEST(SceneLoads, AreCarriedToAProxyAroundTheBody) {
     EXPECT_NEAR(*proxy.compliance, *own.compliance, 0.25 * *own.compliance);
 }
 
+/// loaded_cube() with what a drag solver of it is made from.
+struct DraggedCube {
+    Control control = {};
+    Document document = loaded_cube();
+    SceneMesh mesh = load_scene_mesh(document.mesh, "scene.json", control);
+    Constraints constraints = make_constraints(document, mesh.checked.mesh, "scene.json");
+
+    std::shared_ptr<const Deformer> deformer(MethodKind kind) {
+        const Body body{"cube", std::make_shared<const SurfaceMesh>(mesh.checked.mesh), document.material};
+        auto made = std::make_shared<Deformer>(precompute(body, {.kind = kind}, control));
+        made->constrain(constraints.set, control);
+        return made;
+    }
+    std::vector<int> handle_ends() const { return {static_cast<int>(constraints.set.handles.size())}; }
+};
+
 TEST(DragSolver, ServesChangesOfLoadsFromTheColumnsAtHand) {
-    Control control;
-    const Document document = loaded_cube();
-    const SceneMesh mesh = load_scene_mesh(document.mesh, "scene.json", control);
-    const Constraints constraints = make_constraints(document, mesh.checked.mesh, "scene.json");
-    const Body body{"cube", std::make_shared<const SurfaceMesh>(mesh.checked.mesh), document.material};
+    DraggedCube cube;
     for (const MethodKind kind : {kFem, kLinearBem, kGalerkinBem}) {
-        auto deformer = std::make_shared<Deformer>(precompute(body, {.kind = kind}, control));
-        deformer->constrain(constraints.set, control);
-        DragSolver drag(deformer, {static_cast<int>(constraints.set.handles.size())});
-        Eigen::VectorXd values = constraints.values, u;
-        drag.prepare(values, kSolveTolerance, control);
+        const auto deformer = cube.deformer(kind);
+        DragSolver drag(deformer, cube.handle_ends());
+        Eigen::VectorXd values = cube.constraints.values, u;
+        drag.prepare(values, kSolveTolerance, cube.control);
         values[values.size() - 4] += 0.5;
         drag.displace(values, u);  // the first change of a load takes its columns
         for (int frame = 0; frame < 3; ++frame) {
@@ -247,16 +258,11 @@ TEST(DragSolver, ServesChangesOfLoadsFromTheColumnsAtHand) {
 
 /// Of large deformations: the tangent's columns, once the worker has found the equilibrium with the first change.
 TEST(DragSolver, ShowsAChangedLoadByTheTangentsColumns) {
-    Control control;
-    const Document document = loaded_cube();
-    const SceneMesh mesh = load_scene_mesh(document.mesh, "scene.json", control);
-    const Constraints constraints = make_constraints(document, mesh.checked.mesh, "scene.json");
-    const Body body{"cube", std::make_shared<const SurfaceMesh>(mesh.checked.mesh), document.material};
-    auto deformer = std::make_shared<Deformer>(precompute(body, {.kind = kNonlinearFem}, control));
-    deformer->constrain(constraints.set, control);
-    DragSolver drag(deformer, {static_cast<int>(constraints.set.handles.size())});
-    Eigen::VectorXd values = constraints.values, u;
-    drag.prepare(values, kSolveTolerance, control);
+    DraggedCube cube;
+    const auto deformer = cube.deformer(kNonlinearFem);
+    DragSolver drag(deformer, cube.handle_ends());
+    Eigen::VectorXd values = cube.constraints.values, u;
+    drag.prepare(values, kSolveTolerance, cube.control);
     const auto change = [&](double part) {
         Eigen::VectorXd changed = values;
         changed[values.size() - 4] += 20.0 * part;
@@ -264,7 +270,7 @@ TEST(DragSolver, ShowsAChangedLoadByTheTangentsColumns) {
         return changed;
     };
     EXPECT_FALSE(drag.has(change(1.0))) << "the columns are those of the handle";
-    drag.prepare(change(0.01), kSolveTolerance, control, {drag.equilibrium(), {}});
+    drag.prepare(change(0.01), kSolveTolerance, cube.control, {drag.equilibrium(), {}});
     values = change(0.01);
     std::vector<double> off;
     for (const double part : {1.0, 0.5}) {

@@ -39,16 +39,27 @@ void expect_shown_as_solved(const std::filesystem::path& folder, const Positions
     EXPECT_LT((solved - shown).colwise().norm().maxCoeff(), kLikeSolve * size);
 }
 
-/// The keys choose another method and the force tool, and the mouse presses while that method is not there yet.
-TEST(RealLoads, AForceIsPressedBeforeTheMethodIsReady) {
+/// A cube with FEM in a window that leaves its scene and its mesh.
+struct RealLoads : testing::Test {
     const TemporaryFolder folder;
-    Document document = cube_document(8);
-    document.method = kFem;
-    save_scene(folder.path() / "cube.json", document);
-    const Screen screen(folder.path() / "cube.json");
-    RealWindow window({"cube.json", "--size", "1000x700", "--scene-out", "out.json", "--mesh-out", "out.obj"},
-                      folder.path());
-    window.settle();
+    const std::filesystem::path scene = saved_cube();
+    const Screen screen{scene};
+    RealWindow window{{"cube.json", "--size", "1000x700", "--scene-out", "out.json", "--mesh-out", "out.obj"},
+                      folder.path()};
+
+    RealLoads() { window.settle(); }
+
+private:
+    std::filesystem::path saved_cube() const {
+        Document document = cube_document(8);
+        document.method = kFem;
+        save_scene(folder.path() / "cube.json", document);
+        return folder.path() / "cube.json";
+    }
+};
+
+/// The keys choose another method and the force tool, and the mouse presses while that method is not there yet.
+TEST_F(RealLoads, AForceIsPressedBeforeTheMethodIsReady) {
     window.key("4");  // Galerkin BEM
     window.key("l");
     const Eigen::Vector2d from = screen.pixel({0.75, 0.5, 1});
@@ -63,15 +74,7 @@ TEST(RealLoads, AForceIsPressedBeforeTheMethodIsReady) {
     expect_shown_as_solved(folder.path(), screen.mesh().vertices);
 }
 
-TEST(RealLoads, APressureIsPaintedAndUndone) {
-    const TemporaryFolder folder;
-    Document document = cube_document(8);
-    document.method = kFem;
-    save_scene(folder.path() / "cube.json", document);
-    const Screen screen(folder.path() / "cube.json");
-    RealWindow window({"cube.json", "--size", "1000x700", "--scene-out", "out.json", "--mesh-out", "out.obj"},
-                      folder.path());
-    window.settle();
+TEST_F(RealLoads, APressureIsPaintedAndUndone) {
     window.stroke("k");
     window.drag(screen.pixel({0.4, 0.3, 1}), screen.pixel({0.7, 0.7, 1}));
     window.settle();
