@@ -8,7 +8,7 @@
 
 namespace elastolab {
 
-/// Throws SolveError where a call of PETSc failed: on every process, since its calls are collective.
+/// Throws SolveError where a call of PETSc failed. Of collective calls, all processes are taken to fail together.
 inline void check(PetscErrorCode code) {
     if (code == 0) return;
     const char* text = nullptr;

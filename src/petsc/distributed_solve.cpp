@@ -12,8 +12,10 @@ namespace elastolab {
 namespace {
 
 constexpr int kMostIterations = 2000;
-/// Share of the memory of a machine that MUMPS may plan with, and by how much its plans fall short.
+/// Share of the memory of a machine that MUMPS may plan with.
 constexpr double kForFactor = 0.8;
+/// Its workspace beyond its plan, which falls short [per cent].
+constexpr int kBeyondPlan = 40;
 constexpr double kMegabyte = 1e6;
 
 /// PETSc's own test of convergence; a cancel on the first process stops all.
@@ -42,7 +44,7 @@ void DistributedSystem::prepare(Engine wanted) {
 /// False where the factor would not fit, by MUMPS's own plan or when it is made.
 bool DistributedSystem::prepare_mumps(bool insist) {
     check(MatGetFactor(A_, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, &factor_));
-    check(MatMumpsSetIcntl(factor_, 14, 40));  // per cent of workspace beyond the plan
+    check(MatMumpsSetIcntl(factor_, 14, kBeyondPlan));
     MatFactorInfo info;
     check(MatFactorInfoInitialize(&info));
     check(MatCholeskyFactorSymbolic(factor_, A_, nullptr, &info));
@@ -99,7 +101,7 @@ void DistributedSystem::solve(Vec b, Vec x, double tolerance) {
     check(KSPGetConvergedReason(ksp_, &reason));
     PetscInt iterations = 0;
     check(KSPGetIterationNumber(ksp_, &iterations));
-    facts_.iterations = static_cast<int>(iterations);
+    facts_.iterations = std::max(facts_.iterations, static_cast<int>(iterations));
     if (Session::current().cancelled()) throw Cancelled{};
     if (reason > 0) return;
     PetscReal norm = 0.0, size = 0.0;

@@ -47,9 +47,23 @@ void DistributedSystem::forget_solver() {
     facts_ = {};
 }
 
+/// Where one process has no memory for its part, all fail.
+SparseMatrix DistributedSystem::own_stiffness(const Share& share) const {
+    SparseMatrix K;
+    std::string failure;
+    try {
+        if (n_own_ > 0) K = stiffness_of(share);
+    } catch (const std::exception& error) {
+        failure = error.what();
+    }
+    failure = Session::current().agree(failure);
+    if (!failure.empty()) throw SolveError(failure);
+    return K;
+}
+
 /// K is symmetric, so its columns are its rows; those of the process's own nodes follow each other.
 void DistributedSystem::assemble(const Share& share) {
-    SparseMatrix K = n_own_ > 0 ? stiffness_of(share) : SparseMatrix(0, 0);
+    SparseMatrix K = own_stiffness(share);
     const auto own =
         static_cast<int>(std::lower_bound(share.nodes.begin(), share.nodes.end(), first_) - share.nodes.begin());
     const int rows = 3 * n_own_, first_entry = rows > 0 ? K.outerIndexPtr()[3 * own] : 0;
@@ -72,7 +86,6 @@ void DistributedSystem::assemble(const Share& share) {
     K = SparseMatrix();
 
     coordinates_ = make_vector();
-    check(VecSetBlockSize(coordinates_, 3));
     double* x = nullptr;
     check(VecGetArray(coordinates_, &x));
     for (int i = 0; i < n_own_; ++i) Eigen::Map<Eigen::Vector3d>(x + 3 * i) = share.positions.col(own + i);

@@ -5,7 +5,10 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
+#include <string>
+#include <utility>
 
+#include "base/error.hpp"
 #include "base/memory.hpp"
 #include "base/timer.hpp"
 #include "petsc/check.hpp"
@@ -16,6 +19,8 @@ namespace elastolab {
 
 namespace {
 
+constexpr int kMostCells = 893;  ///< (cells + 1)^3 nodes, whose unknowns 32 bits count
+
 struct GrowthOptions {
     int cells = 16, degree = 1;
     double poisson_ratio = 0.3, tolerance = 1e-8;
@@ -23,11 +28,11 @@ struct GrowthOptions {
 };
 
 /// A force on the top of the cube, along x, the same at each of its nodes: one in all.
-void pull_top(const DistributedSystem& system, const Share& share, int n_layer, Vec b) {
+void pull_top(const DistributedSystem& system, int first, int n_all, int n_layer, Vec b) {
     double* values = nullptr;
     check(VecGetArray(b, &values));
     for (int i = 0; i < system.n_own(); ++i)
-        if (share.first + i >= share.n_all - n_layer) values[3 * i] = 1.0 / n_layer;
+        if (first + i >= n_all - n_layer) values[3 * i] = 1.0 / n_layer;
     check(VecRestoreArray(b, &values));
 }
 
@@ -35,11 +40,14 @@ void run_growth(const GrowthOptions& options) {
     Session& session = Session::current();
     const bool quadratic = options.degree == 2;
     const int n = (quadratic ? 2 : 1) * options.cells + 1, n_layer = n * n;
+    if (3.0 * n * n_layer >= 2147483648.0)
+        throw UsageError("--cells: more than 2^31 unknowns by elements of this degree. Choose at most " +
+                         std::to_string(quadratic ? kMostCells / 2 : kMostCells) + ".");
     const Stopwatch assembling;
     Share share = share_of_grid(session.process(), session.n_processes(), options.cells,
                                 quadratic ? ElementDegree::quadratic : ElementDegree::linear, options.poisson_ratio);
-    DistributedSystem system(share);
-    share.elements.resize(0, 0);
+    const int first = share.first, n_all = share.n_all;
+    DistributedSystem system(std::move(share));
     const double assembled = session.largest(assembling.seconds());
 
     const Stopwatch preparing;
@@ -50,7 +58,7 @@ void run_growth(const GrowthOptions& options) {
     const double prepared = session.largest(preparing.seconds());
 
     Vec b = system.make_vector(), x = system.make_vector();
-    pull_top(system, share, n_layer, b);
+    pull_top(system, first, n_all, n_layer, b);
     const Stopwatch solving;
     system.solve(b, x, options.tolerance);
     const double solved = session.largest(solving.seconds());
@@ -64,7 +72,7 @@ void run_growth(const GrowthOptions& options) {
         std::cout << "unknowns,degree,processes,engine,levels,iterations,assemble_s,prepare_s,solve_s,memory_bytes,"
                      "displacement\n";
     const SolverFacts& facts = system.facts();
-    std::cout << 3 * share.n_all << ',' << options.degree << ',' << session.n_processes() << ','
+    std::cout << 3 * n_all << ',' << options.degree << ',' << session.n_processes() << ','
               << (facts.engine == Engine::mumps ? "mumps" : "gamg") << ',' << facts.n_levels << ',' << facts.iterations
               << ',' << assembled << ',' << prepared << ',' << solved << ',' << memory << ',';
     std::cout.precision(12);
@@ -77,7 +85,7 @@ Command add_growth_command(CLI::App& program) {
     const auto options = std::make_shared<GrowthOptions>();
     CLI::App* parser = program.add_subcommand("grow", "measures a cube of a structured grid: a line of CSV");
     parser->add_option("--cells", options->cells, "cubes of six tetrahedra along an edge (default 16)")
-        ->check(CLI::Range(1, 800));
+        ->check(CLI::Range(1, kMostCells));
     parser->add_option("--degree", options->degree, "of the elements (default 1)")->check(CLI::Range(1, 2));
     parser->add_option("--tolerance", options->tolerance, "relative residual of conjugate gradients (default 1e-8)")
         ->check(CLI::Range(1e-14, 1e-1));

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -48,8 +49,8 @@ void print_engine(std::ostream& out, const Solution& solution) {
         if (facts.engine == Engine::mumps)
             out << "MUMPS, factor within " << readable_bytes(facts.factor_bytes);
         else
-            out << "conjugate gradients with GAMG, " << facts.n_levels << " levels, " << facts.iterations
-                << " iterations";
+            out << "conjugate gradients with GAMG, " << facts.n_levels << " levels, at most " << facts.iterations
+                << " iterations a column";
         out << ", " << session.n_processes() << (session.n_processes() == 1 ? " process\n" : " processes\n");
     }
 }
@@ -114,7 +115,11 @@ int main(int argc, char** argv) {
         Session session;
         set_thread_count(std::max(1, thread_count() / session.n_on_this_machine()));
         const int code = run_and_say(argc, argv);
-        if (!session.first()) session.serve();
+        if (!session.first()) {
+            // mpirun passes Ctrl-C on to every process: the first one ends what runs, and then the others.
+            for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_IGN);
+            session.serve();
+        }
         return session.first() ? code : kSuccess;
     } catch (const std::exception& error) {
         return complain(error.what(), kFailure);

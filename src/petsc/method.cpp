@@ -25,12 +25,13 @@ std::shared_ptr<const SolidModel> precompute_petsc(const SurfaceMesh& surface, c
     return std::make_shared<PetscFemModel>(surface, name, poisson_ratio, method, control, degree);
 }
 
-/// Of the first process: the mesh, some vectors, and its share of the matrices. What is solved by follows that.
+/// On the first process's machine: the mesh, some vectors, and the matrices of all processes there. What is solved by
+/// follows that.
 template <ElementDegree degree>
 Cost predict_petsc(const SurfaceMesh& surface, const Method&) {
     constexpr double kMeshAndVectors = 900.0, kMatrices = degree == ElementDegree::linear ? 10000.0 : 20000.0;
     const double nodes = estimated_tet_nodes(surface) * (degree == ElementDegree::linear ? 1.0 : 8.0);
-    const double share = 1.0 / Session::current().n_processes();
+    const double share = Session::current().part_on_this_machine();
     return {static_cast<std::int64_t>(3.0 * nodes),
             static_cast<std::uint64_t>(nodes * (kMeshAndVectors + kMatrices * share) + 2e7), 0.0};
 }

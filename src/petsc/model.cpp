@@ -39,7 +39,7 @@ std::shared_ptr<PetscStiffness> distribute(const FemMesh& mesh, double poisson_r
 }
 
 /// Bytes of the constrained matrix, of GAMG's coarse ones or MUMPS's front, for each node on average.
-constexpr std::uint64_t kBytesOfNode = 8000;
+constexpr double kBytesOfNode = 8000.0;
 
 }  // namespace
 
@@ -72,16 +72,23 @@ PetscFemModel::PetscFemModel(const PetscFemModel& before, const Method& method)
     facts_.stages.clear();
 }
 
-std::uint64_t PetscFemModel::constrain_memory(std::span<const int>, std::span<const int>) const {
-    return kBytesOfNode * static_cast<std::uint64_t>(mesh_->tets.n_vertices()) /
-           static_cast<std::uint64_t>(Session::current().n_processes());
+/// On the first process's machine. A set that does not hold the body takes its columns for all nodes, four at a time in
+/// PetscFreeSolver.
+std::uint64_t PetscFemModel::constrain_memory(std::span<const int> base, std::span<const int> handles) const {
+    constexpr double kColumns = 4.0 * 8.0 * 9.0;
+    const auto n_nodes = static_cast<double>(mesh_->tets.n_vertices());
+    std::vector<int> vertices(base.begin(), base.end());
+    vertices.insert(vertices.end(), handles.begin(), handles.end());
+    double bytes = kBytesOfNode * n_nodes * Session::current().part_on_this_machine();
+    if (!holds(mesh_->tets.vertices, vertices)) bytes += kColumns * n_nodes * static_cast<double>(vertices.size());
+    return static_cast<std::uint64_t>(bytes);
 }
 
 std::uint64_t PetscFemModel::check_memory(std::span<const int>, std::span<const int>) const {
     const FemSystem system{std::shared_ptr<const FemMesh>(mesh_), {}};
     const std::uint64_t all =
         degree() == ElementDegree::linear ? quadratic_reference_memory(system) : linear_reference_memory(system);
-    return all / static_cast<std::uint64_t>(Session::current().n_processes());
+    return static_cast<std::uint64_t>(static_cast<double>(all) * Session::current().part_on_this_machine());
 }
 
 std::unique_ptr<ConstrainedSolid> PetscFemModel::constrain(std::span<const int> base, std::span<const int> handles,

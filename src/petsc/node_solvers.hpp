@@ -18,6 +18,7 @@ public:
     PetscHeldSolver(std::shared_ptr<PetscStiffness> stiffness, const Positions& positions, std::vector<int> nodes,
                     Eigen::MatrixXd given, Control& control);
     NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const override;
+    /// To kPetscTolerance, whatever is asked for.
     NodeSolution solve_watched(const Eigen::MatrixXd& prescribed, bool want_loads, double tolerance,
                                Control& control) const override;
 

@@ -44,6 +44,8 @@ public:
     bool first() const { return process_ == 0; }
     /// Processes on this one's machine.
     int n_on_this_machine() const { return n_here_; }
+    /// Of what is shared evenly by all processes, the part that lies on this machine.
+    double part_on_this_machine() const { return static_cast<double>(n_here_) / n_processes_; }
 
     /// On all processes but the first: follows orders until told to quit. Sleeps while there are none.
     void serve();
@@ -51,6 +53,9 @@ public:
     /// them, Cancelled.
     void together(const Order& order, const std::function<void()>& work, Control& control);
 
+    /// On all processes, inside an order: the words of the first of them that failed, on all; empty: none. What may
+    /// fail on one process alone is settled by it before the next collective call, in which others would wait for ever.
+    std::string agree(const std::string& failure) const;
     /// On all processes, inside an order: whether the first one's control was cancelled.
     bool cancelled() const;
     /// On all processes, inside an order or outside of any: sums and least values over processes.
@@ -68,8 +73,6 @@ public:
 private:
     Order receive() const;
     void follow(const Order& order);
-    /// The words of the first process that failed, of all together; empty: none.
-    std::string agree(const std::string& failure) const;
 
     int process_ = 0, n_processes_ = 1, n_here_ = 1, next_ = 0;
     const Control* control_ = nullptr;

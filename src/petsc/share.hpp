@@ -27,9 +27,9 @@ struct Share {
     int n_all = 0;                ///< nodes of all processes
     int first = 0, n_own = 0;     ///< its own have the numbers [first, first + n_own)
     std::vector<int> nodes;       ///< numbers of all its nodes, ascending
-    Positions positions;          ///< of these
+    Positions positions;          ///< of these [L]
     Eigen::MatrixXi elements;     ///< 4 or 10 x n: places in `nodes`; corners, then midpoints by kTetEdges
-    std::vector<int> own_counts;  ///< nodes of every process; on the first process alone
+    std::vector<int> own_counts;  ///< nodes of every process; of a body on the first process alone
 };
 
 /// The share of a process of a mesh that is all here. elements: 4 or 10 nodes a column.

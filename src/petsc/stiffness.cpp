@@ -93,6 +93,11 @@ Eigen::Matrix3Xd PetscStiffness::diagonal(Control& control) const {
 }
 
 double PetscStiffness::eliminate(std::span<const int> nodes, Control& control) {
+    prepare_eliminated(nodes, control);
+    return condition(control);
+}
+
+void PetscStiffness::prepare_eliminated(std::span<const int> nodes, Control& control) {
     Session& session = Session::current();
     const std::vector<int> numbers = numbers_of(nodes);
     eliminated_.clear();
@@ -100,11 +105,11 @@ double PetscStiffness::eliminate(std::span<const int> nodes, Control& control) {
     session.together(
         order, [&] { session.system(number_).follow(order, {.nodes = &numbers}); }, control);
     eliminated_.assign(nodes.begin(), nodes.end());
-    return condition(control);
 }
 
 void PetscStiffness::ensure_eliminated(std::span<const int> nodes, Control& control) {
-    if (!std::equal(nodes.begin(), nodes.end(), eliminated_.begin(), eliminated_.end())) eliminate(nodes, control);
+    if (!std::equal(nodes.begin(), nodes.end(), eliminated_.begin(), eliminated_.end()))
+        prepare_eliminated(nodes, control);
 }
 
 double PetscStiffness::ground(const StaticSupport& support, Control& control) {

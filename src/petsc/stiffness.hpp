@@ -44,6 +44,7 @@ public:
 
 private:
     Eigen::MatrixXd ask(Order order, const Eigen::MatrixXd& in, Control& control) const;
+    void prepare_eliminated(std::span<const int> nodes, Control& control);
     double condition(Control& control) const;
     Eigen::MatrixXd to_numbers(const Eigen::MatrixXd& of_mesh) const;
     Eigen::MatrixXd to_mesh(const Eigen::MatrixXd& of_numbers) const;

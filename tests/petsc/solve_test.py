@@ -81,7 +81,7 @@ class Petsc(unittest.TestCase):
     def test_solves_as_one_process_does(self):
         for processes in 2, 4:
             for method in "fem", "quadratic-fem":
-                for engine in "mumps", "gamg":
+                for engine in "auto", "mumps", "gamg":
                     self.compare(PULLED, processes, method, engine)
 
     def test_takes_the_smallest_motion_of_a_free_body(self):

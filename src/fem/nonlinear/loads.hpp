@@ -22,7 +22,7 @@ struct PressedFace {
 /// Loads on a body under large deformations. Body forces, tractions and total forces are dead: nodal forces of constant
 /// size and direction. A pressure follows the surface (UnitLoad::follows): -p n on its present area, where the forces
 /// at the nodes are -p int N_a (x_xi cross x_eta) over each triangle, exactly integrated (docs/formulation.md section
-/// 13). Factors: one for each load; displacements u: 3*n_nodes, node-major [L].
+/// 12). Factors: one for each load; displacements u: 3*n_nodes, node-major [L].
 class NonlinearLoads {
 public:
     /// None.

@@ -168,7 +168,7 @@ Eigen::MatrixXd NonlinearSolver::derivatives(const NonlinearState& state, const 
         bool stable = true;
         const auto factor = newton_.factor_at(at.u, at.factors, work, K, stable, control);
         if (!factor) throw SolveError("tangent stiffness: is not finite. Check the mesh for degenerate tetrahedra.");
-        if (newton_.loads().follow()) solved = by_iteration(*factor, kMostColumnIterations);
+        if (!stable || newton_.loads().follow()) solved = by_iteration(*factor, kMostColumnIterations);
         if (!solved) solved = factor->solve(right);
     }
     return all - tangent.all_rows(*solved);
