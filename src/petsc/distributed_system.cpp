@@ -22,6 +22,20 @@ SparseMatrix stiffness_of(const Share& share) {
     return std::move(parts.lambda);
 }
 
+/// Where one process has no memory for its part, all fail.
+SparseMatrix own_stiffness(const Share& share) {
+    SparseMatrix K;
+    std::string failure;
+    try {
+        if (share.n_own > 0) K = stiffness_of(share);
+    } catch (const std::exception& error) {
+        failure = error.what();
+    }
+    failure = Session::current().agree(failure);
+    if (!failure.empty()) throw SolveError(failure);
+    return K;
+}
+
 }  // namespace
 
 DistributedSystem::DistributedSystem(Share share) : n_all_(share.n_all), first_(share.first), n_own_(share.n_own) {
@@ -45,20 +59,6 @@ void DistributedSystem::forget_solver() {
     MatDestroy(&factor_);
     MatDestroy(&A_);
     facts_ = {};
-}
-
-/// Where one process has no memory for its part, all fail.
-SparseMatrix DistributedSystem::own_stiffness(const Share& share) const {
-    SparseMatrix K;
-    std::string failure;
-    try {
-        if (n_own_ > 0) K = stiffness_of(share);
-    } catch (const std::exception& error) {
-        failure = error.what();
-    }
-    failure = Session::current().agree(failure);
-    if (!failure.empty()) throw SolveError(failure);
-    return K;
 }
 
 /// K is symmetric, so its columns are its rows; those of the process's own nodes follow each other.

@@ -57,7 +57,6 @@ public:
     int n_own() const { return n_own_; }
 
 private:
-    SparseMatrix own_stiffness(const Share& share) const;
     void assemble(const Share& share);
     void attach_rigid_modes(Mat A) const;
     bool prepare_mumps(bool insist);
