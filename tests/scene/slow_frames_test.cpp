@@ -86,63 +86,59 @@ TEST_P(SlowFrames, FollowAMotionThatGoesOn) {
     EXPECT_EQ(slow_calls.by_watcher, 0);
 }
 
-/// Where a force holds a handle is a matter of several solves.
-TEST(SlowForces, AreAnsweredByTheWorkers) {
-    slow_calls.restart();
+/// Where a force holds a handle is a matter of several solves. Two handles on the far face, one of them under a force.
+struct SlowForces : testing::TestWithParam<bool> {
     LiveScene scene = cube(2);
-    const int held = scene.add_handle(where(scene, 0.9, 0.6));
-    std::vector<int> corner = where(scene, 0.9, -0.1);
-    std::erase_if(corner, [&](int v) { return scene.mesh().vertices(1, v) > 0.1; });
-    const int moved = scene.add_handle(corner);
-    scene.set_force(held, GripForce{{0.5, 0.0, 0.0}});
-    for (const Method& method : {test::slow_method<false>(), test::slow_method<true>()}) {
-        EmbeddedRunner runner{[] {}};
-        const auto settle = [&] {
-            test::wait_for([&] {
-                runner.set_body(scene.body(kLinearBem), method, nullptr);
-                runner.set_constraints(scene.constraints());
-                runner.poll();
-                return runner.ready() && runner.runner().answers() && runner.runner().refined();
-            });
-        };
-        settle();
-        ASSERT_EQ(runner.grip_motions().size(), 1u) << runner.grip_failure();
-        const double first = runner.grip_motions()[0].translate.x();
-        EXPECT_GT(first, 0.0);
-        scene.set_motion(moved, AffineMotion{.translate = {0.1, 0.0, 0.0}});
-        settle();
-        scene.set_force(held, GripForce{{1.0, 0.0, 0.0}});
-        settle();
-        EXPECT_NEAR(runner.grip_motions()[0].translate.x(), 2.0 * first, 1e-9 * first);
+    int held = scene.add_handle(where(scene, 0.9, 0.6));
+    int moved = scene.add_handle(low_corner());
+    Method method = GetParam() ? test::slow_method<true>() : test::slow_method<false>();
+    EmbeddedRunner runner{[] {}};
+
+    SlowForces() {
+        slow_calls.restart();
         scene.set_force(held, GripForce{{0.5, 0.0, 0.0}});
     }
+    std::vector<int> low_corner() const {
+        std::vector<int> corner = where(scene, 0.9, -0.1);
+        std::erase_if(corner, [&](int v) { return scene.mesh().vertices(1, v) > 0.1; });
+        return corner;
+    }
+    void frame() {
+        runner.set_body(scene.body(kLinearBem), method, nullptr);
+        runner.set_constraints(scene.constraints());
+        runner.poll();
+    }
+    void settle() {
+        test::wait_for([&] {
+            frame();
+            return runner.ready() && runner.runner().answers() && runner.runner().refined();
+        });
+    }
+    void move_while_it_is_placed() {
+        settle();
+        scene.set_motion(moved, AffineMotion{.translate = {0.1, 0.0, 0.0}});
+        frame();
+        ASSERT_TRUE(runner.placing_grips());
+    }
+    double placed_at() const { return runner.grip_motions().at(0).translate.x(); }
+};
+
+TEST_P(SlowForces, AreAnsweredByTheWorkers) {
+    settle();
+    ASSERT_EQ(runner.grip_motions().size(), 1u) << runner.grip_failure();
+    const double first = placed_at();
+    EXPECT_GT(first, 0.0);
+    scene.set_motion(moved, AffineMotion{.translate = {0.1, 0.0, 0.0}});
+    settle();
+    scene.set_force(held, GripForce{{1.0, 0.0, 0.0}});
+    settle();
+    EXPECT_NEAR(placed_at(), 2.0 * first, 1e-9 * first);
     EXPECT_EQ(slow_calls.by_watcher, 0);
 }
 
 /// What was stopped says so, and begins again when it is told to.
-TEST(SlowForces, CanBeStopped) {
-    LiveScene scene = cube(2);
-    scene.set_force(scene.add_handle(where(scene, 0.9, 0.6)), GripForce{{0.5, 0.0, 0.0}});
-    std::vector<int> corner = where(scene, 0.9, -0.1);
-    std::erase_if(corner, [&](int v) { return scene.mesh().vertices(1, v) > 0.1; });
-    const int moved = scene.add_handle(corner);
-    const Method method = test::slow_method<false>();
-    EmbeddedRunner runner{[] {}};
-    const auto frame = [&] {
-        runner.set_body(scene.body(kLinearBem), method, nullptr);
-        runner.set_constraints(scene.constraints());
-        runner.poll();
-    };
-    const auto settle = [&] {
-        test::wait_for([&] {
-            frame();
-            return runner.ready() && runner.runner().answers();
-        });
-    };
-    settle();
-    scene.set_motion(moved, AffineMotion{.translate = {0.1, 0.0, 0.0}});
-    frame();
-    ASSERT_TRUE(runner.placing_grips());
+TEST_P(SlowForces, CanBeStopped) {
+    move_while_it_is_placed();
     runner.cancel();
     test::wait_for([&] {
         frame();
@@ -153,6 +149,31 @@ TEST(SlowForces, CanBeStopped) {
     settle();
     EXPECT_THAT(runner.grip_failure(), testing::IsEmpty());
 }
+
+TEST_P(SlowForces, AreNotWaitedForOnceTheyAreGone) {
+    move_while_it_is_placed();
+    scene.set_force(held, std::nullopt);
+    settle();
+    EXPECT_TRUE(runner.grip_motions().empty());
+}
+
+/// Until it is known where another handle goes, nothing is said of it.
+TEST_P(SlowForces, OfOneHandleAreNotThoseOfAnother) {
+    settle();
+    ASSERT_EQ(runner.grip_motions().size(), 1u);
+    scene.set_force(held, std::nullopt);
+    scene.set_force(moved, GripForce{{0.0, 0.5, 0.0}});
+    frame();
+    EXPECT_TRUE(runner.grip_motions().empty());
+    settle();
+    ASSERT_EQ(runner.grip_motions().size(), 1u);
+    EXPECT_GT(runner.grip_motions()[0].translate.y(), 0.0);
+    runner.set_body(scene.body(kFem), method, nullptr);
+    runner.clear();
+    EXPECT_TRUE(runner.grip_motions().empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, SlowForces, testing::Bool());
 
 INSTANTIATE_TEST_SUITE_P(Rules, SlowFrames,
                          testing::Values(std::pair{FrameRule::drag_columns, false},

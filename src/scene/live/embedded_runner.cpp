@@ -4,6 +4,20 @@
 
 namespace elastolab {
 
+namespace {
+
+/// Those of each handle under a force.
+std::vector<std::vector<int>> gripped_vertices(const Constraints& constraints) {
+    std::vector<std::vector<int>> all;
+    for (const std::size_t h : constraints.gripped()) {
+        const auto [first, last] = constraints.range_of(h);
+        all.emplace_back(constraints.set.handles.begin() + first, constraints.set.handles.begin() + last);
+    }
+    return all;
+}
+
+}  // namespace
+
 void EmbeddedRunner::set_body(const Body& body, const Method& method, const std::shared_ptr<const Proxy>& proxy) {
     if (proxy.get() != this->proxy()) {
         carried_.reset();
@@ -11,13 +25,21 @@ void EmbeddedRunner::set_body(const Body& body, const Method& method, const std:
         if (proxy) prefetched_.emplace(carried_.emplace(proxy));
         displacement_version_.reset();
     }
+    if (body.surface.get() != surface()) forget_grips();
     name_ = body.name;
     runner_.set_body(body, method);
 }
 
+void EmbeddedRunner::forget_grips() {
+    placed_.clear();
+    grip_motions_.clear();
+    placer_.clear();
+}
+
 void EmbeddedRunner::clear() {
     runner_.clear();
-    placer_.clear();
+    asked_.reset();
+    forget_grips();
     carried_.reset();
     prefetched_.reset();
     displacement_version_.reset();
@@ -34,11 +56,11 @@ void EmbeddedRunner::set_constraints(const Constraints& constraints) {
     give(constraints);
     if (constraints.has_forces()) {
         asked_ = constraints;
+        if (placed_ != gripped_vertices(constraints)) grip_motions_.clear();  // those are of other handles
         place_grips();
     } else if (asked_) {
         asked_.reset();
-        grip_motions_.clear();
-        placer_.clear();
+        forget_grips();
     }
     runner_.set_constraints(this->constraints());
 }
@@ -47,8 +69,8 @@ void EmbeddedRunner::set_constraints(const Constraints& constraints) {
 void EmbeddedRunner::poll() {
     const std::shared_ptr<const Deformer> before = runner_.deformer();
     runner_.poll();
-    if (!asked_) return;
     const bool placed = placer_.poll();
+    if (!asked_) return;
     if (!placed && runner_.deformer() == before) return;
     set_constraints(Constraints(*asked_));
     runner_.poll();
@@ -70,6 +92,7 @@ void EmbeddedRunner::place_grips() {
     if (!motions) return;
     grip_motions_ = std::move(*motions);
     Constraints moved = *asked_;
+    placed_ = gripped_vertices(moved);
     const std::vector<std::size_t> handles = moved.gripped();
     const Positions& shown = carried_ ? carried_->proxy().shown->vertices : surface()->vertices;
     for (std::size_t g = 0; g < handles.size() && g < grip_motions_.size(); ++g)

@@ -73,6 +73,7 @@ private:
     void give(const Constraints& constraints);
     bool may_place_grips() const;
     void place_grips();
+    void forget_grips();
 
     MethodRunner runner_;
     GripPlacer placer_;
@@ -80,6 +81,7 @@ private:
     Constraints shown_;
     std::optional<Constraints> asked_;  ///< the last ones of the shown surface, where a handle is under a force
     std::optional<CarriedConstraints> carried_, prefetched_;
+    std::vector<std::vector<int>> placed_;  ///< vertices of the handles that grip_motions_ are of
     std::vector<AffineMotion> grip_motions_;
     // What was carried back last; made when it is asked for.
     mutable Eigen::VectorXd displacement_;

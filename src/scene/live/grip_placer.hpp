@@ -37,7 +37,7 @@ public:
     void retry();
 
     /// Whether the worker is at it: what place() said last is not the last word.
-    bool placing() const { return job_.running(); }
+    bool placing() const { return deformer_ != nullptr && job_.running(); }
     bool working() const { return job_.working(); }
     /// Why place() has none; else empty.
     const std::string& failure() const { return failure_; }

@@ -81,11 +81,17 @@ bool MethodRunner::takes_long() const {
     return set.solve_seconds > solve_budget_ && !(set.drag && set.drag->has(sets_.wanted_values()));
 }
 
+/// What was stopped or failed, and was left for another motion, is tried again when it is wanted again.
+bool MethodRunner::was_tried(const Eigen::VectorXd& wanted) const {
+    const bool ended = up_to_date_ && (solved_ || !failure_.empty());
+    return ended && values_.size() == wanted.size() && values_ == wanted;
+}
+
 void MethodRunner::update_displacement() {
     if (!deformer()->linear()) return follow();
     const Eigen::VectorXd& wanted = sets_.wanted_values();
     take_whole_update();
-    if (up_to_date_ && values_.size() == wanted.size() && values_ == wanted) return;
+    if (was_tried(wanted)) return;
     if (takes_long()) {
         failure_.clear();
         return sets_.solve_on_worker();

@@ -123,6 +123,7 @@ public:
 private:
     void forget_answer();
     void handle(SetKeeper::Event event);
+    bool was_tried(const Eigen::VectorXd& wanted) const;
     bool takes_long() const;
     void update_displacement();
     void update_whole();
