@@ -140,9 +140,10 @@ std::span<const GestureHelp> gesture_help() {
          {"brush: drag, click", "fix vertices; with Shift free them"},
          {"probe: click", "keep or forget the values at a vertex"},
          {"box: drag", "fix the vertices in the box; with Shift free them"},
-         {"force: drag", "a force on the patch under the cursor; its arrow grows with the mouse"},
+         {"force: drag",
+          "a force on the patch under the cursor; its arrow grows with the mouse; Shift, X, Y, Z as for a pull"},
          {"pressure: drag", "a pressure where it is painted; with Shift take the paint off"},
-         {"end of an arrow", "drag it: another size or direction of the load; keys as for a pull"},
+         {"end of an arrow", "drag it: another size or direction of the load; Shift, X, Y, Z as for a pull"},
          {"drop a file", "open it"}}};
     return all;
 }

@@ -19,8 +19,7 @@ bool SixAxisControl::apply(const std::optional<SixAxisMotion>& motion, double no
     LiveScene& scene = state.scene();
     if (!motion) {
         if (moved_at_ < 0.0 || now - moved_at_ < kPause) return false;
-        moved_at_ = -1.0;
-        scene.commit();
+        end_step(state);
         return true;
     }
     const int handle = state.gestures.selected_handle();
@@ -35,6 +34,11 @@ bool SixAxisControl::apply(const std::optional<SixAxisMotion>& motion, double no
     scene.set_motion(handle, translated(turned(present, turn, middle, rest), shift));
     moved_at_ = now;
     return true;
+}
+
+void SixAxisControl::end_step(ViewerState& state) {
+    if (moved_at_ >= 0.0) state.scene().commit();
+    moved_at_ = -1.0;
 }
 
 double SixAxisControl::due_in(double now) const {

@@ -115,7 +115,7 @@ private:
         kept_preferences_ = preferences;
     }
     void keep_preferences() {
-        if (nobody_watches() || kept_preferences_ == preferences()) return;
+        if (nobody_watches() || gui_.is_in_use() || kept_preferences_ == preferences()) return;
         kept_preferences_ = preferences();
         save_preferences(kept_preferences_);
     }
@@ -194,6 +194,7 @@ private:
             state_.open(file);
             pending_frames_ = kSettlingFrames;  // for the question that it may raise
         }
+        if (!events.empty()) six_axis_.end_step(state_);
         if (six_axis_mouse_ && six_axis_.apply(six_axis_mouse_->take(), Window::seconds(), state_))
             pending_frames_ = kSettlingFrames;
         if (pictures_.poll(state_) || pictures_.filming()) pending_frames_ = kSettlingFrames;

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kFieldOfView = 0.6, kNarrowFieldOfView = 0.002;  // vertical [radians]
 constexpr double kNearestZoom = 1e-4, kFarthestZoom = 1e3;        // distance / scene radius
+constexpr double kFramedDistance = 3.5;                           // scene radii, when all of it is in sight
 constexpr double kFrameMargin = 1.08;                             // room around a framed ball
 constexpr double kInFront = 1.6, kBehind = 8.0;  // scene radii in sight in front of its centre and behind
 constexpr double kNearestPlane = 0.02;           // of the distance
@@ -29,9 +30,11 @@ Eigen::Vector3d across(const Eigen::Vector3d& direction) {
 
 }  // namespace
 
-/// From the middle of the picture to its upper edge, at depth 1.
+/// From the middle of the picture to its upper edge, at depth 1. A lens that zooms in on a part of the scene is the
+/// longer: the eye stays as far from the whole of it.
 double Camera::slope() const {
-    return std::tan(0.5 * (kind_ == Projection::perspective ? kFieldOfView : kNarrowFieldOfView));
+    if (kind_ == Projection::perspective) return std::tan(0.5 * kFieldOfView);
+    return std::tan(0.5 * kNarrowFieldOfView) / std::max(1.0, kFramedDistance * scene_.radius / pose_.distance);
 }
 
 double Camera::remoteness() const { return std::tan(0.5 * kFieldOfView) / slope(); }
@@ -91,6 +94,8 @@ void Camera::zoom_to(const Eigen::Vector2d& cursor, double factor, const Eigen::
     const Eigen::Vector3d fixed = unproject(cursor, depth > 0.0 ? depth : eye_distance(), viewport);
     pose_.target = fixed + (pose_.target - fixed) * (distance / pose_.distance);
     pose_.distance = distance;
+    const double new_depth = (eye() - fixed).dot(backward());
+    if (kind_ == Projection::orthographic) pose_.target += fixed - unproject(cursor, new_depth, viewport);
 }
 
 void Camera::fit(const PositionsView& points, double aspect) {

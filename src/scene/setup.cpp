@@ -215,8 +215,11 @@ SceneMesh load_scene_mesh(const MeshSource& source, const fs::path& scene_file, 
     ImportedSurface imported = import_surface(file, control);
     CheckedMesh checked = check_and_repair(std::move(imported.mesh), control);
     if (!imported.warning.empty())
-        checked.report.defects.push_back(
-            {.kind = Defect::Kind::coarse_coordinates, .count = 1, .places = {}, .text = imported.warning});
+        checked.report.defects.push_back({.kind = Defect::Kind::coarse_coordinates,
+                                          .count = 1,
+                                          .places = {},
+                                          .found = imported.warning,
+                                          .text = imported.warning});
     return {file.string(), std::move(checked)};
 }
 

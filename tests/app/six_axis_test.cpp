@@ -61,5 +61,21 @@ TEST(SixAxis, MotionWithoutAPauseIsOneStep) {
     EXPECT_FALSE(stage.scene().can_undo());
 }
 
+/// As when Ctrl+Z is pressed before the pause that would end the step.
+TEST(SixAxis, EndsItsStepWhenSomethingElseIsUsed) {
+    Stage stage;
+    stage.open(cube_document_with_handle(3));
+    stage.state.gestures.select_handle(0);
+    SixAxisControl control;
+    control.end_step(stage.state);
+    EXPECT_FALSE(stage.scene().can_undo()) << "there was none";
+    control.apply(kRight, 0.0, stage.state);
+    control.end_step(stage.state);
+    EXPECT_LT(control.due_in(0.1), 0.0);
+    stage.state.undo();
+    EXPECT_EQ(stage.motion(0).translate, Eigen::Vector3d::Zero());
+    EXPECT_TRUE(stage.scene().can_redo());
+}
+
 }  // namespace
 }  // namespace elastolab::test

@@ -348,5 +348,38 @@ TEST(ViewerState, ARangeByHandIsKept) {
     EXPECT_EQ(stage.state.shown.field_range(stage.state.display), std::pair(2.0, 3.0));
 }
 
+/// A range that is held is one that was seen: a body at rest has none.
+TEST(RangeOfColours, IsHeldFromTheBeginningOfAPull) {
+    Stage stage;
+    stage.open(test::cube_document_with_handle(3));
+    DisplaySettings& display = stage.state.display;
+    display.field = Field::displacement;
+    display.hold_range = true;
+    const auto pull = [&](double pixels, const char* direction) {
+        const Eigen::Vector2d from = stage.pixel(stage.vertex_near({1, 0.33, 0.33}));
+        stage.wait(1.0);
+        stage.move(from);
+        stage.press();
+        stage.move(from + Eigen::Vector2d(pixels, 0.0));
+        stage.settle();
+        EXPECT_TRUE(stage.state.gestures.dragging()) << direction;
+    };
+    const auto range = [&] { return stage.state.shown.field_range(display).second; };
+    const auto largest = [&] { return stage.state.shown.bodies().at(0).largest_magnitude(); };
+    stage.settle();
+    pull(40.0, "from rest");
+    const double first = largest();
+    EXPECT_GT(first, 0.0);
+    EXPECT_EQ(range(), first);
+    stage.release();
+    stage.settle();
+    pull(80.0, "further");
+    EXPECT_GT(largest(), 1.1 * first);
+    EXPECT_EQ(range(), first);
+    stage.release();
+    stage.settle();
+    EXPECT_EQ(range(), largest());
+}
+
 }  // namespace
 }  // namespace elastolab

@@ -104,6 +104,29 @@ TEST(Camera, OrthographicViewsFrameAndZoomAsPerspectiveOnesDo) {
     EXPECT_LT(distance(camera.project(point + shift, kPlace).pixel, cursor + Eigen::Vector2d(40, 30)), 1e-4);
 }
 
+/// However near: the whole scene keeps its lengths, and what is under the cursor stays there.
+TEST(Camera, OrthographicPicturesStaySoWhereTheyAreZoomedIn) {
+    for (const SceneFrame& ball : scenes())
+        for (const double factor : {1e-2, 10.0, 1e3, 1e4}) {
+            Camera camera = camera_at(ball, kPlace);
+            camera.set_projection_kind(Projection::orthographic);
+            const Eigen::Vector3d point = ball.center + ball.radius * Eigen::Vector3d(0.3, 0.2, 0.6);
+            const Eigen::Vector2d cursor = camera.project(point, kPlace).pixel;
+            for (int step = 0; step < 8; ++step) camera.zoom_to(cursor, std::pow(factor, 1.0 / 8.0), point, kPlace);
+            EXPECT_LT(distance(camera.project(point, kPlace).pixel, cursor), 0.1) << factor;
+            const double width = 0.1 * camera.pose().distance;
+            const auto seen = [&](double depth) {
+                const Eigen::Vector3d start = camera.pose().target + depth * ball.radius * camera.backward();
+                EXPECT_GT(camera.project(start, kPlace).depth, 0.0);
+                return distance(camera.project(start, kPlace).pixel,
+                                camera.project(start + width * camera.up(), kPlace).pixel);
+            };
+            const double middle = seen(0.0);
+            EXPECT_GT(middle, 1.0);
+            for (const double depth : {-0.9, 0.9}) EXPECT_NEAR(seen(depth), middle, 1e-3 * middle) << factor;
+        }
+}
+
 TEST(Camera, LooksAlongAxesWithTheUpAxisOnTop) {
     Camera camera = camera_at({{0, 0, 0}, 1.0}, kPlace);
     for (int axis = 0; axis < 3; ++axis)

@@ -229,7 +229,7 @@ private:
     std::optional<Spring> spring_;
     std::optional<GizmoDrag> gizmo_drag_;
     std::optional<LoadDrag> load_drag_;
-    std::vector<int> painted_;      ///< by the stroke of a pressure that has no triangle yet
+    std::vector<int> painted_;      ///< by the present stroke of a pressure: they may have no triangle yet
     DisplaySettings plane_before_;  ///< as it was taken hold of
     int selected_ = -1, selected_fixed_ = -1;
     std::optional<int> selected_load_;

@@ -22,15 +22,31 @@ std::vector<int> loadable_patch(const GestureContext& context, int vertex) {
     return patch_around(mesh, context.graph, vertex, radius, [](int) { return true; });
 }
 
-/// The load of this kind that acts on a triangle, the latest of several.
-std::optional<int> load_on(const LiveScene& scene, int triangle, AppliedLoad::Kind kind) {
+/// Vertices of the surface where it was hit. A triangle that is cut has corners that are none.
+std::vector<int> surface_vertices(const PickHit& hit, const Triangles& shown, int n_vertices) {
+    if (hit.triangle < 0) return {hit.vertex};
+    std::vector<int> corners(shown.col(hit.triangle).begin(), shown.col(hit.triangle).end());
+    std::erase_if(corners, [&](int v) { return v >= n_vertices; });
+    return corners;
+}
+
+/// The force that acts on a triangle with these corners, the latest of several.
+std::optional<int> force_on(const LiveScene& scene, const std::vector<int>& corners) {
+    const auto has_all = [&](int triangle) {
+        const auto own = scene.mesh().triangles.col(triangle);
+        return std::all_of(corners.begin(), corners.end(), [&](int v) { return (own.array() == v).any(); });
+    };
     for (int load = scene.n_loads() - 1; load >= 0; --load) {
         const AppliedLoad* applied = scene.applied_load(load);
-        if (applied == nullptr || applied->kind != kind) continue;
-        if (std::find(applied->triangles.begin(), applied->triangles.end(), triangle) != applied->triangles.end())
-            return load;
+        if (applied == nullptr || applied->kind != AppliedLoad::Kind::force) continue;
+        if (std::any_of(applied->triangles.begin(), applied->triangles.end(), has_all)) return load;
     }
     return std::nullopt;
+}
+
+void keep_one_of_each(std::vector<int>& numbers) {
+    std::sort(numbers.begin(), numbers.end());
+    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
 void set_vector(LiveScene& scene, int load, const Eigen::Vector3d& value) {
@@ -39,11 +55,6 @@ void set_vector(LiveScene& scene, int load, const Eigen::Vector3d& value) {
         scene.set_load(load, TractionLoad{value});
     else
         scene.set_load(load, ForceLoad{value});
-}
-
-Eigen::VectorXd present_value(const LiveScene& scene, int load) {
-    if (load == LiveScene::kGravity) return scene.document().gravity.value_or(Eigen::Vector3d::Zero());
-    return load_factors(scene.document().loads[static_cast<std::size_t>(load)].value);
 }
 
 }  // namespace
@@ -72,9 +83,9 @@ bool Gestures::press_arrow(GestureContext& context, const PointingTarget& target
 
 /// The force tool: takes the force that acts there, or makes one.
 void Gestures::press_force(GestureContext& context, const PickHit& hit) {
-    const bool on_surface = hit.triangle >= 0 && hit.triangle < context.scene.mesh().n_triangles();
-    const std::optional<int> present =
-        on_surface ? load_on(context.scene, hit.triangle, AppliedLoad::Kind::force) : std::nullopt;
+    const std::vector<int> corners =
+        surface_vertices(hit, *context.targets[target_].triangles, context.scene.mesh().n_vertices());
+    const std::optional<int> present = force_on(context.scene, corners);
     const int load = present ? *present : context.scene.add_load(loadable_patch(context, hit.vertex), ForceLoad{});
     if (load == LiveScene::kNobody) {
         hint_ = "This part is constrained, where a force has no effect. Press where the body is free.";
@@ -99,7 +110,7 @@ void Gestures::begin_load(GestureContext& context, const LoadArrow& arrow, bool 
 void Gestures::set_load_baseline(const GestureContext& context) {
     load_drag_->mode = pull_mode(context.tools);
     load_drag_->cursor = cursor_;
-    load_drag_->before = present_value(context.scene, load_drag_->arrow.load);
+    load_drag_->before = load_value(context.scene, load_drag_->arrow.load);
     const LoadArrow& arrow = load_drag_->arrow;
     const Eigen::VectorXd& before = load_drag_->before;
     const Eigen::Vector3d along = before.size() == 3 ? Eigen::Vector3d((arrow.inward ? -1.0 : 1.0) * before)
@@ -180,7 +191,8 @@ void Gestures::paint_pressure(GestureContext& context, std::vector<int> vertices
     std::vector<int> loaded = has_pressure ? scene.loaded_vertices(*selected_load_) : std::vector<int>();
     if (hold_ == Hold::free) {
         const std::size_t n_before = loaded.size();
-        std::erase_if(loaded, [&](int v) { return std::find(vertices.begin(), vertices.end(), v) != vertices.end(); });
+        std::sort(vertices.begin(), vertices.end());
+        std::erase_if(loaded, [&](int v) { return std::binary_search(vertices.begin(), vertices.end(), v); });
         if (has_pressure && loaded.size() < n_before && !scene.set_loaded_vertices(*selected_load_, loaded)) {
             scene.remove_load(*selected_load_);
             selected_load_.reset();
@@ -188,10 +200,10 @@ void Gestures::paint_pressure(GestureContext& context, std::vector<int> vertices
         return;
     }
     painted_.insert(painted_.end(), vertices.begin(), vertices.end());
+    keep_one_of_each(painted_);
     const std::size_t n_before = loaded.size();
     loaded.insert(loaded.end(), painted_.begin(), painted_.end());
-    std::sort(loaded.begin(), loaded.end());
-    loaded.erase(std::unique(loaded.begin(), loaded.end()), loaded.end());
+    keep_one_of_each(loaded);
     if (has_pressure) {
         if (loaded.size() > n_before) scene.set_loaded_vertices(*selected_load_, loaded);
     } else if (const int load = scene.add_load(loaded, PressureLoad{context.tools.pressure});

@@ -39,12 +39,6 @@ constexpr std::array<Choice<OpenSurface>, 3> kOpenSurfaces = {
 /// Range of a proxy's vertices that a person can choose.
 constexpr int kFewestChosen = 100, kMostChosen = 10000;
 
-/// What a defect is, where a proxy is simulated in spite of it.
-std::string without_advice(const std::string& defect) {
-    constexpr std::string_view kConsequence = ", so it bounds no solid";
-    return defect.substr(0, defect.find(kConsequence)) + " (a proxy is simulated)";
-}
-
 }  // namespace
 
 /// How a surface that bounds no solid is simulated.
@@ -104,7 +98,7 @@ void Panels::draw_defects(const PanelContext& context) {
         }
         tooltip("Flies to its places one after another; F frames the body again.");
         if (!defect.places.empty()) ImGui::SameLine();
-        paragraph(has_proxy ? without_advice(defect.text) : defect.text,
+        paragraph(has_proxy ? defect.found + " (a proxy is simulated)" : defect.text,
                   has_proxy ? context.palette.busy : context.palette.bad);
         ImGui::PopID();
     }

@@ -1,6 +1,7 @@
 #include <imgui.h>
 
 #include <array>
+#include <cmath>
 #include <string>
 #include <tuple>
 
@@ -58,6 +59,13 @@ void draw_range_rule(ViewerState& state) {
     if (!display.auto_range) std::tie(display.range_low, display.range_high) = range;
 }
 
+/// What is no finite number is not taken.
+void draw_end_of_range(const char* label, double& end, float scale) {
+    ImGui::SetNextItemWidth(80.0f * scale);
+    double typed = end;
+    if (ImGui::InputDouble(label, &typed, 0.0, 0.0, "%.3g") && std::isfinite(typed)) end = typed;
+}
+
 void draw_range(ViewerState& state, float scale) {
     DisplaySettings& display = state.display;
     set_item_width(scale);
@@ -69,11 +77,9 @@ void draw_range(ViewerState& state, float scale) {
     }
     draw_range_rule(state);
     if (!display.auto_range) {
-        ImGui::SetNextItemWidth(80.0f * scale);
-        ImGui::InputDouble("##low", &display.range_low, 0.0, 0.0, "%.3g");
+        draw_end_of_range("##low", display.range_low, scale);
         ImGui::SameLine();
-        ImGui::SetNextItemWidth(80.0f * scale);
-        ImGui::InputDouble("from, to", &display.range_high, 0.0, 0.0, "%.3g");
+        draw_end_of_range("from, to", display.range_high, scale);
     }
     ImGui::Checkbox("hold while pulling", &display.hold_range);
     tooltip("The range stays as it was when the pull began, so that colours can be compared.");

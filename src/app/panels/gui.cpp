@@ -265,6 +265,8 @@ void Gui::update_cursor_shape() {
 }
 
 bool Gui::wants_mouse() const { return ImGui::GetIO().WantCaptureMouse; }
+bool Gui::is_in_use() const { return ImGui::IsAnyItemActive(); }
+
 bool Gui::wants_text() const { return ImGui::GetIO().WantTextInput; }
 bool Gui::wants_keys() const { return wants_text() || popup_was_open_; }
 

@@ -45,6 +45,7 @@ public:
     void recover();
 
     bool wants_mouse() const;
+    bool is_in_use() const;   ///< something is pressed, such as a slider on its way
     bool wants_text() const;  ///< a field is being typed in
     /// Keys are for the panels: a field is being typed in, or a menu, a list of choices or a dialog is open.
     bool wants_keys() const;

@@ -141,7 +141,7 @@ private:
     static std::vector<Warning> present_warnings(const ViewerState& state);
     std::vector<Warning> warnings_;  ///< as they are shown, of this scene and method:
     std::pair<std::uint64_t, MethodKind> warnings_of_;
-    std::set<std::string> unfolded_;  ///< warnings that are shown with all their lines
+    std::set<std::string> unfolded_;  ///< warnings, without their numbers, that are shown with all their lines
     std::size_t n_flights_ = 0;       ///< to places of defects
     std::map<std::tuple<MethodKind, Mode, Update, int, int>, Cost>
         costs_;  ///< by vertices and triangles of what is simulated

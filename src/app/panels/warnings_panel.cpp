@@ -34,6 +34,12 @@ std::string theory_words(const ViewerState& state) {
            " shows what a rubber body does.";
 }
 
+/// The same for a warning whose numbers change from frame to frame.
+std::string without_numbers(std::string text) {
+    std::erase_if(text, [](char c) { return (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '+'; });
+    return text;
+}
+
 /// What a window of this width leaves for text [pixels].
 float room_in(float width) { return width - 2.0f * ImGui::GetStyle().WindowPadding.x; }
 
@@ -96,9 +102,10 @@ float Panels::draw_warnings(const PanelContext& context) {
     const Viewport& panel = context.layout.panel;
     const auto width = static_cast<float>(panel.width), bottom = static_cast<float>(panel.y + panel.height);
     float wanted = 2.0f * ImGui::GetStyle().WindowPadding.y - ImGui::GetStyle().ItemSpacing.y;
+    const auto is_unfolded = [&](const Warning& warning) { return unfolded_.contains(without_numbers(warning.text)); };
     const auto as_shown = [&](const Warning& warning) {
         if (fits_in_a_line(warning.text, width)) return warning.text;
-        return unfolded_.contains(warning.text) ? kUnfolded + warning.text : first_line(warning.text, width);
+        return is_unfolded(warning) ? kUnfolded + warning.text : first_line(warning.text, width);
     };
     for (const Warning& warning : warnings_)
         wanted += height_of(as_shown(warning), width) + (warning.better ? ImGui::GetFrameHeightWithSpacing() : 0.0f);
@@ -116,8 +123,9 @@ float Panels::draw_warnings(const PanelContext& context) {
         const std::string shown = as_shown(warning);
         paragraph(shown, warning.is_problem ? context.palette.bad : context.palette.busy);
         if (shown != warning.text) {
-            if (!unfolded_.contains(warning.text)) tooltip(warning.text.c_str());
-            if (ImGui::IsItemClicked() && unfolded_.erase(warning.text) == 0) unfolded_.insert(warning.text);
+            if (!is_unfolded(warning)) tooltip(warning.text.c_str());
+            const std::string key = without_numbers(warning.text);
+            if (ImGui::IsItemClicked() && unfolded_.erase(key) == 0) unfolded_.insert(key);
         }
         if (!warning.better) continue;
         ImGui::PushStyleColor(ImGuiCol_Button, imgui_colour(context.palette.border));  // not that of this window

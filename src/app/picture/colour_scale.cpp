@@ -22,8 +22,8 @@ double ColourScale::place(double value) const {
 }
 
 std::vector<LegendTick> ColourScale::ticks(int n) const {
-    if (!logarithmic || !(high > low)) return legend_ticks(low, high, n);
-    const double decades = std::log10(high / low);
+    if (!logarithmic || !(high > low) || !std::isfinite(high)) return legend_ticks(low, high, n);
+    const double decades = std::log10(high) - std::log10(low);  // their ratio may not be a number
     const std::array<double, 3> factors = {1.0, 2.0, 5.0};
     const std::size_t n_factors = decades * 3.0 <= n + 1.0 ? 3 : 1;
     const int step = std::max(1, static_cast<int>(std::ceil(decades / n)));
@@ -40,8 +40,9 @@ std::vector<LegendTick> ColourScale::ticks(int n) const {
 }
 
 ColourScale colour_scale(double low, double high, bool logarithmic) {
-    if (!logarithmic || !(high > 0.0)) return {low, high, false};
-    return {low > 0.0 ? low : kDecades * high, high, true};
+    const double lowest = low > 0.0 ? low : kDecades * high;
+    if (!logarithmic || !(lowest > 0.0) || !std::isfinite(high)) return {low, high, false};
+    return {lowest, high, true};
 }
 
 }  // namespace elastolab

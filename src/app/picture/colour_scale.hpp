@@ -20,6 +20,7 @@ struct ColourScale {
 };
 
 /// The scale of a field between these: logarithmic ones begin at a thousandth of `high` where `low` is not positive.
+/// Even where no logarithms can be.
 ColourScale colour_scale(double low, double high, bool logarithmic);
 
 }  // namespace elastolab

@@ -52,11 +52,6 @@ double natural_ratio(const LiveScene& scene, const AppliedLoad& load, double rad
     return load.kind == AppliedLoad::Kind::force ? force : force / area;
 }
 
-Eigen::VectorXd value_of(const LiveScene& scene, int load) {
-    if (load == LiveScene::kGravity) return scene.document().gravity.value_or(Eigen::Vector3d::Zero());
-    return load_factors(scene.document().loads[static_cast<std::size_t>(load)].value);
-}
-
 LoadArrow arrow_of(const LiveScene& scene, const AppliedLoad& load, const Positions& positions) {
     LoadArrow arrow{.load = load.number};
     if (load.kind == AppliedLoad::Kind::gravity) {
@@ -86,7 +81,7 @@ std::optional<LoadArrow> load_arrow(const LiveScene& scene, int load, const Posi
     const AppliedLoad* applied = scene.applied_load(load);
     if (applied == nullptr) return std::nullopt;
     LoadArrow arrow = arrow_of(scene, *applied, positions);
-    const Eigen::VectorXd value = value_of(scene, load);
+    const Eigen::VectorXd value = load_value(scene, load);
     const double ratio = natural_ratio(scene, *applied, radius), size = value.stableNorm();
     const double length = std::clamp(size / ratio, kShortest * radius, kLongest * radius);
     arrow.value_per_length = size > 0.0 ? size / length : ratio;
@@ -104,15 +99,20 @@ std::vector<LoadArrow> load_arrows(const LiveScene& scene, const Positions& posi
         if (dragged && dragged->load == applied.number) {
             arrow->value_per_length = dragged->value_per_length;
             arrow->inward = dragged->inward;
-            put_end(value_of(scene, applied.number), applied.kind == AppliedLoad::Kind::pressure, *arrow);
+            put_end(load_value(scene, applied.number), applied.kind == AppliedLoad::Kind::pressure, *arrow);
         }
         all.push_back(*arrow);
     }
     return all;
 }
 
+Eigen::VectorXd load_value(const LiveScene& scene, int load) {
+    if (load == LiveScene::kGravity) return scene.document().gravity.value_or(Eigen::Vector3d::Zero());
+    return load_factors(scene.document().loads[static_cast<std::size_t>(load)].value);
+}
+
 double load_size(const LiveScene& scene, int load) {
-    const Eigen::VectorXd value = value_of(scene, load);
+    const Eigen::VectorXd value = load_value(scene, load);
     return value.size() == 1 ? value[0] : value.stableNorm();
 }
 

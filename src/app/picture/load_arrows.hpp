@@ -38,6 +38,8 @@ std::optional<LoadArrow> load_arrow(const LiveScene& scene, int load, const Posi
 std::vector<LoadArrow> load_arrows(const LiveScene& scene, const Positions& positions, double radius,
                                    const std::optional<DraggedLoad>& dragged = std::nullopt);
 
+/// What a load is given by: three numbers, or one of a pressure.
+Eigen::VectorXd load_value(const LiveScene& scene, int load);
 /// How large a load is, with its sign if it is a pressure: force, traction, acceleration or pressure.
 double load_size(const LiveScene& scene, int load);
 /// "force 12", "pressure -3": for rows and marks.

@@ -276,6 +276,7 @@ void ShownBody::colour_filling(const Sources& sources, Field field) {
 
 void ShownBody::update_seen() {
     seen_magnitudes_.clear();
+    largest_of_part_.reset();
     largest_magnitude_ = 0.0;
     const auto see = [&](float value) {
         if (std::isfinite(value)) seen_magnitudes_.push_back(std::abs(value));
@@ -293,11 +294,13 @@ void ShownBody::update_seen() {
 
 double ShownBody::largest_magnitude(double part) const {
     if (part >= 1.0 || seen_magnitudes_.empty()) return largest_magnitude_;
-    std::vector<float> sorted = seen_magnitudes_;
-    const auto place = static_cast<std::ptrdiff_t>(part * static_cast<double>(sorted.size() - 1));
-    std::nth_element(sorted.begin(), sorted.begin() + place, sorted.end());
-    const double found = sorted[static_cast<std::size_t>(place)];
-    return found > 0.0 ? found : largest_magnitude_;
+    if (largest_of_part_ && largest_of_part_->first == part) return largest_of_part_->second;
+    const auto place =
+        seen_magnitudes_.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(seen_magnitudes_.size() - 1));
+    std::nth_element(seen_magnitudes_.begin(), place, seen_magnitudes_.end());
+    const double found = *place > 0.0f ? double{*place} : largest_magnitude_;
+    largest_of_part_.emplace(part, found);
+    return found;
 }
 
 bool ShownBody::is_cut_away(int vertex) const {

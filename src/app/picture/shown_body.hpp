@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/picture/filling_shape.hpp"
@@ -126,7 +127,9 @@ private:
     std::uint64_t revision_ = 0;
     Positions positions_;
     std::vector<float> values_;
-    std::vector<float> seen_magnitudes_;  ///< of the values that are seen, in no order
+    /// Of the values that are seen, in no order; and the last answer of largest_magnitude(part), with its part.
+    mutable std::vector<float> seen_magnitudes_;
+    mutable std::optional<std::pair<double, double>> largest_of_part_;
     double largest_magnitude_ = 0.0, max_displacement_ = 0.0;
     std::optional<Difference> difference_;
     std::vector<ShownReaction> reactions_;

@@ -107,12 +107,20 @@ const SectionRunner* ShownScene::inside(const ShownAnswers& answers, MethodKind 
     return runner.get();
 }
 
+/// From the first frame of a pull to its last. Of a body at rest there is no range to hold.
+void ShownScene::hold_range(const ShownAnswers& answers) {
+    const bool holds = answers.pulling && answers.display.hold_range;
+    if (holds && !holding_) {
+        const double largest = largest_magnitude(answers.display);
+        if (largest > 0.0) held_range_ = largest;
+    }
+    if (!holds) held_range_.reset();
+    holding_ = holds;
+}
+
 bool ShownScene::update(const ShownAnswers& answers) {
     const Stopwatch watch;
-    if (!answers.pulling || !answers.display.hold_range)
-        held_range_.reset();
-    else if (!held_range_)
-        held_range_ = largest_magnitude(answers.display);
+    hold_range(answers);
     wants_reactions_ = needs_reactions(answers);
     update_filling(answers);
     section_ = section(answers);

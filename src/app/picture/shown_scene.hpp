@@ -80,6 +80,7 @@ private:
     void update_filling(const ShownAnswers& answers);
     std::shared_ptr<const SectionShape> section(const ShownAnswers& answers);
     const SectionRunner* inside(const ShownAnswers& answers, MethodKind kind);
+    void hold_range(const ShownAnswers& answers);
     void sum_costs(double update_seconds);
 
     std::vector<ShownBody> bodies_;  ///< of every method on the screen
@@ -90,7 +91,8 @@ private:
     std::shared_ptr<const SectionShape> section_;
     std::map<MethodKind, std::unique_ptr<SectionRunner>> insides_;
     std::optional<SectionCost> section_cost_;
-    std::optional<double> held_range_;  ///< its upper end
+    bool holding_ = false;
+    std::optional<double> held_range_;  ///< its upper end; none while holding_ what began at rest
 };
 
 }  // namespace elastolab

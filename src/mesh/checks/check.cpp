@@ -47,7 +47,8 @@ Defect no_triangles() {
     defect.kind = Defect::Kind::no_triangles;
     defect.count = 1;
     defect.fatal = true;
-    defect.text = "it has no triangle of finite points. Choose a file with a surface.";
+    defect.found = "it has no triangle of finite points";
+    defect.text = defect.found + ". Choose a file with a surface.";
     return defect;
 }
 

@@ -24,7 +24,9 @@ struct Defect {
     bool repaired = false;
     bool fatal = false;  ///< the body cannot be used by any method
     bool fatal_for_fem = false;
-    std::string text;  ///< "12 open edges near (0, 1, 0), so it bounds no solid. Fill the holes and reload."
+    std::string found;  ///< "12 open edges near (0, 1, 0)"
+    std::string text;   ///< what it means and what helps, too: "12 open edges near (0, 1, 0), so it bounds no solid.
+                        ///< Fill the holes and reload."
 };
 
 /// Facts about a mesh, and its defects.

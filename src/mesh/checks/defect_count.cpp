@@ -25,7 +25,8 @@ Defect DefectCount::build(Defect::Kind kind, const std::string& one, const std::
                           const std::string& rest) const {
     Defect defect = defect_;
     defect.kind = kind;
-    defect.text = counted(defect.count, one, many, defect.places) + rest;
+    defect.found = counted(defect.count, one, many, defect.places);
+    defect.text = defect.found + rest;
     return defect;
 }
 

@@ -41,9 +41,9 @@ bool report_extent(const SurfaceMesh& mesh, MeshReport& report) {
     defect.kind = Defect::Kind::too_small;
     defect.count = 1;
     defect.fatal = true;
-    defect.text = "it is only " + readable_number(extent) +
-                  " mesh units across; below 1e-70 its areas and volumes are beyond double precision. Choose a smaller "
-                  "unit of length.";
+    defect.found = "it is only " + readable_number(extent) + " mesh units across";
+    defect.text = defect.found +
+                  "; below 1e-70 its areas and volumes are beyond double precision. Choose a smaller unit of length.";
     report.defects.push_back(std::move(defect));
     return true;
 }
@@ -106,7 +106,8 @@ void report_crossings(const SurfaceMesh& mesh, const CrossingPairs& crossings, M
     Defect defect = found.build(Defect::Kind::self_intersections, "pair of triangles crosses or touches",
                                 "pairs of triangles cross or touch",
                                 ", so FEM cannot fill it. Remove the overlap, or use a boundary-element method.");
-    if (!crossings.complete) defect.text = "at least " + defect.text;
+    if (!crossings.complete)
+        for (std::string* text : {&defect.found, &defect.text}) *text = "at least " + *text;
     defect.fatal_for_fem = true;
     report.defects.push_back(std::move(defect));
 }

@@ -75,19 +75,27 @@ TEST(ForceTool, WithShiftPressesAlongTheNormalAndAClickLoadsNothing) {
     EXPECT_LT(force.head<2>().norm(), 1e-12 * force.norm());
 }
 
+/// Cut open, too, where the triangles that are seen are others.
 TEST(ForceTool, TakesTheForceThatActsThereAlready) {
-    Stage stage;
-    stage.state.tools.tool = Tool::force;
-    stage.state.tools.patch_radius = 0.4;
-    stage.settle();
-    const int v = vertex_on_top(stage);
-    stage.drag(stage.pixel(v), stage.pixel(v) + kDragged);
-    stage.settle();
-    const Eigen::Vector3d before = force_of(stage, 0);
-    stage.wait(1.0);
-    stage.drag(stage.pixel(v), stage.pixel(v) + Eigen::Vector2d(20, 0));
-    ASSERT_EQ(stage.scene().n_loads(), 1);
-    EXPECT_GT((force_of(stage, 0) - before).dot(stage.state.camera.right()), 0.0);
+    for (const bool cut : {false, true}) {
+        SCOPED_TRACE(cut);
+        Stage stage;
+        stage.state.tools.tool = Tool::force;
+        stage.state.tools.patch_radius = 0.4;
+        stage.state.display.section = cut;
+        stage.state.display.section_axis = 1;
+        stage.state.display.section_place = 0.9;
+        stage.settle();
+        const int v = vertex_on_top(stage);
+        ASSERT_EQ(stage.state.shown.bodies().at(0).section().has_value(), cut);
+        stage.drag(stage.pixel(v), stage.pixel(v) + kDragged);
+        stage.settle();
+        const Eigen::Vector3d before = force_of(stage, 0);
+        stage.wait(1.0);
+        stage.drag(stage.pixel(v), stage.pixel(v) + Eigen::Vector2d(20, 0));
+        ASSERT_EQ(stage.scene().n_loads(), 1);
+        EXPECT_GT((force_of(stage, 0) - before).dot(stage.state.camera.right()), 0.0);
+    }
 }
 
 TEST(ForceTool, HasNothingToDoWhereTheBodyIsConstrained) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
 #include <string>
 
 namespace elastolab {
@@ -23,6 +25,23 @@ TEST(ColourScale, BeginsAtAThousandthWhereZeroIsTheLeast) {
     EXPECT_TRUE(scale.logarithmic);
     EXPECT_DOUBLE_EQ(scale.low, 0.05);
     EXPECT_FALSE(colour_scale(-3.0, 0.0, true).logarithmic) << "nothing to take a logarithm of";
+}
+
+TEST(ColourScale, StaysFiniteAtTheEndsOfWhatNumbersCanBe) {
+    const double largest = std::numeric_limits<double>::max(), least = std::numeric_limits<double>::denorm_min();
+    for (const double high : {std::numeric_limits<double>::infinity(), largest, 1e-300, least})
+        for (const double low : {0.0, least, 1e-300, 1.0}) {
+            const ColourScale scale = colour_scale(low, high, true);
+            EXPECT_LE(scale.ticks(5).size(), 9u) << low << " to " << high;
+            if (std::isfinite(high)) {
+                EXPECT_TRUE(std::isfinite(scale.place(0.5 * high))) << low << " to " << high;
+            }
+        }
+    EXPECT_FALSE(colour_scale(0.0, least, true).logarithmic) << "a thousandth of it is zero";
+    const std::vector<LegendTick> ticks = colour_scale(1e-300, 1e300, true).ticks(5);
+    ASSERT_GE(ticks.size(), 3u);
+    EXPECT_DOUBLE_EQ(std::log10(ticks[1].value) - std::log10(ticks[0].value),
+                     std::log10(ticks[2].value) - std::log10(ticks[1].value));
 }
 
 TEST(ColourScale, HasRoundTicksWithinItsRange) {

@@ -38,7 +38,7 @@ TEST(DetailKeeper, LeavesOutAsMuchAsItMustWhileSomethingMovesAndNothingAtRest) {
         DrawingDetail moving;
         for (int i = 0; i < 8; ++i) moving = screen.frame(true);
         EXPECT_FALSE(moving.soft_shadows);
-        EXPECT_LE(screen.cost(moving), seconds > 0.5 ? 0.06 : DetailKeeper::kSlowSeconds) << seconds;
+        EXPECT_LE(screen.cost(moving), DetailKeeper::kSlowSeconds) << seconds;
         EXPECT_GT(screen.keeper.due_in(screen.now), 0.0);
         screen.now += DetailKeeper::kRestSeconds;
         EXPECT_EQ(screen.keeper.due_in(screen.now), 0.0);

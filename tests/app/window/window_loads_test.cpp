@@ -48,6 +48,10 @@ struct RealLoads : testing::Test {
                       folder.path()};
 
     RealLoads() { window.settle(); }
+    Document document_left() {
+        EXPECT_EQ(window.quit().exit_code, 0);
+        return load_scene(folder.path() / "out.json");
+    }
 
 private:
     std::filesystem::path saved_cube() const {
@@ -58,15 +62,14 @@ private:
     }
 };
 
-/// The keys choose another method and the force tool, and the mouse presses while that method is not there yet.
-TEST_F(RealLoads, AForceIsPressedBeforeTheMethodIsReady) {
+/// The keys choose another method and the force tool, and the mouse presses at once, whether it is there or not.
+TEST_F(RealLoads, AForceIsPressedAsSoonAsAMethodIsChosen) {
     window.key("4");  // Galerkin BEM
     window.key("l");
     const Eigen::Vector2d from = screen.pixel({0.75, 0.5, 1});
     window.drag(from, from + Eigen::Vector2d(60, -50));
     window.settle();
-    ASSERT_EQ(window.quit().exit_code, 0);
-    const Document left = load_scene(folder.path() / "out.json");
+    const Document left = document_left();
     EXPECT_EQ(left.method, kGalerkinBem);
     ASSERT_EQ(left.loads.size(), 1u);
     EXPECT_TRUE(left.handles.empty());
@@ -83,8 +86,7 @@ TEST_F(RealLoads, APressureIsPaintedAndUndone) {
     window.settle();
     window.stroke("ctrl+z");
     window.settle();
-    ASSERT_EQ(window.quit().exit_code, 0);
-    const Document left = load_scene(folder.path() / "out.json");
+    const Document left = document_left();
     ASSERT_EQ(left.loads.size(), 1u);
     EXPECT_GT(std::get<PressureLoad>(left.loads[0].value).pressure, 0.0);
     const auto& loaded = std::get<VertexSelector>(left.loads[0].select.shape).vertices;
