@@ -16,9 +16,11 @@
 #include "cli/progress.hpp"
 #include "methods/precompute.hpp"
 #include "methods/registry.hpp"
+#include "scene/balance.hpp"
+#include "scene/constraints.hpp"
 #include "scene/file/scene_file.hpp"
 #include "scene/live/haptic_loop.hpp"
-#include "scene/setup.hpp"
+#include "scene/scene_mesh.hpp"
 
 namespace elastolab {
 

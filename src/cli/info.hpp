@@ -8,7 +8,7 @@
 
 #include "base/control.hpp"
 #include "scene/proxy/proxy.hpp"
-#include "scene/setup.hpp"
+#include "scene/scene_mesh.hpp"
 
 namespace elastolab {
 

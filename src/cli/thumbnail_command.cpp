@@ -5,8 +5,9 @@
 #include "base/error.hpp"
 #include "cli/command.hpp"
 #include "cli/interrupt.hpp"
+#include "scene/constraints.hpp"
 #include "scene/file/scene_file.hpp"
-#include "scene/setup.hpp"
+#include "scene/scene_mesh.hpp"
 
 namespace elastolab {
 

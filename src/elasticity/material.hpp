@@ -8,6 +8,7 @@ struct Material {
     double young_modulus = 1.0e5;
     double poisson_ratio = 0.3;
 
+    bool operator==(const Material&) const = default;
     /// mu = E / (2 (1 + nu)) [force / L^2]
     double shear_modulus() const { return young_modulus / (2.0 * (1.0 + poisson_ratio)); }
     /// lambda = E nu / ((1 + nu)(1 - 2 nu)) [force / L^2]; infinite at nu = 1/2

@@ -100,8 +100,8 @@ std::string proxy(const Finding& finding) {
 /// For a student who has heard of Hooke's law.
 std::string linear_theory(const Finding& finding) {
     return std::string(finding.method->name) + ": linear theory is off by about " + percent(finding.value) +
-           " of the largest displacement for this motion. It takes turns and stretches to be small, so that the body "
-           "swells as it turns. Choose nonlinear-fem, which follows them.";
+           " of the largest displacement. It takes turns and stretches to be small, so that what turns swells. Choose "
+           "nonlinear-fem, which follows them.";
 }
 
 std::string thin_sheets(const Finding& finding) {

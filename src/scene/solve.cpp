@@ -13,8 +13,10 @@
 #include "findings/solution.hpp"
 #include "findings/words.hpp"
 #include "methods/precompute.hpp"
+#include "scene/balance.hpp"
 #include "scene/linear_theory.hpp"
 #include "scene/proxy/carried_constraints.hpp"
+#include "scene/scene_mesh.hpp"
 #include "scene/wish.hpp"
 
 namespace elastolab {
@@ -280,7 +282,7 @@ Solution solve(const SolveRequest& request, Control& control) {
         solution.findings.push_back({.kind = FindingKind::nothing_constrained, .object = request.scene_file.string()});
     const auto run = [&] {
         apply(constraints, carried ? &shown : nullptr, request.with_checks, solution, control);
-        if (request.with_checks && shown.loads.empty()) gauge(mesh, shown, constraints, solution, control);
+        if (request.with_checks) gauge(mesh, shown, constraints, solution, control);
         if (!carried) return;
         carried->set(shown);  // where handles under a force have moved to
         carry_back(*carried, solution);

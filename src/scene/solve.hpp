@@ -10,10 +10,10 @@
 #include "base/timer.hpp"
 #include "deform/deformer.hpp"
 #include "deform/finding.hpp"
+#include "scene/constraints.hpp"
 #include "scene/document.hpp"
 #include "scene/field_export.hpp"
 #include "scene/proxy/proxy.hpp"
-#include "scene/setup.hpp"
 
 namespace elastolab {
 

@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "scene/constraints.hpp"
 #include "scene/motion.hpp"
-#include "scene/setup.hpp"
 
 namespace elastolab {
 

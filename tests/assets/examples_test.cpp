@@ -12,10 +12,10 @@
 #include "deform/deformer.hpp"
 #include "methods/precompute.hpp"
 #include "methods/registry.hpp"
+#include "scene/constraints.hpp"
 #include "scene/file/scene_file.hpp"
 #include "scene/live/live_scene.hpp"
 #include "scene/selectors.hpp"
-#include "scene/setup.hpp"
 
 namespace elastolab {
 namespace {

@@ -26,7 +26,10 @@ constexpr const char *kFolded = "+ ", *kUnfolded = "\u2013 ";
 std::string theory_words(const ViewerState& state) {
     const std::optional<TheoryError>& error = state.simulation.theory_error();
     if (!error || (!error->crushed && error->relative < kSilentLinearTheory)) return "";
-    const std::string motion = error->turns ? "this turn" : "this pull", better = title(kNonlinearFem);
+    const std::string motion = error->turns   ? "this turn"
+                               : error->loads ? "these loads"
+                                              : "this pull",
+                      better = title(kNonlinearFem);
     if (error->crushed)
         return "Linear theory cannot be right for " + motion + ": " + better +
                " finds no equilibrium, a rubber body would be crushed.";

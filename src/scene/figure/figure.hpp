@@ -9,7 +9,7 @@
 
 #include "base/control.hpp"
 #include "deform/deformer.hpp"
-#include "scene/setup.hpp"
+#include "scene/constraints.hpp"
 
 namespace elastolab {
 

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 
 #include "deform/finding.hpp"
-#include "scene/setup.hpp"
+#include "scene/constraints.hpp"
 
 namespace elastolab {
 

@@ -46,10 +46,8 @@ void EmbeddedRunner::clear() {
 }
 
 void EmbeddedRunner::give(const Constraints& constraints) {
-    if (carried_)
-        carried_->set(constraints);
-    else
-        shown_ = constraints;
+    shown_ = constraints;
+    if (carried_) carried_->set(constraints);
 }
 
 void EmbeddedRunner::set_constraints(const Constraints& constraints) {

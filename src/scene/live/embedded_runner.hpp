@@ -35,6 +35,9 @@ public:
     /// The constraints that the answer is computed for: those of surface().
     const Constraints& constraints() const { return carried_ ? carried_->constraints() : shown_; }
 
+    /// Those of the shown surface, last set, with handles under a force where grip_motions() have them.
+    const Constraints& shown_constraints() const { return shown_; }
+
     /// Those of the shown surface.
     void set_constraints(const Constraints& constraints) override;
     /// Constraints that may be asked for soon.

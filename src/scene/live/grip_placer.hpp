@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "deform/grip.hpp"
+#include "scene/constraints.hpp"
 #include "scene/live/background_job.hpp"
-#include "scene/setup.hpp"
 
 namespace elastolab {
 

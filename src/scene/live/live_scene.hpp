@@ -9,10 +9,11 @@
 #include <string>
 #include <vector>
 
+#include "scene/constraints.hpp"
 #include "scene/live/history.hpp"
 #include "scene/motion.hpp"
 #include "scene/proxy/proxy.hpp"
-#include "scene/setup.hpp"
+#include "scene/scene_mesh.hpp"
 
 namespace elastolab {
 
@@ -23,8 +24,8 @@ public:
     static constexpr int kNobody = -1;  ///< owner of a free vertex
     static constexpr int kFixed = -2;   ///< owner of a vertex of the fixed part
 
-    /// Loads the mesh. Throws MeshError or SceneError as the functions of scene/setup.hpp do; MeshError too when no
-    /// method can simulate the mesh or a proxy of it.
+    /// Loads the mesh. Throws MeshError or SceneError as the functions of scene_mesh.hpp and constraints.hpp do;
+    /// MeshError too when no method can simulate the mesh or a proxy of it.
     LiveScene(Document document, std::filesystem::path scene_file);
     /// The same; throws Cancelled too.
     LiveScene(Document document, std::filesystem::path scene_file, Control& control);

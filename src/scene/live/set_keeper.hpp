@@ -10,9 +10,9 @@
 
 #include "deform/deformer.hpp"
 #include "deform/finding.hpp"
+#include "scene/constraints.hpp"
 #include "scene/live/background_job.hpp"
 #include "scene/live/drag_solver.hpp"
-#include "scene/setup.hpp"
 #include "scene/wish.hpp"
 
 namespace elastolab {

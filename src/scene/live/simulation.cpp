@@ -302,10 +302,10 @@ void Simulation::bound_hidden_memory() {
 /// On a scene's own mesh where that is coarse enough, else on a proxy, which is asked for once a motion rests.
 void Simulation::gauge_theory(const LiveScene& scene) {
     const MethodKind kind = shown_.front();
-    const Constraints& asked = scene.constraints();
-    const bool moves = std::any_of(asked.motions.begin(), asked.motions.end(),
-                                   [](const Motion& motion) { return !(motion == Motion{}); });
-    if (!kind->linear || !moves || !asked.loads.empty() || asked.has_forces()) return gauge_.rest();
+    const Constraints& asked = own(kind).shown_constraints();
+    const bool moves = !asked.values.isZero(0.0) || std::any_of(asked.motions.begin(), asked.motions.end(),
+                                                                [](const Motion& m) { return !(m == Motion{}); });
+    if (!kind->linear || !moves) return gauge_.rest();
     if (Wish wish = wish_of(asked); !same(wish, gauged_)) {
         gauge_.rest();
         gauged_ = std::move(wish);

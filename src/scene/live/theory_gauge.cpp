@@ -25,16 +25,21 @@ bool turns(const Wish& wish) {
 
 TheoryGauge::Found TheoryGauge::find(std::shared_ptr<const Made> made, const Body& body, const ConstrainedSet& set,
                                      const Wish& wish, Control& control) {
-    const bool serves = made && made->surface == body.surface && same_vertices(made->set, set) &&
-                        made->poisson_ratio == body.material.poisson_ratio;
+    const bool serves =
+        made && made->surface == body.surface && same_vertices(made->set, set) && made->material == body.material;
     if (!serves)
-        made = std::make_shared<const Made>(
-            Made{body.surface, body.material.poisson_ratio, set, LinearTheoryGauge(body, set, control)});
+        made =
+            std::make_shared<const Made>(Made{body.surface, body.material, set, LinearTheoryGauge(body, set, control)});
     const Positions rest = body.surface->vertices(Eigen::all, set.handles);
     const Approach approach{nullptr, way_to(wish, nullptr, rest).path};
     const bool moves = !wish.values.isZero(0.0) || approach.path.cols() > 0;
     const std::optional<double> error = made->gauge.error(wish.values, control, approach);
-    return {std::move(made), {error.value_or(0.0), !error && moves, turns(wish)}};
+    const bool handles_move = !wish.values.head(wish.values.size() - std::ssize(set.loads)).isZero(0.0);
+    return {std::move(made),
+            {.relative = error.value_or(0.0),
+             .crushed = !error && moves,
+             .turns = turns(wish),
+             .loads = !handles_move && approach.path.cols() == 0}};
 }
 
 void TheoryGauge::rest() {
@@ -60,7 +65,8 @@ void TheoryGauge::update(const Body& body, const ConstrainedSet& set, const Wish
         case JobEvent::none:
             break;
     }
-    const bool is_new = !wanted_ || surface_ != body.surface || !same_vertices(set_, set) || !elastolab::same(*wanted_, wish);
+    const bool is_new = !wanted_ || surface_ != body.surface || material_ != body.material ||
+                        !same_vertices(set_, set) || !elastolab::same(*wanted_, wish);
     if (is_new) {
         job_.cancel();
         error_.reset();
@@ -68,6 +74,7 @@ void TheoryGauge::update(const Body& body, const ConstrainedSet& set, const Wish
         wanted_ = wish;
         set_ = set;
         surface_ = body.surface;
+        material_ = body.material;
         rest_ = {};
     }
     if (done_ || job_.running() || rest_.seconds() < kGaugeRestSeconds) return;

@@ -18,6 +18,7 @@ struct TheoryError {
     double relative = 0.0;  ///< as LinearTheoryGauge has it
     bool crushed = false;   ///< a real body has no equilibrium for this motion
     bool turns = false;     ///< the motion is a turn, of some handle at least
+    bool loads = false;     ///< loads alone move the body
 };
 
 /// Computes that error in the background, on a coarse mesh, once a motion has rested. All members are for one thread.
@@ -43,7 +44,7 @@ private:
     /// A gauge, and what it was made for.
     struct Made {
         std::shared_ptr<const SurfaceMesh> surface;
-        double poisson_ratio = 0.0;
+        Material material;  ///< forces move a stiffer body less
         ConstrainedSet set;
         LinearTheoryGauge gauge;
     };
@@ -58,6 +59,7 @@ private:
     std::optional<Wish> wanted_;
     ConstrainedSet set_;
     std::shared_ptr<const SurfaceMesh> surface_;
+    Material material_;
     Stopwatch rest_;  ///< since another motion was wanted
     bool done_ = false;
     std::optional<TheoryError> error_;

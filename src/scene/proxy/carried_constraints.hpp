@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "mesh/topology.hpp"
+#include "scene/constraints.hpp"
 #include "scene/proxy/proxy.hpp"
-#include "scene/setup.hpp"
 
 namespace elastolab {
 

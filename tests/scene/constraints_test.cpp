@@ -1,4 +1,5 @@
-#include "scene/setup.hpp"
+#include "scene/constraints.hpp"
+#include "scene/scene_mesh.hpp"
 
 #include <gmock/gmock.h>
 
@@ -51,7 +52,7 @@ std::string refusal(const Document& document) {
     return finding([&] { constraints(document); });
 }
 
-TEST(Setup, AnAffineHandleMovesEveryVertexByItsRestPosition) {
+TEST(SceneConstraints, AnAffineHandleMovesEveryVertexByItsRestPosition) {
     Document document = cube_document();
     const AffineMotion motion{.matrix = (Eigen::Matrix3d() << 0, 1, 2, 3, 4, 5, 6, 7, 8).finished(),
                               .translate = {0.1, 0.2, 0.3}};
@@ -66,7 +67,7 @@ TEST(Setup, AnAffineHandleMovesEveryVertexByItsRestPosition) {
     }
 }
 
-TEST(Setup, DisplacementsFollowTheOrderOfTheirVertices) {
+TEST(SceneConstraints, DisplacementsFollowTheOrderOfTheirVertices) {
     Document document = cube_document();
     document.fixed.clear();
     document.handles.push_back(
@@ -76,7 +77,7 @@ TEST(Setup, DisplacementsFollowTheOrderOfTheirVertices) {
     EXPECT_THAT(std::vector<double>(result.values.begin(), result.values.end()), ElementsAre(1, 2, 3, 4, 5, 6));
 }
 
-TEST(Setup, GroupsAreTheFixedPartAndThenTheHandles) {
+TEST(SceneConstraints, GroupsAreTheFixedPartAndThenTheHandles) {
     Document document = cube_document();
     document.fixed = {{.select = {VertexSelector{{0, 1, 2}}}}};
     document.handles.push_back({.name = "", .select = {VertexSelector{{25}}}, .motion = AffineMotion{}});
@@ -92,7 +93,7 @@ TEST(Setup, GroupsAreTheFixedPartAndThenTheHandles) {
     EXPECT_THAT(result.set.handles, ElementsAre(25, 24, 23));
 }
 
-TEST(Setup, FixedSetsAreOneGroupTogether) {
+TEST(SceneConstraints, FixedSetsAreOneGroupTogether) {
     Document document = cube_document();
     document.fixed = {{.name = "a", .select = {VertexSelector{{4, 1}}}}, {.select = {VertexSelector{{0, 9, 3}}}}};
     document.handles.push_back({.name = "h", .select = {VertexSelector{{25}}}, .motion = AffineMotion{}});
@@ -109,7 +110,7 @@ TEST(Setup, FixedSetsAreOneGroupTogether) {
     EXPECT_EQ(result.fixed_sets[1].end, 5);
 }
 
-TEST(Setup, FixedSetsAreDisjointAndNamedApart) {
+TEST(SceneConstraints, FixedSetsAreDisjointAndNamedApart) {
     Document document = cube_document();
     document.fixed.push_back({.select = {VertexSelector{{25, 0}}}});
     EXPECT_THAT(refusal(document), HasSubstr("s.json: /fixed/1/select: vertex 0"));
@@ -122,7 +123,7 @@ TEST(Setup, FixedSetsAreDisjointAndNamedApart) {
     EXPECT_THAT(refusal(document), HasSubstr("and a fixed set are called \"a\""));
 }
 
-TEST(Setup, NoVertexIsConstrainedTwice) {
+TEST(SceneConstraints, NoVertexIsConstrainedTwice) {
     Document document = cube_document();
     document.handles.push_back({.name = "a", .select = kRightFace, .motion = AffineMotion{}});
     document.handles.push_back({.name = "b", .select = kRightFace, .motion = AffineMotion{}});
@@ -132,27 +133,27 @@ TEST(Setup, NoVertexIsConstrainedTwice) {
     EXPECT_THAT(refusal(document), HasSubstr("also belongs to /fixed"));
 }
 
-TEST(Setup, EveryVertexNeedsADisplacement) {
+TEST(SceneConstraints, EveryVertexNeedsADisplacement) {
     Document document = cube_document();
     document.handles.push_back({.name = "", .select = kRightFace, .motion = VertexMotion{{{1, 2, 3}}}});
     EXPECT_THAT(refusal(document), HasSubstr("/handles/0/displacements: has 1 entries for 9 selected vertices"));
 }
 
-TEST(Setup, DisplacementsMustStayFinite) {
+TEST(SceneConstraints, DisplacementsMustStayFinite) {
     Document document = cube_document();
     const AffineMotion huge{.matrix = Eigen::Matrix3d::Constant(1e308), .translate = {0, 0, 0}};
     document.handles.push_back({.name = "", .select = kRightFace, .motion = huge});
     EXPECT_THAT(refusal(document), HasSubstr("/handles/0: moves vertex"));
 }
 
-TEST(Setup, AnUnnamedHandleMustNotTakeTheNameOfAnother) {
+TEST(SceneConstraints, AnUnnamedHandleMustNotTakeTheNameOfAnother) {
     Document document = cube_document();
     document.handles.push_back({.name = "handle-1", .select = {VertexSelector{{25}}}, .motion = AffineMotion{}});
     document.handles.push_back({.name = "", .select = {VertexSelector{{24}}}, .motion = AffineMotion{}});
     EXPECT_THAT(refusal(document), HasSubstr("called \"handle-1\""));
 }
 
-TEST(Setup, AMeshFileLiesBesideTheScene) {
+TEST(SceneConstraints, AMeshFileLiesBesideTheScene) {
     const test::TemporaryFolder folder;
     save_surface(folder.path() / "cube.obj", make_box(2));
     Document document = cube_document();
@@ -163,7 +164,7 @@ TEST(Setup, AMeshFileLiesBesideTheScene) {
     EXPECT_THAT(mesh.name, HasSubstr("cube.obj"));
 }
 
-TEST(Setup, PrimitivesThatCannotBeMadeAreErrorsOfTheScene) {
+TEST(SceneConstraints, PrimitivesThatCannotBeMadeAreErrorsOfTheScene) {
     const auto refused = [](std::vector<double> size) {
         return finding([&] { load(Primitive{"cylinder", 4, std::move(size)}, "s.json"); });
     };
@@ -171,7 +172,7 @@ TEST(Setup, PrimitivesThatCannotBeMadeAreErrorsOfTheScene) {
     EXPECT_THAT(refused({1e-9, 1e9}), HasSubstr("s.json: /mesh: "));
 }
 
-TEST(Setup, OnlyFemRefusesAnIncompressibleMaterial) {
+TEST(SceneConstraints, OnlyFemRefusesAnIncompressibleMaterial) {
     Document document = cube_document();
     document.material.poisson_ratio = 0.5;
     const auto body = [&](MethodKind kind) {

@@ -9,30 +9,10 @@
 
 #include "deform/deformer.hpp"
 #include "deform/grip.hpp"
-#include "deform/model.hpp"
-#include "mesh/checks/check.hpp"
 #include "scene/document.hpp"
 #include "scene/motion.hpp"
 
 namespace elastolab {
-
-/// The mesh of a scene, checked and repaired but not judged, and what to call it in messages.
-struct SceneMesh {
-    std::string name;
-    CheckedMesh checked;
-};
-
-/// Loads a mesh file, relative names starting at the folder of `scene_file`, or makes a primitive.
-/// Throws MeshError (a file that cannot be read), SceneError (a primitive that cannot be made), Cancelled.
-SceneMesh load_scene_mesh(const MeshSource& source, const std::filesystem::path& scene_file, Control& control);
-
-/// Whether a method of `kind` simulates a closed surface around this mesh (scene/proxy/proxy.hpp), not the mesh itself.
-bool needs_proxy(const ProxyChoice& choice, const MeshReport& mesh, MethodKind kind);
-
-/// Throws MeshError when a mesh is not usable for a method of `kind`.
-void require_usable(const SceneMesh& mesh, MethodKind kind);
-/// Throws SceneError when the material is not.
-void require_material(const Material& material, MethodKind kind, const std::filesystem::path& scene_file);
 
 /// Constrained vertices that belong together: columns [begin, end) of Deformer::reactions.
 struct ConstraintGroup {
@@ -96,10 +76,5 @@ enum class ConstrainedTriangles { error, left_out };
 /// vertices or not finite. The constraints of a document on its mesh.
 Constraints make_constraints(const Document& document, const SurfaceMesh& mesh, const std::filesystem::path& scene_file,
                              ConstrainedTriangles loaded = ConstrainedTriangles::error);
-
-/// Throws SceneError that names /gravity or /loads when loads on a solid of this surface do not balance though its
-/// constraints leave it free to move. Handles that move by a force do not hold it, and their forces count.
-void require_balance(const Document& document, const Constraints& constraints, const SurfaceMesh& surface,
-                     const std::filesystem::path& scene_file);
 
 }  // namespace elastolab

@@ -1,17 +1,10 @@
-#include "scene/setup.hpp"
+#include "scene/constraints.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
-#include "base/error.hpp"
 #include "base/overloaded.hpp"
-#include "base/text.hpp"
-#include "deform/load_parts.hpp"
-#include "mesh/input/import.hpp"
-#include "mesh/measures.hpp"
-#include "mesh/primitives.hpp"
-#include "mesh/solids.hpp"
+#include "scene/scene_failure.hpp"
 #include "scene/selectors.hpp"
 
 namespace elastolab {
@@ -24,24 +17,10 @@ constexpr int kNobody = -1;
 constexpr std::size_t kLongestName = 60;  ///< in messages: names come from scene files
 constexpr int kFirstFixed = -2;           ///< owner for the first fixed set; later sets count downwards
 
-std::string place(const fs::path& scene_file, const std::string& path) { return scene_file.string() + ": " + path; }
-
 std::string handle_path(std::size_t i) { return "/handles/" + std::to_string(i); }
 
 std::string fixed_path(const Document& document, std::size_t i) {
     return is_plain(document.fixed) ? "/fixed" : "/fixed/" + std::to_string(i);
-}
-
-[[noreturn]] void fail(const fs::path& scene_file, const std::string& path, const std::string& finding) {
-    throw SceneError(one_line(place(scene_file, path) + ": " + finding));
-}
-
-SurfaceMesh make_mesh(const Primitive& primitive, const fs::path& scene_file) {
-    try {
-        return make_primitive(primitive.name, primitive.resolution, primitive.size);
-    } catch (const MeshError& error) {
-        fail(scene_file, "/mesh", error.what());
-    }
 }
 
 /// Collects constraints and notices a vertex that is claimed twice.
@@ -81,8 +60,8 @@ private:
     void add_handle(std::size_t i) {
         const Handle& handle = document_.handles[i];
         if (handle.name == "fixed")
-            fail(scene_file_, handle_path(i) + "/name",
-                 "\"fixed\" is what the fixed part is called. Choose another name.");
+            fail_at(scene_file_, handle_path(i) + "/name",
+                    "\"fixed\" is what the fixed part is called. Choose another name.");
         const std::vector<int> vertices = claim(handle.select, handle_path(i) + "/select", static_cast<int>(i));
         std::visit([&](const auto& motion) { add_values(motion, vertices, i); }, handle.motion);
         result_.motions.push_back(handle.motion);
@@ -109,15 +88,15 @@ private:
             selects_any = true;
             if (constrained && loaded_ == ConstrainedTriangles::left_out) continue;
             if (constrained)
-                fail(scene_file_, path + "/select",
-                     "triangle " + std::to_string(t) +
-                         " has three constrained vertices, where a load has no effect. "
-                         "Load triangles that are free.");
+                fail_at(scene_file_, path + "/select",
+                        "triangle " + std::to_string(t) +
+                            " has three constrained vertices, where a load has no effect. "
+                            "Load triangles that are free.");
             triangles.push_back(t);
         }
         if (!selects_any)
-            fail(scene_file_, path + "/select",
-                 "selects no triangle: of none are all three vertices selected. Select more vertices.");
+            fail_at(scene_file_, path + "/select",
+                    "selects no triangle: of none are all three vertices selected. Select more vertices.");
         const std::string name = load.name.empty() ? default_load_name(i) : load.name;
         for (const AppliedLoad& other : result_.loads)
             if (other.name == name) fail_named_twice("/loads", name);
@@ -153,10 +132,10 @@ private:
                                       ? fixed_path(document_, static_cast<std::size_t>(kFirstFixed - owner))
                                       : handle_path(static_cast<std::size_t>(owner));
         const Eigen::Vector3d x = mesh_.vertices.col(vertex);
-        fail(scene_file_, path,
-             "vertex " + std::to_string(vertex) + " at (" + readable_number(x.x(), 6) + ", " +
-                 readable_number(x.y(), 6) + ", " + readable_number(x.z(), 6) + ") also belongs to " + other +
-                 ". Make the selectors disjoint.");
+        fail_at(scene_file_, path,
+                "vertex " + std::to_string(vertex) + " at (" + readable_number(x.x(), 6) + ", " +
+                    readable_number(x.y(), 6) + ", " + readable_number(x.z(), 6) + ") also belongs to " + other +
+                    ". Make the selectors disjoint.");
     }
 
     void add_values(const AffineMotion& motion, const std::vector<int>& vertices, std::size_t i) {
@@ -166,17 +145,17 @@ private:
 
     void add_values(const VertexMotion& motion, const std::vector<int>& vertices, std::size_t i) {
         if (motion.displacements.size() != vertices.size())
-            fail(scene_file_, handle_path(i) + "/displacements",
-                 "has " + std::to_string(motion.displacements.size()) + " entries for " +
-                     std::to_string(vertices.size()) + " selected vertices. Give one for each.");
+            fail_at(scene_file_, handle_path(i) + "/displacements",
+                    "has " + std::to_string(motion.displacements.size()) + " entries for " +
+                        std::to_string(vertices.size()) + " selected vertices. Give one for each.");
         for (std::size_t k = 0; k < vertices.size(); ++k) add_value(motion.displacements[k], vertices[k], i);
     }
 
     void add_value(const Eigen::Vector3d& u, int vertex, std::size_t i) {
         if (!u.allFinite())
-            fail(scene_file_, handle_path(i),
-                 "moves vertex " + std::to_string(vertex) +
-                     " by a number beyond double precision. Make the motion smaller.");
+            fail_at(scene_file_, handle_path(i),
+                    "moves vertex " + std::to_string(vertex) +
+                        " by a number beyond double precision. Make the motion smaller.");
         values_.insert(values_.end(), u.begin(), u.end());
     }
 
@@ -185,16 +164,16 @@ private:
             if (group.name == name) fail_named_twice("/handles", name);
         for (const ConstraintGroup& set : result_.fixed_sets)
             if (set.name == name)
-                fail(scene_file_, "/handles",
-                     "one of them and a fixed set are called \"" + shortened(name, kLongestName) +
-                         "\". Give them different names.");
+                fail_at(scene_file_, "/handles",
+                        "one of them and a fixed set are called \"" + shortened(name, kLongestName) +
+                            "\". Give them different names.");
         const int begin = result_.groups.empty() ? 0 : result_.groups.back().end;
         result_.groups.push_back({std::move(name), begin, begin + static_cast<int>(n_vertices)});
     }
 
     [[noreturn]] void fail_named_twice(const std::string& path, const std::string& name) const {
-        fail(scene_file_, path,
-             "two of them are called \"" + shortened(name, kLongestName) + "\". Give them different names.");
+        fail_at(scene_file_, path,
+                "two of them are called \"" + shortened(name, kLongestName) + "\". Give them different names.");
     }
 
     const Document& document_;
@@ -207,47 +186,6 @@ private:
 };
 
 }  // namespace
-
-SceneMesh load_scene_mesh(const MeshSource& source, const fs::path& scene_file, Control& control) {
-    if (const auto* primitive = std::get_if<Primitive>(&source))
-        return {primitive->name, check_and_repair(make_mesh(*primitive, scene_file), control)};
-    const fs::path file = scene_file.parent_path() / std::get<MeshFile>(source).file;
-    ImportedSurface imported = import_surface(file, control);
-    CheckedMesh checked = check_and_repair(std::move(imported.mesh), control);
-    if (!imported.warning.empty())
-        checked.report.defects.push_back({.kind = Defect::Kind::coarse_coordinates,
-                                          .count = 1,
-                                          .places = {},
-                                          .found = imported.warning,
-                                          .text = imported.warning});
-    return {file.string(), std::move(checked)};
-}
-
-bool needs_proxy(const ProxyChoice& choice, const MeshReport& mesh, MethodKind kind) {
-    switch (choice.use) {
-        case ProxyUse::automatic:
-        case ProxyUse::fill:
-            return kind->has_inside ? !mesh.usable_for_fem() : !mesh.usable();
-        case ProxyUse::always:
-            return true;
-        case ProxyUse::never:
-            break;
-    }
-    return false;
-}
-
-void require_usable(const SceneMesh& mesh, MethodKind kind) {
-    require_usable(mesh.checked.report, mesh.name, kind->has_inside);
-}
-
-void require_material(const Material& material, MethodKind kind, const fs::path& scene_file) {
-    if (!std::isnormal(material.young_modulus))
-        fail(scene_file, "/material/young_modulus",
-             "is " + exact(material.young_modulus) +
-                 ", below the range of numbers that keep all their digits. Choose another unit of force.");
-    if (const std::string why = refusal({.kind = kind}, material.poisson_ratio); !why.empty())
-        throw SceneError(one_line(place(scene_file, "/material/" + why)));
-}
 
 std::vector<UnitLoad> unit_loads(AppliedLoad::Kind kind, const SurfaceMesh& surface,
                                  const std::vector<int>& triangles) {
@@ -326,102 +264,6 @@ void Constraints::move(std::size_t handle, const AffineMotion& motion, const Pos
     for (int i = begin; i < end; ++i)
         values.segment<3>(3 * i) =
             motion.matrix * vertices.col(set.handles[static_cast<std::size_t>(i)]) + motion.translate;
-}
-
-namespace {
-
-/// The loads of one solid: their resultant, and the sum of their sizes.
-struct SumOfLoads {
-    Resultant resultant;
-    double size = 0.0;
-
-    void add(const Resultant& load, double load_size) {
-        resultant.force += load.force;
-        resultant.moment += load.moment;
-        size += load_size;
-    }
-    /// Whether it does no work in these rigid motions (free_rigid_motions), but for a millionth.
-    bool balances(const Eigen::MatrixXd& motions, const Eigen::Vector3d& centre, double length) const {
-        Eigen::Matrix<double, 6, 1> about_centre;
-        about_centre << resultant.force, (resultant.moment - centre.cross(resultant.force)) / length;
-        return !((motions.transpose() * about_centre).stableNorm() > 1e-6 * size);
-    }
-};
-
-std::vector<int> numbers_among(const std::vector<int>& chosen, int n) {
-    std::vector<int> numbers(static_cast<std::size_t>(n), -1);
-    for (std::size_t i = 0; i < chosen.size(); ++i) numbers[static_cast<std::size_t>(chosen[i])] = static_cast<int>(i);
-    return numbers;
-}
-
-/// Total size of a load's forces, whether they balance or not.
-double size_of(const SurfaceMesh& surface, const UnitLoad& load) {
-    double size = load.is_body_force() ? resultant(surface, load).force.norm() : 0.0;
-    for (std::size_t k = 0; k < load.triangles.size(); ++k)
-        size += 0.5 * area_vector(triangle_points(surface, load.triangles[k])).norm() *
-                load.tractions.col(static_cast<Eigen::Index>(k)).norm();
-    return size;
-}
-
-SumOfLoads loads_on(const Solid& solid, const Constraints& constraints, const SurfaceMesh& surface) {
-    SumOfLoads sum;
-    const std::vector<int> own = numbers_among(solid.triangles, surface.n_triangles());
-    const Eigen::VectorXd factors = constraints.values.tail(std::ssize(constraints.set.loads));
-    for (std::size_t k = 0; k < constraints.set.loads.size(); ++k) {
-        const UnitLoad part = on_triangles(constraints.set.loads[k], own);
-        if (part.triangles.empty() && !constraints.set.loads[k].is_body_force()) continue;
-        const double factor = factors[static_cast<Eigen::Index>(k)];
-        const Resultant unit = resultant(solid.surface, part);
-        sum.add({factor * unit.force, factor * unit.moment}, std::abs(factor) * size_of(solid.surface, part));
-    }
-    const std::vector<int> local = numbers_among(solid.vertices, surface.n_vertices());
-    for (std::size_t h = 0; h < constraints.forces.size(); ++h) {
-        const auto [begin, end] = constraints.range_of(h);
-        if (!constraints.forces[h] || begin == end) continue;
-        const std::vector<int> patch(constraints.set.handles.begin() + begin, constraints.set.handles.begin() + end);
-        if (local[static_cast<std::size_t>(patch.front())] < 0) continue;
-        const Eigen::Vector3d middle = surface.vertices(Eigen::all, patch).rowwise().mean();
-        const GripForce& grip = *constraints.forces[h];
-        sum.add({grip.force, grip.moment + middle.cross(grip.force)}, grip.force.norm());
-    }
-    return sum;
-}
-
-/// Vertices of a solid, by its own numbers, that hold it: all constrained ones but those that move by a force.
-std::vector<int> holding(const Solid& solid, const Constraints& constraints, const SurfaceMesh& surface) {
-    const std::vector<int> local = numbers_among(solid.vertices, surface.n_vertices());
-    std::vector<int> held;
-    const auto add = [&](int v) {
-        if (const int own = local[static_cast<std::size_t>(v)]; own >= 0) held.push_back(own);
-    };
-    for (const int v : constraints.set.base) add(v);
-    for (std::size_t h = 0; h < constraints.forces.size(); ++h) {
-        const auto [begin, end] = constraints.range_of(h);
-        for (int i = begin; i < end && !constraints.forces[h]; ++i)
-            add(constraints.set.handles[static_cast<std::size_t>(i)]);
-    }
-    return held;
-}
-
-}  // namespace
-
-void require_balance(const Document& document, const Constraints& constraints, const SurfaceMesh& surface,
-                     const fs::path& scene_file) {
-    if (constraints.set.loads.empty() && !constraints.has_forces()) return;
-    for (const Solid& solid : split_solids(surface)) {
-        const Positions& vertices = solid.surface.vertices;
-        const Eigen::Vector3d centre = vertices.rowwise().mean();
-        const double length = (vertices.colwise() - centre).colwise().norm().maxCoeff();
-        const Eigen::MatrixXd motions =
-            free_rigid_motions(vertices, holding(solid, constraints, surface), centre, length);
-        if (motions.cols() == 0 || loads_on(solid, constraints, surface).balances(motions, centre, length)) continue;
-        fail(scene_file,
-             !document.loads.empty() ? "/loads"
-             : document.gravity      ? "/gravity"
-                                     : "/handles",
-             "do not balance, and nothing holds the body against them. Fix a part of it, or add loads until forces and "
-             "moments sum to zero.");
-    }
 }
 
 Constraints make_constraints(const Document& document, const SurfaceMesh& mesh, const fs::path& scene_file,

@@ -1,0 +1,111 @@
+#include "scene/balance.hpp"
+
+#include <cmath>
+
+#include "deform/load_parts.hpp"
+#include "mesh/measures.hpp"
+#include "mesh/solids.hpp"
+#include "scene/scene_failure.hpp"
+
+namespace elastolab {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// The loads of one solid: their resultant, and the sum of their sizes.
+struct SumOfLoads {
+    Resultant resultant;
+    double size = 0.0;
+
+    void add(const Resultant& load, double load_size) {
+        resultant.force += load.force;
+        resultant.moment += load.moment;
+        size += load_size;
+    }
+    /// Whether it does no work in these rigid motions (free_rigid_motions), but for a millionth.
+    bool balances(const Eigen::MatrixXd& motions, const Eigen::Vector3d& centre, double length) const {
+        Eigen::Matrix<double, 6, 1> about_centre;
+        about_centre << resultant.force, (resultant.moment - centre.cross(resultant.force)) / length;
+        return !((motions.transpose() * about_centre).stableNorm() > 1e-6 * size);
+    }
+};
+
+std::vector<int> numbers_among(const std::vector<int>& chosen, int n) {
+    std::vector<int> numbers(static_cast<std::size_t>(n), -1);
+    for (std::size_t i = 0; i < chosen.size(); ++i) numbers[static_cast<std::size_t>(chosen[i])] = static_cast<int>(i);
+    return numbers;
+}
+
+/// Total size of a load's forces, whether they balance or not.
+double size_of(const SurfaceMesh& surface, const UnitLoad& load) {
+    double size = load.is_body_force() ? resultant(surface, load).force.norm() : 0.0;
+    for (std::size_t k = 0; k < load.triangles.size(); ++k)
+        size += 0.5 * area_vector(triangle_points(surface, load.triangles[k])).norm() *
+                load.tractions.col(static_cast<Eigen::Index>(k)).norm();
+    return size;
+}
+
+SumOfLoads loads_on(const Solid& solid, const Constraints& constraints, const SurfaceMesh& surface) {
+    SumOfLoads sum;
+    const std::vector<int> own = numbers_among(solid.triangles, surface.n_triangles());
+    const Eigen::VectorXd factors = constraints.values.tail(std::ssize(constraints.set.loads));
+    for (std::size_t k = 0; k < constraints.set.loads.size(); ++k) {
+        const UnitLoad part = on_triangles(constraints.set.loads[k], own);
+        if (part.triangles.empty() && !constraints.set.loads[k].is_body_force()) continue;
+        const double factor = factors[static_cast<Eigen::Index>(k)];
+        const Resultant unit = resultant(solid.surface, part);
+        sum.add({factor * unit.force, factor * unit.moment}, std::abs(factor) * size_of(solid.surface, part));
+    }
+    const std::vector<int> local = numbers_among(solid.vertices, surface.n_vertices());
+    for (std::size_t h = 0; h < constraints.forces.size(); ++h) {
+        const auto [begin, end] = constraints.range_of(h);
+        if (!constraints.forces[h] || begin == end) continue;
+        const std::vector<int> patch(constraints.set.handles.begin() + begin, constraints.set.handles.begin() + end);
+        if (local[static_cast<std::size_t>(patch.front())] < 0) continue;
+        const Eigen::Vector3d middle = surface.vertices(Eigen::all, patch).rowwise().mean();
+        const GripForce& grip = *constraints.forces[h];
+        sum.add({grip.force, grip.moment + middle.cross(grip.force)}, grip.force.norm());
+    }
+    return sum;
+}
+
+/// Vertices of a solid, by its own numbers, that hold it: all constrained ones but those that move by a force.
+std::vector<int> holding(const Solid& solid, const Constraints& constraints, const SurfaceMesh& surface) {
+    const std::vector<int> local = numbers_among(solid.vertices, surface.n_vertices());
+    std::vector<int> held;
+    const auto add = [&](int v) {
+        if (const int own = local[static_cast<std::size_t>(v)]; own >= 0) held.push_back(own);
+    };
+    for (const int v : constraints.set.base) add(v);
+    for (std::size_t h = 0; h < constraints.forces.size(); ++h) {
+        const auto [begin, end] = constraints.range_of(h);
+        for (int i = begin; i < end && !constraints.forces[h]; ++i)
+            add(constraints.set.handles[static_cast<std::size_t>(i)]);
+    }
+    return held;
+}
+
+}  // namespace
+
+void require_balance(const Document& document, const Constraints& constraints, const SurfaceMesh& surface,
+                     const fs::path& scene_file) {
+    if (constraints.set.loads.empty() && !constraints.has_forces()) return;
+    for (const Solid& solid : split_solids(surface)) {
+        const Positions& vertices = solid.surface.vertices;
+        const Eigen::Vector3d centre = vertices.rowwise().mean();
+        const double length = (vertices.colwise() - centre).colwise().norm().maxCoeff();
+        const Eigen::MatrixXd motions =
+            free_rigid_motions(vertices, holding(solid, constraints, surface), centre, length);
+        if (motions.cols() == 0 || loads_on(solid, constraints, surface).balances(motions, centre, length)) continue;
+        fail_at(
+            scene_file,
+            !document.loads.empty() ? "/loads"
+            : document.gravity      ? "/gravity"
+                                    : "/handles",
+            "do not balance, and nothing holds the body against them. Fix a part of it, or add loads until forces and "
+            "moments sum to zero.");
+    }
+}
+
+}  // namespace elastolab

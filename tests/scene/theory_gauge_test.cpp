@@ -1,0 +1,112 @@
+// How far linear theory is off, of motions and of loads: in what `solve` reports, and while a person edits.
+#include <gtest/gtest.h>
+
+#include "methods/registry.hpp"
+#include "scene/live/live_scene.hpp"
+#include "scene/live/simulation.hpp"
+#include "scene/solve.hpp"
+#include "support/wait_until.hpp"
+
+namespace elastolab {
+namespace {
+
+/// A bar of 4 x 1 x 1 along x, fixed at x = 0. Its shear modulus is about 0.77.
+Document bar(double young_modulus = 2.0) {
+    Document document;
+    document.mesh = Primitive{.name = "beam", .resolution = 2, .size = {}};
+    document.material = {young_modulus, 0.3};
+    document.fixed = {{.name = "wall", .select = {PlaneSelector{{0, 0, 0}, {1, 0, 0}, 1e-9}}}};
+    return document;
+}
+
+/// Its other end is pushed up by this force.
+Document pushed_bar(double force, double young_modulus = 2.0) {
+    Document document = bar(young_modulus);
+    document.loads = {
+        {.name = "push", .select = {PlaneSelector{{4, 0, 0}, {1, 0, 0}, 1e-9}}, .value = ForceLoad{{0, 0, force}}}};
+    return document;
+}
+
+Solution ten_nodes(const Document& document, MethodKind kind) {
+    Control control;
+    Method method{.kind = kind};
+    method.elements = ElementDegree::quadratic;
+    return solve({.scene_file = "scene.json", .document = document, .method = method}, control);
+}
+
+double largest(const Eigen::Matrix3Xd& u) { return u.colwise().norm().maxCoeff(); }
+
+/// The mesh is so coarse that it is gauged itself, with elements of the same kind: both answers are known.
+TEST(TheoryGauge, OfALoadIsTheDifferenceOfBothTheories) {
+    const Document document = pushed_bar(0.02);
+    const Solution linear = ten_nodes(document, kQuadraticFem), finite = ten_nodes(document, kNonlinearFem);
+    ASSERT_TRUE(linear.linear_theory_error);
+    const double expected = largest(finite.displacement - linear.displacement) / largest(finite.displacement);
+    EXPECT_GT(expected, 0.05);
+    EXPECT_NEAR(*linear.linear_theory_error, expected, 1e-3 * expected);
+    EXPECT_FALSE(finite.linear_theory_error);
+}
+
+/// Force and stiffness by the same factor: nothing changes; a weaker force: linear theory is right.
+TEST(TheoryGauge, OfALoadGoesByTheLoadOverTheStiffness) {
+    const double one = ten_nodes(pushed_bar(0.02), kLinearBem).linear_theory_error.value_or(0.0);
+    const double same = ten_nodes(pushed_bar(20.0, 2000.0), kLinearBem).linear_theory_error.value_or(0.0);
+    const double weak = ten_nodes(pushed_bar(0.002), kLinearBem).linear_theory_error.value_or(1.0);
+    EXPECT_GT(one, 0.05);
+    EXPECT_NEAR(same, one, 1e-6);
+    EXPECT_LT(weak, 0.1 * one);
+}
+
+struct LiveTheoryGauge : testing::Test {
+    LiveScene scene{bar(), "scene.json"};
+    Simulation simulation{[] {}};
+
+    std::vector<int> end() const {
+        std::vector<int> vertices;
+        for (int v = 0; v < scene.mesh().n_vertices(); ++v)
+            if (scene.mesh().vertices(0, v) > 4.0 - 1e-9) vertices.push_back(v);
+        return vertices;
+    }
+    std::optional<TheoryError> found(MethodKind kind = kQuadraticFem) {
+        test::wait_until([&] {
+            simulation.update(scene, {kind}, {});
+            return !simulation.busy() && !simulation.checking();
+        });
+        return simulation.theory_error();
+    }
+};
+
+TEST_F(LiveTheoryGauge, FollowsALoadAndTheStiffness) {
+    EXPECT_FALSE(found()) << "at rest";
+    const int load = scene.add_load(end(), ForceLoad{{0, 0, 0.02}});
+    const std::optional<TheoryError> strong = found();
+    ASSERT_TRUE(strong);
+    EXPECT_FALSE(strong->crushed || strong->turns);
+    EXPECT_TRUE(strong->loads);
+    EXPECT_NEAR(strong->relative, *ten_nodes(pushed_bar(0.02), kQuadraticFem).linear_theory_error, 1e-6);
+    scene.set_material({20.0, 0.3});
+    const std::optional<TheoryError> stiff = found();
+    ASSERT_TRUE(stiff);
+    EXPECT_LT(stiff->relative, 0.2 * strong->relative);
+    scene.remove_load(load);
+    EXPECT_FALSE(found());
+}
+
+/// What the handle does under its force is a motion as any other.
+TEST_F(LiveTheoryGauge, FollowsAHandleUnderAForce) {
+    const int handle = scene.add_handle(end());
+    scene.set_force(handle, GripForce{{0, 0, 0.02}});
+    const std::optional<TheoryError> pushed = found();
+    ASSERT_TRUE(pushed);
+    EXPECT_GT(pushed->relative, 0.05);
+    EXPECT_FALSE(pushed->loads);
+    const AffineMotion placed = simulation.answer(kQuadraticFem).grip_motions().at(0);
+    scene.set_force(handle, std::nullopt);
+    scene.set_motion(handle, placed);
+    const std::optional<TheoryError> moved = found();
+    ASSERT_TRUE(moved);
+    EXPECT_NEAR(moved->relative, pushed->relative, 1e-6);
+}
+
+}  // namespace
+}  // namespace elastolab
