@@ -78,15 +78,20 @@ void ConstrainedSolid::add_particular(const Eigen::MatrixXd& factors, Eigen::Ref
     if (!particular_.empty()) displacements.noalias() += particular_.at_vertices * factors;
 }
 
-Reactions ConstrainedSolid::reactions(const NodeSolution& solution) const {
-    Reactions reactions = gathered_reactions(shares_, n_constrained_, solution.loads.col(0));
-    if (solver_->linear()) return reactions;
-    for (const LoadShare& share : shares_) {
-        const Eigen::Vector3d load = solution.loads.col(0).segment<3>(3 * share.slot);
-        const Eigen::Vector3d moved = share.weight * solution.prescribed.col(0).segment<3>(3 * share.constrained);
-        reactions.moments.col(share.constrained) += moved.cross(load);
+Reactions present_reactions(const std::vector<LoadShare>& shares, const Eigen::VectorXd& moved,
+                            const Eigen::VectorXd& loads) {
+    Reactions reactions = gathered_reactions(shares, static_cast<int>(moved.size() / 3), loads);
+    for (const LoadShare& share : shares) {
+        const Eigen::Vector3d load = loads.segment<3>(3 * share.slot);
+        const Eigen::Vector3d by = share.weight * moved.segment<3>(3 * share.constrained);
+        reactions.moments.col(share.constrained) += by.cross(load);
     }
     return reactions;
+}
+
+Reactions ConstrainedSolid::reactions(const NodeSolution& solution) const {
+    if (solver_->linear()) return gathered_reactions(shares_, n_constrained_, solution.loads.col(0));
+    return present_reactions(shares_, solution.prescribed.col(0), solution.loads.col(0));
 }
 
 double ConstrainedSolid::residual(const NodeSolution& solution, Control& control) const {

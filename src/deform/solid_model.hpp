@@ -51,6 +51,9 @@ struct SolutionError {
 
 /// Forces and moments at n constrained vertices from the loads that they share, one column.
 Reactions gathered_reactions(const std::vector<LoadShare>& shares, int n, const Eigen::VectorXd& loads);
+/// The same with moments of forces at present positions; moved: displacements of the vertices, 3*n.
+Reactions present_reactions(const std::vector<LoadShare>& shares, const Eigen::VectorXd& moved,
+                            const Eigen::VectorXd& loads);
 
 /// A field that unit loads cause by themselves and that solvers leave out: they solve for the rest, with prescribed
 /// displacements less this (BEM's body forces, docs/formulation.md section 13).

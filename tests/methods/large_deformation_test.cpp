@@ -173,8 +173,11 @@ TEST(LargeDeformation, TheInsideIsThatOfTheAnswer) {
     EXPECT_EQ(n_inverted, 0);
 }
 
-TEST(LargeDeformation, TheErrorEstimateIsOfTheSizeOfTheError) {
-    const Bar bar;
+/// Ten nodes are judged by four, and four by ten.
+class LargeEstimate : public testing::TestWithParam<ElementDegree> {};
+
+TEST_P(LargeEstimate, IsOfTheSizeOfTheError) {
+    const Bar bar(1.0, Vector3d::Zero(), {2.0, 0.3}, GetParam());
     Control control;
     const Eigen::VectorXd values = bar.turned({0, 0, 1}, 60);
     const Deformer::Answer answer = bar.deformer->answer(values, {.check = true}, control);
@@ -205,6 +208,8 @@ TEST(LargeDeformation, TheErrorEstimateIsOfTheSizeOfTheError) {
     EXPECT_GT(answer.check->relative_error, 0.2 * error / largest);
     EXPECT_LT(answer.check->relative_error, 8.0 * error / largest);
 }
+
+INSTANTIATE_TEST_SUITE_P(Degrees, LargeEstimate, testing::Values(ElementDegree::linear, ElementDegree::quadratic));
 
 TEST(LargeDeformation, NearlyIncompressibleBodiesAreTakenUpTo0499AndRefusedBeyond) {
     const Bar bar(1.0, Vector3d::Zero(), {1.0, 0.499});

@@ -187,6 +187,9 @@ TEST(StabilityTrial, SaysRightToldAndRefused) {
     EXPECT_EQ(attempt(group("few-held").make(1), fem, control).text("outcome"), "told");
     EXPECT_EQ(attempt(group("nu-to-half").make(0.5), fem, control).text("outcome"), "refused");
     EXPECT_EQ(attempt(group("two-bodies").make(-0.1), fem, control).text("outcome"), "refused");
+    const std::vector<TrialVariant> finite = finite_trial_variants();
+    EXPECT_EQ(attempt(group("finite-swelling").make(1.5), finite[0].method, control).text("outcome"), "right");
+    EXPECT_EQ(attempt(group("finite-swelling").make(1.5), finite[1].method, control).text("outcome"), "told");
 }
 
 TEST(StabilityTrial, SurvivesRandomEdits) {

@@ -1,6 +1,7 @@
 #include "fem/nonlinear/model.hpp"
 
 #include "base/error.hpp"
+#include "base/memory.hpp"
 #include "deform/holds.hpp"
 #include "deform/ten_node_elements.hpp"
 #include "fem/nodal_field.hpp"
@@ -17,6 +18,11 @@ constexpr double kLeftByTenNodes = 0.45;
 /// Factors that are held at once: at rest, and of the last equilibrium or the next one.
 constexpr std::uint64_t kHeldFactors = 2;
 constexpr int kCheckIterations = 30;
+/// Ten nodes as a second answer to four: to this residual, on meshes of at most so many tetrahedra, where it takes a
+/// second; and their factor, over that of four nodes.
+constexpr double kCheckTolerance = 1e-3;
+constexpr int kMostToCheck = 8000;
+constexpr std::uint64_t kTenNodeFactor = 16;
 
 /// Positions, elements, gradients of their shapes, and the elements around each node.
 std::uint64_t bytes_of_mesh(const FiniteElements& elements) {
@@ -111,6 +117,36 @@ std::optional<ReferenceAnswer> linear_answer(const NonlinearMesh& mesh, const Ma
         -kLeftByTenNodes};
 }
 
+/// Ten nodes an element on the same tetrahedra, from what four of them have found.
+std::optional<ReferenceAnswer> ten_node_answer(const NonlinearMesh& mesh, const Material& material,
+                                               const std::vector<int>& base, const std::vector<int>& handles,
+                                               std::span<const UnitLoad> loads, const NodeSolution& solution,
+                                               Control& control) {
+    const std::shared_ptr<const NonlinearMesh> ten =
+        make_nonlinear_mesh(mesh.tets, mesh.surface, ElementDegree::quadratic);
+    const Eigen::MatrixXi& elements = ten->elements->elements();
+    const ConstrainedFemNodes nodes = constrain_nodes(ten->elements->positions(), ten->midpoints, base, handles);
+    if (!holds(ten->elements->positions(), nodes.vertices)) return {};
+    if (std::ssize(nodes.prescribed.nodes) == ten->elements->n_nodes()) return {};  // nothing is free
+    Positions u = Positions::Zero(3, ten->elements->n_nodes());
+    u(Eigen::all, ten->corner_nodes) = solution.displacements.col(0).reshaped(3, mesh.tets.n_vertices());
+    for (const auto& element : elements.colwise())
+        for (int e = 0; e < 6; ++e)
+            u.col(element[4 + e]) = 0.5 * (u.col(element[kTetEdges[e][0]]) + u.col(element[kTetEdges[e][1]]));
+    const Newton newton(std::make_shared<const FreeTangent>(ten->elements, nodes.prescribed.nodes, control), material,
+                        0.0, {ten->elements, ten->surface, ten->surface_midpoints, loads});
+    ElementWork work = ten->elements->make_work();
+    const Eigen::VectorXd factors = solution.factors.col(0);
+    const NewtonState state = newton.run(u.reshaped(), factors, kCheckTolerance, kCheckIterations, work, control);
+    if (!state.converged) return {};
+    const Eigen::VectorXd forces = newton.forces(state.u, factors, work, control);
+    const Eigen::VectorXd at_nodes =
+        forces.reshaped(3, ten->elements->n_nodes())(Eigen::all, nodes.prescribed.nodes).reshaped();
+    return ReferenceAnswer{state.u.head(3 * mesh.n_vertices()),
+                           present_reactions(nodes.shares, solution.prescribed.col(0), at_nodes),
+                           1.0 + kLeftByTenNodes};
+}
+
 }  // namespace
 
 NonlinearModel::NonlinearModel(const SurfaceMesh& surface, const std::string& name, double poisson_ratio,
@@ -158,10 +194,15 @@ std::unique_ptr<ConstrainedSolid> NonlinearModel::constrain(std::span<const int>
         return its->newton().residual(u.lpNorm<Eigen::Infinity>(), its->newton().forces(u, factors, work, its_control),
                                       u, factors);
     };
-    checks.reference = [mesh = mesh_, its = material(), vertices = nodes.vertices,
+    checks.reference = [mesh = mesh_, its = material(), vertices = nodes.vertices, n_base = base.size(),
+                        needed = check_memory(base, handles),
                         given = std::vector<UnitLoad>(loads.begin(), loads.end())](
                            const Eigen::VectorXd&, const NodeSolution& solution, Control& its_control) {
-        return linear_answer(*mesh, its, vertices, given, solution, its_control);
+        if (mesh->linear) return linear_answer(*mesh, its, vertices, given, solution, its_control);
+        if (needed == 0 || needed > available_memory_bytes()) return std::optional<ReferenceAnswer>();
+        const auto first_handle = vertices.begin() + static_cast<std::ptrdiff_t>(n_base);
+        return ten_node_answer(*mesh, its, {vertices.begin(), first_handle}, {first_handle, vertices.end()}, given,
+                               solution, its_control);
     };
     checks.inside = [mesh = mesh_, nu = poisson_ratio_](NodeSolution&& solution, Control&) {
         return std::make_shared<const NodalField>(tets_of(mesh), mesh->elements->degree(), nu,
@@ -177,7 +218,8 @@ std::uint64_t NonlinearModel::constrain_memory(std::span<const int>, std::span<c
 }
 
 std::uint64_t NonlinearModel::check_memory(std::span<const int>, std::span<const int>) const {
-    return mesh_->linear ? factor_bytes_ / 4 : 0;
+    if (mesh_->linear) return factor_bytes_ / 4;
+    return mesh_->tets.n_tetrahedra() <= kMostToCheck ? kTenNodeFactor * factor_bytes_ + 8 * tangent_bytes_ : 0;
 }
 
 const SparseStiffness* NonlinearModel::sparse_stiffness() const {

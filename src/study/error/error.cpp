@@ -92,7 +92,8 @@ private:
 /// Refinement at a compressible and a nearly incompressible ratio.
 void add_refinements(CaseList& cases, bool quick) {
     for (const ProblemFamily& family : problem_families()) {
-        if (family.organic || family.reproduced || (quick && family.name.ends_with("irregular"))) continue;
+        if (family.organic || family.reproduced || family.finite || (quick && family.name.ends_with("irregular")))
+            continue;
         for (const double nu : {0.3, 0.49}) {
             if (quick && nu != 0.3) continue;
             for (const Variant& variant : main_variants(quick))
@@ -105,7 +106,7 @@ void add_refinements(CaseList& cases, bool quick) {
 void add_reproduced(CaseList& cases, bool quick) {
     for (const ProblemFamily& family : problem_families())
         for (const Variant& variant : main_variants(quick))
-            if (family.reproduced) cases.add("reproduced", family.name, variant, 0.3, quick ? 3 : 6);
+            if (family.reproduced && !family.finite) cases.add("reproduced", family.name, variant, 0.3, quick ? 3 : 6);
 }
 
 /// All Poisson's ratios at one size, on flat and on curved surfaces.
@@ -161,6 +162,23 @@ void add_organic(CaseList& cases, bool quick) {
         }
 }
 
+/// Large deformations, by the method that is not linear: refinement, and what linear elements represent exactly.
+void add_finite(CaseList& cases, bool quick) {
+    Method four_nodes{.kind = kNonlinearFem};
+    four_nodes.elements = ElementDegree::linear;
+    const std::vector<Variant> variants = {{"nonlinear-fem", {.kind = kNonlinearFem}, up_to(8, quick)},
+                                           {"nonlinear-fem of four nodes", four_nodes, up_to(12, quick)}};
+    for (const ProblemFamily& family : problem_families()) {
+        if (!family.finite) continue;
+        for (const double nu : {0.3, 0.49}) {
+            if (quick && nu != 0.3) continue;
+            for (const Variant& variant : variants)
+                for (const int size : family.reproduced ? std::vector{3} : variant.sizes)
+                    cases.add("finite", family.name, variant, nu, size);
+        }
+    }
+}
+
 }  // namespace
 
 Study make_error_study(const StudyOptions& options) {
@@ -178,6 +196,7 @@ Study make_error_study(const StudyOptions& options) {
     add_ratios(cases, options.quick);
     add_choices(cases, options.quick);
     add_organic(cases, options.quick);
+    add_finite(cases, options.quick);
     study.cases = cases.take();
     study.conclude = [](const Table& table, Control&) { return conclude_error(table); };
     return study;

@@ -7,6 +7,7 @@
 
 #include "methods/registry.hpp"
 #include "study/error/error_frontier.hpp"
+#include "study/error/problems.hpp"
 #include "study/report/report.hpp"
 #include "study/report/statistics.hpp"
 
@@ -162,6 +163,31 @@ std::string organic_findings(const Table& table) {
            markdown_table(titles, rows);
 }
 
+const std::vector<std::string> kFiniteVariants = {"nonlinear-fem", "nonlinear-fem of four nodes"};
+
+std::string finite_findings(const Table& table) {
+    const Table finite = table.where({{"part", "finite"}});
+    std::vector<std::vector<std::string>> rows;
+    for (const std::string& problem : finite.values("problem"))
+        for (const std::string& nu : finite.values("nu"))
+            for (const std::string& variant : kFiniteVariants) {
+                const Table some = finite.where({{"problem", problem}, {"nu", nu}, {"variant", variant}});
+                if (some.rows.empty()) continue;
+                const Row& finest = some.rows.back();
+                const bool refined = some.rows.size() > 1;
+                rows.push_back({problem, nu, variant, refined ? short_number(observed_order(some, "error")) : "-",
+                                finest.text("vertices"), percent(finest.number("error")),
+                                percent(finest.number("error_max")), duration(finest.number("once_s"))});
+            }
+    return "## Large deformations\n\nA neo-Hookean body: turned by 60 degrees, stretched by a half, bent and twisted "
+           "by 60 degrees, a hollow sphere whose inner side is pushed out by a half. Truth: formulas and ordinary "
+           "differential equations. The first two are fields that the elements hold exactly. Order as below, at most 2 "
+           "where what is prescribed, or the body, is curved: elements have straight sides.\n\n" +
+           markdown_table({"problem", "nu", "variant", "order", "vertices of the finest", "its error", "worst vertex",
+                           "single solve"},
+                          rows);
+}
+
 /// One row for each text of `column`, the error of every variant.
 std::string error_table(const Table& table, const std::string& column) {
     std::vector<std::vector<std::string>> rows;
@@ -238,6 +264,29 @@ Plot ratio_plot(const std::string& problem) {
     return plot;
 }
 
+Plot finite_plot(const Table& finite) {
+    Plot plot{.name = "error-finite", .title = "Error of large deformations against the size of the elements"};
+    plot.caption = "Nonlinear FEM, nu 0.3. Dashed: four nodes, else ten.";
+    plot.x_label = "cells";
+    plot.y_label = "relative error (rms)";
+    plot.log_x = plot.log_y = true;
+    int color = 0;
+    for (const std::string& problem : finite.values("problem")) {
+        if (problem_family(problem).reproduced) continue;
+        for (const std::string& variant : kFiniteVariants) {
+            Series series{.title = problem + (variant == kFiniteVariants.front() ? "" : ", four nodes"),
+                          .where = {{"part", "finite"}, {"problem", problem}, {"nu", "0.3"}, {"variant", variant}},
+                          .x = "size",
+                          .y = "error"};
+            series.color = color;
+            series.dashed = variant != kFiniteVariants.front();
+            plot.series.push_back(series);
+        }
+        ++color;
+    }
+    return plot;
+}
+
 Plot frontier_plot(const std::string& problem) {
     Plot plot{.name = "error-frontier-" + problem, .title = "Time for a given error: " + problem + ", nu 0.3"};
     plot.caption = "Interpolated between the measured sizes, from error-frontier.csv.";
@@ -263,8 +312,8 @@ Conclusions conclude_error(const Table& table) {
     Conclusions conclusions;
     conclusions.findings = "## In short\n\n" + bar_finding(table) + "\n" + wins_finding(table) + "\n" +
                            frontier_findings(table) + "\n" + ratio_findings(table) + "\n" + reproduced_findings(table) +
-                           "\n" + organic_findings(table) + "\n" + order_findings(table) + "\n" +
-                           choice_findings(table);
+                           "\n" + organic_findings(table) + "\n" + finite_findings(table) + "\n" +
+                           order_findings(table) + "\n" + choice_findings(table);
     std::ostringstream text;
     const Table times = frontier_table(table);
     write_csv(text, times);
@@ -275,6 +324,8 @@ Conclusions conclude_error(const Table& table) {
     for (const std::string& problem : refinement.values("problem"))
         for (const std::string& nu : refinement.values("nu"))
             if (!problem.ends_with("irregular")) conclusions.plots.push_back(error_plot(problem, nu));
+    if (const Table finite = table.where({{"part", "finite"}}); !finite.rows.empty())
+        conclusions.plots.push_back(finite_plot(finite));
     for (const std::string& problem : table.where({{"part", "poisson"}}).values("problem"))
         conclusions.plots.push_back(ratio_plot(problem));
     return conclusions;

@@ -4,16 +4,17 @@
 #include <cmath>
 #include <Eigen/Geometry>
 #include <numbers>
-#include <random>
 #include <set>
 
 #include "deform/patch_reactions.hpp"
 #include "elasticity/exact_fields.hpp"
 #include "mesh/primitives.hpp"
 #include "study/error/exact_reactions.hpp"
+#include "study/error/finite_problems.hpp"
 #include "study/error/loaded_problems.hpp"
 #include "study/error/organic_body.hpp"
 #include "study/error/organic_truth.hpp"
+#include "study/error/study_bar.hpp"
 #include "study/setups.hpp"
 
 namespace elastolab {
@@ -31,29 +32,6 @@ Problem exact_problem(SurfaceMesh mesh, const Field& field, const Material& mate
         exact_reactions(mesh, problem.constrained, [&](const Eigen::Vector3d& x) { return field.stress(x); });
     problem.body = study_body(std::move(mesh), material);
     return problem;
-}
-
-/// Uniform in [-1, 1], the same on every machine.
-class Jitter {
-public:
-    double operator()() {
-        return 2.0 * static_cast<double>(random_()) / static_cast<double>(std::mt19937::max()) - 1.0;
-    }
-
-private:
-    std::mt19937 random_{31};
-};
-
-constexpr double kJitter = 0.25;  // of a cell
-
-SurfaceMesh bar(int cells, bool irregular) {
-    const Eigen::Vector3d size(2.0, 1.0, 1.0);
-    SurfaceMesh mesh = make_box(cells, size);
-    Jitter jitter;
-    for (auto x : mesh.vertices.colwise())
-        for (int axis = 0; irregular && axis < 3; ++axis)
-            if (x[axis] > kNear && x[axis] < size[axis] - kNear) x[axis] += kJitter / cells * jitter();
-    return mesh;
 }
 
 template <class Field>
@@ -100,6 +78,7 @@ Problem pull(const OrganicBody& organic, double nu) { return moved(organic, orga
 Problem turn(const OrganicBody& organic, double nu) { return moved(organic, organic.turned_values(0.35), nu); }
 
 constexpr const char* kExact = "exact solution";
+constexpr const char* kRadial = "exact solution, by an ordinary differential equation";
 constexpr const char* kConverged = "quadratic finite elements graded towards the rims, extrapolated";
 
 }  // namespace
@@ -142,19 +121,19 @@ const std::vector<ProblemFamily>& problem_families() {
     static const std::vector<ProblemFamily> families = {
         {"rotation", kExact, false, true,
          [](int size, double nu) {
-             return ends_of_bar(bar(size, true), RigidMotionField{{0.1, 0.2, 0.3}, {0.3, -0.2, 0.1}}, {1.0, nu});
+             return ends_of_bar(study_bar(size, true), RigidMotionField{{0.1, 0.2, 0.3}, {0.3, -0.2, 0.1}}, {1.0, nu});
          }},
         {"stretch", kExact, false, true,
          [](int size, double nu) {
-             return ends_of_bar(bar(size, true), UniaxialStretch{{1.0, nu}, 1.0}, {1.0, nu});
+             return ends_of_bar(study_bar(size, true), UniaxialStretch{{1.0, nu}, 1.0}, {1.0, nu});
          }},
         {"bending", kExact, false, false,
          [](int size, double nu) {
-             return ends_of_bar(bar(size, false), PureBending{{1.0, nu}, 1.0}, {1.0, nu});
+             return ends_of_bar(study_bar(size, false), PureBending{{1.0, nu}, 1.0}, {1.0, nu});
          }},
         {"bending-irregular", kExact, false, false,
          [](int size, double nu) {
-             return ends_of_bar(bar(size, true), PureBending{{1.0, nu}, 1.0}, {1.0, nu});
+             return ends_of_bar(study_bar(size, true), PureBending{{1.0, nu}, 1.0}, {1.0, nu});
          }},
         {"torsion", kExact, false, false, [](int size, double nu) { return twist(size, nu, false); }},
         {"torsion-irregular", kExact, false, false, [](int size, double nu) { return twist(size, nu, true); }},
@@ -162,6 +141,11 @@ const std::vector<ProblemFamily>& problem_families() {
         {"hanging-bar", kExact, false, false, [](int size, double nu) { return hanging_bar(size, nu); }},
         {"pressed-sphere", kExact, false, false, [](int size, double nu) { return pressed_sphere(size, nu); }},
         {"pressed-bar", kExact, false, true, [](int size, double nu) { return pressed_bar(size, nu); }},
+        {"finite-rotation", kExact, false, true, [](int size, double nu) { return finite_rotation(size, nu); }, true},
+        {"finite-stretch", kExact, false, true, [](int size, double nu) { return finite_stretch(size, nu); }, true},
+        {"finite-bending", kRadial, false, false, [](int size, double nu) { return finite_bending(size, nu); }, true},
+        {"finite-torsion", kRadial, false, false, [](int size, double nu) { return finite_torsion(size, nu); }, true},
+        {"finite-swelling", kRadial, false, false, [](int size, double nu) { return finite_swelling(size, nu); }, true},
         {"cantilever", kConverged, true, false, [](int size, double nu) { return cantilever(size, nu); }},
         {"rabbit", kConverged, true, false, [](int size, double nu) { return pull(make_rabbit(size), nu); }},
         {"potato", kConverged, true, false, [](int size, double nu) { return pull(make_potato(size), nu); }},

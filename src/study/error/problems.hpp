@@ -45,6 +45,9 @@ struct Problem {
 ///   hanging-bar         bar that hangs from its top under its weight
 ///   pressed-sphere      hollow sphere under inner pressure, constrained nowhere
 ///   pressed-bar         bar under pressure on its sides, both ends prescribed
+///   finite-...          large deformations of a neo-Hookean body (study/error/finite_problems.hpp): a rotation by 60
+///                       degrees and a stretch by a half, a bar bent by 60 degrees, a cylinder twisted by 60, a hollow
+///                       sphere that swells by a half
 ///   cantilever          bar of 3 x 1 x 1, fixed at one end and bent by its weight; truth as of organic bodies
 ///   rabbit, potato, cactus   organic bodies pulled at a small patch; ...-turned: the patch turned by 20 degrees. Truth
 ///                       by quadratic FEM graded towards the rims, refined and extrapolated, which shares no code with
@@ -56,6 +59,7 @@ struct ProblemFamily {
     bool reproduced = false;  ///< linear elements represent the field exactly: the error is rounding
     /// `size`: cells of the primitive, or vertices of an organic body.
     std::function<Problem(int size, double poisson_ratio)> make;
+    bool finite = false;  ///< large deformations, for methods that are not linear
 };
 
 const std::vector<ProblemFamily>& problem_families();

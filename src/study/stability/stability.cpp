@@ -21,7 +21,7 @@ std::string shortest(double value) {
 void add_sweeps(std::vector<Case>& cases, bool quick) {
     for (const TrialGroup& group : trial_groups(quick))
         for (const double level : group.levels)
-            for (const TrialVariant& variant : trial_variants()) {
+            for (const TrialVariant& variant : group.finite ? finite_trial_variants() : trial_variants()) {
                 const Row id =
                     Row().set("group", group.name).set("level", shortest(level)).set("variant", variant.name);
                 cases.push_back({id, 1.0, [=](Control& control) {

@@ -8,6 +8,7 @@
 #include "elasticity/rigid_motion.hpp"
 #include "mesh/primitives.hpp"
 #include "study/error/exact_reactions.hpp"
+#include "study/error/finite_problems.hpp"
 #include "study/error/loaded_problems.hpp"
 #include "study/setups.hpp"
 #include "study/stability/trials.hpp"
@@ -366,6 +367,30 @@ std::vector<TrialGroup> all_groups() {
          "length / width",
          {1.0, 2.0, 4.0},
          [](double length) { return cantilever(3, 0.3, length); }},
+        {"finite-bending",
+         "bar bent to a sector of a cylinder, further and further",
+         "degrees",
+         {1.0, 30.0, 60.0, 90.0, 120.0},
+         [](double angle) { return finite_bending(4, 0.3, angle); },
+         true},
+        {"finite-torsion",
+         "cylinder whose ends are twisted, further and further",
+         "degrees",
+         {1.0, 30.0, 60.0, 90.0, 120.0, 170.0},
+         [](double angle) { return finite_torsion(4, 0.3, angle); },
+         true},
+        {"finite-stretch",
+         "bar pulled or pressed to so many times its length",
+         "length / length at rest",
+         {1.01, 0.3, 0.7, 1.5, 2.0, 4.0},
+         [](double stretch) { return finite_stretch(3, 0.3, stretch); },
+         true},
+        {"finite-swelling",
+         "hollow sphere whose inner side is pushed out to so many times its radius",
+         "radius / radius at rest",
+         {1.01, 1.2, 1.5, 2.0},
+         [](double stretch) { return finite_swelling(4, 0.3, stretch); },
+         true},
         {"young", "bending bar, Young's modulus", "E", {1.0, 1e-300, 1e-100, 1e-12, 1e12, 1e100, 1e300}, stiff},
     };
 }

@@ -93,6 +93,12 @@ std::vector<TrialVariant> trial_variants() {
             {"linear-bem continuous", linear(Tractions::continuous)}};
 }
 
+std::vector<TrialVariant> finite_trial_variants() {
+    Method four_nodes{.kind = kNonlinearFem};
+    four_nodes.elements = ElementDegree::linear;
+    return {{"nonlinear-fem", {.kind = kNonlinearFem}}, {"nonlinear-fem of four nodes", four_nodes}};
+}
+
 double allowed_error(MethodKind kind) { return kind == kConstantBem ? 0.25 : 0.1; }
 
 Row attempt(const Problem& problem, const Method& method, Control& control) {

@@ -19,6 +19,7 @@ struct TrialGroup {
     std::vector<double> levels;
     /// The scene with its exact solution; problem.body is the mesh as a user would load it, not checked yet.
     std::function<Problem(double level)> make;
+    bool finite = false;  ///< large deformations: tried by finite_trial_variants()
 };
 
 const std::vector<TrialGroup>& trial_groups(bool quick);
@@ -29,6 +30,7 @@ struct TrialVariant {
     Method method;
 };
 std::vector<TrialVariant> trial_variants();
+std::vector<TrialVariant> finite_trial_variants();
 
 /// Largest error of a vertex, over the largest displacement, and of the reactions of the worst patch, over the largest,
 /// up to which an answer counts as right: 10 %, and 25 % for constant BEM, whose elements are of first order.

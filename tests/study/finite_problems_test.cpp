@@ -1,0 +1,64 @@
+// Large deformations with a known answer: they go over into linear elasticity, and finite elements converge to them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "elasticity/exact_fields.hpp"
+#include "methods/precompute.hpp"
+#include "methods/registry.hpp"
+#include "study/error/finite_problems.hpp"
+#include "study/setups.hpp"
+
+namespace elastolab::test {
+namespace {
+
+double error_of(const Problem& problem, ElementDegree elements) {
+    Control control;
+    Method method{.kind = kNonlinearFem};
+    method.elements = elements;
+    Deformer deformer(precompute(problem.body, method, control));
+    deformer.constrain(problem.set(), control);
+    return problem.error(deformer.answer(problem.values(), {}, control).displacements);
+}
+
+using Make = Problem (*)(int cells, double poisson_ratio, double amount);
+
+TEST(FiniteProblems, AreReproducedWhereTheyAreUniform) {
+    for (const auto& [make, amount] : {std::pair<Make, double>{finite_rotation, 60.0}, {finite_stretch, 1.8}})
+        for (const ElementDegree elements : {ElementDegree::linear, ElementDegree::quadratic})
+            EXPECT_LT(error_of(make(2, 0.3, amount), elements), 1e-7) << amount;
+}
+
+/// What is left halves with the third power of what it is of: the terms of second order are those of large
+/// deformations.
+TEST(FiniteProblems, GoOverIntoLinearElasticity) {
+    const double s = 1e-4;
+    const Problem finite = finite_swelling(3, 0.3, 1.0 + s);
+    const HollowSphereField field{.material = {1.0, 0.3}};
+    const Eigen::VectorXd linear = displacements(field, finite.body.surface->vertices);
+    const double scale = 0.5 * s / linear.reshaped(3, linear.size() / 3).colwise().norm().maxCoeff();
+    EXPECT_LT((finite.truth - scale * linear).norm(), 10.0 * s * finite.truth.norm());
+    const Problem twisted = finite_torsion(3, 0.3, s);
+    const Eigen::VectorXd turned = displacements(Torsion{{1.0, 0.3}, 1.0}, twisted.body.surface->vertices);
+    const double amount = twisted.truth.norm() / turned.norm();
+    EXPECT_LT((twisted.truth - amount * turned).norm(), 10.0 * s * twisted.truth.norm());
+}
+
+/// The second order is what the straight sides of the elements leave on curved bodies.
+TEST(FiniteProblems, AreWhatFiniteElementsConvergeTo) {
+    struct Family {
+        Make make;
+        double amount;
+        int cells;
+    };
+    for (const Family& family : {Family{finite_bending, 90.0, 2}, {finite_torsion, 90.0, 2}, {finite_swelling, 1.5, 4}})
+        for (const double nu : {0.0, 0.3}) {
+            const double coarse = error_of(family.make(family.cells, nu, family.amount), ElementDegree::quadratic);
+            const double fine = error_of(family.make(2 * family.cells, nu, family.amount), ElementDegree::quadratic);
+            EXPECT_LT(fine, 0.03) << family.amount << " " << nu;
+            EXPECT_GT(coarse / fine, 3.0) << family.amount << " " << nu;
+        }
+}
+
+}  // namespace
+}  // namespace elastolab::test
