@@ -10,7 +10,7 @@ program=$(realpath "${1:-build/release/bin/elastolab}")
 folder=${2:-build/start}
 patience=${PATIENCE:-60}  # seconds for each body
 mkdir -p "$folder"
-export XDG_STATE_HOME=$folder/state  # recent files and copies are not those of the person
+export XDG_STATE_HOME=$(realpath "$folder")/state  # recent files and copies are not those of the person
 
 # scene CELLS: a cube of so many cells, its left face fixed.
 scene() {
@@ -27,7 +27,7 @@ at() { awk -F, -v event="$1" '$1 == event { print $2 }' "$2" 2> /dev/null; }
 # start NAME [ARGUMENT...]
 start() {
   local csv=$folder/$1.csv
-  rm -f "$csv"
+  rm -rf "$csv" "$XDG_STATE_HOME"  # what a viewer that was killed had kept would be offered first
   "$program" view --timeline "$csv" --size 1280x800 "${@:2}" > "$folder/$1.log" 2>&1 &
   local viewer=$! window
   window=$(timeout 60 xdotool search --sync --onlyvisible --pid "$viewer" 2> /dev/null | tail -1)
