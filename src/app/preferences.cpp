@@ -8,6 +8,7 @@
 
 #include "app/window/state_folder.hpp"
 #include "base/atomic_file.hpp"
+#include "base/text.hpp"
 
 namespace elastolab {
 
@@ -19,6 +20,11 @@ constexpr float kLeastScale = 0.5f, kMostScale = 4.0f;
 std::filesystem::path preferences_file() {
     const std::filesystem::path folder = state_folder();
     return folder.empty() ? folder : folder / "preferences.json";
+}
+
+std::string unit_name(const nlohmann::json& file, const char* key) {
+    const std::string name = one_line(file.value(key, ""));
+    return name.size() <= UnitNames::kLongest ? name : "";
 }
 
 }  // namespace
@@ -34,6 +40,7 @@ Preferences load_preferences() {
         if (found != kNavigations.end()) preferences.navigation = static_cast<Navigation>(found - kNavigations.begin());
         preferences.dark = file.value("dark", true);
         preferences.ui_scale = std::clamp(file.value("size", 1.0f), kLeastScale, kMostScale);
+        preferences.units = {unit_name(file, "length_unit"), unit_name(file, "force_unit")};
     } catch (const std::exception&) {  // a convenience: nothing is lost without it
     }
     return preferences;
@@ -47,7 +54,9 @@ void save_preferences(const Preferences& preferences) {
         AtomicFile file(path);
         file.stream() << nlohmann::json{{"navigation", kNavigations[static_cast<std::size_t>(preferences.navigation)]},
                                         {"dark", preferences.dark},
-                                        {"size", preferences.ui_scale}}
+                                        {"size", preferences.ui_scale},
+                                        {"length_unit", preferences.units.length},
+                                        {"force_unit", preferences.units.force}}
                              .dump(2)
                       << '\n';
         file.commit();

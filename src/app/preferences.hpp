@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/input/navigation.hpp"
+#include "app/unit_names.hpp"
 
 namespace elastolab {
 
@@ -9,6 +10,7 @@ struct Preferences {
     Navigation navigation = Navigation::standard;
     bool dark = true;
     float ui_scale = 1.0f;
+    UnitNames units = {};
 
     bool operator==(const Preferences&) const = default;
 };

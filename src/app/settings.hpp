@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/input/navigation.hpp"
+#include "app/unit_names.hpp"
 #include "deform/method.hpp"
 #include "elasticity/stress.hpp"
 #include "methods/registry.hpp"
@@ -114,6 +115,7 @@ struct DisplaySettings {
     bool section_gizmo = true;  ///< the plane can be moved and turned with the mouse
     bool dark = true;
     float ui_scale = 1.0f;
+    UnitNames units = {};
     bool panel = true;         ///< the panel at the side is seen
     double panel_width = 0.0;  ///< [logical pixels of scale 1]; 0: by the window's width
 

@@ -133,7 +133,7 @@ std::span<const GestureHelp> gesture_help() {
          {"arrow or ring", "move or turn the selected handle, or the plane of the cut; with Ctrl in steps"},
          {"drag beside it", "turn the view"},
          {"middle button", "turn the view, on the body too"},
-         {"right, Shift + drag, Shift + middle", "move the view"},
+         {"right; Shift + drag", "move the view; also Shift or Ctrl + middle button"},
          {"wheel", "zoom to the cursor"},
          {"letter of the axes", "look along that axis; again: from the other side"},
          {"double click", "frame the body"},

@@ -107,11 +107,14 @@ private:
         return replay_ ? replay_->log.window_size : kDefaultSize;
     }
 
-    Preferences preferences() const { return {state_.tools.navigation, state_.display.dark, state_.display.ui_scale}; }
+    Preferences preferences() const {
+        return {state_.tools.navigation, state_.display.dark, state_.display.ui_scale, state_.display.units};
+    }
     void take(const Preferences& preferences) {
         state_.tools.navigation = preferences.navigation;
         state_.display.dark = preferences.dark;
         state_.display.ui_scale = preferences.ui_scale;
+        state_.display.units = preferences.units;
         kept_preferences_ = preferences;
     }
     void keep_preferences() {

@@ -11,7 +11,7 @@ namespace {
 
 TEST(Preferences, ComeBackAtTheNextStart) {
     EXPECT_EQ(load_preferences(), Preferences{});
-    const Preferences chosen{Navigation::trackpad, false, 1.5f};
+    const Preferences chosen{Navigation::trackpad, false, 1.5f, {"mm", "kN"}};
     save_preferences(chosen);
     EXPECT_EQ(load_preferences(), chosen);
 }
@@ -22,9 +22,11 @@ TEST(Preferences, ThatCannotBeReadAreAsAtTheFirstStart) {
         std::ofstream(state_folder() / "preferences.json") << text;
         EXPECT_EQ(load_preferences(), Preferences{}) << text;
     }
-    std::ofstream(state_folder() / "preferences.json") << R"({"navigation": "other", "size": 1e9})";
+    std::ofstream(state_folder() / "preferences.json")
+        << R"({"navigation": "other", "size": 1e9, "length_unit": "parsecs of a long name"})";
     EXPECT_EQ(load_preferences().navigation, Navigation::standard);
     EXPECT_LE(load_preferences().ui_scale, 4.0f);
+    EXPECT_EQ(load_preferences().units, UnitNames{}) << "longer than there is room for";
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include <imgui.h>
+#include <imgui_stdlib.h>
 
 #include <array>
 #include <cmath>
@@ -7,6 +8,7 @@
 
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
+#include "base/text.hpp"
 #include "render/colour_map.hpp"
 
 namespace elastolab {
@@ -95,6 +97,20 @@ void draw_range(ViewerState& state, float scale) {
     tooltip("Ten steps of colour with lines between them, as on a map.");
 }
 
+/// Names that a person gives to the units; what is computed does not depend on them.
+void draw_units(UnitNames& units, float scale) {
+    const auto draw = [&](const char* label, const char* hint, std::string& name) {
+        ImGui::SetNextItemWidth(56.0f * scale);
+        std::string typed = name;
+        if (ImGui::InputTextWithHint(label, hint, &typed) && typed.size() <= UnitNames::kLongest)
+            name = one_line(typed);
+        tooltip("What to write behind numbers, such as mm or N. Nothing is converted.");
+    };
+    draw("length unit", "-", units.length);
+    ImGui::SameLine(0.5f * ImGui::GetWindowContentRegionMax().x);
+    draw("force unit", "-", units.force);
+}
+
 void draw_section(DisplaySettings& display, float scale) {
     ImGui::Checkbox("cut open", &display.section);
     tooltip("A plane through the body at rest, which moves as the body does. Displacement and stresses colour it.");
@@ -153,6 +169,7 @@ void Panels::draw_display(const PanelContext& context) {
     if (ImGui::Checkbox("light theme", &light)) display.dark = !light;
     tooltip("T");
     draw_section(display, scale);
+    draw_units(display.units, scale);
 }
 
 }  // namespace elastolab

@@ -108,7 +108,7 @@ void LoadsPanel::draw_list(const PanelContext& context) {
         for (int load = 0; load < scene.n_loads(); ++load) {
             ImGui::PushID(load);
             const bool selected = state.gestures.selected_load() == load;
-            const std::string text = scene.load_name(load) + ": " + load_text(scene, load);
+            const std::string text = scene.load_name(load) + ": " + load_text(scene, load, state.display.units);
             const RowAnswer answer =
                 draw_row(text, selected, selected ? context.palette.active : context.palette.load, context.gui.scale());
             if (answer.clicked) state.gestures.select_load(selected ? std::nullopt : std::optional(load));

@@ -93,20 +93,23 @@ std::vector<OverlayLine> card(const PanelContext& context, int vertex, const Pro
     const auto add = [&](const std::string& text) {
         lines.push_back({context.gui.fonts().regular, size, context.palette.text, text});
     };
-    add("at " + vector_text(value.position));
-    add("moved by " + vector_text(value.displacement));
-    add("length " + number_text(value.displacement.norm()));
+    const UnitNames& units = state.display.units;
+    add("at " + vector_text(value.position) + units.after_length());
+    add("moved by " + vector_text(value.displacement) + units.after_length());
+    add("length " + number_text(value.displacement.norm()) + units.after_length());
     const Field field = state.display.field;
     if (value.field && field != Field::displacement)
-        add(field_title(field, state.compare.reference) + " " + number_text(*value.field));
-    if (value.traction && value.traction->squaredNorm() > 0.0) add("traction " + vector_text(*value.traction));
+        add(field_title(field, state.compare.reference, units) + " " + number_text(*value.field));
+    if (value.traction && value.traction->squaredNorm() > 0.0)
+        add("traction " + vector_text(*value.traction) + units.after_stress());
     if (!value.stress) return lines;
     const Eigen::Matrix3d stress = stress_tensor(*value.stress);
     const auto number = [&](StressMeasure which) { return number_text(measure(which, stress)); };
-    add("stress xx yy zz " + vector_text(value.stress->head<3>()));
-    add("stress xy yz xz " + vector_text(value.stress->tail<3>()));
-    add("principal " + number(StressMeasure::third_principal) + " to " + number(StressMeasure::first_principal));
-    if (field != Field::von_mises) add("von Mises " + number(StressMeasure::von_mises));
+    add("stress xx yy zz " + vector_text(value.stress->head<3>()) + units.after_stress());
+    add("stress xy yz xz " + vector_text(value.stress->tail<3>()) + units.after_stress());
+    add("principal " + number(StressMeasure::third_principal) + " to " + number(StressMeasure::first_principal) +
+        units.after_stress());
+    if (field != Field::von_mises) add("von Mises " + number(StressMeasure::von_mises) + units.after_stress());
     return lines;
 }
 
@@ -134,11 +137,12 @@ void draw_probes(const PanelContext& context, ImDrawList& list, const Viewport& 
 }
 
 void draw_forces(const PanelContext& context, ImDrawList& list, const Viewport& viewport, const ShownBody& body) {
+    const UnitNames& units = context.state.display.units;
     for (const ShownReaction& reaction : body.reactions())
         draw_mark(context, list, viewport, reaction.place,
                   reaction.fixed ? context.palette.fixed : context.palette.handle,
-                  reaction.name + ": force " + number_text(reaction.force.norm()) + ", moment " +
-                      number_text(reaction.moment_about_middle().norm()));
+                  reaction.name + ": force " + number_text(reaction.force.norm()) + units.after_force() + ", moment " +
+                      number_text(reaction.moment_about_middle().norm()) + units.after_moment());
 }
 
 /// The size of the load that is selected, dragged or pointed at, at the end of its arrow.
@@ -151,7 +155,7 @@ void draw_load_sizes(const PanelContext& context, ImDrawList& list, const Viewpo
         if (!chosen && !state.display.arrows) continue;
         const std::string name = arrow.load == LiveScene::kGravity ? "" : state.scene().load_name(arrow.load) + ": ";
         draw_mark(context, list, viewport, arrow.end, chosen ? context.palette.active : context.palette.load,
-                  name + load_text(state.scene(), arrow.load));
+                  name + load_text(state.scene(), arrow.load, state.display.units));
     }
 }
 

@@ -111,7 +111,7 @@ void draw_legend(const PanelContext& context, ImDrawList& list) {
     const float height = std::min(220.0f * scale, 0.5f * static_cast<float>(scene.height));
     const float x = static_cast<float>(scene.x + scene.width) - 84.0f * scale;
     const float y = static_cast<float>(scene.y + scene.height) - height - 28.0f * scale;
-    const std::string heading = field_title(state.display.field, state.compare.reference);
+    const std::string heading = field_title(state.display.field, state.compare.reference, state.display.units);
     const float size = ImGui::GetFontSize(), room = static_cast<float>(kLegendHeadingWidth) * scale;
     const ImVec2 words = ImGui::CalcTextSize(heading.c_str(), nullptr, false, room);
     const float right = static_cast<float>(scene.x + scene.width) - kMargin * scale;

@@ -96,7 +96,9 @@ void draw_reaction(const PanelContext& context, const std::string& name) {
         for (const ShownReaction& reaction : shown->reactions()) {
             if (reaction.name != name) continue;
             const Eigen::Vector3d moment = reaction.moment_about_middle();
-            line = "force " + number_text(reaction.force.norm()) + ", moment " + number_text(moment.norm());
+            const UnitNames& units = state.display.units;
+            line = "force " + number_text(reaction.force.norm()) + units.after_force() + ", moment " +
+                   number_text(moment.norm()) + units.after_moment();
             more = "Exerted on the body: force " + vector_text(reaction.force) + ", moment about its middle " +
                    vector_text(moment) + ".";
         }

@@ -116,7 +116,7 @@ double load_size(const LiveScene& scene, int load) {
     return value.size() == 1 ? value[0] : value.stableNorm();
 }
 
-std::string load_text(const LiveScene& scene, int load) {
+std::string load_text(const LiveScene& scene, int load, const UnitNames& units) {
     constexpr double kLeastPlain = 999.5, kLargestPlain = 999999.5;  // between these without an exponent
     const double value_of_load = load_size(scene, load), magnitude = std::abs(value_of_load);
     const bool is_plain = magnitude >= kLeastPlain && magnitude < kLargestPlain;
@@ -127,7 +127,7 @@ std::string load_text(const LiveScene& scene, int load) {
                Overloaded{[](const ForceLoad&) { return "force "; }, [](const TractionLoad&) { return "traction "; },
                           [](const PressureLoad&) { return "pressure "; }},
                value) +
-           size;
+           size + (std::holds_alternative<ForceLoad>(value) ? units.after_force() : units.after_stress());
 }
 
 }  // namespace elastolab

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/unit_names.hpp"
 #include "scene/live/live_scene.hpp"
 
 namespace elastolab {
@@ -43,6 +44,6 @@ Eigen::VectorXd load_value(const LiveScene& scene, int load);
 /// How large a load is, with its sign if it is a pressure: force, traction, acceleration or pressure.
 double load_size(const LiveScene& scene, int load);
 /// "force 12", "pressure -3": for rows and marks.
-std::string load_text(const LiveScene& scene, int load);
+std::string load_text(const LiveScene& scene, int load, const UnitNames& units = {});
 
 }  // namespace elastolab

@@ -26,7 +26,7 @@ std::optional<PictureLegend> legend_of(const ViewerState& state) {
     if (state.display.field == Field::none ||
         std::none_of(bodies.begin(), bodies.end(), [](const ShownBody& body) { return body.is_coloured(); }))
         return {};
-    return PictureLegend{field_title(state.display.field, state.compare.reference),
+    return PictureLegend{field_title(state.display.field, state.compare.reference, state.display.units),
                          state.shown.field_scale(state.display), &shown_colour_map(state.display)};
 }
 

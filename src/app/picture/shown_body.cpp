@@ -322,7 +322,7 @@ void ShownBody::update_probed(const Sources& sources) {
                                           tractions_, is_large(answer), load_tractions_));
 }
 
-std::string field_title(Field field, MethodKind reference) {
+std::string field_title(Field field, MethodKind reference, const UnitNames& units) {
     static const std::map<Field, std::string> stresses = {{Field::von_mises, "von Mises stress"},
                                                           {Field::first_principal, "first principal stress"},
                                                           {Field::third_principal, "third principal stress"},
@@ -332,13 +332,12 @@ std::string field_title(Field field, MethodKind reference) {
                                                           {Field::stress_xy, "stress xy"},
                                                           {Field::stress_yz, "stress yz"},
                                                           {Field::stress_xz, "stress xz"}};
-    if (const auto found = stresses.find(field); found != stresses.end())
-        return found->second + " [force / unit\u00b2]";
-    if (field == Field::displacement) return "displacement [mesh units]";
-    if (const auto axis = displacement_axis(field))
-        return std::string("displacement ") + "xyz"[*axis] + " [mesh units]";
-    if (field == Field::difference) return "difference to " + std::string(title(reference)) + " [mesh units]";
-    return field == Field::traction ? "traction [force / unit\u00b2]" : "";
+    const std::string lengths = " [" + units.of_length() + "]", per_area = " [" + units.of_stress() + "]";
+    if (const auto found = stresses.find(field); found != stresses.end()) return found->second + per_area;
+    if (field == Field::displacement) return "displacement" + lengths;
+    if (const auto axis = displacement_axis(field)) return std::string("displacement ") + "xyz"[*axis] + lengths;
+    if (field == Field::difference) return "difference to " + std::string(title(reference)) + lengths;
+    return field == Field::traction ? "traction" + per_area : "";
 }
 
 }  // namespace elastolab

@@ -142,6 +142,6 @@ private:
 };
 
 /// "displacement", "difference to linear-bem", ... and its unit in words.
-std::string field_title(Field field, MethodKind reference);
+std::string field_title(Field field, MethodKind reference, const UnitNames& units = {});
 
 }  // namespace elastolab

@@ -302,5 +302,15 @@ TEST(FieldTitles, NameTheUnitAndTheReference) {
     EXPECT_EQ(field_title(Field::none, kFem), "");
 }
 
+TEST(FieldTitle, HasTheUnitsThatAPersonNames) {
+    const UnitNames units{"mm", "N"};
+    EXPECT_EQ(field_title(Field::displacement, kFem), "displacement [mesh units]");
+    EXPECT_EQ(field_title(Field::displacement_y, kFem, units), "displacement y [mm]");
+    EXPECT_EQ(field_title(Field::von_mises, kFem, units), "von Mises stress [N/mm\u00b2]");
+    EXPECT_EQ(field_title(Field::traction, kFem, {"", "N"}), "traction [N/unit\u00b2]");
+    EXPECT_EQ(units.after_moment(), " N mm");
+    EXPECT_EQ(UnitNames{}.after_stress(), "");
+}
+
 }  // namespace
 }  // namespace elastolab
