@@ -14,7 +14,7 @@ class SixAxisControl {
 public:
     /// One frame. Returns whether the scene changed. Does nothing where no handle is selected or the mouse drags.
     bool apply(const std::optional<SixAxisMotion>& motion, double now, ViewerState& state);
-    /// Ends the step at once: the keyboard or the mouse is used.
+    /// Ends the step at once: a key or a button is pressed.
     void end_step(ViewerState& state);
     /// Seconds until a pause ends the step; negative: nothing is under way.
     double due_in(double now) const;

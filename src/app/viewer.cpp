@@ -84,8 +84,9 @@ public:
             control_.checkpoint();
             if (must_draw()) draw_frame();
             keep_scene();
-            keep_preferences();
+            if (!gui_.is_in_use()) keep_preferences();
         }
+        keep_preferences();
         pictures_.stop(state_);  // a film that is cut short leaves the handles where they were
         draw_last_picture();
         if (!options_.picture.empty() && nobody_watches() && !replay_) state_.frame_in_viewports(true);  // as deformed
@@ -118,7 +119,7 @@ private:
         kept_preferences_ = preferences;
     }
     void keep_preferences() {
-        if (nobody_watches() || gui_.is_in_use() || kept_preferences_ == preferences()) return;
+        if (nobody_watches() || kept_preferences_ == preferences()) return;
         kept_preferences_ = preferences();
         save_preferences(kept_preferences_);
     }
@@ -197,7 +198,8 @@ private:
             state_.open(file);
             pending_frames_ = kSettlingFrames;  // for the question that it may raise
         }
-        if (!events.empty()) six_axis_.end_step(state_);
+        if (std::any_of(events.begin(), events.end(), [](const InputEvent& event) { return event.pressed; }))
+            six_axis_.end_step(state_);
         if (six_axis_mouse_ && six_axis_.apply(six_axis_mouse_->take(), Window::seconds(), state_))
             pending_frames_ = kSettlingFrames;
         if (pictures_.poll(state_) || pictures_.filming()) pending_frames_ = kSettlingFrames;

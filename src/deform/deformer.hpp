@@ -28,6 +28,7 @@ struct ConstrainedSet {
 
     /// Rows of the values that go with the set: three for each handle vertex, then one for each load.
     Eigen::Index n_values() const { return 3 * std::ssize(handles) + std::ssize(loads); }
+    bool operator==(const ConstrainedSet&) const = default;
 };
 
 /// Displacements of all vertices as an affine function of a few parameters: u = rest + X * parameters.

@@ -12,6 +12,12 @@ Body study_body(SurfaceMesh surface, const Material& material, std::string name)
     return {std::move(name), std::make_shared<const SurfaceMesh>(std::move(surface)), material};
 }
 
+Method nonlinear_method(ElementDegree elements) {
+    Method method{.kind = kNonlinearFem};
+    method.elements = elements;
+    return method;
+}
+
 std::vector<int> choose_numbers(int n, int count, unsigned seed) {
     std::vector<int> numbers(static_cast<std::size_t>(n));
     std::iota(numbers.begin(), numbers.end(), 0);

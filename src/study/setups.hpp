@@ -15,6 +15,9 @@ namespace elastolab {
 /// A body for a study; the surface is one that the program's own checks would pass.
 Body study_body(SurfaceMesh surface, const Material& material, std::string name = "body");
 
+/// Large deformations by elements of this degree.
+Method nonlinear_method(ElementDegree elements);
+
 /// `count` different numbers below n, ascending; the same for the same seed on every machine.
 std::vector<int> choose_numbers(int n, int count, unsigned seed);
 /// The same, a share of n, at least 3.

@@ -22,14 +22,16 @@ namespace {
 constexpr float kMostOfPanel = 0.3f;  ///< of its height; more is scrolled to
 constexpr const char *kFolded = "+ ", *kUnfolded = "\u2013 ";
 
+std::string name_of_motion(const TheoryError& error) {
+    if (error.loads) return "these loads";
+    return error.turns ? "this turn" : "this pull";
+}
+
 /// How far linear theory is off for what is shown, in the words of a student; empty where it is hardly off.
 std::string theory_words(const ViewerState& state) {
     const std::optional<TheoryError>& error = state.simulation.theory_error();
     if (!error || (!error->crushed && error->relative < kSilentLinearTheory)) return "";
-    const std::string motion = error->turns   ? "this turn"
-                               : error->loads ? "these loads"
-                                              : "this pull",
-                      better = title(kNonlinearFem);
+    const std::string motion = name_of_motion(*error), better = title(kNonlinearFem);
     if (error->crushed)
         return "Linear theory cannot be right for " + motion + ": " + better +
                " finds no equilibrium, a rubber body would be crushed.";

@@ -78,9 +78,7 @@ void EmbeddedRunner::poll() {
 bool EmbeddedRunner::may_place_grips() const {
     const std::shared_ptr<const Deformer>& deformer = runner_.deformer();
     if (!deformer || !deformer->linear()) return false;
-    const ConstrainedSet& set = constraints().set;
-    return deformer->set().base == set.base && deformer->set().handles == set.handles &&
-           deformer->set().loads == set.loads;
+    return deformer->set() == constraints().set;
 }
 
 /// Until it is known where their forces hold handles, they stay where the scene has them.

@@ -11,10 +11,6 @@ namespace elastolab {
 
 namespace {
 
-bool same(const ConstrainedSet& a, const ConstrainedSet& b) {
-    return a.base == b.base && a.handles == b.handles && a.loads == b.loads;
-}
-
 /// What a motion of a method that is not linear must have rested before it is worth an equilibrium that takes long, and
 /// how long one that nobody waits for any more may take, where no other answers meanwhile.
 constexpr double kPauseSeconds = 0.2, kPatienceSeconds = 2.0;
@@ -56,13 +52,13 @@ void update_ahead(PreparedSet& prepared, const Eigen::VectorXd& values, Control&
 }  // namespace
 
 void SetKeeper::want(const Constraints& constraints) {
-    if (!same(constraints.set, wanted_set_)) {
+    if (constraints.set != wanted_set_) {
         wanted_set_ = constraints.set;
         failure_.clear();
     }
     wanted_grips_ = constraints.grips();
     Wish wish = wish_of(constraints);
-    if (!elastolab::same(wish, wanted_)) {
+    if (!same(wish, wanted_)) {
         may_refine_ = true;
         rest_ = {};
     }
@@ -98,7 +94,7 @@ void SetKeeper::clear() {
     motion_failure_.clear();
 }
 
-bool SetKeeper::same_as_wanted(const ConstrainedSet& set) const { return same(set, wanted_set_); }
+bool SetKeeper::same_as_wanted(const ConstrainedSet& set) const { return set == wanted_set_; }
 
 bool SetKeeper::answers() const { return current_.deformer && same_as_wanted(current_.deformer->set()); }
 
@@ -155,7 +151,7 @@ SetKeeper::Event SetKeeper::take_failure() {
         return Event::none;
     }
     if (refining_) may_refine_ = false;
-    if (!elastolab::same(solving_, wanted_)) return Event::none;  // the motion went on: that is tried next
+    if (!same(solving_, wanted_)) return Event::none;  // the motion went on: that is tried next
     motion_failure_ = job_.failure();
     failed_ = solving_;
     if (is_linear()) current_.drag.reset();
@@ -178,7 +174,7 @@ SetKeeper::Event SetKeeper::use_or_prepare() {
                (is_exact() || failed_)) {
         refine_on_worker();
     } else if (prefetch_ && !job_.running()) {
-        if (!same_as_wanted(*prefetch_) && !(spare_.deformer && same(spare_.deformer->set(), *prefetch_)))
+        if (!same_as_wanted(*prefetch_) && !(spare_.deformer && spare_.deformer->set() == *prefetch_))
             prepare_prefetched(*prefetch_);
         prefetch_.reset();
     }
@@ -234,15 +230,15 @@ bool SetKeeper::is_slow() const {
 
 bool SetKeeper::is_exact() const {
     if (!is_current() || !current_.drag || !current_.drag->is_exact(wanted_.values)) return false;
-    return is_linear() || (current_.at && elastolab::same(*current_.at, wanted_));
+    return is_linear() || (current_.at && same(*current_.at, wanted_));
 }
 
 /// Whether it is time to solve for what is wanted now.
 bool SetKeeper::may_solve_now() {
     holding_off_ = false;
     if (is_linear()) return !solving();
-    if (failed_ && elastolab::same(*failed_, wanted_)) return false;
-    if (solving() && elastolab::same(solving_, wanted_)) return false;
+    if (failed_ && same(*failed_, wanted_)) return false;
+    if (solving() && same(solving_, wanted_)) return false;
     if (may_hold_off_ && is_slow()) {
         if (solving()) job_.cancel();
         holding_off_ = rest_.seconds() < kPauseSeconds;

@@ -12,10 +12,6 @@ constexpr double kGaugeRestSeconds = 0.5;
 /// A motion that turns by less than this is called a pull [degree].
 constexpr double kTurn = 5.0;
 
-bool same_vertices(const ConstrainedSet& a, const ConstrainedSet& b) {
-    return a.base == b.base && a.handles == b.handles && a.loads == b.loads;
-}
-
 bool turns(const Wish& wish) {
     return std::any_of(wish.motions.begin(), wish.motions.end(),
                        [](const Motion& motion) { return turn_between(Motion{}, motion) >= kTurn; });
@@ -25,8 +21,7 @@ bool turns(const Wish& wish) {
 
 TheoryGauge::Found TheoryGauge::find(std::shared_ptr<const Made> made, const Body& body, const ConstrainedSet& set,
                                      const Wish& wish, Control& control) {
-    const bool serves =
-        made && made->surface == body.surface && same_vertices(made->set, set) && made->material == body.material;
+    const bool serves = made && made->surface == body.surface && made->set == set && made->material == body.material;
     if (!serves)
         made =
             std::make_shared<const Made>(Made{body.surface, body.material, set, LinearTheoryGauge(body, set, control)});
@@ -65,8 +60,8 @@ void TheoryGauge::update(const Body& body, const ConstrainedSet& set, const Wish
         case JobEvent::none:
             break;
     }
-    const bool is_new = !wanted_ || surface_ != body.surface || material_ != body.material ||
-                        !same_vertices(set_, set) || !elastolab::same(*wanted_, wish);
+    const bool is_new =
+        !wanted_ || surface_ != body.surface || material_ != body.material || set_ != set || !same(*wanted_, wish);
     if (is_new) {
         job_.cancel();
         error_.reset();

@@ -164,10 +164,9 @@ void add_organic(CaseList& cases, bool quick) {
 
 /// Large deformations, by the method that is not linear: refinement, and what linear elements represent exactly.
 void add_finite(CaseList& cases, bool quick) {
-    Method four_nodes{.kind = kNonlinearFem};
-    four_nodes.elements = ElementDegree::linear;
-    const std::vector<Variant> variants = {{"nonlinear-fem", {.kind = kNonlinearFem}, up_to(8, quick)},
-                                           {"nonlinear-fem of four nodes", four_nodes, up_to(12, quick)}};
+    const std::vector<Variant> variants = {
+        {"nonlinear-fem", nonlinear_method(ElementDegree::quadratic), up_to(8, quick)},
+        {"nonlinear-fem of four nodes", nonlinear_method(ElementDegree::linear), up_to(12, quick)}};
     for (const ProblemFamily& family : problem_families()) {
         if (!family.finite) continue;
         for (const double nu : {0.3, 0.49}) {

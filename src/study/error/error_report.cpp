@@ -36,20 +36,35 @@ std::string theory(const std::string& variant) {
     return variant == "linear-bem continuous" ? "1 to 2" : "2";
 }
 
+/// A row for each problem, Poisson's ratio and variant of the table: these three, then what `cells` says of its meshes.
+template <class Cells>
+std::vector<std::vector<std::string>> rows_of_refinements(const Table& table, const std::vector<std::string>& variants,
+                                                          const Cells& cells) {
+    std::vector<std::vector<std::string>> rows;
+    for (const std::string& problem : table.values("problem"))
+        for (const std::string& nu : table.values("nu"))
+            for (const std::string& variant : variants) {
+                const Table meshes = table.where({{"problem", problem}, {"nu", nu}, {"variant", variant}});
+                if (meshes.rows.empty()) continue;
+                std::vector<std::string>& row = rows.emplace_back(std::vector{problem, nu, variant});
+                for (const std::string& cell : cells(meshes, variant)) row.push_back(cell);
+            }
+    return rows;
+}
+
 std::string order_findings(const Table& table) {
     const Table refinement = table.where({{"part", "refinement"}});
-    std::vector<std::vector<std::string>> rows;
-    for (const std::string& problem : refinement.values("problem"))
-        for (const std::string& nu : refinement.values("nu"))
-            for (const std::string& variant : kVariants) {
-                const Table some = refinement.where({{"problem", problem}, {"nu", nu}, {"variant", variant}});
-                if (some.rows.empty()) continue;
-                const Row& finest = some.rows.back();
-                rows.push_back({problem, nu, variant, short_number(observed_order(some, "error")), theory(variant),
-                                finest.text("vertices"), percent(finest.number("error")),
-                                short_number(observed_order(some, "error_force")),
-                                percent(finest.number("error_force")), duration(finest.number("ready_s"))});
-            }
+    const auto cells = [](const Table& some, const std::string& variant) -> std::vector<std::string> {
+        const Row& finest = some.rows.back();
+        return {short_number(observed_order(some, "error")),
+                theory(variant),
+                finest.text("vertices"),
+                percent(finest.number("error")),
+                short_number(observed_order(some, "error_force")),
+                percent(finest.number("error_force")),
+                duration(finest.number("ready_s"))};
+    };
+    const auto rows = rows_of_refinements(refinement, kVariants, cells);
     return "## Orders\n\nError against the exact solution, root mean square over the free vertices, relative; order "
            "fitted over the three finest meshes. Forces: total force and moment of the worst constrained patch, over "
            "the "
@@ -167,18 +182,13 @@ const std::vector<std::string> kFiniteVariants = {"nonlinear-fem", "nonlinear-fe
 
 std::string finite_findings(const Table& table) {
     const Table finite = table.where({{"part", "finite"}});
-    std::vector<std::vector<std::string>> rows;
-    for (const std::string& problem : finite.values("problem"))
-        for (const std::string& nu : finite.values("nu"))
-            for (const std::string& variant : kFiniteVariants) {
-                const Table some = finite.where({{"problem", problem}, {"nu", nu}, {"variant", variant}});
-                if (some.rows.empty()) continue;
-                const Row& finest = some.rows.back();
-                const bool refined = some.rows.size() > 1;
-                rows.push_back({problem, nu, variant, refined ? short_number(observed_order(some, "error")) : "-",
-                                finest.text("vertices"), percent(finest.number("error")),
-                                percent(finest.number("error_max")), duration(finest.number("once_s"))});
-            }
+    const auto cells = [](const Table& some, const std::string&) -> std::vector<std::string> {
+        const Row& finest = some.rows.back();
+        return {some.rows.size() > 1 ? short_number(observed_order(some, "error")) : "-", finest.text("vertices"),
+                percent(finest.number("error")), percent(finest.number("error_max")),
+                duration(finest.number("once_s"))};
+    };
+    const auto rows = rows_of_refinements(finite, kFiniteVariants, cells);
     return "## Large deformations\n\nA neo-Hookean body: turned by 60 degrees, stretched by a half, bent and twisted "
            "by 60 degrees, a hollow sphere whose inner side is pushed out by a half. Truth: formulas and ordinary "
            "differential equations. The first two are fields that the elements hold exactly. Order as below, at most 2 "

@@ -28,9 +28,7 @@ struct Solved {
 
 Solved solved_bar(const LargeMotion& motion, int cells, ElementDegree elements, Control& control) {
     Solved result{.scene = motion.make(cells), .answer = {}};
-    Method method{.kind = kNonlinearFem};
-    method.elements = elements;
-    Deformer deformer(precompute(result.scene.body, method, control));
+    Deformer deformer(precompute(result.scene.body, nonlinear_method(elements), control));
     deformer.constrain(result.scene.set, control);
     const Stopwatch watch;
     result.answer = deformer.answer(result.scene.values(amount_of(motion)), {.residual = true}, control);

@@ -94,9 +94,8 @@ std::vector<TrialVariant> trial_variants() {
 }
 
 std::vector<TrialVariant> finite_trial_variants() {
-    Method four_nodes{.kind = kNonlinearFem};
-    four_nodes.elements = ElementDegree::linear;
-    return {{"nonlinear-fem", {.kind = kNonlinearFem}}, {"nonlinear-fem of four nodes", four_nodes}};
+    return {{"nonlinear-fem", nonlinear_method(ElementDegree::quadratic)},
+            {"nonlinear-fem of four nodes", nonlinear_method(ElementDegree::linear)}};
 }
 
 double allowed_error(MethodKind kind) { return kind == kConstantBem ? 0.25 : 0.1; }
