@@ -142,11 +142,16 @@ public:
         std::optional<EquilibriumFacts> facts = {};                ///< likewise, of all solids together
         /// Likewise: what each of set().loads exerts with its factor, moments of forces at present positions.
         std::vector<Resultant> loads = {};
+        /// When asked for: how the reactions' forces change along each column of Wanted::along, 3 x n [force].
+        std::vector<Eigen::Matrix3Xd> force_changes = {};
     };
     /// What an answer is to tell besides displacements and reactions.
     struct Wanted {
         bool residual = false;
         bool check = false;
+        /// Changes of the values (as many rows), for Answer::force_changes: derivatives at the equilibrium that is the
+        /// answer. For methods that are not linear; of others, forces for other values tell the same.
+        Eigen::MatrixXd along = {};
     };
     Answer answer(const Eigen::VectorXd& values, Wanted wanted, Control& control, const Approach& approach = {}) const;
 
@@ -201,6 +206,10 @@ private:
     void require_finite(const Eigen::MatrixXd& u) const;
     /// Adds the reactions of a part, for unit Young's modulus and about its own origin, to those of the whole body.
     void add_reactions(std::size_t part, Reactions own, Reactions& sum) const;
+    /// A force of the body over that of the part.
+    double force_unit_of(std::size_t part) const;
+    /// Columns of all constrained vertices <- those of a part.
+    void place_columns(std::size_t part, const Eigen::Matrix3Xd& own, Eigen::Matrix3Xd& all) const;
     /// The same of loads, 6 x those of the part.
     void add_loads_of(std::size_t part, const Eigen::MatrixXd& own, std::vector<Resultant>& sum) const;
     std::optional<DiscretisationCheck> check_of(const Answer& answer, const SolutionError& error) const;

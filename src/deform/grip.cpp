@@ -12,27 +12,33 @@ namespace {
 
 /// Below this part of the largest, a stiffness counts as none.
 constexpr double kNoStiffness = 1e-10;
-/// Below this part of Young's modulus times the size of the body all of it is rounding, and what the integrals leave of
-/// a rigid motion: nothing but the grips holds the body. A thread of 1 : 1000 resists a pull by 1e-6 of it.
-constexpr double kNothingHolds = 1e-7;
 /// Forces that no motion answers, over the forces.
 constexpr double kUnanswered = 1e-6;
 
 }  // namespace
 
+GripArms::GripArms(const Deformer& deformer, const std::vector<Grip>& grips) {
+    const Positions& vertices = deformer.model().body().surface->vertices;
+    length = (vertices.rowwise().maxCoeff() - vertices.rowwise().minCoeff()).norm();
+    const std::vector<int>& handles = deformer.set().handles;
+    for (const Grip& grip : grips) {
+        const std::vector<int> patch(handles.begin() + grip.begin, handles.begin() + grip.end);
+        arms.emplace_back(vertices(Eigen::all, patch));
+        middles.emplace_back(arms.back().rowwise().mean());
+        arms.back().colwise() -= middles.back();
+    }
+}
+
+Eigen::VectorXd GripArms::units() const {
+    Eigen::VectorXd unit = Eigen::VectorXd::Ones(6 * std::ssize(arms));
+    for (Eigen::Index g = 0; g < std::ssize(arms); ++g) unit.segment<3>(6 * g + 3).setConstant(1.0 / length);
+    return unit;
+}
+
 GripStiffness::GripStiffness(const Deformer& deformer, const Eigen::VectorXd& values, std::vector<Grip> grips,
                              Control& control)
-    : grips_(std::move(grips)) {
+    : grips_(std::move(grips)), arms_(deformer, grips_) {
     assert(deformer.model().method().kind->linear);
-    const Positions& vertices = deformer.model().body().surface->vertices;
-    length_ = (vertices.rowwise().maxCoeff() - vertices.rowwise().minCoeff()).norm();
-    const std::vector<int>& handles = deformer.set().handles;
-    for (const Grip& grip : grips_) {
-        const std::vector<int> patch(handles.begin() + grip.begin, handles.begin() + grip.end);
-        arms_.emplace_back(vertices(Eigen::all, patch));
-        middles_.emplace_back(arms_.back().rowwise().mean());
-        arms_.back().colwise() -= middles_.back();
-    }
     const Eigen::Index n = 6 * std::ssize(grips_);
     set_others(deformer, values, control);
     matrix_.resize(n, n);
@@ -43,15 +49,9 @@ GripStiffness::GripStiffness(const Deformer& deformer, const Eigen::VectorXd& va
         move(motion, unit);
         matrix_.col(k) = resultants(deformer, unit, control);
     }
-    const Eigen::VectorXd unit = units();
+    const Eigen::VectorXd unit = arms_.units();
     const double largest = n == 0 ? 0.0 : (unit.asDiagonal() * matrix_ * unit.asDiagonal()).cwiseAbs().maxCoeff();
-    if (largest < kNothingHolds * deformer.model().body().material.young_modulus * length_) matrix_.setZero();
-}
-
-Eigen::VectorXd GripStiffness::units() const {
-    Eigen::VectorXd unit = Eigen::VectorXd::Ones(6 * std::ssize(grips_));
-    for (Eigen::Index g = 0; g < n_grips(); ++g) unit.segment<3>(6 * g + 3).setConstant(1.0 / length_);
-    return unit;
+    if (largest < kNothingHolds * deformer.model().body().material.young_modulus * arms_.length) matrix_.setZero();
 }
 
 /// Force over moment about its middle of each grip, for these values.
@@ -64,7 +64,7 @@ Eigen::VectorXd GripStiffness::resultants(const Deformer& deformer, const Eigen:
         const Eigen::Index first = n_base + grips_[g].begin, count = grips_[g].end - grips_[g].begin;
         const Eigen::Vector3d force = reactions.forces.middleCols(first, count).rowwise().sum();
         const Eigen::Vector3d moment = reactions.moments.middleCols(first, count).rowwise().sum();
-        sums.segment<6>(6 * static_cast<Eigen::Index>(g)) << force, moment - middles_[g].cross(force);
+        sums.segment<6>(6 * static_cast<Eigen::Index>(g)) << force, moment - arms_.middles[g].cross(force);
     }
     return sums;
 }
@@ -89,13 +89,14 @@ void GripStiffness::move(const Eigen::VectorXd& motions, Eigen::VectorXd& values
     for (std::size_t g = 0; g < grips_.size(); ++g) {
         const auto motion = motions.segment<6>(6 * static_cast<Eigen::Index>(g));
         const Eigen::Vector3d shift = motion.head<3>(), turn = motion.tail<3>();
-        for (Eigen::Index i = 0; i < arms_[g].cols(); ++i)
-            values.segment<3>(3 * (grips_[g].begin + i)) = shift + turn.cross(arms_[g].col(i).eval());
+        const Eigen::Matrix3Xd& arms = arms_.arms[g];
+        for (Eigen::Index i = 0; i < arms.cols(); ++i)
+            values.segment<3>(3 * (grips_[g].begin + i)) = shift + turn.cross(arms.col(i).eval());
     }
 }
 
 Eigen::VectorXd GripStiffness::motions(const Eigen::VectorXd& forces, const Eigen::VectorXd& springs) const {
-    const Eigen::VectorXd unit = units();
+    const Eigen::VectorXd unit = arms_.units();
     Eigen::MatrixXd held = matrix_;
     for (Eigen::Index g = 0; g < springs.size(); ++g) held.diagonal().segment<3>(6 * g).array() += springs[g];
     const Eigen::MatrixXd scaled = unit.asDiagonal() * held * unit.asDiagonal();
@@ -105,9 +106,7 @@ Eigen::VectorXd GripStiffness::motions(const Eigen::VectorXd& forces, const Eige
     decomposition.compute(scaled);
     const Eigen::VectorXd motion = decomposition.solve(wanted);
     if (!((scaled * motion - wanted).norm() <= kUnanswered * (wanted.norm() + (unit.asDiagonal() * forces).norm())))
-        throw SolveError(
-            "handles under a force: no motion of theirs balances it. Fix a part of the body, give a handle with a "
-            "moment three vertices that are not on one line, or let forces and moments sum to zero.");
+        throw SolveError(kUnbalancedGrips);
     return unit.asDiagonal() * motion;
 }
 

@@ -14,6 +14,28 @@ struct Grip {
     bool operator==(const Grip&) const = default;
 };
 
+/// The vertices of grips, from their middles.
+struct GripArms {
+    GripArms() = default;
+    GripArms(const Deformer& deformer, const std::vector<Grip>& grips);
+
+    /// Of each grip's motion or force, 6 k: in these units rotations and moments are lengths and forces.
+    Eigen::VectorXd units() const;
+
+    std::vector<Eigen::Vector3d> middles;
+    std::vector<Eigen::Matrix3Xd> arms;
+    double length = 1.0;  ///< of the body
+};
+
+/// Said where forces would move handles without end.
+inline constexpr const char* kUnbalancedGrips =
+    "handles under a force: no motion of theirs balances it. Fix a part of the body, give a handle with a moment three "
+    "vertices that are not on one line, or let forces and moments sum to zero.";
+/// Below this part of Young's modulus times the size of the body all stiffness of grips is rounding, and what the
+/// integrals leave of a rigid motion: nothing but the grips holds the body. A thread of 1 : 1000 resists a pull by 1e-6
+/// of it.
+inline constexpr double kNothingHolds = 1e-7;
+
 /// Forces and moments that some rigid grips exert on a body, as a linear function of their motions (of small ones:
 /// u = t + theta x (x - middle)), everything else prescribed and loaded as it is. Everything about a grip is about its
 /// middle, the mean of its vertices at rest.
@@ -36,7 +58,7 @@ public:
 
     const std::vector<Grip>& grips() const { return grips_; }
     int n_grips() const { return static_cast<int>(grips_.size()); }
-    const Eigen::Vector3d& middle(int grip) const { return middles_[static_cast<std::size_t>(grip)]; }
+    const Eigen::Vector3d& middle(int grip) const { return arms_.middles[static_cast<std::size_t>(grip)]; }
     /// 6 k x 6 k: force over moment of each grip, per translation [L] over rotation [rad] of each. Zero where nothing
     /// but one grip holds the body.
     const Eigen::MatrixXd& matrix() const { return matrix_; }
@@ -51,17 +73,13 @@ public:
     void move(const Eigen::VectorXd& motions, Eigen::VectorXd& values) const;
 
 private:
-    /// Of each grip's motion or force: in them rotations and moments are lengths and forces.
-    Eigen::VectorXd units() const;
     Eigen::VectorXd others_of(const Eigen::VectorXd& values) const;
     Eigen::VectorXd resultants(const Deformer& deformer, const Eigen::VectorXd& values, Control& control) const;
 
     std::vector<Grip> grips_;
-    std::vector<Eigen::Vector3d> middles_;
-    std::vector<Eigen::Matrix3Xd> arms_;  ///< of the vertices of each grip, from its middle
-    double length_ = 1.0;                 ///< of the body: a rotation times it counts like a translation
-    Eigen::VectorXd others_;              ///< the last values, zero for the grips
-    Eigen::VectorXd rest_;                ///< forces without motion
+    GripArms arms_;
+    Eigen::VectorXd others_;  ///< the last values, zero for the grips
+    Eigen::VectorXd rest_;    ///< forces without motion
     Eigen::MatrixXd matrix_;
 };
 

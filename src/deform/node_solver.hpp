@@ -44,7 +44,7 @@ struct NodeSolution {
 struct NodeTask {
     Eigen::MatrixXd prescribed;  ///< as NodeSolver::solve takes it: 3*n_constrained_nodes + n_unit_loads x m
     /// The same, x k: changes of the first column of `prescribed`; wanted are the derivatives of its
-    /// solution along them.
+    /// solution along them, and of its loads where those are wanted.
     Eigen::MatrixXd changes = {};
     const NodeState* start = nullptr;  ///< as in Approach; null: rest
     Eigen::MatrixXd path = {};         ///< as in Approach, of the constrained nodes

@@ -94,6 +94,10 @@ Reactions ConstrainedSolid::reactions(const NodeSolution& solution) const {
     return present_reactions(shares_, solution.prescribed.col(0), solution.loads.col(0));
 }
 
+Eigen::Matrix3Xd ConstrainedSolid::forces(const NodeSolution& solution, Eigen::Index column) const {
+    return gathered_reactions(shares_, n_constrained_, solution.loads.col(column)).forces;
+}
+
 double ConstrainedSolid::residual(const NodeSolution& solution, Control& control) const {
     return checks_.residual(solution, control);
 }

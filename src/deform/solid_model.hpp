@@ -87,6 +87,8 @@ public:
     /// Forces and moments at the constrained vertices, for the first column of a solution with loads. Moments are of
     /// forces at rest positions, or at present ones where the method is not linear.
     Reactions reactions(const NodeSolution& solution) const;
+    /// Forces at the constrained vertices that a column of a solution with loads stands for, 3 x n_constrained.
+    Eigen::Matrix3Xd forces(const NodeSolution& solution, Eigen::Index column) const;
     double residual(const NodeSolution& solution, Control& control) const;
     /// Estimated error of a solution for these values; nothing where the method has no estimate.
     std::optional<SolutionError> error(const Eigen::VectorXd& values, const NodeSolution& solution,

@@ -231,11 +231,18 @@ std::vector<Grip> Constraints::grips() const {
     return all;
 }
 
+std::vector<GripForce> Constraints::grip_forces() const {
+    std::vector<GripForce> all;
+    for (const std::size_t h : gripped()) all.push_back(*forces[h]);
+    return all;
+}
+
 std::vector<AffineMotion> Constraints::move_grips(const GripStiffness& stiffness, const Positions& vertices) {
     const std::vector<std::size_t> handles = gripped();
+    const std::vector<GripForce> forces_wanted = grip_forces();
     Eigen::VectorXd wanted(6 * std::ssize(handles)), springs(std::ssize(handles));
     for (Eigen::Index g = 0; g < springs.size(); ++g) {
-        const GripForce& grip = *forces[handles[static_cast<std::size_t>(g)]];
+        const GripForce& grip = forces_wanted[static_cast<std::size_t>(g)];
         wanted.segment<6>(6 * g) << grip.force, grip.moment;
         springs[g] = grip.spring;
     }
@@ -252,6 +259,19 @@ std::vector<AffineMotion> Constraints::move_grips(const GripStiffness& stiffness
     return moved;
 }
 
+std::vector<AffineMotion> Constraints::move_grips(const std::vector<GripPlace>& places, const Positions& vertices) {
+    const std::vector<std::size_t> handles = gripped();
+    std::vector<AffineMotion> moved;
+    for (std::size_t g = 0; g < handles.size(); ++g) {
+        const auto [begin, end] = range_of(handles[g]);
+        const std::vector<int> patch(set.handles.begin() + begin, set.handles.begin() + end);
+        const Eigen::Vector3d middle = vertices(Eigen::all, patch).rowwise().mean();
+        moved.push_back(rigid_motion(places[g].shift, places[g].turn, middle));
+        move(handles[g], moved.back(), vertices);
+    }
+    return moved;
+}
+
 std::pair<int, int> Constraints::range_of(std::size_t handle) const {
     const ConstraintGroup& group = groups[handle + (has_fixed() ? 1 : 0)];
     const auto n_base = static_cast<int>(set.base.size());
@@ -261,9 +281,9 @@ std::pair<int, int> Constraints::range_of(std::size_t handle) const {
 void Constraints::move(std::size_t handle, const AffineMotion& motion, const Positions& vertices) {
     motions[handle] = motion;
     const auto [begin, end] = range_of(handle);
+    const AffineMap map = map_of(motion);
     for (int i = begin; i < end; ++i)
-        values.segment<3>(3 * i) =
-            motion.matrix * vertices.col(set.handles[static_cast<std::size_t>(i)]) + motion.translate;
+        values.segment<3>(3 * i) = map.displacement(vertices.col(set.handles[static_cast<std::size_t>(i)]));
 }
 
 Constraints make_constraints(const Document& document, const SurfaceMesh& mesh, const fs::path& scene_file,

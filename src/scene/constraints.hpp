@@ -9,6 +9,7 @@
 
 #include "deform/deformer.hpp"
 #include "deform/grip.hpp"
+#include "deform/grip_tangent.hpp"
 #include "scene/document.hpp"
 #include "scene/motion.hpp"
 
@@ -57,9 +58,13 @@ struct Constraints {
     /// Handles that move by a force, those without vertices left out, and their patches as grips.
     std::vector<std::size_t> gripped() const;
     std::vector<Grip> grips() const;
+    /// What is prescribed of them.
+    std::vector<GripForce> grip_forces() const;
     /// Moves them to where their forces are in equilibrium; stiffness: of grips(), with everything else at these
     /// values. Returns their motions. Throws SolveError (GripStiffness::motions).
     std::vector<AffineMotion> move_grips(const GripStiffness& stiffness, const Positions& vertices);
+    /// Moves them to these places. Returns their motions.
+    std::vector<AffineMotion> move_grips(const std::vector<GripPlace>& places, const Positions& vertices);
     /// Places of a handle's vertices in set.handles: [begin, end).
     std::pair<int, int> range_of(std::size_t handle) const;
     /// Gives a handle another motion; vertices: of the surface that the set is on.

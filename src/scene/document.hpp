@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "deform/element_degree.hpp"
+#include "deform/grip_force.hpp"
 #include "deform/method.hpp"
 #include "elasticity/material.hpp"
 #include "mesh/wrap/hole_caps.hpp"
@@ -86,16 +87,6 @@ struct AffineMotion {
 struct VertexMotion {
     std::vector<Eigen::Vector3d> displacements;  ///< [L]
     bool operator==(const VertexMotion&) const = default;
-};
-
-/// A force on a rigid patch, and a moment about the patch's middle (the mean of its vertices at rest).
-struct GripForce {
-    Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< [force]
-    Eigen::Vector3d moment = Eigen::Vector3d::Zero();  ///< [force * L]
-    /// While a person pulls through a spring: the force is less by this times the shift of the middle [force / L]. Not
-    /// part of scene files.
-    double spring = 0.0;
-    bool operator==(const GripForce&) const = default;
 };
 
 /// Vertices that follow a prescribed motion, or that move as a rigid patch to where a force is in equilibrium.

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "base/overloaded.hpp"
+#include "elasticity/rotation.hpp"
 
 namespace elastolab {
 
@@ -28,11 +29,6 @@ Vector3d vector_of(const Rotation& rotation) { return kDegree * rotation.degrees
 Matrix3d matrix_of(const Rotation& rotation) {
     const double angle = kDegree * std::remainder(rotation.degrees, 360.0);
     return Eigen::AngleAxisd(angle, rotation.axis.stableNormalized()).toRotationMatrix();
-}
-
-Matrix3d matrix_of(const Vector3d& vector) {
-    const double angle = vector.stableNorm();
-    return angle > 0.0 ? Eigen::AngleAxisd(angle, vector / angle).toRotationMatrix() : Matrix3d::Identity();
 }
 
 /// The middle of the vertices as the matrix of `motion` leaves it.
@@ -65,7 +61,7 @@ std::optional<Rotation> added(const Rotation& before, const Vector3d& turn) {
 }
 
 AffineMotion turned(const AffineMotion& motion, const Vector3d& turn, const Vector3d& center, const Positions& rest) {
-    const Matrix3d identity = Matrix3d::Identity(), before = matrix_of(motion.rotate), next = matrix_of(turn);
+    const Matrix3d identity = Matrix3d::Identity(), before = matrix_of(motion.rotate), next = rotation_by(turn);
     AffineMotion result = motion;
     if (motion.rotate.degrees == 0.0) result.rotate.center = middle_before_turn(motion, rest);
     if (const auto sum = added(result.rotate, turn)) {
@@ -98,7 +94,7 @@ AffineMotion transformed(const AffineMotion& motion, const Matrix3d& map, const 
 AffineMotion part_of(const AffineMotion& motion, double part, const Positions& rest) {
     const Matrix3d identity = Matrix3d::Identity();
     const Polar whole = polar(identity + motion.matrix);
-    const Matrix3d own = matrix_of(Vector3d(part * rotation_vector(whole.rotation, Vector3d::Zero())));
+    const Matrix3d own = rotation_by(Vector3d(part * rotation_vector(whole.rotation, Vector3d::Zero())));
     const Matrix3d map = own * (identity + part * (whole.stretch - identity));
     const Vector3d middle = rest.rowwise().mean(), after = middle_before_turn(motion, rest);
     AffineMotion result = motion;
@@ -115,6 +111,12 @@ AffineMap map_of(const AffineMotion& motion) {
     if (motion.rotate.degrees == 0.0) return {motion.matrix, motion.translate};
     const Matrix3d turn = matrix_of(motion.rotate), less = turn - Matrix3d::Identity();
     return {less + turn * motion.matrix, motion.translate - less * motion.rotate.center};
+}
+
+AffineMotion rigid_motion(const Eigen::Vector3d& shift, const Eigen::Vector3d& turn, const Eigen::Vector3d& center) {
+    if (turn.isZero(0.0)) return {.translate = shift};
+    return {.translate = shift,
+            .rotate = {.axis = turn.stableNormalized(), .degrees = turn.stableNorm() / kDegree, .center = center}};
 }
 
 Eigen::Matrix3Xd displacements(const Motion& motion, const Positions& rest) {
@@ -161,17 +163,7 @@ Motion transformed(const Motion& motion, const Eigen::Matrix3d& map, const Eigen
 Motion turned(const Motion& motion, const Eigen::Vector3d& turn, const Eigen::Vector3d& center, const Positions& rest) {
     if (turn.isZero(0.0)) return motion;
     if (const auto* affine = std::get_if<AffineMotion>(&motion)) return turned(*affine, turn, center, rest);
-    return transformed(motion, matrix_of(turn), center, rest);
-}
-
-Eigen::Vector3d rotation_vector(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& guess) {
-    const Eigen::AngleAxisd least(rotation);
-    // Near no turn at all, whole turns may be about any axis.
-    const bool any_axis = least.angle() < kRigid && guess.norm() > std::numbers::pi;
-    const Vector3d axis = any_axis ? guess.normalized() : least.axis();
-    constexpr double kTurn = 2.0 * std::numbers::pi;
-    const double angle = any_axis ? 0.0 : least.angle();
-    return (angle + kTurn * std::round((axis.dot(guess) - angle) / kTurn)) * axis;
+    return transformed(motion, rotation_by(turn), center, rest);
 }
 
 Motion part_of(const Motion& motion, double part, const Positions& rest) {

@@ -21,6 +21,9 @@ struct AffineMap {
 /// Where a motion ends, whatever the way there. Whole turns leave nothing, not even rounding.
 AffineMap map_of(const AffineMotion& motion);
 
+/// A rotation about `center`, which is shifted.
+AffineMotion rigid_motion(const Eigen::Vector3d& shift, const Eigen::Vector3d& turn, const Eigen::Vector3d& center);
+
 /// Displacements of vertices at these rest positions, one column each, where the motion ends.
 Eigen::Matrix3Xd displacements(const Motion& motion, const Positions& rest);
 
@@ -37,9 +40,6 @@ Motion transformed(const Motion& motion, const Eigen::Matrix3d& map, const Eigen
 /// the rotation of the nearest angle, or, where there is none near (after about a full turn), goes before what has been
 /// turned so far.
 Motion turned(const Motion& motion, const Eigen::Vector3d& turn, const Eigen::Vector3d& center, const Positions& rest);
-
-/// Of the rotation vectors of a rotation, which are whole turns apart, the one that is nearest to `guess` [radians].
-Eigen::Vector3d rotation_vector(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& guess);
 
 /// A part of the way that a motion takes, 0 (at rest) to 1 (all of it): turns go through all angles between, about
 /// their centre; the middle of the vertices goes straight where nothing turns it; a rotation in the matrix is turned

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <Eigen/Geometry>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
-#include "deform/grip.hpp"
+#include "deform/grip_equilibrium.hpp"
 #include "deform/load_work.hpp"
 #include "deform/node_solver.hpp"
 #include "findings/cost.hpp"
@@ -57,19 +58,34 @@ std::vector<GroupReaction> load_totals(const Constraints& constraints, const Sur
     return result;
 }
 
+/// From rest by the turns that the motions of these constraints take; surface: what the set is on.
+Approach approach_to(const Constraints& constraints, const SurfaceMesh& surface) {
+    const Positions rest = surface.vertices(Eigen::all, constraints.set.handles);
+    return {nullptr, way_to(wish_of(constraints), nullptr, rest).path};
+}
+
 /// Moves the handles under a force to where they are in equilibrium: in the constraints of the simulated surface, and
-/// in those of the shown one, if that is another.
-void take_equilibrium(const Deformer& deformer, Constraints& constraints, Constraints* shown, const Positions& vertices,
-                      Control& control) {
-    if (!constraints.has_forces()) return;
-    if (!deformer.linear())
-        throw SolveError(
-            "handles under a force: nonlinear-fem moves none. Choose quadratic-fem, or prescribe a motion.");
-    const GripStiffness stiffness(deformer, constraints.values, constraints.grips(), control);
+/// in those of the shown one, if that is another. Returns the way to the answer, and what was iterated for it.
+std::pair<Approach, int> take_equilibrium(const Deformer& deformer, Constraints& constraints, Constraints* shown,
+                                          const Positions& vertices, Control& control) {
+    const SurfaceMesh& surface = *deformer.model().body().surface;
+    Approach approach = approach_to(constraints, surface);
+    if (!constraints.has_forces()) return {approach, 0};
+    int iterations = 0;
+    std::vector<AffineMotion> motions;
+    if (deformer.linear()) {
+        const GripStiffness stiffness(deformer, constraints.values, constraints.grips(), control);
+        motions = constraints.move_grips(stiffness, surface.vertices);
+    } else {
+        const GripEquilibrium found = find_grip_equilibrium(deformer, constraints.values, constraints.grips(),
+                                                            constraints.grip_forces(), control, approach);
+        motions = constraints.move_grips(found.places, surface.vertices);
+        approach = {found.equilibrium, {}};
+        iterations = found.iterations;
+    }
     const std::vector<std::size_t> handles = constraints.gripped();
-    const std::vector<AffineMotion> motions =
-        constraints.move_grips(stiffness, deformer.model().body().surface->vertices);
     for (std::size_t g = 0; g < handles.size() && shown != nullptr; ++g) shown->move(handles[g], motions[g], vertices);
+    return {approach, iterations};
 }
 
 void append(Findings& all, const Findings& more) { all.insert(all.end(), more.begin(), more.end()); }
@@ -125,12 +141,6 @@ void add_imbalance(const Imbalance& imbalance, MethodKind method, Findings& find
     add(FindingKind::moment_imbalance, imbalance.moment);
 }
 
-/// From rest by the turns that the motions of these constraints take; surface: what the set is on.
-Approach approach_to(const Constraints& constraints, const SurfaceMesh& surface) {
-    const Positions rest = surface.vertices(Eigen::all, constraints.set.handles);
-    return {nullptr, way_to(wish_of(constraints), nullptr, rest).path};
-}
-
 /// Applies the constraints and evaluates what follows from them. shown: those of the shown surface, where a proxy of it
 /// is simulated.
 void apply(Constraints& constraints, Constraints* shown, bool with_checks, Solution& solution, Control& control) {
@@ -145,9 +155,10 @@ void apply(Constraints& constraints, Constraints* shown, bool with_checks, Solut
     }
     {
         const Stage stage("displace", control, solution.stages);
-        take_equilibrium(deformer, constraints, shown, solution.surface->vertices, control);
-        const Deformer::Answer answer = deformer.answer(constraints.values, {.residual = with_checks}, control,
-                                                        approach_to(constraints, *solution.model->body().surface));
+        const auto [approach, iterations] =
+            take_equilibrium(deformer, constraints, shown, solution.surface->vertices, control);
+        const Deformer::Answer answer =
+            deformer.answer(constraints.values, {.residual = with_checks}, control, approach);
         solution.displacement =
             Eigen::Map<const Eigen::Matrix3Xd>(answer.displacements.data(), 3, answer.displacements.size() / 3);
         solution.simulated_displacement = answer.displacements;
@@ -161,6 +172,7 @@ void apply(Constraints& constraints, Constraints* shown, bool with_checks, Solut
         solution.fixed_reactions = totals(fixed_sets, answer.reactions);
         solution.residual = answer.residual;
         solution.facts = answer.facts;
+        if (solution.facts) solution.facts->iterations += iterations;
         if (answer.facts && !answer.facts->stable)
             solution.findings.push_back(
                 {.kind = FindingKind::unstable_equilibrium, .method = solution.model->method().kind});

@@ -107,14 +107,23 @@ TEST(SceneLoads, BalanceUnderLargeDeformations) {
     EXPECT_NEAR(*solved(document, kQuadraticFem).compliance, *stiff.compliance, 0.01 * *stiff.compliance);
 }
 
-TEST(SceneLoads, AHandleUnderAForceIsRefusedByNonlinearFem) {
+/// The handle ends where prescribing its motion takes its force, on the surface itself and on a proxy.
+TEST(SceneLoads, AHandleUnderAForceGivesWayByNonlinearFem) {
     Document document = loaded_cube();
-    document.handles[0].force = GripForce{{0, 0, 1}, {0, 0, 0}};
-    try {
-        solved(document, kNonlinearFem);
-        FAIL() << "an answer";
-    } catch (const SolveError& error) {
-        EXPECT_THAT(error.what(), HasSubstr("nonlinear-fem moves none"));
+    document.material.young_modulus = 100.0;
+    const GripForce asked{{-1, 2, 6}, {0.3, 0, 0}};
+    document.handles[0].force = asked;
+    for (const bool proxied : {false, true}) {
+        document.proxy.use = proxied ? ProxyUse::always : ProxyUse::never;
+        document.proxy.n_vertices = 200;
+        const Solution moved = solved(document, kNonlinearFem);
+        ASSERT_EQ(moved.proxy != nullptr, proxied);
+        const GroupReaction& held = named(moved.reactions, "held");
+        EXPECT_LT((held.force - asked.force).norm(), 1e-6 * asked.force.norm());
+        EXPECT_LT(moved.imbalance.force, 1e-8);
+        EXPECT_LT(moved.imbalance.moment, 1e-8);
+        EXPECT_LT(*moved.residual, 1e-7);
+        EXPECT_GT(moved.displacement.colwise().norm().maxCoeff(), 0.1) << "far beyond linear theory";
     }
 }
 

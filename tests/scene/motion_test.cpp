@@ -117,18 +117,6 @@ TEST(Motion, PartsOfARotationInTheMatrixAreTurns) {
     EXPECT_EQ(displacements(part_of(single, 0.5, kRest), kRest), 0.5 * displacements(single, kRest));
 }
 
-TEST(Motion, ARotationVectorIsTheNearestToItsGuess) {
-    const auto found = [](const Vector3d& of, const Vector3d& guess) {
-        return Vector3d(rotation_vector(rotation(of), kDegree * guess) / kDegree);
-    };
-    const Vector3d aside(0.5, -0.3, 0.4);
-    for (const Vector3d& degrees :
-         {Vector3d(100, 200, -300), Vector3d(-180, 0, 0), Vector3d(1e-3, 0, 0), Vector3d(0, -1000, 0)})
-        EXPECT_LT((found(degrees, degrees + aside) - degrees).norm(), 1e-6) << degrees.transpose();
-    EXPECT_LT((found({0, 0, 720}, {0, 0, 700}) - Vector3d(0, 0, 720)).norm(), 1e-6) << "about any axis";
-    EXPECT_TRUE(rotation_vector(Eigen::Matrix3d::Identity(), kDegree * aside).isZero(0.0));
-}
-
 TEST(Placement, MovesTheMiddleAndTurnsAboutIt) {
     const Vector3d middle = kRest.rowwise().mean();
     const Placement placement{.move = {1, 2, 3}, .turn = {0, 0, 90}, .scale = 2.0};

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "app/input/gestures.hpp"
+#include "elasticity/rotation.hpp"
 
 namespace elastolab {
 

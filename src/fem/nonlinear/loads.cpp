@@ -5,8 +5,8 @@
 #include <cassert>
 #include <Eigen/Geometry>
 
+#include "elasticity/rotation.hpp"
 #include "fem/load_vectors.hpp"
-#include "fem/nonlinear/patch_motion.hpp"
 
 namespace elastolab {
 

@@ -5,6 +5,8 @@
 #include <Eigen/Dense>
 #include <numeric>
 
+#include "elasticity/rotation.hpp"
+
 namespace elastolab {
 
 namespace {
@@ -36,18 +38,6 @@ int root_of(std::vector<int>& parent, int i) {
 }
 
 }  // namespace
-
-Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
-    Eigen::Matrix3d W;
-    W << 0.0, -v[2], v[1], v[2], 0.0, -v[0], -v[1], v[0], 0.0;
-    return W;
-}
-
-Eigen::Matrix3d rotation_by(const Eigen::Vector3d& turn) {
-    const double angle = turn.norm();
-    if (angle < 1e-300) return Eigen::Matrix3d::Identity();
-    return Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix();
-}
 
 MotionPath::MotionPath(const Positions& rest, const std::vector<int>& patch, const Eigen::VectorXd& from,
                        const Eigen::VectorXd& to)

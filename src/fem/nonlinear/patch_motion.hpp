@@ -38,10 +38,6 @@ private:
     double largest_angle_ = 0.0;
 };
 
-/// Rotation by a vector's length about its direction.
-Eigen::Matrix3d rotation_by(const Eigen::Vector3d& turn);
-Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v);
-
 /// Patches of constrained nodes: numbers of those that edges of elements connect, among the nodes from n_base on; -1
 /// for the base and for nodes that are connected to it.
 std::vector<int> patches_of_nodes(const Eigen::MatrixXi& elements, int n_nodes, const std::vector<int>& constrained,

@@ -144,6 +144,10 @@ NodeSolution NonlinearSolver::solve_task(const NodeTask& task, double tolerance,
         solution.state = state;
     }
     if (k > 0) solution.displacements.rightCols(k) = derivatives(*first, task.changes, work, control);
+    for (Eigen::Index c = m; c < m + k && task.want_loads; ++c)
+        solution.loads.col(c) = of_prescribed(newton_.force_change(first->newton().u, first->newton().factors,
+                                                                   solution.displacements.col(c),
+                                                                   factors_of(task.changes.col(c - m)), work, control));
     return solution;
 }
 

@@ -2,7 +2,7 @@
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
-#include "fem/nonlinear/patch_motion.hpp"
+#include "elasticity/rotation.hpp"
 
 namespace elastolab {
 

@@ -74,11 +74,10 @@ void EmbeddedRunner::poll() {
     runner_.poll();
 }
 
-/// Whether what answers is of the present constrained set, by a method that has a stiffness.
+/// Whether what answers is of the present constrained set.
 bool EmbeddedRunner::may_place_grips() const {
     const std::shared_ptr<const Deformer>& deformer = runner_.deformer();
-    if (!deformer || !deformer->linear()) return false;
-    return deformer->set() == constraints().set;
+    return deformer && deformer->set() == constraints().set;
 }
 
 /// Until it is known where their forces hold handles, they stay where the scene has them.

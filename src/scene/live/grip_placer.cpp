@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "base/timer.hpp"
 #include "scene/user_text.hpp"
+#include "scene/wish.hpp"
 
 namespace elastolab {
 
@@ -22,6 +23,10 @@ std::optional<std::vector<AffineMotion>> GripPlacer::place(const std::shared_ptr
         deformer_ = deformer;
         made_ = {made};
     }
+    return deformer->linear() ? place_by_stiffness(constraints) : place_by_equilibria(constraints);
+}
+
+std::optional<std::vector<AffineMotion>> GripPlacer::place_by_stiffness(Constraints& constraints) {
     const std::vector<Grip> grips = constraints.grips();
     if (!holds(grips))
         make(constraints.values, grips);
@@ -29,11 +34,41 @@ std::optional<std::vector<AffineMotion>> GripPlacer::place(const std::shared_ptr
         update(constraints.values);
     if (!failure_.empty() || !holds(grips)) return std::nullopt;
     try {
-        return constraints.move_grips(*made_.stiffness, deformer->model().body().surface->vertices);
+        return constraints.move_grips(*made_.stiffness, deformer_->model().body().surface->vertices);
     } catch (const SolveError& error) {  // nothing holds them
         failure_ = user_text(error);
         return std::nullopt;
     }
+}
+
+std::optional<std::vector<AffineMotion>> GripPlacer::place_by_equilibria(Constraints& constraints) {
+    const Positions& vertices = deformer_->model().body().surface->vertices;
+    for (const std::size_t h : constraints.gripped()) constraints.move(h, {}, vertices);  // wherever they are by now
+    const std::vector<GripForce> forces = constraints.grip_forces();
+    const GripEquilibrium* last = made_.equilibrium.get();
+    if (last != nullptr && last->grips != constraints.grips()) last = nullptr;
+    const bool exact = last != nullptr && last->forces == forces && made_.asked == constraints.values;
+    if (!exact) follow(constraints);
+    if (!failure_.empty() || last == nullptr) return std::nullopt;
+    return constraints.move_grips(exact ? last->places : last->places_under(forces), vertices);
+}
+
+void GripPlacer::follow(const Constraints& constraints) {
+    const std::vector<Grip> grips = constraints.grips();
+    const std::vector<GripForce> forces = constraints.grip_forces();
+    const bool same = asked_grips_ == grips && asked_forces_ == forces && was_asked(constraints.values);
+    if (same) failure_ = worker_failure_;
+    if (job_.running() || !failure_.empty()) return;
+    asked_grips_ = grips;
+    asked_forces_ = forces;
+    ask(constraints.values);
+    const Positions rest = deformer_->model().body().surface->vertices(Eigen::all, constraints.set.handles);
+    job_.start([deformer = deformer_, before = made_.equilibrium, values = constraints.values, grips, forces,
+                approach = Approach{nullptr, way_to(wish_of(constraints), nullptr, rest).path}](Control& control) {
+        return Made{.equilibrium = std::make_shared<const GripEquilibrium>(
+                        find_grip_equilibrium(*deformer, values, grips, forces, control, approach, before.get())),
+                    .asked = values};
+    });
 }
 
 void GripPlacer::make(const Eigen::VectorXd& values, const std::vector<Grip>& grips) {
@@ -109,6 +144,7 @@ void GripPlacer::clear() {
     deformer_.reset();
     made_ = {};
     asked_grips_.clear();
+    asked_forces_.clear();
     asked_.resize(0);
     worker_failure_.clear();
     failure_.clear();

@@ -1,0 +1,76 @@
+#include "deform/grip_tangent.hpp"
+
+#include <algorithm>
+#include <Eigen/LU>
+#include <limits>
+
+#include "deform/grip.hpp"
+#include "elasticity/rotation.hpp"
+
+namespace elastolab {
+
+namespace {
+
+/// Below this part of the largest, a stiffness counts as none: of rounding, and, where the body can move with the
+/// grips, of columns that were iterated.
+constexpr double kNoneIfHeld = 1e-12, kNoneIfFree = 1e-5;
+constexpr double kLongestTurn = 0.5, kLongestShift = 0.3;
+
+}  // namespace
+
+GripPlace moved(const GripPlace& place, const Eigen::Matrix<double, 6, 1>& by) {
+    const Eigen::Vector3d turn = by.tail<3>();
+    return {place.shift + by.head<3>(),
+            rotation_vector(rotation_by(turn) * rotation_by(place.turn), place.turn + turn)};
+}
+
+double longest_step(const std::vector<GripPlace>& places, double length, const Eigen::VectorXd& step) {
+    double part = std::numeric_limits<double>::infinity();
+    for (std::size_t g = 0; g < places.size(); ++g) {
+        const auto own = step.segment<6>(6 * static_cast<Eigen::Index>(g));
+        const double shift = own.head<3>().norm(), turn = own.tail<3>().norm();
+        if (shift > 0.0) part = std::min(part, kLongestShift * (length + places[g].shift.norm()) / shift);
+        if (turn > 0.0) part = std::min(part, kLongestTurn / turn);
+    }
+    return part;
+}
+
+GripTangent::GripTangent(const Eigen::MatrixXd& stiffness, double length, double young_modulus, bool held)
+    : stiffness_(stiffness), length_(length), young_modulus_(young_modulus), held_(held) {
+    scaled_ = units().asDiagonal() * stiffness * units().asDiagonal();
+    modes_.compute(0.5 * (scaled_ + scaled_.transpose()));
+    const double largest = values().size() == 0 ? 0.0 : values().cwiseAbs().maxCoeff();
+    const bool nothing = largest < kNothingHolds * young_modulus * length;
+    none_ = nothing ? 2.0 * largest : (held ? kNoneIfHeld : kNoneIfFree) * largest;
+}
+
+GripTangent GripTangent::with_springs(const Eigen::VectorXd& springs) const {
+    Eigen::MatrixXd stiffness = stiffness_;
+    for (Eigen::Index g = 0; g < springs.size(); ++g) stiffness.diagonal().segment<3>(6 * g).array() += springs[g];
+    return {stiffness, length_, young_modulus_, held_};
+}
+
+Eigen::VectorXd GripTangent::units() const {
+    Eigen::VectorXd unit = Eigen::VectorXd::Ones(stiffness_.rows());
+    for (Eigen::Index g = 0; 6 * g < unit.size(); ++g) unit.segment<3>(6 * g + 3).setConstant(1.0 / length_);
+    return unit;
+}
+
+bool GripTangent::stable() const { return !(values().array() < -none_).any(); }
+
+Eigen::VectorXd GripTangent::answered(const Eigen::VectorXd& forces) const {
+    const Eigen::VectorXd shares = modes_.eigenvectors().transpose() * (units().asDiagonal() * forces);
+    return modes_.eigenvectors() * (values().cwiseAbs().array() > none_).select(shares, 0.0);
+}
+
+Eigen::VectorXd GripTangent::step(const Eigen::VectorXd& answered) const {
+    if (values().size() > 0 && values()[0] > none_)
+        return units().asDiagonal() * scaled_.partialPivLu().solve(answered);
+    const Eigen::VectorXd shares = modes_.eigenvectors().transpose() * answered, sizes = values().cwiseAbs();
+    return units().asDiagonal() *
+           (modes_.eigenvectors() * (sizes.array() > none_).select(shares.cwiseQuotient(sizes), 0.0));
+}
+
+Eigen::VectorXd GripTangent::softest() const { return units().asDiagonal() * modes_.eigenvectors().col(0); }
+
+}  // namespace elastolab

@@ -1,0 +1,184 @@
+// Rigid grips under forces on a body of large deformations: forces that motions took give these motions again, the
+// elastica of a buckled column, tangents by differences, bodies that nothing else holds.
+#include "deform/grip_equilibrium.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <Eigen/Geometry>
+#include <numbers>
+
+#include "base/error.hpp"
+#include "elasticity/rotation.hpp"
+#include "mesh/primitives.hpp"
+#include "methods/problem.hpp"
+
+namespace elastolab {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+using test::vertices_where;
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+/// A bar along x from the origin. Its right end is a grip; its left end is held, or a grip too.
+struct GrippedBar {
+    Eigen::Vector3d resultant_at(const GripEquilibrium& at, std::size_t grip) const {
+        const Reactions reactions = deformer->reactions(at.values);
+        const Grip& its = grips[grip];
+        return reactions.forces.middleCols(std::ssize(deformer->set().base) + its.begin, its.end - its.begin)
+            .rowwise()
+            .sum();
+    }
+    explicit GrippedBar(const Vector3d& size = {3, 1, 1}, int cells = 2, const Material& material = {2.0, 0.3},
+                        bool held = true) {
+        SurfaceMesh mesh = make_box(cells, size);
+        const std::vector<int> left = vertices_where(mesh, [](const auto& p) { return p[0] < 1e-9; });
+        const std::vector<int> right = vertices_where(mesh, [&](const auto& p) { return p[0] > size[0] - 1e-9; });
+        ConstrainedSet set{.base = held ? left : std::vector<int>{}, .handles = right};
+        grips = {{0, static_cast<int>(right.size())}};
+        if (!held) {
+            set.handles.insert(set.handles.end(), left.begin(), left.end());
+            grips.push_back({grips[0].end, grips[0].end + static_cast<int>(left.size())});
+        }
+        middle = Vector3d(size[0], 0.5 * size[1], 0.5 * size[2]);
+        deformer = std::make_unique<Deformer>(
+            test::precomputed(test::make_body(std::move(mesh), material), {.kind = kNonlinearFem}));
+        Control control;
+        deformer->constrain(set, control);
+    }
+    const Positions& vertices() const { return deformer->model().body().surface->vertices; }
+    VectorXd values_at(const GripPlace& place) const {
+        VectorXd values = VectorXd::Zero(deformer->set().n_values());
+        for (int i = 0; i < grips[0].end; ++i) {
+            const Vector3d x = vertices().col(deformer->set().handles[static_cast<std::size_t>(i)]);
+            values.segment<3>(3 * i) = middle + place.shift + rotation_by(place.turn) * (x - middle) - x;
+        }
+        return values;
+    }
+    /// What the right end takes there.
+    GripForce force_at(const GripPlace& place) const {
+        const Reactions reactions = deformer->reactions(values_at(place));
+        const Eigen::Index n = grips[0].end, first = std::ssize(deformer->set().base);
+        const Vector3d force = reactions.forces.middleCols(first, n).rowwise().sum();
+        const Vector3d moment = reactions.moments.middleCols(first, n).rowwise().sum();
+        return {force, moment - (middle + place.shift).cross(force)};
+    }
+    GripEquilibrium find(const std::vector<GripForce>& forces, const GripEquilibrium* before = nullptr) const {
+        Control control;
+        return find_grip_equilibrium(*deformer, VectorXd::Zero(deformer->set().n_values()), grips, forces, control, {},
+                                     before);
+    }
+
+    std::vector<Grip> grips;
+    Vector3d middle;
+    std::unique_ptr<Deformer> deformer;
+};
+
+TEST(GripEquilibrium, ForcesThatAMotionTookGiveTheMotion) {
+    const GrippedBar bar;
+    for (const GripPlace& place : {GripPlace{{0.05, 0.02, -0.03}, Vector3d(0.02, 0.01, -0.03)},
+                                   GripPlace{{-0.65, 1.6, 0.1}, Vector3d(0, 0, 70 * kDegree)},
+                                   GripPlace{{0.9, 0, 0}, Vector3d(100 * kDegree, 0, 0)}}) {
+        const GripEquilibrium found = bar.find({bar.force_at(place)});
+        EXPECT_LT((found.places[0].shift - place.shift).norm(), 1e-6) << found.places[0].shift.transpose();
+        EXPECT_LT((found.places[0].turn - place.turn).norm(), 1e-6) << found.places[0].turn.transpose();
+        EXPECT_LT(found.solves, 40);
+        test::print_measured("equilibria on the way", found.solves);
+    }
+}
+
+TEST(GripEquilibrium, SmallForcesMoveAsLinearTheoryHasIt) {
+    const GrippedBar bar;
+    const Body& body = bar.deformer->model().body();
+    Deformer linear(test::precomputed(body, {.kind = kQuadraticFem}));
+    Control control;
+    linear.constrain(bar.deformer->set(), control);
+    const VectorXd none = VectorXd::Zero(linear.set().n_values());
+    const GripStiffness stiffness(linear, none, bar.grips, control);
+    const GripForce force{{1e-6, 2e-6, -1e-6}, {3e-6, 0, 1e-6}};
+    VectorXd wanted(6);
+    wanted << force.force, force.moment;
+    const VectorXd motion = stiffness.motions(wanted);
+    const GripPlace found = bar.find({force}).places[0];
+    EXPECT_LT((found.shift - motion.head<3>()).norm(), 1e-4 * motion.norm());
+    EXPECT_LT((found.turn - motion.tail<3>()).norm(), 1e-4 * motion.norm());
+}
+
+TEST(GripEquilibrium, ItsTangentIsTheDerivativeOfTheForces) {
+    const GrippedBar bar;
+    const GripPlace place{{-0.35, 1.2, 0.1}, Vector3d(0.2, 0.1, 0.9)};
+    const GripEquilibrium found = bar.find({bar.force_at(place)});
+    const double h = 1e-4;
+    for (int k = 0; k < 6; ++k) {
+        const Eigen::Matrix<double, 6, 1> by = h * Eigen::Matrix<double, 6, 1>::Unit(k);
+        const GripForce up = bar.force_at(moved(place, by)), down = bar.force_at(moved(place, -by));
+        Eigen::Matrix<double, 6, 1> change;
+        change << (up.force - down.force) / (2 * h), (up.moment - down.moment) / (2 * h);
+        EXPECT_LT((found.tangent.stiffness().col(k) - change).norm(), 1e-4 * found.tangent.stiffness().norm()) << k;
+    }
+}
+
+/// Half the change of a force leaves a quarter of the error.
+TEST(GripEquilibrium, PlacesUnderOtherForcesAreRightToFirstOrder) {
+    const GrippedBar bar;
+    const GripForce first{{0, 0.02, 0}, {0, 0, 0.02}}, more{{0.02, 0.01, 0.01}, {0.01, 0, 0}};
+    const GripEquilibrium found = bar.find({first});
+    std::vector<double> errors;
+    for (const double part : {0.2, 0.1}) {
+        const std::vector<GripForce> forces{{first.force + part * more.force, first.moment + part * more.moment}};
+        const GripPlace guess = found.places_under(forces)[0], truth = bar.find(forces, &found).places[0];
+        errors.push_back((guess.shift - truth.shift).norm());
+    }
+    EXPECT_LT(errors[1], 0.3 * errors[0]);
+    EXPECT_GT(errors[1], 0.2 * errors[0]);
+}
+
+TEST(GripEquilibrium, ASpringGivesWayWithTheBody) {
+    const GrippedBar bar;
+    const GripForce pulled{{0.3, 0.2, 0}, {0, 0, 0}, 0.5};
+    const GripPlace found = bar.find({pulled}).places[0];
+    const GripForce held = bar.force_at(found);
+    EXPECT_LT((held.force - (pulled.force - pulled.spring * found.shift)).norm(), 1e-6);
+    EXPECT_LT(held.moment.norm(), 1e-6);
+}
+
+/// A column that is pressed by more than Euler's load stands no longer straight, though nothing pushes it aside. Its
+/// tip is where Euler's elastica has it (S. Timoshenko, J. Gere, Theory of Elastic Stability, section 2.7).
+TEST(GripEquilibrium, AColumnBucklesIntoItsElastica) {
+    const double length = 20.0, young = 1000.0;
+    const GrippedBar column({length, 1, 1.5}, 1, {young, 0.0});
+    const double euler = std::numbers::pi * std::numbers::pi * young * 1.5 / 12.0 / (4.0 * length * length);
+    const GripPlace straight = column.find({{{-0.8 * euler, 0, 0}, {0, 0, 0}}}).places[0];
+    EXPECT_LT(straight.shift.tail<2>().norm(), 1e-3 * length);
+    const double angle = 60.0 * kDegree, k = std::sin(0.5 * angle), K = std::comp_ellint_1(k);
+    const double load = euler * std::pow(2.0 * K / std::numbers::pi, 2.0);
+    const GripEquilibrium found = column.find({{{-load, 0, 0}, {0, 0, 0}}});
+    const Vector3d tip = found.places[0].shift / length;
+    EXPECT_TRUE(found.tangent.stable());
+    EXPECT_NEAR(tip[0], 2.0 * std::comp_ellint_2(k) / K - 2.0, 0.02);
+    EXPECT_NEAR(tip.tail<2>().norm(), 2.0 * k / K, 0.02);
+    EXPECT_NEAR(found.places[0].turn.norm(), angle, 0.03);
+    test::print_measured("equilibria of the column", found.solves);
+}
+
+TEST(GripEquilibrium, OfABodyThatNothingElseHolds) {
+    const GrippedBar held, free({3, 1, 1}, 2, {2.0, 0.3}, false);
+    const GripForce pull{{0.8, 0, 0}, {0, 0, 0}}, against{{-0.8, 0, 0}, {0, 0, 0}};
+    const GripEquilibrium found = free.find({pull, against});
+    const Vector3d longer = found.places[0].shift - found.places[1].shift;
+    EXPECT_GT(longer[0], 0.5);
+    // But for the moment that its irregular tetrahedra put on an end that is held.
+    EXPECT_LT((longer - held.find({pull}).places[0].shift).norm(), 2e-3);
+    EXPECT_LT((free.resultant_at(found, 0) - pull.force).norm(), 1e-6);
+    try {
+        free.find({pull, {{-0.7, 0, 0}, {0, 0, 0}}});
+        FAIL() << "an answer";
+    } catch (const SolveError& error) {
+        EXPECT_STREQ(error.what(), kUnbalancedGrips);
+    }
+}
+
+}  // namespace
+}  // namespace elastolab
