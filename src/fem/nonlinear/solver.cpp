@@ -20,8 +20,8 @@ constexpr int kMostIterations = 40, kMostPassing = 30, kMostAltogether = 400;
 /// Steps shorter than this part of the way are given up.
 constexpr double kShortestPart = 1.0 / 512.0;
 /// Residual at which a tangent was taken, up to which its factor serves the columns of the solution as a
-/// preconditioner; their own tolerance.
-constexpr double kGoodTangent = 0.1, kColumnTolerance = 1e-6;
+/// preconditioner; their own tolerance over that of the solution: they tell its next change, which is a small one.
+constexpr double kGoodTangent = 0.1, kColumnTolerance = 100.0;
 constexpr int kFewIterations = 8, kMostColumnIterations = 60;
 /// Smallest ratio of volumes that a predicted state may have: those below are far from any equilibrium.
 constexpr double kCrushed = 0.05;
@@ -143,7 +143,7 @@ NodeSolution NonlinearSolver::solve_task(const NodeTask& task, double tolerance,
         if (c == 0) first = state;
         solution.state = state;
     }
-    if (k > 0) solution.displacements.rightCols(k) = derivatives(*first, task.changes, work, control);
+    if (k > 0) solution.displacements.rightCols(k) = derivatives(*first, task.changes, tolerance, work, control);
     for (Eigen::Index c = m; c < m + k && task.want_loads; ++c)
         solution.loads.col(c) = of_prescribed(newton_.force_change(first->newton().u, first->newton().factors,
                                                                    solution.displacements.col(c),
@@ -152,7 +152,7 @@ NodeSolution NonlinearSolver::solve_task(const NodeTask& task, double tolerance,
 }
 
 Eigen::MatrixXd NonlinearSolver::derivatives(const NonlinearState& state, const Eigen::MatrixXd& changes,
-                                             ElementWork& work, Control& control) const {
+                                             double tolerance, ElementWork& work, Control& control) const {
     const NewtonState at = state.with_factor();
     Eigen::MatrixXd all(at.u.size(), changes.cols());
     for (Eigen::Index c = 0; c < changes.cols(); ++c) all.col(c) = of_all_nodes(changes.col(c));
@@ -162,7 +162,7 @@ Eigen::MatrixXd NonlinearSolver::derivatives(const NonlinearState& state, const 
     const FreeTangent& tangent = newton_.tangent();
     const Eigen::MatrixXd right = tangent.free_rows(loads);
     const auto by_iteration = [&](const SparseCholesky& its, int most) {
-        return newton_.solve_tangent(at.u, at.factors, its, right, kColumnTolerance, most, work, control);
+        return newton_.solve_tangent(at.u, at.factors, its, right, kColumnTolerance * tolerance, most, work, control);
     };
     // The factor of the last step is that of a state close by: a preconditioner that spares another factorisation.
     std::optional<Eigen::MatrixXd> solved;

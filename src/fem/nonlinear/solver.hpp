@@ -84,8 +84,9 @@ private:
     /// Keeps a factor, in place of the last one.
     void keep(std::shared_ptr<const SparseCholesky> factor) const;
     StatePtr at_rest(ElementWork& work, Control& control) const;
-    Eigen::MatrixXd derivatives(const NonlinearState& state, const Eigen::MatrixXd& changes, ElementWork& work,
-                                Control& control) const;
+    /// tolerance: of the state.
+    Eigen::MatrixXd derivatives(const NonlinearState& state, const Eigen::MatrixXd& changes, double tolerance,
+                                ElementWork& work, Control& control) const;
     Eigen::VectorXd of_all_nodes(const Eigen::VectorXd& prescribed) const;
     Eigen::VectorXd of_prescribed(const Eigen::VectorXd& all) const;
     std::shared_ptr<const WarpedStart> rest(ElementWork& work, Control& control) const;

@@ -1,0 +1,76 @@
+// How many equilibria a second follow a hand that turns and pulls the ear of the rabbit by 60 degrees a second there and
+// back (nonlinear FEM; what the viewer's worker does: the newest motion, to the tolerance that is shown first, with the
+// columns for the frames between), beside one numeric factorisation of the tangent by CHOLMOD.
+//   build/release/tests/benchmarks/following_benchmark
+#include "benchmarks/tools.hpp"
+#include "fem/nonlinear/model.hpp"
+#include "scene/constraints.hpp"
+#include "scene/live/drag_solver.hpp"
+#include "scene/proxy/carried_constraints.hpp"
+#include "scene/scene_mesh.hpp"
+
+namespace elastolab::test {
+namespace {
+
+constexpr double kDegreesPerSecond = 60.0, kFarthest = 90.0, kSeconds = 6.0;
+
+Document rabbit() {
+    Document document;
+    document.mesh = MeshFile{ELASTOLAB_ASSETS "/meshes/rabbit.obj"};
+    document.fixed = {{.name = "feet", .select = {BoxSelector{{-1, -1, -1}, {1, 1, 0.12}}}}};
+    document.handles = {{.name = "ear", .select = {BoxSelector{{0, -1, 2.05}, {1, 1, 3}}}}};
+    return document;
+}
+
+AffineMotion turned_by(double degrees, const Eigen::Vector3d& center) {
+    return {.translate = Eigen::Vector3d(0.0, -0.3, -0.2) * degrees / kFarthest,
+            .rotate = {.axis = Eigen::Vector3d::UnitX(), .degrees = degrees, .center = center}};
+}
+
+void follow(benchmark::State& state, ElementDegree degree, int proxy_vertices) {
+    Control control;
+    const Document document = rabbit();
+    SceneMesh mesh = load_scene_mesh(document.mesh, "", control);
+    const auto shown = std::make_shared<const SurfaceMesh>(mesh.checked.mesh);
+    Constraints constraints = make_constraints(document, *shown, "");
+    auto surface = shown;
+    if (proxy_vertices > 0) {
+        const ProxyChoice choice{.use = ProxyUse::always, .n_vertices = proxy_vertices};
+        const auto proxy = make_proxy(mesh.name, shown, mesh.checked.report, choice, control);
+        CarriedConstraints carried(proxy);
+        carried.set(constraints);
+        constraints = carried.constraints();
+        surface = proxy->surface;
+    }
+    Method method{.kind = kNonlinearFem};
+    method.elements = degree;
+    const auto model = precompute({"rabbit", surface, {1.0, 0.3}}, method, control);
+    const auto deformer = std::make_shared<Deformer>(model);
+    deformer->constrain(constraints.set, control);
+    const Eigen::Vector3d center = surface->vertices(Eigen::all, constraints.set.handles).rowwise().mean();
+    for (auto _ : state) {
+        DragSolver drag(deformer, {static_cast<int>(constraints.set.handles.size())});
+        std::vector<double> seconds, iterations;
+        const Stopwatch watch;
+        while (watch.seconds() < kSeconds) {
+            const double way = std::fmod(kDegreesPerSecond * watch.seconds(), 2.0 * kFarthest);
+            constraints.move(0, turned_by(way < kFarthest ? way : 2.0 * kFarthest - way, center), surface->vertices);
+            const Stopwatch one;
+            drag.prepare(constraints.values, kFirstTolerance, control, {drag.equilibrium(), {}});
+            seconds.push_back(one.seconds());
+            iterations.push_back(drag.equilibrium()->solids.front()->facts().iterations);
+        }
+        state.counters["per_second"] = static_cast<double>(seconds.size()) / watch.seconds();
+        state.counters["median_ms"] = 1e3 * median(seconds);
+        state.counters["median_iterations"] = median(iterations);
+        state.counters["vertices"] = surface->n_vertices();
+        state.counters["unknowns"] = model->facts().n_degrees_of_freedom;
+    }
+}
+BENCHMARK_CAPTURE(follow, four_nodes, ElementDegree::linear, 0)->Iterations(1);
+BENCHMARK_CAPTURE(follow, ten_nodes_on_the_proxy, ElementDegree::quadratic, 700)->Iterations(1);
+
+}  // namespace
+}  // namespace elastolab::test
+
+int main(int argc, char** argv) { elastolab::test::run_benchmarks(argc, argv); }
