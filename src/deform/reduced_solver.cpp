@@ -3,6 +3,7 @@
 #include <cassert>
 
 #include "base/error.hpp"
+#include "deform/node_rows.hpp"
 
 namespace elastolab {
 
@@ -16,15 +17,13 @@ constexpr double kRankTolerance = 1e-10;
 }  // namespace
 
 void set_prescribed(const std::vector<int>& nodes, const Eigen::MatrixXd& prescribed, Eigen::MatrixXd& displacements) {
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-        displacements.middleRows<3>(3 * nodes[i]) = prescribed.middleRows<3>(3 * static_cast<Eigen::Index>(i));
+    put_rows(prescribed, nodes, displacements);
 }
 
 Eigen::MatrixXd border_columns(const std::vector<int>& nodes, const Eigen::MatrixXd& rigid) {
     const Eigen::Index n_border = rigid.cols();
     Eigen::MatrixXd columns(3 * std::ssize(nodes) + n_border, n_border);
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-        columns.middleRows(3 * static_cast<Eigen::Index>(i), 3) = rigid.middleRows(3 * nodes[i], 3);
+    columns.topRows(3 * std::ssize(nodes)) = rows_of(rigid, nodes);
     columns.bottomRows(n_border) = rigid.bottomRows(n_border);
     return columns;
 }
@@ -60,8 +59,8 @@ Eigen::MatrixXd ReducedSolver::scaled_matrix(Control& control) {
 
 ReducedSolver::ReducedSolver(ReducedSystem system, Control& control) : system_(std::move(system)) {
     if (system_.nodes.empty() && system_.responses->cols() == 0) {
-        // Loads on a free body: the border values are what they lack of balance, which is rounding or, with collocation,
-        // the error of the discretisation. J is rounding, too, and must not divide it.
+        // Loads on a free body: the border values are what they lack of balance, which is rounding or, with
+        // collocation, the error of the discretisation. J is rounding, too, and must not divide it.
         held_ = system_.rigid.cols() == 0;
         return;
     }

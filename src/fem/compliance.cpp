@@ -7,6 +7,7 @@
 #include "base/blas.hpp"
 #include "base/parallel.hpp"
 #include "deform/holds.hpp"
+#include "deform/node_rows.hpp"
 #include "elasticity/rigid_motion.hpp"
 #include "fem/forward_elimination.hpp"
 
@@ -58,7 +59,7 @@ Eigen::MatrixXd SurfaceCompliance::volume_response(const Eigen::MatrixXd& loads)
     Eigen::MatrixXd load = Eigen::MatrixXd::Zero(factor_.size(), loads.cols());
     load.topRows(loads.rows()) = loads;
     if (rigid_.cols() > 0 && loads.rows() == n) load.topRows(n).noalias() -= rigid_ * (rigid_.transpose() * loads);
-    for (int node : base_) load.middleRows<3>(3 * node).setZero();
+    clear_rows(base_, load);
     return factor_.solve(load);
 }
 
@@ -77,9 +78,7 @@ Eigen::MatrixXd SurfaceCompliance::apply(const Eigen::MatrixXd& loads, Control& 
 }
 
 Eigen::MatrixXd SurfaceCompliance::columns(std::span<const int> vertices, Control& control) const {
-    Eigen::MatrixXd unit_loads = Eigen::MatrixXd::Zero(3 * n_surface_, 3 * std::ssize(vertices));
-    for (std::size_t k = 0; k < vertices.size(); ++k)
-        unit_loads.block<3, 3>(3 * vertices[k], 3 * static_cast<Eigen::Index>(k)).setIdentity();
+    Eigen::MatrixXd unit_loads = unit_forces(vertices, n_surface_);
     const SerialBlas serial;
     parallel_blocks(static_cast<int>(unit_loads.cols()), block_of(unit_loads.cols()), control,
                     [&](int begin, int end) { apply_block(unit_loads.middleCols(begin, end - begin)); });
@@ -100,12 +99,7 @@ Eigen::MatrixXd SurfaceCompliance::block(std::span<const int> vertices, Control&
     D = -D;
     if (rigid_.cols() > 0) {
         // So far D holds K_g^-1 alone; what is wanted is P K_g^-1 P with P = I - R R^T.
-        Eigen::MatrixXd R(n, rigid_.cols()), G_R(n, rigid_.cols());
-        for (Eigen::Index k = 0; k < n; ++k) {
-            const Eigen::Index row = 3 * vertices[static_cast<std::size_t>(k / 3)] + k % 3;
-            R.row(k) = rigid_.row(row);
-            G_R.row(k) = rigid_response_.row(row);
-        }
+        const Eigen::MatrixXd R = rows_of(rigid_, vertices), G_R = rows_of(rigid_response_, vertices);
         const Eigen::MatrixXd cross = G_R * R.transpose();
         D += R * (rigid_.transpose() * rigid_response_) * R.transpose() - cross - cross.transpose();
     }

@@ -9,6 +9,7 @@
 
 #include "base/memory.hpp"
 #include "deform/holds.hpp"
+#include "deform/node_rows.hpp"
 #include "fem/constrained_nodes.hpp"
 #include "fem/constraints.hpp"
 #include "fem/load_vectors.hpp"
@@ -120,12 +121,8 @@ void improve(const ReferenceOperators::Product& K, const Eigen::VectorXd& f, con
 /// forces: of all nodes, the given ones among them.
 Reactions reactions_of(const Eigen::VectorXd& forces, const Eigen::VectorXd& given,
                        const ConstrainedFemNodes& constrained, std::size_t n_vertices) {
-    const std::vector<int>& nodes = constrained.prescribed.nodes;
-    Eigen::VectorXd at(3 * std::ssize(nodes));
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-        at.segment<3>(3 * static_cast<Eigen::Index>(i)) =
-            forces.segment<3>(3 * nodes[i]) - given.segment<3>(3 * nodes[i]);
-    return gathered_reactions(constrained.shares, static_cast<int>(n_vertices), at);
+    return gathered_reactions(constrained.shares, static_cast<int>(n_vertices),
+                              rows_of(forces - given, constrained.prescribed.nodes).col(0));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "bem/collocation/given_loads.hpp"
 #include "deform/load_columns.hpp"
+#include "deform/node_rows.hpp"
 #include "elasticity/rigid_motion.hpp"
 
 namespace elastolab {
@@ -153,10 +154,7 @@ Eigen::MatrixXd BemSystem::given_tractions(std::span<const UnitLoad> loads, Cont
 
 Eigen::MatrixXd BemSystem::double_layer_at(std::span<const int> nodes, Control& control) const {
     if (!full_) return double_layer(nodes_.subset(nodes), control);
-    Eigen::MatrixXd rows(3 * std::ssize(nodes), 3 * n_nodes());
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-        rows.middleRows<3>(3 * static_cast<Eigen::Index>(i)) = full_->H.middleRows<3>(3 * nodes[i]);
-    return rows;
+    return rows_of(full_->H, nodes);
 }
 
 const Eigen::MatrixXd& BemSystem::bordered_inverse() const {

@@ -93,9 +93,7 @@ HierarchicalSolver::HierarchicalSolver(std::shared_ptr<const HierarchicalSystem>
                                                       system_->surface_motions(), loose, energies, control);
 }
 
-void HierarchicalSolver::zero_constrained(Eigen::MatrixXd& rows) const {
-    for (const int position : positions_) rows.middleRows<3>(3 * position).setZero();
-}
+void HierarchicalSolver::zero_constrained(Eigen::MatrixXd& rows) const { clear_rows(positions_, rows); }
 
 /// K freed of the rigid motions of the body.
 Eigen::MatrixXd HierarchicalSolver::double_layer(Eigen::MatrixXd u) const {
@@ -128,8 +126,7 @@ Eigen::MatrixXd HierarchicalSolver::iterate(const Eigen::MatrixXd& prescribed, E
                                             Control& control) const {
     const double inner = kInnerOverTolerance * tolerance;
     Eigen::MatrixXd u = Eigen::MatrixXd::Zero(system_->size(), prescribed.cols());
-    for (std::size_t i = 0; i < positions_.size(); ++i)
-        u.middleRows<3>(3 * positions_[i]) = prescribed.middleRows<3>(3 * static_cast<Eigen::Index>(i));
+    put_rows(prescribed, positions_, u);
     const Eigen::MatrixXd factors = factors_of(prescribed);
     Eigen::MatrixXd right = -system_->hypersingular(u);
     if (layers_->size() > 0) right -= transposed_double_layer(tractions_of(u, factors, inner, control));
@@ -164,9 +161,7 @@ NodeSolution HierarchicalSolver::solve_watched(const Eigen::MatrixXd& prescribed
     const Eigen::MatrixXd u = displacements(prescribed, tolerance, control);
     NodeSolution solution;
     solution.displacements = to_item_order(*system_->tree(), u);
-    for (std::size_t i = 0; i < vertices_.size(); ++i)
-        solution.displacements.middleRows<3>(3 * vertices_[i]) =
-            prescribed.middleRows<3>(3 * static_cast<Eigen::Index>(i));
+    put_rows(prescribed, vertices_, solution.displacements);
     if (!want_loads) return solution;
     Eigen::MatrixXd f = system_->hypersingular(u), t(layers_->size(), u.cols());
     if (layers_->size() > 0) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "deform/node_rows.hpp"
+
 namespace elastolab {
 
 ClusterTree::ClusterTree(std::span<const Eigen::AlignedBox3d> boxes, int leaf_size)
@@ -58,18 +60,12 @@ std::vector<PositionRange> clusters_up_to(const ClusterTree& tree, int n) {
 }
 
 Eigen::MatrixXd to_tree_order(const ClusterTree& tree, const Eigen::MatrixXd& by_item) {
-    Eigen::MatrixXd by_position(by_item.rows(), by_item.cols());
-    for (int position = 0; position < tree.size(); ++position)
-        by_position.middleRows<3>(3 * position) =
-            by_item.middleRows<3>(3 * tree.order()[static_cast<std::size_t>(position)]);
-    return by_position;
+    return rows_of(by_item, tree.order());
 }
 
 Eigen::MatrixXd to_item_order(const ClusterTree& tree, const Eigen::MatrixXd& by_position) {
     Eigen::MatrixXd by_item(by_position.rows(), by_position.cols());
-    for (int position = 0; position < tree.size(); ++position)
-        by_item.middleRows<3>(3 * tree.order()[static_cast<std::size_t>(position)]) =
-            by_position.middleRows<3>(3 * position);
+    put_rows(by_position, tree.order(), by_item);
     return by_item;
 }
 
