@@ -55,11 +55,7 @@ Triangles midpoints_of(const Triangles& triangles, const QuadraticMesh& mesh) {
 }
 
 Eigen::MatrixXd load_vectors(const FemMesh& mesh, std::span<const UnitLoad> loads) {
-    const bool quadratic = mesh.degree() == ElementDegree::quadratic;
-    return Loaded{mesh.tets.vertices,
-                  quadratic ? Eigen::MatrixXi(rejoined(mesh.tets)) : Eigen::MatrixXi(mesh.tets.tetrahedra),
-                  mesh.surface, mesh.surface_midpoints}
-        .vectors(loads);
+    return Loaded{mesh.tets.vertices, mesh.elements(), mesh.surface, mesh.surface_midpoints}.vectors(loads);
 }
 
 Eigen::MatrixXd load_vectors(const QuadraticMesh& mesh, const FemMesh& linear, std::span<const UnitLoad> loads) {

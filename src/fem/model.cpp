@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "base/lapack.hpp"
 #include "deform/holds.hpp"
+#include "deform/node_rows.hpp"
 #include "elasticity/rigid_motion.hpp"
 #include "fem/condensation.hpp"
 #include "fem/constraints.hpp"
@@ -286,9 +287,9 @@ std::unique_ptr<ConstrainedSolid> FemModel::constrain_reduced(ConstrainedFemNode
         body, std::vector<int>(nodes.begin() + n_eliminated, nodes.end()), loads, control);
     // Displacements of all nodes of a solution, and the given nodal forces.
     const auto inside = [body, nodes, given = solver->given()](const NodeSolution& solution) {
-        Eigen::MatrixXd f = given * solution.factors, all = f;
-        for (std::size_t i = 0; i < nodes.size(); ++i)
-            all.middleRows<3>(3 * nodes[i]) += solution.loads.middleRows<3>(3 * static_cast<Eigen::Index>(i));
+        Eigen::MatrixXd f = given * solution.factors, all = Eigen::MatrixXd::Zero(f.rows(), f.cols());
+        put_rows(solution.loads, nodes, all);
+        all += f;
         return std::pair(body->volume_displacements(solution.displacements, all), std::move(f));
     };
     const auto residual = [body, nodes, inside](const NodeSolution& solution, Control&) {

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cassert>
-#include <Eigen/QR>
 
 #include "base/error.hpp"
 #include "deform/holds.hpp"
 #include "deform/load_columns.hpp"
-#include "elasticity/rigid_motion.hpp"
+#include "deform/node_rows.hpp"
 #include "fem/constraints.hpp"
+#include "fem/held_nodes.hpp"
 #include "fem/load_vectors.hpp"
 #include "fem/prices.hpp"
 
@@ -22,14 +22,7 @@ constexpr std::size_t kVerticesAtOnce = 128;
 
 ReducedSystem reduced_system(const FactorisedBody& body, const std::vector<int>& vertices,
                              std::span<const UnitLoad> loads, Control& control) {
-    const Eigen::MatrixXd& R = body.compliance().rigid();
-    ReducedSystem reduced;
-    reduced.responses = body.responses_of_set(vertices, loads, control);
-    reduced.rigid = Eigen::MatrixXd::Zero(R.rows() + R.cols(), R.cols());
-    reduced.rigid.topRows(R.rows()) = R;
-    reduced.nodes = vertices;
-    reduced.n_loads = 3 * std::ssize(vertices);
-    return reduced;
+    return bordered_system(body.responses_of_set(vertices, loads, control), body.compliance().rigid(), vertices);
 }
 
 SparseMatrix eliminated_held(const FemSystem& system, const std::vector<int>& vertices) {
@@ -43,22 +36,31 @@ bool keeps_columns(const FemSystem& system, std::ptrdiff_t n_vertices) {
     return 3.0 * static_cast<double>(n_vertices) * system.mesh->prices.solve <= kColumnsWorthKeeping;
 }
 
-FemMesh make_fem_mesh(TetMesh tets, const Triangles& surface, ElementDegree degree, Control& control) {
+Eigen::MatrixXi FemMesh::elements() const {
+    if (degree() == ElementDegree::quadratic) return rejoined(tets);
+    return tets.tetrahedra;
+}
+
+FemMesh elements_on(TetMesh tets, const Triangles& surface, ElementDegree degree) {
     FemMesh mesh;
     mesh.n_elements = tets.n_tetrahedra();
     mesh.surface = surface;
     if (degree == ElementDegree::quadratic) {
         QuadraticMesh quadratic(tets);
-        mesh.parts = assemble_stiffness_parts(quadratic, control);
         mesh.tets = quadratic.split();
         mesh.n_surface_nodes = quadratic.n_surface_nodes;
         mesh.surface_midpoints = midpoints_of(surface, quadratic);
         mesh.midpoints = {std::move(quadratic.triangles), std::move(quadratic.midpoints)};
     } else {
-        mesh.parts = assemble_stiffness_parts(tets, control);
         mesh.n_surface_nodes = tets.n_surface_vertices;
         mesh.tets = std::move(tets);
     }
+    return mesh;
+}
+
+FemMesh make_fem_mesh(TetMesh tets, const Triangles& surface, ElementDegree degree, Control& control) {
+    FemMesh mesh = elements_on(std::move(tets), surface, degree);
+    mesh.parts = assemble_stiffness_parts(mesh.tets.vertices, mesh.elements(), control);
     return mesh;
 }
 
@@ -102,25 +104,10 @@ Columns FactorisedBody::load_responses(std::span<const UnitLoad> loads, Control&
         [&](std::span<const UnitLoad> missing) { return compute_responses(missing); }, control);
 }
 
-Eigen::MatrixXd FactorisedBody::motions() const {
-    const Eigen::MatrixXd all = rigid_modes(system_->positions()), &R = compliance_.rigid();
-    return all * all.topRows(R.rows()).householderQr().solve(R);
-}
-
 Eigen::MatrixXd FactorisedBody::compute_responses(std::span<const UnitLoad> loads) const {
-    const Eigen::MatrixXd& R = compliance_.rigid();
-    const Eigen::Index n = 3 * system_->n_surface(), n_border = R.cols();
-    Eigen::MatrixXd f = load_vectors(*system_->mesh, loads), columns(n + n_border, f.cols());
-    if (n_border > 0) {
-        // What the load lacks of balance is taken by forces R c on the surface, as the bordered inverse has it.
-        const Eigen::MatrixXd c = motions().transpose() * f;
-        f.topRows(n).noalias() -= R * c;
-        columns.bottomRows(n_border) = c;
-    }
-    Eigen::MatrixXd u = compliance_.volume_response(f).topRows(n);
-    if (n_border > 0) u -= R * (R.transpose() * u).eval();
-    columns.topRows(n) = u;
-    return columns;
+    return border().responses(load_vectors(*system_->mesh, loads), [&](const Eigen::MatrixXd& f) {
+        return compliance_.volume_response(f).topRows(3 * system_->n_surface());
+    });
 }
 
 void FactorisedBody::add_blocks(std::span<const int> vertices, std::vector<Columns::Block>& blocks,
@@ -137,17 +124,13 @@ void FactorisedBody::add_blocks(std::span<const int> vertices, std::vector<Colum
 
 Eigen::MatrixXd FactorisedBody::volume_displacements(const Eigen::MatrixXd& surface,
                                                      const Eigen::MatrixXd& loads) const {
-    const Eigen::MatrixXd& R = compliance_.rigid();
+    const FreeBorder free = border();
     Eigen::MatrixXd balanced = loads;
-    if (R.cols() > 0 && loads.rows() > R.rows())
-        balanced.topRows(R.rows()).noalias() -= R * (motions().transpose() * loads).eval();
+    if (loads.rows() > surface.rows()) free.balance(balanced);
     Eigen::MatrixXd u = compliance_.volume_response(balanced);
-    if (R.cols() > 0) {
-        // The response is right up to a rigid motion, which the displacements of the surface determine.
-        const Eigen::MatrixXd modes = rigid_modes(system_->positions());
-        const Eigen::MatrixXd on_surface = modes.topRows(surface.rows());
-        u += modes * on_surface.householderQr().solve(surface - u.topRows(surface.rows()));
-    }
+    // The response is right up to a rigid motion, which the displacements of the surface determine.
+    u.topRows(surface.rows()) -= surface;
+    free.remove_motion(u);
     u.topRows(surface.rows()) = surface;
     return u;
 }
@@ -225,40 +208,23 @@ SparseDirectSolver::SparseDirectSolver(std::shared_ptr<const FemSystem> system, 
 }
 
 NodeSolution SparseDirectSolver::solve(const Eigen::MatrixXd& prescribed, bool want_loads) const {
-    NodeSolution solution;
-    const Eigen::MatrixXd given = given_ * prescribed.bottomRows(given_.cols());
-    solution.displacements = Eigen::MatrixXd::Zero(system_->K.rows(), prescribed.cols());
-    set_prescribed(vertices_, prescribed, solution.displacements);
-    Eigen::MatrixXd right = given - system_->K * solution.displacements;
-    for (const int v : vertices_) right.middleRows<3>(3 * v).setZero();
-    solution.displacements += factor_.solve(right);
-    if (want_loads) solution.loads = support_forces(system_->K, solution.displacements, vertices_, given);
-    return solution;
+    const HeldStiffness K{[&](const Eigen::MatrixXd& u) -> Eigen::MatrixXd { return system_->K * u; },
+                          [&](const Eigen::MatrixXd& f) { return factor_.solve(f); }};
+    return solve_held(K, vertices_, given_, prescribed, want_loads);
 }
 
 double stiffness_residual(const SparseMatrix& K, const Eigen::VectorXd& u, const std::vector<int>& vertices,
                           const Eigen::VectorXd& forces, const Eigen::VectorXd& given) {
-    Eigen::MatrixXd f = Eigen::MatrixXd::Zero(u.size(), 1);
-    set_prescribed(vertices, forces, f);
-    const Eigen::VectorXd off = K * u - f.col(0) - given;
-    const Eigen::VectorXd size = K.cwiseAbs() * u.cwiseAbs() + f.cwiseAbs() + given.cwiseAbs();
-    return size.norm() > 0.0 ? off.norm() / size.norm() : 0.0;
+    return force_residual(K * u, K.cwiseAbs() * u.cwiseAbs(), vertices, forces, given);
 }
 
 Eigen::MatrixXd support_forces(const SparseMatrix& K, const Eigen::MatrixXd& u, const std::vector<int>& vertices,
                                const Eigen::MatrixXd& given) {
-    Eigen::MatrixXd forces = nodal_forces(K, u, vertices);
-    for (std::size_t i = 0; i < vertices.size(); ++i)
-        forces.middleRows<3>(3 * static_cast<Eigen::Index>(i)) -= given.middleRows<3>(3 * vertices[i]);
-    return forces;
+    return rows_of(K * u - given, vertices);
 }
 
 Eigen::MatrixXd nodal_forces(const SparseMatrix& K, const Eigen::MatrixXd& u, const std::vector<int>& vertices) {
-    const Eigen::MatrixXd f = K * u;
-    Eigen::MatrixXd at(3 * std::ssize(vertices), u.cols());
-    for (std::size_t i = 0; i < vertices.size(); ++i)
-        at.middleRows<3>(3 * static_cast<Eigen::Index>(i)) = f.middleRows<3>(3 * vertices[i]);
-    return at;
+    return rows_of(K * u, vertices);
 }
 
 }  // namespace elastolab

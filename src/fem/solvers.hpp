@@ -14,6 +14,7 @@
 #include "fem/assembly.hpp"
 #include "fem/compliance.hpp"
 #include "fem/constrained_nodes.hpp"
+#include "fem/free_border.hpp"
 #include "fem/prices.hpp"
 #include "fem/sparse_cholesky.hpp"
 
@@ -35,10 +36,14 @@ struct FemMesh {
     ElementDegree degree() const {
         return midpoints.midpoints.cols() > 0 ? ElementDegree::quadratic : ElementDegree::linear;
     }
+    /// Nodes of the elements, 4 or 10 a column: corners, then midpoints by kTetEdges.
+    Eigen::MatrixXi elements() const;
 };
 
-/// Takes the tetrahedra as elements of a degree and integrates them; `analysis` and `prices` are left to be made.
-/// surface: its triangles. Throws as assemble_stiffness_parts does.
+/// Takes the tetrahedra as elements of a degree; `parts`, `analysis` and `prices` are left to be made. surface: its
+/// triangles.
+FemMesh elements_on(TetMesh tets, const Triangles& surface, ElementDegree degree);
+/// The same, and integrates them. Throws as assemble_stiffness_parts does.
 FemMesh make_fem_mesh(TetMesh tets, const Triangles& surface, ElementDegree degree, Control& control);
 
 /// K of all nodes for unit Young's modulus.
@@ -81,8 +86,8 @@ public:
 private:
     void add_blocks(std::span<const int> vertices, std::vector<Columns::Block>& blocks, Control& control) const;
     Eigen::MatrixXd compute_responses(std::span<const UnitLoad> loads) const;
-    /// Rigid motions of all nodes that are the compliance's R on the surface; without a base.
-    Eigen::MatrixXd motions() const;
+    /// Made when it is needed: its motions of all nodes are as large as six columns.
+    FreeBorder border() const { return {system_->positions(), compliance_.rigid()}; }
 
     std::shared_ptr<const FemSystem> system_;
     std::vector<int> base_;
