@@ -12,6 +12,7 @@
 #include <fstream>
 
 #include "base/temporary_file.hpp"
+#include "cli/complaint.hpp"
 
 namespace elastolab {
 
@@ -64,15 +65,18 @@ void kill_children() {
 [[noreturn]] void end_program(const std::string& last_words) {
     kill_children();
     TemporaryFile::remove_own();
-    const std::string text = "elastolab: " + last_words + "\n";
-    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
+    if (!last_words.empty()) {
+        const std::string text = program_name() + ": " + last_words + "\n";
+        [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
+    }
     ::_exit(interrupt_exit_code());
 }
 
 }  // namespace
 
-InterruptGuard::InterruptGuard(Control& control, std::string last_words, std::function<void()> wake)
-    : last_words_(std::move(last_words)), wake_(std::move(wake)) {
+InterruptGuard::InterruptGuard(Control& control, std::string last_words, std::function<void()> wake,
+                               double grace_seconds)
+    : last_words_(std::move(last_words)), wake_(std::move(wake)), grace_seconds_(grace_seconds) {
     assert(watched == nullptr);
     sem_init(&bell, 0, 0);
     watcher_ = std::thread([this] { watch(); });
@@ -92,7 +96,7 @@ void InterruptGuard::watch() {
     wait_for_bell();
     if (over_) return;
     if (wake_) wake_();
-    while (is_bell_posted_within(kInterruptGraceSeconds))
+    while (is_bell_posted_within(grace_seconds_))
         if (over_) return;  // else another signal: the two have a handler each
     end_program(last_words_);
 }

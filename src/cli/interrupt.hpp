@@ -13,14 +13,14 @@ namespace elastolab {
 constexpr double kInterruptGraceSeconds = 1.0;
 
 /// While it lives, Ctrl-C (SIGINT) and SIGTERM cancel `control` instead of ending the program. If the guard still lives
-/// kInterruptGraceSeconds later, the program is ended from here: helper programs are killed, temporary files removed,
-/// `last_words` printed, and the exit code is interrupt_exit_code(). A second signal ends the program at once. `wake`,
-/// if given, is called on another thread after the cancel: for a computation that sleeps.
-/// At most one guard at a time.
+/// after the grace, the program is ended from here: helper programs are killed, temporary files removed, `last_words`
+/// printed as a complaint unless they are empty, and the exit code is interrupt_exit_code(). A second signal ends the
+/// program at once. `wake`, if given, is called on another thread after the cancel: for a computation that sleeps. At
+/// most one guard at a time.
 class InterruptGuard {
 public:
     explicit InterruptGuard(Control& control, std::string last_words = "Interrupted; no output was written.",
-                            std::function<void()> wake = {});
+                            std::function<void()> wake = {}, double grace_seconds = kInterruptGraceSeconds);
     ~InterruptGuard();
     InterruptGuard(const InterruptGuard&) = delete;
     InterruptGuard& operator=(const InterruptGuard&) = delete;
@@ -30,6 +30,7 @@ private:
 
     std::string last_words_;
     std::function<void()> wake_;
+    double grace_seconds_;
     std::atomic<bool> over_{false};
     std::thread watcher_;
 };

@@ -8,27 +8,15 @@
 
 #include "base/blas.hpp"
 #include "base/blas_memory.hpp"
-#include "base/control.hpp"
 #include "base/error.hpp"
 #include "base/stack.hpp"
-#include "base/text.hpp"
 #include "base/version.hpp"
 #include "cli/command.hpp"
-#include "cli/interrupt.hpp"
-#include "scene/user_text.hpp"
+#include "cli/complaint.hpp"
 
 namespace {
 
 using namespace elastolab;
-
-constexpr int kSuccess = 0;
-constexpr int kFailure = 1;
-constexpr int kBadUsage = 2;
-
-int complain(const std::string& text, int exit_code) {
-    std::cerr << "elastolab: " << one_line(text) << std::endl;
-    return exit_code;
-}
 
 int run(int argc, char** argv) {
     CLI::App program("Elastolab: elastic bodies by finite and boundary elements.", "elastolab");
@@ -62,18 +50,8 @@ int main(int argc, char** argv) {
     elastolab::start_blas_within_limits(argv);
     elastolab::prepare_parallel_libraries(argv);
     std::signal(SIGXFSZ, SIG_IGN);  // at the file size limit a write fails; the program is not killed
-    try {
+    return elastolab::exit_code_of([&] {
         elastolab::reserve_blas_buffers();
-        const int code = run(argc, argv);
-        std::cout.flush();
-        return std::cout ? code : complain("Standard output cannot be written. Is the disk full?", kFailure);
-    } catch (const elastolab::UsageError& error) {
-        return complain(error.what(), kBadUsage);
-    } catch (const elastolab::Interrupted& interrupted) {
-        return complain(interrupted.what(), interrupt_exit_code());
-    } catch (const elastolab::Cancelled&) {
-        return complain("Interrupted; no output was written.", interrupt_exit_code());
-    } catch (const std::exception& error) {
-        return complain(user_text(error), kFailure);
-    }
+        return run(argc, argv);
+    });
 }
