@@ -1,10 +1,8 @@
-#include <petscksp.h>
-
 #include <algorithm>
+#include <memory>
 
 #include "base/memory.hpp"
 #include "deform/iteration.hpp"
-#include "petsc/check.hpp"
 #include "petsc/distributed_system.hpp"
 
 namespace elastolab {
@@ -27,6 +25,13 @@ PetscErrorCode test_convergence(KSP ksp, PetscInt iteration, PetscReal norm, KSP
     return code;
 }
 
+/// What KSPConvergedDefault counts with.
+void* default_test() {
+    void* context = nullptr;
+    check(KSPConvergedDefaultCreate(&context));
+    return context;
+}
+
 double free_memory_of_a_process() {
     const Session& session = Session::current();
     return session.least(static_cast<double>(available_memory_bytes()) / session.n_on_this_machine());
@@ -35,26 +40,26 @@ double free_memory_of_a_process() {
 }  // namespace
 
 void DistributedSystem::prepare(Engine wanted) {
-    check(MatSetOption(A_, MAT_SYMMETRIC, PETSC_TRUE));
-    check(MatSetOption(A_, MAT_SPD, PETSC_TRUE));
-    check(MatNorm(A_, NORM_INFINITY, &facts_.norm));  // symmetric: the 1-norm too
+    check(MatSetOption(A_.get(), MAT_SYMMETRIC, PETSC_TRUE));
+    check(MatSetOption(A_.get(), MAT_SPD, PETSC_TRUE));
+    check(MatNorm(A_.get(), NORM_INFINITY, &facts_.norm));  // symmetric: the 1-norm too
     if (wanted == Engine::gamg || !prepare_mumps(wanted == Engine::mumps)) prepare_gamg();
 }
 
 /// False where the factor would not fit, by MUMPS's own plan or when it is made.
 bool DistributedSystem::prepare_mumps(bool insist) {
-    check(MatGetFactor(A_, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, &factor_));
-    check(MatMumpsSetIcntl(factor_, 14, kBeyondPlan));
+    factor_ = made<MatHandle>(MatGetFactor, A_.get(), MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY);
+    check(MatMumpsSetIcntl(factor_.get(), 14, kBeyondPlan));
     MatFactorInfo info;
     check(MatFactorInfoInitialize(&info));
-    check(MatCholeskyFactorSymbolic(factor_, A_, nullptr, &info));
+    check(MatCholeskyFactorSymbolic(factor_.get(), A_.get(), nullptr, &info));
     PetscInt largest = 0, sum = 0;
-    check(MatMumpsGetInfog(factor_, 16, &largest));
-    check(MatMumpsGetInfog(factor_, 17, &sum));
+    check(MatMumpsGetInfog(factor_.get(), 16, &largest));
+    check(MatMumpsGetInfog(factor_.get(), 17, &sum));
     MatFactorError failure = MAT_FACTOR_NOERROR;
     if (insist || kMegabyte * largest < kForFactor * free_memory_of_a_process()) {
-        check(MatCholeskyFactorNumeric(factor_, A_, &info));
-        check(MatFactorGetError(factor_, &failure));
+        check(MatCholeskyFactorNumeric(factor_.get(), A_.get(), &info));
+        check(MatFactorGetError(factor_.get(), &failure));
         if (failure == MAT_FACTOR_NOERROR) {
             facts_.engine = Engine::mumps;
             facts_.factor_bytes = kMegabyte * sum;
@@ -65,25 +70,25 @@ bool DistributedSystem::prepare_mumps(bool insist) {
                 "stiffness matrix: MUMPS found no factor, mostly for lack of memory. Take more processes or machines, "
                 "or --engine gamg.");
     }
-    check(MatDestroy(&factor_));
+    factor_.reset();
     return false;
 }
 
 void DistributedSystem::prepare_gamg() {
-    attach_rigid_modes(A_);
-    check(KSPCreate(PETSC_COMM_WORLD, &ksp_));
-    check(KSPSetOperators(ksp_, A_, A_));
-    check(KSPSetType(ksp_, KSPCG));
+    attach_rigid_modes(A_.get());
+    ksp_ = made<KspHandle>(KSPCreate, PETSC_COMM_WORLD);
+    check(KSPSetOperators(ksp_.get(), A_.get(), A_.get()));
+    check(KSPSetType(ksp_.get(), KSPCG));
     PC pc = nullptr;
-    check(KSPGetPC(ksp_, &pc));
+    check(KSPGetPC(ksp_.get(), &pc));
     check(PCSetType(pc, PCGAMG));
     check(PCGAMGSetType(pc, PCGAMGAGG));
     check(PCGAMGSetNSmooths(pc, 1));
-    check(KSPSetFromOptions(ksp_));
-    void* context = nullptr;
-    check(KSPConvergedDefaultCreate(&context));
-    check(KSPSetConvergenceTest(ksp_, test_convergence, context, KSPConvergedDefaultDestroy));
-    check(KSPSetUp(ksp_));
+    check(KSPSetFromOptions(ksp_.get()));
+    std::unique_ptr<void, PetscErrorCode (*)(void*)> context(default_test(), KSPConvergedDefaultDestroy);
+    check(KSPSetConvergenceTest(ksp_.get(), test_convergence, context.get(), KSPConvergedDefaultDestroy));
+    static_cast<void>(context.release());  // to the solver
+    check(KSPSetUp(ksp_.get()));
     PetscInt levels = 0;
     check(PCMGGetLevels(pc, &levels));
     facts_.engine = Engine::gamg;
@@ -92,33 +97,31 @@ void DistributedSystem::prepare_gamg() {
 
 void DistributedSystem::solve(Vec b, Vec x, double tolerance) {
     if (facts_.engine == Engine::mumps) {
-        check(MatSolve(factor_, b, x));
+        check(MatSolve(factor_.get(), b, x));
         return;
     }
-    check(KSPSetTolerances(ksp_, tolerance, 1e-300, PETSC_DEFAULT, kMostIterations));
-    check(KSPSolve(ksp_, b, x));
+    check(KSPSetTolerances(ksp_.get(), tolerance, 1e-300, PETSC_DEFAULT, kMostIterations));
+    check(KSPSolve(ksp_.get(), b, x));
     KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
-    check(KSPGetConvergedReason(ksp_, &reason));
+    check(KSPGetConvergedReason(ksp_.get(), &reason));
     PetscInt iterations = 0;
-    check(KSPGetIterationNumber(ksp_, &iterations));
+    check(KSPGetIterationNumber(ksp_.get(), &iterations));
     facts_.iterations = std::max(facts_.iterations, static_cast<int>(iterations));
     if (Session::current().cancelled()) throw Cancelled{};
     if (reason > 0) return;
     PetscReal norm = 0.0, size = 0.0;
-    check(KSPGetResidualNorm(ksp_, &norm));
+    check(KSPGetResidualNorm(ksp_.get(), &norm));
     check(VecNorm(b, NORM_2, &size));
     give_up_iteration("stiffness matrix", size > 0.0 ? norm / size : norm);
 }
 
 void DistributedSystem::solve_columns(const Parcel& parcel, const Order& order) {
-    Vec b = make_vector(), x = make_vector();
+    const VecHandle b = make_vector(), x = make_vector();
     for (Eigen::Index column = 0; column < order.n; ++column) {
-        scatter(parcel.in != nullptr ? parcel.in->col(column).data() : nullptr, b);
-        solve(b, x, order.tolerance);
-        gather(x, parcel.out != nullptr ? parcel.out->col(column).data() : nullptr);
+        scatter(parcel.in != nullptr ? parcel.in->col(column).data() : nullptr, b.get());
+        solve(b.get(), x.get(), order.tolerance);
+        gather(x.get(), parcel.out != nullptr ? parcel.out->col(column).data() : nullptr);
     }
-    check(VecDestroy(&b));
-    check(VecDestroy(&x));
 }
 
 }  // namespace elastolab

@@ -1,6 +1,7 @@
 #include "petsc/distributed_system.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "base/error.hpp"
@@ -22,115 +23,110 @@ SparseMatrix stiffness_of(const Share& share) {
     return std::move(parts.lambda);
 }
 
-/// Where one process has no memory for its part, all fail.
-SparseMatrix own_stiffness(const Share& share) {
+/// The rows of a process as PETSc takes them: its own ones of K, whose columns have their numbers among all.
+struct OwnRows {
     SparseMatrix K;
-    std::string failure;
-    try {
-        if (share.n_own > 0) K = stiffness_of(share);
-    } catch (const std::exception& error) {
-        failure = error.what();
+    int own = 0;          ///< place of its first node in the share
+    int first_entry = 0;  ///< in K
+    std::vector<PetscInt> offsets;
+};
+
+/// K is symmetric, so its columns are its rows; those of the process's own nodes follow each other.
+OwnRows own_rows(const Share& share) {
+    OwnRows rows;
+    if (share.n_own > 0) rows.K = stiffness_of(share);
+    rows.own =
+        static_cast<int>(std::lower_bound(share.nodes.begin(), share.nodes.end(), share.first) - share.nodes.begin());
+    rows.offsets.assign(3 * static_cast<std::size_t>(share.n_own) + 1, 0);
+    if (share.n_own == 0) return rows;
+    const int* begins = rows.K.outerIndexPtr() + 3 * rows.own;
+    rows.first_entry = begins[0];
+    for (int row = 0; row < 3 * share.n_own; ++row)
+        rows.offsets[static_cast<std::size_t>(row) + 1] = begins[row + 1] - rows.first_entry;
+    for (int k = rows.first_entry; k < rows.first_entry + rows.offsets.back(); ++k) {
+        int& column = rows.K.innerIndexPtr()[k];
+        column = 3 * share.nodes[static_cast<std::size_t>(column / 3)] + column % 3;
     }
-    failure = Session::current().agree(failure);
-    if (!failure.empty()) throw SolveError(failure);
-    return K;
+    return rows;
 }
 
 }  // namespace
 
-DistributedSystem::DistributedSystem(Share share) : n_all_(share.n_all), first_(share.first), n_own_(share.n_own) {
-    int begin = 0;
-    for (const int count : share.own_counts) {
-        counts_.push_back(3 * count);
-        begins_.push_back(begin);
-        begin += 3 * count;
-    }
-    assemble(share);
-}
-
-DistributedSystem::~DistributedSystem() {
-    forget_solver();
-    VecDestroy(&coordinates_);
-    MatDestroy(&K_);
-}
-
 void DistributedSystem::forget_solver() {
-    KSPDestroy(&ksp_);
-    MatDestroy(&factor_);
-    MatDestroy(&A_);
+    ksp_.reset();
+    factor_.reset();
+    A_.reset();
     facts_ = {};
 }
 
-/// K is symmetric, so its columns are its rows; those of the process's own nodes follow each other.
-void DistributedSystem::assemble(const Share& share) {
-    SparseMatrix K = own_stiffness(share);
-    const auto own =
-        static_cast<int>(std::lower_bound(share.nodes.begin(), share.nodes.end(), first_) - share.nodes.begin());
-    const int rows = 3 * n_own_, first_entry = rows > 0 ? K.outerIndexPtr()[3 * own] : 0;
-    std::vector<PetscInt> offsets(static_cast<std::size_t>(rows) + 1, 0);
-    for (int row = 0; row < rows; ++row)
-        offsets[static_cast<std::size_t>(row) + 1] = K.outerIndexPtr()[3 * own + row + 1] - first_entry;
-    for (int k = first_entry; k < first_entry + offsets.back(); ++k) {
-        int& column = K.innerIndexPtr()[k];
-        column = 3 * share.nodes[static_cast<std::size_t>(column / 3)] + column % 3;
-    }
-    check(MatCreate(PETSC_COMM_WORLD, &K_));
-    check(MatSetSizes(K_, rows, rows, 3 * n_all_, 3 * n_all_));
-    check(MatSetType(K_, MATAIJ));
-    check(MatSetBlockSize(K_, 3));
-    const PetscInt* columns = rows > 0 ? K.innerIndexPtr() + first_entry : nullptr;
-    const double* values = rows > 0 ? K.valuePtr() + first_entry : nullptr;
-    check(MatSeqAIJSetPreallocationCSR(K_, offsets.data(), columns, values));
-    check(MatMPIAIJSetPreallocationCSR(K_, offsets.data(), columns, values));
-    check(MatSetOption(K_, MAT_SYMMETRIC, PETSC_TRUE));
-    K = SparseMatrix();
+void DistributedSystem::assemble(Share share) {
+    n_all_ = share.n_all;
+    first_ = share.first;
+    n_own_ = share.n_own;
+    std::optional<OwnRows> rows;  // even an empty matrix of Eigen allocates
+    Session::current().all_or_none([&] {
+        for (const int count : share.own_counts) {
+            begins_.push_back(begins_.empty() ? 0 : begins_.back() + counts_.back());
+            counts_.push_back(3 * count);
+        }
+        rows = own_rows(share);
+    });
+    K_ = made<MatHandle>(MatCreate, PETSC_COMM_WORLD);
+    check(MatSetSizes(K_.get(), 3 * n_own_, 3 * n_own_, 3 * n_all_, 3 * n_all_));
+    check(MatSetType(K_.get(), MATAIJ));
+    check(MatSetBlockSize(K_.get(), 3));
+    const PetscInt* columns = n_own_ > 0 ? rows->K.innerIndexPtr() + rows->first_entry : nullptr;
+    const double* values = n_own_ > 0 ? rows->K.valuePtr() + rows->first_entry : nullptr;
+    check(MatSeqAIJSetPreallocationCSR(K_.get(), rows->offsets.data(), columns, values));
+    check(MatMPIAIJSetPreallocationCSR(K_.get(), rows->offsets.data(), columns, values));
+    check(MatSetOption(K_.get(), MAT_SYMMETRIC, PETSC_TRUE));
+    const int own = rows->own;
+    rows.reset();
 
     coordinates_ = make_vector();
     double* x = nullptr;
-    check(VecGetArray(coordinates_, &x));
-    for (int i = 0; i < n_own_; ++i) Eigen::Map<Eigen::Vector3d>(x + 3 * i) = share.positions.col(own + i);
-    check(VecRestoreArray(coordinates_, &x));
+    check(VecGetArray(coordinates_.get(), &x));
+    Eigen::Map<Eigen::Matrix3Xd>(x, 3, n_own_) = share.positions.middleCols(own, n_own_);
+    check(VecRestoreArray(coordinates_.get(), &x));
 }
 
 void DistributedSystem::attach_rigid_modes(Mat A) const {
-    MatNullSpace modes = nullptr;
-    check(MatNullSpaceCreateRigidBody(coordinates_, &modes));
-    check(MatSetNearNullSpace(A, modes));
-    check(MatNullSpaceDestroy(&modes));
+    const auto modes = made<NullSpaceHandle>(MatNullSpaceCreateRigidBody, coordinates_.get());
+    check(MatSetNearNullSpace(A, modes.get()));
 }
 
-Vec DistributedSystem::make_vector() const {
-    Vec v = nullptr;
-    check(VecCreateMPI(PETSC_COMM_WORLD, 3 * n_own_, 3 * n_all_, &v));
-    check(VecSetBlockSize(v, 3));
+VecHandle DistributedSystem::make_vector() const {
+    auto v = made<VecHandle>(VecCreateMPI, PETSC_COMM_WORLD, 3 * n_own_, 3 * n_all_);
+    check(VecSetBlockSize(v.get(), 3));
     return v;
 }
 
 void DistributedSystem::eliminate(const std::vector<int>& nodes) {
     forget_solver();
-    check(MatDuplicate(K_, MAT_COPY_VALUES, &A_));
     std::vector<PetscInt> rows;
-    for (const int node : nodes)
-        for (int axis = 0; axis < 3 && node >= first_ && node < first_ + n_own_; ++axis)
-            rows.push_back(3 * node + axis);
-    Vec diagonal = make_vector();
-    check(MatGetDiagonal(K_, diagonal));
-    check(MatZeroRowsColumns(A_, static_cast<PetscInt>(rows.size()), rows.data(), 1.0, nullptr, nullptr));
-    check(MatDiagonalSet(A_, diagonal, INSERT_VALUES));
-    check(VecDestroy(&diagonal));
+    Session::current().all_or_none([&] {
+        for (const int node : nodes)
+            if (node >= first_ && node < first_ + n_own_)
+                rows.insert(rows.end(), {3 * node, 3 * node + 1, 3 * node + 2});
+    });
+    A_ = made<MatHandle>(MatDuplicate, K_.get(), MAT_COPY_VALUES);
+    const VecHandle diagonal = make_vector();
+    check(MatGetDiagonal(K_.get(), diagonal.get()));
+    check(MatZeroRowsColumns(A_.get(), static_cast<PetscInt>(rows.size()), rows.data(), 1.0, nullptr, nullptr));
+    check(MatDiagonalSet(A_.get(), diagonal.get(), INSERT_VALUES));
 }
 
 void DistributedSystem::ground(const std::vector<int>& nodes, const Eigen::Matrix3Xd& springs) {
     forget_solver();
-    check(MatDuplicate(K_, MAT_COPY_VALUES, &A_));
+    A_ = made<MatHandle>(MatDuplicate, K_.get(), MAT_COPY_VALUES);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         if (nodes[i] < first_ || nodes[i] >= first_ + n_own_) continue;
         const Eigen::Matrix3d spring = springs.middleCols<3>(3 * static_cast<Eigen::Index>(i));
         const PetscInt rows[3] = {3 * nodes[i], 3 * nodes[i] + 1, 3 * nodes[i] + 2};
-        check(MatSetValues(A_, 3, rows, 3, rows, spring.data(), ADD_VALUES));  // symmetric
+        check(MatSetValues(A_.get(), 3, rows, 3, rows, spring.data(), ADD_VALUES));  // symmetric
     }
-    check(MatAssemblyBegin(A_, MAT_FINAL_ASSEMBLY));
-    check(MatAssemblyEnd(A_, MAT_FINAL_ASSEMBLY));
+    check(MatAssemblyBegin(A_.get(), MAT_FINAL_ASSEMBLY));
+    check(MatAssemblyEnd(A_.get(), MAT_FINAL_ASSEMBLY));
 }
 
 }  // namespace elastolab

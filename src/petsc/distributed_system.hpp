@@ -1,12 +1,11 @@
 #pragma once
 
-#include <petscksp.h>
-
 #include <cstdint>
 #include <Eigen/Core>
 #include <string>
 #include <vector>
 
+#include "petsc/handles.hpp"
 #include "petsc/session.hpp"
 #include "petsc/share.hpp"
 
@@ -33,11 +32,8 @@ struct SolverFacts {
 /// constraints. The same object on all processes, whose calls are collective.
 class DistributedSystem {
 public:
-    explicit DistributedSystem(Share share);
-    ~DistributedSystem();
-    DistributedSystem(const DistributedSystem&) = delete;
-    DistributedSystem& operator=(const DistributedSystem&) = delete;
-
+    /// K of what is distributed like this: first of all, and once.
+    void assemble(Share share);
     /// Does what the order says; the parcel is that of the first process.
     void follow(const Order& order, const Parcel& parcel);
 
@@ -51,13 +47,12 @@ public:
     /// x with A x = b to a relative preconditioned residual, for the rows of each process; false: did not converge.
     void solve(Vec b, Vec x, double tolerance);
     /// A vector of this distribution, zero.
-    Vec make_vector() const;
+    VecHandle make_vector() const;
 
     const SolverFacts& facts() const { return facts_; }
     int n_own() const { return n_own_; }
 
 private:
-    void assemble(const Share& share);
     void attach_rigid_modes(Mat A) const;
     bool prepare_mumps(bool insist);
     void prepare_gamg();
@@ -66,20 +61,16 @@ private:
     void solve_columns(const Parcel& parcel, const Order& order);
     void gather_diagonal(const Parcel& parcel);
     void scatter(const double* all, Vec v) const;
+    void gather(const double* own, double* all) const;
     void gather(Vec v, double* all) const;
     std::vector<int> shared_nodes(const Parcel& parcel, std::int64_t n) const;
 
     int n_all_ = 0, first_ = 0, n_own_ = 0;
     std::vector<int> counts_, begins_;  ///< unknowns of every process, on the first one
-    Mat K_ = nullptr, A_ = nullptr, factor_ = nullptr;
-    KSP ksp_ = nullptr;
-    Vec coordinates_ = nullptr;
+    VecHandle coordinates_;
+    MatHandle K_, A_, factor_;
+    KspHandle ksp_;
     SolverFacts facts_;
 };
-
-/// On all processes but the first: the share that the first one sends.
-Share receive_share();
-/// On the first: sends it.
-void send_share(const Share& share, int process);
 
 }  // namespace elastolab

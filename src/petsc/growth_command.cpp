@@ -1,17 +1,15 @@
 #include "petsc/growth_command.hpp"
 
-#include <petscksp.h>
-
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
+#include <numeric>
 #include <string>
 #include <utility>
 
 #include "base/error.hpp"
 #include "base/memory.hpp"
 #include "base/timer.hpp"
-#include "petsc/check.hpp"
 #include "petsc/distributed_system.hpp"
 #include "petsc/session.hpp"
 
@@ -44,28 +42,31 @@ void run_growth(const GrowthOptions& options) {
         throw UsageError("--cells: more than 2^31 unknowns by elements of this degree. Choose at most " +
                          std::to_string(quadratic ? kMostCells / 2 : kMostCells) + ".");
     const Stopwatch assembling;
-    Share share = share_of_grid(session.process(), session.n_processes(), options.cells,
-                                quadratic ? ElementDegree::quadratic : ElementDegree::linear, options.poisson_ratio);
+    Share share;
+    std::vector<int> bottom;
+    session.all_or_none([&] {
+        share = share_of_grid(session.process(), session.n_processes(), options.cells,
+                              quadratic ? ElementDegree::quadratic : ElementDegree::linear, options.poisson_ratio);
+        bottom.resize(static_cast<std::size_t>(n_layer));
+        std::iota(bottom.begin(), bottom.end(), 0);
+    });
     const int first = share.first, n_all = share.n_all;
-    DistributedSystem system(std::move(share));
+    DistributedSystem system;
+    system.assemble(std::move(share));
     const double assembled = session.largest(assembling.seconds());
 
     const Stopwatch preparing;
-    std::vector<int> bottom(static_cast<std::size_t>(n_layer));
-    for (int i = 0; i < n_layer; ++i) bottom[static_cast<std::size_t>(i)] = i;
     system.eliminate(bottom);
     system.prepare(session.engine);
     const double prepared = session.largest(preparing.seconds());
 
-    Vec b = system.make_vector(), x = system.make_vector();
-    pull_top(system, first, n_all, n_layer, b);
+    const VecHandle b = system.make_vector(), x = system.make_vector();
+    pull_top(system, first, n_all, n_layer, b.get());
     const Stopwatch solving;
-    system.solve(b, x, options.tolerance);
+    system.solve(b.get(), x.get(), options.tolerance);
     const double solved = session.largest(solving.seconds());
     double work = 0.0;
-    check(VecDot(b, x, &work));  // the displacement of the top, on average
-    check(VecDestroy(&b));
-    check(VecDestroy(&x));
+    check(VecDot(b.get(), x.get(), &work));  // the displacement of the top, on average
     const double memory = session.sum(static_cast<double>(peak_memory_bytes()));
     if (!session.first()) return;
     if (options.heading)

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <CLI/CLI.hpp>
-#include <csignal>
-#include <iostream>
+#include <map>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -13,6 +13,7 @@
 #include "base/text.hpp"
 #include "base/version.hpp"
 #include "cli/command.hpp"
+#include "cli/complaint.hpp"
 #include "cli/interrupt.hpp"
 #include "petsc/growth_command.hpp"
 #include "petsc/method.hpp"
@@ -25,12 +26,8 @@ namespace {
 
 using namespace elastolab;
 
-constexpr int kSuccess = 0, kFailure = 1, kBadUsage = 2;
-
-int complain(const std::string& text, int exit_code) {
-    std::cerr << "elastolab-petsc: " << one_line(text) << std::endl;
-    return exit_code;
-}
+/// That a process other than the first has to be sent home after its Ctrl-C [s]; more than the first has itself.
+constexpr double kServingGraceSeconds = 3.0;
 
 MethodKind distributed_method(MethodKind kind) {
     if (const MethodKind other = distributed(kind)) return other;
@@ -90,23 +87,18 @@ int run(int argc, char** argv) {
     return kSuccess;
 }
 
-int run_and_say(int argc, char** argv) {
-    try {
-        const int code = run(argc, argv);
-        std::cout.flush();
-        return std::cout ? code : complain("Standard output cannot be written. Is the disk full?", kFailure);
-    } catch (const UsageError& error) {
-        return complain(error.what(), kBadUsage);
-    } catch (const Cancelled&) {
-        return complain("Interrupted; no output was written.", interrupt_exit_code());
-    } catch (const std::exception& error) {
-        return Session::current().first() ? complain(user_text(error), kFailure) : kFailure;
-    }
+/// A signal to one process ends all: it cancels what runs, for which the first one has words. Where that cannot be
+/// stopped, this process ends in silence, and mpirun ends the others.
+void serve(Session& session) {
+    Control control;
+    const InterruptGuard interrupt(control, "", {}, kServingGraceSeconds);
+    session.serve(control);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+    set_program_name("elastolab-petsc");
     try {
         ensure_stack(argv);
         start_blas_within_limits(argv);
@@ -114,14 +106,11 @@ int main(int argc, char** argv) {
         reserve_blas_buffers();
         Session session;
         set_thread_count(std::max(1, thread_count() / session.n_on_this_machine()));
-        const int code = run_and_say(argc, argv);
-        if (!session.first()) {
-            // mpirun passes Ctrl-C on to every process: the first one ends what runs, and then the others.
-            for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_IGN);
-            session.serve();
-        }
-        return session.first() ? code : kSuccess;
+        const int code = exit_code_of([&] { return run(argc, argv); }, !session.first());
+        if (session.first()) return code;
+        serve(session);
+        return kSuccess;
     } catch (const std::exception& error) {
-        return complain(error.what(), kFailure);
+        return complain(user_text(error), kFailure);
     }
 }

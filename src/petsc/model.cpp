@@ -14,28 +14,8 @@ namespace elastolab {
 
 namespace {
 
-/// Elements of this degree on the tetrahedra, without their integrals.
-FemMesh bare_mesh(const TetMesh& tets, const Triangles& surface, ElementDegree degree) {
-    FemMesh mesh;
-    mesh.n_elements = tets.n_tetrahedra();
-    mesh.surface = surface;
-    if (degree == ElementDegree::linear) {
-        mesh.n_surface_nodes = tets.n_surface_vertices;
-        mesh.tets = tets;
-        return mesh;
-    }
-    QuadraticMesh quadratic(tets);
-    mesh.tets = quadratic.split();
-    mesh.n_surface_nodes = quadratic.n_surface_nodes;
-    mesh.surface_midpoints = midpoints_of(surface, quadratic);
-    mesh.midpoints = {std::move(quadratic.triangles), std::move(quadratic.midpoints)};
-    return mesh;
-}
-
 std::shared_ptr<PetscStiffness> distribute(const FemMesh& mesh, double poisson_ratio, Control& control) {
-    if (mesh.degree() == ElementDegree::linear)
-        return std::make_shared<PetscStiffness>(mesh.tets.vertices, mesh.tets.tetrahedra, poisson_ratio, control);
-    return std::make_shared<PetscStiffness>(mesh.tets.vertices, rejoined(mesh.tets), poisson_ratio, control);
+    return std::make_shared<PetscStiffness>(mesh.tets.vertices, mesh.elements(), poisson_ratio, control);
 }
 
 /// Bytes of the constrained matrix, of GAMG's coarse ones or MUMPS's front, for each node on average.
@@ -52,7 +32,7 @@ PetscFemModel::PetscFemModel(const SurfaceMesh& surface, const std::string& name
     }
     {
         const Stage stage("integrate", control, facts_.stages);
-        mesh_ = std::make_shared<const FemMesh>(bare_mesh(*tets_, surface.triangles, degree));
+        mesh_ = std::make_shared<const FemMesh>(elements_on(*tets_, surface.triangles, degree));
         stiffness_ = distribute(*mesh_, poisson_ratio, control);
     }
     facts_.n_triangles = surface.n_triangles();
@@ -143,7 +123,7 @@ std::optional<ReferenceAnswer> PetscFemModel::simpler_answer(const std::vector<i
                                                              std::span<const UnitLoad> loads, Values values,
                                                              Control& control) const {
     if (!holds(mesh_->tets.vertices, vertices)) return {};
-    const FemMesh mesh = bare_mesh(*tets_, mesh_->surface, ElementDegree::linear);
+    const FemMesh mesh = elements_on(*tets_, mesh_->surface, ElementDegree::linear);
     const Eigen::MatrixXd given = load_vectors(mesh, loads);
     const PetscHeldSolver solver(distribute(mesh, poisson_ratio_, control), mesh.tets.vertices, vertices, given,
                                  control);
@@ -157,10 +137,8 @@ std::optional<ReferenceAnswer> PetscFemModel::simpler_answer(const std::vector<i
 const SparseStiffness* PetscFemModel::sparse_stiffness() const {
     std::call_once(assembled_once_, [this] {
         Control control;
-        const Eigen::MatrixXi elements = degree() == ElementDegree::linear ? Eigen::MatrixXi(mesh_->tets.tetrahedra)
-                                                                           : Eigen::MatrixXi(rejoined(mesh_->tets));
-        assembled_ =
-            stiffness(assemble_stiffness_parts(mesh_->tets.vertices, elements, control), Material{1.0, poisson_ratio_});
+        assembled_ = stiffness(assemble_stiffness_parts(mesh_->tets.vertices, mesh_->elements(), control),
+                               Material{1.0, poisson_ratio_});
     });
     return &assembled_;
 }

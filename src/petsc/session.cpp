@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "petsc/check.hpp"
 #include "petsc/distributed_system.hpp"
+#include "petsc/share_exchange.hpp"
 
 namespace elastolab {
 
@@ -74,7 +75,7 @@ Order Session::receive() const {
 void Session::follow(const Order& order) {
     using What = Order::What;
     if (order.what == What::create) {
-        add(std::make_shared<DistributedSystem>(receive_share()));
+        create(order.system, {});
     } else if (order.what == What::release) {
         remove(order.system);
     } else {
@@ -82,37 +83,53 @@ void Session::follow(const Order& order) {
     }
 }
 
-void Session::serve() {
+void Session::create(int number, const std::function<Share(int process)>& cut) {
+    all_or_none([&] { systems_[number] = std::make_unique<DistributedSystem>(); });
+    system(number).assemble(spread_shares(cut));
+}
+
+void Session::serve(Control& control) {
     for (Order order = receive(); order.what != Order::What::quit; order = receive()) {
-        std::string failure;
         try {
-            follow(order);
+            carry_out(
+                order, [&] { follow(order); }, control);
         } catch (const Cancelled&) {
-        } catch (const std::exception& error) {
-            failure = error.what();
+        } catch (const std::exception&) {  // the first process says it
         }
-        agree(failure);
     }
 }
 
 void Session::together(const Order& order, const std::function<void()>& work, Control& control) {
     assert(first());
     control.checkpoint();
-    control_ = &control;
     send(order);
+    carry_out(order, work, control);
+}
+
+/// Throws the same on all processes.
+void Session::carry_out(const Order& order, const std::function<void()>& work, const Control& control) {
+    control_ = &control;
     std::string failure;
     try {
         work();
     } catch (const Cancelled&) {
     } catch (const std::exception& error) {
-        failure = error.what();
+        failure = user_text(error);
     }
-    control_ = nullptr;
     failure = agree(failure);
-    control.checkpoint();
+    const bool stopped = cancelled();
+    control_ = nullptr;
+    if (order.what == Order::What::create && (stopped || !failure.empty())) remove(order.system);
+    if (stopped) throw Cancelled{};
     if (!failure.empty()) throw SolveError(failure);
 }
 
+void Session::throw_agreed(const std::string& failure) const {
+    const std::string agreed = agree(failure);
+    if (!agreed.empty()) throw SolveError(agreed);
+}
+
+/// The words of the first process that failed, on all; empty: none.
 std::string Session::agree(const std::string& failure) const {
     const int mine = failure.empty() ? n_processes_ : process_;
     int worst = 0;
@@ -124,19 +141,10 @@ std::string Session::agree(const std::string& failure) const {
     return text.data();
 }
 
-bool Session::cancelled() const {
-    int flag = control_ != nullptr && control_->cancelled() ? 1 : 0;
-    MPI_Bcast(&flag, 1, MPI_INT, 0, MPI_COMM_WORLD);
-    return flag != 0;
-}
+bool Session::cancelled() const { return largest(control_ != nullptr && control_->cancelled() ? 1.0 : 0.0) > 0.0; }
 
 double Session::sum(double value) const { return reduced(value, MPI_SUM); }
 double Session::least(double value) const { return reduced(value, MPI_MIN); }
 double Session::largest(double value) const { return reduced(value, MPI_MAX); }
-
-int Session::add(std::shared_ptr<DistributedSystem> system) {
-    systems_.emplace(next_, std::move(system));
-    return next_++;
-}
 
 }  // namespace elastolab

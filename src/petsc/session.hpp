@@ -1,12 +1,15 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <map>
 #include <memory>
 #include <string>
 
 #include "base/control.hpp"
+#include "petsc/share.hpp"
+#include "scene/user_text.hpp"
 
 namespace elastolab {
 
@@ -47,24 +50,36 @@ public:
     /// Of what is shared evenly by all processes, the part that lies on this machine.
     double part_on_this_machine() const { return static_cast<double>(n_here_) / n_processes_; }
 
-    /// On all processes but the first: follows orders until told to quit. Sleeps while there are none.
-    void serve();
+    /// On all processes but the first: follows orders until told to quit. Sleeps while there are none. A cancel of this
+    /// process cancels the order that runs, or else the next one.
+    void serve(Control& control);
     /// On the first: all processes follow the order, this one by `work`. Throws SolveError when it failed on one of
-    /// them, Cancelled.
+    /// them, Cancelled when one of them was.
     void together(const Order& order, const std::function<void()>& work, Control& control);
 
-    /// On all processes, inside an order: the words of the first of them that failed, on all; empty: none. What may
-    /// fail on one process alone is settled by it before the next collective call, in which others would wait for ever.
-    std::string agree(const std::string& failure) const;
-    /// On all processes, inside an order: whether the first one's control was cancelled.
+    /// On all processes, inside an order or outside of any: does what may fail on one process alone, before the next
+    /// collective call, in which the others would wait for ever. Throws SolveError on all where it fails on one.
+    template <class Work>
+    void all_or_none(const Work& work) const {
+        std::string failure;
+        try {
+            work();
+        } catch (const std::exception& error) {
+            failure = user_text(error);
+        }
+        throw_agreed(failure);
+    }
+    /// On all processes, inside an order: whether the control of one of them was cancelled.
     bool cancelled() const;
     /// On all processes, inside an order or outside of any: sums and least values over processes.
     double sum(double value) const;
     double least(double value) const;
     double largest(double value) const;
 
-    /// A number for a new system, and the system of a number.
-    int add(std::shared_ptr<DistributedSystem> system);
+    /// On the first: a number for a new system.
+    int new_number() { return next_++; }
+    /// On all processes, inside an order: makes the system of this number. cut: as in spread_shares().
+    void create(int number, const std::function<Share(int process)>& cut);
     void remove(int number) { systems_.erase(number); }
     DistributedSystem& system(int number) const { return *systems_.at(number); }
 
@@ -73,10 +88,13 @@ public:
 private:
     Order receive() const;
     void follow(const Order& order);
+    void carry_out(const Order& order, const std::function<void()>& work, const Control& control);
+    std::string agree(const std::string& failure) const;
+    void throw_agreed(const std::string& failure) const;
 
     int process_ = 0, n_processes_ = 1, n_here_ = 1, next_ = 0;
     const Control* control_ = nullptr;
-    std::map<int, std::shared_ptr<DistributedSystem>> systems_;
+    std::map<int, std::unique_ptr<DistributedSystem>> systems_;
 };
 
 }  // namespace elastolab

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <Eigen/SparseCore>
+#include <functional>
 
+#include "deform/node_rows.hpp"
 #include "fem/inverse_norm.hpp"
+#include "petsc/distributed_system.hpp"
 #include "petsc/session.hpp"
 
 namespace elastolab {
@@ -14,18 +17,16 @@ PetscStiffness::PetscStiffness(const Positions& positions, const Eigen::Ref<cons
                                double poisson_ratio, Control& control)
     : positions_(positions), partition_(partition_nodes(positions, Session::current().n_processes())) {
     Session& session = Session::current();
+    number_ = session.new_number();
+    const std::function<Share(int)> cut = [&](int process) {
+        Share share = share_of(process, partition_, positions, elements, poisson_ratio);
+        if (process == 0)
+            for (std::size_t p = 1; p < partition_.begin.size(); ++p)
+                share.own_counts.push_back(partition_.begin[p] - partition_.begin[p - 1]);
+        return share;
+    };
     session.together(
-        {.what = What::create},
-        [&] {
-            for (int process = 1; process < session.n_processes(); ++process)
-                send_share(share_of(process, partition_, positions, elements, poisson_ratio), process);
-            Share own = share_of(0, partition_, positions, elements, poisson_ratio);
-            for (int process = 0; process < session.n_processes(); ++process)
-                own.own_counts.push_back(partition_.begin[static_cast<std::size_t>(process) + 1] -
-                                         partition_.begin[static_cast<std::size_t>(process)]);
-            number_ = session.add(std::make_shared<DistributedSystem>(std::move(own)));
-        },
-        control);
+        {.what = What::create, .system = number_}, [&] { session.create(number_, cut); }, control);
 }
 
 PetscStiffness::~PetscStiffness() {
@@ -34,6 +35,7 @@ PetscStiffness::~PetscStiffness() {
         Session& session = Session::current();
         session.together(
             {.what = What::release, .system = number_}, [&] { session.remove(number_); }, control);
+    } catch (const Cancelled&) {
     } catch (const std::exception&) {  // nothing is left to be done
     }
 }
@@ -41,16 +43,12 @@ PetscStiffness::~PetscStiffness() {
 const SolverFacts& PetscStiffness::facts() const { return Session::current().system(number_).facts(); }
 
 Eigen::MatrixXd PetscStiffness::to_numbers(const Eigen::MatrixXd& of_mesh) const {
-    Eigen::MatrixXd result(of_mesh.rows(), of_mesh.cols());
-    for (std::size_t i = 0; i < partition_.order.size(); ++i)
-        result.middleRows<3>(3 * static_cast<Eigen::Index>(i)) = of_mesh.middleRows<3>(3 * partition_.order[i]);
-    return result;
+    return rows_of(of_mesh, partition_.order);
 }
 
 Eigen::MatrixXd PetscStiffness::to_mesh(const Eigen::MatrixXd& of_numbers) const {
     Eigen::MatrixXd result(of_numbers.rows(), of_numbers.cols());
-    for (std::size_t i = 0; i < partition_.order.size(); ++i)
-        result.middleRows<3>(3 * partition_.order[i]) = of_numbers.middleRows<3>(3 * static_cast<Eigen::Index>(i));
+    put_rows(of_numbers, partition_.order, result);
     return result;
 }
 
