@@ -1,6 +1,7 @@
 #include "deform/grip_tangent.hpp"
 
 #include <algorithm>
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <limits>
 
@@ -38,8 +39,11 @@ double longest_step(const std::vector<GripPlace>& places, double length, const E
 GripTangent::GripTangent(const Eigen::MatrixXd& stiffness, double length, double young_modulus, bool held)
     : stiffness_(stiffness), length_(length), young_modulus_(young_modulus), held_(held) {
     scaled_ = units().asDiagonal() * stiffness * units().asDiagonal();
-    modes_.compute(0.5 * (scaled_ + scaled_.transpose()));
-    const double largest = values().size() == 0 ? 0.0 : values().cwiseAbs().maxCoeff();
+    if (stiffness.rows() == 0) return;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(0.5 * (scaled_ + scaled_.transpose()));
+    values_ = modes.eigenvalues();
+    modes_ = modes.eigenvectors();
+    const double largest = values_.cwiseAbs().maxCoeff();
     const bool nothing = largest < kNothingHolds * young_modulus * length;
     none_ = nothing ? 2.0 * largest : (held ? kNoneIfHeld : kNoneIfFree) * largest;
 }
@@ -56,21 +60,21 @@ Eigen::VectorXd GripTangent::units() const {
     return unit;
 }
 
-bool GripTangent::stable() const { return !(values().array() < -none_).any(); }
+bool GripTangent::stable() const { return !(values_.array() < -none_).any(); }
 
 Eigen::VectorXd GripTangent::answered(const Eigen::VectorXd& forces) const {
-    const Eigen::VectorXd shares = modes_.eigenvectors().transpose() * (units().asDiagonal() * forces);
-    return modes_.eigenvectors() * (values().cwiseAbs().array() > none_).select(shares, 0.0);
+    if (values_.size() == 0) return {};
+    const Eigen::VectorXd shares = modes_.transpose() * (units().asDiagonal() * forces);
+    return modes_ * (values_.cwiseAbs().array() > none_).select(shares, 0.0);
 }
 
 Eigen::VectorXd GripTangent::step(const Eigen::VectorXd& answered) const {
-    if (values().size() > 0 && values()[0] > none_)
-        return units().asDiagonal() * scaled_.partialPivLu().solve(answered);
-    const Eigen::VectorXd shares = modes_.eigenvectors().transpose() * answered, sizes = values().cwiseAbs();
-    return units().asDiagonal() *
-           (modes_.eigenvectors() * (sizes.array() > none_).select(shares.cwiseQuotient(sizes), 0.0));
+    if (values_.size() == 0) return {};
+    if (values_[0] > none_) return units().asDiagonal() * scaled_.partialPivLu().solve(answered);
+    const Eigen::VectorXd shares = modes_.transpose() * answered, sizes = values_.cwiseAbs();
+    return units().asDiagonal() * (modes_ * (sizes.array() > none_).select(shares.cwiseQuotient(sizes), 0.0));
 }
 
-Eigen::VectorXd GripTangent::softest() const { return units().asDiagonal() * modes_.eigenvectors().col(0); }
+Eigen::VectorXd GripTangent::softest() const { return units().asDiagonal() * modes_.col(0); }
 
 }  // namespace elastolab

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
 #include <vector>
 
 namespace elastolab {
@@ -43,14 +42,13 @@ public:
 
 private:
     Eigen::VectorXd units() const;
-    const Eigen::VectorXd& values() const { return modes_.eigenvalues(); }
-
     Eigen::MatrixXd stiffness_;
     double length_, young_modulus_;
     bool held_;
     Eigen::MatrixXd scaled_;
-    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes_;  ///< of its symmetric part
-    double none_ = 0.0;                                     ///< a stiffness up to this is none
+    Eigen::VectorXd values_;  ///< eigenvalues of its symmetric part,
+    Eigen::MatrixXd modes_;   ///< and eigenvectors
+    double none_ = 0.0;       ///< a stiffness up to this is none
 };
 
 }  // namespace elastolab

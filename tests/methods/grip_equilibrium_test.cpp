@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <Eigen/Geometry>
 #include <numbers>
+#include <random>
 
 #include "base/error.hpp"
 #include "elasticity/rotation.hpp"
@@ -178,6 +180,78 @@ TEST(GripEquilibrium, OfABodyThatNothingElseHolds) {
     } catch (const SolveError& error) {
         EXPECT_STREQ(error.what(), kUnbalancedGrips);
     }
+}
+
+/// On a ball with one or two grips of any size, from a soft touch to forces that tear at it. ELASTOLAB_FUZZ: how many.
+TEST(GripEquilibrium, RandomForcesEndInAnAnswerOrAClearWord) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+    const auto vector = [&] { return Vector3d(uniform(random), uniform(random), uniform(random)); };
+    const Body body = test::make_body(make_sphere(3, 1.0), {1.0, 0.35});
+    const Positions& vertices = body.surface->vertices;
+    const char* wanted = std::getenv("ELASTOLAB_FUZZ");
+    const int n_trials = wanted != nullptr ? std::atoi(wanted) : 40;
+    int n_answers = 0, most_solves = 0, most_iterations = 0;
+    for (int trial = 0; trial < n_trials; ++trial) {
+        std::vector<char> taken(static_cast<std::size_t>(vertices.cols()), 0);
+        const auto patch = [&](double size) {
+            const Vector3d direction = vector().normalized();
+            std::vector<int> found;
+            for (int v = 0; v < vertices.cols(); ++v)
+                if (!taken[static_cast<std::size_t>(v)] && (vertices.col(v) - direction).norm() < size) {
+                    found.push_back(v);
+                    taken[static_cast<std::size_t>(v)] = 1;
+                }
+            return found;
+        };
+        ConstrainedSet set{.base = patch(0.7), .handles = {}};
+        std::vector<Grip> grips;
+        std::vector<GripForce> forces;
+        for (int g = 0; g < 1 + trial % 2; ++g) {
+            const std::vector<int> own = patch(0.45 + 0.2 * uniform(random));
+            if (own.empty()) continue;
+            const auto begin = static_cast<int>(set.handles.size()), end = begin + static_cast<int>(own.size());
+            set.handles.insert(set.handles.end(), own.begin(), own.end());
+            grips.push_back({begin, end});
+            const double size = std::pow(10.0, 1.5 * uniform(random) - 1.0);
+            // A patch of one or two vertices cannot carry a moment.
+            GripForce& force = forces.emplace_back();
+            force.force = size * vector();
+            if (own.size() > 2 && trial % 3 == 0) force.moment = 0.1 * size * vector();
+            if (trial % 5 == 0) force.spring = size;
+        }
+        Method method{.kind = kNonlinearFem};
+        method.elements = trial % 4 == 0 ? ElementDegree::quadratic : ElementDegree::linear;
+        Deformer deformer(test::precomputed(body, method));
+        Control control;
+        deformer.constrain(set, control);
+        try {
+            const GripEquilibrium found =
+                find_grip_equilibrium(deformer, VectorXd::Zero(set.n_values()), grips, forces, control);
+            ++n_answers;
+            most_solves = std::max(most_solves, found.solves);
+            most_iterations = std::max(most_iterations, found.iterations);
+            const Eigen::Matrix3Xd reactions = deformer.reactions(found.values).forces;
+            for (std::size_t g = 0; g < grips.size(); ++g) {
+                const Vector3d force =
+                    reactions.middleCols(std::ssize(set.base) + grips[g].begin, grips[g].end - grips[g].begin)
+                        .rowwise()
+                        .sum();
+                const Vector3d asked = forces[g].force - forces[g].spring * found.places[g].shift;
+                EXPECT_LT((force - asked).norm(), 1e-5 * (forces[g].force.norm() + reactions.norm())) << trial;
+            }
+        } catch (const SolveError& error) {
+            const std::string words = error.what();
+            EXPECT_TRUE(words.find("crushed") != std::string::npos ||
+                        words.find("no motion of theirs") != std::string::npos)
+                << words;
+        }
+    }
+    test::print_measured("answers", n_answers);
+    test::print_measured("of", n_trials);
+    test::print_measured("equilibria at most", most_solves);
+    test::print_measured("iterations at most", most_iterations);
+    EXPECT_GT(n_answers, 9 * n_trials / 10);
 }
 
 }  // namespace
