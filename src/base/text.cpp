@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdarg>
 #include <cstdio>
 
@@ -87,6 +88,15 @@ std::string readable_seconds(double seconds) {
 }
 
 std::string readable_number(double value, int digits) { return formatted("%.*g", digits, value); }
+
+bool reads_as_whole(double value, double limit) {
+    constexpr double kLeast = 999.5;
+    return std::abs(value) >= kLeast && std::abs(value) < limit;
+}
+
+std::string plain_number(double value, int digits) {
+    return reads_as_whole(value) ? formatted("%.0f", value) : readable_number(value, digits);
+}
 
 std::string readable_point(const Eigen::Vector3d& x) { return formatted("(%.4g, %.4g, %.4g)", x[0], x[1], x[2]); }
 

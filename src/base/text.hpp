@@ -29,6 +29,13 @@ std::string readable_seconds(double seconds);
 /// A number for people, few digits: "0.13", "1.2e+07".
 std::string readable_number(double value, int digits = 2);
 
+/// Whether people read a number better as a whole one, without decimals or an exponent: its size is 999.5 or more, and
+/// less than `limit`.
+bool reads_as_whole(double value, double limit = 999999.5);
+
+/// So written where that reads better, else with few digits: "12346", "0.1235", "1.235e+06".
+std::string plain_number(double value, int digits);
+
 /// A place for people: "(0.5, 1, -2.25)".
 std::string readable_point(const Eigen::Vector3d& x);
 

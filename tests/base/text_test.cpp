@@ -59,5 +59,16 @@ TEST(Text, IsReadAsCharacters) {
               (std::vector<char32_t>{0xFFFD, U'b'}));
 }
 
+TEST(Text, WritesLargeNumbersWholeUntilTheyReadBetterWithAnExponent) {
+    EXPECT_EQ(plain_number(12345.6, 4), "12346");
+    EXPECT_EQ(plain_number(-999.5, 2), "-1000");
+    EXPECT_EQ(plain_number(0.12346, 4), "0.1235");
+    EXPECT_EQ(plain_number(999.4, 4), "999.4");
+    EXPECT_EQ(plain_number(999999.6, 4), "1e+06");
+    EXPECT_TRUE(reads_as_whole(-1e5));
+    EXPECT_FALSE(reads_as_whole(-1e5, 99950.0));
+    EXPECT_FALSE(reads_as_whole(std::numeric_limits<double>::quiet_NaN()));
+}
+
 }  // namespace
 }  // namespace elastolab

@@ -59,11 +59,10 @@ std::string count_text(long long count) {
 }
 
 std::string number_text(double value) {
-    constexpr double kLeastPlain = 999.5, kLargestPlain = 99950.0;  // between these "%.3g" has an exponent
+    constexpr double kLimit = 99950.0;  // beyond, three digits are few for all the zeros behind them
     if (std::abs(value) < 1e-300) return "0";
     const std::string digits = readable_number(value, 3);
-    const bool is_plain = std::abs(value) >= kLeastPlain && std::abs(value) < kLargestPlain;
-    return is_plain ? formatted("%.0f", std::stod(digits)) : digits;
+    return reads_as_whole(value, kLimit) ? formatted("%.0f", std::stod(digits)) : digits;
 }
 
 std::string vector_text(const Eigen::Vector3d& v) {
@@ -178,8 +177,7 @@ void draw_fields(const char* label, int n, const auto& draw_field) {
 
 /// The longest that fits, as a format of Dear ImGui: without an exponent where that is as short.
 std::string format_for(double value, const std::string& unit, float room) {
-    constexpr double kLeastPlain = 999.5, kLargestPlain = 999999.5;
-    if (std::abs(value) >= kLeastPlain && std::abs(value) < kLargestPlain) return "%.0f" + unit;
+    if (reads_as_whole(value)) return "%.0f" + unit;
     for (const char* format : {"%.4g", "%.3g", "%.2g"})
         if (ImGui::CalcTextSize((formatted(format, value) + unit).c_str()).x <= room) return format + unit;
     return "%.1g" + unit;

@@ -117,10 +117,7 @@ double load_size(const LiveScene& scene, int load) {
 }
 
 std::string load_text(const LiveScene& scene, int load, const UnitNames& units) {
-    constexpr double kLeastPlain = 999.5, kLargestPlain = 999999.5;  // between these without an exponent
-    const double value_of_load = load_size(scene, load), magnitude = std::abs(value_of_load);
-    const bool is_plain = magnitude >= kLeastPlain && magnitude < kLargestPlain;
-    const std::string size = is_plain ? formatted("%.0f", value_of_load) : readable_number(value_of_load, 4);
+    const std::string size = plain_number(load_size(scene, load), 4);
     if (load == LiveScene::kGravity) return "gravity " + size;
     const LoadValue& value = scene.document().loads[static_cast<std::size_t>(load)].value;
     return std::visit(
