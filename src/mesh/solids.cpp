@@ -6,31 +6,19 @@
 #include "base/error.hpp"
 #include "mesh/checks/nesting.hpp"
 #include "mesh/measures.hpp"
+#include "mesh/numbering.hpp"
 #include "mesh/topology.hpp"
 
 namespace elastolab {
 
 namespace {
 
-/// The vertices that these triangles use, ascending.
-std::vector<int> used_vertices(const SurfaceMesh& mesh, const std::vector<int>& triangles) {
-    std::vector<int> used;
-    for (const int t : triangles) used.insert(used.end(), mesh.triangles.col(t).begin(), mesh.triangles.col(t).end());
-    std::sort(used.begin(), used.end());
-    used.erase(std::unique(used.begin(), used.end()), used.end());
-    return used;
-}
-
 Solid extract(const SurfaceMesh& mesh, std::vector<int> triangles) {
     std::sort(triangles.begin(), triangles.end());
-    Solid solid{{}, used_vertices(mesh, triangles), std::move(triangles)};
-    solid.surface.vertices = mesh.vertices(Eigen::all, solid.vertices);
-    const auto local = [&](int v) {
-        return static_cast<int>(std::lower_bound(solid.vertices.begin(), solid.vertices.end(), v) -
-                                solid.vertices.begin());
-    };
-    solid.surface.triangles = mesh.triangles(Eigen::all, solid.triangles).unaryExpr(local);
-    return solid;
+    Triangles own = mesh.triangles(Eigen::all, triangles);
+    const std::vector<int> vertices = used_vertices(own);
+    renumber(own, vertices);
+    return {{mesh.vertices(Eigen::all, vertices), std::move(own)}, vertices, std::move(triangles)};
 }
 
 }  // namespace

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <Eigen/Geometry>
+#include <utility>
 
 #include "app/input/gestures.hpp"
+#include "mesh/numbering.hpp"
 #include "render/drawing/legend.hpp"
 
 namespace elastolab {
@@ -42,11 +44,6 @@ std::optional<int> force_on(const LiveScene& scene, const std::vector<int>& corn
         if (std::any_of(applied->triangles.begin(), applied->triangles.end(), has_all)) return load;
     }
     return std::nullopt;
-}
-
-void keep_one_of_each(std::vector<int>& numbers) {
-    std::sort(numbers.begin(), numbers.end());
-    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
 void set_vector(LiveScene& scene, int load, const Eigen::Vector3d& value) {
@@ -200,10 +197,10 @@ void Gestures::paint_pressure(GestureContext& context, std::vector<int> vertices
         return;
     }
     painted_.insert(painted_.end(), vertices.begin(), vertices.end());
-    keep_one_of_each(painted_);
+    painted_ = each_once(std::move(painted_));
     const std::size_t n_before = loaded.size();
     loaded.insert(loaded.end(), painted_.begin(), painted_.end());
-    keep_one_of_each(loaded);
+    loaded = each_once(std::move(loaded));
     if (has_pressure) {
         if (loaded.size() > n_before) scene.set_loaded_vertices(*selected_load_, loaded);
     } else if (const int load = scene.add_load(loaded, PressureLoad{context.tools.pressure});

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "mesh/measures.hpp"
+#include "mesh/numbering.hpp"
 
 namespace elastolab {
 
@@ -42,11 +43,8 @@ FillingShape::FillingShape(const Proxy& filled) : surface_(filled.surface) {
     assert(filled.is_filled());
     // Those of the shown surface come first.
     triangles_ = surface_->triangles.rightCols(surface_->n_triangles() - filled.shown->n_triangles());
-    vertices_.assign(triangles_.data(), triangles_.data() + triangles_.size());
-    std::sort(vertices_.begin(), vertices_.end());
-    vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
-    for (int& vertex : triangles_.reshaped())
-        vertex = static_cast<int>(std::lower_bound(vertices_.begin(), vertices_.end(), vertex) - vertices_.begin());
+    vertices_ = used_vertices(triangles_);
+    renumber(triangles_, vertices_);
     rest_ = surface_->vertices(Eigen::all, vertices_);
     find_leaders(filled);
     close(*filled.shown);

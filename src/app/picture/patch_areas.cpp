@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "mesh/numbering.hpp"
 #include "render/gl/arrays.hpp"
 
 namespace elastolab {
@@ -23,13 +24,6 @@ Triangles triangles_within(const SurfaceMesh& mesh, const std::vector<char>& mar
     return mesh.triangles(Eigen::all, found);
 }
 
-/// Numbers of vertices become places in the ascending list of them.
-template <class Numbers>
-void renumber(Numbers& numbers, const std::vector<int>& vertices) {
-    for (int& v : numbers.reshaped())
-        v = static_cast<int>(std::lower_bound(vertices.begin(), vertices.end(), v) - vertices.begin());
-}
-
 }  // namespace
 
 /// Null where it has no triangle.
@@ -40,9 +34,7 @@ std::unique_ptr<PatchAreas::Area> PatchAreas::make(const SurfaceMesh& mesh, std:
     if (triangles.cols() == 0) return nullptr;
     auto area = std::make_unique<Area>();
     area->vertices.assign(vertices.begin(), vertices.end());
-    area->corners.assign(triangles.data(), triangles.data() + triangles.size());
-    std::sort(area->corners.begin(), area->corners.end());
-    area->corners.erase(std::unique(area->corners.begin(), area->corners.end()), area->corners.end());
+    area->corners = used_vertices(triangles);
     renumber(triangles, area->corners);
     area->surface = std::make_unique<SurfaceDrawing>(Positions(mesh.vertices(Eigen::all, area->corners)), triangles);
     if (const Edges rim = unpaired_edges(triangles); rim.cols() > 0)

@@ -7,6 +7,7 @@
 
 #include "mesh/checks/defects.hpp"
 #include "mesh/measures.hpp"
+#include "mesh/numbering.hpp"
 
 namespace elastolab {
 
@@ -21,9 +22,7 @@ bool is_hinge(const SurfaceMesh& mesh, int vertex, std::span<const int> around) 
     for (const int t : around)
         for (const int v : mesh.triangles.col(t))
             if (v != vertex) corners.push_back(v);
-    std::vector<int> places = corners;
-    std::sort(places.begin(), places.end());
-    places.erase(std::unique(places.begin(), places.end()), places.end());
+    const std::vector<int> places = each_once(corners);
     std::vector<std::size_t> parent(places.size());
     std::iota(parent.begin(), parent.end(), std::size_t{0});
     const auto root_of = [&](int v) {

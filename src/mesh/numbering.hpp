@@ -1,0 +1,17 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace elastolab {
+
+/// These numbers ascending, each once.
+std::vector<int> each_once(std::vector<int> numbers);
+
+/// The vertices that triangles or edges (one a column) use: ascending, each once.
+std::vector<int> used_vertices(const Eigen::Ref<const Eigen::MatrixXi>& corners);
+
+/// Vertex numbers become places in `vertices`, which is ascending and has them all.
+void renumber(Eigen::Ref<Eigen::MatrixXi> corners, const std::vector<int>& vertices);
+
+}  // namespace elastolab
