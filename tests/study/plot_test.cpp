@@ -21,6 +21,17 @@ TEST(Plot, ReadsTheColumnsOfTheTableByName) {
     EXPECT_THAT(script, HasSubstr("set logscale y"));
 }
 
+TEST(Plot, DashesTheVariantsOfAMethodInItsColour) {
+    const Series plain = variant_series("linear-bem", {{"nu", "0.3"}}, "size", "error");
+    const Series variant = variant_series("quadratic-fem of something", {}, "size", "error");
+    EXPECT_EQ(plain.color, method_color("linear-bem"));
+    EXPECT_EQ(plain.where, (Row{{"nu", "0.3"}}));
+    EXPECT_FALSE(plain.dashed);
+    EXPECT_TRUE(variant.dashed);
+    EXPECT_TRUE(element_series("bend, 4 nodes", {}, "cells", 1, true).dashed);
+    EXPECT_EQ(element_series("bend, 10 nodes", {}, "cells", 1, false).y, "error");
+}
+
 TEST(Plot, SaysWhatGnuplotComplainsAbout) {
     const TemporaryFolder folder;
     folder.write("bad.gp", "plot 'missing.csv'\n");

@@ -249,12 +249,9 @@ Plot error_plot(const std::string& problem, const std::string& nu) {
     plot.y_label = "relative error (rms)";
     plot.log_x = plot.log_y = true;
     for (const std::string& variant : kVariants)
-        plot.series.push_back({variant,
-                               {{"part", "refinement"}, {"problem", problem}, {"nu", nu}, {"variant", variant}},
-                               "ready_s",
-                               "error",
-                               method_color(variant),
-                               variant.find(' ') != std::string::npos});
+        plot.series.push_back(
+            variant_series(variant, {{"part", "refinement"}, {"problem", problem}, {"nu", nu}, {"variant", variant}},
+                           "ready_s", "error"));
     return plot;
 }
 
@@ -265,12 +262,8 @@ Plot ratio_plot(const std::string& problem) {
     plot.y_label = "relative error (rms)";
     plot.log_y = true;
     for (const std::string& variant : kVariants)
-        plot.series.push_back({variant,
-                               {{"part", "poisson"}, {"problem", problem}, {"variant", variant}},
-                               "nu",
-                               "error",
-                               method_color(variant),
-                               variant.find(' ') != std::string::npos});
+        plot.series.push_back(
+            variant_series(variant, {{"part", "poisson"}, {"problem", problem}, {"variant", variant}}, "nu", "error"));
     return plot;
 }
 
@@ -284,13 +277,11 @@ Plot finite_plot(const Table& finite) {
     for (const std::string& problem : finite.values("problem")) {
         if (problem_family(problem).reproduced) continue;
         for (const std::string& variant : kFiniteVariants) {
-            Series series{.title = problem + (variant == kFiniteVariants.front() ? "" : ", four nodes"),
-                          .where = {{"part", "finite"}, {"problem", problem}, {"nu", "0.3"}, {"variant", variant}},
-                          .x = "size",
-                          .y = "error"};
-            series.color = color;
-            series.dashed = variant != kFiniteVariants.front();
-            plot.series.push_back(series);
+            const bool four_nodes = variant != kFiniteVariants.front();
+            plot.series.push_back(
+                element_series(problem + (four_nodes ? ", four nodes" : ""),
+                               {{"part", "finite"}, {"problem", problem}, {"nu", "0.3"}, {"variant", variant}}, "size",
+                               color, four_nodes));
         }
         ++color;
     }
@@ -306,13 +297,10 @@ Plot frontier_plot(const std::string& problem) {
     plot.log_x = plot.log_y = true;
     plot.extra = "set xrange [0.15:0.0007]";
     for (const std::string& variant : kVariants)
-        plot.series.push_back(
-            {variant,
-             {{"error", "error"}, {"problem", problem}, {"nu", "0.3"}, {"time", "ready_s"}, {"variant", variant}},
-             "target",
-             "seconds",
-             method_color(variant),
-             variant.find(' ') != std::string::npos});
+        plot.series.push_back(variant_series(
+            variant,
+            {{"error", "error"}, {"problem", problem}, {"nu", "0.3"}, {"time", "ready_s"}, {"variant", variant}},
+            "target", "seconds"));
     return plot;
 }
 

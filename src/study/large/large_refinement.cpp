@@ -128,13 +128,10 @@ Plot refinement_plot() {
     for (const LargeMotion& motion : large_motions()) {
         if (!motion.is_bar) continue;
         for (const char* elements : {"4", "10"}) {
-            Series series{.title = motion.what + ", " + elements + " nodes",
-                          .where = {{"part", "refinement"}, {"motion", motion.name}, {"elements", elements}},
-                          .x = "cells",
-                          .y = "error"};
-            series.color = color;
-            series.dashed = std::string_view(elements) == "4";
-            plot.series.push_back(series);
+            plot.series.push_back(
+                element_series(motion.what + ", " + elements + " nodes",
+                               {{"part", "refinement"}, {"motion", motion.name}, {"elements", elements}}, "cells",
+                               color, std::string_view(elements) == "4"));
         }
         ++color;
     }

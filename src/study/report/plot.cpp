@@ -6,6 +6,7 @@
 #include <fstream>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 #include "base/error.hpp"
 #include "mesh/input/child_process.hpp"
@@ -82,6 +83,15 @@ int method_color(const std::string& method) {
     if (method == "linear-bem continuous") return 6;
     const std::optional<MethodKind> kind = parse_method_kind(method);
     return kind ? (*kind)->colour : 7;
+}
+
+Series variant_series(const std::string& variant, Row where, std::string x, std::string y) {
+    const bool is_variant = variant.find(' ') != std::string::npos;
+    return {variant, std::move(where), std::move(x), std::move(y), method_color(variant), is_variant};
+}
+
+Series element_series(std::string title, Row where, std::string x, int color, bool four_nodes) {
+    return {std::move(title), std::move(where), std::move(x), "error", color, four_nodes};
 }
 
 std::string gnuplot_script(const Plot& plot, const std::string& csv) {

@@ -42,4 +42,9 @@ std::string draw(const std::string& name, const std::filesystem::path& folder, C
 /// The colour of a method or of a variant of one, the same in all studies.
 int method_color(const std::string& method);
 
+/// The line of a variant, in the colour of its method: dashed where it is not the method by itself.
+Series variant_series(const std::string& variant, Row where, std::string x, std::string y);
+/// The errors of elements of ten nodes, or of four, which are dashed.
+Series element_series(std::string title, Row where, std::string x, int color, bool four_nodes);
+
 }  // namespace elastolab
