@@ -51,9 +51,9 @@ enum class CompareMode { off, side_by_side, ghosts };
 
 struct CompareSettings {
     CompareMode mode = CompareMode::off;
-    std::vector<MethodKind> kinds{kFem, kConstantBem, kLinearBem, kGalerkinBem};  ///< shown when comparing
-    bool chosen = false;                                                          ///< by hand, so that they stay
-    MethodKind reference = default_method();                                      ///< differences are to this one
+    std::vector<MethodKind> kinds{compared_methods().begin(), compared_methods().end()};  ///< shown when comparing
+    bool chosen = false;                      ///< by hand, so that they stay
+    MethodKind reference = default_method();  ///< differences are to this one
 };
 
 /// What colours the body: lengths and measures, which are not negative, or a stress of either sign.

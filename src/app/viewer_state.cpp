@@ -59,7 +59,7 @@ void ViewerState::toggle_comparison(CompareMode mode) {
     compare.mode = compare.mode == mode ? CompareMode::off : mode;
     if (!comparing() || compare.chosen) return;
     compare.kinds.clear();
-    for (const MethodKind kind : {kFem, kConstantBem, kLinearBem, kGalerkinBem}) {
+    for (const MethodKind kind : compared_methods()) {
         const SurfaceMesh* surface = simulation.simulated_surface(kind, *scene_);
         const bool is_ready = simulation.runner(kind).model() != nullptr;
         if (is_ready || surface == nullptr || predict_cost(*surface, choices.of(kind)).seconds <= kComparisonSeconds)

@@ -6,12 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bem/collocation/method.hpp"
-#include "bem/galerkin/method.hpp"
 #include "deform/method.hpp"
-#include "fem/method.hpp"
-#include "fem/nonlinear/method.hpp"
-#include "fem/quadratic/method.hpp"
 
 namespace elastolab {
 
@@ -29,6 +24,10 @@ MethodKind first_method();
 MethodKind quick_method();
 /// The one that answers on a coarse surface while others compute: few unknowns for its accuracy, on any triangles.
 MethodKind preview_method();
+/// The one that holds for large deformations, by which linear theory is judged.
+MethodKind large_deformation_method();
+/// Those that are compared when nobody chooses: the ones of the paper, and the reference.
+std::span<const MethodKind> compared_methods();
 
 /// By MethodTraits::name; nothing for an unknown name.
 std::optional<MethodKind> parse_method_kind(std::string_view text);

@@ -14,7 +14,7 @@ namespace {
 constexpr int kTenNodes = 300;
 
 Method finite_method(const SurfaceMesh& surface) {
-    Method method{.kind = kNonlinearFem};
+    Method method{.kind = large_deformation_method()};
     method.elements = surface.n_vertices() <= kTenNodes ? ElementDegree::quadratic : ElementDegree::linear;
     return method;
 }
@@ -26,7 +26,8 @@ double largest(const Eigen::VectorXd& u) {
 }  // namespace
 
 LinearTheoryGauge::LinearTheoryGauge(Body body, ConstrainedSet set, Control& control) {
-    body.material.poisson_ratio = std::min(body.material.poisson_ratio, kNonlinearFem->largest_poisson_ratio);
+    const double largest_ratio = large_deformation_method()->largest_poisson_ratio;
+    body.material.poisson_ratio = std::min(body.material.poisson_ratio, largest_ratio);
     const Method method = finite_method(*body.surface);
     auto deformer = std::make_unique<Deformer>(precompute(body, method, control));
     deformer->constrain(std::move(set), control);

@@ -1,10 +1,13 @@
 #include "study/setups.hpp"
-#include "methods/registry.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <random>
+
+#include "bem/collocation/method.hpp"
+#include "fem/method.hpp"
+#include "fem/nonlinear/method.hpp"
 
 namespace elastolab {
 

@@ -3,6 +3,8 @@
 
 #include "app/picture/view_point.hpp"
 #include "app/stage.hpp"
+#include "bem/collocation/method.hpp"
+#include "fem/method.hpp"
 #include "mesh/input/export.hpp"
 #include "mesh/primitives.hpp"
 #include "scene/file/scene_file.hpp"

@@ -8,6 +8,8 @@
 #include "app/names.hpp"
 #include "app/panels/panels.hpp"
 #include "app/stage.hpp"
+#include "bem/collocation/method.hpp"
+#include "fem/method.hpp"
 #include "methods/registry.hpp"
 
 namespace elastolab {

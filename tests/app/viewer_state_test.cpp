@@ -10,6 +10,8 @@
 
 #include "app/stage.hpp"
 #include "base/error.hpp"
+#include "bem/collocation/method.hpp"
+#include "fem/method.hpp"
 #include "mesh/input/export.hpp"
 #include "mesh/primitives.hpp"
 #include "methods/registry.hpp"

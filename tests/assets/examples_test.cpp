@@ -9,7 +9,9 @@
 #include <filesystem>
 #include <ostream>
 
+#include "bem/collocation/method.hpp"
 #include "deform/deformer.hpp"
+#include "fem/method.hpp"
 #include "methods/precompute.hpp"
 #include "methods/registry.hpp"
 #include "scene/constraints.hpp"

@@ -10,6 +10,7 @@
 #include "fem/assembly.hpp"
 #include "fem/compliance.hpp"
 #include "fem/constraints.hpp"
+#include "fem/method.hpp"
 #include "mesh/tets/tetrahedralize.hpp"
 #include "methods/registry.hpp"
 

@@ -2,6 +2,8 @@
 // that is shown first and refined from there, beside the final one at once.
 //   build/release/tests/benchmarks/first_answer_benchmark
 
+#include "bem/collocation/method.hpp"
+#include "bem/galerkin/method.hpp"
 #include "benchmarks/tools.hpp"
 #include "methods/problem.hpp"
 #include "methods/registry.hpp"

@@ -7,7 +7,9 @@
 #include <random>
 #include <thread>
 
+#include "bem/galerkin/method.hpp"
 #include "benchmarks/tools.hpp"
+#include "fem/method.hpp"
 #include "methods/registry.hpp"
 #include "scene/live/simulation.hpp"
 #include "scene/proxy/carried_constraints.hpp"

@@ -1,8 +1,9 @@
-// How many equilibria a second follow a hand that turns and pulls the ear of the rabbit by 60 degrees a second there and
-// back (nonlinear FEM; what the viewer's worker does: the newest motion, to the tolerance that is shown first, with the
-// columns for the frames between), beside one numeric factorisation of the tangent by CHOLMOD.
+// How many equilibria a second follow a hand that turns and pulls the ear of the rabbit by 60 degrees a second there
+// and back (nonlinear FEM; what the viewer's worker does: the newest motion, to the tolerance that is shown first, with
+// the columns for the frames between), beside one numeric factorisation of the tangent by CHOLMOD.
 //   build/release/tests/benchmarks/following_benchmark
 #include "benchmarks/tools.hpp"
+#include "fem/nonlinear/method.hpp"
 #include "fem/nonlinear/model.hpp"
 #include "scene/constraints.hpp"
 #include "scene/live/drag_solver.hpp"

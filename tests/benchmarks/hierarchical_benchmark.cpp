@@ -9,6 +9,8 @@
 #include <numbers>
 
 #include "base/memory.hpp"
+#include "bem/collocation/method.hpp"
+#include "bem/galerkin/method.hpp"
 #include "benchmarks/tools.hpp"
 #include "mesh/measures.hpp"
 #include "methods/registry.hpp"

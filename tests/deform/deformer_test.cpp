@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "elasticity/rigid_motion.hpp"
+#include "fem/method.hpp"
 #include "mesh/meshes.hpp"
 #include "mesh/primitives.hpp"
 #include "methods/problem.hpp"

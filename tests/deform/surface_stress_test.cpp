@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "bem/collocation/method.hpp"
 #include "deform/deformer.hpp"
 #include "elasticity/exact_fields.hpp"
 #include "mesh/primitives.hpp"

@@ -6,7 +6,10 @@
 #include <set>
 #include <tuple>
 
+#include "bem/collocation/method.hpp"
+#include "bem/galerkin/method.hpp"
 #include "elasticity/exact_fields.hpp"
+#include "fem/method.hpp"
 #include "findings/solution.hpp"
 #include "findings/words.hpp"
 #include "mesh/meshes.hpp"

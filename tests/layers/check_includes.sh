@@ -63,6 +63,11 @@ while read -r layer; do
   [[ -z $loop ]] || complain "$layer: folders include each other in a circle: $loop"
 done < <(printf '%s\n' "${!below[@]}" | sort)
 
+# The registry names methods; what else they have stays in their folders.
+while IFS=: read -r file included; do
+  [[ $file != methods/*.hpp ]] || complain "$file: hands on $included..."
+done < <(includes '"(fem|bem)/')
+
 for entry in "${wrapped[@]}"; do
   pattern=${entry%|^*} allowed="^${entry##*|^}"
   while IFS=: read -r file _; do

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "fem/method.hpp"
 #include "mesh/primitives.hpp"
 #include "methods/problem.hpp"
 #include "methods/registry.hpp"

@@ -3,8 +3,10 @@
 
 #include "base/error.hpp"
 #include "bem/collocation/constant_constraints.hpp"
+#include "bem/collocation/method.hpp"
 #include "deform/node_solver.hpp"
 #include "elasticity/rigid_motion.hpp"
+#include "fem/method.hpp"
 #include "findings/cost.hpp"
 #include "findings/solution.hpp"
 #include "findings/words.hpp"

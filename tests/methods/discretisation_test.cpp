@@ -8,8 +8,12 @@
 #include <utility>
 #include <vector>
 
+#include "bem/collocation/method.hpp"
 #include "bem/galerkin/error_estimate.hpp"
+#include "bem/galerkin/method.hpp"
 #include "elasticity/rigid_motion.hpp"
+#include "fem/method.hpp"
+#include "fem/quadratic/method.hpp"
 #include "findings/solution.hpp"
 #include "findings/words.hpp"
 #include "mesh/primitives.hpp"

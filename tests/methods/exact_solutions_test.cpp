@@ -3,8 +3,11 @@
 #include <cmath>
 #include <sstream>
 
+#include "bem/collocation/method.hpp"
+#include "bem/galerkin/method.hpp"
 #include "elasticity/exact_fields.hpp"
 #include "elasticity/rigid_motion.hpp"
+#include "fem/method.hpp"
 #include "mesh/primitives.hpp"
 #include "methods/problem.hpp"
 #include "methods/registry.hpp"

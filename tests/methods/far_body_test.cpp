@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 
 #include "deform/volume.hpp"
+#include "fem/method.hpp"
 #include "mesh/checks/check.hpp"
 #include "mesh/input/export.hpp"
 #include "mesh/input/import.hpp"

@@ -5,6 +5,10 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "bem/collocation/method.hpp"
+#include "bem/galerkin/method.hpp"
+#include "fem/method.hpp"
+#include "fem/quadratic/method.hpp"
 #include "findings/solution.hpp"
 #include "methods/organic_cases.hpp"
 #include "methods/problem.hpp"

@@ -12,6 +12,8 @@
 
 #include "base/error.hpp"
 #include "elasticity/rotation.hpp"
+#include "fem/nonlinear/method.hpp"
+#include "fem/quadratic/method.hpp"
 #include "mesh/primitives.hpp"
 #include "methods/problem.hpp"
 

@@ -8,9 +8,13 @@
 #include <string>
 #include <vector>
 
+#include "bem/collocation/method.hpp"
+#include "bem/galerkin/method.hpp"
 #include "elasticity/exact_fields.hpp"
 #include "elasticity/rigid_motion.hpp"
 #include "elasticity/stress.hpp"
+#include "fem/method.hpp"
+#include "fem/quadratic/method.hpp"
 #include "mesh/measures.hpp"
 #include "mesh/primitives.hpp"
 #include "methods/problem.hpp"

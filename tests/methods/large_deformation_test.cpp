@@ -10,6 +10,8 @@
 #include "deform/surface_stress.hpp"
 #include "deform/volume.hpp"
 #include "elasticity/neo_hookean.hpp"
+#include "fem/nonlinear/method.hpp"
+#include "fem/quadratic/method.hpp"
 #include "mesh/primitives.hpp"
 #include "methods/problem.hpp"
 

@@ -7,8 +7,13 @@
 #include <numeric>
 
 #include "base/error.hpp"
+#include "bem/collocation/method.hpp"
+#include "bem/galerkin/method.hpp"
 #include "elasticity/exact_fields.hpp"
 #include "elasticity/rigid_motion.hpp"
+#include "fem/method.hpp"
+#include "fem/nonlinear/method.hpp"
+#include "fem/quadratic/method.hpp"
 #include "mesh/measures.hpp"
 #include "mesh/primitives.hpp"
 #include "methods/problem.hpp"

@@ -10,6 +10,10 @@
 
 #include "base/error.hpp"
 #include "base/memory.hpp"
+#include "bem/collocation/method.hpp"
+#include "fem/method.hpp"
+#include "fem/nonlinear/method.hpp"
+#include "fem/quadratic/method.hpp"
 #include "findings/cost.hpp"
 #include "mesh/primitives.hpp"
 #include "methods/problem.hpp"

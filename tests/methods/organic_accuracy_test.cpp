@@ -4,6 +4,9 @@
 #include <cmath>
 #include <set>
 
+#include "bem/collocation/method.hpp"
+#include "bem/galerkin/method.hpp"
+#include "fem/method.hpp"
 #include "mesh/refine.hpp"
 #include "methods/problem.hpp"
 #include "methods/registry.hpp"

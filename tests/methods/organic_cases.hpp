@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "bem/galerkin/method.hpp"
 #include "deform/patch_reactions.hpp"
 #include "mesh/primitives.hpp"
 #include "mesh/refine.hpp"

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bem/collocation/method.hpp"
+#include "bem/galerkin/method.hpp"
+#include "fem/method.hpp"
 #include "mesh/measures.hpp"
 #include "methods/problem.hpp"
 #include "methods/registry.hpp"

@@ -5,6 +5,10 @@
 #include <set>
 
 #include "base/error.hpp"
+#include "bem/collocation/method.hpp"
+#include "bem/galerkin/method.hpp"
+#include "fem/method.hpp"
+#include "fem/quadratic/method.hpp"
 #include "mesh/primitives.hpp"
 #include "methods/problem.hpp"
 

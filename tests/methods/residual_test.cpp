@@ -2,9 +2,11 @@
 
 #include <cmath>
 
+#include "bem/collocation/method.hpp"
 #include "bem/collocation/mixed_solver.hpp"
 #include "elasticity/exact_fields.hpp"
 #include "fem/assembly.hpp"
+#include "fem/method.hpp"
 #include "fem/solvers.hpp"
 #include "mesh/primitives.hpp"
 #include "mesh/tets/tetrahedralize.hpp"

@@ -5,6 +5,8 @@
 #include "base/blas.hpp"
 #include "base/error.hpp"
 #include "base/lapack.hpp"
+#include "bem/collocation/method.hpp"
+#include "bem/galerkin/method.hpp"
 #include "mesh/primitives.hpp"
 #include "methods/precompute.hpp"
 #include "methods/problem.hpp"

@@ -8,8 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "bem/collocation/method.hpp"
 #include "deform/volume.hpp"
 #include "elasticity/rigid_motion.hpp"
+#include "fem/method.hpp"
 #include "mesh/measures.hpp"
 #include "mesh/primitives.hpp"
 #include "methods/problem.hpp"

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "base/error.hpp"
+#include "bem/collocation/method.hpp"
 #include "methods/registry.hpp"
 #include "support/wait_until.hpp"
 

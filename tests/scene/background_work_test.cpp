@@ -5,6 +5,8 @@
 #include <Eigen/Geometry>
 #include <limits>
 
+#include "bem/collocation/method.hpp"
+#include "fem/method.hpp"
 #include "methods/registry.hpp"
 #include "simulation_bench.hpp"
 

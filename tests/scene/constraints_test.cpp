@@ -6,6 +6,8 @@
 #include <filesystem>
 
 #include "base/error.hpp"
+#include "bem/collocation/method.hpp"
+#include "fem/method.hpp"
 #include "mesh/input/export.hpp"
 #include "mesh/primitives.hpp"
 #include "methods/registry.hpp"

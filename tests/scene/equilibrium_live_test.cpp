@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 
+#include "fem/nonlinear/method.hpp"
 #include "scene/simulation_bench.hpp"
 #include "scene/solve.hpp"
 
@@ -19,12 +20,13 @@ LiveScene bar(const Selector& handle = kEnd) {
     Document document;
     document.mesh = Primitive{.name = "beam", .resolution = 2, .size = {}};
     document.fixed = {{.select = {PlaneSelector{{0, 0, 0}, {1, 0, 0}, 1e-9}}}};
-    document.handles = {
-        {.name = "end", .select = handle, .motion = AffineMotion{}}};
+    document.handles = {{.name = "end", .select = handle, .motion = AffineMotion{}}};
     return {document, "bar.json"};
 }
 
-AffineMotion twist(double degrees) { return {.rotate = {.axis = {1, 0, 0}, .degrees = degrees, .center = {4, 0.5, 0.5}}}; }
+AffineMotion twist(double degrees) {
+    return {.rotate = {.axis = {1, 0, 0}, .degrees = degrees, .center = {4, 0.5, 0.5}}};
+}
 
 class LiveEquilibrium : public ::testing::Test {
 protected:

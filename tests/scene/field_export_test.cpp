@@ -6,7 +6,11 @@
 #include <sstream>
 
 #include "base/error.hpp"
+#include "bem/collocation/method.hpp"
 #include "elasticity/stress.hpp"
+#include "fem/method.hpp"
+#include "fem/nonlinear/method.hpp"
+#include "fem/quadratic/method.hpp"
 #include "methods/registry.hpp"
 #include "scene/solve.hpp"
 #include "support/temporary_folder.hpp"

@@ -1,6 +1,10 @@
 // Loads of a scene while a person edits it.
 #include <gtest/gtest.h>
 
+#include "bem/collocation/method.hpp"
+#include "bem/galerkin/method.hpp"
+#include "fem/method.hpp"
+#include "fem/nonlinear/method.hpp"
 #include "scene/file/scene_file.hpp"
 #include "scene/live/live_scene.hpp"
 #include "scene/live/simulation.hpp"
@@ -180,9 +184,7 @@ void expect_handles_where_solve_puts_them(MethodKind kind, double young_modulus,
     }
 }
 
-TEST(LiveLoads, HandlesUnderAForceStandWhereSolvePutsThem) {
-    expect_handles_where_solve_puts_them(kFem, 1000.0, 1e-8);
-}
+TEST(LiveLoads, HandlesUnderAForceStandWhereSolvePutsThem) { expect_handles_where_solve_puts_them(kFem, 1000.0, 1e-8); }
 
 /// So soft a cube that linear theory is far off.
 TEST(LiveLoads, HandlesUnderAForceStandWhereSolvePutsThemByNonlinearFem) {

@@ -6,6 +6,11 @@
 #include <thread>
 
 #include "base/error.hpp"
+#include "bem/collocation/method.hpp"
+#include "bem/galerkin/method.hpp"
+#include "fem/method.hpp"
+#include "fem/nonlinear/method.hpp"
+#include "fem/quadratic/method.hpp"
 #include "methods/precompute.hpp"
 #include "methods/registry.hpp"
 #include "scene/file/scene_file.hpp"

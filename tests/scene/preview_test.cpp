@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 
 #include "base/error.hpp"
+#include "bem/collocation/method.hpp"
+#include "fem/method.hpp"
 #include "mesh/input/export.hpp"
 #include "mesh/measures.hpp"
 #include "mesh/meshes.hpp"

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "deform/deformer.hpp"
+#include "fem/quadratic/method.hpp"
 #include "mesh/primitives.hpp"
 #include "methods/precompute.hpp"
 #include "methods/registry.hpp"

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "bem/collocation/method.hpp"
 #include "iterating_method.hpp"
 #include "simulation_bench.hpp"
 

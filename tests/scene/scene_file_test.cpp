@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "bem/collocation/method.hpp"
 #include "methods/registry.hpp"
 #include "scene/motion.hpp"
 #include "support/temporary_folder.hpp"

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "bem/collocation/method.hpp"
 #include "methods/precompute.hpp"
 #include "methods/registry.hpp"
 #include "scene/live/simulation.hpp"

@@ -2,6 +2,8 @@
 
 #include <Eigen/Geometry>
 
+#include "bem/collocation/method.hpp"
+#include "fem/method.hpp"
 #include "findings/cost.hpp"
 #include "methods/registry.hpp"
 #include "simulation_bench.hpp"

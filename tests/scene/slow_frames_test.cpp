@@ -4,6 +4,8 @@
 
 #include <array>
 
+#include "bem/collocation/method.hpp"
+#include "fem/method.hpp"
 #include "scene/live/embedded_runner.hpp"
 #include "simulation_bench.hpp"
 #include "slow_method.hpp"

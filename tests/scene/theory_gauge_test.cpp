@@ -1,6 +1,9 @@
 // How far linear theory is off, of motions and of loads: in what `solve` reports, and while a person edits.
 #include <gtest/gtest.h>
 
+#include "bem/collocation/method.hpp"
+#include "fem/nonlinear/method.hpp"
+#include "fem/quadratic/method.hpp"
 #include "methods/registry.hpp"
 #include "scene/live/live_scene.hpp"
 #include "scene/live/simulation.hpp"

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "fem/nonlinear/method.hpp"
+#include "fem/quadratic/method.hpp"
 #include "methods/registry.hpp"
 #include "scene/file/scene_file.hpp"
 #include "scene/solve.hpp"

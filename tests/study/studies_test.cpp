@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 
+#include "bem/galerkin/method.hpp"
 #include "deform/patch_reactions.hpp"
+#include "fem/method.hpp"
 #include "mesh/primitives.hpp"
 #include "methods/precompute.hpp"
 #include "methods/registry.hpp"

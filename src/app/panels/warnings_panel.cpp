@@ -31,7 +31,7 @@ std::string name_of_motion(const TheoryError& error) {
 std::string theory_words(const ViewerState& state) {
     const std::optional<TheoryError>& error = state.simulation.theory_error();
     if (!error || (!error->crushed && error->relative < kSilentLinearTheory)) return "";
-    const std::string motion = name_of_motion(*error), better = title(kNonlinearFem);
+    const std::string motion = name_of_motion(*error), better = title(large_deformation_method());
     if (error->crushed)
         return "Linear theory cannot be right for " + motion + ": " + better +
                " finds no equilibrium, a rubber body would be crushed.";
@@ -83,7 +83,7 @@ std::vector<Panels::Warning> Panels::present_warnings(const ViewerState& state) 
     for (const std::string& text : words(state.simulation.embedded(state.method).findings()))
         warnings.push_back({text, false});
     if (const std::string theory = theory_words(state); !theory.empty() && state.method->linear)
-        warnings.insert(warnings.begin(), {theory, false, kNonlinearFem});
+        warnings.insert(warnings.begin(), {theory, false, large_deformation_method()});
     const std::string& name = state.scene().name();
     for (Warning& warning : warnings)
         if (warning.text.starts_with(name))

@@ -2,7 +2,10 @@
 #include <memory>
 #include <mutex>
 
-#include "methods/registry.hpp"
+#include "bem/collocation/method.hpp"
+#include "bem/galerkin/method.hpp"
+#include "fem/method.hpp"
+#include "fem/quadratic/method.hpp"
 #include "study/error/error_report.hpp"
 #include "study/measure.hpp"
 #include "study/setups.hpp"

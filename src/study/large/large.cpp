@@ -1,4 +1,5 @@
 #include "base/timer.hpp"
+#include "fem/nonlinear/method.hpp"
 #include "methods/precompute.hpp"
 #include "study/large/large_refinement.hpp"
 #include "study/large/large_scenes.hpp"

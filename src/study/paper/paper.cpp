@@ -4,11 +4,12 @@
 #include <utility>
 
 #include "bem/collocation/constant_constraints.hpp"
+#include "bem/collocation/method.hpp"
 #include "deform/constraint_map.hpp"
 #include "elasticity/material.hpp"
+#include "fem/method.hpp"
 #include "mesh/primitives.hpp"
 #include "methods/precompute.hpp"
-#include "methods/registry.hpp"
 #include "study/paper/paper_picture.hpp"
 #include "study/paper/paper_procedure.hpp"
 #include "study/paper/paper_report.hpp"

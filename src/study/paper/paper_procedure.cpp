@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "base/lapack.hpp"
+#include "fem/method.hpp"
 #include "methods/precompute.hpp"
-#include "methods/registry.hpp"
 #include "study/report/statistics.hpp"
 
 namespace elastolab {

@@ -1,10 +1,14 @@
 #include <algorithm>
 #include <optional>
 
+#include "bem/collocation/method.hpp"
+#include "bem/galerkin/method.hpp"
+#include "fem/method.hpp"
+#include "fem/nonlinear/method.hpp"
+#include "fem/quadratic/method.hpp"
 #include "findings/cost.hpp"
 #include "mesh/primitives.hpp"
 #include "methods/precompute.hpp"
-#include "methods/registry.hpp"
 #include "study/peak_memory.hpp"
 #include "study/report/statistics.hpp"
 #include "study/scale/scale_report.hpp"

@@ -1,8 +1,10 @@
 #include "study/skip/skip_work.hpp"
 
+#include "bem/collocation/method.hpp"
+#include "bem/galerkin/method.hpp"
+#include "fem/method.hpp"
 #include "mesh/primitives.hpp"
 #include "methods/precompute.hpp"
-#include "methods/registry.hpp"
 #include "study/report/statistics.hpp"
 #include "study/setups.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "methods/registry.hpp"
+#include "bem/collocation/method.hpp"
 #include "study/report/report.hpp"
 #include "study/stability/trials.hpp"
 

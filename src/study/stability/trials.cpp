@@ -5,11 +5,14 @@
 #include <optional>
 
 #include "base/error.hpp"
+#include "bem/collocation/method.hpp"
+#include "bem/galerkin/method.hpp"
+#include "fem/method.hpp"
+#include "fem/quadratic/method.hpp"
 #include "findings/solution.hpp"
 #include "findings/words.hpp"
 #include "mesh/checks/check.hpp"
 #include "methods/precompute.hpp"
-#include "methods/registry.hpp"
 #include "study/setups.hpp"
 
 namespace elastolab {

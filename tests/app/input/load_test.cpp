@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "app/stage.hpp"
+#include "fem/quadratic/method.hpp"
 #include "methods/registry.hpp"
 
 namespace elastolab::test {

@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 
 #include "app/stage.hpp"
+#include "bem/collocation/method.hpp"
+#include "bem/galerkin/method.hpp"
+#include "fem/method.hpp"
 #include "methods/registry.hpp"
 
 namespace elastolab {

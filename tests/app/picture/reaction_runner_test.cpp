@@ -6,6 +6,7 @@
 #include <chrono>
 #include <thread>
 
+#include "bem/collocation/method.hpp"
 #include "scene/simulation_bench.hpp"
 #include "scene/slow_method.hpp"
 

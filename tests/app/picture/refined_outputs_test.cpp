@@ -4,6 +4,7 @@
 
 #include "app/picture/reaction_runner.hpp"
 #include "app/scene_files.hpp"
+#include "bem/collocation/method.hpp"
 #include "mesh/input/import.hpp"
 #include "scene/iterating_method.hpp"
 #include "scene/simulation_bench.hpp"

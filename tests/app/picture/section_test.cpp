@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/stage.hpp"
+#include "fem/method.hpp"
 #include "methods/registry.hpp"
 #include "support/wait_until.hpp"
 

@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "app/stage.hpp"
+#include "bem/collocation/method.hpp"
+#include "fem/method.hpp"
 #include "methods/registry.hpp"
 #include "support/wait_until.hpp"
 

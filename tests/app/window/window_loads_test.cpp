@@ -7,7 +7,9 @@
 #include "app/real_window.hpp"
 #include "app/screen.hpp"
 #include "app/stage.hpp"
+#include "bem/galerkin/method.hpp"
 #include "cli/program.hpp"
+#include "fem/method.hpp"
 #include "methods/registry.hpp"
 #include "scene/file/scene_file.hpp"
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 
+#include "bem/galerkin/method.hpp"
 #include "deform/node_solver.hpp"
 #include "elasticity/exact_fields.hpp"
 #include "mesh/meshes.hpp"

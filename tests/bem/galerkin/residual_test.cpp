@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "bem/galerkin/method.hpp"
 #include "bem/galerkin/solvers.hpp"
 #include "mesh/primitives.hpp"
 #include "methods/problem.hpp"
