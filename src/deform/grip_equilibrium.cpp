@@ -16,7 +16,7 @@ namespace {
 /// Forces that no motion answers, over all forces.
 constexpr double kUnansweredForces = 1e-6;
 /// Forces that are left, over all forces: wanted; good enough where rounding allows no less.
-constexpr double kBalanced = 1e-8, kNearlyBalanced = 1e-6;
+constexpr double kForcesBalance = 1e-8, kForcesNearlyBalance = 1e-6;
 /// A state is better than another whose energy is higher by this part of it, or whose missing forces are larger.
 constexpr double kLeastGain = 1e-9, kFalls = 0.9;
 constexpr int kWholeSteps = 4;
@@ -179,7 +179,7 @@ public:
         int pushes = 0;
         while (solves_ < kMostSolves) {
             const GripTangent stiffness = tangent(state);
-            if (balanced(state, stiffness, kBalanced)) {
+            if (balanced(state, stiffness, kForcesBalance)) {
                 if (stiffness.stable() || pushes++ == kMostPushes) return state;
                 state = pushed(state, stiffness);
                 continue;
@@ -187,7 +187,7 @@ public:
             std::optional<State> next = improved(state, stiffness);
             // Close to the answer, forces fall until they are those that the body's own equilibrium leaves.
             const bool falls = next && next->missing.norm() < 0.5 * state.missing.norm();
-            if (!falls && balanced(state, stiffness, kNearlyBalanced)) return state;
+            if (!falls && balanced(state, stiffness, kForcesNearlyBalance)) return state;
             if (!next) break;
             state = *std::move(next);
         }
