@@ -144,7 +144,7 @@ GestureContext ViewerState::gesture_context() {
                            .gizmos = gizmos(),
                            .load_arrows = {}};
     if (const ShownBody* body = shown.body(method); body != nullptr && display.constraints)
-        context.load_arrows = load_arrows(*scene_, body->positions(), camera.scene().radius, gestures.dragged_load());
+        context.load_arrows = load_arrows_at(*body);
     for (const SceneViewport& viewport : shown.viewports) {
         const ShownBody* body = shown.body(viewport.kinds.front());
         if (body == nullptr) continue;

@@ -83,6 +83,11 @@ public:
     /// The reference of differences: only when something is shown that needs one.
     const EmbeddedRunner* reference() const;
 
+    /// The arrows of gravity and loads at one of the shown bodies, as they are drawn and dragged.
+    const std::vector<LoadArrow>& load_arrows_at(const ShownBody& body) const {
+        return shown.load_arrows_at(body, *scene_, camera.scene().radius, gestures.dragged_load());
+    }
+
     // What is measured.
     Measurements measurements;
     FrameRecord frame_record(const FrameTimes& times, double now) const;

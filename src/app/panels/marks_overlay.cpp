@@ -149,8 +149,7 @@ void draw_forces(const PanelContext& context, ImDrawList& list, const Viewport& 
 void draw_load_sizes(const PanelContext& context, ImDrawList& list, const Viewport& viewport, const ShownBody& body) {
     const ViewerState& state = context.state;
     const Gestures& gestures = state.gestures;
-    for (const LoadArrow& arrow :
-         load_arrows(state.scene(), body.positions(), state.camera.scene().radius, gestures.dragged_load())) {
+    for (const LoadArrow& arrow : state.load_arrows_at(body)) {
         const bool chosen = gestures.selected_load() == arrow.load || gestures.hover().load == arrow.load;
         if (!chosen && !state.display.arrows) continue;
         const std::string name = arrow.load == LiveScene::kGravity ? "" : state.scene().load_name(arrow.load) + ": ";

@@ -106,6 +106,17 @@ std::vector<LoadArrow> load_arrows(const LiveScene& scene, const Positions& posi
     return all;
 }
 
+const std::vector<LoadArrow>& KeptLoadArrows::update(const LiveScene& scene, const Positions& positions,
+                                                     std::uint64_t revision, double radius,
+                                                     const std::optional<DraggedLoad>& dragged) {
+    const Key key{scene.revision(), revision, radius, dragged};
+    if (key_ == key) return arrows_;
+    arrows_ = load_arrows(scene, positions, radius, dragged);
+    key_ = key;
+    ++n_computed_;
+    return arrows_;
+}
+
 Eigen::VectorXd load_value(const LiveScene& scene, int load) {
     if (load == LiveScene::kGravity) return scene.document().gravity.value_or(Eigen::Vector3d::Zero());
     return load_factors(scene.document().loads[static_cast<std::size_t>(load)].value);

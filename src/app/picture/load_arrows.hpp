@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <Eigen/Core>
 #include <optional>
 #include <string>
@@ -38,6 +39,26 @@ std::optional<LoadArrow> load_arrow(const LiveScene& scene, int load, const Posi
 /// Those of gravity and all loads.
 std::vector<LoadArrow> load_arrows(const LiveScene& scene, const Positions& positions, double radius,
                                    const std::optional<DraggedLoad>& dragged = std::nullopt);
+
+/// The arrows at one body: computed anew only when the set, a load or the positions have changed.
+class KeptLoadArrows {
+public:
+    /// As load_arrows(). revision: another one for every change of the positions.
+    const std::vector<LoadArrow>& update(const LiveScene& scene, const Positions& positions, std::uint64_t revision,
+                                         double radius, const std::optional<DraggedLoad>& dragged);
+    int n_computed() const { return n_computed_; }
+
+private:
+    struct Key {
+        std::uint64_t scene_revision = 0, revision = 0;
+        double radius = 0.0;
+        std::optional<DraggedLoad> dragged = {};
+        bool operator==(const Key&) const = default;
+    };
+    std::optional<Key> key_;
+    std::vector<LoadArrow> arrows_;
+    int n_computed_ = 0;
+};
 
 /// What a load is given by: three numbers, or one of a pressure.
 Eigen::VectorXd load_value(const LiveScene& scene, int load);

@@ -6,17 +6,15 @@
 #include <utility>
 #include <vector>
 
+#include "app/picture/body_drawing.hpp"
 #include "app/picture/drawing_detail.hpp"
+#include "app/picture/look.hpp"
 #include "app/picture/palette.hpp"
-#include "app/picture/patch_areas.hpp"
 #include "app/viewer_state.hpp"
-#include "render/drawing/arrows_drawing.hpp"
 #include "render/drawing/axes_gizmo.hpp"
 #include "render/drawing/background_drawing.hpp"
 #include "render/drawing/ground_drawing.hpp"
-#include "render/drawing/lines_drawing.hpp"
 #include "render/drawing/occlusion_drawing.hpp"
-#include "render/drawing/points_drawing.hpp"
 #include "render/drawing/shadow_drawing.hpp"
 #include "render/drawing/surface_drawing.hpp"
 #include "render/gl/framebuffer.hpp"
@@ -52,40 +50,10 @@ public:
     void draw_depths(const ViewerState& state, const SceneViewport& viewport, const Palette& palette,
                      double pixel_ratio, const Framebuffer& tile, DepthBuffer& whole);
 
+    /// How often the marks at the bodies were put together, of all methods of this scene.
+    int n_mark_updates() const;
+
 private:
-    /// What belongs to one method's body. Revisions tell what of it is on the card.
-    struct BodyDrawing {
-        explicit BodyDrawing(const SurfaceMesh& mesh) : surface(mesh.vertices, mesh.triangles) {}
-        SurfaceDrawing surface;
-        std::optional<SurfaceDrawing> section;
-        std::optional<LinesDrawing> rim;  ///< where the surface is not closed
-        std::shared_ptr<const SectionShape> section_shape;
-        std::optional<SurfaceDrawing> filling;      ///< of its holes
-        std::shared_ptr<const void> filling_shape;  ///< whose triangles it has: of the filling, or of the section
-        PatchAreas areas;
-        PointsDrawing points;
-        ArrowsDrawing arrows;
-        std::uint64_t revision = 0;
-    };
-    /// All that the picture of a viewport depends on.
-    struct Look {
-        std::vector<MethodKind> kinds;
-        std::vector<std::uint64_t> body_revisions;
-        Eigen::Vector3d camera_target, camera_up, camera_scene;
-        Eigen::Vector4d camera_turn;
-        double camera_distance = 0.0, pixel_ratio = 0.0, width = 0.0, height = 0.0, covered = 0.0;
-        Projection projection = Projection::perspective;
-        DisplaySettings display;
-        std::pair<double, double> range;
-        Hover hover;
-        int selected_handle = -1, selected_fixed = -1;
-        std::optional<int> selected_load = {};
-        bool pulling = false;
-        std::uint64_t scene_number = 0, scene_revision = 0;
-        const Palette* palette = nullptr;
-        DrawingDetail detail;
-        bool operator==(const Look&) const = default;
-    };
     struct Picture {
         Look look;
         int samples = 0;  ///< that were asked for
@@ -96,17 +64,7 @@ private:
         const DepthBuffer* whole = nullptr;  ///< the depths of the whole that a tile belongs to
         DrawingDetail detail = {};
     };
-    Look look_of(const ViewerState& state, const SceneViewport& viewport, const Palette& palette,
-                 double pixel_ratio) const;
     BodyDrawing& drawing(MethodKind kind);
-    void find_rim();
-    void upload_body(const ViewerState& state, const ShownBody& body, const Palette& palette);
-    void upload_section(const ShownBody& body, BodyDrawing& target);
-    void upload_filling(const ShownBody& body, BodyDrawing& target);
-    void upload_surface(const Positions& positions, const std::vector<float>& values, SurfaceDrawing& target);
-    void upload_patches(const ViewerState& state, const ShownBody& body, BodyDrawing& target, const Palette& palette,
-                        bool moved);
-    void upload_arrows(const ViewerState& state, const ShownBody& body, BodyDrawing& target, const Palette& palette);
     void draw_viewport(const ViewerState& state, const SceneViewport& viewport, const Palette& palette,
                        double pixel_ratio, const Framebuffer& target, const Extent& extent);
     const SurfaceDrawing& draw_solid(const ViewerState& state, const SceneView& view, MethodKind solid,
@@ -120,8 +78,7 @@ private:
 
     std::uint64_t scene_number_ = 0;
     SceneFrame frame_;
-    Edges rim_;                      ///< as numbers in the list that follows
-    std::vector<int> rim_vertices_;  ///< those of the mesh at which it is not closed
+    SurfaceRim rim_;
     std::map<MethodKind, BodyDrawing> drawings_;
     std::vector<Picture> pictures_;  ///< of the viewports, in their order
     std::optional<SurfaceDrawing> rest_;

@@ -56,6 +56,7 @@ ColourScale ShownScene::field_scale(const DisplaySettings& display) const {
 
 void ShownScene::forget() {
     bodies_.clear();
+    load_arrows_.clear();
     filling_.reset();
     section_.reset();
     for (const auto& [kind, runner] : insides_) runner->rest();

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/picture/colour_scale.hpp"
+#include "app/picture/load_arrows.hpp"
 #include "app/picture/reaction_runner.hpp"
 #include "app/picture/section_runner.hpp"
 #include "app/picture/shown_body.hpp"
@@ -54,6 +55,14 @@ public:
     std::pair<double, double> field_range(const DisplaySettings& display) const;
     ColourScale field_scale(const DisplaySettings& display) const;
 
+    /// The arrows of gravity and of all loads at this body, one of bodies(); see load_arrows().
+    const std::vector<LoadArrow>& load_arrows_at(const ShownBody& body, const LiveScene& scene, double radius,
+                                                 const std::optional<DraggedLoad>& dragged) const {
+        return load_arrows_[body.kind()].update(scene, body.positions(), body.revision(), radius, dragged);
+    }
+    /// How often they were computed for this method.
+    int n_load_arrows_computed(MethodKind kind) const { return load_arrows_[kind].n_computed(); }
+
     /// The scene was replaced.
     void forget();
     /// Why what is inside the body by this method is not known; empty when it is or will be.
@@ -84,6 +93,7 @@ private:
     void sum_costs(double update_seconds);
 
     std::vector<ShownBody> bodies_;  ///< of every method on the screen
+    mutable std::map<MethodKind, KeptLoadArrows> load_arrows_;
     std::function<void()> wake_;
     std::map<MethodKind, std::unique_ptr<ReactionRunner>> reactions_;
     bool wants_reactions_ = false;

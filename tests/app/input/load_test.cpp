@@ -288,5 +288,37 @@ TEST(SpringPull, IsTakenOverByAnOrdinaryPull) {
     EXPECT_LT((stage.pixel(v) - from - kDragged).norm(), 1e-6);
 }
 
+TEST(LoadArrows, AreComputedAnewOnlyWhenTheSetALoadOrThePositionsHaveChanged) {
+    Stage stage;
+    stage.open(cube_document_with_handle(3));
+    std::vector<int> patch;
+    for (int v = 0; v < stage.scene().mesh().n_vertices(); ++v)
+        if (stage.scene().mesh().vertices(2, v) > 1.0 - 1e-9) patch.push_back(v);
+    const int load = stage.scene().add_load(patch, ForceLoad{{0.0, 0.0, 0.01}});
+    ASSERT_EQ(load, 0);
+    stage.scene().commit();
+    stage.settle();
+    const auto computed = [&] {
+        stage.state.gesture_context();
+        return stage.state.shown.n_load_arrows_computed(stage.state.method);
+    };
+    const int before = computed();
+    EXPECT_GT(before, 0);
+    stage.frame();
+    stage.state.camera.orbit(10.0, 5.0, {0, 0, 640, 480});
+    stage.frame();
+    EXPECT_EQ(computed(), before) << "looked at from elsewhere";
+    stage.scene().set_load(load, ForceLoad{{0.0, 0.0, 0.02}});
+    EXPECT_EQ(computed(), before + 1) << "another load, the positions not yet";
+    stage.settle();
+    const int pressed = computed();
+    EXPECT_GT(pressed, before + 1) << "the body has followed";
+    const Eigen::Vector3d place = arrow_of(stage, load).place;
+    stage.scene().set_motion(0, AffineMotion{.translate = {0.1, 0.0, 0.0}});
+    stage.settle();
+    EXPECT_GT(computed(), pressed) << "pulled";
+    EXPECT_GT((arrow_of(stage, load).place - place).norm(), 0.01);
+}
+
 }  // namespace
 }  // namespace elastolab::test

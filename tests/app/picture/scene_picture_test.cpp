@@ -162,6 +162,25 @@ TEST_F(ScenePicture, TintsALargePatch) {
     EXPECT_GT(tinted, 0.8 * changed);
 }
 
+TEST_F(ScenePicture, PutsMarksTogetherAnewOnlyWhenTheyHaveChanged) {
+    const auto updates = [&] {
+        renderer.upload(stage.state, palette);
+        return renderer.n_mark_updates();
+    };
+    const int before = updates();
+    EXPECT_GT(before, 0);
+    stage.state.camera.orbit(10.0, 5.0, {0, 0, 320, 200});
+    stage.frame();
+    stage.move(stage.pixel(0));
+    stage.frame();
+    EXPECT_EQ(updates(), before) << "another view, and what the mouse points at";
+    stage.state.gestures.select_fixed(0);
+    EXPECT_EQ(updates(), before + 1) << "selected";
+    stage.scene().remove_fixed_set(0);
+    stage.scene().commit();
+    EXPECT_GT(updates(), before + 1) << "another set";
+}
+
 TEST_F(ScenePicture, HasALegendWithTheColoursOfTheFieldWhereThatIsWanted) {
     EXPECT_FALSE(legend_of(stage.state)) << "nothing is coloured";
     stage.state.display.field = Field::displacement;
