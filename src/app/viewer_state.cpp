@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "app/job_notes.hpp"
 #include "app/names.hpp"
 #include "app/window/recent_files.hpp"
 #include "findings/cost.hpp"
@@ -44,7 +43,7 @@ Positions handles_put(const LiveScene& scene, double scale) {
 }  // namespace
 
 ViewerState::ViewerState(const std::function<void()>& wake)
-    : simulation(wake), shown(wake), recent_(load_recent_files()), load_job_(wake), export_job_(wake) {
+    : simulation(wake), shown(wake), recent_(load_recent_files()), load_job_(wake), exports_(wake) {
     take_scene({.scene = std::make_unique<LiveScene>(default_document(), fs::path("cube.json")), .file = {}});
 }
 
@@ -113,9 +112,14 @@ void ViewerState::frame_in_viewports(bool first_time) {
 
 void ViewerState::cancel_workers() {
     load_job_.cancel();
-    export_job_.cancel();
+    exports_.cancel();
     shown.cancel();
     simulation.cancel();
+}
+
+void ViewerState::export_mesh(const fs::path& file) {
+    const auto source = [this] { return export_source(*scene_, simulation.answer(method)); };
+    exports_.start(file, source, simulation.previewing(method), messages);
 }
 
 void ViewerState::record_timings(const fs::path& file) {
@@ -177,108 +181,6 @@ void ViewerState::finish_gesture() {
     gestures.finish(context);
 }
 
-/// A choice of the method or its settings becomes a step of the scene's history, wherever it was made.
-void ViewerState::keep_method() {
-    const Document& document = scene_->document();
-    if (document.method == method && document.settings == choices.settings()) return;
-    scene_->set_method(method, choices.settings());
-    if (gestures.action() == Gestures::Action::none) scene_->commit();  // else the gesture's own step has it
-}
-
-void ViewerState::select_method(MethodKind kind) {
-    method = kind;
-    keep_method();
-}
-
-void ViewerState::take_method() {
-    method = scene_->document().method;
-    choices.set(scene_->document().settings);
-}
-
-std::string ViewerState::selected_fixed_name() const {
-    const int set = gestures.selected_fixed();
-    return set >= 0 && set < scene_->n_fixed_sets() ? scene_->fixed_name(set) : "";
-}
-
-std::string ViewerState::selected_handle_name() const {
-    const int handle = gestures.selected_handle();
-    return handle >= 0 && handle < scene_->n_handles() ? scene_->handle_name(handle) : "";
-}
-
-/// After undo and redo: the numbers of handles and sets may mean others, their names do not.
-void ViewerState::take_step(const std::string& selected_handle, const std::string& selected_fixed_set) {
-    take_method();
-    gestures.select_handle(-1);
-    gestures.keep_fixed(-1);
-    gestures.select_load(std::nullopt);
-    for (int handle = 0; handle < scene_->n_handles(); ++handle)
-        if (scene_->handle_name(handle) == selected_handle) gestures.select_handle(handle);
-    for (int set = 0; set < scene_->n_fixed_sets(); ++set)
-        if (scene_->fixed_name(set) == selected_fixed_set) gestures.keep_fixed(set);
-}
-
-void ViewerState::undo() {
-    finish_gesture();
-    keep_method();
-    const std::string handle = selected_handle_name(), set = selected_fixed_name();
-    if (scene_->can_undo()) scene_->undo();
-    take_step(handle, set);
-}
-
-void ViewerState::redo() {
-    finish_gesture();
-    keep_method();
-    const std::string handle = selected_handle_name(), set = selected_fixed_name();
-    if (scene_->can_redo()) scene_->redo();
-    take_step(handle, set);
-}
-
-void ViewerState::remove_handle(int handle) {
-    if (handle < 0 || handle >= scene_->n_handles()) return;
-    const int vertex = scene_->vertices(handle).front();
-    finish_gesture();  // which may remove another one: numbers change, vertices do not
-    if (scene_->owner(vertex) < 0) return;
-    scene_->remove_handle(scene_->owner(vertex));
-    scene_->commit();
-    gestures.select_handle(-1);
-}
-
-void ViewerState::clear_handles() {
-    finish_gesture();
-    scene_->clear_handles();
-    scene_->commit();
-    gestures.select_handle(-1);
-}
-
-void ViewerState::remove_load(int load) {
-    if (load < 0 || load >= scene_->n_loads()) return;
-    const std::string name = scene_->load_name(load);
-    finish_gesture();  // which may remove another one: numbers change, names do not
-    for (int l = 0; l < scene_->n_loads(); ++l) {
-        if (scene_->load_name(l) != name) continue;
-        scene_->remove_load(l);
-        scene_->commit();
-        break;
-    }
-    gestures.select_load(std::nullopt);
-}
-
-void ViewerState::clear_loads() {
-    finish_gesture();
-    scene_->clear_loads();
-    scene_->commit();
-    gestures.select_load(std::nullopt);
-}
-
-void ViewerState::remove_fixed_set(int set) {
-    if (set < 0 || set >= scene_->n_fixed_sets()) return;
-    finish_gesture();
-    if (set >= scene_->n_fixed_sets()) return;
-    scene_->remove_fixed_set(set);
-    scene_->commit();
-    gestures.select_fixed(-1);
-}
-
 FrameRecord ViewerState::frame_record(const FrameTimes& times, double now) const {
     const ConstrainedSet& set = scene_->constraints().set;
     const auto n_handle = static_cast<int>(set.handles.size());
@@ -292,20 +194,9 @@ FrameRecord ViewerState::frame_record(const FrameTimes& times, double now) const
             .times = times};
 }
 
-void ViewerState::set_young_modulus(double value) {
-    if (!(value > 0.0 && std::isfinite(value))) {
-        messages.error("Young's modulus must be positive. Enter a force per area above 0.");
-        return;
-    }
-    Material material = scene_->document().material;
-    material.young_modulus = value;
-    scene_->set_material(material);
-    scene_->commit();
-}
-
 bool ViewerState::update_displacements() {
     poll_loading();
-    const bool has_exported = tell_end(export_job_, messages);
+    const bool has_exported = exports_.poll(messages);
     keep_method();
     if (blank()) return has_exported;  // the default scene would be computed for nothing
     simulated_ = true;

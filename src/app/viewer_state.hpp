@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/autosave.hpp"
+#include "app/exports.hpp"
 #include "app/input/gestures.hpp"
 #include "app/measurements.hpp"
 #include "app/panels/messages.hpp"
@@ -17,6 +18,7 @@
 #include "app/scene_files.hpp"
 #include "app/settings.hpp"
 #include "app/unsaved_changes.hpp"
+#include "app/viewer_requests.hpp"
 #include "methods/registry.hpp"
 #include "render/camera.hpp"
 #include "scene/live/background_job.hpp"
@@ -25,29 +27,6 @@
 #include "scene/user_text.hpp"
 
 namespace elastolab {
-
-/// A picture of the scene alone, or the frames of a film of it.
-struct PictureRequest {
-    std::filesystem::path file = {};
-    Eigen::Vector2i size{1920, 1080};  ///< [pixels]
-    bool transparent = false;
-    bool legend = true;  ///< with the colour bar, where there is one
-    int n_frames = 0;    ///< of a film; 0: a single picture
-    FilmKind kind = FilmKind::turn;
-    bool video = false;
-};
-struct PictureProgress {
-    int done = 0, wanted = 0;  ///< frames
-};
-
-/// What the window and the dialogs are asked to do.
-struct ViewerRequests {
-    std::optional<std::filesystem::path> screenshot;
-    std::optional<PictureRequest> picture;
-    bool stop_pictures = false;
-    bool quit = false;
-    bool scene_name = false;  ///< the scene has no file yet: a name, then answer_unsaved(save)
-};
 
 /// Everything that the viewer shows and edits, without any window: panels and gestures work on it. Owned by one thread.
 class ViewerState {
@@ -184,21 +163,19 @@ public:
     /// The file that is being opened, or was last.
     const std::filesystem::path& loading_file() const { return pending_file_; }
     /// The file that a worker writes; empty when none does.
-    std::filesystem::path exported_file() const {
-        return export_job_.running() ? export_file_ : std::filesystem::path();
-    }
+    std::filesystem::path exported_file() const { return exports_.file(); }
     /// The first file is being opened: until it is there, nothing is shown that could be pulled.
     bool blank() const { return loading() && !simulated_; }
     /// A worker will bring something for the picture.
     bool waiting() const {
-        return loading() || export_job_.running() || shown.cutting() || shown.solving() || simulation.waiting();
+        return loading() || exports_.running() || shown.cutting() || shown.solving() || simulation.waiting();
     }
     /// What is shown is not yet the converged answer to the scene as it is.
     bool answering() const;
     /// Stops all workers at their next checkpoints; stopping(): some have not stopped yet.
     void cancel_workers();
     bool stopping() const {
-        return load_job_.working() || export_job_.working() || shown.working() || simulation.stopping();
+        return load_job_.working() || exports_.working() || shown.working() || simulation.stopping();
     }
 
 private:
@@ -231,8 +208,7 @@ private:
     std::optional<MethodKind> first_method_;
     std::optional<AutosavedScene> recovering_, recovered_;
     BackgroundJob<std::shared_ptr<LoadedScene>> load_job_;
-    std::filesystem::path export_file_;      ///< that export_job_ writes
-    BackgroundJob<std::string> export_job_;  ///< with its note
+    Exports exports_;
 };
 
 template <class Action>

@@ -1,0 +1,39 @@
+#include "app/exports.hpp"
+
+#include <memory>
+#include <utility>
+
+#include "app/job_notes.hpp"
+#include "scene/user_text.hpp"
+
+namespace elastolab {
+
+void Exports::start(const std::filesystem::path& file, const std::function<ExportSource()>& make_source,
+                    bool is_preview, Messages& messages) {
+    if (running()) {
+        messages.error(file_.filename().string() + " is still being written. Export " + file.filename().string() +
+                       " when it is there.");
+        return;
+    }
+    ExportSource source = make_source();
+    if (!takes_solves(file) && source.refined) {  // the work of a frame
+        try {
+            Control never_cancelled;
+            write_export(file, source, never_cancelled);
+            messages.note("Exported " + file.string());
+        } catch (const std::exception& error) {
+            messages.error(user_text(error));
+        }
+        return;
+    }
+    std::string note = "Exported " + file.string() + (is_preview ? ", the preview: the method is not ready yet" : "");
+    file_ = file;
+    job_.start([file, note, source = std::make_shared<const ExportSource>(std::move(source))](Control& control) {
+        write_export(file, *source, control);
+        return note;
+    });
+}
+
+bool Exports::poll(Messages& messages) { return tell_end(job_, messages); }
+
+}  // namespace elastolab

@@ -1,0 +1,127 @@
+// When the viewer draws a frame, which events that has, and what it waits for in between.
+#include <algorithm>
+#include <utility>
+
+#include "app/picture/view_point.hpp"
+#include "app/viewer_session.hpp"
+
+namespace elastolab {
+
+namespace {
+
+constexpr double kProgressSeconds = 1.0 / 15.0;  ///< between frames while a progress bar moves
+constexpr double kWaitingSeconds = 0.01;         ///< between looks at what the next frame of a film shows
+constexpr double kCheckSeconds = 0.25;           ///< between looks at a check that goes on in the background
+constexpr double kCaretSeconds = 0.4;            ///< between frames while a text cursor blinks
+
+}  // namespace
+
+bool ViewerSession::held_back() const {
+    const bool late_frames =
+        options_.n_frames > 0 && 2 * (state_.measurements.frame + 1) > options_.n_frames && !replay_;
+    return late_frames && (computing() || state_.simulation.busy());
+}
+
+double ViewerSession::timeout() const {
+    const double rest = timeout_of_work(), detail = detail_.due_in(Window::seconds());
+    return detail < 0.0 || (rest >= 0.0 && rest < detail) ? rest : detail;
+}
+
+double ViewerSession::timeout_of_work() const {
+    if (pictures_.filming()) return pictures_.waiting() ? kWaitingSeconds : 0.0;
+    if (held_back()) return kProgressSeconds;
+    if (options_.n_frames > 0 || pending_frames_ > 0 || !queue_.empty()) return 0.0;
+    if (replay_ && !replay_->done() && !state_.simulation.busy()) return 0.0;
+    if (computing() || state_.simulation.busy()) return kProgressSeconds;
+    if (state_.simulation.checking()) return kCheckSeconds;
+    if (const double rest = six_axis_.due_in(Window::seconds()); rest >= 0.0) return rest + 0.01;
+    if (message_seconds_ >= 0.0) return std::max(message_seconds_, 0.01);
+    const double keeping = state_.gestures.dragging() ? -1.0 : autosave_.due_in(Window::seconds());
+    if (!gui_.wants_text()) return keeping;
+    return keeping < 0.0 ? kCaretSeconds : std::min(kCaretSeconds, keeping);
+}
+
+void ViewerSession::keep_scene() {
+    if (nobody_watches() || state_.gestures.dragging() || pictures_.filming()) return;
+    if (std::optional<AutosavedScene> recovered = state_.take_recovered()) autosave_.adopt(std::move(*recovered));
+    autosave_.update(
+        {.revision = state_.scene().revision() + (state_.scene_number() << 32),
+         .modified = state_.scene().modified(),
+         .origin = state_.scene_file(),
+         .document = [this] { return movable_document(state_.scene(), state_.method, view_point_of(state_.camera)); }},
+        Window::seconds());
+    if (state_.keeping_failure == autosave_.failure()) return;
+    state_.keeping_failure = autosave_.failure();
+    pending_frames_ = kSettlingFrames;
+}
+
+bool ViewerSession::must_draw() {
+    std::vector<InputEvent> events = window_.take_events();
+    if (!replaying()) queue_.insert(queue_.end(), events.begin(), events.end());
+    for (const std::filesystem::path& file : window_.take_dropped_files()) {
+        state_.open(file);
+        pending_frames_ = kSettlingFrames;  // for the question that it may raise
+    }
+    if (std::any_of(events.begin(), events.end(), [](const InputEvent& event) { return event.pressed; }))
+        six_axis_.end_step(state_);
+    if (six_axis_mouse_ && six_axis_.apply(six_axis_mouse_->take(), Window::seconds(), state_))
+        pending_frames_ = kSettlingFrames;
+    if (pictures_.poll(state_) || pictures_.filming()) pending_frames_ = kSettlingFrames;
+    const bool damaged = window_.take_damage();
+    if (!queue_.empty() || damaged || state_.simulation.busy() || computing()) pending_frames_ = kSettlingFrames;
+    if (detail_.due_in(Window::seconds()) == 0.0) pending_frames_ = std::max(pending_frames_, 1);
+    if (message_seconds_ >= 0.0 || gui_.wants_text()) pending_frames_ = std::max(pending_frames_, 1);
+    if (window_.close_requested() && !may_close()) pending_frames_ = kSettlingFrames;  // for the question
+    if (window_.close_requested()) return false;
+    if (held_back()) {
+        state_.update_displacements();
+        state_.update_picture();
+        return false;
+    }
+    if (options_.n_frames == 0 && pending_frames_ == 0 && !replaying()) {
+        const bool checking = state_.simulation.checking();
+        const bool changed = state_.update_displacements();
+        if (!changed && checking == state_.simulation.checking()) return false;  // nothing new to see
+        pending_frames_ = 1;
+    }
+    return window_.size().minCoeff() > 0;
+}
+
+bool ViewerSession::may_close() {
+    if (!state_.requests.quit) state_.quit();
+    if (!state_.requests.quit) window_.stay_open();
+    return state_.requests.quit;
+}
+
+std::vector<InputEvent> ViewerSession::take_events() {
+    std::vector<InputEvent> events;
+    if (replaying()) {
+        if (!replay_->done() && !state_.simulation.busy() && !state_.loading() && state_.measurements.frame > 2)
+            events = replay_->log.frames[replay_->next++].events;
+    } else {
+        const auto n = static_cast<std::ptrdiff_t>(Gui::n_for_one_frame(queue_));
+        events.assign(queue_.begin(), queue_.begin() + n);
+        queue_.erase(queue_.begin(), queue_.begin() + n);
+    }
+    if (state_.measurements.recorder && !events.empty()) state_.measurements.recorder->add({Window::seconds(), events});
+    if (!events.empty()) pending_frames_ = kSettlingFrames;
+    return events;
+}
+
+bool ViewerSession::is_last_frame() const {
+    if (window_.close_requested()) return true;
+    if (options_.n_frames > 0) return state_.measurements.frame + 1 >= options_.n_frames;
+    return replay_over() && options_.hidden;
+}
+
+bool ViewerSession::replay_over() const {
+    return replay_ && replay_->done() && pending_frames_ <= 1 && !state_.simulation.busy();
+}
+
+bool ViewerSession::finished() const {
+    if (window_.close_requested()) return true;
+    if (options_.n_frames > 0) return state_.measurements.frame >= options_.n_frames;
+    return replay_over() && options_.hidden;
+}
+
+}  // namespace elastolab
