@@ -1,3 +1,5 @@
+#include "app/panels/body_panel.hpp"
+
 #include <imgui.h>
 
 #include <array>
@@ -42,7 +44,7 @@ constexpr int kFewestChosen = 100, kMostChosen = 10000;
 }  // namespace
 
 /// How a surface that bounds no solid is simulated.
-void Panels::draw_proxy(ViewerState& state, float scale) {
+void BodyPanel::draw_proxy(ViewerState& state, float scale) {
     if (!state.scene().needs_proxy(state.method)) return;
     ProxyChoice choice = state.scene().document().proxy;
     const auto set = [&] {
@@ -70,7 +72,7 @@ void Panels::draw_proxy(ViewerState& state, float scale) {
 }
 
 /// "0.5" passes through "0": the number counts when its field is left.
-void Panels::draw_young_modulus(ViewerState& state, float scale) {
+void BodyPanel::draw_young_modulus(ViewerState& state, float scale) {
     double value = typed_modulus_.value_or(state.scene().document().material.young_modulus);
     set_item_width(scale);
     if (ImGui::InputDouble("Young's modulus", &value, 0.0, 0.0, "%.4g")) typed_modulus_ = value;
@@ -83,7 +85,7 @@ void Panels::draw_young_modulus(ViewerState& state, float scale) {
 }
 
 /// What keeps the surface from being a solid, with a button that goes from one place of it to the next.
-void Panels::draw_defects(const PanelContext& context) {
+void BodyPanel::draw_defects(const PanelContext& context) {
     ViewerState& state = context.state;
     const MeshReport& report = state.scene().report();
     const bool has_proxy = state.simulation.embedded(state.method).proxy() != nullptr;
@@ -104,11 +106,11 @@ void Panels::draw_defects(const PanelContext& context) {
     }
 }
 
-void Panels::open_primitive(ViewerState& state) {
+void BodyPanel::make(ViewerState& state) {
     state.open_primitive({.name = primitive_, .resolution = resolution_, .size = {}});
 }
 
-void Panels::draw_body(const PanelContext& context) {
+void BodyPanel::draw(const PanelContext& context, const std::function<void()>& ask_open) {
     ViewerState& state = context.state;
     const LiveScene& scene = state.scene();
     const float scale = context.gui.scale();
@@ -139,9 +141,9 @@ void Panels::draw_body(const PanelContext& context) {
             if (ImGui::SmallButton(std::to_string(6 * cells * cells + 2).c_str())) resolution_ = cells;
         }
     }
-    if (ImGui::Button("Make it")) open_primitive(state);
+    if (ImGui::Button("Make it")) make(state);
     ImGui::SameLine();
-    if (ImGui::Button("Open a file...")) ask_open(state);
+    if (ImGui::Button("Open a file...")) ask_open();
     ImGui::TreePop();
 }
 

@@ -89,7 +89,7 @@ void Panels::draw_compare(const PanelContext& context) {
     if (ImGui::Checkbox("colour by difference", &coloured))
         state.display.field = coloured ? Field::difference : Field::none;
     draw_differences(context);
-    const std::uint64_t bytes = memory_of_comparison(state);
+    const std::uint64_t bytes = costs_.memory_of_comparison(state);
     fact("memory, at most", bytes > 0 ? readable_bytes(static_cast<double>(bytes)) : "\u2013",
          context.palette.text_dim);
     tooltip(

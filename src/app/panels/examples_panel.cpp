@@ -1,11 +1,13 @@
-// The scenes that come with the program, as pictures in a menu.
+#include "app/panels/examples_panel.hpp"
+
 #include <imgui.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <exception>
+#include <utility>
 
-#include "app/panels/panels.hpp"
+#include "app/viewer_state.hpp"
 
 namespace elastolab {
 
@@ -26,9 +28,9 @@ std::size_t columns_beside_menu(float scale) {
 }  // namespace
 
 /// Read when the menu is opened for the first time. One that cannot be read is shown by its name alone.
-void Panels::load_examples() {
-    if (examples_loaded_) return;
-    examples_loaded_ = true;
+void ExamplesPanel::load() {
+    if (loaded_) return;
+    loaded_ = true;
     for (Example& example : examples()) {
         std::unique_ptr<PictureTexture> picture;
         try {
@@ -39,10 +41,10 @@ void Panels::load_examples() {
     }
 }
 
-void Panels::draw_examples(ViewerState& state, float scale) {
+void ExamplesPanel::draw(ViewerState& state, float scale) {
     const std::size_t columns = columns_beside_menu(scale);
     if (!ImGui::BeginMenu("Examples")) return;
-    load_examples();
+    load();
     if (examples_.empty()) ImGui::TextDisabled("They are not installed.");
     const ImVec2 picture{kPictureWidth * scale, kPictureHeight * scale};
     const ImVec2 size{picture.x, picture.y + ImGui::GetTextLineHeightWithSpacing()};

@@ -1,20 +1,15 @@
-// What leaves the program: meshes with their fields, tables, pictures.
+// What leaves the program for others: meshes with their fields, and tables.
 #include <imgui.h>
 
-#include <algorithm>
 #include <array>
-#include <filesystem>
+#include <string>
 
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
-#include "app/picture/film.hpp"
 
 namespace elastolab {
 
 namespace {
-
-constexpr const char* kPictureTitle = "Picture";
-constexpr int kLargestPicture = 32768, kMostFrames = 3600;
 
 struct ExportKind {
     const char* label;
@@ -34,39 +29,12 @@ constexpr std::array<ExportKind, 8> kExports = {
      {"Morph targets (glTF)...", ".glb", "For Blender and game engines: six for each handle. Linear methods."},
      {"Table of vertices (CSV)...", ".csv", "Rest positions, displacements, tractions and stresses."}}};
 
-std::string file_name(const ViewerState& state, const std::string& ending) {
-    return std::filesystem::path(state.scene().name()).stem().string() + ending;
-}
-
-void draw_number(const char* label, int& value, int low, int high, float scale) {
-    ImGui::SetNextItemWidth(110.0f * scale);
-    ImGui::InputInt(label, &value, 0, 0);
-    value = std::clamp(value, low, high);
-}
-
-/// A single picture, or what film; whether it is one.
-bool draw_film_choice(PictureRequest& picture) {
-    int chosen = picture.n_frames == 0 ? 0 : picture.kind == FilmKind::turn ? 1 : 2;
-    const int before = chosen;
-    ImGui::RadioButton("one picture", &chosen, 0);
-    ImGui::RadioButton("turntable: one turn as numbered frames", &chosen, 1);
-    ImGui::RadioButton("pull: from rest to here and back, as numbered frames", &chosen, 2);
-    if (chosen != before) picture.n_frames = chosen == 0 ? 0 : std::max(picture.n_frames, 120);
-    if (chosen != 0) picture.kind = chosen == 1 ? FilmKind::turn : FilmKind::pull;
-    return chosen != 0;
-}
-
-const char* film_ending(const PictureRequest& picture) {
-    if (picture.n_frames == 0) return ".png";
-    return picture.kind == FilmKind::turn ? "-turn.png" : "-pull.png";
-}
-
 }  // namespace
 
 void Panels::ask_export(ViewerState& state, const std::string& ending) {
     files_.open({.title = "Export (" + ending + ")",
                  .extensions = {ending},
-                 .suggestion = file_name(state, "-deformed" + ending),
+                 .suggestion = suggested_name(state, "-deformed" + ending),
                  .done = [&](const auto& file) { state.export_mesh(file); }});
 }
 
@@ -78,67 +46,6 @@ void Panels::draw_export_menu(ViewerState& state) {
         tooltip(possible ? kind.explanation : "This method has no tetrahedra: choose a finite-element method.");
     }
     ImGui::EndMenu();
-}
-
-/// Size and kind of a picture, before its name is asked for.
-void Panels::draw_picture(const PanelContext& context) {
-    ViewerState& state = context.state;
-    if (std::exchange(asks_picture_, false)) {
-        ImGui::OpenPopup(kPictureTitle);
-        video_obstacle_ = video_obstacle();
-    }
-    const ImVec2 screen = ImGui::GetIO().DisplaySize;
-    const float scale = context.gui.scale();
-    ImGui::SetNextWindowPos({0.5f * screen.x, 0.5f * screen.y}, ImGuiCond_Always, {0.5f, 0.5f});
-    if (!ImGui::BeginPopupModal(kPictureTitle, nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove))
-        return;
-    draw_number("##width", picture_.size.x(), 16, kLargestPicture, scale);
-    ImGui::SameLine();
-    ImGui::TextUnformatted("x");
-    ImGui::SameLine();
-    draw_number("pixels", picture_.size.y(), 16, kLargestPicture, scale);
-    ImGui::Checkbox("transparent background", &picture_.transparent);
-    ImGui::Checkbox("legend", &picture_.legend);
-    tooltip("The colours of the field that is shown, at the lower right.");
-    const bool is_film = draw_film_choice(picture_);
-    if (is_film) {
-        draw_number("frames", picture_.n_frames, 2, kMostFrames, scale);
-        if (video_obstacle_.empty())
-            ImGui::Checkbox("and as a video (MP4, 30 frames a second)", &picture_.video);
-        else
-            ImGui::TextDisabled("No video: %s", video_obstacle_.c_str());
-    }
-    const bool enter = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false) && !ImGui::IsWindowAppearing();
-    if (ImGui::Button("Save as...") || enter) {
-        picture_.video = picture_.video && is_film && video_obstacle_.empty();
-        ImGui::CloseCurrentPopup();
-        files_.open({.title = is_film ? "Save the frames of a film" : "Save a picture",
-                     .extensions = {".png"},
-                     .suggestion = file_name(state, film_ending(picture_)),
-                     .done = [&state, picture = picture_](const auto& file) mutable {
-                         picture.file = file;
-                         state.requests.picture = picture;
-                     }});
-    }
-    ImGui::SameLine();
-    if (ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false))
-        ImGui::CloseCurrentPopup();
-    ImGui::EndPopup();
-}
-
-/// While the frames of a film are drawn.
-void Panels::draw_picture_progress(const PanelContext& context) {
-    ViewerState& state = context.state;
-    if (!state.pictures_under_way) return;
-    const ImVec2 screen = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos({0.5f * screen.x, 0.5f * screen.y}, ImGuiCond_Always, {0.5f, 0.5f});
-    ImGui::Begin("##pictures", nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove);
-    const auto [done, wanted] = *state.pictures_under_way;
-    ImGui::Text("Frame %d of %d", done, wanted);
-    ImGui::ProgressBar(static_cast<float>(done) / static_cast<float>(wanted), {260.0f * context.gui.scale(), 0.0f});
-    if (ImGui::Button("Stop")) state.requests.stop_pictures = true;
-    ImGui::End();
 }
 
 }  // namespace elastolab

@@ -113,20 +113,17 @@ void Panels::draw_menu(const PanelContext& context) {
     if (ImGui::BeginMenu("File")) {
         if (ImGui::MenuItem("Open...", "Ctrl+O")) ask_open(state);
         draw_recent(state);
-        draw_examples(state, context.gui.scale());
+        examples_.draw(state, context.gui.scale());
         if (ImGui::BeginMenu("New body")) {
             for (const std::string& name : primitive_names())
-                if (ImGui::MenuItem(name.c_str())) {
-                    primitive_ = name;
-                    open_primitive(state);
-                }
+                if (ImGui::MenuItem(name.c_str())) body_.make(state, name);
             ImGui::EndMenu();
         }
         ImGui::Separator();
         if (ImGui::MenuItem("Save scene", "Ctrl+S")) save(state);
         if (ImGui::MenuItem("Save scene as...", "Ctrl+Shift+S")) save_as(state);
         draw_export_menu(state);
-        if (ImGui::MenuItem("Picture or film...")) asks_picture_ = true;
+        if (ImGui::MenuItem("Picture or film...")) picture_.ask();
         if (ImGui::MenuItem("Screenshot of the window...")) ask_screenshot(state);
         ImGui::Separator();
         if (ImGui::MenuItem("Quit", "Ctrl+Q")) state.quit();

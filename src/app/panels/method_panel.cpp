@@ -1,3 +1,5 @@
+#include "app/panels/method_panel.hpp"
+
 #include <imgui.h>
 
 #include <algorithm>
@@ -197,15 +199,15 @@ void draw_model(const PanelContext& context, const MethodRunner& runner) {
 }  // namespace
 
 /// Which method is ready, or would be far sooner than one that takes long; null when none.
-MethodKind Panels::sooner_method(const ViewerState& state) {
+MethodKind MethodPanel::sooner_method(const ViewerState& state) {
     constexpr double kLong = 4.0, kFarSooner = 3.0;  // seconds; times
     if (state.simulation.runner(state.method).state() != State::precomputing) return nullptr;
-    const double own = cost(state, state.choices.of(state.method)).seconds;
+    const double own = costs_.of(state, state.choices.of(state.method)).seconds;
     if (own < kLong) return nullptr;
     for (const MethodKind kind : all_methods())
         if (state.simulation.runner(kind).model() != nullptr && kind != state.method) return kind;
     const auto seconds = [&](MethodKind kind) {
-        const double predicted = cost(state, state.choices.of(kind)).seconds;
+        const double predicted = costs_.of(state, state.choices.of(kind)).seconds;
         return predicted > 0.0 && state.simulation.problem(kind).empty() ? predicted : own;
     };
     const std::span<const MethodKind> all = all_methods();
@@ -215,13 +217,13 @@ MethodKind Panels::sooner_method(const ViewerState& state) {
 }
 
 /// One click to the method that answers sooner, in the row of the state.
-void Panels::draw_sooner(const PanelContext& context) {
+void MethodPanel::draw_sooner(const PanelContext& context) {
     ViewerState& state = context.state;
     const MethodKind sooner = sooner_method(state);
     if (sooner == nullptr) return;
     const bool ready = state.simulation.runner(sooner).model() != nullptr;
     const std::string when =
-        ready ? "ready" : "in about " + readable_seconds(cost(state, state.choices.of(sooner)).seconds);
+        ready ? "ready" : "in about " + readable_seconds(costs_.of(state, state.choices.of(sooner)).seconds);
     const std::string label = title(sooner) + ": " + when;
     const float width = ImGui::CalcTextSize(label.c_str()).x + 2.0f * ImGui::GetStyle().FramePadding.x;
     ImGui::SameLine();
@@ -230,11 +232,11 @@ void Panels::draw_sooner(const PanelContext& context) {
     tooltip("Exact sooner than the chosen method, which goes on when it is chosen again.");
 }
 
-void Panels::draw_method(const PanelContext& context) {
+void MethodPanel::draw(const PanelContext& context) {
     ViewerState& state = context.state;
     const Palette& palette = context.palette;
-    const auto cost_of = [&](MethodKind kind) -> const Cost& { return cost(state, state.choices.of(kind)); };
-    draw_buttons(context, cost_of, [&](MethodKind kind) { return memory_with_completion(state, kind); });
+    const auto cost_of = [&](MethodKind kind) -> const Cost& { return costs_.of(state, state.choices.of(kind)); };
+    draw_buttons(context, cost_of, [&](MethodKind kind) { return costs_.memory_with_completion(state, kind); });
     MethodRunner& runner = state.simulation.runner(state.method);
     const Colour& colour = state.simulation.previewing(state.method) ? palette.good : state_colour(runner, palette);
     ImGui::TextColored(imgui_colour(colour), "%s", state_words(state, cost_of(state.method)).c_str());
@@ -256,14 +258,14 @@ void Panels::draw_method(const PanelContext& context) {
 }
 
 /// The modes with what each would cost; those that would not fit cannot be chosen.
-void Panels::draw_mode(const PanelContext& context) {
+void MethodPanel::draw_mode(const PanelContext& context) {
     ViewerState& state = context.state;
     set_item_width(context.gui.scale());
     if (begin_choice("ahead", state.choices.mode == Mode::full ? kModes[1].label : kModes[0].label)) {
         for (const Choice<Mode>& choice : kModes) {
             Method method = state.choices.of(state.method);
             method.mode = choice.value;
-            const Cost& price = cost(state, method);
+            const Cost& price = costs_.of(state, method);
             const bool fits = price.memory_bytes < available_memory_bytes();
             const std::string label = std::string(choice.label) + "   " + readable_seconds(price.seconds) + ", " +
                                       readable_bytes(static_cast<double>(price.memory_bytes)) +

@@ -5,8 +5,6 @@
 #include <array>
 
 #include "app/panels/widgets.hpp"
-#include "base/memory.hpp"
-#include "base/text.hpp"
 
 namespace elastolab {
 
@@ -19,12 +17,11 @@ std::vector<std::string> with_scenes(std::vector<std::string> extensions) {
     return extensions;
 }
 
-/// A name for an output of this scene, by the name of its mesh.
+}  // namespace
+
 std::string suggested_name(const ViewerState& state, const std::string& ending) {
     return std::filesystem::path(state.scene().name()).stem().string() + ending;
 }
-
-}  // namespace
 
 void Panels::ask_open(ViewerState& state) {
     files_.open({"Open a mesh or scene", with_scenes(kMeshFiles), "", [&](const auto& file) { state.open(file); }});
@@ -58,6 +55,12 @@ void Panels::ask_name_of_unsaved(ViewerState& state) {
                  .cancelled = [&] { state.unsaved.cancel(); }});
 }
 
+void Panels::rename_selection(ViewerState& state) {
+    if (!state.selection()) return;
+    state.display.panel = true;
+    pull_.ask_name();
+}
+
 void Panels::ask_screenshot(ViewerState& state) {
     files_.open({"Save a screenshot", {".png"}, suggested_name(state, ".png"), [&](const auto& file) {
                      state.requests.screenshot = file;
@@ -76,62 +79,19 @@ void Panels::ask_timings(ViewerState& state) {
                  }});
 }
 
-/// That on the proxy, where one is simulated, once it is there; nothing until then.
-const Cost& Panels::cost(const ViewerState& state, const Method& method) {
-    const SurfaceMesh* surface = state.simulation.simulated_surface(method.kind, state.scene());
-    if (costs_of_scene_ != state.scene_number()) {
-        costs_.clear();
-        completed_bytes_.clear();
-    }
-    costs_of_scene_ = state.scene_number();
-    if (surface == nullptr) {
-        static const Cost kUnknown;
-        return kUnknown;
-    }
-    const auto [place, is_new] =
-        costs_.try_emplace({method.kind, method.mode, method.update, surface->n_vertices(), surface->n_triangles()});
-    if (is_new) place->second = predict_cost(*surface, method);
-    return place->second;
-}
-
-/// What a method's model will take with what is completed by itself; 0 where that is not known.
-std::uint64_t Panels::memory_with_completion(const ViewerState& state, MethodKind kind) {
-    const SurfaceMesh* surface = state.simulation.simulated_surface(kind, state.scene());
-    if (surface == nullptr) return 0;
-    const std::uint64_t own = cost(state, state.choices.of(kind)).memory_bytes;
-    const MethodChoices& choices = state.choices;
-    const auto [place, is_new] = completed_bytes_.try_emplace(
-        {kind, choices.mode, choices.update, choices.complete_up_to, surface->n_vertices(), surface->n_triangles()});
-    if (!is_new) return place->second;
-    const std::optional<Method> completion = completion_of(*surface, kind, choices);
-    return place->second = completion ? std::max(own, cost(state, *completion).memory_bytes) : own;
-}
-
-/// Of all methods that are compared, and of the program itself, at most; 0 where that is not known.
-std::uint64_t Panels::memory_of_comparison(const ViewerState& state) {
-    std::uint64_t sum = program_bytes_;
-    for (const MethodKind kind : state.shown_kinds()) {
-        const std::uint64_t model = memory_with_completion(state, kind);
-        if (model == 0) return 0;
-        sum += model + state.simulation.runner(kind).set_memory();
-    }
-    return sum;
-}
-
 void Panels::draw(const PanelContext& context) {
-    if (program_bytes_ == 0) program_bytes_ = resident_memory_bytes();
+    costs_.measure_program();
     draw_menu(context);
     if (!context.state.blank()) draw_side(context);
     draw_status(context);
     draw_overlays(context);
     if (context.state.show_help) draw_help(context);
     if (std::exchange(context.state.requests.scene_name, false)) ask_name_of_unsaved(context.state);
-    draw_picture(context);
-    draw_picture_progress(context);
+    picture_.draw(context, files_);
     files_.draw(context.gui.scale());
-    draw_name_alone(context);
-    draw_recovery(context);
-    draw_unsaved(context);
+    pull_.draw_name_alone(context);
+    recovery_.draw(context);
+    unsaved_.draw(context, files_.is_open());
 }
 
 void Panels::visit_user_texts(const ViewerState& state, const std::function<void(std::string_view)>& visit) const {
@@ -149,7 +109,7 @@ void Panels::visit_user_texts(const ViewerState& state, const std::function<void
 void Panels::draw_side(const PanelContext& context) {
     const Viewport& place = context.layout.panel;
     if (place.width <= 0.0) return;
-    const float warnings = draw_warnings(context);
+    const float warnings = warnings_.draw(context);
     ImGui::SetNextWindowPos({static_cast<float>(place.x), static_cast<float>(place.y)});
     ImGui::SetNextWindowSize({static_cast<float>(place.width), static_cast<float>(place.height) - warnings});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0f);
@@ -192,7 +152,7 @@ void Panels::draw_sections(const PanelContext& context) {
 void Panels::draw_folding(const PanelContext& context, const Section& section) {
     ImGui::PushFont(context.gui.fonts().bold);
     ImGui::SetNextItemOpen(section.open, ImGuiCond_Once);
-    if (asks_name_ && section.draw == &Panels::draw_pull) ImGui::SetNextItemOpen(true);
+    if (pull_.asks_name() && section.draw == &Panels::draw_pull) ImGui::SetNextItemOpen(true);
     const bool open = ImGui::CollapsingHeader(section.title);
     ImGui::PopFont();
     if (!open) return;
@@ -207,7 +167,7 @@ void Panels::draw_tabs(const PanelContext& context, std::span<const Section> sec
     std::vector<Segment> tabs;
     for (const Section& section : sections) tabs.push_back({section.title, ""});
     for (std::size_t i = 0; i < sections.size(); ++i)
-        if (asks_name_ && sections[i].draw == &Panels::draw_pull) tab_ = i;
+        if (pull_.asks_name() && sections[i].draw == &Panels::draw_pull) tab_ = i;
     const Palette& palette = context.palette;
     ImGui::PushFont(context.gui.fonts().bold);
     ImGui::PushStyleColor(ImGuiCol_Button, ImVec4());

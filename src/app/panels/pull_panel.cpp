@@ -1,3 +1,5 @@
+#include "app/panels/pull_panel.hpp"
+
 #include <imgui.h>
 
 #include <imgui_stdlib.h>
@@ -129,14 +131,8 @@ bool fits_beside(const char* label) {
 
 }  // namespace
 
-void Panels::rename_selection(ViewerState& state) {
-    if (!state.selection()) return;
-    state.display.panel = true;
-    asks_name_ = true;
-}
-
 /// A text field for the name of the selected handle or fixed set; true when the typing has ended.
-bool Panels::draw_name(const PanelContext& context) {
+bool PullPanel::draw_name(const PanelContext& context) {
     ViewerState& state = context.state;
     LiveScene& scene = state.scene();
     const std::optional<ViewerState::Selection> chosen = state.selection();
@@ -161,8 +157,7 @@ bool Panels::draw_name(const PanelContext& context) {
     return ended;
 }
 
-/// The same over the scene, where the window has no room for the panel.
-void Panels::draw_name_alone(const PanelContext& context) {
+void PullPanel::draw_name_alone(const PanelContext& context) {
     constexpr const char* kTitle = "Rename";
     const bool has_panel = context.layout.panel.width > 0.0;
     if (asks_name_ && !has_panel) ImGui::OpenPopup(kTitle);
@@ -174,7 +169,7 @@ void Panels::draw_name_alone(const PanelContext& context) {
 }
 
 /// Name and placement of the selected handle or fixed set.
-void Panels::draw_selection(const PanelContext& context) {
+void PullPanel::draw_selection(const PanelContext& context) {
     const std::optional<ViewerState::Selection> chosen = context.state.selection();
     ImGui::SetNextItemOpen(is_very_tall(context), ImGuiCond_Once);
     if (asks_name_) ImGui::SetNextItemOpen(true);
@@ -188,13 +183,13 @@ void Panels::draw_selection(const PanelContext& context) {
 }
 
 /// The row that was drawn last comes into sight when it has become the selection.
-void Panels::scroll_to(const ViewerState& state, const ViewerState::Selection& row) const {
+void PullPanel::scroll_to(const ViewerState& state, const ViewerState::Selection& row) const {
     if (state.selection() == row && listed_ != row) ImGui::SetScrollHereY();
 }
 
 /// The fixed sets, and what each exerts. Brush and box change the one that was selected last, which stays bright when a
 /// handle is selected after it.
-void Panels::draw_fixed_sets(const PanelContext& context) {
+void PullPanel::draw_fixed_sets(const PanelContext& context) {
     ViewerState& state = context.state;
     LiveScene& scene = state.scene();
     int removed = -1;
@@ -216,7 +211,7 @@ void Panels::draw_fixed_sets(const PanelContext& context) {
         ImGui::TextColored(imgui_colour(context.palette.fixed_active), "new fixed set: now brush or box");
 }
 
-void Panels::draw_handles(const PanelContext& context) {
+void PullPanel::draw_handles(const PanelContext& context) {
     ViewerState& state = context.state;
     const LiveScene& scene = state.scene();
     int removed = -1;
@@ -238,7 +233,7 @@ void Panels::draw_handles(const PanelContext& context) {
 
 /// Between what it takes at least, whose half line shows that there are more, and what its rows need, as the side panel
 /// has room. While something is dragged or pressed it stays.
-float Panels::held_height(const PanelContext& context) {
+float PullPanel::held_height(const PanelContext& context) {
     const ViewerState& state = context.state;
     const auto height_of = [](float lines) {
         return lines * ImGui::GetTextLineHeightWithSpacing() + 2.0f * ImGui::GetStyle().WindowPadding.y;
@@ -251,13 +246,13 @@ float Panels::held_height(const PanelContext& context) {
     const float needed = std::max(least, height_of(per_row * static_cast<float>(n_rows) + 0.5f));
     if (held_height_ == 0.0f) held_height_ = least;
     if (!state.gestures.dragging() && !ImGui::IsAnyItemActive())
-        held_height_ = std::clamp(held_height_ + side_room_, least, needed);
+        held_height_ = std::clamp(held_height_ + room_, least, needed);
     return held_height_;
 }
 
 /// What is fixed and what is pulled, in a list of its own height: a drag adds to it and takes from it, and nothing
 /// below is to move.
-void Panels::draw_held(const PanelContext& context) {
+void PullPanel::draw_held(const PanelContext& context) {
     ViewerState& state = context.state;
     const std::optional<ViewerState::Selection> chosen = state.selection();
     if (ImGui::BeginChild("held", {0.0f, held_height(context)}, true)) {
@@ -274,7 +269,8 @@ void Panels::draw_held(const PanelContext& context) {
     ImGui::EndDisabled();
 }
 
-void Panels::draw_pull(const PanelContext& context) {
+void PullPanel::draw(const PanelContext& context, float room) {
+    room_ = room;
     draw_tool_settings(context);
     draw_held(context);
     draw_selection(context);

@@ -3,9 +3,9 @@
 #include <optional>
 #include <span>
 
-#include "app/panels/panels.hpp"
-
 namespace elastolab {
+
+struct PanelContext;
 
 /// A button that answers a question.
 struct QuestionAnswer {
@@ -21,5 +21,24 @@ std::optional<int> draw_answers(const PanelContext& context, std::span<const Que
 /// Begins a dialog of this title in the middle of the window, opening it when it is not open. True when it is drawn:
 /// then ImGui::EndPopup() must follow.
 bool begin_question(const char* title);
+
+/// What to do with the scene that a viewer which was killed has left.
+class RecoveryQuestion {
+public:
+    void draw(const PanelContext& context);
+
+private:
+    int choice_ = 0;  ///< the button that Enter presses
+};
+
+/// The question before changes are lost.
+class UnsavedQuestion {
+public:
+    /// naming: a dialog asks for the scene's name, which comes first.
+    void draw(const PanelContext& context, bool naming);
+
+private:
+    int choice_ = 0;  ///< the button that Enter presses
+};
 
 }  // namespace elastolab

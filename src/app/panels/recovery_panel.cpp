@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "app/panels/panels.hpp"
 #include "app/panels/question.hpp"
 #include "base/text.hpp"
 
@@ -29,10 +30,10 @@ double seconds_since(std::filesystem::file_time_type time) {
 }  // namespace
 
 /// What a viewer that was killed has left.
-void Panels::draw_recovery(const PanelContext& context) {
+void RecoveryQuestion::draw(const PanelContext& context) {
     ViewerState& state = context.state;
     if (state.recoverable.empty()) return;
-    if (!ImGui::IsPopupOpen(kRecoveryTitle)) recovery_choice_ = 0;
+    if (!ImGui::IsPopupOpen(kRecoveryTitle)) choice_ = 0;
     if (!begin_question(kRecoveryTitle)) return;
     const AutosavedScene& left = state.recoverable.front();
     const std::string name = left.origin.empty() ? "a scene that was not saved yet" : left.origin.string();
@@ -40,7 +41,7 @@ void Panels::draw_recovery(const PanelContext& context) {
     ImGui::TextUnformatted(name.c_str());
     ImGui::Text("as of %s ago.", readable_seconds(std::max(0.0, seconds_since(left.time))).c_str());
     ImGui::Spacing();
-    const std::optional<int> answer = draw_answers(context, kRecoveryAnswers, recovery_choice_, later);
+    const std::optional<int> answer = draw_answers(context, kRecoveryAnswers, choice_, later);
     if (answer) ImGui::CloseCurrentPopup();
     ImGui::EndPopup();
     if (answer == recover) state.recover();

@@ -1,3 +1,4 @@
+// The tools of the panel for pulling, and their settings.
 #include <imgui.h>
 
 #include <algorithm>
@@ -5,6 +6,7 @@
 #include <optional>
 
 #include "app/panels/panels.hpp"
+#include "app/panels/pull_panel.hpp"
 #include "app/panels/widgets.hpp"
 
 namespace elastolab {
@@ -92,7 +94,7 @@ void draw_box_settings(ViewerState& state, const Colour& dim) {
 
 /// The tools and the settings of the chosen one. Those of the others need less room than those for pulling: what they
 /// leave stays, so that nothing below moves when another tool is chosen.
-void Panels::draw_tool_settings(const PanelContext& context) {
+void PullPanel::draw_tool_settings(const PanelContext& context) {
     ViewerState& state = context.state;
     const float scale = context.gui.scale();
     const auto chosen =

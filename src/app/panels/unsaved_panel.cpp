@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "app/panels/panels.hpp"
 #include "app/panels/question.hpp"
 
 namespace elastolab {
@@ -19,19 +20,18 @@ constexpr std::array<QuestionAnswer, 3> kUnsavedAnswers = {{{"Save", "Enter: wri
 
 }  // namespace
 
-/// The question before changes are lost. It waits behind the dialog that asks for the scene's name.
-void Panels::draw_unsaved(const PanelContext& context) {
+void UnsavedQuestion::draw(const PanelContext& context, bool naming) {
     ViewerState& state = context.state;
-    const bool asks = state.unsaved.asking() && !files_.is_open();
+    const bool asks = state.unsaved.asking() && !naming;
     if (!asks && !ImGui::IsPopupOpen(kTitle)) return;
-    if (!ImGui::IsPopupOpen(kTitle)) unsaved_choice_ = 0;
+    if (!ImGui::IsPopupOpen(kTitle)) choice_ = 0;
     if (!begin_question(kTitle)) return;
     const std::filesystem::path& file = state.scene_file();
     ImGui::Text("%s has changes that are not saved.",
                 (file.empty() ? std::filesystem::path(state.scene().name()) : file).filename().c_str());
     ImGui::Spacing();
     const std::optional<int> answer =
-        draw_answers(context, kUnsavedAnswers, unsaved_choice_, static_cast<int>(UnsavedAnswer::cancel));
+        draw_answers(context, kUnsavedAnswers, choice_, static_cast<int>(UnsavedAnswer::cancel));
     if (answer || !asks) ImGui::CloseCurrentPopup();
     ImGui::EndPopup();
     if (answer && asks) state.answer_unsaved(static_cast<UnsavedAnswer>(*answer));

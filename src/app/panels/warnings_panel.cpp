@@ -1,3 +1,5 @@
+#include "app/panels/warnings_panel.hpp"
+
 #include <imgui.h>
 
 #include <algorithm>
@@ -72,7 +74,7 @@ std::string first_line(const std::string& text, float width) {
 
 /// What has failed, that changes are not kept, then the warnings of the present answer, with the body's file in place
 /// of its whole path, and methods called as on their buttons.
-std::vector<Panels::Warning> Panels::present_warnings(const ViewerState& state) {
+std::vector<WarningsPanel::Warning> WarningsPanel::present(const ViewerState& state) {
     std::vector<Warning> warnings;
     for (const std::string& problem :
          {state.simulation.problem(state.method), state.shown.reaction_failure(state.method),
@@ -94,13 +96,11 @@ std::vector<Panels::Warning> Panels::present_warnings(const ViewerState& state) 
     return warnings;
 }
 
-/// At the bottom of the side panel, so that nothing else in it moves when they come and go. While an item is pressed
-/// or typed into, they stay as they are, lest they cover it. Returns their height.
-float Panels::draw_warnings(const PanelContext& context) {
+float WarningsPanel::draw(const PanelContext& context) {
     ViewerState& state = context.state;
     const std::pair<std::uint64_t, MethodKind> of(state.scene_number(), state.method);
     if (!ImGui::IsAnyItemActive() || warnings_of_ != of) {
-        warnings_ = present_warnings(state);
+        warnings_ = present(state);
         warnings_of_ = of;
     }
     if (warnings_.empty()) return 0.0f;

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "app/panels/cost_predictions.hpp"
+
+namespace elastolab {
+
+struct PanelContext;
+
+/// The methods with their costs, how far the chosen one is, and how it computes.
+class MethodPanel {
+public:
+    /// costs: lives longer.
+    explicit MethodPanel(CostPredictions& costs) : costs_(costs) {}
+    void draw(const PanelContext& context);
+
+private:
+    void draw_mode(const PanelContext& context);
+    MethodKind sooner_method(const ViewerState& state);
+    void draw_sooner(const PanelContext& context);
+
+    CostPredictions& costs_;
+};
+
+}  // namespace elastolab
