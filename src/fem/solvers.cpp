@@ -105,7 +105,7 @@ Columns FactorisedBody::load_responses(std::span<const UnitLoad> loads, Control&
 }
 
 Eigen::MatrixXd FactorisedBody::compute_responses(std::span<const UnitLoad> loads) const {
-    return border().responses(load_vectors(*system_->mesh, loads), [&](const Eigen::MatrixXd& f) {
+    return border().responses(load_vectors(*system_->mesh, loads), [&](const Eigen::MatrixXd& f) -> Eigen::MatrixXd {
         return compliance_.volume_response(f).topRows(3 * system_->n_surface());
     });
 }
