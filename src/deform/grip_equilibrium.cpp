@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cassert>
-#include <Eigen/Geometry>
 #include <optional>
 
 #include "base/error.hpp"
-#include "deform/holds.hpp"
-#include "elasticity/rotation.hpp"
+#include "deform/moved_grips.hpp"
 
 namespace elastolab {
 
@@ -27,119 +25,7 @@ constexpr double kPush = 0.1;
 
 using Eigen::Index;
 using Eigen::MatrixXd;
-using Eigen::Vector3d;
 using Eigen::VectorXd;
-using Vector6d = Eigen::Matrix<double, 6, 1>;
-
-/// Grips of a body: where their vertices are, and what forces and moments are at them.
-class Grips {
-public:
-    Grips(const Deformer& deformer, const std::vector<Grip>& grips, const std::vector<GripForce>& forces)
-        : deformer_(deformer),
-          grips_(grips),
-          wanted_(forces),
-          n_base_(std::ssize(deformer.set().base)),
-          rest_(deformer, grips) {}
-
-    Index n() const { return 6 * std::ssize(grips_); }
-    double length() const { return rest_.length; }
-    VectorXd units() const { return rest_.units(); }
-
-    /// Places -> their rows of the values.
-    void put(const std::vector<GripPlace>& places, VectorXd& values) const {
-        for (std::size_t g = 0; g < grips_.size(); ++g) {
-            const Eigen::Matrix3Xd arms = present(places, g);
-            for (Index i = 0; i < arms.cols(); ++i)
-                values.segment<3>(3 * (grips_[g].begin + i)) = places[g].shift + arms.col(i) - rest_.arms[g].col(i);
-        }
-    }
-    /// Changes of the values with the small motions of each grip: n_values x 6 k.
-    MatrixXd basis(const std::vector<GripPlace>& places, Index n_values) const {
-        MatrixXd basis = MatrixXd::Zero(n_values, n());
-        for (std::size_t g = 0; g < grips_.size(); ++g) {
-            const Eigen::Matrix3Xd arms = present(places, g);
-            const Index first = 6 * static_cast<Index>(g);
-            for (Index i = 0; i < arms.cols(); ++i) {
-                const Index row = 3 * (grips_[g].begin + i);
-                basis.block<3, 3>(row, first).setIdentity();
-                basis.block<3, 3>(row, first + 3) = -cross_matrix(arms.col(i));
-            }
-        }
-        return basis;
-    }
-    /// Force over moment about its present middle of each grip.
-    VectorXd resultants(const std::vector<GripPlace>& places, const Eigen::Matrix3Xd& forces) const {
-        VectorXd sums(n());
-        for (std::size_t g = 0; g < grips_.size(); ++g) {
-            const Eigen::Matrix3Xd arms = present(places, g);
-            sums.segment<6>(6 * static_cast<Index>(g)) << own(g, forces).rowwise().sum(), moment(arms, own(g, forces));
-        }
-        return sums;
-    }
-    /// Derivatives of the resultants: forces change, and act at arms that turn.
-    MatrixXd stiffness(const std::vector<GripPlace>& places, const Deformer::Answer& answer) const {
-        MatrixXd matrix(n(), n());
-        for (Index k = 0; k < n(); ++k)
-            matrix.col(k) = resultants(places, answer.force_changes[static_cast<std::size_t>(k)]);
-        for (std::size_t g = 0; g < grips_.size(); ++g) {
-            const Eigen::Matrix3Xd arms = present(places, g);
-            const Eigen::Matrix3Xd forces = own(g, answer.reactions.forces);
-            const Index first = 6 * static_cast<Index>(g);
-            for (Index i = 0; i < arms.cols(); ++i)
-                matrix.block<3, 3>(first + 3, first + 3) += cross_matrix(forces.col(i)) * cross_matrix(arms.col(i));
-            matrix.diagonal().segment<3>(first).array() += wanted_[g].spring;
-        }
-        return matrix;
-    }
-    VectorXd wanted(const std::vector<GripPlace>& places, const std::vector<GripForce>& forces) const {
-        VectorXd all(n());
-        for (std::size_t g = 0; g < grips_.size(); ++g)
-            all.segment<6>(6 * static_cast<Index>(g)) << forces[g].force - forces[g].spring * places[g].shift,
-                forces[g].moment;
-        return all;
-    }
-    VectorXd wanted(const std::vector<GripPlace>& places) const { return wanted(places, wanted_); }
-
-    /// Whether what else is constrained holds every solid that has a grip.
-    bool body_is_held() const {
-        const Positions& all = deformer_.model().body().surface->vertices;
-        std::vector<char> kind(static_cast<std::size_t>(all.cols()), 0);  // 1: held, 2: of a grip
-        const ConstrainedSet& set = deformer_.set();
-        for (const int v : joined(set.base, set.handles)) kind[static_cast<std::size_t>(v)] = 1;
-        for (const Grip& grip : grips_)
-            for (int i = grip.begin; i < grip.end; ++i)
-                kind[static_cast<std::size_t>(set.handles[static_cast<std::size_t>(i)])] = 2;
-        return std::all_of(deformer_.model().parts().begin(), deformer_.model().parts().end(), [&](const auto& part) {
-            std::vector<int> held;
-            bool gripped = false;
-            for (std::size_t i = 0; i < part.vertices.size(); ++i) {
-                const char its = kind[static_cast<std::size_t>(part.vertices[i])];
-                if (its == 1) held.push_back(static_cast<int>(i));
-                gripped = gripped || its == 2;
-            }
-            return !gripped || holds(all(Eigen::all, part.vertices), held);
-        });
-    }
-
-private:
-    Eigen::Matrix3Xd present(const std::vector<GripPlace>& places, std::size_t g) const {
-        return rotation_by(places[g].turn) * rest_.arms[g];
-    }
-    Eigen::Matrix3Xd own(std::size_t g, const Eigen::Matrix3Xd& all) const {
-        return all.middleCols(n_base_ + grips_[g].begin, grips_[g].end - grips_[g].begin);
-    }
-    static Vector3d moment(const Eigen::Matrix3Xd& arms, const Eigen::Matrix3Xd& forces) {
-        Vector3d sum = Vector3d::Zero();
-        for (Index i = 0; i < arms.cols(); ++i) sum += arms.col(i).cross(forces.col(i));
-        return sum;
-    }
-
-    const Deformer& deformer_;
-    const std::vector<Grip>& grips_;
-    const std::vector<GripForce>& wanted_;
-    Index n_base_;
-    GripArms rest_;
-};
 
 /// An equilibrium of the body with the grips at these places.
 struct State {
@@ -265,7 +151,7 @@ private:
 
     const Deformer& deformer_;
     Control& control_;
-    Grips grips_;
+    MovedGrips grips_;
     const std::vector<GripForce>& forces_;
     VectorXd units_;
     bool held_;
