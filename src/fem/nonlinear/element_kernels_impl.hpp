@@ -29,7 +29,7 @@ struct PackLanes<double> {
     static double least(double a, double b) { return a < b ? a : b; }
 };
 
-constexpr int kEdgeEnds[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
+inline constexpr int kEdgeEnds[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
 
 template <class B>
 struct Triple {

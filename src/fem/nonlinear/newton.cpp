@@ -103,7 +103,8 @@ std::shared_ptr<const SparseCholesky> Newton::factor_at(const Eigen::VectorXd& u
 
 double Newton::step_length(const NewtonState& state, const Eigen::VectorXd& step, double slope, double gradient,
                            ElementWork& work, Control& control) const {
-    for (double length = 1.0; length > kShortestStep; length *= 0.5) {
+    for (int halvings = 0; std::ldexp(1.0, -halvings) > kShortestStep; ++halvings) {
+        const double length = std::ldexp(1.0, -halvings);
         const Eigen::VectorXd to = state.u + length * step;
         const double energy = this->energy(to, work, control).energy;
         if (!std::isfinite(energy)) continue;
@@ -191,9 +192,11 @@ Eigen::VectorXd Newton::pushed(const NewtonState& state, ElementWork& work, Cont
     const Eigen::VectorXd Kv = K.selfadjointView<Eigen::Lower>() * v;
     if (!(v.dot(Kv) < 0.0)) return state.u;
     const Eigen::VectorXd direction = tangent_->all_rows(v) / v.lpNorm<Eigen::Infinity>();
-    for (double length = tangent_->elements().edge(); length > 1e-3 * tangent_->elements().edge(); length *= 0.5)
+    constexpr int kHalvings = 10;
+    for (int halvings = 0; halvings < kHalvings; ++halvings)
         for (const double sign : {1.0, -1.0}) {
-            const Eigen::VectorXd u = state.u + sign * length * direction;
+            const double length = std::ldexp(tangent_->elements().edge(), -halvings);
+            Eigen::VectorXd u = state.u + sign * length * direction;
             const double energy = this->energy(u, work, control).energy;
             if (std::isfinite(energy) && rise(state, u, energy) < 0.0) return u;
         }
