@@ -46,7 +46,8 @@ GivenTractions tractions_of_body_forces(const Boundary& boundary, std::span<cons
 /// u_h's inside with u_p and sigma_p on top.
 class WithBodyForces : public InteriorField {
 public:
-    WithBodyForces(std::shared_ptr<const InteriorField> field, BodyForceField particular, Eigen::Matrix3Xd body_forces)
+    WithBodyForces(std::shared_ptr<const InteriorField> field, const BodyForceField& particular,
+                   Eigen::Matrix3Xd body_forces)
         : field_(std::move(field)), particular_(particular), body_forces_(std::move(body_forces)) {}
 
     InteriorValues at(const Positions& points, Control& control) const override {

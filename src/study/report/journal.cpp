@@ -77,16 +77,17 @@ void Journal::read_cases(std::istream& in) {
         const std::vector<std::string> fields = csv_fields(line);
         const bool is_row = fields.size() >= 2 && fields[0] == kRow && fields.size() % 2 == 0;
         const bool is_done = fields.size() == 3 && fields[0] == kDone;
-        if (has_zeros(line) || !(is_row || is_done)) {
-            ++n_damaged;
-        } else if (is_row) {
+        bool whole = false;
+        if (is_row && !has_zeros(line)) {
             Row& row = open[fields[1]].emplace_back();
             for (std::size_t i = 2; i < fields.size(); i += 2) row.set(fields[i], fields[i + 1]);
-        } else if (auto rows = open.extract(fields[1]); rows && std::to_string(rows.mapped().size()) == fields[2]) {
-            finished_[fields[1]] = std::move(rows.mapped());
-        } else {
-            ++n_damaged;  // rows are missing, or the case was done before
+            whole = true;
+        } else if (is_done && !has_zeros(line)) {
+            auto rows = open.extract(fields[1]);  // too few: some are missing; none: the case was done before
+            whole = rows && std::to_string(rows.mapped().size()) == fields[2];
+            if (whole) finished_[fields[1]] = std::move(rows.mapped());
         }
+        if (!whole) ++n_damaged;
     }
     if (n_damaged > 0)
         notice_ = file_.string() + ": " + std::to_string(n_damaged) +
