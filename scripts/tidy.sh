@@ -12,6 +12,7 @@ mapfile -t sources < <(sed -nE 's|^ *"file": "(.*)",?$|\1|p' build/release/compi
 code=0
 printf '%s\0' "${sources[@]}" |
   xargs -0 -P "$(nproc)" -n 1 clang-tidy -p build/release --quiet --extra-arg=-Wno-unknown-warning-option \
+    --extra-arg=-Wno-unused-command-line-argument \
     >build/release/tidy.log 2>&1 || code=1
 if [[ $code -ne 0 ]]; then grep -E ' (warning|error): ' build/release/tidy.log | sort -u || tail build/release/tidy.log; fi
 echo "clang-tidy: ${#sources[@]} sources in $((SECONDS - begin)) s, $([[ $code -eq 0 ]] && echo no finding || echo findings)."
