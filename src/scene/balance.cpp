@@ -1,8 +1,11 @@
 #include "scene/balance.hpp"
 
 #include <cmath>
+#include <Eigen/QR>
 
+#include "deform/constraint_map.hpp"
 #include "deform/load_parts.hpp"
+#include "elasticity/rotation.hpp"
 #include "mesh/measures.hpp"
 #include "mesh/solids.hpp"
 #include "scene/scene_failure.hpp"
@@ -12,6 +15,9 @@ namespace elastolab {
 namespace fs = std::filesystem;
 
 namespace {
+
+/// What rounding leaves of a rigid motion.
+constexpr double kRoundedMotion = 1e-12;
 
 /// The loads of one solid: their resultant, and the sum of their sizes.
 struct SumOfLoads {
@@ -106,6 +112,21 @@ void require_balance(const Document& document, const Constraints& constraints, c
             "do not balance, and nothing holds the body against them. Fix a part of it, or add loads until forces and "
             "moments sum to zero.");
     }
+}
+
+bool moves_rigidly(const Constraints& constraints, const SurfaceMesh& surface) {
+    const ConstrainedSet& set = constraints.set;
+    if (constraints.has_forces() || !constraints.values.tail(std::ssize(set.loads)).isZero(0.0)) return false;
+    Positions places = surface.vertices(Eigen::all, joined(set.base, set.handles));
+    places.colwise() -= surface.vertices.rowwise().mean().eval();
+    const double length = places.size() > 0 ? places.cwiseAbs().maxCoeff() : 1.0;
+    Eigen::VectorXd values = Eigen::VectorXd::Zero(places.size());
+    values.tail(3 * std::ssize(set.handles)) = constraints.values.head(3 * std::ssize(set.handles));
+    Eigen::MatrixXd motions(values.size(), 6);
+    for (Eigen::Index i = 0; i < places.cols(); ++i)
+        motions.middleRows<3>(3 * i) << Eigen::Matrix3d::Identity(), cross_matrix(places.col(i) / length);
+    const Eigen::VectorXd fit = motions.completeOrthogonalDecomposition().solve(values);
+    return (motions * fit - values).stableNorm() <= kRoundedMotion * values.stableNorm();
 }
 
 }  // namespace elastolab

@@ -11,4 +11,8 @@ namespace elastolab {
 void require_balance(const Document& document, const Constraints& constraints, const SurfaceMesh& surface,
                      const std::filesystem::path& scene_file);
 
+/// Whether the constrained vertices move as a rigid body does (by a small rotation) and nothing loads it, so that exact
+/// reactions are zero and those of an answer are rounding. surface: what the set is on.
+bool moves_rigidly(const Constraints& constraints, const SurfaceMesh& surface);
+
 }  // namespace elastolab

@@ -179,7 +179,8 @@ void apply(Constraints& constraints, Constraints* shown, bool with_checks, Solut
         solution.loads = load_totals(constraints, *solution.model->body().surface, answer.loads);
         std::vector<GroupReaction> all = solution.reactions;
         all.insert(all.end(), solution.loads.begin(), solution.loads.end());
-        solution.imbalance = imbalance_of(all, *solution.model->body().surface);
+        if (!moves_rigidly(constraints, *solution.model->body().surface))
+            solution.imbalance = imbalance_of(all, *solution.model->body().surface);
         if (!constraints.loads.empty())
             solution.compliance = answer.facts
                                       ? answer.facts->work_of_loads

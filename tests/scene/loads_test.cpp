@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "bem/collocation/method.hpp"
 #include "bem/galerkin/method.hpp"
+#include "elasticity/rotation.hpp"
 #include "fem/method.hpp"
 #include "fem/nonlinear/method.hpp"
 #include "fem/quadratic/method.hpp"
@@ -23,7 +24,9 @@ namespace elastolab {
 namespace {
 
 using testing::AllOf;
+using testing::Each;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 /// A cube, fixed at its left face, with weight, a pressure above, a force at its right face and a held front edge.
@@ -146,6 +149,24 @@ TEST(SceneLoads, DoTheWorkThatTheBodyStores) {
     document.loads[1].value = ForceLoad{{10, 0, 2}};
     document.loads[2].value = TractionLoad{{0, 4, 0}};
     EXPECT_NEAR(*solved(document).compliance, 4.0 * work, 1e-8 * work);
+}
+
+/// Its reactions are rounding, of which nothing is to be said.
+TEST(SceneLoads, ReactionsOfABodyThatOnlyMovesAreNoImbalance) {
+    Document document = loaded_cube();
+    document.gravity.reset();
+    document.loads.clear();
+    document.fixed.clear();
+    document.handles[0].motion = AffineMotion{.matrix = cross_matrix({0.1, -0.2, 0.3}), .translate = {0.2, 0, 0.1}};
+    document.handles[0].select = {PlaneSelector{{1, 0, 0}, {1, 0, 0}, 1e-9}};
+    for (const MethodKind kind : {kFem, kQuadraticFem, kGalerkinBem, kLinearBem}) {
+        const Solution moved = solved(document, kind);
+        EXPECT_EQ(moved.imbalance.force, 0.0) << name(kind);
+        EXPECT_THAT(moved.warnings(), Each(Not(HasSubstr("do not balance")))) << name(kind);
+    }
+    Document stretched = document;
+    std::get<AffineMotion>(stretched.handles[0].motion).matrix(1, 1) = 1e-6;
+    EXPECT_GT(solved(stretched, kLinearBem).imbalance.force, 0.0);
 }
 
 TEST(SceneLoads, AreRefusedWithTheirPlaces) {
