@@ -33,8 +33,12 @@ std::string ViewerState::selected_handle_name() const {
     return handle >= 0 && handle < scene_->n_handles() ? scene_->handle_name(handle) : "";
 }
 
-/// After undo and redo: the numbers of handles and sets may mean others, their names do not.
-void ViewerState::take_step(const std::string& selected_handle, const std::string& selected_fixed_set) {
+/// After undo and redo the numbers of handles and sets may mean others, their names do not.
+void ViewerState::take_step(const std::function<void()>& step) {
+    finish_gesture();
+    keep_method();
+    const std::string selected_handle = selected_handle_name(), selected_fixed_set = selected_fixed_name();
+    step();
     take_method();
     gestures.select_handle(-1);
     gestures.keep_fixed(-1);
@@ -46,19 +50,15 @@ void ViewerState::take_step(const std::string& selected_handle, const std::strin
 }
 
 void ViewerState::undo() {
-    finish_gesture();
-    keep_method();
-    const std::string handle = selected_handle_name(), set = selected_fixed_name();
-    if (scene_->can_undo()) scene_->undo();
-    take_step(handle, set);
+    take_step([&] {
+        if (scene_->can_undo()) scene_->undo();
+    });
 }
 
 void ViewerState::redo() {
-    finish_gesture();
-    keep_method();
-    const std::string handle = selected_handle_name(), set = selected_fixed_name();
-    if (scene_->can_redo()) scene_->redo();
-    take_step(handle, set);
+    take_step([&] {
+        if (scene_->can_redo()) scene_->redo();
+    });
 }
 
 void ViewerState::remove_handle(int handle) {

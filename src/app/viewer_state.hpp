@@ -188,7 +188,7 @@ private:
     void take_method();
     std::string selected_fixed_name() const;
     std::string selected_handle_name() const;
-    void take_step(const std::string& selected_handle, const std::string& selected_fixed_set);
+    void take_step(const std::function<void()>& step);
     void add_recent(const std::filesystem::path& file);
     /// False when it failed, which becomes a message.
     template <class Action>

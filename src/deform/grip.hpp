@@ -14,7 +14,7 @@ struct Grip {
     bool operator==(const Grip&) const = default;
 };
 
-/// The vertices of grips, from their middles.
+/// Where the vertices of some grips are at rest [L]: of each, its middle and, 3 x n, the vertices from there.
 struct GripArms {
     GripArms() = default;
     GripArms(const Deformer& deformer, const std::vector<Grip>& grips);
@@ -24,7 +24,7 @@ struct GripArms {
 
     std::vector<Eigen::Vector3d> middles;
     std::vector<Eigen::Matrix3Xd> arms;
-    double length = 1.0;  ///< of the body
+    double length = 1.0;  ///< of the body, from corner to corner of its box
 };
 
 /// Said where forces would move handles without end.

@@ -23,7 +23,7 @@ struct GripEquilibrium {
     int solves = 0;       ///< equilibria of the body that it took
     int iterations = 0;   ///< linear systems factorised for these
 
-    /// Places under other loads, to first order: a linear system of 6 k unknowns.
+    /// Places under other forces, to first order: a linear system of 6 k unknowns.
     std::vector<GripPlace> places_under(const std::vector<GripForce>& others) const;
 };
 

@@ -73,7 +73,8 @@ class Petsc(PetscCase):
 
     def test_refuses_other_methods(self):
         self.write(PULLED)
-        done = subprocess.run([*on(2, PETSC_PROGRAM), "solve", "scene.json", "--method", "linear-bem"], cwd=self.folder, check=False, env=ENVIRONMENT, timeout=100,
+        done = subprocess.run([*on(2, PETSC_PROGRAM), "solve", "scene.json", "--method", "linear-bem"],
+                              cwd=self.folder, check=False, env=ENVIRONMENT, timeout=100,
                               capture_output=True, text=True)
         self.assertEqual(done.returncode, 2)
         self.assertIn("Choose fem or quadratic-fem", done.stderr)
