@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 namespace elastolab {
 
@@ -13,16 +12,43 @@ Eigen::RowVectorXd column_products(const Eigen::MatrixXd& a, const Eigen::Matrix
     return a.cwiseProduct(b).colwise().sum();
 }
 
-/// a / b where the column is not done yet, else 0.
-Eigen::RowVectorXd ratio(const Eigen::RowVectorXd& a, const Eigen::RowVectorXd& b, const std::vector<char>& done) {
-    Eigen::RowVectorXd r = Eigen::RowVectorXd::Zero(a.size());
-    for (Eigen::Index c = 0; c < a.size(); ++c)
-        if (!done[static_cast<std::size_t>(c)]) r[c] = a[c] / b[c];
-    return r;
-}
-
 /// Not a number once one of them is none, whatever comes after it.
 double largest_or_nan(double a, double b) { return std::isnan(a) || b <= a ? a : b; }
+
+/// Columns that still iterate. Each ends by itself.
+class ActiveColumns {
+public:
+    /// size: of the right sides; those that vanish have their answer.
+    ActiveColumns(const IterationOptions& options, const Eigen::RowVectorXd& size)
+        : options_(options), done_(size.array() <= 0.0) {}
+
+    bool any() const { return !done_.all(); }
+    /// Ends those whose residual is small enough; the largest residual of all, or NaN.
+    double end_by_residual(const Eigen::MatrixXd& R) {
+        double largest = 0.0;
+        for (Eigen::Index c = 0; c < R.cols(); ++c) {
+            const double residual = R.col(c).norm();
+            if (residual <= options_.tolerance) done_[c] = true;
+            largest = largest_or_nan(largest, residual);
+        }
+        return largest;
+    }
+    /// energy: squares of what the preconditioner takes the energy norm of the error for.
+    void end_by_energy(const Eigen::RowVectorXd& energy) {
+        if (first_energy_.size() == 0) first_energy_ = energy;
+        const double part = options_.energy_tolerance * options_.energy_tolerance;
+        if (part > 0.0) done_ = done_ || energy.array() <= part * first_energy_.array();
+    }
+    /// a / b where the column is not done yet, else 0.
+    Eigen::RowVectorXd ratio(const Eigen::RowVectorXd& a, const Eigen::RowVectorXd& b) const {
+        return done_.select(0.0, a.array() / b.array());
+    }
+
+private:
+    const IterationOptions& options_;
+    Eigen::Array<bool, 1, Eigen::Dynamic> done_;
+    Eigen::RowVectorXd first_energy_;
+};
 
 }  // namespace
 
@@ -32,42 +58,34 @@ Eigen::MatrixXd conjugate_gradients(const LinearOperator& A, const LinearOperato
     // Columns of unit size: whatever the units, no square over- or underflows.
     Eigen::MatrixXd R = B;
     Eigen::RowVectorXd size(B.cols());
-    std::vector<char> done(static_cast<std::size_t>(B.cols()), 0);
     for (Eigen::Index c = 0; c < B.cols(); ++c) {
         size[c] = B.col(c).stableNorm();
-        if (size[c] > 0.0)
-            R.col(c) /= size[c];
-        else
-            done[static_cast<std::size_t>(c)] = 1;
+        if (size[c] > 0.0) R.col(c) /= size[c];
     }
+    ActiveColumns active(options, size);
     Eigen::MatrixXd X = scaled_start(options.start, B.rows(), size);
     if (report != nullptr) *report = {0, 1.0};  // of the right side itself, whose product is to be exact
     if (!X.isZero(0.0)) R -= A.product(X);
-    const auto worst = [&] {
-        double largest = 0.0;
-        for (Eigen::Index c = 0; c < B.cols(); ++c) {
-            const double residual = R.col(c).norm();
-            if (residual <= options.tolerance) done[static_cast<std::size_t>(c)] = 1;
-            largest = largest_or_nan(largest, residual);
-        }
-        return largest;
-    };
     Eigen::MatrixXd Z = preconditioner.product(R), P = Z;
     Eigen::RowVectorXd rz = column_products(R, Z);
-    if (report != nullptr) *report = {0, worst()};
-    for (int iterations = 0; std::find(done.begin(), done.end(), 0) != done.end(); ++iterations) {
+    active.end_by_energy(rz);
+    double residual = active.end_by_residual(R);
+    if (report != nullptr) *report = {0, residual};
+    for (int iterations = 0; active.any(); ++iterations) {
+        if (iterations >= options.max_iterations && !options.must_converge) break;
         control.checkpoint();
         const Eigen::MatrixXd AP = A.product(P);
-        const Eigen::RowVectorXd alpha = ratio(rz, column_products(P, AP), done);
+        const Eigen::RowVectorXd alpha = active.ratio(rz, column_products(P, AP));
         X += P * alpha.asDiagonal();
         R -= AP * alpha.asDiagonal();
-        const double residual = worst();
+        residual = active.end_by_residual(R);
         if (report != nullptr) *report = {iterations + 1, residual};
         if (!std::isfinite(residual) || iterations >= options.max_iterations) give_up_iteration(name, residual);
         control.set_progress(std::clamp(std::log(std::max(residual, 1e-300)) / std::log(options.tolerance), 0.0, 1.0));
         Z = preconditioner.product(R);
         const Eigen::RowVectorXd next = column_products(R, Z);
-        P = Z + P * ratio(next, rz, done).asDiagonal();
+        active.end_by_energy(next);
+        P = Z + P * active.ratio(next, rz).asDiagonal();
         rz = next;
     }
     return X * size.asDiagonal();

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/memory.hpp"
+#include "deform/conjugate_gradients.hpp"
 #include "deform/holds.hpp"
 #include "deform/node_rows.hpp"
 #include "fem/constrained_nodes.hpp"
@@ -19,9 +20,8 @@ namespace elastolab {
 
 namespace {
 
-/// Estimated energy norm of the error, over that of the first guess, at which conjugate gradients stop.
-constexpr double kEnoughReduction = 0.01;
-constexpr int kMostSteps = 150;
+/// An estimate needs no more than two digits in energy.
+const IterationOptions kEnough{.energy_tolerance = 0.01, .max_iterations = 150, .must_converge = false};
 /// Bytes of the stiffness and its parts for each quadratic node, some 30 blocks of 3 x 3 in each of three matrices; and
 /// of the linear stiffness and its factor, by which quadratic elements are judged, for each of their nodes.
 constexpr std::uint64_t kBytesOfQuadraticNode = 9000, kBytesOfLinearPart = 3000;
@@ -66,12 +66,35 @@ private:
     int n_corners_ = 0;
 };
 
+Eigen::VectorXd with_zeros(Eigen::VectorXd all, const std::vector<char>& is_prescribed) {
+    for (std::size_t node = 0; node < is_prescribed.size(); ++node)
+        if (is_prescribed[node]) all.segment<3>(3 * static_cast<Eigen::Index>(node)).setZero();
+    return all;
+}
+
+/// The quadratic stiffness between the nodes that are not prescribed; zero for the others.
+class FreeStiffness : public LinearOperator {
+public:
+    FreeStiffness(const ReferenceOperators::Product& K, const std::vector<char>& is_prescribed)
+        : K_(K), is_prescribed_(is_prescribed) {}
+    Eigen::Index size() const override { return 3 * std::ssize(is_prescribed_); }
+    Eigen::MatrixXd product(const Eigen::MatrixXd& X) const override {
+        Eigen::MatrixXd Y(X.rows(), X.cols());
+        for (Eigen::Index c = 0; c < X.cols(); ++c) Y.col(c) = with_zeros(K_(X.col(c)), is_prescribed_);
+        return Y;
+    }
+
+private:
+    const ReferenceOperators::Product& K_;
+    const std::vector<char>& is_prescribed_;
+};
+
 /// Corrects a vector of all nodes by both levels.
-class TwoLevelPreconditioner {
+class TwoLevelPreconditioner : public LinearOperator {
 public:
     TwoLevelPreconditioner(const ReferenceOperators& apply, const CornerNodes& corners,
-                           const SparseMatrix& prolongation, std::vector<char> is_prescribed)
-        : apply_(apply), prolongation_(prolongation), is_prescribed_(std::move(is_prescribed)) {
+                           const SparseMatrix& prolongation, const std::vector<char>& is_prescribed)
+        : apply_(apply), prolongation_(prolongation), is_prescribed_(is_prescribed) {
         for (int node = 0; node < static_cast<int>(is_prescribed_.size()); ++node) {
             Eigen::Matrix3d block = Eigen::Matrix3d::Zero();
             if (corners.is_midpoint(node) && !is_prescribed_[static_cast<std::size_t>(node)])
@@ -79,44 +102,28 @@ public:
             of_midpoints_.push_back(block);
         }
     }
-    Eigen::VectorXd operator()(const Eigen::VectorXd& residual) const {
+    Eigen::Index size() const override { return 3 * std::ssize(is_prescribed_); }
+    Eigen::MatrixXd product(const Eigen::MatrixXd& R) const override {
+        Eigen::MatrixXd Z(R.rows(), R.cols());
+        for (Eigen::Index c = 0; c < R.cols(); ++c) Z.col(c) = corrected(R.col(c));
+        return Z;
+    }
+
+private:
+    Eigen::VectorXd corrected(const Eigen::VectorXd& residual) const {
         const Eigen::VectorXd on_corners = prolongation_.transpose() * residual;
         Eigen::VectorXd z = prolongation_ * apply_.solve_linear(on_corners);
         for (std::size_t node = 0; node < of_midpoints_.size(); ++node)
             z.segment<3>(3 * static_cast<Eigen::Index>(node)) +=
                 of_midpoints_[node] * residual.segment<3>(3 * static_cast<Eigen::Index>(node));
-        return without_prescribed(std::move(z));
-    }
-    Eigen::VectorXd without_prescribed(Eigen::VectorXd all) const {
-        for (std::size_t node = 0; node < is_prescribed_.size(); ++node)
-            if (is_prescribed_[node]) all.segment<3>(3 * static_cast<Eigen::Index>(node)).setZero();
-        return all;
+        return with_zeros(std::move(z), is_prescribed_);
     }
 
-private:
     const ReferenceOperators& apply_;
     const SparseMatrix& prolongation_;
-    std::vector<char> is_prescribed_;
+    const std::vector<char>& is_prescribed_;
     std::vector<Eigen::Matrix3d> of_midpoints_;
 };
-
-/// Conjugate gradients for K x = f from the first guess x, which has the prescribed displacements.
-void improve(const ReferenceOperators::Product& K, const Eigen::VectorXd& f, const TwoLevelPreconditioner& precondition,
-             Eigen::VectorXd& x, Control& control) {
-    Eigen::VectorXd r = precondition.without_prescribed(f - K(x)), z = precondition(r), p = z;
-    double rz = r.dot(z);
-    const double enough = kEnoughReduction * kEnoughReduction * rz;
-    for (int step = 0; step < kMostSteps && rz > enough; ++step) {
-        control.checkpoint();
-        const Eigen::VectorXd q = precondition.without_prescribed(K(p));
-        const double alpha = rz / p.dot(q);
-        x += alpha * p;
-        r -= alpha * q;
-        z = precondition(r);
-        const double before = std::exchange(rz, r.dot(z));
-        p = z + (rz / before) * p;
-    }
-}
 
 /// forces: of all nodes, the given ones among them.
 Reactions reactions_of(const Eigen::VectorXd& forces, const Eigen::VectorXd& given,
@@ -175,8 +182,10 @@ ReferenceAnswer quadratic_reference(const QuadraticMesh& mesh, const FemMesh& li
     control.checkpoint();
     u += apply.solve_linear(load);
     u = (prolongation * u).eval();
-    improve(apply.quadratic, given, TwoLevelPreconditioner(apply, corners, prolongation, std::move(is_prescribed)), u,
-            control);
+    u += conjugate_gradients(FreeStiffness(apply.quadratic, is_prescribed),
+                             TwoLevelPreconditioner(apply, corners, prolongation, is_prescribed),
+                             with_zeros(given - apply.quadratic(u), is_prescribed), kEnough,
+                             "stiffness matrix of quadratic elements", control);
     return ReferenceAnswer{u.head(3 * linear.tets.n_surface_vertices),
                            reactions_of(apply.quadratic(u), given, constrained, vertices.size()),
                            1.0 + kLeftByQuadratic};

@@ -87,6 +87,38 @@ TEST(ConjugateGradients, SayWhenTheyDoNotConvergeAndStopWhenCancelled) {
     EXPECT_THROW(conjugate_gradients(A, one, B, {}, "matrix", control), Cancelled);
 }
 
+/// With the inverse of A as preconditioner but for a little, the estimate of the energy is nearly exact.
+TEST(ConjugateGradients, EndWhereTheEnergyOfTheErrorIsSmallEnough) {
+    const Eigen::MatrixXd A = positive_definite(60), B = Eigen::MatrixXd::Random(60, 2), truth = A.llt().solve(B);
+    const Eigen::MatrixXd near_inverse = (A + 0.3 * Eigen::MatrixXd(A.diagonal().asDiagonal())).inverse();
+    Control control;
+    IterationReport coarse, fine;
+    const Eigen::MatrixXd X =
+        conjugate_gradients(DenseOperator(A), DenseOperator(near_inverse), B,
+                            {.tolerance = 1e-12, .energy_tolerance = 0.01}, "A", control, &coarse);
+    conjugate_gradients(DenseOperator(A), DenseOperator(near_inverse), B, {.tolerance = 1e-12}, "A", control, &fine);
+    EXPECT_LT(coarse.iterations, fine.iterations);
+    for (int c = 0; c < 2; ++c) {
+        const Eigen::VectorXd error = X.col(c) - truth.col(c), whole = truth.col(c);
+        const double left = std::sqrt(error.dot(A * error) / whole.dot(A * whole));
+        EXPECT_LT(left, 0.05) << c;
+        EXPECT_GT(left, 1e-6) << c << ": and no better than that";
+    }
+}
+
+TEST(ConjugateGradients, GiveWhatIsThereWhereTheyNeedNotConverge) {
+    const Eigen::MatrixXd A = positive_definite(60), B = Eigen::MatrixXd::Ones(60, 1), truth = A.llt().solve(B);
+    const DenseOperator one(Eigen::MatrixXd::Identity(60, 60));
+    Control control;
+    IterationReport report;
+    const Eigen::VectorXd x =
+        conjugate_gradients(DenseOperator(A), one, B, {.tolerance = 1e-12, .max_iterations = 5, .must_converge = false},
+                            "A", control, &report);
+    EXPECT_EQ(report.iterations, 5);
+    const Eigen::VectorXd error = x - truth.col(0);
+    EXPECT_LT(error.dot(A * error), 0.9 * truth.col(0).dot(A * truth.col(0)));
+}
+
 /// Multiplies all columns but the first, of which it makes no numbers.
 class FirstColumnFails : public LinearOperator {
 public:
