@@ -9,6 +9,8 @@ namespace elastolab {
 namespace {
 
 constexpr int kElementsAtOnce = 128;
+/// Part of the Laplacian that keeps the mean of positions where it is, for bodies without any constrained node.
+constexpr double kMeanShift = 1e-8;
 
 /// int grad N_a . grad N_b, of one number a node.
 double laplacian(const FiniteElements& elements, int element, int a, int b) {
@@ -48,8 +50,10 @@ WarpedStart::WarpedStart(const Newton& newton, ElementWork& work, Control& contr
                              control);
     if (!rest_)
         throw SolveError("stiffness at rest: is not positive definite. Check the mesh for degenerate tetrahedra.");
-    const SparseMatrix L =
+    SparseMatrix L =
         tangent_->node_matrix([&](int element, int a, int b) { return laplacian(elements(), element, a, b); });
+    const bool all_are_free = std::ssize(tangent_->nodes()) == elements().n_nodes();
+    for (int i = 0; all_are_free && i < L.cols(); ++i) L.coeffRef(i, i) += kMeanShift * elements().edge();
     poisson_ = std::make_shared<const SparseCholesky>(CholeskyAnalysis(L, 1), L, "Laplacian", &control);
 }
 
