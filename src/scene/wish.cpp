@@ -73,4 +73,22 @@ Way way_to(const Wish& to, const Wish* from, const Positions& rest) {
     return way;
 }
 
+std::optional<Wish> step_towards(const Wish& to, const Wish& from, double degrees, const Positions& rest) {
+    if (to.motions.empty() || from.motions.size() != to.motions.size()) return std::nullopt;
+    const double steps = std::round(farthest_turn(to, &from) / degrees);
+    if (!(steps > 1.0)) return std::nullopt;
+    Wish step = to;
+    for (std::size_t h = 0; h < to.motions.size(); ++h) {
+        const std::optional<Motion> motion = between(from.motions[h], to.motions[h], 1.0 / steps);
+        if (motion)
+            step.motions[h] = *motion;
+        else if (turn_between(from.motions[h], to.motions[h]) > 0.0)
+            return std::nullopt;
+    }
+    const std::optional<Eigen::VectorXd> values = values_between(to, &from, 1.0 / steps, rest);
+    if (!values) return std::nullopt;
+    step.values = *values;
+    return step;
+}
+
 }  // namespace elastolab

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "scene/constraints.hpp"
@@ -28,5 +29,9 @@ struct Way {
 /// the vertices of all handles. Columns only where a handle turns too far for the shortest rotation to be the one that
 /// is meant.
 Way way_to(const Wish& to, const Wish* from, const Positions& rest);
+
+/// A wish on the way from one to another, such that no handle turns by much more than `degrees`; nothing where none
+/// turns further, or where it cannot be told what lies between. rest: as of way_to.
+std::optional<Wish> step_towards(const Wish& to, const Wish& from, double degrees, const Positions& rest);
 
 }  // namespace elastolab

@@ -9,11 +9,13 @@
 #include "scene/live/drag_solver.hpp"
 #include "scene/proxy/carried_constraints.hpp"
 #include "scene/scene_mesh.hpp"
+#include "scene/wish.hpp"
 
 namespace elastolab::test {
 namespace {
 
 constexpr double kDegreesPerSecond = 60.0, kFarthest = 90.0, kSeconds = 6.0;
+constexpr double kFollowTurn = 15.0, kPassingTolerance = 1e-3;  ///< as the worker does it
 
 Document rabbit() {
     Document document;
@@ -49,21 +51,31 @@ void follow(benchmark::State& state, ElementDegree degree, int proxy_vertices) {
     const auto deformer = std::make_shared<Deformer>(model);
     deformer->constrain(constraints.set, control);
     const Eigen::Vector3d center = surface->vertices(Eigen::all, constraints.set.handles).rowwise().mean();
+    const Positions rest = surface->vertices(Eigen::all, constraints.set.handles);
     for (auto _ : state) {
-        DragSolver drag(deformer, {static_cast<int>(constraints.set.handles.size())});
-        std::vector<double> seconds, iterations;
         const Stopwatch watch;
-        while (watch.seconds() < kSeconds) {
+        const auto hand = [&] {  // is now
             const double way = std::fmod(kDegreesPerSecond * watch.seconds(), 2.0 * kFarthest);
             constraints.move(0, turned_by(way < kFarthest ? way : 2.0 * kFarthest - way, center), surface->vertices);
+            return wish_of(constraints);
+        };
+        DragSolver drag(deformer, {static_cast<int>(constraints.set.handles.size())});
+        std::vector<double> seconds, iterations, behind;
+        Wish at = hand();
+        while (watch.seconds() < kSeconds) {
+            const Wish wanted = hand();
+            const std::optional<Wish> step = step_towards(wanted, at, kFollowTurn, rest);
             const Stopwatch one;
-            drag.prepare(constraints.values, kFirstTolerance, control, {drag.equilibrium(), {}});
+            at = step.value_or(wanted);
+            drag.prepare(at.values, step ? kPassingTolerance : kFirstTolerance, control, {drag.equilibrium(), {}});
             seconds.push_back(one.seconds());
+            behind.push_back(turn_between(at.motions[0], hand().motions[0]));
             iterations.push_back(drag.equilibrium()->solids.front()->facts().iterations);
         }
         state.counters["per_second"] = static_cast<double>(seconds.size()) / watch.seconds();
         state.counters["median_ms"] = 1e3 * median(seconds);
         state.counters["median_iterations"] = median(iterations);
+        state.counters["median_degrees_behind"] = median(behind);
         state.counters["vertices"] = surface->n_vertices();
         state.counters["unknowns"] = model->facts().n_degrees_of_freedom;
     }

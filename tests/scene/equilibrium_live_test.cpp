@@ -16,9 +16,9 @@ const Selector kEnd{PlaneSelector{{4, 0, 0}, {1, 0, 0}, 1e-9}};
 const Selector kHalf{BoxSelector{{2, 0, 0}, {4, 1, 1}}};
 
 /// A bar of 4 x 1 x 1 held at one end, with `handle` of it as handle 0.
-LiveScene bar(const Selector& handle = kEnd) {
+LiveScene bar(const Selector& handle = kEnd, int cells = 2) {
     Document document;
-    document.mesh = Primitive{.name = "beam", .resolution = 2, .size = {}};
+    document.mesh = Primitive{.name = "beam", .resolution = cells, .size = {}};
     document.fixed = {{.select = {PlaneSelector{{0, 0, 0}, {1, 0, 0}, 1e-9}}}};
     document.handles = {{.name = "end", .select = handle, .motion = AffineMotion{}}};
     return {document, "bar.json"};
@@ -81,6 +81,18 @@ TEST_F(LiveEquilibrium, TheNewestWishIsServedWhateverWasWishedBefore) {
     }
     ask(twist(40));
     bench.settle(scene);
+    expect_converged(truth(scene, bench.choices.of(kNonlinearFem)));
+}
+
+/// A body whose equilibria take long enough.
+TEST_F(LiveEquilibrium, AFarMotionIsFollowedByStepsWhichAreShown) {
+    scene = bar(kEnd, 5);
+    bench.settle(scene);
+    ask(twist(90));
+    EXPECT_TRUE(runner().following());
+    const std::uint64_t first = runner().version();
+    bench.settle(scene);
+    EXPECT_GE(runner().version(), first + 5) << "four or more on the way, then the answer";
     expect_converged(truth(scene, bench.choices.of(kNonlinearFem)));
 }
 

@@ -44,6 +44,34 @@ TEST(Wish, AWayBetweenTwoTurnsIsTheDifference) {
     EXPECT_EQ(aside.path.cols(), 3);
 }
 
+TEST(Wish, AStepTurnsByAboutAsMuchAsIsAllowed) {
+    const std::optional<Wish> step = step_towards(turned(130), turned(10), 30, kFace);
+    ASSERT_TRUE(step.has_value());
+    EXPECT_TRUE(same(*step, turned(40)) || (step->values - turned(40).values).norm() < 1e-12);
+    EXPECT_NEAR(turn_between(step->motions[0], turned(40).motions[0]), 0.0, 1e-9);
+    EXPECT_FALSE(step_towards(turned(40), turned(0), 30, kFace).has_value()) << "no short step is left over";
+    EXPECT_FALSE(step_towards(turned(100), turned(100, {0, 1, 0}), 30, kFace).has_value()) << "what lies between?";
+    const std::optional<Wish> wound = step_towards(turned(720), turned(0), 30, kFace);
+    ASSERT_TRUE(wound.has_value());
+    EXPECT_NEAR(turn_between(wound->motions[0], turned(0).motions[0]), 30.0, 1e-9);
+}
+
+TEST(Wish, AStepMovesTheOtherHandlesAsFarAlong) {
+    Wish from = turned(0), to = turned(90);
+    for (Wish* wish : {&from, &to}) {
+        const Eigen::Vector3d shift = wish == &to ? Eigen::Vector3d(3, 6, 9) : Eigen::Vector3d(0, 0, 0);
+        wish->values.conservativeResize(15);
+        wish->values.tail<3>() = shift;
+        wish->motions.emplace_back(VertexMotion{{shift}});
+        wish->ends.push_back(5);
+    }
+    Positions rest(3, 5);
+    rest << kFace, Eigen::Vector3d(0, 0, 0);
+    const std::optional<Wish> step = step_towards(to, from, 30, rest);
+    ASSERT_TRUE(step.has_value());
+    EXPECT_LT((step->values.tail<3>() - Eigen::Vector3d(1, 2, 3)).norm(), 1e-12);
+}
+
 TEST(Wish, AWayMovesTheOtherHandlesAlong) {
     Wish two = turned(360);
     two.values.conservativeResize(15);

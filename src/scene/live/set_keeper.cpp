@@ -14,6 +14,10 @@ namespace {
 /// What a motion of a method that is not linear must have rested before it is worth an equilibrium that takes long, and
 /// how long one that nobody waits for any more may take, where no other answers meanwhile.
 constexpr double kPauseSeconds = 0.2, kPatienceSeconds = 2.0;
+/// Where equilibria take longer, a motion that is further ahead is followed by such turns [degree]: as far as a tangent
+/// predicts well, so that each is found in one or two iterations and what is shown between is near it. Relative
+/// residual of those that are only passed.
+constexpr double kQuickSeconds = 0.1, kFollowTurn = 15.0, kPassingTolerance = 1e-3;
 
 Positions handle_positions(const Deformer& deformer) {
     return deformer.model().body().surface->vertices(Eigen::all, deformer.set().handles);
@@ -255,6 +259,13 @@ Approach SetKeeper::approach_to(const Wish& wish) const {
     return {way.from_rest ? nullptr : current_.drag->equilibrium(), std::move(way.path)};
 }
 
+/// What the worker is to pass next on the way to what is wanted; nothing where it goes there at once.
+std::optional<Wish> SetKeeper::next_step() const {
+    const bool follows = !is_linear() && !may_hold_off_ && current_.solve_seconds > kQuickSeconds;
+    if (!follows || !current_.at || !current_.drag || !current_.drag->equilibrium()) return std::nullopt;
+    return step_towards(wanted_, *current_.at, kFollowTurn, handle_positions(*current_.deformer));
+}
+
 /// The motion goes on meanwhile: the columns that the worker brings serve its continuation.
 void SetKeeper::solve_on_worker() {
     if (!is_current() || !may_solve_now()) return;
@@ -265,13 +276,16 @@ void SetKeeper::solve_on_worker() {
     motion_failure_.clear();
     if (rule_ == FrameRule::displace && is_linear()) return update_on_worker();
     DragSolver drag = current_.drag ? *current_.drag : DragSolver(current_.deformer, wanted_.ends);
-    job_.start([deformer = current_.deformer, drag = std::move(drag), approach = approach_to(wanted_),
-                wish = wanted_](Control& control) mutable {
+    const std::optional<Wish> step = next_step();
+    const double tolerance = step ? kPassingTolerance : first_tolerance(*current_.deformer);
+    Wish next = step.value_or(wanted_);
+    job_.start([deformer = current_.deformer, drag = std::move(drag), approach = approach_to(next),
+                wish = std::move(next), tolerance](Control& control) mutable {
         control.begin_stage("solve");
         const Stopwatch watch;
         PreparedSet solved{.deformer = deformer, .at = std::make_shared<const Wish>(wish)};
         try {
-            drag.prepare(wish.values, first_tolerance(*deformer), control, approach);
+            drag.prepare(wish.values, tolerance, control, approach);
         } catch (const NoEquilibriumError& error) {
             solved.crushed = Crushed{user_text(error), error.place()};
         }

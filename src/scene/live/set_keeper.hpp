@@ -56,8 +56,8 @@ struct PreparedSet {
 /// else to do for the set. The set used before stays at hand. All members are for one thread.
 ///
 /// Of a method that is not linear the worker follows the motion with equilibria, each from the one before: always for
-/// the newest wish, never for a queue of them. Where it may hold off (set_may_hold_off) and takes long, it waits until
-/// the motion rests, and gives up what is not wanted any more.
+/// the newest wish, never for a queue of them; where they take long, by turns that are not too far. Where it may hold
+/// off (set_may_hold_off) and takes long, it waits until the motion rests, and gives up what is not wanted any more.
 class SetKeeper {
 public:
     /// `wake` is called by the worker when poll() will find something.
@@ -141,6 +141,7 @@ private:
     bool is_linear() const { return current_.deformer->linear(); }
     bool may_solve_now();
     Approach approach_to(const Wish& wish) const;
+    std::optional<Wish> next_step() const;
     void refine_on_worker();
     Event take_failure();
     void prepare_prefetched(const ConstrainedSet& set);
