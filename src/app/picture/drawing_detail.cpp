@@ -6,7 +6,12 @@ namespace elastolab {
 
 namespace {
 
-constexpr double kVerySlow = 4.0;  ///< times kSlowSeconds: worth more than one step
+/// Steps that a picture of this cost is worth.
+std::size_t steps(double seconds) {
+    constexpr double kVerySlow = 4.0, kHopeless = 12.0;  // times kSlowSeconds
+    const double times = seconds / DetailKeeper::kSlowSeconds;
+    return times > kHopeless ? 4 : times > kVerySlow ? 2 : times > 1.0 ? 1 : 0;
+}
 
 }  // namespace
 
@@ -16,30 +21,32 @@ const std::array<DrawingDetail, DetailKeeper::kLevels>& DetailKeeper::levels() {
          {.soft_shadows = false},
          {.soft_shadows = false, .samples = 1},
          {.soft_shadows = false, .wireframe = false, .samples = 1},
-         {.soft_shadows = false, .wireframe = false, .samples = 1, .resolution = 0.5},
-         {.soft_shadows = false, .wireframe = false, .samples = 1, .resolution = 0.34}}};
+         {.soft_shadows = false, .wireframe = false, .all_triangles = false, .samples = 1},
+         {.soft_shadows = false, .wireframe = false, .all_triangles = false, .samples = 1, .resolution = 0.5},
+         {.soft_shadows = false, .wireframe = false, .all_triangles = false, .samples = 1, .resolution = 0.34}}};
     return all;
 }
 
 const DrawingDetail& DetailKeeper::choose(bool moved, double now) {
     if (moved) {
-        const bool begins = now - last_move_ > kRestSeconds;
-        last_move_ = now;
+        const bool begins = now - rest_since_ > kRestSeconds;
+        rest_since_ = now;
         if (begins && cost_[0] <= kSlowSeconds) while_moving_ = 0;
-        if (!begins && cost_[while_moving_] > kSlowSeconds)
-            while_moving_ =
-                std::min(kLevels - 1, while_moving_ + (cost_[while_moving_] > kVerySlow * kSlowSeconds ? 2 : 1));
+        if (!begins) while_moving_ = std::min(kLevels - 1, while_moving_ + steps(cost_[while_moving_]));
         shown_ = while_moving_;
-    } else if (now - last_move_ > kRestSeconds) {
+    } else if (now - rest_since_ > kRestSeconds) {
         shown_ = 0;
     }
     return levels()[shown_];
 }
 
-void DetailKeeper::took(double seconds) { cost_[shown_] = seconds; }
+void DetailKeeper::took(double seconds) {
+    cost_[shown_] = seconds;
+    rest_since_ += seconds;  // a picture that takes longer than a rest is none
+}
 
 double DetailKeeper::due_in(double now) const {
-    return shown_ == 0 ? -1.0 : std::max(0.0, last_move_ + kRestSeconds - now);
+    return shown_ == 0 ? -1.0 : std::max(0.0, rest_since_ + kRestSeconds - now);
 }
 
 }  // namespace elastolab

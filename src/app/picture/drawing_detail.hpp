@@ -7,10 +7,11 @@ namespace elastolab {
 
 /// What is left out of a picture while something moves and drawing takes long.
 struct DrawingDetail {
-    bool soft_shadows = true;  ///< ambient occlusion and the shadow on the ground
-    bool wireframe = true;     ///< and ghosts of the body at rest
-    int samples = 4;           ///< a pixel
-    double resolution = 1.0;   ///< of the screen's
+    bool soft_shadows = true;   ///< ambient occlusion and the shadow on the ground
+    bool wireframe = true;      ///< and ghosts of the body at rest
+    bool all_triangles = true;  ///< of large bodies; else some that stand for them
+    int samples = 4;            ///< a pixel
+    double resolution = 1.0;    ///< of the screen's
 
     bool operator==(const DrawingDetail&) const = default;
 };
@@ -31,12 +32,12 @@ public:
     void forget() { *this = {}; }
 
 private:
-    static constexpr std::size_t kLevels = 6;
+    static constexpr std::size_t kLevels = 7;
     static const std::array<DrawingDetail, kLevels>& levels();
 
     std::array<double, kLevels> cost_{};        ///< [s]; 0: not known
     std::size_t shown_ = 0, while_moving_ = 0;  ///< levels
-    double last_move_ = -1e9;                   ///< [s]
+    double rest_since_ = -1e9;                  ///< the end of the last picture that moved [s]
 };
 
 }  // namespace elastolab

@@ -110,6 +110,7 @@ void SceneRenderer::draw_ghosts(const ViewerState& state, const SceneView& view,
                                 const Palette& palette, const DrawingDetail& detail) {
     SurfaceStyle style;
     style.ghost = true;
+    style.coarse = !detail.all_triangles;
     style.feature_edges = state.display.feature_edges;
     style.feature_width = 1.2f;
     const bool has_field = state.display.field != Field::none;
@@ -137,6 +138,7 @@ const SurfaceDrawing& SceneRenderer::draw_solid(const ViewerState& state, const 
     SurfaceDrawing& body = drawing(solid).seen();
     SurfaceStyle style = surface_style(state, solid, palette);
     if (!detail.wireframe) style.wireframe = style.feature_edges = false;
+    style.coarse = !detail.all_triangles;
     body.draw(view, style);
     return body;
 }

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "render/geometry/coarse_surface.hpp"
+
 namespace elastolab {
 
 namespace {
@@ -41,8 +43,14 @@ SurfaceDrawing::SurfaceDrawing(const PositionsView& rest, const TrianglesView& t
       array_(make_gl_vertex_array()),
       features_(geometry_.groups().features, vertices_, sizeof(DrawnVertex)),
       shader_(shared_shader({"surface.vert", "surface.geom", "surface.frag"})) {
-    const Eigen::Matrix3Xi& corners = geometry_.groups().corners;
-    upload(indices_, std::span(corners.data(), static_cast<std::size_t>(corners.size())));
+    Eigen::Matrix3Xi corners = geometry_.groups().corners;
+    if (triangles.cols() > 2 * kFewTriangles) {
+        const Eigen::Matrix3Xi few = coarse_corners(rest, triangles, geometry_.groups(), kFewTriangles);
+        n_coarse_ = static_cast<int>(few.size());
+        corners.conservativeResize(Eigen::NoChange, corners.cols() + few.cols());
+        corners.rightCols(few.cols()) = few;
+    }
+    upload(indices_, std::span<const int>(corners.data(), static_cast<std::size_t>(corners.size())));
     attach_all();
     set_triangle_scalars({});
     clear_scalars();
@@ -110,12 +118,17 @@ void SurfaceDrawing::bind_textures(const SurfaceStyle& style) {
     glBindTexture(GL_TEXTURE_2D, map_texture_.id());
 }
 
-void SurfaceDrawing::draw_triangles(const GlState& state) const {
+void SurfaceDrawing::draw_triangles(const GlState& state, bool coarse) const {
     apply(state);
     glBindVertexArray(array_.id());
     if (scalars_ != Scalars::per_vertex) glDisableVertexAttribArray(kScalar);
     if (scalars_ == Scalars::per_vertex) glEnableVertexAttribArray(kScalar);
-    glDrawElements(GL_TRIANGLES, n_indices_, GL_UNSIGNED_INT, nullptr);
+    const auto behind = static_cast<std::size_t>(n_indices_) * sizeof(int);
+    if (coarse)
+        // An offset into the buffer, which OpenGL takes as a pointer.
+        glDrawElements(GL_TRIANGLES, n_coarse_, GL_UNSIGNED_INT, reinterpret_cast<const void*>(behind));
+    else
+        glDrawElements(GL_TRIANGLES, n_indices_, GL_UNSIGNED_INT, nullptr);
     glBindVertexArray(0);
 }
 
@@ -130,16 +143,17 @@ void SurfaceDrawing::draw(const SceneView& view, const SurfaceStyle& style) {
     shader_->use();
     set_uniforms(view, style);
     bind_textures(style);
+    const bool coarse = style.coarse && n_coarse_ > 0 && (style.plain || scalars_ != Scalars::per_triangle);
     if (style.ghost) {
-        draw_triangles({.blend = true, .write_depth = false, .cull = GlState::Cull::front});
-        draw_triangles({.blend = true, .write_depth = false, .cull = GlState::Cull::back});
+        draw_triangles({.blend = true, .write_depth = false, .cull = GlState::Cull::front}, coarse);
+        draw_triangles({.blend = true, .write_depth = false, .cull = GlState::Cull::back}, coarse);
     } else if (style.overlay) {
-        draw_triangles({.blend = true, .write_depth = false, .cull = GlState::Cull::back});
+        draw_triangles({.blend = true, .write_depth = false, .cull = GlState::Cull::back}, coarse);
     } else if (style.opacity < 1.0f) {
-        draw_triangles({.blend = true, .write_depth = false, .cull = GlState::Cull::front});
-        draw_triangles({.blend = true, .cull = GlState::Cull::back});
+        draw_triangles({.blend = true, .write_depth = false, .cull = GlState::Cull::front}, coarse);
+        draw_triangles({.blend = true, .cull = GlState::Cull::back}, coarse);
     } else {
-        draw_triangles({});
+        draw_triangles({}, coarse);
     }
     if (!style.feature_edges) return;
     const Colour colour = style.feature.with_opacity(style.feature_opacity * style.opacity);

@@ -27,6 +27,7 @@ struct SurfaceStyle {
     bool plain = false;    ///< without the colours of scalars
     bool overlay = false;  ///< translucent, a tint over a surface in the same place
     bool ghost = false;    ///< translucent, seen where it is apart from what is drawn already
+    bool coarse = false;   ///< at most some SurfaceDrawing::kFewTriangles, where values are not those of triangles
 
     bool wireframe = false;
     Colour wire{0.05f, 0.07f, 0.10f, 1.0f};
@@ -47,6 +48,8 @@ struct SurfaceStyle {
 /// upper left. Opaque surfaces first, translucent ones last.
 class SurfaceDrawing {
 public:
+    static constexpr int kFewTriangles = 30'000;
+
     /// Takes time; once per mesh.
     SurfaceDrawing(const PositionsView& rest, const TrianglesView& triangles);
 
@@ -67,10 +70,10 @@ private:
     void attach_all();
     void set_uniforms(const SceneView& view, const SurfaceStyle& style);
     void bind_textures(const SurfaceStyle& style);
-    void draw_triangles(const GlState& state) const;
+    void draw_triangles(const GlState& state, bool coarse) const;
 
     SurfaceGeometry geometry_;
-    int n_indices_;
+    int n_indices_, n_coarse_ = 0;  ///< n_coarse_: behind the others, where the surface has many triangles
     SceneFrame frame_;
     Scalars scalars_ = Scalars::none;
     const ColourMap* shown_map_ = nullptr;  // in map_texture_

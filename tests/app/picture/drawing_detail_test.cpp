@@ -10,17 +10,19 @@ constexpr double kStep = 0.1;
 /// A picture takes this long, times what its detail leaves.
 struct Screen {
     double full_seconds = 0.0;
+    double triangles = 1.0;  ///< the part of them that is left where not all are drawn
     double now = 0.0;
     DetailKeeper keeper = {};
 
     double cost(const DrawingDetail& detail) const {
         return full_seconds * (detail.soft_shadows ? 1.0 : 0.6) * (detail.samples == 1 ? 0.5 : 1.0) *
-               (detail.wireframe ? 1.0 : 0.5) * detail.resolution;
+               (detail.wireframe ? 1.0 : 0.5) * (detail.all_triangles ? 1.0 : triangles) * detail.resolution;
     }
     DrawingDetail frame(bool moved) {
         now += kStep;
         const DrawingDetail detail = keeper.choose(moved, now);
         keeper.took(cost(detail));
+        now += cost(detail);
         return detail;
     }
 };
@@ -47,6 +49,14 @@ TEST(DetailKeeper, LeavesOutAsMuchAsItMustWhileSomethingMovesAndNothingAtRest) {
         // The next motion begins as the last one ended.
         EXPECT_EQ(screen.frame(true), moving);
     }
+}
+
+/// Whoever waits a second for a picture does not wait for six of them until it is quick.
+TEST(DetailKeeper, OfAVeryLargeBodyLeavesOutTrianglesAtOnce) {
+    Screen screen{.full_seconds = 2.0, .triangles = 0.1};
+    screen.frame(true);
+    EXPECT_FALSE(screen.frame(true).all_triangles);
+    EXPECT_EQ(screen.frame(true).resolution, 1.0);
 }
 
 /// A pause that is shorter than rest changes nothing: pictures do not flicker.
