@@ -1,0 +1,92 @@
+// Nonlinear FEM against other code: a bar twisted by 120 degrees, by FEniCSx (scripts/reference_twisted_bar.py).
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <fstream>
+#include <map>
+#include <numbers>
+#include <sstream>
+#include <tuple>
+
+#include "fem/nonlinear/method.hpp"
+#include "fem/quadratic/method.hpp"
+#include "mesh/primitives.hpp"
+#include "methods/problem.hpp"
+
+namespace elastolab::test {
+namespace {
+
+/// By position, in parts of a sixth: the reference has the vertices of bars of 2, 3 and 6 cells.
+using Reference = std::map<std::tuple<int, int, int>, Eigen::Vector3d>;
+
+std::tuple<int, int, int> key(const Eigen::Vector3d& x) {
+    const Eigen::Array3i sixths = (6.0 * x.array()).round().cast<int>();
+    return {sixths[0], sixths[1], sixths[2]};
+}
+
+Reference read_reference() {
+    std::ifstream file(ELASTOLAB_REFERENCES "/twisted_bar.csv");
+    Reference reference;
+    for (std::string line; std::getline(file, line);) {
+        if (line.empty() || line.front() == '#') continue;
+        std::istringstream row(line);
+        double number[6] = {};
+        for (double& value : number) {
+            row >> value;
+            row.ignore();
+        }
+        reference[key({number[0], number[1], number[2]})] = {number[3], number[4], number[5]};
+    }
+    return reference;
+}
+
+struct Twisted {
+    int n_tetrahedra = 0;
+    double rms = 0.0;  ///< of the difference to the reference where both have vertices, over that of the reference
+};
+
+/// The bar of so many cells along its short edges, filled as in any scene.
+Twisted twisted(int cells, MethodKind kind) {
+    static const Reference reference = read_reference();
+    const SurfaceMesh mesh = make_box(cells, {4, 1, 1});
+    ConstrainedSet set;
+    set.base = vertices_where(mesh, [](const auto& p) { return p[0] < kEdge; });
+    set.handles = vertices_where(mesh, [](const auto& p) { return p[0] > 4.0 - kEdge; });
+    const Eigen::Matrix3d turn =
+        Eigen::AngleAxisd(2.0 * std::numbers::pi / 3.0, Eigen::Vector3d::UnitX()).toRotationMatrix();
+    const Eigen::Vector3d middle(4, 0.5, 0.5);
+    const Eigen::Matrix3Xd arms = mesh.vertices(Eigen::all, set.handles).colwise() - middle;
+    const Eigen::Matrix3Xd values = turn * arms - arms;
+    const auto model = precomputed(make_body(mesh), make_method(kind));
+    const Eigen::Matrix3Xd u = displaced(model, set, values.reshaped()).reshaped(3, mesh.n_vertices());
+    double apart = 0.0, whole = 0.0;
+    int n_common = 0;
+    for (int v = 0; v < mesh.n_vertices(); ++v) {
+        const Eigen::Vector3d x = mesh.vertices.col(v);
+        const auto known = reference.find(key(x));
+        if (known == reference.end() || (6.0 * x.array() - (6.0 * x.array()).round()).abs().maxCoeff() > 1e-6) continue;
+        apart += (u.col(v) - known->second).squaredNorm();
+        whole += known->second.squaredNorm();
+        ++n_common;
+    }
+    EXPECT_GE(n_common, 70);
+    return {static_cast<int>(model->facts().n_tetrahedra), std::sqrt(apart / whole)};
+}
+
+TEST(TwistedBar, OfTenNodesConvergesToTheAnswerOfOtherCode) {
+    double before = 1.0;
+    for (const auto& [cells, most] : {std::pair{2, 4e-3}, {3, 3e-3}, {4, 2e-3}, {6, 7e-4}}) {
+        const Twisted bar = twisted(cells, kNonlinearFem);
+        print_measured("bar twisted by 120 degrees, " + std::to_string(bar.n_tetrahedra) +
+                           " ten-node tetrahedra, relative rms difference to FEniCSx",
+                       bar.rms);
+        EXPECT_LT(bar.rms, most) << cells;
+        EXPECT_LT(bar.rms, before) << cells;
+        before = bar.rms;
+    }
+}
+
+TEST(TwistedBar, ByLinearTheoryIsTensOfPerCentOff) { EXPECT_GT(twisted(3, kQuadraticFem).rms, 0.3); }
+
+}  // namespace
+}  // namespace elastolab::test
