@@ -1,9 +1,11 @@
+#include "app/panels/compare_panel.hpp"
+
 #include <imgui.h>
 
 #include <algorithm>
 #include <array>
 
-#include "app/panels/panels.hpp"
+#include "app/panels/panel_context.hpp"
 #include "app/panels/widgets.hpp"
 #include "base/text.hpp"
 #include "methods/registry.hpp"
@@ -75,7 +77,7 @@ void draw_differences(const PanelContext& context) {
 
 }  // namespace
 
-void Panels::draw_compare(const PanelContext& context) {
+void ComparePanel::draw(const PanelContext& context) {
     ViewerState& state = context.state;
     const float scale = context.gui.scale();
     set_item_width(scale);

@@ -1,3 +1,5 @@
+#include "app/panels/display_panel.hpp"
+
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
@@ -6,7 +8,7 @@
 #include <string>
 #include <tuple>
 
-#include "app/panels/panels.hpp"
+#include "app/panels/panel_context.hpp"
 #include "app/panels/widgets.hpp"
 #include "base/text.hpp"
 #include "render/colour_map.hpp"
@@ -131,7 +133,7 @@ void draw_section(DisplaySettings& display, float scale) {
 
 }  // namespace
 
-void Panels::draw_display(const PanelContext& context) {
+void draw_display(const PanelContext& context) {
     DisplaySettings& display = context.state.display;
     const float scale = context.gui.scale();
     set_item_width(scale);

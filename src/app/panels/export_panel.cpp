@@ -1,11 +1,13 @@
-// What leaves the program for others: meshes with their fields, and tables.
+#include "app/panels/export_panel.hpp"
+
 #include <imgui.h>
 
 #include <array>
 #include <string>
 
-#include "app/panels/panels.hpp"
+#include "app/panels/file_questions.hpp"
 #include "app/panels/widgets.hpp"
+#include "app/viewer_state.hpp"
 
 namespace elastolab {
 
@@ -31,18 +33,11 @@ constexpr std::array<ExportKind, 8> kExports = {
 
 }  // namespace
 
-void Panels::ask_export(ViewerState& state, const std::string& ending) {
-    files_.open({.title = "Export (" + ending + ")",
-                 .extensions = {ending},
-                 .suggestion = suggested_name(state, "-deformed" + ending),
-                 .done = [&](const auto& file) { state.export_mesh(file); }});
-}
-
-void Panels::draw_export_menu(ViewerState& state) {
+void draw_export_menu(ViewerState& state, FileQuestions& files) {
     if (!ImGui::BeginMenu("Export")) return;
     for (const ExportKind& kind : kExports) {
         const bool possible = std::string(kind.ending) != ".vtu" || state.method->has_inside;
-        if (ImGui::MenuItem(kind.label, nullptr, false, possible)) ask_export(state, kind.ending);
+        if (ImGui::MenuItem(kind.label, nullptr, false, possible)) files.ask_export(state, kind.ending);
         tooltip(possible ? kind.explanation : "This method has no tetrahedra: choose a finite-element method.");
     }
     ImGui::EndMenu();

@@ -6,7 +6,7 @@
 
 #include <array>
 
-#include "app/panels/panels.hpp"
+#include "app/panels/panel_context.hpp"
 #include "app/panels/widgets.hpp"
 #include "base/overloaded.hpp"
 #include "base/text.hpp"

@@ -1,8 +1,15 @@
+#include "app/panels/menu_panel.hpp"
+
 #include <imgui.h>
 
 #include <array>
 
-#include "app/panels/panels.hpp"
+#include "app/panels/body_panel.hpp"
+#include "app/panels/export_panel.hpp"
+#include "app/panels/file_questions.hpp"
+#include "app/panels/panel_context.hpp"
+#include "app/panels/picture_panel.hpp"
+#include "app/panels/pull_panel.hpp"
 #include "app/panels/widgets.hpp"
 #include "mesh/primitives.hpp"
 
@@ -19,7 +26,7 @@ void draw_recent(ViewerState& state) {
 
 }  // namespace
 
-void Panels::draw_edit(ViewerState& state) {
+void MenuPanel::draw_edit(ViewerState& state) {
     if (!ImGui::BeginMenu("Edit")) return;
     const LiveScene& scene = state.scene();
     const std::string name = state.selected_name(), quoted = name.empty() ? "the selection" : "\"" + name + "\"";
@@ -32,7 +39,7 @@ void Panels::draw_edit(ViewerState& state) {
     if (ImGui::MenuItem("New fixed set", "Shift+N")) state.begin_fixed_set();
     ImGui::Separator();
     if (ImGui::MenuItem(("Rename " + quoted + "###rename").c_str(), "F2", false, !name.empty()))
-        rename_selection(state);
+        panels_.pull.rename_selection(state);
     if (ImGui::MenuItem(("Remove " + quoted + "###remove").c_str(), "Del", false, !name.empty()))
         state.remove_selection();
     if (ImGui::MenuItem("Remove all handles", "Shift+Del", false, scene.n_handles() > 0)) state.clear_handles();
@@ -107,28 +114,31 @@ void draw_view(ViewerState& state) {
 
 }  // namespace
 
-void Panels::draw_menu(const PanelContext& context) {
-    ViewerState& state = context.state;
-    if (!ImGui::BeginMainMenuBar()) return;
-    if (ImGui::BeginMenu("File")) {
-        if (ImGui::MenuItem("Open...", "Ctrl+O")) ask_open(state);
-        draw_recent(state);
-        examples_.draw(state, context.gui.scale());
-        if (ImGui::BeginMenu("New body")) {
-            for (const std::string& name : primitive_names())
-                if (ImGui::MenuItem(name.c_str())) body_.make(state, name);
-            ImGui::EndMenu();
-        }
-        ImGui::Separator();
-        if (ImGui::MenuItem("Save scene", "Ctrl+S")) save(state);
-        if (ImGui::MenuItem("Save scene as...", "Ctrl+Shift+S")) save_as(state);
-        draw_export_menu(state);
-        if (ImGui::MenuItem("Picture or film...")) picture_.ask();
-        if (ImGui::MenuItem("Screenshot of the window...")) ask_screenshot(state);
-        ImGui::Separator();
-        if (ImGui::MenuItem("Quit", "Ctrl+Q")) state.quit();
+void MenuPanel::draw_file(ViewerState& state, float scale) {
+    if (!ImGui::BeginMenu("File")) return;
+    if (ImGui::MenuItem("Open...", "Ctrl+O")) panels_.files.ask_open(state);
+    draw_recent(state);
+    examples_.draw(state, scale);
+    if (ImGui::BeginMenu("New body")) {
+        for (const std::string& name : primitive_names())
+            if (ImGui::MenuItem(name.c_str())) panels_.body.make(state, name);
         ImGui::EndMenu();
     }
+    ImGui::Separator();
+    if (ImGui::MenuItem("Save scene", "Ctrl+S")) panels_.files.save(state);
+    if (ImGui::MenuItem("Save scene as...", "Ctrl+Shift+S")) panels_.files.save_as(state);
+    draw_export_menu(state, panels_.files);
+    if (ImGui::MenuItem("Picture or film...")) panels_.picture.ask();
+    if (ImGui::MenuItem("Screenshot of the window...")) panels_.files.ask_screenshot(state);
+    ImGui::Separator();
+    if (ImGui::MenuItem("Quit", "Ctrl+Q")) state.quit();
+    ImGui::EndMenu();
+}
+
+void MenuPanel::draw(const PanelContext& context) {
+    ViewerState& state = context.state;
+    if (!ImGui::BeginMainMenuBar()) return;
+    draw_file(state, context.gui.scale());
     draw_edit(state);
     draw_view(state);
     if (ImGui::BeginMenu("Help")) {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/panels/panels.hpp"
+#include "app/panels/panel_context.hpp"
 
 struct ImDrawList;
 struct ImFont;

@@ -1,3 +1,5 @@
+#include "app/panels/overlays_panel.hpp"
+
 #include <imgui.h>
 
 #include <algorithm>
@@ -9,7 +11,7 @@
 #include <vector>
 
 #include "app/panels/overlays.hpp"
-#include "app/panels/panels.hpp"
+#include "app/panels/panel_context.hpp"
 #include "app/panels/widgets.hpp"
 #include "app/picture/scene_renderer.hpp"
 #include "base/text.hpp"
@@ -241,7 +243,7 @@ void draw_blank(const PanelContext& context, ImDrawList& list) {
 
 }  // namespace
 
-void Panels::draw_overlays(const PanelContext& context) {
+void draw_overlays(const PanelContext& context) {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     if (context.state.blank()) {
         draw_blank(context, list);

@@ -3,95 +3,36 @@
 #include <imgui.h>
 
 #include <array>
+#include <utility>
+#include <vector>
 
+#include "app/panels/display_panel.hpp"
+#include "app/panels/help_panel.hpp"
+#include "app/panels/overlays_panel.hpp"
+#include "app/panels/status_panel.hpp"
 #include "app/panels/widgets.hpp"
 
 namespace elastolab {
 
 namespace {
 
-const std::vector<std::string> kMeshFiles = {".obj", ".ply", ".stl", ".off", ".gltf", ".glb"};
-
-std::vector<std::string> with_scenes(std::vector<std::string> extensions) {
-    extensions.insert(extensions.begin(), ".json");
-    return extensions;
-}
+constexpr const char* kPullTitle = "Pull";  ///< of the section that is opened for a name
 
 }  // namespace
 
-std::string suggested_name(const ViewerState& state, const std::string& ending) {
-    return std::filesystem::path(state.scene().name()).stem().string() + ending;
-}
-
-void Panels::ask_open(ViewerState& state) {
-    files_.open({"Open a mesh or scene", with_scenes(kMeshFiles), "", [&](const auto& file) { state.open(file); }});
-}
-
-void Panels::save(ViewerState& state) {
-    if (state.owns_scene_file())
-        state.save_scene(std::filesystem::path(state.scene_file()));
-    else
-        save_as(state);
-}
-
-void Panels::save_as(ViewerState& state) {
-    const std::filesystem::path& present = state.scene_file();
-    files_.open({.title = "Save the scene",
-                 .extensions = {".json"},
-                 .suggestion = present.empty() ? suggested_name(state, ".json") : present.filename().string(),
-                 .done = [&](const auto& file) { state.save_scene(file); },
-                 .folder = present.parent_path()});
-}
-
-/// Asks for the name of a scene that is to be saved before it is replaced; without a name it stays.
-void Panels::ask_name_of_unsaved(ViewerState& state) {
-    files_.open({.title = "Save the scene",
-                 .extensions = {".json"},
-                 .suggestion = suggested_name(state, ".json"),
-                 .done =
-                     [&](const auto& file) {
-                         if (state.save_scene(file)) state.unsaved.proceed();
-                     },
-                 .cancelled = [&] { state.unsaved.cancel(); }});
-}
-
-void Panels::rename_selection(ViewerState& state) {
-    if (!state.selection()) return;
-    state.display.panel = true;
-    pull_.ask_name();
-}
-
-void Panels::ask_screenshot(ViewerState& state) {
-    files_.open({"Save a screenshot", {".png"}, suggested_name(state, ".png"), [&](const auto& file) {
-                     state.requests.screenshot = file;
-                 }});
-}
-
-void Panels::ask_probes(ViewerState& state) {
-    files_.open({"Save the probes", {".csv"}, suggested_name(state, "-probes.csv"), [&](const auto& file) {
-                     state.save_probes(file);
-                 }});
-}
-
-void Panels::ask_timings(ViewerState& state) {
-    files_.open({"Record frame timings", {".csv"}, suggested_name(state, "-timings.csv"), [&](const auto& file) {
-                     state.record_timings(file);
-                 }});
-}
-
 void Panels::draw(const PanelContext& context) {
     costs_.measure_program();
-    draw_menu(context);
+    menu_.draw(context);
     if (!context.state.blank()) draw_side(context);
     draw_status(context);
     draw_overlays(context);
     if (context.state.show_help) draw_help(context);
-    if (std::exchange(context.state.requests.scene_name, false)) ask_name_of_unsaved(context.state);
+    if (std::exchange(context.state.requests.scene_name, false)) files_.ask_name_of_unsaved(context.state);
     picture_.draw(context, files_);
     files_.draw(context.gui.scale());
     pull_.draw_name_alone(context);
     recovery_.draw(context);
-    unsaved_.draw(context, files_.is_open());
+    unsaved_.draw(context, files_.asking());
 }
 
 void Panels::visit_user_texts(const ViewerState& state, const std::function<void(std::string_view)>& visit) const {
@@ -133,14 +74,15 @@ void Panels::draw_side(const PanelContext& context) {
 void Panels::draw_sections(const PanelContext& context) {
     const bool tall = context.layout.panel.height >= kTallPanel * context.gui.scale();
     const bool has_loads = !context.state.scene().constraints().loads.empty();
-    const std::array<Section, 8> sections = {{{"Method", &Panels::draw_method, true},
-                                              {"Pull", &Panels::draw_pull, true},
-                                              {"Loads", &Panels::draw_loads, has_loads},
-                                              {"Show", &Panels::draw_display, tall},
-                                              {"Body", &Panels::draw_body, tall},
-                                              {"Compare", &Panels::draw_compare, tall},
-                                              {"Probes", &Panels::draw_probes, false},
-                                              {"Performance", &Panels::draw_performance, false}}};
+    const std::array<Section, 8> sections = {
+        {{"Method", [&] { method_.draw(context); }, true},
+         {kPullTitle, [&] { pull_.draw(context, side_room_); }, true},
+         {"Loads", [&] { loads_.draw(context); }, has_loads},
+         {"Show", [&] { draw_display(context); }, tall},
+         {"Body", [&] { body_.draw(context, [&] { files_.ask_open(context.state); }); }, tall},
+         {"Compare", [&] { compare_.draw(context); }, tall},
+         {"Probes", [&] { probes_.draw(context); }, false},
+         {"Performance", [&] { performance_.draw(context); }, false}}};
     if (is_short(context.layout, context.gui.scale())) {
         draw_folding(context, sections.front());
         draw_tabs(context, std::span(sections).subspan(1));
@@ -152,12 +94,12 @@ void Panels::draw_sections(const PanelContext& context) {
 void Panels::draw_folding(const PanelContext& context, const Section& section) {
     ImGui::PushFont(context.gui.fonts().bold);
     ImGui::SetNextItemOpen(section.open, ImGuiCond_Once);
-    if (pull_.asks_name() && section.draw == &Panels::draw_pull) ImGui::SetNextItemOpen(true);
+    if (pull_.asks_name() && section.title == kPullTitle) ImGui::SetNextItemOpen(true);
     const bool open = ImGui::CollapsingHeader(section.title);
     ImGui::PopFont();
     if (!open) return;
     ImGui::PushID(section.title);
-    (this->*section.draw)(context);
+    section.draw();
     ImGui::PopID();
     ImGui::Dummy({0.0f, 4.0f * context.gui.scale()});
 }
@@ -167,7 +109,7 @@ void Panels::draw_tabs(const PanelContext& context, std::span<const Section> sec
     std::vector<Segment> tabs;
     for (const Section& section : sections) tabs.push_back({section.title, ""});
     for (std::size_t i = 0; i < sections.size(); ++i)
-        if (pull_.asks_name() && sections[i].draw == &Panels::draw_pull) tab_ = i;
+        if (pull_.asks_name() && sections[i].title == kPullTitle) tab_ = i;
     const Palette& palette = context.palette;
     ImGui::PushFont(context.gui.fonts().bold);
     ImGui::PushStyleColor(ImGuiCol_Button, ImVec4());
@@ -177,7 +119,7 @@ void Panels::draw_tabs(const PanelContext& context, std::span<const Section> sec
     if (chosen) tab_ = *chosen;
     ImGui::Separator();
     ImGui::PushID(sections[tab_].title);
-    (this->*sections[tab_].draw)(context);
+    sections[tab_].draw();
     ImGui::PopID();
 }
 

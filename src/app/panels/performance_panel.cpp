@@ -1,10 +1,13 @@
+#include "app/panels/performance_panel.hpp"
+
 #include <imgui.h>
 
 #include <array>
 #include <optional>
 #include <string>
 
-#include "app/panels/panels.hpp"
+#include "app/panels/file_questions.hpp"
+#include "app/panels/panel_context.hpp"
 #include "app/panels/widgets.hpp"
 #include "base/memory.hpp"
 #include "base/text.hpp"
@@ -80,11 +83,11 @@ void draw_section_cost(const PanelContext& context) {
 
 }  // namespace
 
-void Panels::draw_performance(const PanelContext& context) {
+void PerformancePanel::draw(const PanelContext& context) {
     ViewerState& state = context.state;
     draw_frames(context);
     if (!state.measurements.timings) {
-        if (ImGui::Button("Record timings...")) ask_timings(state);
+        if (ImGui::Button("Record timings...")) files_.ask_timings(state);
     } else {
         ImGui::PushStyleColor(ImGuiCol_Button, imgui_colour(context.palette.bad));
         if (ImGui::Button("Stop recording")) state.stop_timings();

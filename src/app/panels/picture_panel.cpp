@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/panels/panels.hpp"
+#include "app/panels/file_questions.hpp"
+#include "app/panels/panel_context.hpp"
 #include "app/panels/widgets.hpp"
 #include "app/picture/film.hpp"
 
@@ -41,13 +42,13 @@ const char* film_ending(const PictureRequest& picture) {
 
 }  // namespace
 
-void PicturePanel::draw(const PanelContext& context, FileDialog& files) {
+void PicturePanel::draw(const PanelContext& context, FileQuestions& files) {
     draw_question(context, files);
     draw_progress(context);
 }
 
 /// Size and kind of a picture, before its name is asked for.
-void PicturePanel::draw_question(const PanelContext& context, FileDialog& files) {
+void PicturePanel::draw_question(const PanelContext& context, FileQuestions& files) {
     ViewerState& state = context.state;
     if (std::exchange(asks_, false)) {
         ImGui::OpenPopup(kPictureTitle);
@@ -78,13 +79,7 @@ void PicturePanel::draw_question(const PanelContext& context, FileDialog& files)
     if (ImGui::Button("Save as...") || enter) {
         picture_.video = picture_.video && is_film && video_obstacle_.empty();
         ImGui::CloseCurrentPopup();
-        files.open({.title = is_film ? "Save the frames of a film" : "Save a picture",
-                    .extensions = {".png"},
-                    .suggestion = suggested_name(state, film_ending(picture_)),
-                    .done = [&state, picture = picture_](const auto& file) mutable {
-                        picture.file = file;
-                        state.requests.picture = picture;
-                    }});
+        files.ask_picture(state, picture_, film_ending(picture_));
     }
     ImGui::SameLine();
     if (ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false))

@@ -1,8 +1,11 @@
+#include "app/panels/probe_panel.hpp"
+
 #include <imgui.h>
 
 #include <algorithm>
 
-#include "app/panels/panels.hpp"
+#include "app/panels/file_questions.hpp"
+#include "app/panels/panel_context.hpp"
 #include "app/panels/widgets.hpp"
 
 namespace elastolab {
@@ -26,8 +29,7 @@ void draw_series(const PanelContext& context, std::size_t probe) {
 
 }  // namespace
 
-/// The kept probes: their values now, and their course over the last changes.
-void Panels::draw_probes(const PanelContext& context) {
+void ProbePanel::draw(const PanelContext& context) {
     ViewerState& state = context.state;
     bool probing = state.tools.tool == Tool::probe;
     if (ImGui::Checkbox("point at the body", &probing)) state.tools.tool = probing ? Tool::probe : Tool::pull;
@@ -47,7 +49,7 @@ void Panels::draw_probes(const PanelContext& context) {
     if (forgotten >= 0) state.probes.toggle(forgotten);
     if (state.probes.vertices().empty())
         return paragraph("No probe yet: press I and click on the body.", context.palette.text_dim);
-    if (ImGui::Button("Save CSV...")) ask_probes(state);
+    if (ImGui::Button("Save CSV...")) files_.ask_probes(state);
     tooltip("Every change since the probes were set: time, position, displacement and the shown value.");
     ImGui::SameLine();
     if (ImGui::Button("Forget all")) state.probes.clear();

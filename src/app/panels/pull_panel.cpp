@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "app/panels/overlays.hpp"
-#include "app/panels/panels.hpp"
+#include "app/panels/panel_context.hpp"
 #include "app/panels/widgets.hpp"
 #include "base/text.hpp"
 
@@ -274,6 +274,12 @@ void PullPanel::draw(const PanelContext& context, float room) {
     draw_tool_settings(context);
     draw_held(context);
     draw_selection(context);
+}
+
+void PullPanel::rename_selection(ViewerState& state) {
+    if (!state.selection()) return;
+    state.display.panel = true;
+    asks_name_ = true;
 }
 
 }  // namespace elastolab

@@ -15,8 +15,9 @@ class PullPanel {
 public:
     /// room: below the side panel's content in the last frame; negative: what did not fit.
     void draw(const PanelContext& context, float room);
-    /// The field for the name is to be typed into; it is, once it is drawn.
-    void ask_name() { asks_name_ = true; }
+    /// Opens the panel at the name of the selected handle or fixed set, so that another one can be typed; it is typed
+    /// into once it is drawn.
+    void rename_selection(ViewerState& state);
     bool asks_name() const { return asks_name_; }
     /// That field over the scene, where the window has no room for the panel.
     void draw_name_alone(const PanelContext& context);

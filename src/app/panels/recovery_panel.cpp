@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "app/panels/panels.hpp"
+#include "app/panels/panel_context.hpp"
 #include "app/panels/question.hpp"
 #include "base/text.hpp"
 

@@ -1,11 +1,11 @@
+#include "app/panels/status_panel.hpp"
+
 #include <imgui.h>
 
-#include <algorithm>
-#include <span>
+#include <string>
 
-#include "app/panels/panels.hpp"
+#include "app/panels/panel_context.hpp"
 #include "app/panels/widgets.hpp"
-#include "app/shortcuts.hpp"
 #include "base/text.hpp"
 
 namespace elastolab {
@@ -41,24 +41,9 @@ std::string right_text(const ViewerState& state) {
            (state.measurements.recorder ? "recording the interaction   " : "");
 }
 
-/// Two columns: what is done with the mouse or keyboard, and what it does.
-void draw_help_list(const char* id, const PanelContext& context, const auto& entries, const auto& keys_of) {
-    if (!ImGui::BeginTable(id, 2)) return;
-    ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthFixed, 132.0f * context.gui.scale());
-    ImGui::TableSetupColumn("action", ImGuiTableColumnFlags_WidthStretch);
-    for (const auto& entry : entries) {
-        const std::string keys = keys_of(entry), action = entry.action;
-        ImGui::TableNextColumn();
-        ImGui::TextColored(imgui_colour(context.palette.accent), "%s", keys.c_str());
-        ImGui::TableNextColumn();
-        ImGui::TextWrapped("%s", action.c_str());
-    }
-    ImGui::EndTable();
-}
-
 }  // namespace
 
-void Panels::draw_status(const PanelContext& context) {
+void draw_status(const PanelContext& context) {
     const Viewport& place = context.layout.status;
     ImGui::SetNextWindowPos({static_cast<float>(place.x), static_cast<float>(place.y)});
     ImGui::SetNextWindowSize({static_cast<float>(place.width), static_cast<float>(place.height)});
@@ -71,30 +56,6 @@ void Panels::draw_status(const PanelContext& context) {
     const std::string right = right_text(context.state);
     ImGui::SameLine(static_cast<float>(place.width) - ImGui::CalcTextSize(right.c_str()).x);
     ImGui::TextColored(imgui_colour(context.palette.text_dim), "%s", right.c_str());
-    ImGui::End();
-}
-
-void Panels::draw_help(const PanelContext& context) {
-    const ImVec2 screen = ImGui::GetIO().DisplaySize;
-    const float scale = context.gui.scale();
-    ImGui::SetNextWindowPos({0.5f * screen.x, 0.5f * screen.y}, ImGuiCond_Always, {0.5f, 0.5f});
-    const std::span<const Shortcut> keys = shortcuts();
-    const std::size_t beside_mouse = (keys.size() - gesture_help().size()) / 2;  // so that both columns end alike
-    const float rows = static_cast<float>(keys.size() - beside_mouse) + 1.0f;
-    const float height = rows * ImGui::GetTextLineHeightWithSpacing() + 2.0f * ImGui::GetFrameHeight();
-    ImGui::SetNextWindowSize({std::min(820.0f * scale, screen.x), std::min(height, screen.y)});
-    if (ImGui::Begin("Mouse and keys", &context.state.show_help,
-                     ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove)) {
-        const auto keys_of = [](const Shortcut& shortcut) { return shortcut.keys; };
-        if (ImGui::BeginTable("help", 2, ImGuiTableFlags_SizingStretchSame)) {
-            ImGui::TableNextColumn();
-            draw_help_list("mouse", context, gesture_help(), [](const GestureHelp& help) { return help.gesture; });
-            draw_help_list("more keys", context, keys.last(beside_mouse), keys_of);
-            ImGui::TableNextColumn();
-            draw_help_list("keys", context, keys.first(keys.size() - beside_mouse), keys_of);
-            ImGui::EndTable();
-        }
-    }
     ImGui::End();
 }
 

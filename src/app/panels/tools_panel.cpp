@@ -5,7 +5,7 @@
 #include <array>
 #include <optional>
 
-#include "app/panels/panels.hpp"
+#include "app/panels/panel_context.hpp"
 #include "app/panels/pull_panel.hpp"
 #include "app/panels/widgets.hpp"
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "app/panels/panels.hpp"
+#include "app/panels/panel_context.hpp"
 #include "app/panels/question.hpp"
 
 namespace elastolab {

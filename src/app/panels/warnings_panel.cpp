@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "app/names.hpp"
-#include "app/panels/panels.hpp"
+#include "app/panels/panel_context.hpp"
 #include "app/panels/widgets.hpp"
 #include "base/text.hpp"
 #include "findings/words.hpp"

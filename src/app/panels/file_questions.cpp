@@ -1,0 +1,91 @@
+#include "app/panels/file_questions.hpp"
+
+#include <filesystem>
+#include <vector>
+
+#include "app/viewer_state.hpp"
+
+namespace elastolab {
+
+namespace {
+
+const std::vector<std::string> kMeshFiles = {".obj", ".ply", ".stl", ".off", ".gltf", ".glb"};
+
+std::vector<std::string> with_scenes(std::vector<std::string> extensions) {
+    extensions.insert(extensions.begin(), ".json");
+    return extensions;
+}
+
+}  // namespace
+
+std::string suggested_name(const ViewerState& state, const std::string& ending) {
+    return std::filesystem::path(state.scene().name()).stem().string() + ending;
+}
+
+void FileQuestions::ask_open(ViewerState& state) {
+    dialog_.open({"Open a mesh or scene", with_scenes(kMeshFiles), "", [&](const auto& file) { state.open(file); }});
+}
+
+void FileQuestions::save(ViewerState& state) {
+    if (state.owns_scene_file())
+        state.save_scene(std::filesystem::path(state.scene_file()));
+    else
+        save_as(state);
+}
+
+void FileQuestions::save_as(ViewerState& state) {
+    const std::filesystem::path& present = state.scene_file();
+    dialog_.open({.title = "Save the scene",
+                  .extensions = {".json"},
+                  .suggestion = present.empty() ? suggested_name(state, ".json") : present.filename().string(),
+                  .done = [&](const auto& file) { state.save_scene(file); },
+                  .folder = present.parent_path()});
+}
+
+void FileQuestions::ask_name_of_unsaved(ViewerState& state) {
+    dialog_.open({.title = "Save the scene",
+                  .extensions = {".json"},
+                  .suggestion = suggested_name(state, ".json"),
+                  .done =
+                      [&](const auto& file) {
+                          if (state.save_scene(file)) state.unsaved.proceed();
+                      },
+                  .cancelled = [&] { state.unsaved.cancel(); }});
+}
+
+void FileQuestions::ask_export(ViewerState& state, const std::string& ending) {
+    dialog_.open({.title = "Export (" + ending + ")",
+                  .extensions = {ending},
+                  .suggestion = suggested_name(state, "-deformed" + ending),
+                  .done = [&](const auto& file) { state.export_mesh(file); }});
+}
+
+void FileQuestions::ask_screenshot(ViewerState& state) {
+    dialog_.open({"Save a screenshot", {".png"}, suggested_name(state, ".png"), [&](const auto& file) {
+                      state.requests.screenshot = file;
+                  }});
+}
+
+void FileQuestions::ask_probes(ViewerState& state) {
+    dialog_.open({"Save the probes", {".csv"}, suggested_name(state, "-probes.csv"), [&](const auto& file) {
+                      state.save_probes(file);
+                  }});
+}
+
+void FileQuestions::ask_timings(ViewerState& state) {
+    dialog_.open({"Record frame timings", {".csv"}, suggested_name(state, "-timings.csv"), [&](const auto& file) {
+                      state.record_timings(file);
+                  }});
+}
+
+void FileQuestions::ask_picture(ViewerState& state, const PictureRequest& picture, const std::string& ending) {
+    dialog_.open({.title = picture.n_frames > 0 ? "Save the frames of a film" : "Save a picture",
+                  .extensions = {".png"},
+                  .suggestion = suggested_name(state, ending),
+                  .done = [&state, picture = picture](const auto& file) mutable {
+                      picture.file = file;
+                      state.requests.picture = picture;
+                  }});
+}
+
+}  // namespace elastolab

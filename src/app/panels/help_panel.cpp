@@ -1,0 +1,57 @@
+#include "app/panels/help_panel.hpp"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <span>
+
+#include "app/panels/panel_context.hpp"
+#include "app/panels/widgets.hpp"
+#include "app/shortcuts.hpp"
+
+namespace elastolab {
+
+namespace {
+
+/// Two columns: what is done with the mouse or keyboard, and what it does.
+void draw_help_list(const char* id, const PanelContext& context, const auto& entries, const auto& keys_of) {
+    if (!ImGui::BeginTable(id, 2)) return;
+    ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthFixed, 132.0f * context.gui.scale());
+    ImGui::TableSetupColumn("action", ImGuiTableColumnFlags_WidthStretch);
+    for (const auto& entry : entries) {
+        const std::string keys = keys_of(entry), action = entry.action;
+        ImGui::TableNextColumn();
+        ImGui::TextColored(imgui_colour(context.palette.accent), "%s", keys.c_str());
+        ImGui::TableNextColumn();
+        ImGui::TextWrapped("%s", action.c_str());
+    }
+    ImGui::EndTable();
+}
+
+}  // namespace
+
+void draw_help(const PanelContext& context) {
+    const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    const float scale = context.gui.scale();
+    ImGui::SetNextWindowPos({0.5f * screen.x, 0.5f * screen.y}, ImGuiCond_Always, {0.5f, 0.5f});
+    const std::span<const Shortcut> keys = shortcuts();
+    const std::size_t beside_mouse = (keys.size() - gesture_help().size()) / 2;  // so that both columns end alike
+    const float rows = static_cast<float>(keys.size() - beside_mouse) + 1.0f;
+    const float height = rows * ImGui::GetTextLineHeightWithSpacing() + 2.0f * ImGui::GetFrameHeight();
+    ImGui::SetNextWindowSize({std::min(820.0f * scale, screen.x), std::min(height, screen.y)});
+    if (ImGui::Begin("Mouse and keys", &context.state.show_help,
+                     ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove)) {
+        const auto keys_of = [](const Shortcut& shortcut) { return shortcut.keys; };
+        if (ImGui::BeginTable("help", 2, ImGuiTableFlags_SizingStretchSame)) {
+            ImGui::TableNextColumn();
+            draw_help_list("mouse", context, gesture_help(), [](const GestureHelp& help) { return help.gesture; });
+            draw_help_list("more keys", context, keys.last(beside_mouse), keys_of);
+            ImGui::TableNextColumn();
+            draw_help_list("keys", context, keys.first(keys.size() - beside_mouse), keys_of);
+            ImGui::EndTable();
+        }
+    }
+    ImGui::End();
+}
+
+}  // namespace elastolab
