@@ -7,6 +7,7 @@
 
 #include "app/names.hpp"
 #include "app/panels/panels.hpp"
+#include "app/selection.hpp"
 #include "app/viewer_state.hpp"
 #include "methods/registry.hpp"
 
@@ -70,21 +71,21 @@ std::vector<Shortcut> make_shortcuts() {
          [](ViewerState& s, Panels&) { change_radius(s, 1.0 / kRadiusStep); }},
         {GLFW_KEY_RIGHT_BRACKET, 0, "]", "larger patch",
          [](ViewerState& s, Panels&) { change_radius(s, kRadiusStep); }},
-        {GLFW_KEY_H, 0, "H", "select the next handle", [](ViewerState& s, Panels&) { s.select_next_handle(); }},
-        {GLFW_KEY_J, 0, "J", "select the next fixed set", [](ViewerState& s, Panels&) { s.select_next_fixed_set(); }},
+        {GLFW_KEY_H, 0, "H", "select the next handle", [](ViewerState& s, Panels&) { select_next_handle(s); }},
+        {GLFW_KEY_J, 0, "J", "select the next fixed set", [](ViewerState& s, Panels&) { select_next_fixed_set(s); }},
         {GLFW_KEY_N, GLFW_MOD_SHIFT, "Shift+N", "begin a new fixed set",
-         [](ViewerState& s, Panels&) { s.begin_fixed_set(); }},
+         [](ViewerState& s, Panels&) { begin_fixed_set(s); }},
         {GLFW_KEY_F2, 0, "F2", "rename the selected handle or fixed set",
          [](ViewerState& s, Panels& p) { p.pull().rename_selection(s); }},
         {GLFW_KEY_DELETE, 0, "Del", "remove the selected handle, fixed set or load",
-         [](ViewerState& s, Panels&) { s.remove_selection(); }},
+         [](ViewerState& s, Panels&) { remove_selection(s); }},
         {GLFW_KEY_DELETE, GLFW_MOD_SHIFT, "Shift+Del", "remove all handles",
          [](ViewerState& s, Panels&) { s.clear_handles(); }},
         {GLFW_KEY_Z, GLFW_MOD_CONTROL, "Ctrl+Z", "undo", [](ViewerState& s, Panels&) { s.undo(); }},
         {GLFW_KEY_Y, GLFW_MOD_CONTROL, "Ctrl+Y", "redo", [](ViewerState& s, Panels&) { s.redo(); }},
         {GLFW_KEY_F, 0, "F", "frame the body", [](ViewerState& s, Panels&) { s.frame_body(); }},
         {GLFW_KEY_F, GLFW_MOD_SHIFT, "Shift+F", "frame the selected handle or fixed set",
-         [](ViewerState& s, Panels&) { s.frame_selection(); }},
+         [](ViewerState& s, Panels&) { frame_selection(s); }},
         {GLFW_KEY_O, 0, "O or Num 5", "orthographic or perspective",
          [](ViewerState& s, Panels&) { toggle_projection(s.camera); }},
         {GLFW_KEY_KP_1, 0, "Num 1, 3, 7", "look from the front, right, top; with Ctrl from the other side",

@@ -120,27 +120,9 @@ public:
     void remove_load(int load);
     void clear_loads();  ///< and gravity
     void remove_fixed_set(int set);
-    /// The next stroke of brush or box, of which one becomes the tool, makes a fixed set.
-    void begin_fixed_set();
     void set_young_modulus(double value);
     void select_method(MethodKind kind);
     void frame_body();
-
-    // What keys and menu entries act on.
-    /// A handle, or a fixed set, by its number.
-    struct Selection {
-        bool fixed = false;
-        int number = -1;
-        bool operator==(const Selection&) const = default;
-    };
-    /// The one that was chosen or pulled last; nothing where none is.
-    std::optional<Selection> selection() const;
-    std::string selected_name() const;  ///< empty where none is
-    void remove_selection();
-    void frame_selection();
-    /// Selects the next one in the list, after the last the first; does nothing where there is none.
-    void select_next_handle();
-    void select_next_fixed_set();
 
     /// The number of viewports has changed: frames the body, except the first time that a scene saved with its
     /// camera is seen.

@@ -7,6 +7,7 @@
 
 #include "app/names.hpp"
 #include "app/panels/panels.hpp"
+#include "app/selection.hpp"
 #include "app/stage.hpp"
 #include "bem/collocation/method.hpp"
 #include "fem/method.hpp"
@@ -78,26 +79,26 @@ TEST_F(Shortcuts, ActOnTheHandleOrFixedSetThatWasSelectedLast) {
         stage.scene().add_handle(std::vector<int>{stage.vertex_near(corner)});
     stage.scene().fix(std::vector<int>{stage.vertex_near({1, 1, 0})}, 1);
     stage.settle();
-    EXPECT_FALSE(stage.state.selection());
+    EXPECT_FALSE(selection(stage.state));
     const std::string last_handle = stage.scene().handle_name(1);
     press(GLFW_KEY_H);
     press(GLFW_KEY_H);
-    EXPECT_EQ(stage.state.selected_name(), last_handle);
+    EXPECT_EQ(selected_name(stage.state), last_handle);
     press(GLFW_KEY_J);
-    EXPECT_EQ(stage.state.selected_name(), stage.scene().fixed_name(0));
+    EXPECT_EQ(selected_name(stage.state), stage.scene().fixed_name(0));
     press(GLFW_KEY_J);
-    EXPECT_EQ(stage.state.selected_name(), stage.scene().fixed_name(1));
+    EXPECT_EQ(selected_name(stage.state), stage.scene().fixed_name(1));
     press(GLFW_KEY_F, GLFW_MOD_SHIFT);
     EXPECT_LT((stage.state.camera.pose().target - Eigen::Vector3d(1, 1, 0)).norm(), 1e-6);
     press(GLFW_KEY_DELETE);
     EXPECT_EQ(stage.scene().n_fixed_sets(), 1);
     EXPECT_EQ(stage.scene().n_handles(), 2);
-    EXPECT_EQ(stage.state.selected_name(), last_handle) << "is selected still";
+    EXPECT_EQ(selected_name(stage.state), last_handle) << "is selected still";
     press(GLFW_KEY_H);  // after the last comes the first
     press(GLFW_KEY_DELETE);
     ASSERT_EQ(stage.scene().n_handles(), 1);
     EXPECT_EQ(stage.scene().handle_name(0), last_handle);
-    EXPECT_FALSE(stage.state.selection());
+    EXPECT_FALSE(selection(stage.state));
     press(GLFW_KEY_DELETE);  // nothing is selected: nothing happens
     EXPECT_EQ(stage.scene().n_handles(), 1);
     EXPECT_EQ(stage.scene().n_fixed_sets(), 1);
@@ -107,7 +108,7 @@ TEST_F(Shortcuts, AFixedSetIsBegunWithABrush) {
     press(GLFW_KEY_N, GLFW_MOD_SHIFT);
     EXPECT_EQ(stage.state.tools.tool, Tool::brush);
     EXPECT_EQ(stage.state.gestures.selected_fixed(), stage.scene().n_fixed_sets());
-    EXPECT_FALSE(stage.state.selection()) << "it is not there yet";
+    EXPECT_FALSE(selection(stage.state)) << "it is not there yet";
     press(GLFW_KEY_J);
     EXPECT_EQ(stage.state.gestures.selected_fixed(), 0) << "from there to the first";
 }

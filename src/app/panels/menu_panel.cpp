@@ -11,6 +11,7 @@
 #include "app/panels/picture_panel.hpp"
 #include "app/panels/pull_panel.hpp"
 #include "app/panels/widgets.hpp"
+#include "app/selection.hpp"
 #include "mesh/primitives.hpp"
 
 namespace elastolab {
@@ -29,19 +30,19 @@ void draw_recent(ViewerState& state) {
 void MenuPanel::draw_edit(ViewerState& state) {
     if (!ImGui::BeginMenu("Edit")) return;
     const LiveScene& scene = state.scene();
-    const std::string name = state.selected_name(), quoted = name.empty() ? "the selection" : "\"" + name + "\"";
+    const std::string name = selected_name(state), quoted = name.empty() ? "the selection" : "\"" + name + "\"";
     if (ImGui::MenuItem("Undo", "Ctrl+Z", false, state.scene().can_undo())) state.undo();
     if (ImGui::MenuItem("Redo", "Ctrl+Y", false, state.scene().can_redo())) state.redo();
     ImGui::Separator();
-    if (ImGui::MenuItem("Select the next handle", "H", false, scene.n_handles() > 0)) state.select_next_handle();
+    if (ImGui::MenuItem("Select the next handle", "H", false, scene.n_handles() > 0)) select_next_handle(state);
     if (ImGui::MenuItem("Select the next fixed set", "J", false, scene.n_fixed_sets() > 0))
-        state.select_next_fixed_set();
-    if (ImGui::MenuItem("New fixed set", "Shift+N")) state.begin_fixed_set();
+        select_next_fixed_set(state);
+    if (ImGui::MenuItem("New fixed set", "Shift+N")) begin_fixed_set(state);
     ImGui::Separator();
     if (ImGui::MenuItem(("Rename " + quoted + "###rename").c_str(), "F2", false, !name.empty()))
         panels_.pull.rename_selection(state);
     if (ImGui::MenuItem(("Remove " + quoted + "###remove").c_str(), "Del", false, !name.empty()))
-        state.remove_selection();
+        remove_selection(state);
     if (ImGui::MenuItem("Remove all handles", "Shift+Del", false, scene.n_handles() > 0)) state.clear_handles();
     ImGui::EndMenu();
 }
@@ -90,8 +91,7 @@ void draw_navigation(ViewerState& state) {
 void draw_view(ViewerState& state) {
     if (!ImGui::BeginMenu("View")) return;
     if (ImGui::MenuItem("Frame the body", "F")) state.frame_body();
-    if (ImGui::MenuItem("Frame the selection", "Shift+F", false, state.selection().has_value()))
-        state.frame_selection();
+    if (ImGui::MenuItem("Frame the selection", "Shift+F", false, selection(state).has_value())) frame_selection(state);
     draw_directions(state);
     ImGui::Separator();
     for (const auto& [label, axis] : {std::pair{"Y is up", 1}, std::pair{"Z is up", 2}})

@@ -10,6 +10,7 @@
 #include "app/panels/overlays.hpp"
 #include "app/panels/panel_context.hpp"
 #include "app/panels/widgets.hpp"
+#include "app/selection.hpp"
 #include "base/text.hpp"
 
 namespace elastolab {
@@ -135,8 +136,8 @@ bool fits_beside(const char* label) {
 bool PullPanel::draw_name(const PanelContext& context) {
     ViewerState& state = context.state;
     LiveScene& scene = state.scene();
-    const std::optional<ViewerState::Selection> chosen = state.selection();
-    const std::string name = state.selected_name();
+    const std::optional<Selection> chosen = selection(state);
+    const std::string name = selected_name(state);
     std::string typed = typed_name_ && typed_name_->first == chosen ? typed_name_->second : name;
     ImGui::BeginDisabled(!chosen);
     set_item_width(context.gui.scale());
@@ -170,10 +171,10 @@ void PullPanel::draw_name_alone(const PanelContext& context) {
 
 /// Name and placement of the selected handle or fixed set.
 void PullPanel::draw_selection(const PanelContext& context) {
-    const std::optional<ViewerState::Selection> chosen = context.state.selection();
+    const std::optional<Selection> chosen = selection(context.state);
     ImGui::SetNextItemOpen(is_very_tall(context), ImGuiCond_Once);
     if (asks_name_) ImGui::SetNextItemOpen(true);
-    const std::string heading = chosen ? "Selected: " + context.state.selected_name() : "Nothing selected";
+    const std::string heading = chosen ? "Selected: " + selected_name(context.state) : "Nothing selected";
     if (!ImGui::TreeNodeEx((heading + "###selection").c_str(), ImGuiTreeNodeFlags_NoTreePushOnOpen)) return;
     ImGui::PushID(chosen ? (chosen->fixed ? LiveScene::kFixed - chosen->number : chosen->number) : -1);
     draw_name(context);
@@ -183,8 +184,8 @@ void PullPanel::draw_selection(const PanelContext& context) {
 }
 
 /// The row that was drawn last comes into sight when it has become the selection.
-void PullPanel::scroll_to(const ViewerState& state, const ViewerState::Selection& row) const {
-    if (state.selection() == row && listed_ != row) ImGui::SetScrollHereY();
+void PullPanel::scroll_to(const ViewerState& state, const Selection& row) const {
+    if (selection(state) == row && listed_ != row) ImGui::SetScrollHereY();
 }
 
 /// The fixed sets, and what each exerts. Brush and box change the one that was selected last, which stays bright when a
@@ -195,7 +196,7 @@ void PullPanel::draw_fixed_sets(const PanelContext& context) {
     int removed = -1;
     for (int set = 0; set < scene.n_fixed_sets(); ++set) {
         ImGui::PushID(LiveScene::kFixed - set);
-        const bool selected = state.selection() == ViewerState::Selection{true, set};
+        const bool selected = selection(state) == Selection{true, set};
         const bool brushed = set == state.gestures.selected_fixed();
         const RowAnswer answer =
             draw_row(vertices_text(scene.fixed_name(set), scene.fixed_vertices(set)), selected,
@@ -217,7 +218,7 @@ void PullPanel::draw_handles(const PanelContext& context) {
     int removed = -1;
     for (int h = 0; h < scene.n_handles(); ++h) {
         ImGui::PushID(h);
-        const bool selected = state.selection() == ViewerState::Selection{false, h};
+        const bool selected = selection(state) == Selection{false, h};
         const RowAnswer answer =
             draw_row(vertices_text(scene.handle_name(h), scene.vertices(h)), selected,
                      selected ? context.palette.active : context.palette.handle, context.gui.scale());
@@ -254,14 +255,14 @@ float PullPanel::held_height(const PanelContext& context) {
 /// below is to move.
 void PullPanel::draw_held(const PanelContext& context) {
     ViewerState& state = context.state;
-    const std::optional<ViewerState::Selection> chosen = state.selection();
+    const std::optional<Selection> chosen = selection(state);
     if (ImGui::BeginChild("held", {0.0f, held_height(context)}, true)) {
         draw_fixed_sets(context);
         draw_handles(context);
     }
     ImGui::EndChild();
     listed_ = chosen;
-    if (ImGui::Button("New fixed set")) state.begin_fixed_set();
+    if (ImGui::Button("New fixed set")) begin_fixed_set(state);
     tooltip("Shift+N: the next stroke of the brush or box makes a new set, with a name of its own.");
     if (fits_beside("Remove all handles")) ImGui::SameLine();
     ImGui::BeginDisabled(state.scene().n_handles() == 0);
@@ -277,7 +278,7 @@ void PullPanel::draw(const PanelContext& context, float room) {
 }
 
 void PullPanel::rename_selection(ViewerState& state) {
-    if (!state.selection()) return;
+    if (!selection(state)) return;
     state.display.panel = true;
     asks_name_ = true;
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "app/selection.hpp"
 #include "app/viewer_state.hpp"
 
 namespace elastolab {
@@ -28,15 +29,15 @@ private:
     float held_height(const PanelContext& context);
     void draw_fixed_sets(const PanelContext& context);
     void draw_handles(const PanelContext& context);
-    void scroll_to(const ViewerState& state, const ViewerState::Selection& row) const;
+    void scroll_to(const ViewerState& state, const Selection& row) const;
     void draw_selection(const PanelContext& context);
     bool draw_name(const PanelContext& context);
 
-    std::optional<std::pair<ViewerState::Selection, std::string>> typed_name_;  ///< while it is typed
+    std::optional<std::pair<Selection, std::string>> typed_name_;  ///< while it is typed
     bool asks_name_ = false;
-    std::optional<ViewerState::Selection> listed_;  ///< as the list was last scrolled to it
-    float tool_settings_height_ = 0.0f;             ///< of those for pulling
-    float held_height_ = 0.0f;                      ///< of the list of handles; 0: not drawn yet
+    std::optional<Selection> listed_;    ///< as the list was last scrolled to it
+    float tool_settings_height_ = 0.0f;  ///< of those for pulling
+    float held_height_ = 0.0f;           ///< of the list of handles; 0: not drawn yet
     float room_ = 0.0f;
 };
 

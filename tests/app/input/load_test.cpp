@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 
+#include "app/selection.hpp"
 #include "app/stage.hpp"
 #include "fem/quadratic/method.hpp"
 #include "methods/registry.hpp"
@@ -188,7 +189,7 @@ TEST(PressureBrush, PaintsAPressureAndTakesItOff) {
     stage.drag(stage.pixel(Eigen::Vector3d(0.8, 0.6, 1.0)), stage.pixel(Eigen::Vector3d(0.8, 0.4, 1.0)));
     ASSERT_EQ(stage.scene().n_loads(), 1);
     EXPECT_EQ(n_triangles(), first) << "what the second stroke has put on is off";
-    stage.state.remove_selection();
+    remove_selection(stage.state);
     EXPECT_EQ(stage.scene().n_loads(), 0);
 }
 
