@@ -12,6 +12,9 @@ struct ImVec2;
 
 namespace elastolab {
 
+/// From the edges of the scene to what is written over it [logical pixels at scale 1].
+inline constexpr float kOverlayMargin = 14.0f;
+
 /// What is written and drawn over the scene, in logical pixels of the window.
 ImVec2 im_point(double x, double y);
 
@@ -36,5 +39,11 @@ Extremes extremes_of(const ShownBody& body);
 
 /// Draws what is at points of the body: forces, extremes, probes, gizmos.
 void draw_marks(const PanelContext& context, ImDrawList& list, const SceneViewport& viewport);
+
+/// Draws the colours of the field that is shown, with round numbers, at the right of the scene; nothing where none is.
+void draw_legend(const PanelContext& context, ImDrawList& list);
+
+/// Draws messages, of which errors stay until they are dismissed.
+void draw_messages(const PanelContext& context);
 
 }  // namespace elastolab

@@ -16,13 +16,10 @@
 #include "app/picture/scene_renderer.hpp"
 #include "base/text.hpp"
 #include "methods/registry.hpp"
-#include "render/drawing/legend.hpp"
 
 namespace elastolab {
 
 namespace {
-
-constexpr float kMargin = 14.0f;
 
 constexpr const char* kDash = "  \u2013  ";
 
@@ -72,7 +69,7 @@ std::pair<std::string, std::string> difference_words(const ViewerState& state, M
 void draw_title(const PanelContext& context, ImDrawList& list, const SceneViewport& viewport) {
     const ViewerState& state = context.state;
     const Palette& palette = context.palette;
-    const float size = ImGui::GetFontSize(), margin = kMargin * context.gui.scale();
+    const float size = ImGui::GetFontSize(), margin = kOverlayMargin * context.gui.scale();
     const float width = std::max(40.0f, static_cast<float>(viewport.place.width) - 2.0f * margin);
     std::vector<OverlayLine> lines;
     for (const MethodKind kind : viewport.kinds) {
@@ -99,54 +96,6 @@ void draw_axes_letters(const PanelContext& context, ImDrawList& list, const Scen
         list.AddText(im_point(labels.pixel[i].x() - 0.5 * size.x, labels.pixel[i].y() - 0.5 * size.y),
                      imgui_packed(context.palette.text), kLetters[i]);
     }
-}
-
-/// The colour bar with round numbers, at the right of the scene.
-void draw_legend(const PanelContext& context, ImDrawList& list) {
-    const ViewerState& state = context.state;
-    const auto is_coloured = [](const ShownBody& body) { return body.is_coloured(); };
-    if (state.display.field == Field::none ||
-        std::none_of(state.shown.bodies().begin(), state.shown.bodies().end(), is_coloured))
-        return;
-    const Viewport& scene = context.layout.scene;
-    const float scale = context.gui.scale(), width = 16.0f * scale;
-    const float height = std::min(220.0f * scale, 0.5f * static_cast<float>(scene.height));
-    const float x = static_cast<float>(scene.x + scene.width) - 84.0f * scale;
-    const float y = static_cast<float>(scene.y + scene.height) - height - 28.0f * scale;
-    const std::string heading = field_title(state.display.field, state.compare.reference, state.display.units);
-    const float size = ImGui::GetFontSize(), room = static_cast<float>(kLegendHeadingWidth) * scale;
-    const ImVec2 words = ImGui::CalcTextSize(heading.c_str(), nullptr, false, room);
-    const float right = static_cast<float>(scene.x + scene.width) - kMargin * scale;
-    const float left = std::max(static_cast<float>(scene.x) + kMargin * scale, std::min(x, right - words.x));
-    const float heading_top = y - words.y - 0.7f * size;
-    chip(context, list, {left, heading_top}, {right, y + height + 0.5f * size});
-    const ColourMap& map = shown_colour_map(state.display);
-    constexpr int kSteps = 64;
-    for (int i = 0; i < kSteps; ++i) {
-        const float top = y + height * (1.0f - static_cast<float>(i + 1) / kSteps);
-        const float bottom = y + height * (1.0f - static_cast<float>(i) / kSteps);
-        list.AddRectFilled({x, top}, {x + width, bottom + 0.5f}, imgui_packed(map.sample((i + 0.5) / kSteps)));
-    }
-    list.AddRect({x, y}, {x + width, y + height}, imgui_packed(context.palette.border));
-    const ColourScale scale_of_colours = state.shown.field_scale(state.display);
-    const auto place_of = [&](double value) {
-        return y + height * (1.0f - static_cast<float>(scale_of_colours.place(value)));
-    };
-    if (const ShownBody* body = state.shown.body(state.method); body && state.display.extremes)
-        for (const Eigen::Index v : {extremes_of(*body).smallest, extremes_of(*body).largest}) {
-            if (v < 0) continue;
-            const float ty = place_of(body->values()[static_cast<std::size_t>(v)]), s = 6.0f * scale;
-            list.AddTriangleFilled({x - 1.0f, ty}, {x - s - 1.0f, ty - 0.6f * s}, {x - s - 1.0f, ty + 0.6f * s},
-                                   imgui_packed(context.palette.text));
-        }
-    for (const LegendTick& tick : scale_of_colours.ticks(5)) {
-        const float ty = place_of(tick.value);
-        list.AddLine({x + width, ty}, {x + width + 4.0f * scale, ty}, imgui_packed(context.palette.text));
-        list.AddText({x + width + 7.0f * scale, ty - 0.5f * size}, imgui_packed(context.palette.text),
-                     tick.text.c_str());
-    }
-    list.AddText(nullptr, 0.0f, {left, heading_top}, imgui_packed(context.palette.text), heading.c_str(), nullptr,
-                 room);
 }
 
 void draw_tools(const PanelContext& context, ImDrawList& list) {
@@ -198,35 +147,6 @@ void draw_hint(const PanelContext& context, ImDrawList& list) {
     list.AddText(nullptr, 0.0f, place, imgui_packed(context.palette.text), text.c_str(), nullptr, width);
 }
 
-void draw_messages(const PanelContext& context) {
-    Messages& messages = context.state.messages;
-    const Viewport& scene = context.layout.scene;
-    const float scale = context.gui.scale();
-    const float width = std::min(440.0f * scale, static_cast<float>(scene.width) - 20.0f * scale);
-    // Below the titles of the viewports: two lines of numbers follow them in a comparison.
-    const float title_lines = context.state.comparing() ? 5.0f : 2.2f;
-    float y = static_cast<float>(scene.y) + kMargin * scale + title_lines * ImGui::GetFontSize();
-    for (std::size_t i = 0; i < messages.all().size(); ++i) {
-        const Messages::Message& message = messages.all()[i];
-        ImGui::SetNextWindowPos({static_cast<float>(scene.x + scene.width) - width - kMargin * scale, y});
-        ImGui::SetNextWindowSize({width, 0.0f});
-        ImGui::PushStyleColor(ImGuiCol_Border,
-                              imgui_colour(message.is_error ? context.palette.bad : context.palette.accent));
-        ImGui::Begin(("##message" + std::to_string(i)).c_str(), nullptr,
-                     ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoFocusOnAppearing |
-                         ImGuiWindowFlags_AlwaysAutoResize);
-        ImGui::PopStyleColor();
-        paragraph(message.text, context.palette.text);
-        const bool dismissed = message.is_error && ImGui::SmallButton("Dismiss");
-        y += ImGui::GetWindowHeight() + 6.0f * scale;
-        ImGui::End();
-        if (dismissed) {
-            messages.dismiss(i);
-            break;
-        }
-    }
-}
-
 /// The first file is being opened.
 void draw_blank(const PanelContext& context, ImDrawList& list) {
     const Viewport &scene = context.layout.scene, &panel = context.layout.panel;
@@ -235,7 +155,7 @@ void draw_blank(const PanelContext& context, ImDrawList& list) {
     const unsigned bottom = imgui_packed(context.palette.background_bottom);
     list.AddRectFilledMultiColor(low, high, top, top, bottom, bottom);
     const std::string text = "Opening " + context.state.loading_file().filename().string() + " ...";
-    const float width = std::min(high.x - low.x - 2.0f * kMargin, ImGui::CalcTextSize(text.c_str()).x);
+    const float width = std::min(high.x - low.x - 2.0f * kOverlayMargin, ImGui::CalcTextSize(text.c_str()).x);
     const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, width);
     list.AddText(nullptr, 0.0f, {0.5f * (low.x + high.x - size.x), 0.5f * (low.y + high.y - size.y)},
                  imgui_packed(context.palette.text), text.c_str(), nullptr, width);
