@@ -278,9 +278,9 @@ void SetKeeper::solve_on_worker() {
     DragSolver drag = current_.drag ? *current_.drag : DragSolver(current_.deformer, wanted_.ends);
     const std::optional<Wish> step = next_step();
     const double tolerance = step ? kPassingTolerance : first_tolerance(*current_.deformer);
-    Wish next = step.value_or(wanted_);
-    job_.start([deformer = current_.deformer, drag = std::move(drag), approach = approach_to(next),
-                wish = std::move(next), tolerance](Control& control) mutable {
+    const Wish next = step.value_or(wanted_);
+    job_.start([deformer = current_.deformer, drag = std::move(drag), approach = approach_to(next), wish = next,
+                tolerance](Control& control) mutable {
         control.begin_stage("solve");
         const Stopwatch watch;
         PreparedSet solved{.deformer = deformer, .at = std::make_shared<const Wish>(wish)};
