@@ -7,6 +7,7 @@
 #include "fem/nonlinear/model.hpp"
 #include "scene/constraints.hpp"
 #include "scene/live/drag_solver.hpp"
+#include "scene/live/set_keeper.hpp"
 #include "scene/proxy/carried_constraints.hpp"
 #include "scene/scene_mesh.hpp"
 #include "scene/wish.hpp"
@@ -15,7 +16,6 @@ namespace elastolab::test {
 namespace {
 
 constexpr double kDegreesPerSecond = 60.0, kFarthest = 90.0, kSeconds = 6.0;
-constexpr double kFollowTurn = 15.0, kPassingTolerance = 1e-3;  ///< as the worker does it
 
 Document rabbit() {
     Document document;
@@ -64,10 +64,11 @@ void follow(benchmark::State& state, ElementDegree degree, int proxy_vertices) {
         Wish at = hand();
         while (watch.seconds() < kSeconds) {
             const Wish wanted = hand();
-            const std::optional<Wish> step = step_towards(wanted, at, kFollowTurn, rest);
+            const std::optional<Wish> step = step_towards(wanted, at, SetKeeper::kFollowTurn, rest);
             const Stopwatch one;
             at = step.value_or(wanted);
-            drag.prepare(at.values, step ? kPassingTolerance : kFirstTolerance, control, {drag.equilibrium(), {}});
+            drag.prepare(at.values, step ? SetKeeper::kPassingTolerance : kFirstTolerance, control,
+                         {drag.equilibrium(), {}});
             seconds.push_back(one.seconds());
             behind.push_back(turn_between(at.motions[0], hand().motions[0]));
             iterations.push_back(drag.equilibrium()->solids.front()->facts().iterations);

@@ -25,30 +25,6 @@ void draw_recent(ViewerState& state) {
     ImGui::EndMenu();
 }
 
-}  // namespace
-
-void MenuPanel::draw_edit(ViewerState& state) {
-    if (!ImGui::BeginMenu("Edit")) return;
-    const LiveScene& scene = state.scene();
-    const std::string name = selected_name(state), quoted = name.empty() ? "the selection" : "\"" + name + "\"";
-    if (ImGui::MenuItem("Undo", "Ctrl+Z", false, state.scene().can_undo())) state.undo();
-    if (ImGui::MenuItem("Redo", "Ctrl+Y", false, state.scene().can_redo())) state.redo();
-    ImGui::Separator();
-    if (ImGui::MenuItem("Select the next handle", "H", false, scene.n_handles() > 0)) select_next_handle(state);
-    if (ImGui::MenuItem("Select the next fixed set", "J", false, scene.n_fixed_sets() > 0))
-        select_next_fixed_set(state);
-    if (ImGui::MenuItem("New fixed set", "Shift+N")) begin_fixed_set(state);
-    ImGui::Separator();
-    if (ImGui::MenuItem(("Rename " + quoted + "###rename").c_str(), "F2", false, !name.empty()))
-        panels_.pull.rename_selection(state);
-    if (ImGui::MenuItem(("Remove " + quoted + "###remove").c_str(), "Del", false, !name.empty()))
-        remove_selection(state);
-    if (ImGui::MenuItem("Remove all handles", "Shift+Del", false, scene.n_handles() > 0)) state.clear_handles();
-    ImGui::EndMenu();
-}
-
-namespace {
-
 void draw_directions(ViewerState& state) {
     struct Direction {
         const char *label, *keys;
@@ -132,6 +108,26 @@ void MenuPanel::draw_file(ViewerState& state, float scale) {
     if (ImGui::MenuItem("Screenshot of the window...")) panels_.files.ask_screenshot(state);
     ImGui::Separator();
     if (ImGui::MenuItem("Quit", "Ctrl+Q")) state.quit();
+    ImGui::EndMenu();
+}
+
+void MenuPanel::draw_edit(ViewerState& state) {
+    if (!ImGui::BeginMenu("Edit")) return;
+    const LiveScene& scene = state.scene();
+    const std::string name = selected_name(state), quoted = name.empty() ? "the selection" : "\"" + name + "\"";
+    if (ImGui::MenuItem("Undo", "Ctrl+Z", false, state.scene().can_undo())) state.undo();
+    if (ImGui::MenuItem("Redo", "Ctrl+Y", false, state.scene().can_redo())) state.redo();
+    ImGui::Separator();
+    if (ImGui::MenuItem("Select the next handle", "H", false, scene.n_handles() > 0)) select_next_handle(state);
+    if (ImGui::MenuItem("Select the next fixed set", "J", false, scene.n_fixed_sets() > 0))
+        select_next_fixed_set(state);
+    if (ImGui::MenuItem("New fixed set", "Shift+N")) begin_fixed_set(state);
+    ImGui::Separator();
+    if (ImGui::MenuItem(("Rename " + quoted + "###rename").c_str(), "F2", false, !name.empty()))
+        panels_.pull.rename_selection(state);
+    if (ImGui::MenuItem(("Remove " + quoted + "###remove").c_str(), "Del", false, !name.empty()))
+        remove_selection(state);
+    if (ImGui::MenuItem("Remove all handles", "Shift+Del", false, scene.n_handles() > 0)) state.clear_handles();
     ImGui::EndMenu();
 }
 

@@ -50,7 +50,7 @@ public:
         sums_.setZero(4, std::ssize(known));
         for (Eigen::Index v = 0; v < rest.cols(); ++v) sums_.col(of(v)) += rest.col(v).homogeneous();
         chosen_.assign(known.size(), -1);
-        distances_.assign(known.size(), std::numeric_limits<double>::infinity());
+        ranks_.assign(known.size(), std::numeric_limits<double>::infinity());
     }
     int of(Eigen::Index vertex) const { return cluster_[static_cast<std::size_t>(vertex)]; }
     /// Nearest to the middle of its cluster; those that are preferred before all others.
@@ -58,8 +58,8 @@ public:
         const auto c = static_cast<std::size_t>(of(vertex));
         const double distance = (rest_.col(vertex) - sums_.col(of(vertex)).hnormalized()).norm() / edge_;
         const double rank = distance + (preferred ? 0.0 : kFarthest);
-        if (rank < distances_[c]) {
-            distances_[c] = rank;
+        if (rank < ranks_[c]) {
+            ranks_[c] = rank;
             chosen_[c] = static_cast<int>(vertex);
         }
     }
@@ -84,7 +84,7 @@ private:
     std::vector<int> cluster_;
     Eigen::Matrix4Xd sums_;
     std::vector<int> chosen_;
-    std::vector<double> distances_;
+    std::vector<double> ranks_;
 };
 
 /// The drawn vertices of each vertex.

@@ -14,10 +14,8 @@ namespace {
 /// What a motion of a method that is not linear must have rested before it is worth an equilibrium that takes long, and
 /// how long one that nobody waits for any more may take, where no other answers meanwhile.
 constexpr double kPauseSeconds = 0.2, kPatienceSeconds = 2.0;
-/// Where equilibria take longer, a motion that is further ahead is followed by such turns [degree]: as far as a tangent
-/// predicts well, so that each is found in one or two iterations and what is shown between is near it. Relative
-/// residual of those that are only passed.
-constexpr double kQuickSeconds = 0.1, kFollowTurn = 15.0, kPassingTolerance = 1e-3;
+/// Equilibria that take no longer need no turns on the way.
+constexpr double kQuickSeconds = 0.1;
 
 Positions handle_positions(const Deformer& deformer) {
     return deformer.model().body().surface->vertices(Eigen::all, deformer.set().handles);

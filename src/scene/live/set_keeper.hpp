@@ -102,7 +102,11 @@ public:
     void set_may_hold_off(bool may) { may_hold_off_ = may; }
     bool may_hold_off() const { return may_hold_off_; }
     static constexpr double kFollowSeconds = 1.0 / 3.0;
-    /// Whether equilibria take longer than that.
+    /// A motion that is further ahead is followed by such turns [degree], where each takes a while: as far as a tangent
+    /// predicts well, so that each is found in one or two iterations and what is shown between is near it; and to this
+    /// relative residual, since they are only passed.
+    static constexpr double kFollowTurn = 15.0, kPassingTolerance = 1e-3;
+    /// Whether equilibria take longer than kFollowSeconds.
     bool is_slow() const;
     /// Whether current().drag has the answer to what is wanted, and no extrapolation to it.
     bool is_exact() const;
