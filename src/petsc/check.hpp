@@ -8,7 +8,7 @@
 
 namespace elastolab {
 
-/// Throws SolveError where a call of PETSc failed. Of collective calls, all processes are taken to fail together.
+/// Throws SolveError where a call of PETSc failed. Where it fails on one process alone, Session ends all of them.
 inline void check(PetscErrorCode code) {
     if (code == 0) return;
     const char* text = nullptr;

@@ -5,9 +5,13 @@
 #include <array>
 #include <cassert>
 #include <chrono>
+#include <cstdlib>
+#include <limits>
 #include <thread>
 
 #include "base/error.hpp"
+#include "base/temporary_file.hpp"
+#include "cli/complaint.hpp"
 #include "petsc/check.hpp"
 #include "petsc/distributed_system.hpp"
 #include "petsc/share_exchange.hpp"
@@ -18,10 +22,35 @@ namespace {
 
 Session* the_session = nullptr;
 
+/// That a process which failed waits for the others [s].
+constexpr double kPatienceSeconds = 15.0;
+
 void send(Order order) {
     MPI_Request request = MPI_REQUEST_NULL;
     MPI_Ibcast(&order, sizeof order, MPI_BYTE, 0, MPI_COMM_WORLD, &request);
     MPI_Wait(&request, MPI_STATUS_IGNORE);
+}
+
+/// Waits asleep: MPI's own waiting spins, on a core that another process may want.
+bool arrives_within(MPI_Request& request, double seconds) {
+    using namespace std::chrono;
+    const auto end = steady_clock::now() + duration<double>(seconds);
+    auto pause = microseconds(20);
+    for (int arrived = 0;;) {
+        MPI_Test(&request, &arrived, MPI_STATUS_IGNORE);
+        if (arrived != 0) return true;
+        if (steady_clock::now() > end) return false;
+        std::this_thread::sleep_for(pause);
+        pause = std::min(2 * pause, microseconds(2000));
+    }
+}
+
+/// Of a failure of this process alone, which the others cannot be told: they wait for it inside a library.
+[[noreturn]] void end_all(const std::string& failure) {
+    complain(failure, kFailure);
+    TemporaryFile::remove_own();
+    MPI_Abort(MPI_COMM_WORLD, kFailure);
+    std::_Exit(kFailure);
 }
 
 double reduced(double value, MPI_Op operation) {
@@ -57,18 +86,12 @@ Session& Session::current() {
     return *the_session;
 }
 
-/// MPI waits by spinning, on a core that the first process may want while it fills the body with tetrahedra.
+/// The first process may take any time in between, and all cores: it fills the body with tetrahedra.
 Order Session::receive() const {
     Order order;
     MPI_Request request = MPI_REQUEST_NULL;
     MPI_Ibcast(&order, sizeof order, MPI_BYTE, 0, MPI_COMM_WORLD, &request);
-    auto pause = std::chrono::microseconds(20);
-    for (int arrived = 0; arrived == 0;) {
-        MPI_Test(&request, &arrived, MPI_STATUS_IGNORE);
-        if (arrived != 0) break;
-        std::this_thread::sleep_for(pause);
-        pause = std::min(2 * pause, std::chrono::microseconds(2000));
-    }
+    arrives_within(request, std::numeric_limits<double>::infinity());
     return order;
 }
 
@@ -129,11 +152,17 @@ void Session::throw_agreed(const std::string& failure) const {
     if (!agreed.empty()) throw SolveError(agreed);
 }
 
-/// The words of the first process that failed, on all; empty: none.
+/// The words of the first process that failed, on all; empty: none. A process that failed waits for the others only so
+/// long: they may stand in a call of PETSc or MUMPS that it has left.
 std::string Session::agree(const std::string& failure) const {
     const int mine = failure.empty() ? n_processes_ : process_;
     int worst = 0;
-    MPI_Allreduce(&mine, &worst, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
+    MPI_Request request = MPI_REQUEST_NULL;
+    MPI_Iallreduce(&mine, &worst, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD, &request);
+    if (failure.empty())
+        MPI_Wait(&request, MPI_STATUS_IGNORE);
+    else if (!arrives_within(request, kPatienceSeconds))
+        end_all(failure);
     if (worst == n_processes_) return {};
     std::array<char, 400> text{};
     if (worst == process_) failure.copy(text.data(), text.size() - 1);

@@ -54,7 +54,8 @@ public:
     /// process cancels the order that runs, or else the next one.
     void serve(Control& control);
     /// On the first: all processes follow the order, this one by `work`. Throws SolveError when it failed on one of
-    /// them, Cancelled when one of them was.
+    /// them, Cancelled when one of them was. A process that failed inside a collective call, while the others wait
+    /// there for it, says so and ends the program on all.
     void together(const Order& order, const std::function<void()>& work, Control& control);
 
     /// On all processes, inside an order or outside of any: does what may fail on one process alone, before the next

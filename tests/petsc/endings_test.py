@@ -1,6 +1,6 @@
 """However a run of elastolab-petsc ends, all of its processes end, with one line of the first.
 
-endings_test.py PETSC_PROGRAM ALLOCATION_FAULT
+endings_test.py PETSC_PROGRAM ALLOCATION_FAULT PETSC_FAULT
 """
 
 import os
@@ -12,7 +12,7 @@ import unittest
 
 from petsc_case import CUBE, ENVIRONMENT, PULLED, PetscCase, on
 
-PETSC_PROGRAM, ALLOCATION_FAULT = sys.argv.pop(1), sys.argv.pop(1)
+PETSC_PROGRAM, ALLOCATION_FAULT, PETSC_FAULT = (sys.argv.pop(1) for _ in range(3))
 SECONDS = 30  # in which all processes must be gone; with other work beside it
 # Takes much longer than that to solve, with its estimates.
 LARGE = {**PULLED, "mesh": {**CUBE["mesh"], "resolution": 40}}
@@ -61,6 +61,16 @@ class Endings(PetscCase):
                                   f"ELASTOLAB_FAULT=0 {n_nodes}")
                 self.assert_says(done.stderr, "The memory that this process may have is used up.")
                 self.assertEqual(done.returncode, 1)
+                self.assertFalse((self.folder / OUTPUT).exists())
+
+    def test_a_failure_of_one_process_inside_petsc_ends_all_of_them(self):
+        self.write(PULLED)
+        for process in 0, 1:
+            with self.subTest(process=process):
+                done = self.solve(2, "-x", f"LD_PRELOAD={PETSC_FAULT}", "-x", f"ELASTOLAB_FAULT={process}",
+                                  arguments=["--engine", "mumps"])
+                self.assertIn("elastolab-petsc: PETSc: Error in external library (76).", done.stderr)
+                self.assertNotEqual(done.returncode, 0)
                 self.assertFalse((self.folder / OUTPUT).exists())
 
     def test_a_failure_leaves_no_object_of_petsc(self):

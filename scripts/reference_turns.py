@@ -1,19 +1,23 @@
 #!/usr/bin/env python3
-"""The reference of tests/methods/twisted_bar_test.cpp by other code: a bar of 4 x 1 x 1, its end at x = 0 held, the other
-one turned by 120 degrees about the bar's axis.
+"""The references of tests/methods/turned_bodies_test.cpp by other code:
+
+    bar   of 4 x 1 x 1, its end at x = 0 held, the other one turned by 120 degrees about the bar's axis
+    ear   of the rabbit in assets/meshes, its feet held, the tip of an ear turned by 60 degrees about the ear's root
 
 Compressible neo-Hookean equilibrium with ten-node tetrahedra by FEniCSx, which differentiates the energy itself and
-integrates it with more than four Gauss points; Gmsh fills the bar. The test needs neither and reads what was written:
+integrates it with more than four Gauss points; Gmsh fills the body. The test needs neither and reads what was written:
 
     apt-get install --no-install-recommends python3-dolfinx-real python3-gmsh python3-scipy   # Debian 12: dolfinx 0.5.2
-    OMP_NUM_THREADS=1 /usr/bin/python3 scripts/reference_twisted_bar.py tests/methods/references/twisted_bar.csv
+    OMP_NUM_THREADS=1 /usr/bin/python3 scripts/reference_turns.py bar tests/methods/references/twisted_bar.csv
+    OMP_NUM_THREADS=1 /usr/bin/python3 scripts/reference_turns.py ear tests/methods/references/turned_ear.csv
 
-The surface is refined by halving edges, which leaves the bar as it is: everywhere, and towards the rims of both ends,
-where derivatives of the answer are singular. How far the levels' answers lie apart is a scatter between meshes, and no
-bound of the last one's error: the finest is not refined further at the rims.
+The surface is refined by halving edges, which leaves the body as it is: everywhere, and towards the rims of both
+patches, where derivatives of the answer are singular. How far the levels' answers lie apart is a scatter between meshes,
+and no bound of the last one's error: the finest is not refined further at the rims.
 """
 
 import argparse
+import pathlib
 import time
 
 import gmsh
@@ -82,6 +86,20 @@ def bar():
     return Case(vertices, triangles, inside_triangles(vertices, triangles, lambda x: x[:, 0] < 1e-9),
                 inside_triangles(vertices, triangles, lambda x: x[:, 0] > 4 - 1e-9),
                 np.array([1.0, 0, 0]), np.array([4.0, 0.5, 0.5]), 120.0)
+
+
+def ear():
+    """The rabbit as it is filed; the ear bends between its root and the tip that is turned."""
+    file = pathlib.Path(__file__).parent.parent / "assets" / "meshes" / "rabbit.obj"
+    rows = [line.split() for line in file.read_text().splitlines()]
+    vertices = np.array([row[1:4] for row in rows if row[:1] == ["v"]], float)
+    triangles = np.array([[corner.split("/")[0] for corner in row[1:4]] for row in rows if row[:1] == ["f"]], int) - 1
+    return Case(vertices, triangles, inside_triangles(vertices, triangles, lambda x: x[:, 2] <= 0.12),
+                inside_triangles(vertices, triangles, lambda x: (x[:, 0] >= 0) & (x[:, 2] >= 2.05)),
+                np.array([1.0, 0, 0]), np.array([0.2, -0.26, 1.7]), 60.0)
+
+
+CASES = {"bar": bar, "ear": ear}
 
 
 def halve(vertices, triangles, patch, too_long):
@@ -262,10 +280,11 @@ def answer(case, halvings, at_rims):
 
 def main():
     parser = argparse.ArgumentParser()
+    parser.add_argument("case", choices=CASES)
     parser.add_argument("file")
     parser.add_argument("--levels", default="0,0 0,2 1,1", help="halvings of edges, and of those at rims")
     arguments = parser.parse_args()
-    case = bar()
+    case = CASES[arguments.case]()
     answers, apart = [], 0.0
     for level in arguments.levels.split():
         answers.append(answer(case, *map(int, level.split(","))))
@@ -273,7 +292,7 @@ def main():
         for other, *_ in answers[:-1]:
             apart = np.linalg.norm(u - other) / np.linalg.norm(u)
             print(f"apart: rms {apart:.2e}", flush=True)
-    header = (f"FEniCSx (scripts/reference_twisted_bar.py), {answers[-1][1]} ten-node tetrahedra, energy "
+    header = (f"FEniCSx (scripts/reference_turns.py), {answers[-1][1]} ten-node tetrahedra, energy "
               f"{answers[-1][2]:.6g}, rms difference to the level before {apart:.1e}\nx,y,z,ux,uy,uz")
     np.savetxt(arguments.file, np.hstack([case.vertices, u]), "%.9g", ",", header=header)
 
