@@ -16,7 +16,7 @@ void Exports::start(const std::filesystem::path& file, const std::function<Expor
         return;
     }
     ExportSource source = make_source();
-    if (!takes_solves(file) && source.refined) {  // the work of a frame
+    if (!takes_solves(file) && source.converged) {  // the work of a frame
         try {
             Control never_cancelled;
             write_export(file, source, never_cancelled);

@@ -35,7 +35,7 @@ std::string stage_words(std::string_view stage) {
                                                                   {"factorise", "factorising"},
                                                                   {"precondition", "preconditioning"},
                                                                   {"constrain", "preparing the constrained set"},
-                                                                  {"refine", "converging"},
+                                                                  {"converge", "converging"},
                                                                   {"solve", "solving"},
                                                                   {"check", "checking"}};
     const auto found = words.find(stage);

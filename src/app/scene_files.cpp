@@ -112,9 +112,9 @@ ExportSource export_source(const LiveScene& scene, const EmbeddedRunner& answer)
     source.values = runner.values();
     source.groups = answer.constraints().groups;
     source.simulated_displacement = runner.displacement();
-    source.refined = runner.refined();
+    source.converged = runner.converged();
     source.approach = runner.approach();
-    if (!source.refined && answer.carried() != nullptr) source.carried = *answer.carried();
+    if (!source.converged && answer.carried() != nullptr) source.carried = *answer.carried();
     return source;
 }
 
@@ -128,11 +128,11 @@ void write_moved_mesh(const fs::path& file, const ExportSource& source) {
 }
 
 /// What is shown first is not what is written.
-ExportSource refined(ExportSource source, Control& control) {
+ExportSource converged(ExportSource source, Control& control) {
     source.simulated_displacement = source.deformer->displace(source.values, control, kSolveTolerance, source.approach);
     source.displacement =
         source.carried ? source.carried->displacement(source.simulated_displacement) : source.simulated_displacement;
-    source.refined = true;
+    source.converged = true;
     return source;
 }
 
@@ -144,7 +144,7 @@ SolvedBody solved_body(const ExportSource& source, Control& control) {
                       .values = source.values,
                       .displacement = source.displacement,
                       .simulated_displacement = source.simulated_displacement,
-                      .constrained = set.base,
+                      .constrained = set.fixed,
                       .forces = source.deformer->answer(source.values, {}, control).reactions.forces};
     solved.constrained.insert(solved.constrained.end(), set.handles.begin(), set.handles.end());
     return solved;
@@ -155,7 +155,7 @@ SolvedBody solved_body(const ExportSource& source, Control& control) {
 bool takes_solves(const fs::path& file) { return is_field_file(file) || is_figure_file(file) || is_glb_file(file); }
 
 void write_export(const fs::path& file, const ExportSource& source, Control& control) {
-    if (!source.refined) return write_export(file, refined(source, control), control);
+    if (!source.converged) return write_export(file, converged(source, control), control);
     if (source.deformer && (is_figure_file(file) || is_glb_file(file)))
         return save_figure(file, make_figure(*source.deformer, source.values, source.groups, control));
     if (source.deformer && is_field_file(file)) return save_field_file(file, solved_body(source, control), control);

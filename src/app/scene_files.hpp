@@ -43,7 +43,7 @@ struct ExportSource {
     Eigen::VectorXd values, displacement, simulated_displacement;
     Approach approach = {};                     ///< of a method that is not linear: how to reach `values`
     std::vector<ConstraintGroup> groups = {};   ///< of the deformer's set
-    bool refined = true;                        ///< else displacements are solved for again, to kSolveTolerance
+    bool converged = true;                      ///< else displacements are solved for again, to kSolveTolerance
     std::optional<CarriedConstraints> carried;  ///< to the shown vertices, where that is so and there is a proxy
 };
 ExportSource export_source(const LiveScene& scene, const EmbeddedRunner& answer);

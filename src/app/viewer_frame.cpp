@@ -111,7 +111,7 @@ void ViewerSession::mark_start() {
     if (shown.displacement().isZero(0.0)) return;
     timeline_->mark(StartTimeline::moved);
     const MethodRunner& runner = state_.simulation.runner(state_.method);
-    if (!state_.simulation.previewing(state_.method) && runner.answers() && runner.refined())
+    if (!state_.simulation.previewing(state_.method) && runner.answers() && runner.converged())
         timeline_->mark(StartTimeline::exact);
 }
 

@@ -188,7 +188,7 @@ FrameRecord ViewerState::frame_record(const FrameTimes& times, double now) const
             .time_s = now,
             .method = std::string(name(method)),
             .vertices = scene_->mesh().n_vertices(),
-            .constrained_vertices = static_cast<int>(set.base.size()) + n_handle,
+            .constrained_vertices = static_cast<int>(set.fixed.size()) + n_handle,
             .handle_vertices = n_handle,
             .state = recorded_name(simulation.runner(method).state(), simulation.runner(method).following()),
             .times = times};
@@ -219,7 +219,8 @@ bool ViewerState::answering() const {
     if (waiting()) return true;
     const std::vector<MethodKind> kinds = needed_kinds();
     return std::any_of(kinds.begin(), kinds.end(), [&](MethodKind kind) {
-        return (simulation.previewing(kind) && simulation.problem(kind).empty()) || simulation.runner(kind).refining();
+        return (simulation.previewing(kind) && simulation.problem(kind).empty()) ||
+               simulation.runner(kind).converging();
     });
 }
 

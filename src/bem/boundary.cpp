@@ -12,7 +12,7 @@ namespace {
 
 std::size_t as_size(int i) { return static_cast<std::size_t>(i); }
 
-constexpr Sources::Weight kUnused{-1, 0.0};
+constexpr CollocationPoints::Weight kUnused{-1, 0.0};
 
 }  // namespace
 
@@ -25,63 +25,63 @@ Boundary::Boundary(const SurfaceMesh& mesh) : mesh_(mesh) {
     }
 }
 
-Sources Sources::subset(std::span<const int> numbers) const {
-    Sources some;
-    some.points.resize(3, static_cast<Eigen::Index>(numbers.size()));
+CollocationPoints CollocationPoints::subset(std::span<const int> numbers) const {
+    CollocationPoints some;
+    some.positions.resize(3, static_cast<Eigen::Index>(numbers.size()));
     for (std::size_t i = 0; i < numbers.size(); ++i) {
-        some.points.col(static_cast<Eigen::Index>(i)) = points.col(numbers[i]);
+        some.positions.col(static_cast<Eigen::Index>(i)) = positions.col(numbers[i]);
         some.own_triangle.push_back(own_triangle[as_size(numbers[i])]);
         some.weights.push_back(weights[as_size(numbers[i])]);
     }
     return some;
 }
 
-void Sources::append(const Sources& more) {
-    Positions all(3, points.cols() + more.points.cols());
-    all << points, more.points;
-    points = std::move(all);
+void CollocationPoints::append(const CollocationPoints& more) {
+    Positions all(3, positions.cols() + more.positions.cols());
+    all << positions, more.positions;
+    positions = std::move(all);
     own_triangle.insert(own_triangle.end(), more.own_triangle.begin(), more.own_triangle.end());
     weights.insert(weights.end(), more.weights.begin(), more.weights.end());
 }
 
-Sources vertex_sources(const Boundary& boundary) {
+CollocationPoints vertex_collocation_points(const Boundary& boundary) {
     const int n = boundary.mesh().n_vertices();
-    Sources sources{boundary.mesh().vertices, std::vector<int>(as_size(n), -1), {}};
-    for (int v = 0; v < n; ++v) sources.weights.push_back({Sources::Weight{v, 1.0}, kUnused, kUnused});
-    return sources;
+    CollocationPoints points{boundary.mesh().vertices, std::vector<int>(as_size(n), -1), {}};
+    for (int v = 0; v < n; ++v) points.weights.push_back({CollocationPoints::Weight{v, 1.0}, kUnused, kUnused});
+    return points;
 }
 
-Sources centroid_sources(const Boundary& boundary) {
-    Sources sources;
-    sources.points.resize(3, boundary.n_triangles());
+CollocationPoints centroid_collocation_points(const Boundary& boundary) {
+    CollocationPoints points;
+    points.positions.resize(3, boundary.n_triangles());
     for (int t = 0; t < boundary.n_triangles(); ++t) {
-        sources.points.col(t) = Eigen::Map<const Eigen::Vector3d>(boundary.triangle(t).centroid);
-        sources.own_triangle.push_back(t);
-        sources.weights.push_back({Sources::Weight{t, 1.0}, kUnused, kUnused});
+        points.positions.col(t) = Eigen::Map<const Eigen::Vector3d>(boundary.triangle(t).centroid);
+        points.own_triangle.push_back(t);
+        points.weights.push_back({CollocationPoints::Weight{t, 1.0}, kUnused, kUnused});
     }
-    return sources;
+    return points;
 }
 
-Sources sources_inside(const Boundary& boundary, std::span<const int> triangles) {
-    Sources sources;
-    sources.points.resize(3, 3 * static_cast<Eigen::Index>(triangles.size()));
+CollocationPoints inner_collocation_points(const Boundary& boundary, std::span<const int> triangles) {
+    CollocationPoints points;
+    points.positions.resize(3, 3 * static_cast<Eigen::Index>(triangles.size()));
     Eigen::Index next = 0;
     for (const int t : triangles)
         for (int corner = 0; corner < 3; ++corner) {
             const Eigen::Vector3i v = boundary.mesh().triangles.col(t);
             Eigen::Vector3d barycentric = Eigen::Vector3d::Constant(1.0 / 6.0);
             barycentric[corner] = 2.0 / 3.0;
-            std::array<Sources::Weight, 3> weights{};
+            std::array<CollocationPoints::Weight, 3> weights{};
             Eigen::Vector3d point = Eigen::Vector3d::Zero();
             for (int i = 0; i < 3; ++i) {
                 point += barycentric[i] * boundary.mesh().vertices.col(v[i]);
                 weights[as_size(i)] = {v[i], barycentric[i]};
             }
-            sources.points.col(next++) = point;
-            sources.own_triangle.push_back(t);
-            sources.weights.push_back(weights);
+            points.positions.col(next++) = point;
+            points.own_triangle.push_back(t);
+            points.weights.push_back(weights);
         }
-    return sources;
+    return points;
 }
 
 void append(Elements& elements, std::span<const Elements::Element> more, int n_slots) {

@@ -27,8 +27,8 @@ private:
 };
 
 /// Collocation points: where the boundary integral equation is asked to hold.
-struct Sources {
-    Positions points;               ///< 3 x n [L]
+struct CollocationPoints {
+    Positions positions;            ///< 3 x n [L]
     std::vector<int> own_triangle;  ///< triangle in whose interior the point lies, -1 for a vertex of the mesh
     /// Shape-function values at the point, by slot of the double layer's Elements; the free term of the integral
     /// equation, found by the rigid-body sum, is spread over them. Slot -1: unused.
@@ -38,18 +38,18 @@ struct Sources {
     };
     std::vector<std::array<Weight, 3>> weights;
 
-    int size() const { return static_cast<int>(points.cols()); }
-    /// The sources with these numbers.
-    Sources subset(std::span<const int> numbers) const;
-    void append(const Sources& more);
+    int size() const { return static_cast<int>(positions.cols()); }
+    /// The collocation points with these numbers.
+    CollocationPoints subset(std::span<const int> numbers) const;
+    void append(const CollocationPoints& more);
 };
 
 /// Every vertex of the mesh (linear elements).
-Sources vertex_sources(const Boundary& boundary);
+CollocationPoints vertex_collocation_points(const Boundary& boundary);
 /// Every triangle's centroid (constant elements).
-Sources centroid_sources(const Boundary& boundary);
+CollocationPoints centroid_collocation_points(const Boundary& boundary);
 /// Three interior points of each of these triangles, barycentric (2/3, 1/6, 1/6) and permuted: 3*triangles.size().
-Sources sources_inside(const Boundary& boundary, std::span<const int> triangles);
+CollocationPoints inner_collocation_points(const Boundary& boundary, std::span<const int> triangles);
 
 /// Which shape functions are integrated over which triangle, and into which slot (block column) each goes.
 struct Elements {

@@ -8,8 +8,8 @@ SparseRows BlockWeights::build(Eigen::Index n_rows, Eigen::Index n_columns) cons
     return matrix;
 }
 
-std::vector<int> joined(std::span<const int> base, std::span<const int> handles) {
-    std::vector<int> vertices(base.begin(), base.end());
+std::vector<int> joined(std::span<const int> fixed, std::span<const int> handles) {
+    std::vector<int> vertices(fixed.begin(), fixed.end());
     vertices.insert(vertices.end(), handles.begin(), handles.end());
     return vertices;
 }

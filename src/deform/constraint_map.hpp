@@ -27,8 +27,8 @@ private:
     std::vector<Eigen::Triplet<double>> entries_;
 };
 
-/// The constrained vertices in the order of all that is prescribed: base, then handles.
-std::vector<int> joined(std::span<const int> base, std::span<const int> handles);
+/// The constrained vertices in the order of all that is prescribed: fixed set, then handles.
+std::vector<int> joined(std::span<const int> fixed, std::span<const int> handles);
 
 /// Every constrained vertex is a node.
 ConstrainedNodes constrain_vertices(std::span<const int> vertices);

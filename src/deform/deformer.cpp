@@ -16,7 +16,7 @@ namespace elastolab {
 namespace {
 
 [[maybe_unused]] bool all_differ(const ConstrainedSet& set, int n_vertices) {
-    std::vector<int> vertices = joined(set.base, set.handles);
+    std::vector<int> vertices = joined(set.fixed, set.handles);
     std::sort(vertices.begin(), vertices.end());
     return std::adjacent_find(vertices.begin(), vertices.end()) == vertices.end() &&
            (vertices.empty() || (vertices.front() >= 0 && vertices.back() < n_vertices));
@@ -36,11 +36,11 @@ SurfaceMesh solid_of(const SurfaceMesh& surface, const std::vector<int>& vertice
     return solid;
 }
 
-std::unique_ptr<ConstrainedSolid> constrained(const SolidModel& solid, std::span<const int> base,
+std::unique_ptr<ConstrainedSolid> constrained(const SolidModel& solid, std::span<const int> fixed,
                                               std::span<const int> handles, std::span<const UnitLoad> loads, bool held,
                                               Control& control) {
     try {
-        return solid.constrain(base, handles, loads, control);
+        return solid.constrain(fixed, handles, loads, control);
     } catch (const NotHeldError&) {
         if (held) throw NotHeldError(kSingularThoughHeld);
         throw;
@@ -71,7 +71,7 @@ Deformer::SolidState Deformer::split(const ConstrainedSet& set, const Model::Par
                 rows.push_back(static_cast<int>(i));
             }
     };
-    pick(set.base, state.base, state.base_rows);
+    pick(set.fixed, state.fixed, state.fixed_rows);
     pick(set.handles, state.handles, state.handle_rows);
     if (!set.loads.empty()) add_loads(set, part, local, state);
     return state;
@@ -101,7 +101,7 @@ void Deformer::add_loads(const ConstrainedSet& set, const Model::Part& part, con
     if (state.loads.empty()) return;
     const bool whole = part.vertices.size() == static_cast<std::size_t>(surface.n_vertices());
     state.free_work = FreeWork(whole ? surface : solid_of(surface, part.vertices, local),
-                               joined(state.base, state.handles), state.loads);
+                               joined(state.fixed, state.handles), state.loads);
 }
 
 std::uint64_t Deformer::predict_memory(const ConstrainedSet& set) const {
@@ -109,7 +109,7 @@ std::uint64_t Deformer::predict_memory(const ConstrainedSet& set) const {
     for (const Model::Part& part : model_->parts())
         if (const SolidState state = split(set, part); state.is_constrained())
             sum +=
-                part.solid->constrain_memory(state.base, state.handles) +
+                part.solid->constrain_memory(state.fixed, state.handles) +
                 kColumnsOfLoad * 24 * static_cast<std::uint64_t>(part.solid->facts().n_vertices) * state.loads.size();
     return sum;
 }
@@ -119,14 +119,14 @@ std::uint64_t Deformer::predict_check_memory(const ConstrainedSet& set) const {
     std::uint64_t most = 0;
     for (const Model::Part& part : model_->parts())
         if (const SolidState state = split(set, part); state.is_constrained())
-            most = std::max(most, part.solid->check_memory(state.base, state.handles));
+            most = std::max(most, part.solid->check_memory(state.fixed, state.handles));
     return most;
 }
 
 void Deformer::require_memory(const ConstrainedSet& set) const {
     const std::uint64_t needed = predict_memory(set), available = available_memory_bytes();
     if (needed <= available) return;
-    throw SolveError(model_->body().name + ": " + std::to_string(set.base.size() + set.handles.size()) +
+    throw SolveError(model_->body().name + ": " + std::to_string(set.fixed.size() + set.handles.size()) +
                      " constrained vertices need " + readable_bytes(static_cast<double>(needed)) + " of memory, " +
                      readable_bytes(static_cast<double>(available)) +
                      " is available. Constrain fewer vertices, or choose " +
@@ -144,8 +144,8 @@ void Deformer::constrain(ConstrainedSet set, Control& control) {
             // Constant elements hold the triangles around a lone vertex, and may not see that a body is held too
             // little.
             const Positions& all = model_->body().surface->vertices;
-            const bool holds_it = holds(all(Eigen::all, part.vertices), joined(state.base, state.handles));
-            state.solid = constrained(*part.solid, state.base, state.handles, state.loads, holds_it, control);
+            const bool holds_it = holds(all(Eigen::all, part.vertices), joined(state.fixed, state.handles));
+            state.solid = constrained(*part.solid, state.fixed, state.handles, state.loads, holds_it, control);
             quality.condition_estimate = std::max(quality.condition_estimate, state.solid->condition());
             quality.held = quality.held && state.solid->held() && holds_it;
             quality.free_to_move = quality.free_to_move || !holds_it;

@@ -17,12 +17,12 @@
 
 namespace elastolab {
 
-/// Which vertices are constrained. `base` vertices are held at rest; `handles` vertices follow prescribed
-/// displacements. All numbers differ. The split matters for speed only: FEM eliminates the base once. `loads` act
+/// Which vertices are constrained. `fixed` vertices are held at rest; `handles` vertices follow prescribed
+/// displacements. All numbers differ. The split matters for speed only: FEM eliminates the fixed set once. `loads` act
 /// besides, each as large as a factor of its own says, which stands in the values behind the handles' displacements: a
 /// load that changes its size, or its direction among unit loads, costs a frame and no solve.
 struct ConstrainedSet {
-    std::vector<int> base;
+    std::vector<int> fixed;
     std::vector<int> handles;
     std::vector<UnitLoad> loads = {};
 
@@ -51,9 +51,10 @@ struct Reactions {
 
 /// What should be known about a solution before it is believed.
 struct SolutionQuality {
-    double condition_estimate = 1.0;  ///< of the small system (reduced) or K00 (direct), 1-norm; largest of the solids
-    bool held = true;                 ///< false: the system has no unique solution, the smallest is taken
-    bool free_to_move = false;        ///< the reason for that: some solid can move as a whole
+    double condition_estimate =
+        1.0;                    ///< of the capacitance system (reduced) or K00 (direct), 1-norm; largest of the solids
+    bool held = true;           ///< false: the system has no unique solution, the smallest is taken
+    bool free_to_move = false;  ///< the reason for that: some solid can move as a whole
 };
 
 /// How far displacements and reactions may be off because the mesh is coarse.
@@ -73,13 +74,13 @@ struct SolutionError;
 ///
 /// Of methods that are not linear (MethodTraits::linear) an answer is an equilibrium, found by iteration:
 ///   - `values` are displacements as ever. Which equilibrium is found depends on the Approach: from rest along the
-///     shortest rotation of each handle unless it says otherwise. Only displace_all and inside have several columns of
-///     values, each an equilibrium of its own, found in their order.
+///     shortest rotation of each handle unless it says otherwise. Only displace_all and interior_field have several
+///     columns of values, each an equilibrium of its own, found in their order.
 ///   - drag_response is the equilibrium at `values` and the columns of its tangent; it brings the `equilibrium` that
 ///     the next drag_response starts from.
 ///   - An equilibrium that was found is remembered (the last few of a set). Asked again for exactly its values, without
-///     an Approach, by displace, reactions, answer, residual, discretisation_check or inside, it is taken and nothing
-///     is solved.
+///     an Approach, by displace, reactions, answer, residual, discretisation_check or interior_field, it is taken and
+///     nothing is solved.
 ///   - No equilibrium: NoEquilibriumError, a SolveError that says where the body is crushed.
 class Deformer {
 public:
@@ -88,10 +89,10 @@ public:
     Deformer(Deformer&&) noexcept;
     Deformer& operator=(Deformer&&) noexcept;
 
-    /// Changes which vertices are constrained: computes the columns that are not known yet, refactors the small system.
-    /// Waits for another thread that computes columns of the same model.
-    /// Strong guarantee: on an exception the previous set stays. Throws SolveError (also, before anything is computed,
-    /// where predict_memory is more than is free), Cancelled.
+    /// Changes which vertices are constrained: computes the columns that are not known yet, refactors the capacitance
+    /// system. Waits for another thread that computes columns of the same model. Strong guarantee: on an exception the
+    /// previous set stays. Throws SolveError (also, before anything is computed, where predict_memory is more than is
+    /// free), Cancelled.
     void constrain(ConstrainedSet set, Control& control);
     const ConstrainedSet& set() const { return set_; }
 
@@ -129,7 +130,7 @@ public:
     /// Whether displacements are linear in `values`.
     bool linear() const { return model_->method().kind->linear; }
 
-    /// Reactions at the base vertices, then at the handle vertices, for these values.
+    /// Reactions at the fixed vertices, then at the handle vertices, for these values.
     Reactions reactions(const Eigen::VectorXd& values) const;
 
     /// Displacements and reactions of one solution; what displace and reactions do, at the price of one of them.
@@ -172,7 +173,7 @@ public:
     /// Displacements and stresses inside the body, one solution for each column of values. The result does not refer to
     /// this object. Takes a solve of all columns; FEM keeps the displacements of all nodes. Throws SolveError,
     /// Cancelled.
-    std::shared_ptr<const InteriorField> inside(const Eigen::MatrixXd& values, Control& control) const;
+    std::shared_ptr<const InteriorField> interior_field(const Eigen::MatrixXd& values, Control& control) const;
 
     const SolutionQuality& quality() const { return quality_; }
     const Model& model() const { return *model_; }

@@ -66,8 +66,8 @@ double Deformer::force_unit_of(std::size_t part) const {
 void Deformer::place_columns(std::size_t part, const Eigen::Matrix3Xd& own, Eigen::Matrix3Xd& all) const {
     const SolidState& state = solids_[part];
     Eigen::Index column = 0;
-    for (const int row : state.base_rows) all.col(row) = own.col(column++);
-    for (const int row : state.handle_rows) all.col(std::ssize(set_.base) + row) = own.col(column++);
+    for (const int row : state.fixed_rows) all.col(row) = own.col(column++);
+    for (const int row : state.handle_rows) all.col(std::ssize(set_.fixed) + row) = own.col(column++);
 }
 
 void Deformer::add_loads_of(std::size_t part, const Eigen::MatrixXd& own, std::vector<Resultant>& sum) const {
@@ -96,7 +96,7 @@ std::optional<DiscretisationCheck> Deformer::discretisation_check(const Eigen::V
     return answer(values, {.check = true}, control).check;
 }
 
-std::shared_ptr<const InteriorField> Deformer::inside(const Eigen::MatrixXd& values, Control& control) const {
+std::shared_ptr<const InteriorField> Deformer::interior_field(const Eigen::MatrixXd& values, Control& control) const {
     std::vector<int> part_of_vertex(static_cast<std::size_t>(model_->facts().n_vertices), 0);
     std::vector<BodyField::Part> parts;
     for (std::size_t s = 0; s < solids_.size(); ++s) {
@@ -105,7 +105,8 @@ std::shared_ptr<const InteriorField> Deformer::inside(const Eigen::MatrixXd& val
         parts.push_back({nullptr, part.origin, part.scale, !linear()});
         if (const ConstrainedSolid* solid = solids_[s].solid.get()) {
             const Approach from = values.cols() == 1 ? remembered(values.col(0), {}) : Approach{};
-            parts.back().field = solid->inside(solve(s, values, {}, true, from, kSolveTolerance, control), control);
+            parts.back().field =
+                solid->interior_field(solve(s, values, {}, true, from, kSolveTolerance, control), control);
         }
     }
     const Body& body = model_->body();
@@ -123,7 +124,7 @@ std::optional<DiscretisationCheck> Deformer::check_of(const Answer& answer, cons
     const double size = largest_motion(answer.displacements + error.to_better * error.displacements, moving_most);
     const double off = largest_motion(error.displacements, worst);
     if (!std::isfinite(off)) return {};
-    const ConstrainedPatches patches = constrained_patches(surface, set_.base, set_.handles);
+    const ConstrainedPatches patches = constrained_patches(surface, set_.fixed, set_.handles);
     const double length = (surface.vertices.rowwise().maxCoeff() - surface.vertices.rowwise().minCoeff()).norm();
     const Reactions better{answer.reactions.forces + error.to_better * error.reactions.forces,
                            answer.reactions.moments + error.to_better * error.reactions.moments};
@@ -151,7 +152,7 @@ Deformer::Answer Deformer::answer(const Eigen::VectorXd& values, Wanted wanted, 
     const double unit = std::ldexp(1.0, exponent);
     const Approach from = remembered(values, approach);
     const Eigen::Index n = 3 * model_->facts().n_vertices;
-    const Eigen::Index n_constrained = std::ssize(set_.base) + std::ssize(set_.handles);
+    const Eigen::Index n_constrained = std::ssize(set_.fixed) + std::ssize(set_.handles);
     Eigen::MatrixXd u = Eigen::MatrixXd::Zero(n, 1), off = u;
     Answer answer;
     answer.reactions = no_reactions(n_constrained);

@@ -16,24 +16,24 @@ namespace elastolab {
 
 /// One solid's share of the constrained set.
 struct Deformer::SolidState {
-    std::unique_ptr<ConstrainedSolid> solid;  ///< null: no constrained vertex, so it rests
-    std::vector<int> base, handles;           ///< vertices of the solid
-    std::vector<int> base_rows, handle_rows;  ///< their positions in the lists of the whole set
+    std::unique_ptr<ConstrainedSolid> solid;   ///< null: no constrained vertex, so it rests
+    std::vector<int> fixed, handles;           ///< vertices of the solid
+    std::vector<int> fixed_rows, handle_rows;  ///< their positions in the lists of the whole set
 
     std::vector<UnitLoad> loads;          ///< that act on the solid, with its triangles
     std::vector<Eigen::Index> load_rows;  ///< of the values
     Eigen::VectorXd load_units;           ///< the solid's factor of a load over the body's
     FreeWork free_work;                   ///< of these loads
 
-    bool is_constrained() const { return !base.empty() || !handles.empty() || !loads.empty(); }
+    bool is_constrained() const { return !fixed.empty() || !handles.empty() || !loads.empty(); }
 
-    /// Values of the base (zero), the handles and the loads of this solid, out of those of the whole body.
+    /// Values of the fixed set (zero), the handles and the loads of this solid, out of those of the whole body.
     Eigen::MatrixXd values(const Eigen::MatrixXd& all) const {
-        const Eigen::Index n = 3 * std::ssize(base_rows) + 3 * std::ssize(handle_rows);
+        const Eigen::Index n = 3 * std::ssize(fixed_rows) + 3 * std::ssize(handle_rows);
         Eigen::MatrixXd own = Eigen::MatrixXd::Zero(n + std::ssize(loads), all.cols());
         own.bottomRows(std::ssize(loads)) = load_units.asDiagonal() * all(load_rows, Eigen::all);
         for (std::size_t i = 0; i < handle_rows.size(); ++i)
-            own.middleRows<3>(3 * static_cast<Eigen::Index>(base_rows.size() + i)) =
+            own.middleRows<3>(3 * static_cast<Eigen::Index>(fixed_rows.size() + i)) =
                 all.middleRows<3>(3 * handle_rows[i]);
         return own;
     }

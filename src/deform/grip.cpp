@@ -58,10 +58,10 @@ GripStiffness::GripStiffness(const Deformer& deformer, const Eigen::VectorXd& va
 Eigen::VectorXd GripStiffness::resultants(const Deformer& deformer, const Eigen::VectorXd& values,
                                           Control& control) const {
     const Reactions reactions = deformer.answer(values, {}, control).reactions;
-    const Eigen::Index n_base = std::ssize(deformer.set().base);
+    const Eigen::Index n_fixed = std::ssize(deformer.set().fixed);
     Eigen::VectorXd sums(6 * std::ssize(grips_));
     for (std::size_t g = 0; g < grips_.size(); ++g) {
-        const Eigen::Index first = n_base + grips_[g].begin, count = grips_[g].end - grips_[g].begin;
+        const Eigen::Index first = n_fixed + grips_[g].begin, count = grips_[g].end - grips_[g].begin;
         const Eigen::Vector3d force = reactions.forces.middleCols(first, count).rowwise().sum();
         const Eigen::Vector3d moment = reactions.moments.middleCols(first, count).rowwise().sum();
         sums.segment<6>(6 * static_cast<Eigen::Index>(g)) << force, moment - arms_.middles[g].cross(force);

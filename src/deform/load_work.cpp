@@ -71,8 +71,8 @@ double work_of_loads(const Model& model, const ConstrainedSet& set, const Eigen:
             work += product_integral(area, u, potential_n) + area / 3.0 * g.col(t).dot(particular.rowwise().sum());
     }
     if (b.isZero(0.0)) return work;
-    for (std::size_t i = 0; i < set.base.size() + set.handles.size(); ++i) {
-        const int v = i < set.base.size() ? set.base[i] : set.handles[i - set.base.size()];
+    for (std::size_t i = 0; i < set.fixed.size() + set.handles.size(); ++i) {
+        const int v = i < set.fixed.size() ? set.fixed[i] : set.handles[i - set.fixed.size()];
         work += answer.reactions.forces.col(static_cast<Eigen::Index>(i)).dot(field(mesh.vertices.col(v)));
     }
     return work;

@@ -22,7 +22,7 @@ MovedGrips::MovedGrips(const Deformer& deformer, const std::vector<Grip>& grips,
     : deformer_(deformer),
       grips_(grips),
       wanted_(forces),
-      n_base_(std::ssize(deformer.set().base)),
+      n_fixed_(std::ssize(deformer.set().fixed)),
       rest_(deformer, grips) {}
 
 void MovedGrips::put(const std::vector<GripPlace>& places, Eigen::VectorXd& values) const {
@@ -84,7 +84,7 @@ bool MovedGrips::body_is_held() const {
     const Positions& all = deformer_.model().body().surface->vertices;
     std::vector<char> kind(static_cast<std::size_t>(all.cols()), 0);  // 1: held, 2: of a grip
     const ConstrainedSet& set = deformer_.set();
-    for (const int v : joined(set.base, set.handles)) kind[static_cast<std::size_t>(v)] = 1;
+    for (const int v : joined(set.fixed, set.handles)) kind[static_cast<std::size_t>(v)] = 1;
     for (const Grip& grip : grips_)
         for (int i = grip.begin; i < grip.end; ++i)
             kind[static_cast<std::size_t>(set.handles[static_cast<std::size_t>(i)])] = 2;
@@ -105,7 +105,7 @@ Eigen::Matrix3Xd MovedGrips::present(const std::vector<GripPlace>& places, std::
 }
 
 Eigen::Matrix3Xd MovedGrips::own(std::size_t grip, const Eigen::Matrix3Xd& all) const {
-    return all.middleCols(n_base_ + grips_[grip].begin, grips_[grip].end - grips_[grip].begin);
+    return all.middleCols(n_fixed_ + grips_[grip].begin, grips_[grip].end - grips_[grip].begin);
 }
 
 }  // namespace elastolab

@@ -42,7 +42,7 @@ private:
     const Deformer& deformer_;
     const std::vector<Grip>& grips_;
     const std::vector<GripForce>& wanted_;
-    Eigen::Index n_base_;
+    Eigen::Index n_fixed_;
     GripArms rest_;
 };
 

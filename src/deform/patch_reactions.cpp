@@ -20,19 +20,19 @@ int root_of(std::vector<int>& parent, int i) {
 
 }  // namespace
 
-ConstrainedPatches constrained_patches(const SurfaceMesh& surface, std::span<const int> base,
+ConstrainedPatches constrained_patches(const SurfaceMesh& surface, std::span<const int> fixed,
                                        std::span<const int> handles) {
-    const int n_base = static_cast<int>(base.size()), n = n_base + static_cast<int>(handles.size());
+    const int n_fixed = static_cast<int>(fixed.size()), n = n_fixed + static_cast<int>(handles.size());
     std::vector<int> place(static_cast<std::size_t>(surface.n_vertices()), -1), parent(static_cast<std::size_t>(n));
     for (int i = 0; i < n; ++i)
-        place[static_cast<std::size_t>(i < n_base ? base[static_cast<std::size_t>(i)]
-                                                  : handles[static_cast<std::size_t>(i - n_base)])] = i;
+        place[static_cast<std::size_t>(i < n_fixed ? fixed[static_cast<std::size_t>(i)]
+                                                   : handles[static_cast<std::size_t>(i - n_fixed)])] = i;
     std::iota(parent.begin(), parent.end(), 0);
     for (const auto& triangle : surface.triangles.colwise())
         for (int corner = 0; corner < 3; ++corner) {
             const int a = place[static_cast<std::size_t>(triangle[corner])];
             const int b = place[static_cast<std::size_t>(triangle[(corner + 1) % 3])];
-            if (a >= 0 && b >= 0 && (a < n_base) == (b < n_base))
+            if (a >= 0 && b >= 0 && (a < n_fixed) == (b < n_fixed))
                 parent[static_cast<std::size_t>(root_of(parent, a))] = root_of(parent, b);
         }
     ConstrainedPatches patches;

@@ -9,7 +9,7 @@ namespace elastolab {
 
 namespace {
 
-/// Below this reciprocal condition the small system counts as rank-deficient; its usual value is above 1e-6.
+/// Below this reciprocal condition the capacitance system counts as rank-deficient; its usual value is above 1e-6.
 constexpr double kSingular = 1e-13;
 /// Relative size of what counts as zero when its rank is decided.
 constexpr double kRankTolerance = 1e-10;
@@ -28,8 +28,8 @@ Eigen::MatrixXd border_columns(const std::vector<int>& nodes, const Eigen::Matri
     return columns;
 }
 
-Eigen::MatrixXd KeptResponses::small_matrix(const std::vector<int>& nodes, const Eigen::MatrixXd& rigid,
-                                            Control&) const {
+Eigen::MatrixXd KeptComplianceColumns::capacitance_matrix(const std::vector<int>& nodes, const Eigen::MatrixXd& rigid,
+                                                          Control&) const {
     const Eigen::Index n_border = rigid.cols(), border = rigid.rows() - n_border;
     Eigen::MatrixXd S(3 * std::ssize(nodes) + n_border, cols() + n_border + n_given());
     if (cols() > 0) S.leftCols(cols()) = columns_.rows_of(nodes, border);
@@ -39,8 +39,8 @@ Eigen::MatrixXd KeptResponses::small_matrix(const std::vector<int>& nodes, const
 }
 
 Eigen::MatrixXd ReducedSolver::scaled_matrix(Control& control) {
-    Eigen::MatrixXd S = system_.responses->small_matrix(system_.nodes, system_.rigid, control);
-    const Eigen::Index n_given = system_.responses->n_given();
+    Eigen::MatrixXd S = system_.compliance_columns->capacitance_matrix(system_.nodes, system_.rigid, control);
+    const Eigen::Index n_given = system_.compliance_columns->n_given();
     assert(S.rows() == S.cols() - n_given);
     given_ = S.rightCols(n_given);
     S.conservativeResize(Eigen::NoChange, S.rows());
@@ -58,7 +58,7 @@ Eigen::MatrixXd ReducedSolver::scaled_matrix(Control& control) {
 }
 
 ReducedSolver::ReducedSolver(ReducedSystem system, Control& control) : system_(std::move(system)) {
-    if (system_.nodes.empty() && system_.responses->cols() == 0) {
+    if (system_.nodes.empty() && system_.compliance_columns->cols() == 0) {
         // Loads on a free body: the border values are what they lack of balance, which is rounding or, with
         // collocation, the error of the discretisation. J is rounding, too, and must not divide it.
         held_ = system_.rigid.cols() == 0;
@@ -91,14 +91,14 @@ Eigen::MatrixXd ReducedSolver::displacements(const Eigen::MatrixXd& unknowns, co
                                              Control& control) const {
     const Eigen::Index n_border = system_.rigid.cols(), n_rows = system_.rigid.rows() - n_border;
     Eigen::MatrixXd u = system_.rigid.topRows(n_rows) * unknowns.bottomRows(n_border);
-    const Eigen::Index n_unknown = system_.responses->cols();
+    const Eigen::Index n_unknown = system_.compliance_columns->cols();
     if (factors.rows() == 0) {
-        system_.responses->add_product(unknowns.topRows(n_unknown), u, control);
+        system_.compliance_columns->add_product(unknowns.topRows(n_unknown), u, control);
         return u;
     }
     Eigen::MatrixXd loads(n_unknown + factors.rows(), unknowns.cols());
     loads << unknowns.topRows(n_unknown), factors;
-    system_.responses->add_product(loads, u, control);
+    system_.compliance_columns->add_product(loads, u, control);
     return u;
 }
 
@@ -110,10 +110,11 @@ NodeSolution ReducedSolver::solve(const Eigen::MatrixXd& prescribed, bool want_l
 NodeSolution ReducedSolver::solve_watched(const Eigen::MatrixXd& prescribed, bool want_loads, double,
                                           Control& control) const {
     control.checkpoint();
-    const Eigen::Index n = 3 * std::ssize(system_.nodes), n_given = system_.responses->n_given();
+    const Eigen::Index n = 3 * std::ssize(system_.nodes), n_given = system_.compliance_columns->n_given();
     assert(prescribed.rows() == n + n_given);
     NodeSolution solution;
-    Eigen::MatrixXd x = Eigen::MatrixXd::Zero(system_.responses->cols() + system_.rigid.cols(), prescribed.cols());
+    Eigen::MatrixXd x =
+        Eigen::MatrixXd::Zero(system_.compliance_columns->cols() + system_.rigid.cols(), prescribed.cols());
     if (scale_.size() > 0) {
         Eigen::MatrixXd right = Eigen::MatrixXd::Zero(scale_.size(), prescribed.cols());
         right.topRows(n) = prescribed.topRows(n);

@@ -102,8 +102,8 @@ double ConstrainedSolid::residual(const NodeSolution& solution, Control& control
     return checks_.residual(solution, control);
 }
 
-std::shared_ptr<const InteriorField> ConstrainedSolid::inside(NodeSolution&& solution, Control& control) const {
-    return checks_.inside(std::move(solution), control);
+std::shared_ptr<const InteriorField> ConstrainedSolid::interior_field(NodeSolution&& solution, Control& control) const {
+    return checks_.interior_field(std::move(solution), control);
 }
 
 std::optional<SolutionError> ConstrainedSolid::error(const Eigen::VectorXd& values, const NodeSolution& solution,

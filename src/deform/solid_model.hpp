@@ -39,7 +39,7 @@ struct SolutionChecks {
     std::function<std::optional<ReferenceAnswer>(const Eigen::VectorXd& values, const NodeSolution& solution, Control&)>
         reference;
     /// Displacements and stresses inside, for these solutions.
-    std::function<std::shared_ptr<const InteriorField>(NodeSolution&&, Control&)> inside = {};
+    std::function<std::shared_ptr<const InteriorField>(NodeSolution&&, Control&)> interior_field = {};
 };
 
 /// What a solution lacks (true less computed), estimated.
@@ -75,9 +75,9 @@ public:
                      std::shared_ptr<const SparseRows> display, std::unique_ptr<NodeSolver> solver,
                      SolutionChecks checks, int n_loads = 0, ParticularField particular = {});
 
-    /// As NodeTask, of the constrained vertices: base (zero) first, then handles.
+    /// As NodeTask, of the constrained vertices: fixed set (zero) first, then handles.
     NodeSolution solve(const NodeTask& task, double tolerance, Control& control) const;
-    /// values: 3*n_constrained + n_loads x m, base (zero) first, then handles, then the factors of the unit loads.
+    /// values: 3*n_constrained + n_loads x m, fixed set (zero) first, then handles, then the factors of the unit loads.
     NodeSolution solve(const Eigen::MatrixXd& values, bool want_loads, double tolerance, Control& control) const;
     NodeSolution solve(const Eigen::MatrixXd& values, bool want_loads) const;
     bool iterates() const { return solver_->iterates(); }
@@ -95,7 +95,7 @@ public:
                                        Control& control) const;
 
     /// The inside for solutions with loads. Throws SolveError, Cancelled.
-    std::shared_ptr<const InteriorField> inside(NodeSolution&& solution, Control& control) const;
+    std::shared_ptr<const InteriorField> interior_field(NodeSolution&& solution, Control& control) const;
 
     double condition() const { return solver_->condition(); }
     bool held() const { return solver_->held(); }
@@ -120,16 +120,16 @@ class SolidModel {
 public:
     virtual ~SolidModel() = default;
 
-    /// base and handles: vertices of the solid, all different; loads: each acts on the solid (its triangles are those
+    /// fixed and handles: vertices of the solid, all different; loads: each acts on the solid (its triangles are those
     /// of the solid), for unit Young's modulus. At least one of the three is not empty; where the constraints leave a
     /// rigid motion free, the loads of a solution balance, and it has no such motion. Throws SolveError, Cancelled.
-    virtual std::unique_ptr<ConstrainedSolid> constrain(std::span<const int> base, std::span<const int> handles,
+    virtual std::unique_ptr<ConstrainedSolid> constrain(std::span<const int> fixed, std::span<const int> handles,
                                                         std::span<const UnitLoad> loads, Control& control) const = 0;
     /// Bytes that constrain() takes beyond what is held, at its peak. An upper estimate from the arrays it makes:
     /// columns that are known already are counted as new.
-    virtual std::uint64_t constrain_memory(std::span<const int> base, std::span<const int> handles) const = 0;
+    virtual std::uint64_t constrain_memory(std::span<const int> fixed, std::span<const int> handles) const = 0;
     /// Bytes that SolutionChecks::reference of such a set takes while it is made, beyond what is held for the set.
-    virtual std::uint64_t check_memory(std::span<const int> base, std::span<const int> handles) const = 0;
+    virtual std::uint64_t check_memory(std::span<const int> fixed, std::span<const int> handles) const = 0;
     /// The matrices that the mode keeps, for unit Young's modulus.
     virtual void visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const = 0;
     /// The sparse stiffness of all nodes, or null.

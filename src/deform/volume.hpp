@@ -23,7 +23,7 @@ public:
     const Eigen::MatrixXi& elements() const { return elements_; }
 
     /// Displacements of all vertices of mesh(), 3*n [L], from those of the body's, 3*n_vertices; nodes inside, and
-    /// midpoints on the surface, bear no load. Those of a solution are in Deformer::inside.
+    /// midpoints on the surface, bear no load. Those of a solution are in Deformer::interior_field.
     Eigen::VectorXd displace(const Eigen::VectorXd& surface) const;
 
     /// The stress in the middle of each element, 6 x n [force / L^2], for displacements of all vertices, 3 x n [L]: in

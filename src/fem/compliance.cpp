@@ -19,30 +19,30 @@ namespace {
 /// are few. The number of threads plays no part: results must not depend on it.
 int block_of(Eigen::Index n_columns) { return std::clamp(static_cast<int>(n_columns + 1) / 2, 12, 48); }
 
-SparseMatrix held(const SparseMatrix& K, const Positions& positions, int n_surface, std::span<const int> base) {
-    assert(base.empty() || holds(positions, base));
-    return base.empty() ? grounded(K, positions, choose_support(positions, n_surface)) : eliminated(K, base);
+SparseMatrix held(const SparseMatrix& K, const Positions& positions, int n_surface, std::span<const int> fixed) {
+    assert(fixed.empty() || holds(positions, fixed));
+    return fixed.empty() ? grounded(K, positions, choose_support(positions, n_surface)) : eliminated(K, fixed);
 }
 
 }  // namespace
 
-SurfaceCompliance::SurfaceCompliance(int n_surface, std::span<const int> base, const Positions& positions,
+SurfaceCompliance::SurfaceCompliance(int n_surface, std::span<const int> fixed, const Positions& positions,
                                      SparseCholesky factor)
     : n_surface_(n_surface),
-      base_(base.begin(), base.end()),
-      rigid_(base.empty() ? rigid_modes(positions.leftCols(n_surface)) : Eigen::MatrixXd(3 * n_surface, 0)),
+      fixed_(fixed.begin(), fixed.end()),
+      rigid_(fixed.empty() ? rigid_modes(positions.leftCols(n_surface)) : Eigen::MatrixXd(3 * n_surface, 0)),
       factor_(std::move(factor)) {
     if (rigid_.cols() == 0) return;
     Eigen::MatrixXd load = Eigen::MatrixXd::Zero(factor_.size(), rigid_.cols());
     load.topRows(rigid_.rows()) = rigid_;
-    rigid_response_ = factor_.solve(load).topRows(rigid_.rows());
+    rigid_columns_ = factor_.solve(load).topRows(rigid_.rows());
 }
 
 SurfaceCompliance::SurfaceCompliance(const SparseMatrix& K, const CholeskyAnalysis& analysis,
-                                     const Positions& positions, int n_surface, std::span<const int> base,
+                                     const Positions& positions, int n_surface, std::span<const int> fixed,
                                      Control& control)
-    : SurfaceCompliance(n_surface, base, positions,
-                        SparseCholesky(analysis, held(K, positions, n_surface, base), "stiffness matrix", &control)) {
+    : SurfaceCompliance(n_surface, fixed, positions,
+                        SparseCholesky(analysis, held(K, positions, n_surface, fixed), "stiffness matrix", &control)) {
     control.checkpoint();
 }
 
@@ -54,17 +54,17 @@ SurfaceCompliance SurfaceCompliance::supported_at(const StaticSupport& support, 
     return {n_surface, {}, positions, std::move(factor)};
 }
 
-Eigen::MatrixXd SurfaceCompliance::volume_response(const Eigen::MatrixXd& loads) const {
+Eigen::MatrixXd SurfaceCompliance::volume_columns(const Eigen::MatrixXd& loads) const {
     const Eigen::Index n = 3 * n_surface_;
     Eigen::MatrixXd load = Eigen::MatrixXd::Zero(factor_.size(), loads.cols());
     load.topRows(loads.rows()) = loads;
     if (rigid_.cols() > 0 && loads.rows() == n) load.topRows(n).noalias() -= rigid_ * (rigid_.transpose() * loads);
-    clear_rows(base_, load);
+    clear_rows(fixed_, load);
     return factor_.solve(load);
 }
 
 void SurfaceCompliance::apply_block(Eigen::Ref<Eigen::MatrixXd> block) const {
-    block = volume_response(block).topRows(3 * n_surface_);
+    block = volume_columns(block).topRows(3 * n_surface_);
     if (rigid_.cols() > 0) block -= rigid_ * (rigid_.transpose() * block).eval();
 }
 
@@ -99,16 +99,16 @@ Eigen::MatrixXd SurfaceCompliance::block(std::span<const int> vertices, Control&
     D = -D;
     if (rigid_.cols() > 0) {
         // So far D holds K_g^-1 alone; what is wanted is P K_g^-1 P with P = I - R R^T.
-        const Eigen::MatrixXd R = rows_of(rigid_, vertices), G_R = rows_of(rigid_response_, vertices);
+        const Eigen::MatrixXd R = rows_of(rigid_, vertices), G_R = rows_of(rigid_columns_, vertices);
         const Eigen::MatrixXd cross = G_R * R.transpose();
-        D += R * (rigid_.transpose() * rigid_response_) * R.transpose() - cross - cross.transpose();
+        D += R * (rigid_.transpose() * rigid_columns_) * R.transpose() - cross - cross.transpose();
     }
     D.triangularView<Eigen::StrictlyUpper>() = D.transpose();
     return D;
 }
 
 std::uint64_t SurfaceCompliance::memory_bytes() const {
-    return factor_.memory_bytes() + 8 * static_cast<std::uint64_t>(rigid_.size() + rigid_response_.size());
+    return factor_.memory_bytes() + 8 * static_cast<std::uint64_t>(rigid_.size() + rigid_columns_.size());
 }
 
 }  // namespace elastolab

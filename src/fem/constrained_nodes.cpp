@@ -66,25 +66,25 @@ private:
 }  // namespace
 
 ConstrainedFemNodes constrain_nodes(const Positions& positions, const SurfaceMidpoints& surface,
-                                    std::span<const int> base, std::span<const int> handles) {
-    std::vector<int> vertices = joined(base, handles);
-    const int n_base = static_cast<int>(base.size()), n = static_cast<int>(vertices.size());
+                                    std::span<const int> fixed, std::span<const int> handles) {
+    std::vector<int> vertices = joined(fixed, handles);
+    const int n_fixed = static_cast<int>(fixed.size()), n = static_cast<int>(vertices.size());
     std::vector<int> place(static_cast<std::size_t>(positions.cols()), -1);
     for (int i = 0; i < n; ++i) place[static_cast<std::size_t>(vertices[static_cast<std::size_t>(i)])] = i;
 
-    const std::vector<Midpoint> of_base = prescribed_midpoints(surface, place, n_base);
+    const std::vector<Midpoint> of_fixed = prescribed_midpoints(surface, place, n_fixed);
     const std::vector<Midpoint> all = prescribed_midpoints(surface, place, n);
     std::vector<Midpoint> others;
-    std::set_difference(all.begin(), all.end(), of_base.begin(), of_base.end(), std::back_inserter(others));
+    std::set_difference(all.begin(), all.end(), of_fixed.begin(), of_fixed.end(), std::back_inserter(others));
 
     Builder builder(positions, std::move(vertices));
-    builder.add_vertices(0, n_base);
-    builder.add_midpoints(of_base);
-    const int n_base_nodes = builder.n_nodes();
-    builder.add_vertices(n_base, n);
+    builder.add_vertices(0, n_fixed);
+    builder.add_midpoints(of_fixed);
+    const int n_fixed_nodes = builder.n_nodes();
+    builder.add_vertices(n_fixed, n);
     builder.add_midpoints(others);
     ConstrainedFemNodes result = std::move(builder).finish();
-    result.n_base = n_base_nodes;
+    result.n_fixed = n_fixed_nodes;
     return result;
 }
 

@@ -17,12 +17,12 @@ struct SurfaceMidpoints {
 
 /// The nodes that a constrained set prescribes, and which vertices carry their forces.
 struct ConstrainedFemNodes {
-    ConstrainedNodes prescribed;  ///< those of the base first
-    int n_base = 0;
+    ConstrainedNodes prescribed;  ///< those of the fixed set first
+    int n_fixed = 0;
     std::vector<LoadShare> shares;
-    std::vector<int> vertices;  ///< constrained: the base, then the handles
+    std::vector<int> vertices;  ///< constrained: the fixed set, then the handles
 
-    std::span<const int> base() const { return std::span(prescribed.nodes).first(static_cast<std::size_t>(n_base)); }
+    std::span<const int> fixed() const { return std::span(prescribed.nodes).first(static_cast<std::size_t>(n_fixed)); }
 };
 
 /// Displacements are linear on a triangle whose three vertices are constrained: the midpoints of its edges are
@@ -30,8 +30,8 @@ struct ConstrainedFemNodes {
 /// are the energy's derivatives with respect to the displacements of the vertices, so that each end of an edge carries
 /// half of the force at its midpoint.
 /// positions       of all nodes, vertices of the surface first
-/// base, handles   vertices of the surface, all different
+/// fixed, handles   vertices of the surface, all different
 ConstrainedFemNodes constrain_nodes(const Positions& positions, const SurfaceMidpoints& surface,
-                                    std::span<const int> base, std::span<const int> handles);
+                                    std::span<const int> fixed, std::span<const int> handles);
 
 }  // namespace elastolab

@@ -52,8 +52,8 @@ double FactorEstimate::seconds() const { return (2.4 * flops + 1500.0 * entries)
 
 Cost predict_sparse(const FactorEstimate& factor, double unknowns, double elements_work) {
     Cost cost{static_cast<std::int64_t>(unknowns), 0, 0.0};
-    // The factor with its blocks' corners; K, its two parts and K with the base eliminated; tetrahedra and columns;
-    // what the allocator keeps.
+    // The factor with its blocks' corners; K, its two parts and K with the fixed set eliminated; tetrahedra and
+    // columns; what the allocator keeps.
     cost.memory_bytes =
         static_cast<std::uint64_t>(10.5 * factor.entries + 4.0 * 13.0 * factor.nonzeros + 200.0 * unknowns + 8e6);
     cost.seconds = kStart + factor.seconds() + elements_work / product_speed();

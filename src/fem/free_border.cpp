@@ -26,7 +26,7 @@ void FreeBorder::remove_motion(Eigen::MatrixXd& displacements) const {
     displacements.noalias() -= motions_.topRows(displacements.rows()) * motion;
 }
 
-Eigen::MatrixXd FreeBorder::responses(Eigen::MatrixXd forces, const Solve& solve) const {
+Eigen::MatrixXd FreeBorder::compliance_columns(Eigen::MatrixXd forces, const Solve& solve) const {
     const Eigen::MatrixXd lacking = balance(forces);
     Eigen::MatrixXd u = solve(forces);
     remove_motion(u);
@@ -36,10 +36,10 @@ Eigen::MatrixXd FreeBorder::responses(Eigen::MatrixXd forces, const Solve& solve
     return response;
 }
 
-ReducedSystem bordered_system(std::shared_ptr<const Responses> responses, const Eigen::MatrixXd& motions,
-                              std::vector<int> nodes) {
+ReducedSystem bordered_system(std::shared_ptr<const ComplianceColumns> compliance_columns,
+                              const Eigen::MatrixXd& motions, std::vector<int> nodes) {
     ReducedSystem reduced;
-    reduced.responses = std::move(responses);
+    reduced.compliance_columns = std::move(compliance_columns);
     reduced.rigid = Eigen::MatrixXd::Zero(motions.rows() + motions.cols(), motions.cols());
     reduced.rigid.topRows(motions.rows()) = motions;
     reduced.n_loads = 3 * std::ssize(nodes);

@@ -10,13 +10,13 @@
 
 namespace elastolab {
 
-/// Borders the responses of a free body (docs/formulation.md section 2): displacements whose surface moves by no rigid
-/// motion, over what the forces lack of balance. That is taken by forces R c on the surface.
+/// Borders the compliance columns of a free body (docs/formulation.md section 2): displacements whose surface moves by
+/// no rigid motion, over what the forces lack of balance. That is taken by forces R c on the surface.
 class FreeBorder {
 public:
     /// positions  of all nodes, those of the surface first
     /// R          orthonormal rigid motions of the surface, 3*n_surface x 6; or, of a body that is held, 3*n_surface x
-    ///            0: then forces are as they are, and nothing borders the responses
+    ///            0: then forces are as they are, and nothing borders the compliance columns
     FreeBorder(const Positions& positions, Eigen::MatrixXd R);
 
     /// The motions of all nodes that are R on the surface.
@@ -28,16 +28,16 @@ public:
 
     /// Displacements of balanced forces at all nodes, up to a rigid motion: of all nodes, or of the first ones.
     using Solve = std::function<Eigen::MatrixXd(const Eigen::MatrixXd& forces)>;
-    /// Responses to forces at all nodes, over c: (3*n_nodes + 6) x m for the nodes that `solve` is of.
-    Eigen::MatrixXd responses(Eigen::MatrixXd forces, const Solve& solve) const;
+    /// Compliance columns for forces at all nodes, over c: (3*n_nodes + 6) x m for the nodes that `solve` is of.
+    Eigen::MatrixXd compliance_columns(Eigen::MatrixXd forces, const Solve& solve) const;
 
 private:
     Eigen::MatrixXd on_surface_, motions_;
 };
 
-/// The small system of a set whose responses are bordered like this. motions: of the nodes that the responses are of
-/// (or none).
-ReducedSystem bordered_system(std::shared_ptr<const Responses> responses, const Eigen::MatrixXd& motions,
-                              std::vector<int> nodes);
+/// The capacitance system of a set whose compliance columns are bordered like this. motions: of the nodes that the
+/// compliance columns are of (or none).
+ReducedSystem bordered_system(std::shared_ptr<const ComplianceColumns> compliance_columns,
+                              const Eigen::MatrixXd& motions, std::vector<int> nodes);
 
 }  // namespace elastolab

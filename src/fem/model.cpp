@@ -47,7 +47,8 @@ ReducedSystem reduced_from(const DenseOperators& operators, const std::vector<in
     if (given.cols() > 0)
         of_given =
             Columns({std::make_shared<const Eigen::MatrixXd>(operators.Khatinv.leftCols(operators.K.cols()) * given)});
-    reduced.responses = std::make_shared<const KeptResponses>(Columns(std::move(blocks)), std::move(of_given));
+    reduced.compliance_columns =
+        std::make_shared<const KeptComplianceColumns>(Columns(std::move(blocks)), std::move(of_given));
     reduced.rigid = operators.Khatinv.rightCols<6>();
     reduced.nodes = nodes;
     reduced.n_loads = 3 * std::ssize(nodes);
@@ -115,7 +116,8 @@ void FemModel::precompute(double poisson_ratio, Control& control) {
     facts_.n_tetrahedra = mesh_->n_elements;
     facts_.n_degrees_of_freedom = 3 * mesh_->tets.n_vertices();
     facts_.memory_bytes = mesh_->analysis->factor_bytes();
-    // On demand the first constrained set decides what is factorised: K with its base eliminated, or the free body.
+    // On demand the first constrained set decides what is factorised: K with its fixed set eliminated, or the free
+    // body.
     if (method_.mode == Mode::on_demand) return;
     auto operators = std::make_shared<DenseOperators>();
     {
@@ -135,28 +137,28 @@ void FemModel::precompute(double poisson_ratio, Control& control) {
     operators_ = std::move(operators);
 }
 
-std::shared_ptr<const FactorisedBody> FemModel::factorised_on(std::span<const int> base, Control& control) const {
+std::shared_ptr<const FactorisedBody> FemModel::factorised_on(std::span<const int> fixed, Control& control) const {
     const auto factorising = lock_unless_cancelled(factorising_mutex_, control);
-    if (auto body = at_hand(base)) return body;
+    if (auto body = at_hand(fixed)) return body;
     if (mesh_->analysis->factor_bytes() > kLargeFactor) {
         const std::scoped_lock lock(factorised_mutex_);
         free_body_ = factorised_body_ = nullptr;
     }
-    auto body = std::make_shared<const FactorisedBody>(system_, std::vector<int>(base.begin(), base.end()), control);
+    auto body = std::make_shared<const FactorisedBody>(system_, std::vector<int>(fixed.begin(), fixed.end()), control);
     const std::scoped_lock lock(factorised_mutex_);
-    return (base.empty() ? free_body_ : factorised_body_) = std::move(body);
+    return (fixed.empty() ? free_body_ : factorised_body_) = std::move(body);
 }
 
-/// The body with this base eliminated, null where it is not factorised yet.
-std::shared_ptr<const FactorisedBody> FemModel::at_hand(std::span<const int> base) const {
+/// The body with this fixed set eliminated, null where it is not factorised yet.
+std::shared_ptr<const FactorisedBody> FemModel::at_hand(std::span<const int> fixed) const {
     const std::scoped_lock lock(factorised_mutex_);
-    const std::shared_ptr<const FactorisedBody>& body = base.empty() ? free_body_ : factorised_body_;
-    return body && std::equal(base.begin(), base.end(), body->base().begin(), body->base().end()) ? body : nullptr;
+    const std::shared_ptr<const FactorisedBody>& body = fixed.empty() ? free_body_ : factorised_body_;
+    return body && std::equal(fixed.begin(), fixed.end(), body->fixed().begin(), body->fixed().end()) ? body : nullptr;
 }
 
 FemModel::Elimination FemModel::cheapest_elimination(const ConstrainedFemNodes& nodes) const {
-    const std::span<const int> all = nodes.prescribed.nodes, base = nodes.base();
-    const bool holding_base = holds(system_->positions(), base);
+    const std::span<const int> all = nodes.prescribed.nodes, fixed = nodes.fixed();
+    const bool holding_base = holds(system_->positions(), fixed);
     if (!holds(system_->positions(), all)) return Elimination::nothing;
     const SupernodalView pattern = mesh_->analysis->view();
     const double afresh = mesh_->prices.factorisation;
@@ -164,15 +166,15 @@ FemModel::Elimination FemModel::cheapest_elimination(const ConstrainedFemNodes& 
         return (at_hand(eliminated) ? 0.0 : afresh) +
                (keeps_columns(*system_, std::ssize(others)) ? 0.0 : block_price(pattern, others).price);
     };
-    const double with_base = holding_base ? price(base, all.subspan(base.size())) : price({}, all);
-    const double least = std::min(with_base, at_hand({}) ? price({}, all) : with_base);
+    const double with_fixed = holding_base ? price(fixed, all.subspan(fixed.size())) : price({}, all);
+    const double least = std::min(with_fixed, at_hand({}) ? price({}, all) : with_fixed);
     // Where a factorisation serves the next handle too, it may cost more than one that serves this set alone.
     if (least > (1.0 + kWorthForLater) * afresh) return Elimination::all;
-    return holding_base && with_base <= least ? Elimination::base : Elimination::nothing;
+    return holding_base && with_fixed <= least ? Elimination::fixed : Elimination::nothing;
 }
 
-std::uint64_t FemModel::constrain_memory(std::span<const int> base, std::span<const int> handles) const {
-    const ConstrainedFemNodes nodes = nodes_of(base, handles);
+std::uint64_t FemModel::constrain_memory(std::span<const int> fixed, std::span<const int> handles) const {
+    const ConstrainedFemNodes nodes = nodes_of(fixed, handles);
     const auto constrained = 3 * static_cast<std::uint64_t>(nodes.prescribed.nodes.size());
     const auto surface = 3 * static_cast<std::uint64_t>(system_->n_surface());
     if (operators_ && method_.update != Update::reduced) {
@@ -186,7 +188,7 @@ std::uint64_t FemModel::constrain_memory(std::span<const int> base, std::span<co
         mesh_->analysis->factor_bytes() + 12 * static_cast<std::uint64_t>(system_->K.nonZeros());
     if (elimination == Elimination::all) return factorisation;
     const std::span<const int> all = nodes.prescribed.nodes;
-    const std::span<const int> eliminated = elimination == Elimination::base ? nodes.base() : std::span<const int>();
+    const std::span<const int> eliminated = elimination == Elimination::fixed ? nodes.fixed() : std::span<const int>();
     const std::span<const int> others = all.subspan(eliminated.size());
     const auto unknowns = 6 + 3 * static_cast<std::uint64_t>(others.size());
     return (at_hand(eliminated) ? 0 : factorisation) + (keeps_columns(*system_, std::ssize(others))
@@ -198,8 +200,8 @@ std::uint64_t FemModel::check_memory(std::span<const int>, std::span<const int>)
     return degree() == ElementDegree::linear ? quadratic_reference_memory(*system_) : linear_reference_memory(*system_);
 }
 
-ConstrainedFemNodes FemModel::nodes_of(std::span<const int> base, std::span<const int> handles) const {
-    return constrain_nodes(system_->positions(), mesh_->midpoints, base, handles);
+ConstrainedFemNodes FemModel::nodes_of(std::span<const int> fixed, std::span<const int> handles) const {
+    return constrain_nodes(system_->positions(), mesh_->midpoints, fixed, handles);
 }
 
 std::unique_ptr<ConstrainedSolid> FemModel::make_solid(ConstrainedFemNodes nodes, std::unique_ptr<NodeSolver> solver,
@@ -209,13 +211,13 @@ std::unique_ptr<ConstrainedSolid> FemModel::make_solid(ConstrainedFemNodes nodes
                                               static_cast<int>(loads.size()));
 }
 
-std::unique_ptr<ConstrainedSolid> FemModel::constrain(std::span<const int> base, std::span<const int> handles,
+std::unique_ptr<ConstrainedSolid> FemModel::constrain(std::span<const int> fixed, std::span<const int> handles,
                                                       Loads loads, Control& control) const {
-    if (operators_) return constrain_dense(nodes_of(base, handles), loads, control);
-    ConstrainedFemNodes nodes = nodes_of(base, handles);
+    if (operators_) return constrain_dense(nodes_of(fixed, handles), loads, control);
+    ConstrainedFemNodes nodes = nodes_of(fixed, handles);
     const Elimination elimination = method_.update == Update::reduced ? cheapest_elimination(nodes) : Elimination::all;
     if (elimination == Elimination::all) return constrain_direct(std::move(nodes), loads, control);
-    const int n_eliminated = elimination == Elimination::base ? nodes.n_base : 0;
+    const int n_eliminated = elimination == Elimination::fixed ? nodes.n_fixed : 0;
     return constrain_reduced(std::move(nodes), loads, n_eliminated, control);
 }
 
@@ -228,7 +230,7 @@ std::unique_ptr<ConstrainedSolid> FemModel::constrain_direct(ConstrainedFemNodes
         return stiffness_residual(system->K, solution.displacements, nodes, solution.loads, given * solution.factors);
     };
     SolutionChecks checks{residual, reference_for(constrained, loads)};
-    checks.inside = [system = system_, nu = poisson_ratio_](NodeSolution&& solution, Control&) {
+    checks.interior_field = [system = system_, nu = poisson_ratio_](NodeSolution&& solution, Control&) {
         return field_of(*system, nu, std::move(solution.displacements));
     };
     return make_solid(std::move(constrained), std::move(solver), std::move(checks), loads);
@@ -267,8 +269,8 @@ std::unique_ptr<ConstrainedSolid> FemModel::constrain_dense(ConstrainedFemNodes 
         return size > 0.0 ? (operators->K * u - f).norm() / size : 0.0;
     };
     SolutionChecks checks{residual, reference_for(constrained, loads)};
-    checks.inside = [system = system_, nu = poisson_ratio_, all = load_vectors(*mesh_, loads)](NodeSolution&& solution,
-                                                                                               Control& its_control) {
+    checks.interior_field = [system = system_, nu = poisson_ratio_, all = load_vectors(*mesh_, loads)](
+                                NodeSolution&& solution, Control& its_control) {
         Eigen::MatrixXd& u = solution.displacements;
         if (u.rows() < system->K.rows()) {
             const std::shared_ptr<const TetMesh> tets(system->mesh, &system->mesh->tets);
@@ -297,7 +299,7 @@ std::unique_ptr<ConstrainedSolid> FemModel::constrain_reduced(ConstrainedFemNode
         return stiffness_residual(body->system().K, u, nodes, solution.loads, given);
     };
     SolutionChecks checks{residual, reference_for(constrained, loads)};
-    checks.inside = [body, inside, nu = poisson_ratio_](const NodeSolution& solution, Control&) {
+    checks.interior_field = [body, inside, nu = poisson_ratio_](const NodeSolution& solution, Control&) {
         return field_of(body->system(), nu, inside(solution).first);
     };
     return make_solid(std::move(constrained), std::move(solver), std::move(checks), loads);

@@ -22,10 +22,10 @@ public:
     /// The same tetrahedra with another material or method: nothing is integrated.
     FemModel(const FemModel& before, double poisson_ratio, const Method& method, Control& control);
 
-    std::unique_ptr<ConstrainedSolid> constrain(std::span<const int> base, std::span<const int> handles,
+    std::unique_ptr<ConstrainedSolid> constrain(std::span<const int> fixed, std::span<const int> handles,
                                                 std::span<const UnitLoad> loads, Control& control) const override;
-    std::uint64_t constrain_memory(std::span<const int> base, std::span<const int> handles) const override;
-    std::uint64_t check_memory(std::span<const int> base, std::span<const int> handles) const override;
+    std::uint64_t constrain_memory(std::span<const int> fixed, std::span<const int> handles) const override;
+    std::uint64_t check_memory(std::span<const int> fixed, std::span<const int> handles) const override;
     void visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const override;
     const SparseStiffness* sparse_stiffness() const override { return &system_->K; }
     std::shared_ptr<const Interior> interior(Control& control) const override;
@@ -35,14 +35,14 @@ public:
 private:
     /// How the update `reduced` treats a set on demand.
     enum class Elimination {
-        base,     ///< the small system of the handles, on the body with its base eliminated
+        fixed,    ///< the capacitance system of the handles, on the body with its fixed set eliminated
         nothing,  ///< that of all vertices, on the free body
         all       ///< none: a factorisation with all of them eliminated
     };
 
     void precompute(double poisson_ratio, Control& control);
     Elimination cheapest_elimination(const ConstrainedFemNodes& nodes) const;
-    std::shared_ptr<const FactorisedBody> at_hand(std::span<const int> base) const;
+    std::shared_ptr<const FactorisedBody> at_hand(std::span<const int> fixed) const;
     using Loads = std::span<const UnitLoad>;
     std::unique_ptr<ConstrainedSolid> constrain_dense(ConstrainedFemNodes nodes, Loads loads, Control& control) const;
     std::unique_ptr<ConstrainedSolid> constrain_direct(ConstrainedFemNodes nodes, Loads loads, Control& control) const;
@@ -52,18 +52,18 @@ private:
     decltype(SolutionChecks::reference) reference_for(const ConstrainedFemNodes& nodes, Loads loads) const;
     /// Nodal forces of unit loads at the nodes of the dense operators: those of inside nodes condensed.
     Eigen::MatrixXd dense_load_vectors(Loads loads, Control& control) const;
-    ConstrainedFemNodes nodes_of(std::span<const int> base, std::span<const int> handles) const;
+    ConstrainedFemNodes nodes_of(std::span<const int> fixed, std::span<const int> handles) const;
     std::unique_ptr<ConstrainedSolid> make_solid(ConstrainedFemNodes nodes, std::unique_ptr<NodeSolver> solver,
                                                  SolutionChecks checks, Loads loads) const;
-    std::shared_ptr<const FactorisedBody> factorised_on(std::span<const int> base, Control& control) const;
+    std::shared_ptr<const FactorisedBody> factorised_on(std::span<const int> fixed, Control& control) const;
 
     Method method_;
     double poisson_ratio_ = 0.0;
     std::shared_ptr<const FemMesh> mesh_;
     std::shared_ptr<const FemSystem> system_;
     std::shared_ptr<const DenseOperators> operators_;  ///< modes full and full_volume
-    /// On demand: the body free, and with the base eliminated that was asked for last. Large ones are not both kept.
-    /// Who asks only what is at hand never waits for a factorisation: that has a lock of its own.
+    /// On demand: the body free, and with the fixed set eliminated that was asked for last. Large ones are not both
+    /// kept. Who asks only what is at hand never waits for a factorisation: that has a lock of its own.
     mutable std::mutex factorising_mutex_;
     mutable std::mutex factorised_mutex_;  ///< for the next two; held for no longer than it takes to copy them
     mutable std::shared_ptr<const FactorisedBody> free_body_, factorised_body_;

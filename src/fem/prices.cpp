@@ -30,7 +30,7 @@ FemPrices fem_prices(const SupernodalView& pattern) {
 BlockPrice block_price(const SupernodalView& pattern, std::span<const int> nodes) {
     const double n = 3.0 * static_cast<double>(nodes.size());
     const CompressedInverseCost block = compressed_inverse_cost(pattern, nodes);
-    // The block, the small system and its factor; while the block is made, Y.
+    // The block, the capacitance system and its factor; while the block is made, Y.
     return {kBlock * block.flops + kLu * 2.0 / 3.0 * n * n * n,
             static_cast<std::uint64_t>(16.0 * n * n) + std::max(block.bytes, static_cast<std::uint64_t>(8.0 * n * n))};
 }

@@ -22,7 +22,7 @@ constexpr std::size_t kVerticesAtOnce = 128;
 
 ReducedSystem reduced_system(const FactorisedBody& body, const std::vector<int>& vertices,
                              std::span<const UnitLoad> loads, Control& control) {
-    return bordered_system(body.responses_of_set(vertices, loads, control), body.compliance().rigid(), vertices);
+    return bordered_system(body.columns_of_set(vertices, loads, control), body.compliance().rigid(), vertices);
 }
 
 SparseMatrix eliminated_held(const FemSystem& system, const std::vector<int>& vertices) {
@@ -64,14 +64,14 @@ FemMesh make_fem_mesh(TetMesh tets, const Triangles& surface, ElementDegree degr
     return mesh;
 }
 
-FactorisedBody::FactorisedBody(std::shared_ptr<const FemSystem> system, std::vector<int> base, Control& control)
+FactorisedBody::FactorisedBody(std::shared_ptr<const FemSystem> system, std::vector<int> fixed, Control& control)
     : system_(std::move(system)),
-      base_(std::move(base)),
-      compliance_(system_->K, *system_->mesh->analysis, system_->positions(), system_->n_surface(), base_, control),
+      fixed_(std::move(fixed)),
+      compliance_(system_->K, *system_->mesh->analysis, system_->positions(), system_->n_surface(), fixed_, control),
       reciprocal_condition_(compliance_.reciprocal_condition()),
       cache_(kCacheBudget) {}
 
-Columns FactorisedBody::responses(const std::vector<int>& vertices, Control& control) const {
+Columns FactorisedBody::compliance_columns(const std::vector<int>& vertices, Control& control) const {
     std::vector<ColumnKey> keys;
     for (const int v : vertices) keys.push_back({v});
     const auto block_bytes = 24 * static_cast<std::uint64_t>(3 * system_->n_surface() + compliance_.rigid().cols());
@@ -89,25 +89,26 @@ Columns FactorisedBody::responses(const std::vector<int>& vertices, Control& con
         control);
 }
 
-std::shared_ptr<const Responses> FactorisedBody::responses_of_set(const std::vector<int>& vertices,
-                                                                  std::span<const UnitLoad> loads,
-                                                                  Control& control) const {
-    Columns given = load_responses(loads, control);
+std::shared_ptr<const ComplianceColumns> FactorisedBody::columns_of_set(const std::vector<int>& vertices,
+                                                                        std::span<const UnitLoad> loads,
+                                                                        Control& control) const {
+    Columns given = columns_of_loads(loads, control);
     if (keeps_columns(*system_, std::ssize(vertices)))
-        return std::make_shared<const KeptResponses>(responses(vertices, control), std::move(given));
-    return std::make_shared<const FactorResponses>(shared_from_this(), vertices, std::move(given));
+        return std::make_shared<const KeptComplianceColumns>(compliance_columns(vertices, control), std::move(given));
+    return std::make_shared<const FactorComplianceColumns>(shared_from_this(), vertices, std::move(given));
 }
 
-Columns FactorisedBody::load_responses(std::span<const UnitLoad> loads, Control& control) const {
+Columns FactorisedBody::columns_of_loads(std::span<const UnitLoad> loads, Control& control) const {
     return load_columns(
         cache_, loads, 3 * system_->n_surface() + compliance_.rigid().cols(),
-        [&](std::span<const UnitLoad> missing) { return compute_responses(missing); }, control);
+        [&](std::span<const UnitLoad> missing) { return compute_columns(missing); }, control);
 }
 
-Eigen::MatrixXd FactorisedBody::compute_responses(std::span<const UnitLoad> loads) const {
-    return border().responses(load_vectors(*system_->mesh, loads), [&](const Eigen::MatrixXd& f) -> Eigen::MatrixXd {
-        return compliance_.volume_response(f).topRows(3 * system_->n_surface());
-    });
+Eigen::MatrixXd FactorisedBody::compute_columns(std::span<const UnitLoad> loads) const {
+    return border().compliance_columns(load_vectors(*system_->mesh, loads),
+                                       [&](const Eigen::MatrixXd& f) -> Eigen::MatrixXd {
+                                           return compliance_.volume_columns(f).topRows(3 * system_->n_surface());
+                                       });
 }
 
 void FactorisedBody::add_blocks(std::span<const int> vertices, std::vector<Columns::Block>& blocks,
@@ -127,7 +128,7 @@ Eigen::MatrixXd FactorisedBody::volume_displacements(const Eigen::MatrixXd& surf
     const FreeBorder free = border();
     Eigen::MatrixXd balanced = loads;
     if (loads.rows() > surface.rows()) free.balance(balanced);
-    Eigen::MatrixXd u = compliance_.volume_response(balanced);
+    Eigen::MatrixXd u = compliance_.volume_columns(balanced);
     // The response is right up to a rigid motion, which the displacements of the surface determine.
     u.topRows(surface.rows()) -= surface;
     free.remove_motion(u);
@@ -135,11 +136,12 @@ Eigen::MatrixXd FactorisedBody::volume_displacements(const Eigen::MatrixXd& surf
     return u;
 }
 
-FactorResponses::FactorResponses(std::shared_ptr<const FactorisedBody> body, std::vector<int> vertices, Columns given)
+FactorComplianceColumns::FactorComplianceColumns(std::shared_ptr<const FactorisedBody> body, std::vector<int> vertices,
+                                                 Columns given)
     : body_(std::move(body)), vertices_(std::move(vertices)), given_(std::move(given)) {}
 
-Eigen::MatrixXd FactorResponses::small_matrix(const std::vector<int>& nodes, const Eigen::MatrixXd& rigid,
-                                              Control& control) const {
+Eigen::MatrixXd FactorComplianceColumns::capacitance_matrix(const std::vector<int>& nodes, const Eigen::MatrixXd& rigid,
+                                                            Control& control) const {
     assert(nodes == vertices_);
     const Eigen::Index n = cols(), n_border = rigid.cols();
     Eigen::MatrixXd S(n + n_border, n + n_border + n_given());
@@ -150,8 +152,8 @@ Eigen::MatrixXd FactorResponses::small_matrix(const std::vector<int>& nodes, con
     return S;
 }
 
-void FactorResponses::add_product(const Eigen::MatrixXd& loads, Eigen::Ref<Eigen::MatrixXd> displacements,
-                                  Control& control) const {
+void FactorComplianceColumns::add_product(const Eigen::MatrixXd& loads, Eigen::Ref<Eigen::MatrixXd> displacements,
+                                          Control& control) const {
     Eigen::MatrixXd at_surface = Eigen::MatrixXd::Zero(3 * body_->system().n_surface(), loads.cols());
     set_prescribed(vertices_, loads, at_surface);
     displacements += body_->compliance().apply(at_surface, control);
@@ -184,15 +186,15 @@ NodeSolution FactorisedBodySolver::solve(const Eigen::MatrixXd& prescribed, bool
 
 NodeSolution FactorisedBodySolver::solve_watched(const Eigen::MatrixXd& prescribed, bool want_loads, double tolerance,
                                                  Control& control) const {
-    const Eigen::Index n_base = 3 * std::ssize(body_->base()), n_given = given_.cols();
+    const Eigen::Index n_fixed = 3 * std::ssize(body_->fixed()), n_given = given_.cols();
     NodeSolution solution =
-        reduced_.solve_watched(prescribed.bottomRows(prescribed.rows() - n_base), want_loads, tolerance, control);
-    if (!want_loads || n_base == 0) return solution;
+        reduced_.solve_watched(prescribed.bottomRows(prescribed.rows() - n_fixed), want_loads, tolerance, control);
+    if (!want_loads || n_fixed == 0) return solution;
     control.checkpoint();
     const Eigen::MatrixXd factors = prescribed.bottomRows(n_given);
     const Eigen::MatrixXd u = volume_displacements(solution.displacements, factors, solution.loads);
     Eigen::MatrixXd loads(prescribed.rows() - n_given, prescribed.cols());
-    loads << support_forces(body_->system().K, u, body_->base(), given_ * factors), solution.loads;
+    loads << support_forces(body_->system().K, u, body_->fixed(), given_ * factors), solution.loads;
     solution.loads = std::move(loads);
     return solution;
 }

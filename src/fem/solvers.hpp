@@ -61,52 +61,53 @@ struct FemSystem {
 /// Whether the columns of so many vertices are kept (kColumnsWorthKeeping).
 bool keeps_columns(const FemSystem& system, std::ptrdiff_t n_vertices);
 
-/// The body factorised with a base eliminated (or free), and the columns of its surface compliance computed so far.
+/// The body factorised with a fixed set eliminated (or free), and the columns of its surface compliance computed so
+/// far.
 class FactorisedBody : public std::enable_shared_from_this<FactorisedBody> {
 public:
-    FactorisedBody(std::shared_ptr<const FemSystem> system, std::vector<int> base, Control& control);
+    FactorisedBody(std::shared_ptr<const FemSystem> system, std::vector<int> fixed, Control& control);
 
     const FemSystem& system() const { return *system_; }
-    const std::vector<int>& base() const { return base_; }
+    const std::vector<int>& fixed() const { return fixed_; }
     const SurfaceCompliance& compliance() const { return compliance_; }
     /// Of the factorised matrix, estimated.
     double reciprocal_condition() const { return reciprocal_condition_; }
-    /// D over R^T for these vertices (with a base: D alone); cached.
-    Columns responses(const std::vector<int>& vertices, Control& control) const;
+    /// D over R^T for these vertices (with a fixed set: D alone); cached.
+    Columns compliance_columns(const std::vector<int>& vertices, Control& control) const;
     /// The same for a set of vertices: columns that are kept where they are cheap, else their block and nothing more.
-    std::shared_ptr<const Responses> responses_of_set(const std::vector<int>& vertices, std::span<const UnitLoad> loads,
-                                                      Control& control) const;
-    /// Responses to unit loads, as those of vertices: displacements of the surface, and what the load lacks of
-    /// balance; cached.
-    Columns load_responses(std::span<const UnitLoad> loads, Control& control) const;
+    std::shared_ptr<const ComplianceColumns> columns_of_set(const std::vector<int>& vertices,
+                                                            std::span<const UnitLoad> loads, Control& control) const;
+    /// Compliance columns for unit loads, as those of vertices: displacements of the surface, and what the load lacks
+    /// of balance; cached.
+    Columns columns_of_loads(std::span<const UnitLoad> loads, Control& control) const;
     /// Displacements of all nodes for displacements of the surface and the loads on it, or on all nodes, that cause
     /// them.
     Eigen::MatrixXd volume_displacements(const Eigen::MatrixXd& surface, const Eigen::MatrixXd& loads) const;
 
 private:
     void add_blocks(std::span<const int> vertices, std::vector<Columns::Block>& blocks, Control& control) const;
-    Eigen::MatrixXd compute_responses(std::span<const UnitLoad> loads) const;
+    Eigen::MatrixXd compute_columns(std::span<const UnitLoad> loads) const;
     /// Made when it is needed: its motions of all nodes are as large as six columns.
     FreeBorder border() const { return {system_->positions(), compliance_.rigid()}; }
 
     std::shared_ptr<const FemSystem> system_;
-    std::vector<int> base_;
+    std::vector<int> fixed_;
     SurfaceCompliance compliance_;
     double reciprocal_condition_;
     mutable ColumnCache cache_;
 };
 
-/// Responses of a factorised body to loads at some vertices, none of them kept: only their rows and columns at these
-/// vertices are formed, and a product with them is a solve.
-class FactorResponses : public Responses {
+/// Compliance columns of a factorised body to loads at some vertices, none of them kept: only their rows and columns at
+/// these vertices are formed, and a product with them is a solve.
+class FactorComplianceColumns : public ComplianceColumns {
 public:
     /// given: of the given loads, which are kept
-    FactorResponses(std::shared_ptr<const FactorisedBody> body, std::vector<int> vertices, Columns given);
+    FactorComplianceColumns(std::shared_ptr<const FactorisedBody> body, std::vector<int> vertices, Columns given);
 
     Eigen::Index cols() const override { return 3 * std::ssize(vertices_); }
     Eigen::Index n_given() const override { return given_.cols(); }
-    Eigen::MatrixXd small_matrix(const std::vector<int>& nodes, const Eigen::MatrixXd& rigid,
-                                 Control& control) const override;
+    Eigen::MatrixXd capacitance_matrix(const std::vector<int>& nodes, const Eigen::MatrixXd& rigid,
+                                       Control& control) const override;
     void add_product(const Eigen::MatrixXd& loads, Eigen::Ref<Eigen::MatrixXd> displacements,
                      Control& control) const override;
 
@@ -116,13 +117,13 @@ private:
     Columns given_;
 };
 
-/// Eqn. (9') on a grounded body: the small system of the vertices that are not eliminated. Its loads are nodal forces
-/// at the base, then at these vertices.
+/// Eqn. (9') on a grounded body: the capacitance system of the vertices that are not eliminated. Its loads are nodal
+/// forces at the fixed set, then at these vertices.
 class FactorisedBodySolver : public NodeSolver {
 public:
     FactorisedBodySolver(std::shared_ptr<const FactorisedBody> body, std::vector<int> vertices,
                          std::span<const UnitLoad> loads, Control& control);
-    /// prescribed: the base (zero) first, then the vertices
+    /// prescribed: the fixed set (zero) first, then the vertices
     NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const override;
     NodeSolution solve_watched(const Eigen::MatrixXd& prescribed, bool want_loads, double tolerance,
                                Control& control) const override;

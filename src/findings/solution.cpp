@@ -25,7 +25,7 @@ void append(Findings& all, Findings more) {
 
 std::vector<char> marked(const SurfaceMesh& surface, const ConstrainedSet& set) {
     std::vector<char> is_constrained(static_cast<std::size_t>(surface.n_vertices()), 0);
-    for (const std::vector<int>* vertices : {&set.base, &set.handles})
+    for (const std::vector<int>* vertices : {&set.fixed, &set.handles})
         for (const int v : *vertices) is_constrained[static_cast<std::size_t>(v)] = 1;
     return is_constrained;
 }
@@ -142,7 +142,7 @@ Findings findings_of_points(const SurfaceMesh& surface, const ConstrainedSet& se
         if (constrained[at(t[0])] && constrained[at(t[1])] && constrained[at(t[2])])
             for (const int v : t) in_patch[at(v)] = 1;
     int count = 0, first = -1;
-    for (const std::vector<int>* vertices : {&set.base, &set.handles})
+    for (const std::vector<int>* vertices : {&set.fixed, &set.handles})
         for (const int v : *vertices)
             if (!in_patch[at(v)] && count++ == 0) first = v;
     if (count == 0) return {};

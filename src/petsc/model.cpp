@@ -54,10 +54,10 @@ PetscFemModel::PetscFemModel(const PetscFemModel& before, const Method& method)
 
 /// On the first process's machine. A set that does not hold the body takes its columns for all nodes, four at a time in
 /// PetscFreeSolver.
-std::uint64_t PetscFemModel::constrain_memory(std::span<const int> base, std::span<const int> handles) const {
+std::uint64_t PetscFemModel::constrain_memory(std::span<const int> fixed, std::span<const int> handles) const {
     constexpr double kColumns = 4.0 * 8.0 * 9.0;
     const auto n_nodes = static_cast<double>(mesh_->tets.n_vertices());
-    std::vector<int> vertices(base.begin(), base.end());
+    std::vector<int> vertices(fixed.begin(), fixed.end());
     vertices.insert(vertices.end(), handles.begin(), handles.end());
     double bytes = kBytesOfNode * n_nodes * Session::current().part_on_this_machine();
     if (!holds(mesh_->tets.vertices, vertices)) bytes += kColumns * n_nodes * static_cast<double>(vertices.size());
@@ -71,9 +71,9 @@ std::uint64_t PetscFemModel::check_memory(std::span<const int>, std::span<const 
     return static_cast<std::uint64_t>(static_cast<double>(all) * Session::current().part_on_this_machine());
 }
 
-std::unique_ptr<ConstrainedSolid> PetscFemModel::constrain(std::span<const int> base, std::span<const int> handles,
+std::unique_ptr<ConstrainedSolid> PetscFemModel::constrain(std::span<const int> fixed, std::span<const int> handles,
                                                            std::span<const UnitLoad> loads, Control& control) const {
-    ConstrainedFemNodes constrained = constrain_nodes(mesh_->tets.vertices, mesh_->midpoints, base, handles);
+    ConstrainedFemNodes constrained = constrain_nodes(mesh_->tets.vertices, mesh_->midpoints, fixed, handles);
     const std::vector<int> nodes = constrained.prescribed.nodes;
     const Eigen::MatrixXd given = load_vectors(*mesh_, loads);
     std::unique_ptr<NodeSolver> solver;
@@ -91,7 +91,7 @@ std::unique_ptr<ConstrainedSolid> PetscFemModel::constrain(std::span<const int> 
         return degree() == ElementDegree::linear ? better_answer(vertices, all, values, its_control)
                                                  : simpler_answer(vertices, all, values, its_control);
     };
-    checks.inside = [mesh = mesh_, nu = poisson_ratio_](NodeSolution&& solution, Control&) {
+    checks.interior_field = [mesh = mesh_, nu = poisson_ratio_](NodeSolution&& solution, Control&) {
         return std::make_shared<const NodalField>(std::shared_ptr<const TetMesh>(mesh, &mesh->tets), mesh->degree(), nu,
                                                   std::move(solution.displacements));
     };

@@ -23,10 +23,10 @@ public:
     /// The same for another update; shares the stiffness.
     PetscFemModel(const PetscFemModel& before, const Method& method);
 
-    std::unique_ptr<ConstrainedSolid> constrain(std::span<const int> base, std::span<const int> handles,
+    std::unique_ptr<ConstrainedSolid> constrain(std::span<const int> fixed, std::span<const int> handles,
                                                 std::span<const UnitLoad> loads, Control& control) const override;
-    std::uint64_t constrain_memory(std::span<const int> base, std::span<const int> handles) const override;
-    std::uint64_t check_memory(std::span<const int> base, std::span<const int> handles) const override;
+    std::uint64_t constrain_memory(std::span<const int> fixed, std::span<const int> handles) const override;
+    std::uint64_t check_memory(std::span<const int> fixed, std::span<const int> handles) const override;
     void visit_matrices(const std::function<void(const NamedMatrix&)>&) const override {}
     /// Assembled on this process when it is asked for.
     const SparseStiffness* sparse_stiffness() const override;

@@ -42,13 +42,13 @@ PetscFreeSolver::PetscFreeSolver(PetscStiffness& stiffness, const Positions& pos
     const double of_grounded = stiffness.ground(choose_support(positions, n_surface), control);
     const FreeBorder border(positions, rigid_modes(positions.leftCols(n_surface)));
     const auto columns = [&](Eigen::MatrixXd forces) {
-        return as_columns(border.responses(
+        return as_columns(border.compliance_columns(
             std::move(forces), [&](const Eigen::MatrixXd& f) { return stiffness.solve(f, kPetscTolerance, control); }));
     };
-    auto responses =
-        std::make_shared<const KeptResponses>(columns(unit_forces(nodes, positions.cols())), columns(given));
-    reduced_ =
-        std::make_unique<const ReducedSolver>(bordered_system(std::move(responses), border.motions(), nodes), control);
+    auto compliance_columns =
+        std::make_shared<const KeptComplianceColumns>(columns(unit_forces(nodes, positions.cols())), columns(given));
+    reduced_ = std::make_unique<const ReducedSolver>(
+        bordered_system(std::move(compliance_columns), border.motions(), nodes), control);
     condition_ = std::max(reduced_->condition(), of_grounded);
     held_ = reduced_->held();
 }

@@ -44,7 +44,7 @@ Eigen::VectorXd factors_of(const Deformer& deformer, const py::object& factors) 
 /// A load on a triangle that does not move by itself means nothing.
 void require_free(const ConstrainedSet& set, const SurfaceMesh& surface) {
     std::vector<char> is_constrained(static_cast<std::size_t>(surface.n_vertices()), 0);
-    for (const std::vector<int>* list : {&set.base, &set.handles})
+    for (const std::vector<int>* list : {&set.fixed, &set.handles})
         for (const int v : *list) is_constrained[static_cast<std::size_t>(v)] = 1;
     for (const UnitLoad& load : set.loads)
         for (const int t : load.triangles)
@@ -107,7 +107,7 @@ std::shared_ptr<DragResponse> drag_response(const Deformer& deformer, const py::
     });
 }
 
-/// A small system and its reactions may take as long as a solve: on a worker.
+/// A capacitance system and its reactions may take as long as a solve: on a worker.
 Deformer::Answer answer(const Deformer& deformer, const py::object& values, const py::object& factors,
                         const py::object& progress) {
     const Eigen::VectorXd given = values_of(deformer, values, factors);
@@ -115,7 +115,7 @@ Deformer::Answer answer(const Deformer& deformer, const py::object& values, cons
 }
 
 std::vector<int> constrained_vertices(const Deformer& deformer) {
-    std::vector<int> all = deformer.set().base;
+    std::vector<int> all = deformer.set().fixed;
     all.insert(all.end(), deformer.set().handles.begin(), deformer.set().handles.end());
     return all;
 }
@@ -151,7 +151,7 @@ py::tuple inside(const Deformer& deformer, const py::object& values, const py::o
     const Eigen::VectorXd given = values_of(deformer, values, factors);
     const Positions at = points(places, "points");
     const InteriorValues found = watched(progress, [&](Control& control) {
-        const auto field = deformer.inside(given, control);
+        const auto field = deformer.interior_field(given, control);
         control.begin_stage("inside");
         return field->at(at, control);
     });
@@ -252,7 +252,7 @@ void bind_deformer(py::module_& module) {
 
 `values` are the displacements of the handles' vertices: (k, 3) in their order, or (3,) for all. `factors` say how many
 times each of the loads acts, (n_loads,): once, unless they are given. Any thread may use it.)")
-        .def_property_readonly("fixed", [](const Deformer& d) { return as_integers(d.set().base); })
+        .def_property_readonly("fixed", [](const Deformer& d) { return as_integers(d.set().fixed); })
         .def_property_readonly("handles", [](const Deformer& d) { return as_integers(d.set().handles); })
         .def_property_readonly("n_vertices", &n_vertices)
         .def_property_readonly("n_loads", [](const Deformer& d) { return d.set().loads.size(); })
@@ -296,8 +296,8 @@ DeformerPointer constrained(const std::shared_ptr<Model>& model, const py::objec
         return object.is_none() ? std::vector<int>() : vertex_list(object, name, n);
     };
     ConstrainedSet set{
-        .base = list(fixed, "fixed"), .handles = list(handles, "handles"), .loads = loads_of(loads, *model)};
-    require_different(set.base, set.handles, n);
+        .fixed = list(fixed, "fixed"), .handles = list(handles, "handles"), .loads = loads_of(loads, *model)};
+    require_different(set.fixed, set.handles, n);
     require_free(set, *model->body().surface);
     return watched(progress, [&](Control& control) {
         auto deformer = std::make_shared<Deformer>(model);

@@ -7,7 +7,7 @@ namespace elastolab {
 
 namespace {
 
-/// Linear sRGB to the cone responses of OKLab, and their cube roots to Lab.
+/// Linear sRGB to the cone compliance columns of OKLab, and their cube roots to Lab.
 const Eigen::Matrix3d& cones() {
     static const Eigen::Matrix3d matrix{{0.4122214708, 0.5363325363, 0.0514459929},
                                         {0.2119034982, 0.6806995451, 0.1073969566},

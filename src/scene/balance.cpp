@@ -83,7 +83,7 @@ std::vector<int> holding(const Solid& solid, const Constraints& constraints, con
     const auto add = [&](int v) {
         if (const int own = local[static_cast<std::size_t>(v)]; own >= 0) held.push_back(own);
     };
-    for (const int v : constraints.set.base) add(v);
+    for (const int v : constraints.set.fixed) add(v);
     for (std::size_t h = 0; h < constraints.forces.size(); ++h) {
         const auto [begin, end] = constraints.range_of(h);
         for (int i = begin; i < end && !constraints.forces[h]; ++i)
@@ -117,7 +117,7 @@ void require_balance(const Document& document, const Constraints& constraints, c
 bool moves_rigidly(const Constraints& constraints, const SurfaceMesh& surface) {
     const ConstrainedSet& set = constraints.set;
     if (constraints.has_forces() || !constraints.values.tail(std::ssize(set.loads)).isZero(0.0)) return false;
-    Positions places = surface.vertices(Eigen::all, joined(set.base, set.handles));
+    Positions places = surface.vertices(Eigen::all, joined(set.fixed, set.handles));
     places.colwise() -= surface.vertices.rowwise().mean().eval();
     const double length = places.size() > 0 ? places.cwiseAbs().maxCoeff() : 1.0;
     Eigen::VectorXd values = Eigen::VectorXd::Zero(places.size());

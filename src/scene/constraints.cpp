@@ -52,9 +52,9 @@ private:
         std::string name = set.name.empty() ? default_fixed_name(i) : set.name;
         for (const ConstraintGroup& other : result_.fixed_sets)
             if (other.name == name) fail_named_twice("/fixed", name);
-        const auto begin = static_cast<int>(result_.set.base.size());
-        result_.set.base.insert(result_.set.base.end(), vertices.begin(), vertices.end());
-        result_.fixed_sets.push_back({std::move(name), begin, static_cast<int>(result_.set.base.size())});
+        const auto begin = static_cast<int>(result_.set.fixed.size());
+        result_.set.fixed.insert(result_.set.fixed.end(), vertices.begin(), vertices.end());
+        result_.fixed_sets.push_back({std::move(name), begin, static_cast<int>(result_.set.fixed.size())});
     }
 
     void add_handle(std::size_t i) {
@@ -274,8 +274,8 @@ std::vector<AffineMotion> Constraints::move_grips(const std::vector<GripPlace>& 
 
 std::pair<int, int> Constraints::range_of(std::size_t handle) const {
     const ConstraintGroup& group = groups[handle + (has_fixed() ? 1 : 0)];
-    const auto n_base = static_cast<int>(set.base.size());
-    return {group.begin - n_base, group.end - n_base};
+    const auto n_fixed = static_cast<int>(set.fixed.size());
+    return {group.begin - n_fixed, group.end - n_fixed};
 }
 
 void Constraints::move(std::size_t handle, const AffineMotion& motion, const Positions& vertices) {

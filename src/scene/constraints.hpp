@@ -43,8 +43,8 @@ Eigen::VectorXd load_factors(const Document& document, const AppliedLoad& load);
 
 /// What a scene prescribes, in the form that a Deformer takes.
 struct Constraints {
-    ConstrainedSet set;                   ///< base: the fixed part; handles: those of all handles, one after the other
-    Eigen::VectorXd values;               ///< set.n_values(): handles, node-major [L], then the factors of set.loads
+    ConstrainedSet set;      ///< fixed: those of all fixed sets; handles: those of all handles, one after the other
+    Eigen::VectorXd values;  ///< set.n_values(): handles, node-major [L], then the factors of set.loads
     std::vector<Motion> motions;          ///< of every handle; `values` are what they do to its vertices
     std::vector<ConstraintGroup> groups;  ///< "fixed", all of it, first when there is one, then every handle
     /// The parts of "fixed", as the document lists them. One that is carried to a proxy may be left without vertices,

@@ -75,7 +75,7 @@ void write_inside(std::ostream& out, const fs::path& name, const SolvedBody& sol
         throw Error(one_line(name.string()) + ": " + std::string(elastolab::name(model->method().kind)) +
                     " has no tetrahedra inside. Choose .vtp, or a finite-element method.");
     const Positions& rest = volume->mesh().vertices;
-    const InteriorValues values = solved.deformer->inside(solved.values, control)->at(rest, control);
+    const InteriorValues values = solved.deformer->interior_field(solved.values, control)->at(rest, control);
     Eigen::Matrix3Xd u = values.displacements.reshaped(3, rest.cols());
     u.leftCols(solved.simulated_displacement.size() / 3) = as_columns(solved.simulated_displacement);
     const Eigen::MatrixXd stresses = values.stresses.reshaped(6, rest.cols()),

@@ -162,7 +162,7 @@ void apply(Constraints& constraints, Constraints* shown, bool with_checks, Solut
         solution.displacement =
             Eigen::Map<const Eigen::Matrix3Xd>(answer.displacements.data(), 3, answer.displacements.size() / 3);
         solution.simulated_displacement = answer.displacements;
-        solution.constrained = constraints.set.base;
+        solution.constrained = constraints.set.fixed;
         solution.constrained.insert(solution.constrained.end(), constraints.set.handles.begin(),
                                     constraints.set.handles.end());
         solution.forces = answer.reactions.forces;
@@ -290,7 +290,7 @@ Solution solve(const SolveRequest& request, Control& control) {
     if (solution.proxy) carried.emplace(solution.proxy).set(shown);
     Constraints constraints = carried ? carried->constraints() : shown;
     require_balance(request.document, constraints, *body.surface, request.scene_file);
-    solution.n_constrained = static_cast<int>(shown.set.base.size() + shown.set.handles.size());
+    solution.n_constrained = static_cast<int>(shown.set.fixed.size() + shown.set.handles.size());
     if (solution.n_constrained == 0 && shown.loads.empty())
         solution.findings.push_back({.kind = FindingKind::nothing_constrained, .object = request.scene_file.string()});
     const auto run = [&] {

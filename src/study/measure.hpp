@@ -17,7 +17,7 @@ struct Repeats {
 /// Cells of one method on one problem:
 ///   vertices, unknowns, constrained
 ///   precompute_s   precomputation, no set known
-///   set_change_s   first constrained set: columns and small system
+///   set_change_s   first constrained set: columns and capacitance system
 ///   ready_s        both: from the mesh to a set that can be dragged
 ///   once_s         a single solve and nothing kept (the program's `solve`)
 ///   frame_s        a frame of a drag

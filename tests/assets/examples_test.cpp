@@ -61,7 +61,7 @@ protected:
 
     double difference(const Positions& u, const Positions& v) const {
         Eigen::ArrayXd free = Eigen::ArrayXd::Ones(u.cols());
-        for (const std::vector<int>* vertices : {&constraints_.set.base, &constraints_.set.handles})
+        for (const std::vector<int>* vertices : {&constraints_.set.fixed, &constraints_.set.handles})
             for (int vertex : *vertices) free[vertex] = 0.0;
         const auto sum = [&](const Positions& w) {
             return (w.colwise().squaredNorm().transpose().array() * free).sum();

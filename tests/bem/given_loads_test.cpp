@@ -48,7 +48,7 @@ std::vector<Pair> pairs() {
 
 /// All kinds of loads on a body that is held below and pulled above.
 ConstrainedSet loaded_set(const OrganicBody& body) {
-    ConstrainedSet set{body.base, body.pull};
+    ConstrainedSet set{body.fixed, body.pull};
     std::vector<char> is_constrained(static_cast<std::size_t>(body.surface.n_vertices()), 0);
     for (const int v : body.constrained()) is_constrained[static_cast<std::size_t>(v)] = 1;
     std::vector<int> left, right;

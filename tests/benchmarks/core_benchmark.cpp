@@ -25,8 +25,8 @@ const Eigen::MatrixXd& bordered_matrix() {
         const Eigen::Index n = 3 * cube().n_vertices();
         Eigen::MatrixXd bordered = Eigen::MatrixXd::Zero(n + 6, n + 6);
         Control control;
-        assemble(Layer::double_layer, boundary, vertex_sources(boundary), vertex_elements(boundary), {1.0, 0.3}, 1e-10,
-                 bordered.topLeftCorner(n, n), control);
+        assemble(Layer::double_layer, boundary, vertex_collocation_points(boundary), vertex_elements(boundary),
+                 {1.0, 0.3}, 1e-10, bordered.topLeftCorner(n, n), control);
         const Eigen::MatrixXd modes = rigid_modes(cube().vertices);
         bordered.topRightCorner(n, 6) = modes;
         bordered.bottomLeftCorner(6, n) = modes.transpose();
@@ -37,14 +37,14 @@ const Eigen::MatrixXd& bordered_matrix() {
 
 void assembly_beside_its_lu(benchmark::State& state) {
     const Boundary boundary(cube());
-    const Sources sources = vertex_sources(boundary);
+    const CollocationPoints points = vertex_collocation_points(boundary);
     const Elements elements = vertex_elements(boundary);
-    Eigen::MatrixXd H(3 * sources.size(), 3 * elements.n_slots), copy;
+    Eigen::MatrixXd H(3 * points.size(), 3 * elements.n_slots), copy;
     compare(
         state, 1.0,
         [&] {
             Control control;
-            assemble(Layer::double_layer, boundary, sources, elements, {1.0, 0.3}, 1e-10, H, control);
+            assemble(Layer::double_layer, boundary, points, elements, {1.0, 0.3}, 1e-10, H, control);
         },
         [&] { LuFactorization(std::move(copy), "H"); }, [&] { copy = bordered_matrix(); });
 }
@@ -113,7 +113,7 @@ void change_set(benchmark::State& state, const std::vector<int>& vertices) {
             lu.solve_in_place(columns);
             benchmark::DoNotOptimize((rows * columns).eval());
             Eigen::MatrixXd small = Eigen::MatrixXd::Random(unknowns + 6, unknowns + 6);
-            LuFactorization(std::move(small), "small system");
+            LuFactorization(std::move(small), "capacitance system");
         },
         [&] { model = precomputed(body, method); });
     state.counters["unknowns"] = static_cast<double>(unknowns);
@@ -125,7 +125,7 @@ void set_change_of_random_vertices_beside_its_lapack_calls(benchmark::State& sta
 }
 void set_change_of_patches_beside_its_lapack_calls(benchmark::State& state) { change_set(state, patches()); }
 
-/// The same with all columns known: only the small system is left.
+/// The same with all columns known: only the capacitance system is left.
 void set_change_with_known_columns(benchmark::State& state) {
     Method method{.kind = kLinearBem};
     method.tractions = Tractions::restricted;
@@ -138,7 +138,7 @@ void set_change_with_known_columns(benchmark::State& state) {
         state, 0.0, [&] { deformer.constrain(set, control); },
         [&] {
             Eigen::MatrixXd small = Eigen::MatrixXd::Random(n, n);
-            LuFactorization(std::move(small), "small system");
+            LuFactorization(std::move(small), "capacitance system");
         });
 }
 
@@ -180,17 +180,17 @@ void single_solve_beside_the_lu_of_linear_bem(benchmark::State& state) {
             benchmark::DoNotOptimize(deformer.answer(values, {.residual = true}, control));
         },
         [&] { LuFactorization(std::move(copy), "H"); }, [&] { copy = bordered_matrix(); });
-    state.counters["constrained"] = static_cast<double>(set.base.size() + set.handles.size());
+    state.counters["constrained"] = static_cast<double>(set.fixed.size() + set.handles.size());
 }
 
 void drag_frame_beside_a_copy_of_its_columns(benchmark::State& state) {
     const SurfaceMesh mesh = make_box(static_cast<int>(state.range(1)));
     const Method method = make_method(all_methods()[static_cast<std::size_t>(state.range(0))], Tractions::restricted);
-    const auto base = vertices_where(mesh, [](const auto& x) { return x[0] < 1e-9; });
+    const auto fixed = vertices_where(mesh, [](const auto& x) { return x[0] < 1e-9; });
     const auto pull = vertices_where(mesh, [](const auto& x) { return x[0] > 1 - 1e-9 && x[1] > 0.7 && x[2] > 0.7; });
     Deformer deformer(precomputed(make_body(mesh), method));
     Control control;
-    deformer.constrain({base, pull}, control);
+    deformer.constrain({fixed, pull}, control);
     const DragResponse drag = deformer.drag_response(Eigen::VectorXd::Zero(3 * std::ssize(pull)),
                                                      Eigen::MatrixXd::Identity(3, 3).replicate(std::ssize(pull), 1));
     Eigen::VectorXd u(drag.rest.size()), shift = Eigen::Vector3d(0.1, 0.2, 0.3);

@@ -24,11 +24,11 @@ void fem_beside_its_factorisation(benchmark::State& state) {
     const StiffnessParts parts = assemble_stiffness_parts(tets, control);
     const CholeskyAnalysis analysis(parts.mu);
     const SparseMatrix K = stiffness(parts, Material{1.0, 0.3});
-    const auto base = vertices_where(cube(), [](const auto& x) { return x[0] < 1e-9; });
+    const auto fixed = vertices_where(cube(), [](const auto& x) { return x[0] < 1e-9; });
     const auto pull = vertices_where(cube(), [](const auto& x) { return x[0] > 1 - 1e-9 && x[1] > 0.6; });
-    const SparseMatrix held = eliminated(K, base);
+    const SparseMatrix held = eliminated(K, fixed);
     const auto factorise = [&] { benchmark::DoNotOptimize(SparseCholesky(analysis, held, "stiffness")); };
-    const SurfaceCompliance compliance(K, analysis, tets.vertices, tets.n_surface_vertices, base, control);
+    const SurfaceCompliance compliance(K, analysis, tets.vertices, tets.n_surface_vertices, fixed, control);
     const std::function<void()> stages[] = {[&] { benchmark::DoNotOptimize(assemble_stiffness_parts(tets, control)); },
                                             factorise,
                                             [&] { benchmark::DoNotOptimize(compliance.columns(pull, control)); }};
@@ -55,8 +55,9 @@ private:
         std::filesystem::temp_directory_path() / ("core_benchmark_" + std::to_string(::getpid()) + ".obj");
 };
 
-/// Linear FEM from a file to the columns of a drag, base and handle included, beside TetGen, ordering and factorisation
-/// of the same body. `memory_over_factor`: what the process has taken at most, over the factor; 2.5 is wanted.
+/// Linear FEM from a file to the columns of a drag, fixed set and handle included, beside TetGen, ordering and
+/// factorisation of the same body. `memory_over_factor`: what the process has taken at most, over the factor; 2.5 is
+/// wanted.
 void fem_from_file_to_drag_beside_its_parts(benchmark::State& state) {
     const LumpFile file(static_cast<int>(state.range(0)));
     const SurfaceMesh mesh = file.read();
@@ -74,22 +75,22 @@ void fem_from_file_to_drag_beside_its_parts(benchmark::State& state) {
         const TetMesh tets = tetrahedralize(mesh, "lump", {}, control);
         const SparseMatrix K = stiffness(assemble_stiffness_parts(tets, control), Material{1.0, 0.3});
         const CholeskyAnalysis analysis(K);
-        benchmark::DoNotOptimize(SparseCholesky(analysis, eliminated(K, set.base), "stiffness"));
+        benchmark::DoNotOptimize(SparseCholesky(analysis, eliminated(K, set.fixed), "stiffness"));
         factor = analysis.factor_bytes();
     });
     state.counters["vertices"] = mesh.n_vertices();
     state.counters["memory_over_factor"] = static_cast<double>(peak - before) / static_cast<double>(factor);
 }
 
-/// A new handle on a kept base by linear FEM, until it can be dragged, beside the cheaper of its two old prices: the
-/// set eliminated in a factorisation of its own; or the columns of the handle's vertices, and their dense system.
+/// A new handle on a kept fixed set by linear FEM, until it can be dragged, beside the cheaper of its two old prices:
+/// the set eliminated in a factorisation of its own; or the columns of the handle's vertices, and their dense system.
 void fem_changed_handle_beside_the_cheaper_price(benchmark::State& state) {
     Control control;
     const SurfaceMesh mesh = LumpFile(static_cast<int>(state.range(0))).read();
     const ConstrainedSet first{lowest(mesh, 0.08), tip(mesh, Eigen::Vector3d::UnitX(), 30)};
-    ConstrainedSet next{first.base, tip(mesh, -Eigen::Vector3d::UnitX(), static_cast<int>(state.range(1)))};
+    ConstrainedSet next{first.fixed, tip(mesh, -Eigen::Vector3d::UnitX(), static_cast<int>(state.range(1)))};
     std::erase_if(next.handles,
-                  [&](int v) { return std::find(first.base.begin(), first.base.end(), v) != first.base.end(); });
+                  [&](int v) { return std::find(first.fixed.begin(), first.fixed.end(), v) != first.fixed.end(); });
     const std::shared_ptr<const Model> model = precomputed(make_body(mesh), make_method(kFem));
     Deformer deformer(model);
     benchmark::DoNotOptimize(drag(deformer, first));
@@ -97,8 +98,8 @@ void fem_changed_handle_beside_the_cheaper_price(benchmark::State& state) {
     const TetMesh tets = tetrahedralize(mesh, "lump", {}, control);
     const SparseMatrix K = stiffness(assemble_stiffness_parts(tets, control), Material{1.0, 0.3});
     const CholeskyAnalysis analysis(K);
-    const SurfaceCompliance held(K, analysis, tets.vertices, tets.n_surface_vertices, first.base, control);
-    std::vector<int> all = next.base;
+    const SurfaceCompliance held(K, analysis, tets.vertices, tets.n_surface_vertices, first.fixed, control);
+    std::vector<int> all = next.fixed;
     all.insert(all.end(), next.handles.begin(), next.handles.end());
     const Eigen::Index n = 3 * std::ssize(next.handles);
     const auto eliminate = [&] {
@@ -107,7 +108,7 @@ void fem_changed_handle_beside_the_cheaper_price(benchmark::State& state) {
     };
     const auto respond = [&] {
         benchmark::DoNotOptimize(held.columns(next.handles, control));
-        LuFactorization(Eigen::MatrixXd::Random(n, n), "small system");
+        LuFactorization(Eigen::MatrixXd::Random(n, n), "capacitance system");
     };
     const bool eliminating_is_cheaper = seconds_of(eliminate) < seconds_of(respond);
     compare(

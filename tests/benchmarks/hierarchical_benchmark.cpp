@@ -71,8 +71,8 @@ void factorise_by_hmat(const SurfaceMesh& mesh) {
     hmat.finalize();
 }
 
-/// From the surface to columns of a drag, base and handle included. `gigabytes`: what the process has taken at most,
-/// of this method only when it is the one that --benchmark_filter names.
+/// From the surface to columns of a drag, fixed set and handle included. `gigabytes`: what the process has taken at
+/// most, of this method only when it is the one that --benchmark_filter names.
 void bem_until_a_drag_beside_an_h_lu(benchmark::State& state, MethodKind kind) {
     const SurfaceMesh mesh = make_lump(static_cast<int>(state.range(0)));
     const ConstrainedSet set{lowest(mesh, 0.08), tip(mesh, Eigen::Vector3d::UnitX(), 30)};

@@ -1,5 +1,5 @@
 // Loads beside handles: a frame in which the sizes of loads change beside one in which a handle moves, and a new load
-// beside a new handle of as many vertices, both on a set whose base is constrained already.
+// beside a new handle of as many vertices, both on a set whose fixed vertices are constrained already.
 //   build/release/tests/benchmarks/loads_benchmark
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kPatch = 40;  ///< vertices of the loaded patch, and of the handle
 
-std::vector<int> held_base() { return lowest(cube(), 0.01); }
+std::vector<int> held_fixed() { return lowest(cube(), 0.01); }
 
 /// Triangles whose vertices are all of the patch.
 std::vector<int> triangles_of(const std::vector<int>& patch) {
@@ -29,13 +29,13 @@ std::vector<int> triangles_of(const std::vector<int>& patch) {
 
 /// A force along each axis on the patch.
 ConstrainedSet with_force() {
-    ConstrainedSet set{held_base(), {}};
+    ConstrainedSet set{held_fixed(), {}};
     const std::vector<int> triangles = triangles_of(tip(cube(), Eigen::Vector3d(1, 2, 1), kPatch));
     for (int axis = 0; axis < 3; ++axis)
         set.loads.push_back(unit_force(cube(), triangles, Eigen::Vector3d::Unit(axis)));
     return set;
 }
-ConstrainedSet with_handle() { return {held_base(), tip(cube(), Eigen::Vector3d(1, 2, 1), kPatch)}; }
+ConstrainedSet with_handle() { return {held_fixed(), tip(cube(), Eigen::Vector3d(1, 2, 1), kPatch)}; }
 
 Eigen::MatrixXd basis_of(const ConstrainedSet& set) {
     if (set.loads.empty()) return Eigen::MatrixXd::Identity(3, 3).replicate(std::ssize(set.handles), 1);
@@ -69,7 +69,7 @@ void new_load_beside_a_new_handle(benchmark::State& state, MethodKind kind) {
         [&] {
             Control control;
             deformer = std::make_unique<Deformer>(precomputed(make_body(cube()), Method{.kind = kind}));
-            deformer->constrain({held_base(), {}}, control);
+            deformer->constrain({held_fixed(), {}}, control);
         });
 }
 

@@ -95,7 +95,7 @@ TEST(Deformer, KeepsItsSetWhereANewOneFails) {
     Control cancelled;
     cancelled.cancel();
     EXPECT_THROW(cube.deformer.constrain({{}, {0, 1, 2, 3}}, cancelled), Cancelled);
-    EXPECT_EQ(cube.deformer.set().base, cube.left);
+    EXPECT_EQ(cube.deformer.set().fixed, cube.left);
     EXPECT_EQ(cube.deformer.set().handles, cube.right);
     EXPECT_EQ(cube.deformer.displace(values), before);
 }

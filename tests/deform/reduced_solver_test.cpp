@@ -47,7 +47,7 @@ ReducedSystem chain(const std::vector<int>& constrained, int extra = 0) {
         columns.block<3, 3>(3 * kNodes, at) = Eigen::Matrix3d::Identity();
     }
     for (int i = 0; i < extra; ++i) columns.row(3 * kNodes + 3 + i) = columns.row(3 * kNodes);
-    return {.responses = std::make_shared<const KeptResponses>(
+    return {.compliance_columns = std::make_shared<const KeptComplianceColumns>(
                 Columns({std::make_shared<const Eigen::MatrixXd>(std::move(columns))})),
             .rigid = std::move(rigid),
             .nodes = constrained,

@@ -132,7 +132,7 @@ SourceLanes lanes_at(const Vector3d& x, double own_triangle = -1.0) {
 }
 
 /// Runs the kernels on one source repeated in all lanes; shape < 0 asks for the constant function. Lane `lane` counts.
-std::vector<double> integral(const TriangleKernels& kernels, const Corners& t, const SourceLanes& sources, Layer layer,
+std::vector<double> integral(const TriangleKernels& kernels, const Corners& t, const SourceLanes& points, Layer layer,
                              int shape, const GaussRule* rule = nullptr, int lane = 0) {
     const int n = numbers_of(layer);
     std::vector<double> buffer(static_cast<std::size_t>(3 * n * kernels.lanes), 0.0);
@@ -140,9 +140,9 @@ std::vector<double> integral(const TriangleKernels& kernels, const Corners& t, c
     const auto linear = layer == Layer::single ? kernels.single_layer_linear : kernels.double_layer_linear;
     const auto constant = layer == Layer::single ? kernels.single_layer_constant : kernels.double_layer_constant;
     if (shape < 0)
-        constant(t.geometry(), sources, rule, out);
+        constant(t.geometry(), points, rule, out);
     else
-        linear(t.geometry(), sources, rule, out);
+        linear(t.geometry(), points, rule, out);
     std::vector<double> values(static_cast<std::size_t>(n));
     for (int k = 0; k < n; ++k) values[k] = out[std::max(shape, 0)][k * kernels.lanes + lane];
     return values;
@@ -158,14 +158,14 @@ long double relative_error(const std::vector<double>& values, const Values& exac
 }
 
 /// Largest relative error of one layer at x over `shapes` and all kernels; each shape is relative to its own block.
-long double layer_error(const Corners& t, const SourceLanes& sources, Layer layer, const std::vector<int>& shapes,
+long double layer_error(const Corners& t, const SourceLanes& points, Layer layer, const std::vector<int>& shapes,
                         const GaussRule* rule = nullptr) {
-    const Values exact = truth(t, Vector3d(sources.x[0], sources.y[0], sources.z[0]), layer, shapes);
+    const Values exact = truth(t, Vector3d(points.x[0], points.y[0], points.z[0]), layer, shapes);
     long double worst = 0;
     for (const TriangleKernels* kernels : {&plain_triangle_kernels(), &best_triangle_kernels()})
         for (std::size_t s = 0; s < shapes.size(); ++s) {
             const auto begin = exact.begin() + static_cast<long>(s) * numbers_of(layer);
-            worst = std::max(worst, relative_error(integral(*kernels, t, sources, layer, shapes[s], rule),
+            worst = std::max(worst, relative_error(integral(*kernels, t, points, layer, shapes[s], rule),
                                                    Values(begin, begin + numbers_of(layer))));
         }
     return worst;

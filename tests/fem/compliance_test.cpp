@@ -72,20 +72,20 @@ TEST(SurfaceCompliance, DoesNotDependOnWhereTheBodyIsSupported) {
 TEST(SurfaceCompliance, WithABaseIsTheInverseOfTheFreeBlock) {
     const FemBody body({4, 4, 3});
     Control control;
-    const std::vector<int> base = body.face(0, 0.0);
-    const SurfaceCompliance compliance(body.K, body.analysis, body.mesh.vertices, body.n_surface(), base, control);
+    const std::vector<int> fixed = body.face(0, 0.0);
+    const SurfaceCompliance compliance(body.K, body.analysis, body.mesh.vertices, body.n_surface(), fixed, control);
     Eigen::MatrixXd K_ff(body.K);
-    for (int v : base) {
+    for (int v : fixed) {
         K_ff.middleRows<3>(3 * v).setZero();
         K_ff.middleCols<3>(3 * v).setZero();
         K_ff.block<3, 3>(3 * v, 3 * v).setIdentity();
     }
     Eigen::MatrixXd expected = K_ff.ldlt().solve(Eigen::MatrixXd::Identity(K_ff.rows(), 3 * body.n_surface()));
     expected.conservativeResize(3 * body.n_surface(), Eigen::NoChange);
-    for (int v : base) expected.block<3, 3>(3 * v, 3 * v).setZero();
+    for (int v : fixed) expected.block<3, 3>(3 * v, 3 * v).setZero();
     const Eigen::MatrixXd D = compliance.columns(all_surface(body), control);
     EXPECT_LT(relative_error(D, expected), kRounding);
-    for (int v : base) EXPECT_EQ(D.middleRows<3>(3 * v).norm() + D.middleCols<3>(3 * v).norm(), 0.0);
+    for (int v : fixed) EXPECT_EQ(D.middleRows<3>(3 * v).norm() + D.middleCols<3>(3 * v).norm(), 0.0);
     EXPECT_EQ(compliance.rigid().cols(), 0);
 }
 
@@ -112,11 +112,11 @@ TEST(SurfaceCompliance, ItsBlocksAreThoseOfItsColumns) {
     const FemBody body({6, 4, 4});
     Control control;
     const std::vector<int> scattered = {70, 3, 41, body.n_surface() - 1, 12};
-    for (const std::vector<int>& base : {std::vector<int>{}, body.face(0, 0.0)}) {
+    for (const std::vector<int>& fixed : {std::vector<int>{}, body.face(0, 0.0)}) {
         std::vector<int> vertices = body.face(0, 1.0);
         for (const int v : scattered)
             if (body.mesh.vertices(0, v) > 0.0 && body.mesh.vertices(0, v) < 1.0) vertices.push_back(v);
-        const SurfaceCompliance compliance(body.K, body.analysis, body.mesh.vertices, body.n_surface(), base, control);
+        const SurfaceCompliance compliance(body.K, body.analysis, body.mesh.vertices, body.n_surface(), fixed, control);
         const Eigen::MatrixXd columns = compliance.columns(vertices, control);
         Eigen::MatrixXd expected(columns.cols(), columns.cols());
         for (std::size_t i = 0; i < vertices.size(); ++i)

@@ -16,13 +16,13 @@ using test::relative_error;
 using test::vertices_where;
 
 /// Held below, one side pulled along `pull`; displacements by vertex, 3 x n.
-Positions displaced(const SurfaceMesh& surface, const std::vector<int>& base, const std::vector<int>& handles,
+Positions displaced(const SurfaceMesh& surface, const std::vector<int>& fixed, const std::vector<int>& handles,
                     const Eigen::Vector3d& pull, ElementDegree degree) {
     Method method{.kind = kFem};
     Control control;
     const FemModel model(surface, "ball", 0.3, method, control, degree);
-    const auto solid = model.constrain(base, handles, {}, control);
-    Eigen::VectorXd values = Eigen::VectorXd::Zero(3 * std::ssize(base));
+    const auto solid = model.constrain(fixed, handles, {}, control);
+    Eigen::VectorXd values = Eigen::VectorXd::Zero(3 * std::ssize(fixed));
     values.conservativeResize(values.size() + 3 * std::ssize(handles));
     values.tail(3 * std::ssize(handles)) = pull.replicate(std::ssize(handles), 1);
     return solid->displacements(solid->solve(values, false)).reshaped(3, surface.n_vertices());
@@ -41,16 +41,16 @@ TEST_P(Disguise, DoesNotChangeDisplacements) {
     const auto where = [&](const auto& predicate) {
         return vertices_where(surface.vertices, surface.n_vertices(), predicate);
     };
-    const std::vector<int> base = where([](const auto& p) { return p[2] < -0.4; });
+    const std::vector<int> fixed = where([](const auto& p) { return p[2] < -0.4; });
     const std::vector<int> handles = where([](const auto& p) { return p[0] > 0.8; });
     const Eigen::Vector3d pull(0.3, -0.2, 0.5);
-    const Positions u = displaced(surface, base, handles, pull, GetParam());
+    const Positions u = displaced(surface, fixed, handles, pull, GetParam());
     unsigned seed = 11;
     for (const Eigen::Matrix3d& turn : disguises()) {
         SCOPED_TRACE(testing::Message() << "turned by\n" << turn);
         const Disguised disguise(surface, turn, seed++);
         const Positions other =
-            displaced(disguise.mesh, placed(base, disguise), placed(handles, disguise), turn * pull, GetParam());
+            displaced(disguise.mesh, placed(fixed, disguise), placed(handles, disguise), turn * pull, GetParam());
         EXPECT_LT(relative_error(other(Eigen::all, disguise.place), turn * u), 1e-10);
     }
 }

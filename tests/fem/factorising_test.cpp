@@ -20,22 +20,22 @@ TEST(Factorising, KeepsNobodyWaitingWhoAsksForThePredictedMemory) {
         return test::vertices_where(surface.vertices, surface.n_vertices(),
                                     [x](const Eigen::Vector3d& at) { return at[0] == x; });
     };
-    const std::vector<int> base = face(0.0), handles{face(1.0).front()};
-    const std::uint64_t before = model.constrain_memory(base, handles);
+    const std::vector<int> fixed = face(0.0), handles{face(1.0).front()};
+    const std::uint64_t before = model.constrain_memory(fixed, handles);
     std::jthread worker([&] {
         try {
-            model.constrain(base, handles, {}, its);
+            model.constrain(fixed, handles, {}, its);
         } catch (const Cancelled&) {
         }
     });
     ASSERT_TRUE(test::wait_until([&] { return its.progress() > 0.0; }));
-    EXPECT_EQ(model.constrain_memory(base, handles), before)
+    EXPECT_EQ(model.constrain_memory(fixed, handles), before)
         << "waited for the factorisation, which is counted no more";
     its.cancel();
     worker.join();
-    EXPECT_EQ(model.constrain_memory(base, handles), before) << "nothing is kept of what was cancelled";
-    model.constrain(base, handles, {}, control);
-    EXPECT_LT(model.constrain_memory(base, handles), before);
+    EXPECT_EQ(model.constrain_memory(fixed, handles), before) << "nothing is kept of what was cancelled";
+    model.constrain(fixed, handles, {}, control);
+    EXPECT_LT(model.constrain_memory(fixed, handles), before);
 }
 
 }  // namespace

@@ -25,10 +25,10 @@ TEST(FreeBorder, ResponsesAreEquilibriaWhoseSurfaceMovesByNoRigidMotion) {
     std::srand(3);
     const Eigen::MatrixXd forces = Eigen::MatrixXd::Random(positions.size(), 2);  // of no balance
 
-    const Eigen::MatrixXd responses =
-        border.responses(forces, [&](const Eigen::MatrixXd& f) { return factor.solve(f); });
+    const Eigen::MatrixXd compliance_columns =
+        border.compliance_columns(forces, [&](const Eigen::MatrixXd& f) { return factor.solve(f); });
 
-    const Eigen::MatrixXd u = responses.topRows(positions.size()), c = responses.bottomRows<6>();
+    const Eigen::MatrixXd u = compliance_columns.topRows(positions.size()), c = compliance_columns.bottomRows<6>();
     Eigen::MatrixXd held = body.K * u;
     held.topRows(n) += R * c;
     EXPECT_LT(relative_error(held, forces), kOfSolve);
@@ -36,7 +36,7 @@ TEST(FreeBorder, ResponsesAreEquilibriaWhoseSurfaceMovesByNoRigidMotion) {
     EXPECT_LT((rigid_modes(positions).transpose() * (body.K * u)).norm(), kOfSolve * forces.norm());
 
     const Eigen::MatrixXd of_surface =
-        border.responses(forces, [&](const Eigen::MatrixXd& f) { return factor.solve(f).topRows(n).eval(); });
+        border.compliance_columns(forces, [&](const Eigen::MatrixXd& f) { return factor.solve(f).topRows(n).eval(); });
     EXPECT_LT(relative_error(of_surface.topRows(n), u.topRows(n)), kOfSolve);
 }
 
@@ -44,7 +44,7 @@ TEST(FreeBorder, OfAHeldBodyChangesNothing) {
     const FemBody body({2, 2, 2});
     const FreeBorder border(body.mesh.vertices, Eigen::MatrixXd(3 * body.n_surface(), 0));
     const Eigen::MatrixXd forces = Eigen::MatrixXd::Random(body.mesh.vertices.size(), 2);
-    EXPECT_EQ(border.responses(forces, [](const Eigen::MatrixXd& f) { return f; }), forces);
+    EXPECT_EQ(border.compliance_columns(forces, [](const Eigen::MatrixXd& f) { return f; }), forces);
 }
 
 }  // namespace

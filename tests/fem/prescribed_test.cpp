@@ -46,10 +46,10 @@ TEST(Prescribed, StretchesABoxExactly) {
 
 TEST(Prescribed, RotatesAsAWhole) {
     const FemBody body({4, 4, 3});
-    const std::vector<int> base = body.face(2, 0.0);
+    const std::vector<int> fixed = body.face(2, 0.0);
     const Eigen::VectorXd exact = rigid_motion(body.mesh.vertices, {0.1, -0.2, 0.3}, {1.0, 2.0, -0.5});
     Control control;
-    const PrescribedSolution solution = solve_prescribed(body.K, body.analysis, base, rows_of(exact, base), control);
+    const PrescribedSolution solution = solve_prescribed(body.K, body.analysis, fixed, rows_of(exact, fixed), control);
     EXPECT_LT(relative_error(solution.displacements, exact), 1e-12);
     EXPECT_LT(solution.forces.cwiseAbs().maxCoeff(), 1e-11);
 }

@@ -22,13 +22,13 @@ struct Potato {
     explicit Potato(int cells) : surface(make_sphere(cells)) {
         surface.vertices.row(2) *= 1.7;
         surface.vertices.row(0) += 0.2 * surface.vertices.row(2).array().square().matrix();
-        base = where([](const Eigen::Vector3d& x) { return x[2] < -1.3; });
+        fixed = where([](const Eigen::Vector3d& x) { return x[2] < -1.3; });
     }
     template <class Where>
     std::vector<int> where(const Where& where) const {
         return test::vertices_where(surface.vertices, surface.n_vertices(), where);
     }
-    /// So many vertices that are nearest to a point, without the base.
+    /// So many vertices that are nearest to a point, without the fixed set.
     std::vector<int> patch(const Eigen::Vector3d& centre, int size) const {
         std::vector<int> vertices = where([](const Eigen::Vector3d& x) { return x[2] >= -1.3; });
         std::sort(vertices.begin(), vertices.end(), [&](int a, int b) {
@@ -45,7 +45,7 @@ struct Potato {
     }
 
     SurfaceMesh surface;
-    std::vector<int> base;
+    std::vector<int> fixed;
 };
 
 struct SetAnswer {
@@ -55,11 +55,11 @@ struct SetAnswer {
 };
 
 /// Base at rest, handles moved at random, several columns at once.
-SetAnswer constrained_answer(const FemModel& model, const std::vector<int>& base, const std::vector<int>& handles) {
+SetAnswer constrained_answer(const FemModel& model, const std::vector<int>& fixed, const std::vector<int>& handles) {
     Control control;
-    const auto solid = model.constrain(base, handles, {}, control);
+    const auto solid = model.constrain(fixed, handles, {}, control);
     std::srand(5);
-    Eigen::MatrixXd values = Eigen::MatrixXd::Zero(3 * std::ssize(base) + 3 * std::ssize(handles), 3);
+    Eigen::MatrixXd values = Eigen::MatrixXd::Zero(3 * std::ssize(fixed) + 3 * std::ssize(handles), 3);
     values.bottomRows(3 * std::ssize(handles)).setRandom();
     NodeSolution solution = solid->solve(values.leftCols(1), true);
     SetAnswer answer{{}, solid->reactions(solution), solid->residual(solution, control)};
@@ -79,18 +79,18 @@ TEST_P(SetPrices, EveryWayGivesTheAnswerOfAFactorisationOfItsOwn) {
         two.insert(two.end(), other.begin(), other.end());
         struct Set {
             const char* what;
-            std::vector<int> base, handles;
+            std::vector<int> fixed, handles;
         };
         for (const Set& set :
-             {Set{"a handle", potato.base, potato.patch({0, 0, 1.7}, 5)},
-              Set{"another on the same base", potato.base, potato.patch({1, 0, 0}, 4)},
-              Set{"more than half of the surface", potato.base,
+             {Set{"a handle", potato.fixed, potato.patch({0, 0, 1.7}, 5)},
+              Set{"another on the same fixed", potato.fixed, potato.patch({1, 0, 0}, 4)},
+              Set{"more than half of the surface", potato.fixed,
                   potato.patch({0, 0, 1.7}, potato.surface.n_vertices() * 2 / 3)},
-              Set{"two handles, no base", {}, two}, Set{"the base alone", potato.base, {}},
-              Set{"a base that does not hold", potato.patch({1, 0, 0}, 2), potato.patch({0, 0, 1.7}, 5)}}) {
+              Set{"two handles, no fixed", {}, two}, Set{"the fixed alone", potato.fixed, {}},
+              Set{"a fixed that does not hold", potato.patch({1, 0, 0}, 2), potato.patch({0, 0, 1.7}, 5)}}) {
             SCOPED_TRACE(testing::Message() << cells << " cells, " << set.what);
-            const SetAnswer truth = constrained_answer(*direct, set.base, set.handles),
-                            answer = constrained_answer(*reduced, set.base, set.handles);
+            const SetAnswer truth = constrained_answer(*direct, set.fixed, set.handles),
+                            answer = constrained_answer(*reduced, set.fixed, set.handles);
             if (set.handles.empty()) {
                 EXPECT_EQ(answer.u.norm(), 0.0);
                 continue;
@@ -108,12 +108,12 @@ TEST_P(SetPrices, ANewHandleOnAKeptBaseNeedsNoFactor) {
     const auto model = potato.model(Update::reduced, GetParam());
     const std::uint64_t factor = model->facts().memory_bytes;
     const std::vector<int> first = potato.patch({0, 0, 1.7}, 12), next = potato.patch({1, 0, 0}, 12);
-    EXPECT_GT(model->constrain_memory(potato.base, first), factor);
+    EXPECT_GT(model->constrain_memory(potato.fixed, first), factor);
     Control control;
-    const auto solid = model->constrain(potato.base, first, {}, control);
-    EXPECT_LT(model->constrain_memory(potato.base, next), factor / 4);
+    const auto solid = model->constrain(potato.fixed, first, {}, control);
+    EXPECT_LT(model->constrain_memory(potato.fixed, next), factor / 4);
     // Most of the surface: cheaper with all of it eliminated.
-    EXPECT_GT(model->constrain_memory(potato.base, potato.patch({0, 0, 1.7}, potato.surface.n_vertices() * 3 / 4)),
+    EXPECT_GT(model->constrain_memory(potato.fixed, potato.patch({0, 0, 1.7}, potato.surface.n_vertices() * 3 / 4)),
               factor);
 }
 

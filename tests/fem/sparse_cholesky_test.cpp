@@ -32,8 +32,8 @@ TEST(SparseCholesky, SolvesForManyRightHandSides) {
 TEST(SparseCholesky, ReusesItsAnalysisForOtherValues) {
     const FemBody body({4, 4, 3});
     const std::vector<int> left = body.face(0, 0.0), right = body.face(0, 1.0);
-    for (const std::vector<int>& base : {left, right}) {
-        const SparseMatrix A = eliminated(body.K, base);
+    for (const std::vector<int>& fixed : {left, right}) {
+        const SparseMatrix A = eliminated(body.K, fixed);
         const Eigen::MatrixXd X = Eigen::MatrixXd::Random(A.rows(), 3);
         EXPECT_LT(relative_error(SparseCholesky(body.analysis, A, "A").solve(A * X), X), 1e-11);
     }

@@ -12,9 +12,9 @@
 namespace elastolab::test {
 namespace {
 
-/// Ways to the same displacements that share only the matrices: the small system with columns on demand and from K^-1
-/// in memory, Eqn. 7 and Eqn. 9 on K (or on H and G where no K serves all sets), and a direct solve of the mixed system
-/// (on demand, direct), which integrates and factorises afresh.
+/// Ways to the same displacements that share only the matrices: the capacitance system with columns on demand and from
+/// K^-1 in memory, Eqn. 7 and Eqn. 9 on K (or on H and G where no K serves all sets), and a direct solve of the mixed
+/// system (on demand, direct), which integrates and factorises afresh.
 const std::vector<std::pair<Mode, Update>> kWays = {{Mode::on_demand, Update::direct},
                                                     {Mode::full, Update::direct},
                                                     {Mode::full, Update::eqn9},
@@ -27,14 +27,14 @@ std::vector<std::pair<Mode, Update>> ways_of(MethodKind kind) {
     return ways;
 }
 
-/// A random set of this share of the vertices; the first part of it is the base, at rest.
-ConstrainedSet random_set(const SurfaceMesh& mesh, double share, bool with_base, std::mt19937& random) {
+/// A random set of this share of the vertices; the first part of it is the fixed set, at rest.
+ConstrainedSet random_set(const SurfaceMesh& mesh, double share, bool with_fixed, std::mt19937& random) {
     std::vector<int> vertices(static_cast<std::size_t>(mesh.n_vertices()));
     std::iota(vertices.begin(), vertices.end(), 0);
     std::shuffle(vertices.begin(), vertices.end(), random);
     vertices.resize(static_cast<std::size_t>(std::max(3.0, share * mesh.n_vertices())));
-    const auto n_base = static_cast<std::ptrdiff_t>(with_base ? std::max<std::size_t>(vertices.size() / 2, 3) : 0);
-    const auto middle = vertices.begin() + std::min<std::ptrdiff_t>(n_base, std::ssize(vertices));
+    const auto n_fixed = static_cast<std::ptrdiff_t>(with_fixed ? std::max<std::size_t>(vertices.size() / 2, 3) : 0);
+    const auto middle = vertices.begin() + std::min<std::ptrdiff_t>(n_fixed, std::ssize(vertices));
     return {{vertices.begin(), middle}, {middle, vertices.end()}};
 }
 
@@ -67,8 +67,8 @@ void expect_agreement(const SurfaceMesh& mesh, const Method& method, unsigned se
         models.push_back(precomputed(body, make_method(method.kind, method.tractions, mode, update)));
     std::mt19937 random(seed);
     for (const double share : {0.01, 0.05, 0.2, 0.4, 0.6})
-        for (const bool with_base : {false, true}) {
-            const ConstrainedSet set = random_set(mesh, share, with_base, random);
+        for (const bool with_fixed : {false, true}) {
+            const ConstrainedSet set = random_set(mesh, share, with_fixed, random);
             if (set.handles.empty()) continue;
             const Eigen::VectorXd values = random_values(set, random);
             const Outcome reference = outcome(reference_model, set, values);
@@ -76,9 +76,9 @@ void expect_agreement(const SurfaceMesh& mesh, const Method& method, unsigned se
                 const Outcome other = outcome(model, set, values);
                 EXPECT_LT((other.displacements - reference.displacements).norm(),
                           kTolerance * reference.displacements.norm())
-                    << describe(model->method()) << ", " << share << (with_base ? " with a base" : "");
+                    << describe(model->method()) << ", " << share << (with_fixed ? " with a fixed" : "");
                 EXPECT_LT((other.forces - reference.forces).norm(), kTolerance * reference.forces.norm())
-                    << describe(model->method()) << ", " << share << (with_base ? " with a base" : "");
+                    << describe(model->method()) << ", " << share << (with_fixed ? " with a fixed" : "");
             }
         }
 }
@@ -90,9 +90,9 @@ TEST_P(Agreement, OfAllUpdatesOnAnOrganicBody) { expect_agreement(make_potato(15
 TEST_P(Agreement, OfAllUpdatesOnPatches) {
     const OrganicBody organic = make_potato(150);
     const Body body = make_body(organic.surface);
-    ConstrainedSet set{organic.base, organic.pull};
+    ConstrainedSet set{organic.fixed, organic.pull};
     for (int v = 0; v < organic.surface.n_vertices() && set.handles.size() == organic.pull.size(); ++v)
-        if (std::find(set.base.begin(), set.base.end(), v) == set.base.end() &&
+        if (std::find(set.fixed.begin(), set.fixed.end(), v) == set.fixed.end() &&
             std::find(set.handles.begin(), set.handles.end(), v) == set.handles.end())
             set.handles.push_back(v);
     std::mt19937 random(5);
@@ -131,7 +131,7 @@ TEST_P(Agreement, OfKeptWithRecomputedColumns) {
     lean.column_memory = 0;
     const auto model = precomputed(body, GetParam()), lean_model = precomputed(body, lean);
     for (const ConstrainedSet& set :
-         {ConstrainedSet{organic.base, organic.pull}, random_set(organic.surface, 0.3, false, random)}) {
+         {ConstrainedSet{organic.fixed, organic.pull}, random_set(organic.surface, 0.3, false, random)}) {
         const Eigen::VectorXd values = random_values(set, random);
         const Outcome kept = outcome(model, set, values), recomputed = outcome(lean_model, set, values);
         EXPECT_LT((kept.displacements - recomputed.displacements).norm(), 1e-11 * kept.displacements.norm());

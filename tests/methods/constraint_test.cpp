@@ -48,12 +48,12 @@ TEST(Constraints, ThatHoldTooLittleGiveTheSmallestMotionAndSaySo) {
 
 TEST(Constraints, OfABaseAloneNeedNoForces) {
     const SurfaceMesh mesh = make_box(3);
-    const auto base = vertices_where(mesh, [](const auto& x) { return x[0] < 1e-9; });
+    const auto fixed = vertices_where(mesh, [](const auto& x) { return x[0] < 1e-9; });
     for (const Update update : {Update::reduced, Update::direct})
         for (const Method& method : method_variants(Mode::on_demand, update)) {
             Control control;
             Deformer deformer(precomputed(make_body(mesh), method));
-            deformer.constrain({base, {}}, control);
+            deformer.constrain({fixed, {}}, control);
             EXPECT_EQ(deformer.displace(Eigen::VectorXd(0)).norm(), 0.0) << describe(method);
             EXPECT_EQ(deformer.reactions(Eigen::VectorXd(0)).forces.norm(), 0.0) << describe(method);
         }
@@ -98,12 +98,12 @@ TEST(Constraints, OnALineLeaveARotationFree) {
 
 TEST(Constraints, OfOneSolidDoNotMoveAnother) {
     const SurfaceMesh one = make_box(3), two = joined(one, moved(make_sphere(2), {5.0, 0.0, 0.0}));
-    const auto base = vertices_where(one, [](const auto& x) { return x[0] < 1e-9; });
+    const auto fixed = vertices_where(one, [](const auto& x) { return x[0] < 1e-9; });
     const auto pull = vertices_where(one, [](const auto& x) { return x[0] > 1.0 - 1e-9; });
     const Eigen::VectorXd values = Eigen::Vector3d(0.1, 0.05, 0.0).replicate(std::ssize(pull), 1);
     for (const Method& method : method_variants()) {
-        const Eigen::VectorXd alone = displaced(precomputed(make_body(one), method), {base, pull}, values);
-        const Eigen::VectorXd both = displaced(precomputed(make_body(two), method), {base, pull}, values);
+        const Eigen::VectorXd alone = displaced(precomputed(make_body(one), method), {fixed, pull}, values);
+        const Eigen::VectorXd both = displaced(precomputed(make_body(two), method), {fixed, pull}, values);
         EXPECT_LT((both.head(alone.size()) - alone).norm(), 1e-12 * alone.norm()) << describe(method);
         EXPECT_EQ(both.tail(both.size() - alone.size()).norm(), 0.0) << describe(method);
     }
@@ -114,8 +114,8 @@ TEST(Constraints, KeepThePreviousSetWhenANewOneFails) {
     const Method method = make_method(kFem, Tractions::discontinuous, Mode::on_demand, Update::direct);
     Control control;
     Deformer deformer(precomputed(make_body(mesh), method));
-    const auto base = vertices_where(mesh, [](const auto& x) { return x[0] < 1e-9; });
-    deformer.constrain({base, {mesh.n_vertices() - 1}}, control);
+    const auto fixed = vertices_where(mesh, [](const auto& x) { return x[0] < 1e-9; });
+    deformer.constrain({fixed, {mesh.n_vertices() - 1}}, control);
     const Eigen::VectorXd before = deformer.displace(Eigen::Vector3d(0.1, 0.0, 0.0));
     EXPECT_THROW(deformer.constrain({{}, {0}}, control), SolveError);
     EXPECT_EQ(deformer.displace(Eigen::Vector3d(0.1, 0.0, 0.0)), before);
@@ -136,12 +136,12 @@ TEST(ConstantBem, ConstrainsATriangleWhenAllItsVerticesAre) {
 
 TEST(ConstantBem, MovesALoneHandleVertexExactlyWithItsHandle) {
     const SurfaceMesh mesh = make_box(4);
-    const auto base = vertices_where(mesh, [](const auto& x) { return x[0] < 1e-9; });
+    const auto fixed = vertices_where(mesh, [](const auto& x) { return x[0] < 1e-9; });
     const auto lone =
         vertices_where(mesh, [](const auto& x) { return (x - Eigen::Vector3d(1.0, 0.5, 0.5)).norm() < 1e-9; });
     ASSERT_EQ(lone.size(), 1u);
     const Eigen::Vector3d shift(0.1, 0.2, -0.1);
-    const Eigen::VectorXd u = displaced(precomputed(make_body(mesh), make_method(kConstantBem)), {base, lone}, shift);
+    const Eigen::VectorXd u = displaced(precomputed(make_body(mesh), make_method(kConstantBem)), {fixed, lone}, shift);
     EXPECT_LT((u.segment<3>(3 * lone[0]) - shift).norm(), 1e-14);
 }
 
@@ -171,12 +171,12 @@ TEST(Methods, HaveNamesThatAreReadBack) {
 /// Young's modulus times displacement may overflow where each of them does not.
 TEST(Reactions, ThatAreBeyondDoublePrecisionAreAnError) {
     const SurfaceMesh mesh = make_box(2);
-    const auto base = vertices_where(mesh, [](const auto& x) { return x[0] < 1e-9; });
+    const auto fixed = vertices_where(mesh, [](const auto& x) { return x[0] < 1e-9; });
     for (const MethodKind kind : elastolab::all_methods()) {
         if (!kind->linear) continue;  // such a motion has no equilibrium
         Control control;
         Deformer deformer(precomputed(make_body(mesh, {1e300, 0.3}), {.kind = kind}));
-        deformer.constrain({base, {mesh.n_vertices() - 1}}, control);
+        deformer.constrain({fixed, {mesh.n_vertices() - 1}}, control);
         EXPECT_TRUE(deformer.displace(Eigen::Vector3d(1e10, 0.0, 0.0)).allFinite()) << kind->name;
         EXPECT_THROW(deformer.reactions(Eigen::Vector3d(1e10, 0.0, 0.0)), SolveError) << kind->name;
     }

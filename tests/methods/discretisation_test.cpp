@@ -274,7 +274,7 @@ TEST(DiscretisationCheck, IsWithinAFactorOfThreeOnOrganicBodiesInNineOfTenCasesA
         {held_below("torus", make_torus(4), {1.0, 0.0, 0.2}, 0.15, 0.7), 0.49}};
     int good = 0, all = 0;
     for (const auto& [body, nu] : bodies) {
-        ASSERT_GT(body.set.base.size(), 3u) << body.name;
+        ASSERT_GT(body.set.fixed.size(), 3u) << body.name;
         ASSERT_GT(body.set.handles.size(), 3u) << body.name;
         const std::vector<Eigen::Matrix3Xd> motions = {body.pulled(), body.turned()};
         const std::vector<KnownAnswer> truths = refined_answers(body, motions, nu, 1);

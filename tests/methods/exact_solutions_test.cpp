@@ -224,13 +224,13 @@ TEST(Reactions, OfAStretchedBoxAreStressTimesArea) {
 
 TEST(Residual, IsRoundingForASolution) {
     const SurfaceMesh mesh = make_box(4);
-    const auto base = vertices_where(mesh, [](const auto& x) { return x[0] < kEdge; });
+    const auto fixed = vertices_where(mesh, [](const auto& x) { return x[0] < kEdge; });
     const auto pull = vertices_where(mesh, [](const auto& x) { return x[0] > 1.0 - kEdge; });
     const Eigen::VectorXd values = Eigen::Vector3d(0.1, 0.05, 0.0).replicate(std::ssize(pull), 1);
     for (const Method& method : method_variants()) {
         Control control;
         Deformer deformer(precomputed(make_body(mesh), method));
-        deformer.constrain({base, pull}, control);
+        deformer.constrain({fixed, pull}, control);
         // That of Galerkin BEM integrates some rows afresh, which shows what the integrals' tolerance of 1e-8 leaves.
         EXPECT_LT(deformer.residual(values, control), method.kind == kGalerkinBem ? 1e-10 : 1e-12) << describe(method);
     }

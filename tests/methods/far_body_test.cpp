@@ -37,7 +37,7 @@ struct FarSolution {
 FarSolution solve(const std::shared_ptr<const Model>& model, const Eigen::Vector3d& centre) {
     const SurfaceMesh& surface = *model->body().surface;
     ConstrainedSet set;
-    set.base = test::vertices_where(surface, [&](const auto& p) { return p.z() - centre.z() == -0.5 * kSize; });
+    set.fixed = test::vertices_where(surface, [&](const auto& p) { return p.z() - centre.z() == -0.5 * kSize; });
     set.handles = test::vertices_where(surface, [&](const auto& p) { return p.z() - centre.z() == 0.5 * kSize; });
     Eigen::VectorXd values(3 * std::ssize(set.handles));
     for (std::size_t i = 0; i < set.handles.size(); ++i) {

@@ -79,7 +79,7 @@ TEST(GalerkinAccuracy, OfATwistedCylinderIsBelowTwoInAHundredThousand) {
 
 TEST(GalerkinAccuracy, ReactionsAreReciprocalAndBalanceWhateverThePoissonRatio) {
     const OrganicCase body = organic_case(make_potato(200));
-    const Eigen::Index n_base = std::ssize(body.set.base), n = 3 * std::ssize(body.set.handles);
+    const Eigen::Index n_fixed = std::ssize(body.set.fixed), n = 3 * std::ssize(body.set.handles);
     const Eigen::VectorXd a = body.values(body.pulled()), b = body.values(body.turned());
     for (const double nu : {0.0, 0.3, 0.49, 0.5}) {
         Control control;
@@ -87,7 +87,7 @@ TEST(GalerkinAccuracy, ReactionsAreReciprocalAndBalanceWhateverThePoissonRatio) 
         deformer.constrain(body.set, control);
         const Reactions of_a = deformer.reactions(a), of_b = deformer.reactions(b);
         const auto work = [&](const Reactions& r, const Eigen::VectorXd& u) {
-            return Eigen::Map<const Eigen::VectorXd>(r.forces.data() + 3 * n_base, n).dot(u);
+            return Eigen::Map<const Eigen::VectorXd>(r.forces.data() + 3 * n_fixed, n).dot(u);
         };
         // Against the work that would be done if all its terms had one sign.
         const double size = of_a.forces.rightCols(n / 3).cwiseAbs().reshaped().dot(b.cwiseAbs());

@@ -31,7 +31,7 @@ struct GrippedBar {
     Eigen::Vector3d resultant_at(const GripEquilibrium& at, std::size_t grip) const {
         const Reactions reactions = deformer->reactions(at.values);
         const Grip& its = grips[grip];
-        return reactions.forces.middleCols(std::ssize(deformer->set().base) + its.begin, its.end - its.begin)
+        return reactions.forces.middleCols(std::ssize(deformer->set().fixed) + its.begin, its.end - its.begin)
             .rowwise()
             .sum();
     }
@@ -40,7 +40,7 @@ struct GrippedBar {
         SurfaceMesh mesh = make_box(cells, size);
         const std::vector<int> left = vertices_where(mesh, [](const auto& p) { return p[0] < 1e-9; });
         const std::vector<int> right = vertices_where(mesh, [&](const auto& p) { return p[0] > size[0] - 1e-9; });
-        ConstrainedSet set{.base = held ? left : std::vector<int>{}, .handles = right};
+        ConstrainedSet set{.fixed = held ? left : std::vector<int>{}, .handles = right};
         grips = {{0, static_cast<int>(right.size())}};
         if (!held) {
             set.handles.insert(set.handles.end(), left.begin(), left.end());
@@ -64,7 +64,7 @@ struct GrippedBar {
     /// What the right end takes there.
     GripForce force_at(const GripPlace& place) const {
         const Reactions reactions = deformer->reactions(values_at(place));
-        const Eigen::Index n = grips[0].end, first = std::ssize(deformer->set().base);
+        const Eigen::Index n = grips[0].end, first = std::ssize(deformer->set().fixed);
         const Vector3d force = reactions.forces.middleCols(first, n).rowwise().sum();
         const Vector3d moment = reactions.moments.middleCols(first, n).rowwise().sum();
         return {force, moment - (middle + place.shift).cross(force)};
@@ -206,7 +206,7 @@ TEST(GripEquilibrium, RandomForcesEndInAnAnswerOrAClearWord) {
                 }
             return found;
         };
-        ConstrainedSet set{.base = patch(0.7), .handles = {}};
+        ConstrainedSet set{.fixed = patch(0.7), .handles = {}};
         std::vector<Grip> grips;
         std::vector<GripForce> forces;
         for (int g = 0; g < 1 + trial % 2; ++g) {
@@ -236,7 +236,7 @@ TEST(GripEquilibrium, RandomForcesEndInAnAnswerOrAClearWord) {
             const Eigen::Matrix3Xd reactions = deformer.reactions(found.values).forces;
             for (std::size_t g = 0; g < grips.size(); ++g) {
                 const Vector3d force =
-                    reactions.middleCols(std::ssize(set.base) + grips[g].begin, grips[g].end - grips[g].begin)
+                    reactions.middleCols(std::ssize(set.fixed) + grips[g].begin, grips[g].end - grips[g].begin)
                         .rowwise()
                         .sum();
                 const Vector3d asked = forces[g].force - forces[g].spring * found.places[g].shift;

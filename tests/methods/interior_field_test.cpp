@@ -100,7 +100,7 @@ InteriorValues solved_inside(const Problem& problem, const SurfaceMesh& mesh, co
     Eigen::VectorXd values(3 * std::ssize(constrained));
     for (std::size_t i = 0; i < constrained.size(); ++i)
         values.segment<3>(3 * static_cast<Eigen::Index>(i)) = problem.displacement(mesh.vertices.col(constrained[i]));
-    return deformer.inside(values, control)->at(points, control);
+    return deformer.interior_field(values, control)->at(points, control);
 }
 
 FieldErrors errors_of(const Problem& problem, const InteriorValues& values, const Positions& points) {
@@ -231,7 +231,7 @@ TEST(InteriorField, FollowsEachSolidByItself) {
         Control control;
         Deformer deformer(precomputed(make_body(both, kMaterial), make_method(kind)));
         deformer.constrain({{}, ends}, control);
-        const InteriorValues inside = deformer.inside(values, control)->at(points, control);
+        const InteriorValues inside = deformer.interior_field(values, control)->at(points, control);
         EXPECT_EQ(inside.displacements.topRows(3).norm(), 0.0);
         EXPECT_EQ(inside.stresses.topRows(6).norm(), 0.0);
         const Eigen::Vector3d u = stretch.displacement(points.col(1) - place - unit * gap);

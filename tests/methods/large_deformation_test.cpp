@@ -34,7 +34,7 @@ struct Bar {
                  ElementDegree elements = ElementDegree::quadratic)
         : unit(size), origin(place) {
         SurfaceMesh mesh = make_box(2, Vector3d(3, 1, 1));
-        set.base = vertices_where(mesh, [](const auto& p) { return p[0] < 1e-9; });
+        set.fixed = vertices_where(mesh, [](const auto& p) { return p[0] < 1e-9; });
         set.handles = vertices_where(mesh, [](const auto& p) { return p[0] > 3 - 1e-9; });
         mesh.vertices = (size * mesh.vertices).colwise() + place;
         body = test::make_body(std::move(mesh), material);
@@ -142,7 +142,7 @@ TEST(LargeDeformation, CauchyStressesOfAHomogeneousStateAreExactOnTheSurfaceAndI
     EXPECT_LT((answer.displacements - all).norm(), kLargeTolerance * all.norm());
     Positions points(3, 3);
     points << 1.0, 0.5, 1.9, 0.5, 0.2, 0.6, 0.5, 0.9, 0.3;
-    const InteriorValues inside = deformer.inside(test::at(all, ends), control)->at(points, control);
+    const InteriorValues inside = deformer.interior_field(test::at(all, ends), control)->at(points, control);
     for (int i = 0; i < 3; ++i) {
         EXPECT_LT((stress_tensor(inside.stresses.col(0).segment<6>(6 * i)) - exact).norm(), 1e-5 * exact.norm());
         EXPECT_LT((inside.displacements.col(0).segment<3>(3 * i) - (F - Matrix3d::Identity()) * points.col(i)).norm(),
@@ -249,7 +249,7 @@ TEST(LargeDeformation, RandomHandlesEndInAnAnswerOrAClearWord) {
                 }
             return vertices;
         };
-        set.base = patch(0.6);
+        set.fixed = patch(0.6);
         std::vector<Eigen::VectorXd> parts;
         for (int handle = 0; handle < 1 + trial % 3; ++handle) {
             const std::vector<int> vertices = patch(0.4 + 0.2 * uniform(random));

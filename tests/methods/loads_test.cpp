@@ -96,7 +96,7 @@ struct Loaded {
         const Eigen::Vector3d size = high - low;
         const auto height = [=](const Eigen::Vector3d& x) { return (x.z() - low.z()) / size.z(); };
         const auto across = [=](const Eigen::Vector3d& x) { return (x.x() - low.x()) / size.x(); };
-        set.base = vertices_where(surface, [&](const auto& x) { return height(x) < 0.2; });
+        set.fixed = vertices_where(surface, [&](const auto& x) { return height(x) < 0.2; });
         set.handles = vertices_where(surface, [&](const auto& x) { return height(x) > 0.85; });
         const auto between = [&](const Eigen::Vector3d& x) { return height(x) > 0.25 && height(x) < 0.8; };
         set.loads = {
@@ -398,7 +398,7 @@ TEST(Loads, StressInsideABodyUnderPressureAndWeightIsRight) {
         Control control;
         Deformer deformer(precomputed(make_body(mesh, bar.material), make_method(kind)));
         deformer.constrain(set, control);
-        const InteriorValues inside = deformer.inside(values, control)->at(point, control);
+        const InteriorValues inside = deformer.interior_field(values, control)->at(point, control);
         EXPECT_NEAR(inside.stresses(2, 0), bar.weight * point.z(), 0.06 * bar.weight) << name(kind);
         EXPECT_NEAR(inside.displacements(2, 0), bar.displacement(point).z(), 0.03 * bar.weight) << name(kind);
     }

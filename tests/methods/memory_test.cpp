@@ -185,12 +185,12 @@ TEST(Memory, OfFemIsPredictedFromTheSurfaceToTheFirstSetAndForLaterOnes) {
 
 TEST(Memory, ThatASetWouldLackIsSaidBeforeItIsComputedAndThePreviousSetStays) {
     const SurfaceMesh mesh = make_box(8);
-    const auto base = vertices_where(mesh, [](const auto& x) { return x[0] < 1e-9; });
-    const ConstrainedSet large{base, vertices_where(mesh, [](const auto& x) { return x[0] > 0.2; })};
+    const auto fixed = vertices_where(mesh, [](const auto& x) { return x[0] < 1e-9; });
+    const ConstrainedSet large{fixed, vertices_where(mesh, [](const auto& x) { return x[0] > 0.2; })};
     for (const Method& method : method_variants()) {
         Control control;
         Deformer deformer(precomputed(make_body(mesh), method));
-        deformer.constrain({base, {mesh.n_vertices() - 1}}, control);
+        deformer.constrain({fixed, {mesh.n_vertices() - 1}}, control);
         const Eigen::VectorXd before = deformer.displace(Eigen::Vector3d(0.1, 0.0, 0.0));
         try {
             const AddressSpaceLimit limit(deformer.predict_memory(large) / 2);

@@ -65,13 +65,13 @@ inline OrganicCase held_below(std::string name, SurfaceMesh mesh, Eigen::Vector3
     const double highest = height.maxCoeff(&top), lowest = height.minCoeff();
     const Eigen::Vector3d summit = mesh.vertices.col(top);
     ConstrainedSet set;
-    set.base = patch_where(mesh, [&](const auto& x) { return x.dot(axis) < lowest + foot * (highest - lowest); });
+    set.fixed = patch_where(mesh, [&](const auto& x) { return x.dot(axis) < lowest + foot * (highest - lowest); });
     set.handles = patch_where(mesh, [&](const auto& x) { return (x - summit).norm() < cap; });
     return {std::move(name), std::move(mesh), std::move(set), axis};
 }
 
 inline OrganicCase organic_case(const OrganicBody& body) {
-    return {body.name, body.surface, {body.base, body.pull}, body.pull_direction};
+    return {body.name, body.surface, {body.fixed, body.pull}, body.pull_direction};
 }
 
 /// A sphere with two horns and waves.
@@ -99,7 +99,7 @@ inline SurfaceMesh make_bent_tube(int cells, double radius, double length, doubl
     return mesh;
 }
 
-/// Displacements of a body's vertices and reactions at its constrained ones (base, then handles).
+/// Displacements of a body's vertices and reactions at its constrained ones (fixed set, then handles).
 struct KnownAnswer {
     Eigen::VectorXd displacements;
     Reactions reactions;
@@ -127,15 +127,15 @@ inline std::vector<KnownAnswer> refined_answers(const OrganicCase& body, const s
     };
     std::vector<char> inside(static_cast<std::size_t>(body.surface.n_triangles()), 0);
     RefinedSurface fine = refine_all(unrefined(body.surface));
-    marks(body.set.base, fine, inside);
+    marks(body.set.fixed, fine, inside);
     marks(body.set.handles, fine, inside);
     for (int round = 0; round < rounds; ++round) fine = refine_marked(fine, around_rim(fine, inside));
-    const std::vector<char> in_base = marks(body.set.base, fine, inside),
+    const std::vector<char> in_fixed = marks(body.set.fixed, fine, inside),
                             in_handle = marks(body.set.handles, fine, inside);
     ConstrainedSet set;
     for (int v = 0; v < fine.mesh.n_vertices(); ++v) {
-        if (in_base[static_cast<std::size_t>(v)])
-            set.base.push_back(v);
+        if (in_fixed[static_cast<std::size_t>(v)])
+            set.fixed.push_back(v);
         else if (in_handle[static_cast<std::size_t>(v)])
             set.handles.push_back(v);
     }
@@ -144,7 +144,7 @@ inline std::vector<KnownAnswer> refined_answers(const OrganicCase& body, const s
     Control control;
     Deformer deformer(precomputed(make_body(fine.mesh, {1.0, poisson_ratio}), method));
     deformer.constrain(set, control);
-    std::vector<int> all = set.base, coarse = body.set.base;
+    std::vector<int> all = set.fixed, coarse = body.set.fixed;
     all.insert(all.end(), set.handles.begin(), set.handles.end());
     coarse.insert(coarse.end(), body.set.handles.begin(), body.set.handles.end());
     std::vector<KnownAnswer> answers;
@@ -168,7 +168,7 @@ inline double displacement_error(const Eigen::VectorXd& u, const Eigen::VectorXd
 
 /// Error of the reactions of the worst patch, over the largest.
 inline double reaction_error(const OrganicCase& body, const Reactions& reactions, const Reactions& truth) {
-    const ConstrainedPatches patches = constrained_patches(body.surface, body.set.base, body.set.handles);
+    const ConstrainedPatches patches = constrained_patches(body.surface, body.set.fixed, body.set.handles);
     return largest_patch_reaction(body.surface, patches,
                                   {reactions.forces - truth.forces, reactions.moments - truth.moments}) /
            largest_patch_reaction(body.surface, patches, truth);

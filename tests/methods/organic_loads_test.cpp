@@ -23,9 +23,9 @@ struct LoadedBody {
     ConstrainedSet set;
     Eigen::VectorXd factors = Eigen::Vector3d(0.02, -0.05, 0.05);
 
-    explicit LoadedBody(OrganicBody organic) : body(std::move(organic)), set{body.base, {}} {
+    explicit LoadedBody(OrganicBody organic) : body(std::move(organic)), set{body.fixed, {}} {
         std::vector<char> is_fixed(static_cast<std::size_t>(body.surface.n_vertices()), 0);
-        for (const int v : body.base) is_fixed[static_cast<std::size_t>(v)] = 1;
+        for (const int v : body.fixed) is_fixed[static_cast<std::size_t>(v)] = 1;
         std::vector<int> side;
         for (int t = 0; t < body.surface.n_triangles(); ++t) {
             const auto corners = body.surface.triangles.col(t);
@@ -37,7 +37,7 @@ struct LoadedBody {
     }
 
     OrganicTruth truth(double nu) const {
-        return compute_truth(body.surface, body.base, Positions::Zero(3, std::ssize(body.base)), {1.0, nu}, {1},
+        return compute_truth(body.surface, body.fixed, Positions::Zero(3, std::ssize(body.fixed)), {1.0, nu}, {1},
                              {set.loads, factors});
     }
     Deformer::Answer answer(double nu, MethodKind kind, Deformer::Wanted wanted) const {

@@ -1,10 +1,8 @@
-// Nonlinear FEM against other code: a bar twisted by 120 degrees, by FEniCSx (scripts/reference_twisted_bar.py).
+// Nonlinear FEM against other code: a bar twisted by 120 degrees, by FEniCSx (scripts/reference_turns.py).
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <map>
 #include <optional>
-#include <sstream>
 #include <tuple>
 
 #include "fem/nonlinear/bodies.hpp"
@@ -12,13 +10,14 @@
 #include "fem/quadratic/method.hpp"
 #include "mesh/primitives.hpp"
 #include "methods/problem.hpp"
+#include "methods/reference.hpp"
 
 namespace elastolab::test {
 namespace {
 
 /// By position in sixths: the vertices of bars of 6 cells, and so of 2 and 3, and half of those of 4 along each axis.
 using Place = std::tuple<int, int, int>;
-using Reference = std::map<Place, Eigen::Vector3d>;
+using Known = std::map<Place, Eigen::Vector3d>;
 
 /// Nothing for a position between sixths.
 std::optional<Place> place_of(const Eigen::Vector3d& x) {
@@ -27,25 +26,17 @@ std::optional<Place> place_of(const Eigen::Vector3d& x) {
     return Place{static_cast<int>(sixths[0]), static_cast<int>(sixths[1]), static_cast<int>(sixths[2])};
 }
 
-Reference read_reference() {
-    std::ifstream file(ELASTOLAB_REFERENCES "/twisted_bar.csv");
-    Reference reference;
-    for (std::string line; std::getline(file, line);) {
-        if (line.empty() || line.front() == '#') continue;
-        std::istringstream row(line);
-        double number[6] = {};
-        for (double& value : number) {
-            row >> value;
-            row.ignore();
-        }
-        reference[place_of({number[0], number[1], number[2]}).value()] = {number[3], number[4], number[5]};
-    }
-    return reference;
+Known known_displacements() {
+    const Reference reference = read_reference("twisted_bar.csv");
+    Known known;
+    for (std::size_t i = 0; i < reference.positions.size(); ++i)
+        known[place_of(reference.positions[i]).value()] = reference.displacements[i];
+    return known;
 }
 
 /// The difference to the reference where it has displacements, rms, over that of the reference there.
 double off_reference(const Positions& rest, const Eigen::VectorXd& u) {
-    static const Reference reference = read_reference();
+    static const Known reference = known_displacements();
     double apart = 0.0, whole = 0.0;
     int n_common = 0;
     for (Eigen::Index v = 0; v < rest.cols(); ++v) {
@@ -69,7 +60,7 @@ struct Twisted {
 Twisted twisted(int cells, MethodKind kind) {
     const SurfaceMesh mesh = make_box(cells, {4, 1, 1});
     ConstrainedSet set;
-    set.base = vertices_where(mesh, [](const auto& p) { return p[0] < kEdge; });
+    set.fixed = vertices_where(mesh, [](const auto& p) { return p[0] < kEdge; });
     set.handles = vertices_where(mesh, [](const auto& p) { return p[0] > 4.0 - kEdge; });
     const Eigen::Vector3d middle(4, 0.5, 0.5);
     const Eigen::Matrix3Xd arms = mesh.vertices(Eigen::all, set.handles).colwise() - middle;

@@ -32,7 +32,7 @@ Solution solve(const Method& method, double unit, double pull = 1.0) {
     SurfaceMesh brick = make_box(3);
     brick.vertices.row(0) *= 2.0;
     brick.vertices *= unit;
-    const ConstrainedSet set{.base = {0, 3, 12, 20, 31}, .handles = {40, 50}};
+    const ConstrainedSet set{.fixed = {0, 3, 12, 20, 31}, .handles = {40, 50}};
     Eigen::VectorXd values(6);
     values << 0.1, 0.0, 0.05, 0.0, -0.03, 0.02;
     values *= unit * pull;
@@ -44,7 +44,7 @@ Solution solve(const Method& method, double unit, double pull = 1.0) {
 }
 
 /// The linear methods (large_deformation_test.cpp has the other); those of collocation with the update that solves a
-/// small system of mixed units.
+/// capacitance system of mixed units.
 std::vector<Method> methods_of_any_update() {
     std::vector<Method> methods;
     for (const MethodKind kind : all_methods())

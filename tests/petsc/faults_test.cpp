@@ -65,6 +65,7 @@ void* operator new(std::size_t size) {
     if (memory == nullptr) throw std::bad_alloc();
     return memory;
 }
+#pragma GCC diagnostic ignored "-Wmismatched-new-delete"  // gcc sees one of the two inlined
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 // NOLINTEND

@@ -100,7 +100,7 @@ TEST(SceneConstraints, FixedSetsAreOneGroupTogether) {
     document.fixed = {{.name = "a", .select = {VertexSelector{{4, 1}}}}, {.select = {VertexSelector{{0, 9, 3}}}}};
     document.handles.push_back({.name = "h", .select = {VertexSelector{{25}}}, .motion = AffineMotion{}});
     const Constraints result = constraints(document);
-    EXPECT_THAT(result.set.base, ElementsAre(4, 1, 0, 9, 3));
+    EXPECT_THAT(result.set.fixed, ElementsAre(4, 1, 0, 9, 3));
     ASSERT_EQ(result.groups.size(), 2U);
     EXPECT_EQ(result.groups[0].name, "fixed");
     EXPECT_EQ(result.groups[0].end, 5);

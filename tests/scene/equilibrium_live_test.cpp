@@ -48,7 +48,7 @@ protected:
     }
     void expect_converged(const Eigen::VectorXd& expected) {
         EXPECT_FALSE(runner().following());
-        EXPECT_TRUE(runner().refined());
+        EXPECT_TRUE(runner().converged());
         EXPECT_EQ(runner().state(), State::ready);
         EXPECT_LT((u() - expected).norm(), kConverged * expected.norm());
     }
@@ -65,7 +65,7 @@ TEST_F(LiveEquilibrium, AFrameFollowsAtOnceAndIsExactWhenTheHandRests) {
         ask(twist(degrees));
         EXPECT_GT(runner().version(), before);
         EXPECT_TRUE(runner().following()) << "the worker has not even begun";
-        EXPECT_FALSE(runner().refined());
+        EXPECT_FALSE(runner().converged());
         EXPECT_LT(off_handle(), 1e-9);
         bench.settle(scene);
         expect_converged(truth(scene, bench.choices.of(kNonlinearFem)));

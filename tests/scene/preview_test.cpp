@@ -38,7 +38,7 @@ void expect_handles_where_they_are_put(const LiveScene& scene, const Eigen::Vect
                    constraints.values.segment<3>(3 * static_cast<Eigen::Index>(i)))
                       .norm(),
                   1e-12);
-    for (const int v : constraints.set.base) EXPECT_LT((u.segment<3>(3 * v)).norm(), 1e-12);
+    for (const int v : constraints.set.fixed) EXPECT_LT((u.segment<3>(3 * v)).norm(), 1e-12);
 }
 
 TEST(Preview, AnswersBeforeTheMethodDoesAndGivesWay) {

@@ -51,15 +51,15 @@ TEST(CarriedConstraints, TakeTheSamePartOfTheProxy) {
     const Positions& x = carried.proxy().surface->vertices;
     const double reach = carried.proxy().edge;
     const ConstrainedSet& set = carried.constraints().set;
-    EXPECT_GT(set.base.size(), 5u);
+    EXPECT_GT(set.fixed.size(), 5u);
     EXPECT_GT(set.handles.size(), 5u);
-    const std::set<int> base(set.base.begin(), set.base.end()), handle(set.handles.begin(), set.handles.end());
+    const std::set<int> fixed(set.fixed.begin(), set.fixed.end()), handle(set.handles.begin(), set.handles.end());
     for (int v = 0; v < x.cols(); ++v) {
         if (x(0, v) < 0.3 - reach) {
-            EXPECT_TRUE(base.contains(v)) << x.col(v).transpose();
+            EXPECT_TRUE(fixed.contains(v)) << x.col(v).transpose();
         }
         if (x(0, v) > 0.3 + reach) {
-            EXPECT_FALSE(base.contains(v)) << x.col(v).transpose();
+            EXPECT_FALSE(fixed.contains(v)) << x.col(v).transpose();
         }
         if (x(0, v) > 3.8 + reach) {
             EXPECT_TRUE(handle.contains(v)) << x.col(v).transpose();
@@ -79,7 +79,7 @@ TEST(CarriedConstraints, ConstrainedShownVerticesGoExactlyWhereTheyArePut) {
     for (std::size_t i = 0; i < shown.set.handles.size(); ++i)
         EXPECT_EQ((u.segment<3>(3 * shown.set.handles[i])),
                   (shown.values.segment<3>(3 * static_cast<Eigen::Index>(i))));
-    for (const int v : shown.set.base) EXPECT_EQ((u.segment<3>(3 * v)), Eigen::Vector3d::Zero());
+    for (const int v : shown.set.fixed) EXPECT_EQ((u.segment<3>(3 * v)), Eigen::Vector3d::Zero());
 }
 
 /// Both ends turn about the middle as one: the whole body does, and every shown vertex with it, but for its distance
@@ -134,15 +134,15 @@ TEST(CarriedConstraints, EveryFixedSetHasItsPartOfTheProxy) {
     const Positions& x = carried.proxy().surface->vertices;
     ASSERT_THAT(c.fixed_sets, testing::SizeIs(3));
     EXPECT_EQ(c.fixed_sets.front().begin, 0);
-    EXPECT_EQ(c.fixed_sets.back().end, std::ssize(c.set.base));
-    EXPECT_EQ(c.groups[0], (ConstraintGroup{"fixed", 0, static_cast<int>(c.set.base.size())}));
+    EXPECT_EQ(c.fixed_sets.back().end, std::ssize(c.set.fixed));
+    EXPECT_EQ(c.groups[0], (ConstraintGroup{"fixed", 0, static_cast<int>(c.set.fixed.size())}));
     const std::array<double, 3> middle = {0.15, kBar.vertices(0, spot[0]), 3.6};
     for (std::size_t s = 0; s < 3; ++s) {
         const ConstraintGroup& set = c.fixed_sets[s];
         EXPECT_EQ(set.name, document.fixed[s].name);
         EXPECT_LT(set.begin, set.end) << set.name;
         for (int i = set.begin; i < set.end; ++i)
-            EXPECT_NEAR(x(0, c.set.base[static_cast<std::size_t>(i)]), middle[s], 0.15 + carried.proxy().edge);
+            EXPECT_NEAR(x(0, c.set.fixed[static_cast<std::size_t>(i)]), middle[s], 0.15 + carried.proxy().edge);
     }
 }
 
@@ -232,7 +232,7 @@ TEST(FilledSurface, AnswersWithTheVerticesThatAreShown) {
     CarriedConstraints carried(proxy);
     const Constraints shown = make_constraints(bar(AffineMotion{.translate = {0, 0, 0.5}}), checked.mesh, "s.json");
     carried.set(shown);
-    EXPECT_EQ(carried.constraints().set.base.size(), shown.set.base.size());
+    EXPECT_EQ(carried.constraints().set.fixed.size(), shown.set.fixed.size());
     EXPECT_EQ(carried.constraints().set.handles.size(), shown.set.handles.size());
     const Eigen::VectorXd u = carried.displacement(solved(carried));
     Deformer whole(precompute({.name = "whole", .surface = std::make_shared<const SurfaceMesh>(intact), .material = {}},
@@ -247,7 +247,7 @@ TEST(FilledSurface, AnswersWithTheVerticesThatAreShown) {
     double off = 0.0;
     for (const int v : used) off += (u.segment<3>(3 * v) - expected.segment<3>(3 * v)).squaredNorm();
     EXPECT_LT(std::sqrt(off), 0.01 * expected.norm());
-    for (const int v : shown.set.base) EXPECT_EQ(u.segment<3>(3 * v).norm(), 0.0);
+    for (const int v : shown.set.fixed) EXPECT_EQ(u.segment<3>(3 * v).norm(), 0.0);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Answers of a method that iterates: to a looser tolerance first, then refined behind it.
+// Answers of a method that iterates: to a looser tolerance first, then converged behind it.
 
 #include <gmock/gmock.h>
 
@@ -34,50 +34,50 @@ struct Refinement : testing::Test {
 TEST_F(Refinement, FollowsAFirstAnswerWithoutAJump) {
     poll_until([&] { return runner.answers(); });
     EXPECT_EQ(runner.state(), State::ready);
-    EXPECT_FALSE(runner.refined());
-    EXPECT_TRUE(runner.refining());
+    EXPECT_FALSE(runner.converged());
+    EXPECT_TRUE(runner.converging());
     EXPECT_EQ(runner.tolerance(), kFirstTolerance);
     EXPECT_LT(relative_difference(runner.displacement(), expected), 1e-3);
     EXPECT_GT(relative_difference(runner.displacement(), expected), 2e-6) << "iterated for nothing";
     const Deformer* deformer = runner.deformer().get();
     const std::uint64_t version = runner.version();
-    poll_until([&] { return runner.answers() && runner.refined(); });
+    poll_until([&] { return runner.answers() && runner.converged(); });
     EXPECT_LT(relative_difference(runner.displacement(), expected), 1e-6);
     EXPECT_EQ(runner.deformer().get(), deformer);
     EXPECT_GT(runner.version(), version);
-    EXPECT_FALSE(runner.refining());
+    EXPECT_FALSE(runner.converging());
 }
 
 TEST_F(Refinement, ServesFurtherMotionsToo) {
-    poll_until([&] { return runner.answers() && runner.refined(); });
+    poll_until([&] { return runner.answers() && runner.converged(); });
     scene.set_motion(0, AffineMotion{.translate = {0.2, -0.1, 0.1}});
     poll_until([&] { return runner.answers(); });
-    EXPECT_TRUE(runner.refined()) << "the same columns";
+    EXPECT_TRUE(runner.converged()) << "the same columns";
     EXPECT_LT(relative_difference(runner.displacement(), truth(scene, {.kind = kLinearBem})), 1e-6);
 }
 
 TEST_F(Refinement, WaitsForMotionsThatTakeLong) {
     runner.set_solve_budget(0.0);
-    poll_until([&] { return runner.answers() && runner.refined(); });
+    poll_until([&] { return runner.answers() && runner.converged(); });
     scene.set_motion(0, AffineMotion{.matrix = 0.2 * Eigen::Matrix3d::Identity(), .translate = {0.1, 0.0, 0.0}});
     poll_until([&] { return runner.answers(); });
-    EXPECT_FALSE(runner.refined());
-    poll_until([&] { return runner.answers() && runner.refined(); });
+    EXPECT_FALSE(runner.converged());
+    poll_until([&] { return runner.answers() && runner.converged(); });
     EXPECT_LT(relative_difference(runner.displacement(), truth(scene, {.kind = kLinearBem})), 1e-6);
 }
 
 TEST_F(Refinement, ThatIsStoppedLeavesTheFirstAnswer) {
     poll_until([&] { return runner.answers(); });
-    ASSERT_TRUE(runner.refining());
+    ASSERT_TRUE(runner.converging());
     runner.cancel();
-    poll_until([&] { return !runner.refining(); });
+    poll_until([&] { return !runner.converging(); });
     for (int frame = 0; frame < 3; ++frame) poll_until([] { return true; });
-    EXPECT_FALSE(runner.refining());
-    EXPECT_FALSE(runner.refined());
+    EXPECT_FALSE(runner.converging());
+    EXPECT_FALSE(runner.converged());
     EXPECT_EQ(runner.state(), State::ready);
     EXPECT_LT(relative_difference(runner.displacement(), expected), 1e-3);
     runner.retry();
-    poll_until([&] { return runner.answers() && runner.refined(); });
+    poll_until([&] { return runner.answers() && runner.converged(); });
     EXPECT_LT(relative_difference(runner.displacement(), expected), 1e-6);
 }
 

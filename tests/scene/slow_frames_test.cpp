@@ -33,7 +33,7 @@ struct SlowFrames : testing::TestWithParam<std::pair<FrameRule, bool>> {
     void settle() {
         test::wait_for([&] {
             frame();
-            return runner.answers() && runner.refined() && runner.state() == State::ready;
+            return runner.answers() && runner.converged() && runner.state() == State::ready;
         });
     }
     void pull(int handle, const AffineMotion& motion) {
@@ -43,7 +43,7 @@ struct SlowFrames : testing::TestWithParam<std::pair<FrameRule, bool>> {
     /// What the slow method says: the mean of what is prescribed.
     Eigen::Vector3d mean() const {
         const Constraints& constraints = scene.constraints();
-        const auto n = static_cast<double>(constraints.set.base.size() + constraints.set.handles.size());
+        const auto n = static_cast<double>(constraints.set.fixed.size() + constraints.set.handles.size());
         return Eigen::Map<const Eigen::Matrix3Xd>(constraints.values.data(), 3, constraints.values.size() / 3)
                    .rowwise()
                    .sum() /
@@ -113,7 +113,7 @@ struct SlowForces : testing::TestWithParam<bool> {
     void settle() {
         test::wait_for([&] {
             frame();
-            return runner.ready() && runner.runner().answers() && runner.runner().refined();
+            return runner.ready() && runner.runner().answers() && runner.runner().converged();
         });
     }
     void move_while_it_is_placed() {

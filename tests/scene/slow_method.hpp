@@ -61,14 +61,14 @@ public:
         facts_.n_vertices = surface.n_vertices();
         facts_.n_triangles = surface.n_triangles();
     }
-    std::unique_ptr<ConstrainedSolid> constrain(std::span<const int> base, std::span<const int> handles,
+    std::unique_ptr<ConstrainedSolid> constrain(std::span<const int> fixed, std::span<const int> handles,
                                                 std::span<const UnitLoad>, Control& control) const override {
         take_long();
         control.checkpoint();
         SolutionChecks checks;
         checks.residual = [](const NodeSolution&, Control&) { return 0.0; };
-        return std::make_unique<ConstrainedSolid>(facts_.n_vertices, constrain_vertices(joined(base, handles)),
-                                                  nodal_shares(vertices_, joined(base, handles)), nullptr,
+        return std::make_unique<ConstrainedSolid>(facts_.n_vertices, constrain_vertices(joined(fixed, handles)),
+                                                  nodal_shares(vertices_, joined(fixed, handles)), nullptr,
                                                   std::make_unique<SlowSolver>(facts_.n_vertices, iterates_),
                                                   std::move(checks));
     }

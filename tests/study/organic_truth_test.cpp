@@ -9,8 +9,8 @@
 
 #include "elasticity/exact_fields.hpp"
 #include "fem/fem_body.hpp"
-#include "study/error/organic_body.hpp"
 #include "mesh/refine.hpp"
+#include "study/error/organic_body.hpp"
 
 namespace elastolab {
 namespace {
@@ -55,7 +55,7 @@ TEST(OrganicBodies, AreClosedAndIrregularAndHaveTheirPatches) {
         for (int v : body.surface.triangles.reshaped()) ++valence[v];
         for (const auto& [v, n] : valence) ++count[n];
         EXPECT_GE(count.size(), 4u);
-        EXPECT_GE(body.base.size(), 10u);
+        EXPECT_GE(body.fixed.size(), 10u);
         EXPECT_GE(body.pull.size(), 6u);
         EXPECT_LT(body.pull.size(), body.surface.vertices.cols() / 10u);
     }

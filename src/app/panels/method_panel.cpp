@@ -70,8 +70,8 @@ std::string state_words(const ViewerState& state, const Cost& cost) {
         case State::preparing:
             return previewing ? "preview; preparing the exact answer" : "preparing the constrained set";
         case State::ready:
-            if (runner.refined()) return state.method->linear ? "ready: pulls are instant" : "exact";
-            return "ready, exact to " + number_text(runner.tolerance()) + (runner.refining() ? "; converging" : "");
+            if (runner.converged()) return state.method->linear ? "ready: pulls are instant" : "exact";
+            return "ready, exact to " + number_text(runner.tolerance()) + (runner.converging() ? "; converging" : "");
         case State::failed:
             return "failed";
     }

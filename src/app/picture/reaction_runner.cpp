@@ -13,7 +13,7 @@ ReactionRunner::Result ReactionRunner::solve(const Deformer& deformer, const Eig
     const Stopwatch watch;
     Result result;
     result.surface = deformer.model().body().surface;
-    result.vertices = deformer.set().base;
+    result.vertices = deformer.set().fixed;
     result.vertices.insert(result.vertices.end(), deformer.set().handles.begin(), deformer.set().handles.end());
     result.reactions = deformer.answer(values, {}, control).reactions;
     if (!result.reactions.forces.allFinite() || !result.reactions.moments.allFinite())
@@ -67,7 +67,7 @@ void ReactionRunner::update(const MethodRunner& runner) {
     poll();
     if (latest_.surface && latest_.surface.get() != runner.surface()) forget();
     if (runner.following()) return;
-    if (runner.refining()) return;  // by the iteration that these need too, which keeps its solutions
+    if (runner.converging()) return;  // by the iteration that these need too, which keeps its solutions
     const std::shared_ptr<const Deformer>& deformer = runner.deformer();
     if (!deformer || runner.values().size() != deformer->set().n_values()) return;
     const bool same_set = deformer_.lock() == deformer;

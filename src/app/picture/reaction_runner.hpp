@@ -30,7 +30,7 @@ public:
 
     /// The surface that the latest reactions are of; null when there are none.
     const SurfaceMesh* surface() const { return latest_.surface.get(); }
-    /// Its constrained vertices, the base first, and the reactions there.
+    /// Its constrained vertices, the fixed set first, and the reactions there.
     const std::vector<int>& vertices() const { return latest_.vertices; }
     const Reactions& reactions() const { return latest_.reactions; }
     /// Grows whenever these change.

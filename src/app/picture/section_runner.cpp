@@ -54,11 +54,11 @@ Eigen::Matrix<double, 6, -1> SectionRunner::stresses() const {
 std::size_t SectionRunner::pulled_group(const EmbeddedRunner& answer) const {
     const std::vector<ConstraintGroup>& groups = answer.constraints().groups;
     const Eigen::VectorXd& values = answer.runner().values();
-    const Eigen::Index n_base = std::ssize(answer.runner().deformer()->set().base);
+    const Eigen::Index n_fixed = std::ssize(answer.runner().deformer()->set().fixed);
     std::size_t pulled = groups.empty() ? 0 : groups.size() - 1;
     if (asked_.size() != values.size()) return pulled;
     for (std::size_t g = 0; g < groups.size(); ++g) {
-        const Eigen::Index begin = 3 * (groups[g].begin - n_base), size = 3 * (groups[g].end - groups[g].begin);
+        const Eigen::Index begin = 3 * (groups[g].begin - n_fixed), size = 3 * (groups[g].end - groups[g].begin);
         if (begin < 0 || begin + size > values.size()) continue;
         if (values.segment(begin, size) != asked_.segment(begin, size)) pulled = g;
     }
@@ -70,14 +70,14 @@ std::shared_ptr<const SectionRunner::Basis> SectionRunner::make_basis(const Embe
     const Eigen::VectorXd& values = answer.runner().values();
     const Positions& rest = deformer.model().body().surface->vertices;
     const std::vector<ConstraintGroup>& groups = answer.constraints().groups;
-    const Eigen::Index n_base = std::ssize(deformer.set().base);
+    const Eigen::Index n_fixed = std::ssize(deformer.set().fixed);
     Eigen::MatrixXd motions(values.size(), 0);
     const bool linear = deformer.linear();
-    const bool fits = linear && group < groups.size() && groups[group].begin >= n_base &&
-                      3 * (groups[group].end - n_base) <= values.size() &&
+    const bool fits = linear && group < groups.size() && groups[group].begin >= n_fixed &&
+                      3 * (groups[group].end - n_fixed) <= values.size() &&
                       deformer.model().facts().n_degrees_of_freedom <= kManyUnknowns;
     if (fits) {
-        const Eigen::Index first = groups[group].begin - n_base, n = groups[group].end - groups[group].begin;
+        const Eigen::Index first = groups[group].begin - n_fixed, n = groups[group].end - groups[group].begin;
         Eigen::MatrixXd shapes = Eigen::MatrixXd::Ones(n, 4);  // 1, x, y, z
         for (Eigen::Index i = 0; i < n; ++i)
             shapes.block<1, 3>(i, 1) =
@@ -113,7 +113,7 @@ std::shared_ptr<const SectionRunner::Columns> SectionRunner::evaluate(Columns co
     control.begin_stage("inside");
     const Stopwatch watch;
     const Eigen::Index n = columns.shape->n_inside(), m = columns.basis->columns.cols();
-    if (!columns.field) columns.field = columns.deformer->inside(columns.basis->columns, control);
+    if (!columns.field) columns.field = columns.deformer->interior_field(columns.basis->columns, control);
     if (columns.known.empty()) {
         columns.known.assign(static_cast<std::size_t>(n), 0);
         columns.displacements = Eigen::MatrixXd::Zero(3 * m, n);
@@ -204,7 +204,7 @@ void SectionRunner::update(const EmbeddedRunner& answer, const std::shared_ptr<c
     if (same && (job_.running() || !failure_.empty())) return;
     const bool spanned = latest_ && spans(*latest_->basis, values);
     if (same && spanned && latest_->n_known == shape->n_inside()) return;
-    if (runner.refining()) return;  // by the iteration that these need too, which keeps its solutions
+    if (runner.converging()) return;  // by the iteration that these need too, which keeps its solutions
     Columns next;
     if (spanned) {
         next = *latest_;
@@ -236,7 +236,7 @@ void SectionRunner::update_at_equilibrium(const EmbeddedRunner& answer,
     if (same != is_current_ || coefficients_.size() != 1) ++revision_;
     is_current_ = same;
     coefficients_ = Eigen::VectorXd::Ones(1);
-    if (!equilibrium || !runner.refined() || job_.running()) return;
+    if (!equilibrium || !runner.converged() || job_.running()) return;
     const bool failed = !failure_.empty() && deformer_.lock() == runner.deformer() && shape_.lock() == shape &&
                         asked_ == runner.values();
     if (failed || (same && latest_->n_known == shape->n_inside())) return;

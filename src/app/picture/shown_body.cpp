@@ -171,8 +171,8 @@ void ShownBody::update_reactions(const Sources& sources) {
     load_tractions_ = load_tractions(
         *answer.surface(), computed.set.loads, computed.values.tail(std::ssize(computed.set.loads)),
         is_large(answer) && moved.size() == answer.surface()->vertices.size() ? moved : Eigen::VectorXd());
-    if (constrained != joined(computed.set.base, computed.set.handles)) return;  // the new set is on its way
-    const std::vector<int> shown_vertices = joined(shown.set.base, shown.set.handles);
+    if (constrained != joined(computed.set.fixed, computed.set.handles)) return;  // the new set is on its way
+    const std::vector<int> shown_vertices = joined(shown.set.fixed, shown.set.handles);
     const std::vector<ConstraintGroup> seen_groups = told_groups(shown);
     for (std::size_t g = 0; g < seen_groups.size(); ++g) {
         const ConstraintGroup& seen = seen_groups[g];

@@ -19,40 +19,40 @@ constexpr int kPacksPerBlock = 4;
 
 int numbers_of(Layer layer) { return layer == Layer::single_layer ? kSingleLayerNumbers : kDoubleLayerNumbers; }
 
-int n_packs(int n_sources, int lanes) { return (n_sources + lanes - 1) / lanes; }
+int n_packs(int n_points, int lanes) { return (n_points + lanes - 1) / lanes; }
 
-/// As many sources as a kernel takes at once, and the ball around them.
+/// As many collocation points as a kernel takes at once, and the ball around them.
 struct Pack {
     SourceLanes lanes{};
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();
     double radius = 0.0;
 
-    Pack(const Sources& sources, std::span<const int> numbers, int n_lanes) {
-        Positions points(3, n_lanes);
+    Pack(const CollocationPoints& points, std::span<const int> numbers, int n_lanes) {
+        Positions own(3, n_lanes);
         for (int i = 0; i < n_lanes; ++i) {
-            const int source = numbers[std::min(static_cast<std::size_t>(i), numbers.size() - 1)];
-            points.col(i) = sources.points.col(source);
-            lanes.x[i] = sources.points(0, source);
-            lanes.y[i] = sources.points(1, source);
-            lanes.z[i] = sources.points(2, source);
-            lanes.own_triangle[i] = sources.own_triangle[static_cast<std::size_t>(source)];
+            const int point = numbers[std::min(static_cast<std::size_t>(i), numbers.size() - 1)];
+            own.col(i) = points.positions.col(point);
+            lanes.x[i] = points.positions(0, point);
+            lanes.y[i] = points.positions(1, point);
+            lanes.z[i] = points.positions(2, point);
+            lanes.own_triangle[i] = points.own_triangle[static_cast<std::size_t>(point)];
         }
-        centre = points.rowwise().mean();
-        radius = (points.colwise() - centre).colwise().norm().maxCoeff();
+        centre = own.rowwise().mean();
+        radius = (own.colwise() - centre).colwise().norm().maxCoeff();
     }
 };
 
-/// Integrates one pack of sources after the other.
+/// Integrates one pack of collocation points after the other.
 class PackIntegrator {
 public:
-    PackIntegrator(Layer layer, const Boundary& boundary, const Sources& sources, const Elements& elements,
+    PackIntegrator(Layer layer, const Boundary& boundary, const CollocationPoints& points, const Elements& elements,
                    double tolerance)
         : layer_(layer),
           boundary_(boundary),
-          sources_(sources),
+          points_(points),
           elements_(elements),
           far_field_(tolerance),
-          order_(along_a_curve(sources.points)) {
+          order_(along_a_curve(points.positions)) {
         const bool linear = elements.order == Elements::Order::linear;
         if (layer == Layer::single_layer)
             kernel_ = linear ? kernels_.single_layer_linear : kernels_.single_layer_constant;
@@ -65,7 +65,7 @@ public:
     /// One slot more than there are: what is not wanted goes there.
     std::size_t buffer_size() const { return slot_size() * static_cast<std::size_t>(elements_.n_slots + 1); }
 
-    /// Numbers of the sources in a pack: as many as lanes, fewer in the last.
+    /// Numbers of the collocation points in a pack: as many as lanes, fewer in the last.
     std::span<const int> sources_of(int pack) const {
         const auto first = static_cast<std::size_t>(pack * lanes());
         return std::span(order_).subspan(first, std::min(static_cast<std::size_t>(lanes()), order_.size() - first));
@@ -75,7 +75,7 @@ public:
     void integrate(int pack, double* buffer) const {
         std::fill(buffer, buffer + buffer_size(), 0.0);
         const std::span<const int> numbers = sources_of(pack);
-        const Pack points(sources_, numbers, lanes());
+        const Pack points(points_, numbers, lanes());
         for (const Elements::Element& element : elements_.elements) {
             const TriangleGeometry& triangle = boundary_.triangle(element.triangle);
             const double distance =
@@ -93,7 +93,7 @@ public:
         for (int s = 0; s < elements_.n_slots; ++s)
             for (std::size_t i = 0; i < slot_size(); ++i) sum[i] += slot(buffer, s)[i];
         for (std::size_t lane = 0; lane < numbers.size(); ++lane)
-            for (const Sources::Weight& weight : sources_.weights[static_cast<std::size_t>(numbers[lane])]) {
+            for (const CollocationPoints::Weight& weight : points_.weights[static_cast<std::size_t>(numbers[lane])]) {
                 if (weight.slot < 0) continue;
                 for (std::size_t i = lane; i < slot_size(); i += static_cast<std::size_t>(lanes()))
                     slot(buffer, weight.slot)[i] -= weight.value * sum[i];
@@ -107,7 +107,7 @@ private:
 
     Layer layer_;
     const Boundary& boundary_;
-    const Sources& sources_;
+    const CollocationPoints& points_;
     const Elements& elements_;
     FarField far_field_;
     std::vector<int> order_;
@@ -129,12 +129,12 @@ public:
         }
     }
 
-    /// Rows of these sources <- buffer [slot][number][lane].
-    void write(const double* buffer, std::span<const int> sources, int lanes, Eigen::Ref<Eigen::MatrixXd> out) const {
+    /// Rows of these collocation points <- buffer [slot][number][lane].
+    void write(const double* buffer, std::span<const int> points, int lanes, Eigen::Ref<Eigen::MatrixXd> out) const {
         const Eigen::Index n_slots = out.cols() / 3, stride = numbers_of(layer_) * lanes;
         for (Eigen::Index s = 0; s < n_slots; ++s)
-            for (std::size_t lane = 0; lane < sources.size(); ++lane)
-                out.block<3, 3>(3 * sources[lane], 3 * s) =
+            for (std::size_t lane = 0; lane < points.size(); ++lane)
+                out.block<3, 3>(3 * points[lane], 3 * s) =
                     block(buffer + s * stride + static_cast<Eigen::Index>(lane), lanes);
     }
 
@@ -163,10 +163,10 @@ private:
 
 }  // namespace
 
-void assemble(Layer layer, const Boundary& boundary, const Sources& sources, const Elements& elements,
+void assemble(Layer layer, const Boundary& boundary, const CollocationPoints& points, const Elements& elements,
               const Material& material, double tolerance, Eigen::Ref<Eigen::MatrixXd> out, Control& control) {
-    assert(out.rows() == 3 * sources.size() && out.cols() == 3 * elements.n_slots);
-    const PackIntegrator integrator(layer, boundary, sources, elements, tolerance);
+    assert(out.rows() == 3 * points.size() && out.cols() == 3 * elements.n_slots);
+    const PackIntegrator integrator(layer, boundary, points, elements, tolerance);
     const Combination combination(layer, material);
     const auto run = [&](int begin, int end) {
         std::vector<double> buffer(integrator.buffer_size());
@@ -176,16 +176,16 @@ void assemble(Layer layer, const Boundary& boundary, const Sources& sources, con
             combination.write(buffer.data(), integrator.sources_of(pack), integrator.lanes(), out);
         }
     };
-    parallel_blocks(n_packs(sources.size(), integrator.lanes()), kPacksPerBlock, control, run);
+    parallel_blocks(n_packs(points.size(), integrator.lanes()), kPacksPerBlock, control, run);
 }
 
-void integrate_block(Layer layer, const Boundary& boundary, const Sources& sources, const Elements& elements,
+void integrate_block(Layer layer, const Boundary& boundary, const CollocationPoints& points, const Elements& elements,
                      const Material& material, double tolerance, Eigen::Ref<Eigen::MatrixXd> out) {
-    assert(out.rows() == 3 * sources.size() && out.cols() == 3 * elements.n_slots);
-    const PackIntegrator integrator(layer, boundary, sources, elements, tolerance);
+    assert(out.rows() == 3 * points.size() && out.cols() == 3 * elements.n_slots);
+    const PackIntegrator integrator(layer, boundary, points, elements, tolerance);
     const Combination combination(layer, material);
     std::vector<double> buffer(integrator.buffer_size());
-    for (int pack = 0; pack < n_packs(sources.size(), integrator.lanes()); ++pack) {
+    for (int pack = 0; pack < n_packs(points.size(), integrator.lanes()); ++pack) {
         integrator.integrate(pack, buffer.data());
         combination.write(buffer.data(), integrator.sources_of(pack), integrator.lanes(), out);
     }

@@ -11,19 +11,19 @@
 
 namespace elastolab {
 
-/// Responses Hhat^-1 [G; 0] of a boundary-element solid to the loads of a space. They are kept where the system keeps
-/// columns for so many (BemSystem::keeps); else nothing is kept: the small system is made from groups of columns, and
-/// a product integrates and solves afresh. That is as exact and saves a second matrix; each product takes the time of a
-/// set change divided by the number of loads.
-class BemResponses : public Responses {
+/// ComplianceColumns Hhat^-1 [G; 0] of a boundary-element solid to the loads of a space. They are kept where the system
+/// keeps columns for so many (BemSystem::keeps); else nothing is kept: the capacitance system is made from groups of
+/// columns, and a product integrates and solves afresh. That is as exact and saves a second matrix; each product takes
+/// the time of a set change divided by the number of loads.
+class BemComplianceColumns : public ComplianceColumns {
 public:
-    BemResponses(std::shared_ptr<const BemSystem> system, TractionSpace space, std::span<const UnitLoad> loads,
-                 Control& control);
+    BemComplianceColumns(std::shared_ptr<const BemSystem> system, TractionSpace space, std::span<const UnitLoad> loads,
+                         Control& control);
 
-    Eigen::Index cols() const override { return space_.n_unknowns(); }
+    Eigen::Index cols() const override { return space_.n_degrees_of_freedom(); }
     Eigen::Index n_given() const override { return given_.cols(); }
-    Eigen::MatrixXd small_matrix(const std::vector<int>& nodes, const Eigen::MatrixXd& rigid,
-                                 Control& control) const override;
+    Eigen::MatrixXd capacitance_matrix(const std::vector<int>& nodes, const Eigen::MatrixXd& rigid,
+                                       Control& control) const override;
     void add_product(const Eigen::MatrixXd& loads, Eigen::Ref<Eigen::MatrixXd> displacements,
                      Control& control) const override;
 
@@ -43,11 +43,11 @@ private:
     Columns given_;  ///< of these loads
 };
 
-/// The small system of a constrained set: its responses, kept or not, and the border.
+/// The capacitance system of a constrained set: its compliance columns, kept or not, and the border.
 ReducedSystem reduced_system(const std::shared_ptr<const BemSystem>& system, const TractionSpace& space,
                              const std::vector<int>& nodes, std::span<const UnitLoad> loads, Control& control);
 
-/// Bytes that the responses of a space, their small system and its making take at their peak.
-std::uint64_t response_memory(const BemSystem& system, const TractionSpace& space);
+/// Bytes that the compliance columns of a space, their capacitance system and its making take at their peak.
+std::uint64_t compliance_memory(const BemSystem& system, const TractionSpace& space);
 
 }  // namespace elastolab

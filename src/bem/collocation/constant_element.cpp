@@ -9,7 +9,7 @@ namespace {
 
 class ConstantElement final : public BoundaryElement {
 public:
-    Sources nodes(const Boundary& boundary) const override { return centroid_sources(boundary); }
+    CollocationPoints nodes(const Boundary& boundary) const override { return centroid_collocation_points(boundary); }
 
     Elements shape_functions(const Boundary& boundary) const override {
         std::vector<int> triangles(static_cast<std::size_t>(boundary.n_triangles()));
@@ -20,11 +20,11 @@ public:
     bool has_stiffness(Tractions) const override { return true; }
 
     BemConstraints constrain(const Boundary& boundary, const VertexTriangles& triangles_of_vertex, Tractions,
-                             std::span<const int> base, std::span<const int> handles) const override {
-        const std::vector<int> vertices = joined(base, handles);
+                             std::span<const int> fixed, std::span<const int> handles) const override {
+        const std::vector<int> vertices = joined(fixed, handles);
         ConstrainedNodes nodes = constrain_triangles(boundary.mesh(), triangles_of_vertex, vertices);
         TractionSpace space = constant_traction_space(boundary, nodes.nodes, nodes.prescribe);
-        // Triangles may have corners of the base and of a handle; none of them counts as resting then.
+        // Triangles may have corners of the fixed set and of a handle; none of them counts as resting then.
         return {std::move(nodes), std::move(space), 0};
     }
 

@@ -14,7 +14,7 @@ namespace elastolab {
 struct BemConstraints {
     ConstrainedNodes nodes;
     TractionSpace space;
-    int n_base = 0;  ///< the first so many nodes rest
+    int n_fixed = 0;  ///< the first so many nodes rest
 };
 
 /// What a collocation method puts on a triangle: where its nodes are, which shape functions carry displacements and
@@ -24,14 +24,14 @@ public:
     virtual ~BoundaryElement() = default;
 
     /// Collocation points, one for each node.
-    virtual Sources nodes(const Boundary& boundary) const = 0;
+    virtual CollocationPoints nodes(const Boundary& boundary) const = 0;
     /// Shape functions of the displacements over the whole surface; slot = node.
     virtual Elements shape_functions(const Boundary& boundary) const = 0;
     /// Whether one K = G^-1 H serves every constrained set: the tractions are carried by the shape functions of the
     /// displacements.
     virtual bool has_stiffness(Tractions tractions) const = 0;
     virtual BemConstraints constrain(const Boundary& boundary, const VertexTriangles& triangles_of_vertex,
-                                     Tractions tractions, std::span<const int> base,
+                                     Tractions tractions, std::span<const int> fixed,
                                      std::span<const int> handles) const = 0;
     /// What takes displacements of nodes to those of vertices, 3*n_vertices x 3*n_nodes; null where they are the same.
     virtual std::shared_ptr<const SparseRows> display(const SurfaceMesh& mesh,

@@ -15,14 +15,14 @@ constexpr int kGivenNumbers = 8'000'000;
 
 }  // namespace
 
-Eigen::MatrixXd given_single_layer(const Boundary& boundary, const Sources& sources, const Material& material,
+Eigen::MatrixXd given_single_layer(const Boundary& boundary, const CollocationPoints& points, const Material& material,
                                    double tolerance, std::span<const UnitLoad> loads, Control& control) {
-    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(3 * sources.size(), std::ssize(loads));
+    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(3 * points.size(), std::ssize(loads));
     for (const GivenTractions& given : given_tractions(boundary, loads)) {
-        const int at_once = std::clamp(kGivenNumbers / (9 * given.elements.n_slots), 8, kSourcesAtOnce);
-        for_source_strips(
-            sources,
-            [&](int first, const Sources& strip) {
+        const int at_once = std::clamp(kGivenNumbers / (9 * given.elements.n_slots), 8, kPointsAtOnce);
+        for_point_strips(
+            points,
+            [&](int first, const CollocationPoints& strip) {
                 Eigen::MatrixXd G(3 * strip.size(), 3 * given.elements.n_slots);
                 assemble(Layer::single_layer, boundary, strip, given.elements, material, tolerance, G, control);
                 const Eigen::MatrixXd seen = G * given.coefficients;

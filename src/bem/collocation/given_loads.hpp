@@ -10,9 +10,9 @@
 
 namespace elastolab {
 
-/// The single layer of the loads' tractions, seen from sources: 3*sources x loads.size(). Integrates in
-/// strips. Throws Cancelled.
-Eigen::MatrixXd given_single_layer(const Boundary& boundary, const Sources& sources, const Material& material,
+/// The single layer of the loads' tractions, seen from collocation points: 3*collocation points x loads.size().
+/// Integrates in strips. Throws Cancelled.
+Eigen::MatrixXd given_single_layer(const Boundary& boundary, const CollocationPoints& points, const Material& material,
                                    double tolerance, std::span<const UnitLoad> loads, Control& control);
 
 }  // namespace elastolab

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "bem/collocation/given_loads.hpp"
-#include "bem/hierarchical/free_motions.hpp"
+#include "bem/hierarchical/free_modes.hpp"
 #include "bem/hierarchical/item_rows.hpp"
 #include "deform/gmres.hpp"
 #include "deform/load_columns.hpp"
@@ -48,18 +48,20 @@ HierarchicalCollocation::HierarchicalCollocation(std::shared_ptr<const Boundary>
       options_{.tolerance = std::min(kFarError * tolerance, kMostFarError), .eta = kEta},
       motions_(std::make_shared<const Eigen::MatrixXd>(rigid_modes(boundary_->mesh().vertices))),
       elements_(*boundary_, vertex_elements(*boundary_)),
-      H_(*boundary_, vertex_sources(*boundary_), elements_, motions_, material_, tolerance_, options_, control) {}
+      H_(*boundary_, vertex_collocation_points(*boundary_), elements_, motions_, material_, tolerance_, options_,
+         control) {}
 
 Eigen::MatrixXd HierarchicalCollocation::given_at_vertices(std::span<const UnitLoad> loads, Control& control) const {
     const auto compute = [&](std::span<const UnitLoad> missing) {
-        return given_single_layer(*boundary_, vertex_sources(*boundary_), material_, tolerance_, missing, control);
+        return given_single_layer(*boundary_, vertex_collocation_points(*boundary_), material_, tolerance_, missing,
+                                  control);
     };
     return load_columns(given_, loads, 3 * elements_.n_slots(), compute, control).middle(0, std::ssize(loads));
 }
 
-std::unique_ptr<const HierarchicalDoubleLayer> HierarchicalCollocation::seen_from(Sources sources,
+std::unique_ptr<const HierarchicalDoubleLayer> HierarchicalCollocation::seen_from(CollocationPoints points,
                                                                                   Control& control) const {
-    return std::make_unique<const HierarchicalDoubleLayer>(*boundary_, std::move(sources), elements_, motions_,
+    return std::make_unique<const HierarchicalDoubleLayer>(*boundary_, std::move(points), elements_, motions_,
                                                            material_, tolerance_, options_, control);
 }
 
@@ -71,15 +73,15 @@ CollocationProblem::CollocationProblem(std::shared_ptr<const HierarchicalColloca
       constrained_(std::move(constrained)),
       at_(free_),
       traction_scale_(matrices_->material().shear_modulus() / mean_edge(matrices_->boundary().mesh())),
-      free_motions_(unseen_motions(*matrices_->motions(), constrained_)) {
+      free_modes_(unseen_modes(*matrices_->motions(), constrained_)) {
     if (must_hold && !holds_the_body()) throw NotHeldError();
     control.begin_stage("integrate tractions");
     const std::vector<int> collocated = without(constrained_, space.dropped_collocation);
     at_.insert(at_.end(), collocated.begin(), collocated.end());
     loads_ = matrices_->loads_of(space, control);
-    const Sources interior = sources_inside(matrices_->boundary(), space.interior_triangles);
+    const CollocationPoints interior = inner_collocation_points(matrices_->boundary(), space.interior_triangles);
     points_.resize(3, std::ssize(at_) + interior.size());
-    points_ << matrices_->boundary().mesh().vertices(Eigen::all, at_), interior.points;
+    points_ << matrices_->boundary().mesh().vertices(Eigen::all, at_), interior.positions;
     given_.resize(size(), std::ssize(loads));
     if (!loads.empty())
         given_ << rows_of(matrices_->given_at_vertices(loads, control), at_),
@@ -87,7 +89,7 @@ CollocationProblem::CollocationProblem(std::shared_ptr<const HierarchicalColloca
                                control);
     // A triangle holds the body: where there is one, with interior points or without, nothing is free.
     assert(holds_the_body() || loads_->n_interior() == 0);
-    shift_ = rows_of(free_motions_, at_);
+    shift_ = rows_of(free_modes_, at_);
 }
 
 Eigen::MatrixXd CollocationProblem::rows_of_equations(const Eigen::MatrixXd& everywhere) const {
@@ -108,7 +110,7 @@ Eigen::MatrixXd CollocationProblem::product(const Eigen::MatrixXd& X) const {
     put_rows(X, free_, displacements);
     Eigen::MatrixXd rows = equations(displacements);
     rows -= rows_of_equations(loads_->single_layer(traction_scale_ * X.bottomRows(3 * n_slots())));
-    if (!holds_the_body()) rows.noalias() += shift_ * (free_motions_.transpose() * displacements).eval();
+    if (!holds_the_body()) rows.noalias() += shift_ * (free_modes_.transpose() * displacements).eval();
     return rows;
 }
 
@@ -129,7 +131,7 @@ Eigen::MatrixXd CollocationProblem::sparse_product(const SparseColumns& Z, Contr
     const Eigen::Index n_at = 3 * std::ssize(at_);
     rows.topRows(n_at) += rows_of(matrices_->at_vertices().sparse_product(displacements, control), at_);
     rows.bottomRows(rows.rows() - n_at) += loads_->double_layer(displacements, control);
-    if (!holds_the_body()) rows.noalias() += shift_ * (free_motions_.transpose() * displacements).eval();
+    if (!holds_the_body()) rows.noalias() += shift_ * (free_modes_.transpose() * displacements).eval();
     return rows;
 }
 
@@ -144,7 +146,7 @@ Eigen::MatrixXd CollocationProblem::right_side(const Eigen::MatrixXd& prescribed
 Eigen::MatrixXd CollocationProblem::assemble_answer(const Eigen::MatrixXd& prescribed, const Eigen::MatrixXd& X) const {
     Eigen::MatrixXd displacements = Eigen::MatrixXd::Zero(3 * n_vertices(), X.cols());
     put_rows(X, free_, displacements);
-    orthogonalise(displacements, free_motions_);
+    orthogonalise(displacements, free_modes_);
     put_rows(prescribed, constrained_, displacements);
     Eigen::MatrixXd answer(displacements.rows() + 3 * n_slots(), X.cols());
     answer << displacements, traction_scale_ * X.bottomRows(3 * n_slots());
@@ -177,8 +179,7 @@ Eigen::MatrixXd CollocationProblem::block(const std::vector<int>& numbers) const
     A.bottomLeftCorner(3 * std::ssize(interior), n_displacements) = loads_->double_layer_block(interior, vertices);
     A.rightCols(n - n_displacements) = -traction_scale_ * loads_->single_layer_block(everywhere, slots);
     if (!holds_the_body())
-        A.leftCols(n_displacements).noalias() +=
-            rows_of(shift_, numbers) * rows_of(free_motions_, vertices).transpose();
+        A.leftCols(n_displacements).noalias() += rows_of(shift_, numbers) * rows_of(free_modes_, vertices).transpose();
     return A;
 }
 

@@ -37,7 +37,7 @@ public:
     const ClusteredElements& elements() const { return elements_; }
     const HierarchicalDoubleLayer& at_vertices() const { return H_; }
     /// The double layer seen from other points.
-    std::unique_ptr<const HierarchicalDoubleLayer> seen_from(Sources sources, Control& control) const;
+    std::unique_ptr<const HierarchicalDoubleLayer> seen_from(CollocationPoints points, Control& control) const;
     /// What a constrained set adds; see CollocationLoads. Throws Cancelled.
     std::shared_ptr<const CollocationLoads> loads_of(const TractionSpace& space, Control& control) const {
         return living_.add(
@@ -80,7 +80,7 @@ public:
     /// The solution that such an answer is made of.
     Eigen::MatrixXd unknowns_of(const Eigen::MatrixXd& answer) const;
 
-    bool holds_the_body() const { return free_motions_.cols() == 0; }
+    bool holds_the_body() const { return free_modes_.cols() == 0; }
     int n_vertices() const { return matrices_->elements().n_slots(); }
     int n_slots() const { return loads_->n_slots(); }
     int n_free() const { return static_cast<int>(free_.size()); }
@@ -102,7 +102,7 @@ private:
     std::shared_ptr<const CollocationLoads> loads_;
     Positions points_;
     double traction_scale_;  ///< [force / L^2] over [L], so that tractions and displacements count alike
-    Eigen::MatrixXd free_motions_, shift_;
+    Eigen::MatrixXd free_modes_, shift_;
     Eigen::MatrixXd given_;  ///< single layer of the given loads in every equation
 };
 

@@ -21,12 +21,12 @@ std::shared_ptr<const ClusterTree> cluster_points(const Positions& points) {
 /// Entries of one layer; in far blocks, which are approximated anyway, integrals are less exact.
 class CollocationEntries : public BlockEntries {
 public:
-    CollocationEntries(Layer layer, const Boundary& boundary, const Sources& sources, const ClusterTree& source_tree,
-                       const ClusteredElements& elements, const Material& material, double tolerance,
-                       double far_tolerance)
+    CollocationEntries(Layer layer, const Boundary& boundary, const CollocationPoints& points,
+                       const ClusterTree& source_tree, const ClusteredElements& elements, const Material& material,
+                       double tolerance, double far_tolerance)
         : layer_(layer),
           boundary_(boundary),
-          ordered_(sources.subset(source_tree.order())),
+          ordered_(points.subset(source_tree.order())),
           elements_(elements),
           material_(material),
           tolerance_(tolerance),
@@ -48,7 +48,7 @@ private:
 
     Layer layer_;
     const Boundary& boundary_;
-    Sources ordered_;
+    CollocationPoints ordered_;
     const ClusteredElements& elements_;
     Material material_;
     double tolerance_, far_tolerance_;
@@ -105,39 +105,39 @@ Elements ClusteredElements::collect(std::span<const int> slots, const Number& nu
     return some;
 }
 
-HierarchicalLayer::HierarchicalLayer(Layer layer, const Boundary& boundary, const Sources& sources,
+HierarchicalLayer::HierarchicalLayer(Layer layer, const Boundary& boundary, const CollocationPoints& points,
                                      const ClusteredElements& elements, const Material& material, double tolerance,
                                      const HierarchicalOptions& options, Control& control)
-    : sources_(cluster_points(sources.points)),
+    : points_(cluster_points(points.positions)),
       elements_(elements.tree()),
-      matrix_(sources_, elements_, false,
-              CollocationEntries(layer, boundary, sources, *sources_, elements, material, tolerance,
+      matrix_(points_, elements_, false,
+              CollocationEntries(layer, boundary, points, *points_, elements, material, tolerance,
                                  kFarIntegralError * options.tolerance),
               options, control) {}
 
 Eigen::MatrixXd HierarchicalLayer::product(const Eigen::MatrixXd& X) const {
-    return to_item_order(*sources_, matrix_.product(to_tree_order(*elements_, X)));
+    return to_item_order(*points_, matrix_.product(to_tree_order(*elements_, X)));
 }
 
 Eigen::MatrixXd HierarchicalLayer::sparse_product(const SparseColumns& Z, Control& control) const {
-    return to_item_order(*sources_, matrix_.sparse_product(to_tree_order(*elements_, Z), control));
+    return to_item_order(*points_, matrix_.sparse_product(to_tree_order(*elements_, Z), control));
 }
 
-Eigen::MatrixXd HierarchicalLayer::block(std::span<const int> sources, std::span<const int> slots) const {
-    const Places rows(*sources_, sources), cols(*elements_, slots);
+Eigen::MatrixXd HierarchicalLayer::block(std::span<const int> points, std::span<const int> slots) const {
+    const Places rows(*points_, points), cols(*elements_, slots);
     return matrix_.submatrix(rows.positions, cols.positions)(rows.of_items, cols.of_items);
 }
 
-HierarchicalDoubleLayer::HierarchicalDoubleLayer(const Boundary& boundary, Sources sources,
+HierarchicalDoubleLayer::HierarchicalDoubleLayer(const Boundary& boundary, CollocationPoints points,
                                                  const ClusteredElements& elements,
                                                  std::shared_ptr<const Eigen::MatrixXd> motions,
                                                  const Material& material, double tolerance,
                                                  const HierarchicalOptions& options, Control& control)
-    : sources_(std::move(sources)),
+    : points_(std::move(points)),
       motions_(std::move(motions)),
-      layer_(Layer::double_layer, boundary, sources_, elements, material, tolerance, options, control) {
+      layer_(Layer::double_layer, boundary, points_, elements, material, tolerance, options, control) {
     const Eigen::MatrixXd sums = layer_.product(Eigen::Matrix3d::Identity().replicate(elements.n_slots(), 1));
-    for (int source = 0; source < sources_.size(); ++source) free_terms_.push_back(-sums.middleRows<3>(3 * source));
+    for (int source = 0; source < points_.size(); ++source) free_terms_.push_back(-sums.middleRows<3>(3 * source));
     of_motions_ = layer_.product(*motions_);
 }
 
@@ -160,20 +160,20 @@ Eigen::MatrixXd HierarchicalDoubleLayer::sparse_product(const SparseColumns& U, 
 }
 
 void HierarchicalDoubleLayer::add_free_terms(const Eigen::MatrixXd& U, Eigen::MatrixXd& rows) const {
-    for (int source = 0; source < sources_.size(); ++source)
-        for (const Sources::Weight& weight : sources_.weights[static_cast<std::size_t>(source)])
+    for (int source = 0; source < points_.size(); ++source)
+        for (const CollocationPoints::Weight& weight : points_.weights[static_cast<std::size_t>(source)])
             if (weight.slot >= 0)
                 rows.middleRows<3>(3 * source) += weight.value * (free_term(source) * U.middleRows<3>(3 * weight.slot));
 }
 
-Eigen::MatrixXd HierarchicalDoubleLayer::block(std::span<const int> sources, std::span<const int> slots) const {
-    Eigen::MatrixXd A = layer_.block(sources, slots);
-    for (std::size_t row = 0; row < sources.size(); ++row)
-        for (const Sources::Weight& weight : sources_.weights[static_cast<std::size_t>(sources[row])]) {
+Eigen::MatrixXd HierarchicalDoubleLayer::block(std::span<const int> points, std::span<const int> slots) const {
+    Eigen::MatrixXd A = layer_.block(points, slots);
+    for (std::size_t row = 0; row < points.size(); ++row)
+        for (const CollocationPoints::Weight& weight : points_.weights[static_cast<std::size_t>(points[row])]) {
             const auto at = std::lower_bound(slots.begin(), slots.end(), weight.slot);
             if (at != slots.end() && *at == weight.slot)
                 A.block<3, 3>(3 * static_cast<Eigen::Index>(row), 3 * (at - slots.begin())) +=
-                    weight.value * free_term(sources[row]);
+                    weight.value * free_term(points[row]);
         }
     return A;
 }

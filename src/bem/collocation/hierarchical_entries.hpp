@@ -38,19 +38,20 @@ private:
 class HierarchicalLayer {
 public:
     /// Throws Cancelled.
-    HierarchicalLayer(Layer layer, const Boundary& boundary, const Sources& sources, const ClusteredElements& elements,
-                      const Material& material, double tolerance, const HierarchicalOptions& options, Control& control);
+    HierarchicalLayer(Layer layer, const Boundary& boundary, const CollocationPoints& points,
+                      const ClusteredElements& elements, const Material& material, double tolerance,
+                      const HierarchicalOptions& options, Control& control);
 
-    /// Rows in the order of the sources, columns in that of the slots.
+    /// Rows in the order of the collocation points, columns in that of the slots.
     Eigen::MatrixXd product(const Eigen::MatrixXd& X) const;
     /// The same for columns that are zero in most places. Throws Cancelled.
     Eigen::MatrixXd sparse_product(const SparseColumns& Z, Control& control) const;
-    /// Entries of these sources and slots, as exactly as the matrix has them.
-    Eigen::MatrixXd block(std::span<const int> sources, std::span<const int> slots) const;
+    /// Entries of these collocation points and slots, as exactly as the matrix has them.
+    Eigen::MatrixXd block(std::span<const int> points, std::span<const int> slots) const;
     std::uint64_t memory_bytes() const { return matrix_.memory_bytes(); }
 
 private:
-    std::shared_ptr<const ClusterTree> sources_, elements_;
+    std::shared_ptr<const ClusterTree> points_, elements_;
     HierarchicalMatrix matrix_;
 };
 
@@ -60,24 +61,24 @@ class HierarchicalDoubleLayer {
 public:
     /// elements: those of bem/boundary.hpp, vertex_elements. motions: rigid ones of all vertices, orthonormal.
     /// Throws Cancelled.
-    HierarchicalDoubleLayer(const Boundary& boundary, Sources sources, const ClusteredElements& elements,
+    HierarchicalDoubleLayer(const Boundary& boundary, CollocationPoints points, const ClusteredElements& elements,
                             std::shared_ptr<const Eigen::MatrixXd> motions, const Material& material, double tolerance,
                             const HierarchicalOptions& options, Control& control);
 
-    const Sources& sources() const { return sources_; }
+    const CollocationPoints& points() const { return points_; }
     /// c(x) of each source.
     const Eigen::Matrix3d& free_term(int source) const { return free_terms_[static_cast<std::size_t>(source)]; }
     Eigen::MatrixXd product(const Eigen::MatrixXd& U) const;
     /// The same for columns that are zero in most places. Throws Cancelled.
     Eigen::MatrixXd sparse_product(const SparseColumns& U, Control& control) const;
-    /// Entries of these sources and slots (ascending).
-    Eigen::MatrixXd block(std::span<const int> sources, std::span<const int> slots) const;
+    /// Entries of these collocation points and slots (ascending).
+    Eigen::MatrixXd block(std::span<const int> points, std::span<const int> slots) const;
     std::uint64_t memory_bytes() const { return layer_.memory_bytes(); }
 
 private:
     void add_free_terms(const Eigen::MatrixXd& U, Eigen::MatrixXd& rows) const;
 
-    Sources sources_;
+    CollocationPoints points_;
     std::shared_ptr<const Eigen::MatrixXd> motions_;
     HierarchicalLayer layer_;
     std::vector<Eigen::Matrix3d> free_terms_;

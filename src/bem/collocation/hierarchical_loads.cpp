@@ -50,13 +50,13 @@ LoadGeneration::LoadGeneration(const HierarchicalCollocation& matrices, const Tr
     std::vector<int> triangles;
     for (const int t : space.interior_triangles)
         if (points.try_emplace(t, first_point + 3 * static_cast<int>(triangles.size())).second) triangles.push_back(t);
-    const Sources new_points = sources_inside(matrices.boundary(), triangles);
+    const CollocationPoints new_points = inner_collocation_points(matrices.boundary(), triangles);
     interior.append(new_points);
-    Sources everywhere = matrices.at_vertices().sources();
+    CollocationPoints everywhere = matrices.at_vertices().points();
     everywhere.append(interior);
-    const auto single_layer = [&](const Sources& sources, const Elements& of) {
+    const auto single_layer = [&](const CollocationPoints& from, const Elements& of) {
         return std::make_unique<const HierarchicalLayer>(
-            Layer::single_layer, matrices.boundary(), sources, ClusteredElements(matrices.boundary(), merged(of)),
+            Layer::single_layer, matrices.boundary(), from, ClusteredElements(matrices.boundary(), merged(of)),
             matrices.material(), matrices.tolerance(), matrices.options(), control);
     };
     columns = single_layer(everywhere, added);

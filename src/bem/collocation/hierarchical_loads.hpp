@@ -31,7 +31,7 @@ struct LoadGeneration {
     std::map<ColumnKey, int> slots;  ///< first one of each block of a traction space
     std::map<int, int> points;       ///< first one of each triangle with interior points
     Elements elements;
-    Sources interior;
+    CollocationPoints interior;
     // Of this generation alone:
     int first_slot = 0, first_point = 0;
     std::unique_ptr<const HierarchicalLayer> columns;     ///< at all vertices, then at all points, of the new slots

@@ -27,7 +27,8 @@ std::vector<int> collocated(const TractionSpace& space, const std::vector<int>& 
 
 /// Columns of the mixed matrix that a thread copies at a time.
 constexpr int kColumnsAtOnce = 64;
-/// Sources of each kind at which the residual is evaluated, and how many of them at once: few, as H may not be dense.
+/// Collocation points of each kind at which the residual is evaluated, and how many of them at once: few, as H may not
+/// be dense.
 constexpr int kSampledSources = 128, kSampledAtOnce = 16;
 
 std::vector<int> free_nodes(const Partition& partition) {
@@ -38,7 +39,7 @@ std::vector<int> free_nodes(const Partition& partition) {
 
 /// Calls use(first, count) for strips of [0, n).
 void for_strips(int n, const std::function<void(int first, int count)>& use) {
-    for (int first = 0; first < n; first += kSourcesAtOnce) use(first, std::min(kSourcesAtOnce, n - first));
+    for (int first = 0; first < n; first += kPointsAtOnce) use(first, std::min(kPointsAtOnce, n - first));
 }
 
 std::vector<int> range(int first, int count) {
@@ -47,12 +48,12 @@ std::vector<int> range(int first, int count) {
     return numbers;
 }
 
-/// At most this many of some sources, evenly spread over their order.
-Sources some_of(const Sources& sources, int most) {
+/// At most this many of some collocation points, evenly spread over their order.
+CollocationPoints some_of(const CollocationPoints& points, int most) {
     std::vector<int> numbers;
-    const int step = std::max(1, sources.size() / most);
-    for (int i = step / 2; i < sources.size(); i += step) numbers.push_back(i);
-    return sources.subset(numbers);
+    const int step = std::max(1, points.size() / most);
+    for (int i = step / 2; i < points.size(); i += step) numbers.push_back(i);
+    return points.subset(numbers);
 }
 
 /// Where a strip of equations is off, and how large its terms are.
@@ -60,10 +61,10 @@ struct Balance {
     double off = 0.0, size = 0.0;
 
     void add(const BemSystem& system, const TractionSpace& space, std::span<const UnitLoad> loads,
-             const NodeSolution& solution, const Sources& sources, Control& control) {
-        for_source_strips(
-            sources,
-            [&](int, const Sources& strip) {
+             const NodeSolution& solution, const CollocationPoints& points, Control& control) {
+        for_point_strips(
+            points,
+            [&](int, const CollocationPoints& strip) {
                 const Eigen::MatrixXd H = system.double_layer(strip, control);
                 const Eigen::MatrixXd G = system.single_layer(strip, space.elements, control);
                 const Eigen::VectorXd u = solution.displacements.col(0), q = solution.loads.col(0);
@@ -79,20 +80,20 @@ struct Balance {
 }  // namespace
 
 MixedProblem::MixedProblem(const BemSystem& system, const TractionSpace& space, const std::vector<int>& nodes,
-                           int n_base, std::span<const UnitLoad> loads, Control& control)
+                           int n_fixed, std::span<const UnitLoad> loads, Control& control)
     : partition(3 * system.n_nodes(), nodes) {
     at = free_nodes(partition);
     const Eigen::Index n_free = 3 * std::ssize(at), n = n_free + 3 * space.n_slots();
     for (const int node : collocated(space, nodes)) at.push_back(node);
-    const Sources points = sources_inside(system.boundary(), space.interior_triangles);
+    const CollocationPoints points = inner_collocation_points(system.boundary(), space.interior_triangles);
     assert(3 * (std::ssize(at) + points.size()) == n);
     unknown.resize(n, n);
-    const std::vector<Eigen::Index> moving(partition.constrained.begin() + 3 * n_base, partition.constrained.end());
+    const std::vector<Eigen::Index> moving(partition.constrained.begin() + 3 * n_fixed, partition.constrained.end());
     known.resize(n, std::ssize(moving));
     given.resize(n, std::ssize(loads));
     Eigen::Index row = 0;
-    const auto add = [&](const Eigen::MatrixXd& H, const Sources& sources) {
-        const Eigen::MatrixXd G = system.single_layer(sources, space.elements, control);
+    const auto add = [&](const Eigen::MatrixXd& H, const CollocationPoints& from) {
+        const Eigen::MatrixXd G = system.single_layer(from, space.elements, control);
         parallel_blocks(static_cast<int>(n), kColumnsAtOnce, control, [&](int begin, int end) {
             for (Eigen::Index column = begin; column < end; ++column) {
                 auto target = unknown.col(column).segment(row, H.rows());
@@ -103,7 +104,7 @@ MixedProblem::MixedProblem(const BemSystem& system, const TractionSpace& space, 
             }
         });
         known.middleRows(row, H.rows()) = H(Eigen::all, moving);
-        if (!loads.empty()) given.middleRows(row, H.rows()) = system.given_single_layer(sources, loads, control);
+        if (!loads.empty()) given.middleRows(row, H.rows()) = system.given_single_layer(from, loads, control);
         row += H.rows();
     };
     for_strips(static_cast<int>(at.size()), [&](int first, int count) {
@@ -111,18 +112,19 @@ MixedProblem::MixedProblem(const BemSystem& system, const TractionSpace& space, 
             std::span(at).subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(count));
         add(system.double_layer_at(strip, control), system.nodes().subset(strip));
     });
-    for_source_strips(points, [&](int, const Sources& strip) { add(system.double_layer(strip, control), strip); });
+    for_point_strips(points,
+                     [&](int, const CollocationPoints& strip) { add(system.double_layer(strip, control), strip); });
 }
 
-std::uint64_t mixed_memory(const BemSystem& system, const TractionSpace& space, int n_constrained, int n_base) {
+std::uint64_t mixed_memory(const BemSystem& system, const TractionSpace& space, int n_constrained, int n_fixed) {
     const Eigen::Index nodes = system.n_nodes(), n = 3 * (nodes - n_constrained + space.n_slots());
-    const Eigen::Index strip = 9 * kSourcesAtOnce * (nodes + space.n_slots());
-    return 8 * static_cast<std::uint64_t>(n * 3 * (n_constrained - n_base) + strip) + RefinedLu::memory_bytes(n);
+    const Eigen::Index strip = 9 * kPointsAtOnce * (nodes + space.n_slots());
+    return 8 * static_cast<std::uint64_t>(n * 3 * (n_constrained - n_fixed) + strip) + RefinedLu::memory_bytes(n);
 }
 
-MixedSolver::MixedSolver(const BemSystem& system, const TractionSpace& space, const std::vector<int>& nodes, int n_base,
-                         std::span<const UnitLoad> loads, Control& control)
-    : problem_(system, space, nodes, n_base, loads, control) {
+MixedSolver::MixedSolver(const BemSystem& system, const TractionSpace& space, const std::vector<int>& nodes,
+                         int n_fixed, std::span<const UnitLoad> loads, Control& control)
+    : problem_(system, space, nodes, n_fixed, loads, control) {
     // Tractions and displacements have different units; without a common scale the condition would depend on these.
     auto tractions = problem_.unknown.rightCols(3 * space.n_slots());
     if (tractions.size() > 0) traction_scale_ = 1.0 / tractions.cwiseAbs().maxCoeff();
@@ -144,9 +146,9 @@ NodeSolution MixedSolver::solve(const Eigen::MatrixXd& prescribed, bool want_loa
 }
 
 BoundaryEqn9Solver::BoundaryEqn9Solver(const BemSystem& system, const TractionSpace& space,
-                                       const std::vector<int>& nodes, int n_base, std::span<const UnitLoad> loads,
+                                       const std::vector<int>& nodes, int n_fixed, std::span<const UnitLoad> loads,
                                        Control& control)
-    : problem_(system, space, nodes, n_base, loads, control),
+    : problem_(system, space, nodes, n_fixed, loads, control),
       H00_inverse_(inverse_by_eqn9(system.bordered_inverse(), problem_.partition)) {
     const Eigen::Index q = 3 * space.n_slots(), n_free = H00_inverse_.rows();
     Eigen::MatrixXd small = -problem_.unknown.bottomRightCorner(q, q);
@@ -174,8 +176,8 @@ NodeSolution BoundaryEqn9Solver::solve(const Eigen::MatrixXd& prescribed, bool w
 double boundary_residual(const BemSystem& system, const TractionSpace& space, std::span<const UnitLoad> loads,
                          const NodeSolution& solution, Control& control) {
     Balance balance;
-    const Sources nodes = system.nodes().subset(collocated(space, range(0, system.n_nodes())));
-    const Sources points = sources_inside(system.boundary(), space.interior_triangles);
+    const CollocationPoints nodes = system.nodes().subset(collocated(space, range(0, system.n_nodes())));
+    const CollocationPoints points = inner_collocation_points(system.boundary(), space.interior_triangles);
     balance.add(system, space, loads, solution, some_of(nodes, kSampledSources), control);
     balance.add(system, space, loads, solution, some_of(points, kSampledSources), control);
     return balance.size > 0.0 ? std::sqrt(balance.off / balance.size) : 0.0;

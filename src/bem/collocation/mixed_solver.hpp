@@ -21,11 +21,11 @@ struct MixedProblem {
     Partition partition;
     std::vector<int> at;      ///< nodes of its first rows, three each; interior points follow
     Eigen::MatrixXd unknown;  ///< [H00 -G0; A0 -Gp], square, 3*free + 3*slots
-    Eigen::MatrixXd known;    ///< [H01; A1], columns of the prescribed displacements, without those of the base
+    Eigen::MatrixXd known;    ///< [H01; A1], columns of the prescribed displacements, without those of the fixed set
     Eigen::MatrixXd given;    ///< single layer of the given loads, a column each
 
-    /// The first n_base nodes rest. Integrates in strips, so that nothing of the matrix's size is held beside it.
-    MixedProblem(const BemSystem& system, const TractionSpace& space, const std::vector<int>& nodes, int n_base,
+    /// The first n_fixed nodes rest. Integrates in strips, so that nothing of the matrix's size is held beside it.
+    MixedProblem(const BemSystem& system, const TractionSpace& space, const std::vector<int>& nodes, int n_fixed,
                  std::span<const UnitLoad> loads, Control& control);
 
     /// For the prescribed displacements of all constrained nodes, over the factors of the given loads.
@@ -38,12 +38,12 @@ struct MixedProblem {
 };
 
 /// Bytes that a MixedProblem of this many constrained nodes takes while it is made.
-std::uint64_t mixed_memory(const BemSystem& system, const TractionSpace& space, int n_constrained, int n_base);
+std::uint64_t mixed_memory(const BemSystem& system, const TractionSpace& space, int n_constrained, int n_fixed);
 
 /// Eqn. 7 with the tractions kept: the mixed system for free displacements and q, factorised afresh.
 class MixedSolver : public NodeSolver {
 public:
-    MixedSolver(const BemSystem& system, const TractionSpace& space, const std::vector<int>& nodes, int n_base,
+    MixedSolver(const BemSystem& system, const TractionSpace& space, const std::vector<int>& nodes, int n_fixed,
                 std::span<const UnitLoad> loads, Control& control);
     NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const override;
 
@@ -53,10 +53,10 @@ private:
     RefinedLu lu_;
 };
 
-/// Eqn. 9 applied to H: H00^-1 = D'00 - D'01 D'11^-1 D'10, then q from the small system Gp - A0 H00^-1 G0.
+/// Eqn. 9 applied to H: H00^-1 = D'00 - D'01 D'11^-1 D'10, then q from the capacitance system Gp - A0 H00^-1 G0.
 class BoundaryEqn9Solver : public NodeSolver {
 public:
-    BoundaryEqn9Solver(const BemSystem& system, const TractionSpace& space, const std::vector<int>& nodes, int n_base,
+    BoundaryEqn9Solver(const BemSystem& system, const TractionSpace& space, const std::vector<int>& nodes, int n_fixed,
                        std::span<const UnitLoad> loads, Control& control);
     NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const override;
 

@@ -48,8 +48,9 @@ void BemModel::note_facts() {
     display_ = element_.display(mesh, system_->triangles_of_vertex());
 }
 
-std::unique_ptr<NodeSolver> BemModel::make_solver(const TractionSpace& space, const std::vector<int>& nodes, int n_base,
-                                                  std::span<const UnitLoad> loads, Control& control) const {
+std::unique_ptr<NodeSolver> BemModel::make_solver(const TractionSpace& space, const std::vector<int>& nodes,
+                                                  int n_fixed, std::span<const UnitLoad> loads,
+                                                  Control& control) const {
     if (system_->hierarchical())
         return std::make_unique<CollocationSolver>(system_->hierarchical(), space, nodes, loads,
                                                    method_.update == Update::direct, control);
@@ -58,14 +59,14 @@ std::unique_ptr<NodeSolver> BemModel::make_solver(const TractionSpace& space, co
             if (has_K())
                 return std::make_unique<DirectSolver>(system_->operators(), nodes,
                                                       system_->given_tractions(loads, control), &control);
-            return std::make_unique<MixedSolver>(*system_, space, nodes, n_base, loads, control);
+            return std::make_unique<MixedSolver>(*system_, space, nodes, n_fixed, loads, control);
         case Update::eqn9:
             if (has_K())
                 return make_paper_solver(system_->operators(), nodes, system_->given_tractions(loads, control),
                                          control);
             if (2 * std::ssize(nodes) >= system_->n_nodes())
-                return std::make_unique<MixedSolver>(*system_, space, nodes, n_base, loads, control);
-            return std::make_unique<BoundaryEqn9Solver>(*system_, space, nodes, n_base, loads, control);
+                return std::make_unique<MixedSolver>(*system_, space, nodes, n_fixed, loads, control);
+            return std::make_unique<BoundaryEqn9Solver>(*system_, space, nodes, n_fixed, loads, control);
         case Update::reduced:
             break;
     }
@@ -74,40 +75,40 @@ std::unique_ptr<NodeSolver> BemModel::make_solver(const TractionSpace& space, co
 
 bool BemModel::has_K() const { return system_->operators() && element_.has_stiffness(method_.tractions); }
 
-BemConstraints BemModel::constraints_of(std::span<const int> base, std::span<const int> handles) const {
-    return element_.constrain(system_->boundary(), system_->triangles_of_vertex(), method_.tractions, base, handles);
+BemConstraints BemModel::constraints_of(std::span<const int> fixed, std::span<const int> handles) const {
+    return element_.constrain(system_->boundary(), system_->triangles_of_vertex(), method_.tractions, fixed, handles);
 }
 
-std::uint64_t BemModel::constrain_memory(std::span<const int> base, std::span<const int> handles) const {
-    const BemConstraints setting = constraints_of(base, handles);
+std::uint64_t BemModel::constrain_memory(std::span<const int> fixed, std::span<const int> handles) const {
+    const BemConstraints setting = constraints_of(fixed, handles);
     if (system_->hierarchical())
         return collocation_set_memory(facts_.n_vertices,
                                       facts_.n_vertices + 3 * std::ssize(setting.space.interior_triangles),
                                       setting.space.n_slots());
-    if (method_.update == Update::reduced) return response_memory(*system_, setting.space);
+    if (method_.update == Update::reduced) return compliance_memory(*system_, setting.space);
     const auto all = 3 * static_cast<std::uint64_t>(system_->n_nodes());
     const auto constrained = 3 * static_cast<std::uint64_t>(setting.nodes.nodes.size()), free = all - constrained;
     const bool inverts = method_.update == Update::eqn9 && 2 * constrained < all;
     if (has_K()) return 8 * free * (inverts ? 2 * free + constrained : all);
-    return mixed_memory(*system_, setting.space, static_cast<int>(setting.nodes.nodes.size()), setting.n_base) +
+    return mixed_memory(*system_, setting.space, static_cast<int>(setting.nodes.nodes.size()), setting.n_fixed) +
            (inverts ? 16 * free * free : 0);
 }
 
-std::unique_ptr<ConstrainedSolid> BemModel::constrain(std::span<const int> base, std::span<const int> handles,
+std::unique_ptr<ConstrainedSolid> BemModel::constrain(std::span<const int> fixed, std::span<const int> handles,
                                                       std::span<const UnitLoad> loads, Control& control) const {
     // The single layer of a pressure on a closed cavity vanishes there, and the double layer has a solution without it.
     if (!loads.empty() && poisson_ratio_ == 0.5 && ClosedSurfaces(system_->boundary().mesh()).size() > 1)
         throw SolveError(
             "loads: collocation cannot tell how a body with a cavity answers them at Poisson's ratio 1/2. Choose "
             "galerkin-bem, or a smaller ratio.");
-    BemConstraints setting = constraints_of(base, handles);
+    BemConstraints setting = constraints_of(fixed, handles);
     const TractionSpace& space = setting.space;
     ParticularField particular = particular_field(system_->boundary().mesh(), poisson_ratio_,
-                                                  system_->nodes().points(Eigen::all, setting.nodes.nodes), loads);
-    // With a body force it is u that rests at the base: the rest of it, which is solved for, does not.
-    if (!particular.empty()) setting.n_base = 0;
-    std::unique_ptr<NodeSolver> solver = make_solver(space, setting.nodes.nodes, setting.n_base, loads, control);
-    SolutionChecks its_checks = checks(space, joined(base, handles), loads);
+                                                  system_->nodes().positions(Eigen::all, setting.nodes.nodes), loads);
+    // With a body force it is u that rests at the fixed set: the rest of it, which is solved for, does not.
+    if (!particular.empty()) setting.n_fixed = 0;
+    std::unique_ptr<NodeSolver> solver = make_solver(space, setting.nodes.nodes, setting.n_fixed, loads, control);
+    SolutionChecks its_checks = checks(space, joined(fixed, handles), loads);
     return std::make_unique<ConstrainedSolid>(facts_.n_vertices, std::move(setting.nodes), space.shares, display_,
                                               std::move(solver), std::move(its_checks), static_cast<int>(loads.size()),
                                               std::move(particular));
@@ -120,8 +121,8 @@ SolutionChecks BemModel::checks(const TractionSpace& space, std::vector<int> ver
     checks.residual = [system = system_, space, loads](const NodeSolution& solution, Control& control) {
         return boundary_residual(*system, space, loads, solution, control);
     };
-    checks.inside = [boundary = system_->shared_boundary(), display = display_, nu = poisson_ratio_,
-                     elements = space.elements, loads](NodeSolution&& solution, Control&) {
+    checks.interior_field = [boundary = system_->shared_boundary(), display = display_, nu = poisson_ratio_,
+                             elements = space.elements, loads](NodeSolution&& solution, Control&) {
         SurfaceTractions tractions(solution.displacements.cols());
         tractions.add(elements, solution.loads.topRows(3 * elements.n_slots));
         add_given(*boundary, loads, solution.factors, tractions);
@@ -138,8 +139,8 @@ SolutionChecks BemModel::checks(const TractionSpace& space, std::vector<int> ver
     return checks;
 }
 
-std::uint64_t BemModel::check_memory(std::span<const int> base, std::span<const int> handles) const {
-    return galerkin_reference_memory(system_->shared_boundary()->mesh(), method_, joined(base, handles));
+std::uint64_t BemModel::check_memory(std::span<const int> fixed, std::span<const int> handles) const {
+    return galerkin_reference_memory(system_->shared_boundary()->mesh(), method_, joined(fixed, handles));
 }
 
 void BemModel::visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const {

@@ -44,7 +44,7 @@ BemSystem::BemSystem(const BoundaryElement& element, std::shared_ptr<const Bound
       triangles_of_vertex_(boundary_->mesh()),
       nodes_(element.nodes(*boundary_)),
       elements_(element.shape_functions(*boundary_)),
-      modes_(rigid_modes(nodes_.points)) {
+      modes_(rigid_modes(nodes_.positions)) {
     const Eigen::Index n = 3 * n_nodes();
     cache_budget_ = method.column_memory.value_or(budget_for(n, method.mode));
     cache_ = std::make_unique<ColumnCache>(cache_budget_);
@@ -115,27 +115,26 @@ std::uint64_t BemSystem::memory_bytes() const {
     return 8 * n * n * (full_ ? 5u : 1u);
 }
 
-Eigen::MatrixXd BemSystem::double_layer(const Sources& sources, Control& control, double tolerance) const {
-    Eigen::MatrixXd rows(3 * sources.size(), 3 * n_nodes());
-    assemble(Layer::double_layer, *boundary_, sources, elements_, material_, std::max(tolerance, tolerance_), rows,
+Eigen::MatrixXd BemSystem::double_layer(const CollocationPoints& points, Control& control, double tolerance) const {
+    Eigen::MatrixXd rows(3 * points.size(), 3 * n_nodes());
+    assemble(Layer::double_layer, *boundary_, points, elements_, material_, std::max(tolerance, tolerance_), rows,
              control);
     return rows;
 }
 
-Eigen::MatrixXd BemSystem::single_layer(const Sources& sources, const Elements& loads, Control& control,
+Eigen::MatrixXd BemSystem::single_layer(const CollocationPoints& points, const Elements& loads, Control& control,
                                         double tolerance) const {
-    Eigen::MatrixXd rows(3 * sources.size(), 3 * loads.n_slots);
-    assemble(Layer::single_layer, *boundary_, sources, loads, material_, std::max(tolerance, tolerance_), rows,
-             control);
+    Eigen::MatrixXd rows(3 * points.size(), 3 * loads.n_slots);
+    assemble(Layer::single_layer, *boundary_, points, loads, material_, std::max(tolerance, tolerance_), rows, control);
     return rows;
 }
 
-Eigen::MatrixXd BemSystem::given_single_layer(const Sources& sources, std::span<const UnitLoad> loads,
+Eigen::MatrixXd BemSystem::given_single_layer(const CollocationPoints& points, std::span<const UnitLoad> loads,
                                               Control& control) const {
-    return elastolab::given_single_layer(*boundary_, sources, material_, tolerance_, loads, control);
+    return elastolab::given_single_layer(*boundary_, points, material_, tolerance_, loads, control);
 }
 
-Columns BemSystem::load_responses(std::span<const UnitLoad> loads, Control& control) const {
+Columns BemSystem::columns_of_loads(std::span<const UnitLoad> loads, Control& control) const {
     const Eigen::Index n = 3 * n_nodes();
     const auto compute = [&](std::span<const UnitLoad> missing) {
         Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(n + 6, std::ssize(missing));
@@ -165,11 +164,11 @@ const Eigen::MatrixXd& BemSystem::bordered_inverse() const {
 
 bool BemSystem::keeps(const TractionSpace& space) const {
     const auto rows = 3 * static_cast<std::uint64_t>(n_nodes()) + 6;
-    return 8 * rows * static_cast<std::uint64_t>(space.n_unknowns()) <= cache_budget_;
+    return 8 * rows * static_cast<std::uint64_t>(space.n_degrees_of_freedom()) <= cache_budget_;
 }
 
-void BemSystem::visit_responses(const TractionSpace& space, const std::function<void(const Columns&)>& visit,
-                                Control& control) const {
+void BemSystem::visit_columns(const TractionSpace& space, const std::function<void(const Columns&)>& visit,
+                              Control& control) const {
     const auto row_bytes = 24 * (3 * static_cast<std::uint64_t>(n_nodes()) + 6);  // of a load, which has three columns
     const auto loads_at_once = std::max<std::uint64_t>(cache_budget_ / 2 / row_bytes, 64);
     cache_->drop_unused(control);
@@ -185,7 +184,7 @@ void BemSystem::visit_responses(const TractionSpace& space, const std::function<
     }
 }
 
-Columns BemSystem::responses(const TractionSpace& space, Control& control) const {
+Columns BemSystem::compliance_columns(const TractionSpace& space, Control& control) const {
     std::vector<ColumnKey> keys;
     std::map<ColumnKey, const TractionSpace::Block*> blocks;
     for (const TractionSpace::Block& block : space.blocks) {

@@ -53,31 +53,33 @@ public:
     std::uint64_t memory_bytes() const;
 
     /// Collocation at every node.
-    const Sources& nodes() const { return nodes_; }
-    /// Rows of H (3*sources x 3*n_nodes) and of G for a load ansatz (3*sources x 3*slots) at these sources, with the
-    /// tolerance of the method or a larger one.
-    Eigen::MatrixXd double_layer(const Sources& sources, Control& control, double tolerance = 0.0) const;
-    Eigen::MatrixXd single_layer(const Sources& sources, const Elements& loads, Control& control,
+    const CollocationPoints& nodes() const { return nodes_; }
+    /// Rows of H (3*collocation points x 3*n_nodes) and of G for a load ansatz (3*collocation points x 3*slots) at
+    /// these collocation points, with the tolerance of the method or a larger one.
+    Eigen::MatrixXd double_layer(const CollocationPoints& points, Control& control, double tolerance = 0.0) const;
+    Eigen::MatrixXd single_layer(const CollocationPoints& points, const Elements& loads, Control& control,
                                  double tolerance = 0.0) const;
-    /// The single layer of the tractions of given loads, seen from these sources: 3*sources x loads.size().
-    Eigen::MatrixXd given_single_layer(const Sources& sources, std::span<const UnitLoad> loads, Control& control) const;
+    /// The single layer of the tractions of given loads, seen from these collocation points: 3*collocation points x
+    /// loads.size().
+    Eigen::MatrixXd given_single_layer(const CollocationPoints& points, std::span<const UnitLoad> loads,
+                                       Control& control) const;
     /// Rows of H at these nodes: copied in the mode `full`, where H is in memory, else integrated.
     Eigen::MatrixXd double_layer_at(std::span<const int> nodes, Control& control) const;
 
     /// Bytes of columns that are kept at most.
     std::uint64_t cache_budget() const { return cache_budget_; }
-    /// Whether the responses to a space fit into what is kept.
+    /// Whether the compliance columns to a space fit into what is kept.
     bool keeps(const TractionSpace& space) const;
-    /// Responses Hhat^-1 [G; 0] to the unit loads of a space, then to its residuals; cached.
-    Columns responses(const TractionSpace& space, Control& control) const;
+    /// ComplianceColumns Hhat^-1 [G; 0] to the unit loads of a space, then to its residuals; cached.
+    Columns compliance_columns(const TractionSpace& space, Control& control) const;
     /// Hhat^-1 [G g; 0] for given loads, a column each; cached.
-    Columns load_responses(std::span<const UnitLoad> loads, Control& control) const;
+    Columns columns_of_loads(std::span<const UnitLoad> loads, Control& control) const;
     /// G^-1 (the single layer of given loads): what they add to the tractions K u of the nodes, 3*n_nodes x
     /// loads.size(); in the mode `full`, with another factorisation of G.
     Eigen::MatrixXd given_tractions(std::span<const UnitLoad> loads, Control& control) const;
     /// The same, computed afresh, a group of columns at a time; none is kept.
-    void visit_responses(const TractionSpace& space, const std::function<void(const Columns&)>& visit,
-                         Control& control) const;
+    void visit_columns(const TractionSpace& space, const std::function<void(const Columns&)>& visit,
+                       Control& control) const;
     /// X <- Hhat^-1 X.
     void solve_in_place(Eigen::Ref<Eigen::MatrixXd> X) const { lu_.solve_in_place(X); }
 
@@ -108,7 +110,7 @@ private:
     Material material_;
     double tolerance_;
     VertexTriangles triangles_of_vertex_;
-    Sources nodes_;
+    CollocationPoints nodes_;
     Elements elements_;
     Eigen::MatrixXd modes_;
     LuFactorization lu_;

@@ -33,7 +33,7 @@ struct TractionSpace {
 
     int n_slots() const { return elements.n_slots; }
     /// Scalar unknowns: three for every slot and every free residual.
-    Eigen::Index n_unknowns() const { return 3 * (elements.n_slots + std::ssize(dropped_collocation)); }
+    Eigen::Index n_degrees_of_freedom() const { return 3 * (elements.n_slots + std::ssize(dropped_collocation)); }
 };
 
 /// Constant elements: a traction per constrained triangle. `prescribe` rows say which vertices carry it.

@@ -26,11 +26,11 @@ HierarchicalGalerkinModel::HierarchicalGalerkinModel(const SurfaceMesh& surface,
     facts_.memory_bytes = system_->memory_bytes();
 }
 
-std::unique_ptr<ConstrainedSolid> HierarchicalGalerkinModel::constrain(std::span<const int> base,
+std::unique_ptr<ConstrainedSolid> HierarchicalGalerkinModel::constrain(std::span<const int> fixed,
                                                                        std::span<const int> handles,
                                                                        std::span<const UnitLoad> unit_loads,
                                                                        Control& control) const {
-    const std::vector<int> vertices = joined(base, handles);
+    const std::vector<int> vertices = joined(fixed, handles);
     const std::vector<UnitLoad> loads(unit_loads.begin(), unit_loads.end());
     const SurfaceMesh& mesh = system_->boundary().mesh();
     const double nu = system_->material().poisson_ratio;
@@ -63,15 +63,15 @@ std::unique_ptr<ConstrainedSolid> HierarchicalGalerkinModel::constrain(std::span
         particular_field(mesh, nu, mesh.vertices(Eigen::all, vertices), loads));
 }
 
-std::uint64_t HierarchicalGalerkinModel::constrain_memory(std::span<const int> base,
+std::uint64_t HierarchicalGalerkinModel::constrain_memory(std::span<const int> fixed,
                                                           std::span<const int> handles) const {
-    const std::vector<int> vertices = joined(base, handles);
+    const std::vector<int> vertices = joined(fixed, handles);
     const GalerkinTractions tractions(system_->boundary().mesh(), system_->surfaces(), vertices);
     return hierarchical_set_memory(facts_.n_vertices, tractions.n_loaded(system_->surfaces()), tractions.size());
 }
 
-std::uint64_t HierarchicalGalerkinModel::check_memory(std::span<const int> base, std::span<const int> handles) const {
-    const std::vector<int> vertices = joined(base, handles);
+std::uint64_t HierarchicalGalerkinModel::check_memory(std::span<const int> fixed, std::span<const int> handles) const {
+    const std::vector<int> vertices = joined(fixed, handles);
     const GalerkinTractions tractions(system_->boundary().mesh(), system_->surfaces(), vertices);
     return std::max(galerkin_reference_memory(system_->boundary().mesh(), method_, vertices),
                     galerkin_residual_memory(system_->boundary().mesh(), tractions.n_loaded(system_->surfaces())));

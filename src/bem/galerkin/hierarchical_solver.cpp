@@ -1,6 +1,6 @@
 #include "bem/galerkin/given_loads.hpp"
 #include "bem/galerkin/hierarchical_system.hpp"
-#include "bem/hierarchical/free_motions.hpp"
+#include "bem/hierarchical/free_modes.hpp"
 #include "bem/hierarchical/item_rows.hpp"
 #include "deform/conjugate_gradients.hpp"
 
@@ -14,10 +14,10 @@ constexpr double kInnerOverTolerance = 0.01, kMostInnerResidual = 1e-3;
 
 /// Rigid motions of closed surfaces, each by itself, that vanish at these positions: the hypersingular operator knows
 /// nothing of them.
-Eigen::MatrixXd loose_motions(const Eigen::MatrixXd& surface_motions, const std::vector<int>& positions) {
-    Eigen::MatrixXd loose(surface_motions.rows(), 0);
-    for (Eigen::Index first = 0; first < surface_motions.cols(); first += 6) {
-        const Eigen::MatrixXd unseen = unseen_motions(surface_motions.middleCols<6>(first), positions);
+Eigen::MatrixXd loose_modes(const Eigen::MatrixXd& surface_modes, const std::vector<int>& positions) {
+    Eigen::MatrixXd loose(surface_modes.rows(), 0);
+    for (Eigen::Index first = 0; first < surface_modes.cols(); first += 6) {
+        const Eigen::MatrixXd unseen = unseen_modes(surface_modes.middleCols<6>(first), positions);
         loose.conservativeResize(Eigen::NoChange, loose.cols() + unseen.cols());
         loose.rightCols(unseen.cols()) = unseen;
     }
@@ -73,8 +73,8 @@ HierarchicalSolver::HierarchicalSolver(std::shared_ptr<const HierarchicalSystem>
         positions_.push_back(system_->tree()->positions()[static_cast<std::size_t>(v)]);
         is_free[static_cast<std::size_t>(positions_.back())] = 0;
     }
-    free_motions_ = unseen_motions(system_->body_motions(), positions_);
-    held_ = free_motions_.cols() == 0;
+    free_modes_ = unseen_modes(system_->body_modes(), positions_);
+    held_ = free_modes_.cols() == 0;
     if (!held_ && must_hold) throw NotHeldError();
     control.begin_stage("integrate tractions");
     layers_ = std::make_unique<const TractionLayers>(*system_, tractions, control);
@@ -85,25 +85,24 @@ HierarchicalSolver::HierarchicalSolver(std::shared_ptr<const HierarchicalSystem>
             given_single_layer(system_->pairs(), system_->surfaces(), tractions, system_->material(), loads, control);
     }
     control.begin_stage("precondition");
-    const Eigen::MatrixXd loose = loose_motions(system_->surface_motions(), positions_);
+    const Eigen::MatrixXd loose = loose_modes(system_->surface_modes(), positions_);
     Eigen::MatrixXd energies(loose.cols(), loose.cols());
     if (loose.cols() > 0) energies = loose.transpose() * operate(loose, kMostInnerResidual, control);
-    preconditioner_ =
-        std::make_unique<const SchwarzPreconditioner>(system_->matrix(), system_->boundary(), std::move(is_free),
-                                                      system_->surface_motions(), loose, energies, control);
+    preconditioner_ = std::make_unique<const SchwarzPreconditioner>(
+        system_->matrix(), system_->boundary(), std::move(is_free), system_->surface_modes(), loose, energies, control);
 }
 
 void HierarchicalSolver::zero_constrained(Eigen::MatrixXd& rows) const { clear_rows(positions_, rows); }
 
 /// K freed of the rigid motions of the body.
 Eigen::MatrixXd HierarchicalSolver::double_layer(Eigen::MatrixXd u) const {
-    orthogonalise(u, system_->body_motions());
+    orthogonalise(u, system_->body_modes());
     return layers_->double_layer(u);
 }
 
 Eigen::MatrixXd HierarchicalSolver::transposed_double_layer(const Eigen::MatrixXd& t) const {
     Eigen::MatrixXd f = layers_->transposed_double_layer(t);
-    orthogonalise(f, system_->body_motions());
+    orthogonalise(f, system_->body_modes());
     return f;
 }
 
@@ -133,13 +132,13 @@ Eigen::MatrixXd HierarchicalSolver::iterate(const Eigen::MatrixXd& prescribed, E
     if (factors.rows() > 0) right.noalias() += given_forces_ * factors;
     zero_constrained(right);
     zero_constrained(start);
-    orthogonalise(right, free_motions_);
+    orthogonalise(right, free_modes_);
     IterationReport progress;
     const FreeBlock free_block(*this, inner, progress, control);
-    const Projected preconditioner(*preconditioner_, free_motions_);
+    const Projected preconditioner(*preconditioner_, free_modes_);
     u += conjugate_gradients(free_block, preconditioner, right, {.tolerance = tolerance, .start = std::move(start)},
                              "Galerkin matrix of the free vertices", control, &progress);
-    orthogonalise(u, free_motions_);
+    orthogonalise(u, free_modes_);
     return u;
 }
 

@@ -25,15 +25,15 @@ HierarchicalSystem::HierarchicalSystem(const SurfaceMesh& surface, double poisso
       surfaces_(surface),
       material_{1.0, poisson_ratio},
       options_{.tolerance = std::min(kFarTolerance * integral_tolerance(method), kMostFarTolerance)},
-      surface_motions_(to_tree_order(*tree_, surfaces_.rigid)),
-      body_motions_(to_tree_order(*tree_, rigid_modes(surface.vertices))) {
+      surface_modes_(to_tree_order(*tree_, surfaces_.rigid)),
+      body_modes_(to_tree_order(*tree_, rigid_modes(surface.vertices))) {
     const Stage stage("integrate", control, stages);
     const HypersingularEntries entries(pairs_, tree_, material_, pairs_->keep_close_pairs(control));
     D_ = std::make_unique<const HierarchicalMatrix>(tree_, tree_, true, entries, options_, control);
 }
 
 Eigen::MatrixXd HierarchicalSystem::hypersingular(const Eigen::MatrixXd& X) const {
-    const Eigen::MatrixXd& C = surface_motions_;
+    const Eigen::MatrixXd& C = surface_modes_;
     Eigen::MatrixXd Y = X;
     Y.noalias() -= C * (C.transpose() * X).eval();
     Y = D_->product(Y);

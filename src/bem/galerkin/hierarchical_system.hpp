@@ -41,8 +41,8 @@ public:
     Eigen::MatrixXd given_nodal_forces(std::span<const UnitLoad> loads, Control& control) const;
 
     /// Rigid motions, orthonormal, rows in the order of the tree: of each closed surface, and of the whole body.
-    const Eigen::MatrixXd& surface_motions() const { return surface_motions_; }
-    const Eigen::MatrixXd& body_motions() const { return body_motions_; }
+    const Eigen::MatrixXd& surface_modes() const { return surface_modes_; }
+    const Eigen::MatrixXd& body_modes() const { return body_modes_; }
     /// P D P X with P = 1 - C C^T: freed of what integrals and approximation leave of the rigid motions.
     Eigen::MatrixXd hypersingular(const Eigen::MatrixXd& X) const;
     /// V and K at some triangles; what living ones have is taken over. Throws Cancelled.
@@ -54,7 +54,7 @@ private:
     ClosedSurfaces surfaces_;
     Material material_;
     HierarchicalOptions options_;
-    Eigen::MatrixXd surface_motions_, body_motions_;
+    Eigen::MatrixXd surface_modes_, body_modes_;
     std::unique_ptr<const HierarchicalMatrix> D_;
     mutable LivingLayers<TriangleLayers> living_;
     mutable ColumnCache given_{64ull << 20};
@@ -102,7 +102,7 @@ private:
     std::unique_ptr<const TractionLayers> layers_;
     std::unique_ptr<const SchwarzPreconditioner> preconditioner_;
     Eigen::MatrixXd given_forces_, given_layer_;  ///< of the given loads: (B - K)^T g at all vertices, V g
-    Eigen::MatrixXd free_motions_;  ///< rigid motions that the constraints leave, orthonormal; mostly none
+    Eigen::MatrixXd free_modes_;  ///< rigid motions that the constraints leave, orthonormal; mostly none
     mutable RecycledSolutions recycled_;
 };
 

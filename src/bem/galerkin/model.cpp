@@ -63,10 +63,10 @@ GalerkinModel::GalerkinModel(const SurfaceMesh& surface, double poisson_ratio, c
     facts_.condition_estimate = factorises_ahead(method) ? 1.0 / system_->reciprocal_condition() : 0.0;
 }
 
-std::unique_ptr<ConstrainedSolid> GalerkinModel::constrain(std::span<const int> base, std::span<const int> handles,
+std::unique_ptr<ConstrainedSolid> GalerkinModel::constrain(std::span<const int> fixed, std::span<const int> handles,
                                                            std::span<const UnitLoad> unit_loads,
                                                            Control& control) const {
-    const std::vector<int> vertices = joined(base, handles);
+    const std::vector<int> vertices = joined(fixed, handles);
     const std::vector<UnitLoad> loads(unit_loads.begin(), unit_loads.end());
     const SurfaceMesh& mesh = system_->boundary().mesh();
     const GalerkinTractions tractions(mesh, system_->surfaces(), vertices);
@@ -101,16 +101,16 @@ std::unique_ptr<ConstrainedSolid> GalerkinModel::constrain(std::span<const int> 
         particular_field(mesh, poisson_ratio_, mesh.vertices(Eigen::all, vertices), loads));
 }
 
-std::uint64_t GalerkinModel::constrain_memory(std::span<const int> base, std::span<const int> handles) const {
-    const std::vector<int> vertices = joined(base, handles);
+std::uint64_t GalerkinModel::constrain_memory(std::span<const int> fixed, std::span<const int> handles) const {
+    const std::vector<int> vertices = joined(fixed, handles);
     const GalerkinTractions tractions(system_->boundary().mesh(), system_->surfaces(), vertices);
     const Eigen::Index n_loads = 3 * std::ssize(vertices);
-    if (method_.update == Update::reduced) return half_response_memory(*system_, n_loads + tractions.size());
+    if (method_.update == Update::reduced) return half_column_memory(*system_, n_loads + tractions.size());
     return galerkin_direct_memory(system_->size(), tractions.size());
 }
 
-std::uint64_t GalerkinModel::check_memory(std::span<const int> base, std::span<const int> handles) const {
-    const std::vector<int> vertices = joined(base, handles);
+std::uint64_t GalerkinModel::check_memory(std::span<const int> fixed, std::span<const int> handles) const {
+    const std::vector<int> vertices = joined(fixed, handles);
     const GalerkinTractions tractions(system_->boundary().mesh(), system_->surfaces(), vertices);
     return std::max(galerkin_reference_memory(system_->boundary().mesh(), method_, vertices),
                     galerkin_residual_memory(system_->boundary().mesh(), tractions.n_loaded(system_->surfaces())));

@@ -16,10 +16,10 @@ public:
     GalerkinModel(const SurfaceMesh& surface, double poisson_ratio, const Method& method, const GalerkinModel* before,
                   Control& control);
 
-    std::unique_ptr<ConstrainedSolid> constrain(std::span<const int> base, std::span<const int> handles,
+    std::unique_ptr<ConstrainedSolid> constrain(std::span<const int> fixed, std::span<const int> handles,
                                                 std::span<const UnitLoad> loads, Control& control) const override;
-    std::uint64_t constrain_memory(std::span<const int> base, std::span<const int> handles) const override;
-    std::uint64_t check_memory(std::span<const int> base, std::span<const int> handles) const override;
+    std::uint64_t constrain_memory(std::span<const int> fixed, std::span<const int> handles) const override;
+    std::uint64_t check_memory(std::span<const int> fixed, std::span<const int> handles) const override;
     void visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const override;
 
 private:

@@ -8,14 +8,15 @@
 
 namespace elastolab {
 
-GalerkinResponses::GalerkinResponses(std::shared_ptr<const GalerkinSystem> system, std::vector<int> vertices,
-                                     GalerkinTractions tractions, std::span<const UnitLoad> loads, Control& control)
+GalerkinComplianceColumns::GalerkinComplianceColumns(std::shared_ptr<const GalerkinSystem> system,
+                                                     std::vector<int> vertices, GalerkinTractions tractions,
+                                                     std::span<const UnitLoad> loads, Control& control)
     : system_(std::move(system)),
       vertices_(std::move(vertices)),
       tractions_(std::move(tractions)),
       loads_(loads.begin(), loads.end()) {
-    columns_ = system_->half_responses(vertices_, tractions_, control);
-    given_ = system_->half_load_responses(loads_, control);
+    columns_ = system_->half_columns(vertices_, tractions_, control);
+    given_ = system_->half_load_columns(loads_, control);
 }
 
 namespace {
@@ -33,8 +34,8 @@ Eigen::MatrixXd product_with_transpose(const Eigen::Ref<const Eigen::MatrixXd>& 
 
 }  // namespace
 
-Eigen::MatrixXd GalerkinResponses::small_matrix(const std::vector<int>& nodes, const Eigen::MatrixXd& rigid,
-                                                Control& control) const {
+Eigen::MatrixXd GalerkinComplianceColumns::capacitance_matrix(const std::vector<int>& nodes,
+                                                              const Eigen::MatrixXd& rigid, Control& control) const {
     const Eigen::Index n = system_->size(), m = columns_.cols(), n_border = rigid.cols();
     const Eigen::Index n_loads = 3 * std::ssize(nodes), n_tractions = m - n_loads;
     const Eigen::MatrixXd all = columns_.middle(0, m);
@@ -71,8 +72,8 @@ Eigen::MatrixXd GalerkinResponses::small_matrix(const std::vector<int>& nodes, c
     return S;
 }
 
-void GalerkinResponses::add_product(const Eigen::MatrixXd& loads, Eigen::Ref<Eigen::MatrixXd> displacements,
-                                    Control& control) const {
+void GalerkinComplianceColumns::add_product(const Eigen::MatrixXd& loads, Eigen::Ref<Eigen::MatrixXd> displacements,
+                                            Control& control) const {
     control.checkpoint();
     const Eigen::Index n = system_->size();
     Eigen::MatrixXd product = Eigen::MatrixXd::Zero(n + system_->surfaces().rigid.cols(), loads.cols());
@@ -88,7 +89,8 @@ ReducedSystem galerkin_reduced_system(const std::shared_ptr<const GalerkinSystem
                                       std::span<const UnitLoad> loads, Control& control) {
     const Eigen::MatrixXd& C = system->surfaces().rigid;
     ReducedSystem reduced;
-    reduced.responses = std::make_shared<const GalerkinResponses>(system, vertices, tractions, loads, control);
+    reduced.compliance_columns =
+        std::make_shared<const GalerkinComplianceColumns>(system, vertices, tractions, loads, control);
     reduced.rigid = Eigen::MatrixXd::Zero(C.rows() + C.cols(), C.cols());
     reduced.rigid.topRows(C.rows()) = C;
     reduced.nodes = vertices;
@@ -97,8 +99,8 @@ ReducedSystem galerkin_reduced_system(const std::shared_ptr<const GalerkinSystem
 }
 
 /// The hypersingular matrix and that of the free vertices, both layers.
-std::uint64_t galerkin_direct_memory(std::int64_t n_unknowns, std::int64_t n_tractions) {
-    const auto n = static_cast<std::uint64_t>(n_unknowns), m = static_cast<std::uint64_t>(n_tractions);
+std::uint64_t galerkin_direct_memory(std::int64_t n_degrees_of_freedom, std::int64_t n_tractions) {
+    const auto n = static_cast<std::uint64_t>(n_degrees_of_freedom), m = static_cast<std::uint64_t>(n_tractions);
     return 8 * (2 * n * n + 3 * n * m + m * m);
 }
 

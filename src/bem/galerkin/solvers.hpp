@@ -12,19 +12,19 @@
 
 namespace elastolab {
 
-/// Responses of a solid to reactions R at its constrained vertices and tractions t, for the small system
+/// Compliance columns of a solid to reactions R at its constrained vertices and tractions t, for the capacitance system
 ///   [ Z^T D^+ Z + diag(0, V)   (C^T Z)^T ] [ R; t ]   [ u_C; 0 ]
 ///   [ C^T Z                     0        ] [  c   ] = [   0    ],   u = D^+ Z [R; t] + C c
 /// which is that of docs/formulation.md section 7: symmetric, and exact for any constrained set.
-class GalerkinResponses : public Responses {
+class GalerkinComplianceColumns : public ComplianceColumns {
 public:
-    GalerkinResponses(std::shared_ptr<const GalerkinSystem> system, std::vector<int> vertices,
-                      GalerkinTractions tractions, std::span<const UnitLoad> loads, Control& control);
+    GalerkinComplianceColumns(std::shared_ptr<const GalerkinSystem> system, std::vector<int> vertices,
+                              GalerkinTractions tractions, std::span<const UnitLoad> loads, Control& control);
 
     Eigen::Index cols() const override { return columns_.cols(); }
     Eigen::Index n_given() const override { return given_.cols(); }
-    Eigen::MatrixXd small_matrix(const std::vector<int>& nodes, const Eigen::MatrixXd& rigid,
-                                 Control& control) const override;
+    Eigen::MatrixXd capacitance_matrix(const std::vector<int>& nodes, const Eigen::MatrixXd& rigid,
+                                       Control& control) const override;
     void add_product(const Eigen::MatrixXd& loads, Eigen::Ref<Eigen::MatrixXd> displacements,
                      Control& control) const override;
 
@@ -56,9 +56,9 @@ private:
 };
 
 /// Bytes that it takes at its peak: scalar unknowns of the body, and tractions.
-std::uint64_t galerkin_direct_memory(std::int64_t n_unknowns, std::int64_t n_tractions);
+std::uint64_t galerkin_direct_memory(std::int64_t n_degrees_of_freedom, std::int64_t n_tractions);
 
-/// The small system of a constrained set, its responses kept.
+/// The capacitance system of a constrained set, its compliance columns kept.
 ReducedSystem galerkin_reduced_system(const std::shared_ptr<const GalerkinSystem>& system,
                                       const std::vector<int>& vertices, const GalerkinTractions& tractions,
                                       std::span<const UnitLoad> loads, Control& control);

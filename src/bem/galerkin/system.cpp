@@ -164,8 +164,8 @@ Eigen::MatrixXd GalerkinSystem::single_layer(const GalerkinTractions& tractions,
     return reduction.rows(half.transpose());
 }
 
-Columns GalerkinSystem::half_responses(std::span<const int> vertices, const GalerkinTractions& tractions,
-                                       Control& control) const {
+Columns GalerkinSystem::half_columns(std::span<const int> vertices, const GalerkinTractions& tractions,
+                                     Control& control) const {
     std::vector<ColumnKey> keys;
     for (const int v : vertices) keys.push_back({kVertexLoad, v});
     for (const int t : tractions.triangles) keys.push_back({kTriangleTraction, t});
@@ -176,7 +176,7 @@ Columns GalerkinSystem::half_responses(std::span<const int> vertices, const Gale
         [&](const std::vector<ColumnKey>& missing) { return compute(missing, control); }, control);
 }
 
-Columns GalerkinSystem::half_load_responses(std::span<const UnitLoad> loads, Control& control) const {
+Columns GalerkinSystem::half_load_columns(std::span<const UnitLoad> loads, Control& control) const {
     const Eigen::Index n = size(), n_border = surfaces_.rigid.cols();
     const auto compute = [&](std::span<const UnitLoad> missing) {
         Eigen::MatrixXd columns(n + n_border, std::ssize(missing));
@@ -255,8 +255,8 @@ std::uint64_t GalerkinSystem::memory_bytes() const {
     return 8 * n * n * ((dense_ ? 3u : 1u) + (parts_ ? 2u : 0u));
 }
 
-std::uint64_t half_response_memory(const GalerkinSystem& system, Eigen::Index n_unknowns) {
-    const auto n = static_cast<std::uint64_t>(system.size()), m = static_cast<std::uint64_t>(n_unknowns);
+std::uint64_t half_column_memory(const GalerkinSystem& system, Eigen::Index n_degrees_of_freedom) {
+    const auto n = static_cast<std::uint64_t>(system.size()), m = static_cast<std::uint64_t>(n_degrees_of_freedom);
     return 8 * (2 * n * m + 3 * m * m);
 }
 

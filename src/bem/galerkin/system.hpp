@@ -50,9 +50,9 @@ public:
     Eigen::MatrixXd single_layer(const GalerkinTractions& tractions, Control& control) const;
 
     /// L^-1 Z over C^T Z, with Z = [I at these vertices, -K^T of the tractions]; computed once, kept within a budget.
-    Columns half_responses(std::span<const int> vertices, const GalerkinTractions& tractions, Control& control) const;
+    Columns half_columns(std::span<const int> vertices, const GalerkinTractions& tractions, Control& control) const;
     /// The same for given loads: Z = (B - K)^T g, a column each.
-    Columns half_load_responses(std::span<const UnitLoad> loads, Control& control) const;
+    Columns half_load_columns(std::span<const UnitLoad> loads, Control& control) const;
     /// (B - K)^T g of given loads at all nodes, and V g on the tractions of a set.
     Eigen::MatrixXd given_nodal_forces(std::span<const UnitLoad> loads, Control& control) const;
     Eigen::MatrixXd given_single_layer(const GalerkinTractions& tractions, std::span<const UnitLoad> loads,
@@ -84,7 +84,7 @@ private:
     std::unique_ptr<ColumnCache> cache_;
 };
 
-/// Bytes of half responses for a constrained set, and of the small system made from them.
-std::uint64_t half_response_memory(const GalerkinSystem& system, Eigen::Index n_unknowns);
+/// Bytes of half compliance columns for a constrained set, and of the capacitance system made from them.
+std::uint64_t half_column_memory(const GalerkinSystem& system, Eigen::Index n_degrees_of_freedom);
 
 }  // namespace elastolab

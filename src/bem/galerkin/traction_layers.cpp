@@ -125,7 +125,7 @@ TractionLayers::TractionLayers(const HierarchicalSystem& system, const GalerkinT
         factor_ = CholeskyFactorization(dense_single_layer(), "single-layer matrix", &control);
     } else {
         operator_ = std::make_unique<const SingleLayer>(*this);
-        patch_solves_ = std::make_unique<const PatchSolves>(*this, control);
+        subdomain_solves_ = std::make_unique<const PatchSolves>(*this, control);
     }
 }
 
@@ -186,7 +186,8 @@ Eigen::MatrixXd TractionLayers::solve_single_layer(const Eigen::MatrixXd& b, dou
         factor_.solve_in_place(t);
         return t;
     }
-    return conjugate_gradients(*operator_, *patch_solves_, b, {.tolerance = tolerance}, "single-layer matrix", control);
+    return conjugate_gradients(*operator_, *subdomain_solves_, b, {.tolerance = tolerance}, "single-layer matrix",
+                               control);
 }
 
 std::uint64_t TractionLayers::memory_bytes() const {

@@ -48,7 +48,7 @@ private:
     std::vector<Eigen::MatrixXd> rigid_;  ///< fields of the surfaces without constrained triangles
     std::shared_ptr<const TriangleLayers> layers_;
     CholeskyFactorization factor_;
-    std::unique_ptr<const LinearOperator> operator_, patch_solves_;  ///< of V, where it is not factorised
+    std::unique_ptr<const LinearOperator> operator_, subdomain_solves_;  ///< of V, where it is not factorised
 };
 
 }  // namespace elastolab

@@ -8,7 +8,7 @@
 #include "base/blas.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
-#include "bem/hierarchical/free_motions.hpp"
+#include "bem/hierarchical/free_modes.hpp"
 #include "bem/hierarchical/item_rows.hpp"
 
 namespace elastolab {
@@ -114,11 +114,11 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> coarse_motions(const SurfaceMesh& m
 }
 
 /// The vertices of each closed surface, by position in the tree, ascending: where its motions are not zero.
-std::vector<std::vector<int>> positions_of_surfaces(const Eigen::MatrixXd& surface_motions) {
-    std::vector<std::vector<int>> positions(static_cast<std::size_t>(surface_motions.cols() / 6));
+std::vector<std::vector<int>> positions_of_surfaces(const Eigen::MatrixXd& surface_modes) {
+    std::vector<std::vector<int>> positions(static_cast<std::size_t>(surface_modes.cols() / 6));
     for (std::size_t s = 0; s < positions.size(); ++s)
-        for (Eigen::Index p = 0; p < surface_motions.rows() / 3; ++p)
-            if (!surface_motions.block<3, 6>(3 * p, 6 * static_cast<Eigen::Index>(s)).isZero(0.0))
+        for (Eigen::Index p = 0; p < surface_modes.rows() / 3; ++p)
+            if (!surface_modes.block<3, 6>(3 * p, 6 * static_cast<Eigen::Index>(s)).isZero(0.0))
                 positions[s].push_back(static_cast<int>(p));
     return positions;
 }
@@ -128,14 +128,14 @@ constexpr std::ptrdiff_t kMostOutside = 8;
 
 /// Adds an energy to the rigid motions of closed surfaces that vanish outside these positions: D has none for them.
 void regularise(Eigen::MatrixXd& D, const std::vector<int>& patch, const std::vector<std::vector<int>>& surfaces,
-                const Eigen::MatrixXd& surface_motions) {
+                const Eigen::MatrixXd& surface_modes) {
     for (std::size_t s = 0; s < surfaces.size(); ++s) {
         std::vector<int> outside;
         std::set_difference(surfaces[s].begin(), surfaces[s].end(), patch.begin(), patch.end(),
                             std::back_inserter(outside));
         if (std::ssize(outside) > kMostOutside || outside.size() == surfaces[s].size()) continue;
-        const auto motions = surface_motions.middleCols<6>(6 * static_cast<Eigen::Index>(s));
-        const Eigen::MatrixXd unseen = rows_of(unseen_motions(motions, outside), patch);
+        const auto motions = surface_modes.middleCols<6>(6 * static_cast<Eigen::Index>(s));
+        const Eigen::MatrixXd unseen = rows_of(unseen_modes(motions, outside), patch);
         D.noalias() += D.diagonal().mean() * unseen * unseen.transpose();
     }
 }
@@ -152,12 +152,12 @@ Eigen::MatrixXd of_unit_energy(const Eigen::MatrixXd& motions, const Eigen::Matr
 }  // namespace
 
 SchwarzPreconditioner::SchwarzPreconditioner(const HierarchicalMatrix& D, const Boundary& boundary,
-                                             std::vector<char> is_free, const Eigen::MatrixXd& surface_motions,
+                                             std::vector<char> is_free, const Eigen::MatrixXd& surface_modes,
                                              const Eigen::MatrixXd& loose, const Eigen::MatrixXd& loose_energies,
                                              Control& control)
     : is_free_(std::move(is_free)) {
     const ClusterTree& tree = D.row_tree();
-    const std::vector<std::vector<int>> surfaces = positions_of_surfaces(surface_motions);
+    const std::vector<std::vector<int>> surfaces = positions_of_surfaces(surface_modes);
     const std::vector<PositionRange> cores = clusters_up_to(tree, kCoreVertices);
     const auto neighbours = neighbours_of(boundary.mesh(), tree);
     patches_.resize(cores.size());
@@ -168,7 +168,7 @@ SchwarzPreconditioner::SchwarzPreconditioner(const HierarchicalMatrix& D, const 
             patch.positions = grown(cores[static_cast<std::size_t>(p)], neighbours, is_free_);
             if (patch.positions.empty()) return;
             Eigen::MatrixXd own = D.submatrix(patch.positions, patch.positions);
-            regularise(own, patch.positions, surfaces, surface_motions);
+            regularise(own, patch.positions, surfaces, surface_modes);
             patch.factor.compute(own.cast<float>());
             if (patch.factor.info() != Eigen::Success)
                 throw SolveError(

@@ -16,17 +16,18 @@ namespace elastolab {
 /// Additive Schwarz preconditioner of the free block of D in two levels: overlapping patches of vertices, each solved
 /// for by itself (in single precision), and rigid motions of all patches together. Rows at constrained vertices stay
 /// zero. D annihilates the rigid motions of each closed surface by itself: a patch that has all of a small surface is
-/// regularised by these, and what they cost all the same is given to the preconditioner (`loose`). The number of iterations hardly depends on the number of vertices. Source: M. Ainsworth and B. Guo, Numer.
-/// Math. 85 (2000), for hypersingular operators.
+/// regularised by these, and what they cost all the same is given to the preconditioner (`loose`). The number of
+/// iterations hardly depends on the number of vertices. Source: M. Ainsworth and B. Guo, Numer. Math. 85 (2000), for
+/// hypersingular operators.
 class SchwarzPreconditioner : public LinearOperator {
 public:
     /// is_free            by position in the tree
-    /// surface_motions    rigid motions of each closed surface, orthonormal, six columns each, rows in tree order
+    /// surface_modes    rigid motions of each closed surface, orthonormal, six columns each, rows in tree order
     /// loose              orthonormal combinations of these that vanish at the constrained vertices
     /// loose_energies     of them, without D's part: symmetric, positive semidefinite
     /// Throws SolveError when D is not positive definite on a patch, Cancelled.
     SchwarzPreconditioner(const HierarchicalMatrix& D, const Boundary& boundary, std::vector<char> is_free,
-                          const Eigen::MatrixXd& surface_motions, const Eigen::MatrixXd& loose,
+                          const Eigen::MatrixXd& surface_modes, const Eigen::MatrixXd& loose,
                           const Eigen::MatrixXd& loose_energies, Control& control);
 
     Eigen::Index size() const override { return 3 * std::ssize(is_free_); }

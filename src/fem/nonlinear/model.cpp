@@ -120,13 +120,13 @@ std::optional<ReferenceAnswer> linear_answer(const NonlinearMesh& mesh, const Ma
 
 /// Ten nodes an element on the same tetrahedra, from what four of them have found.
 std::optional<ReferenceAnswer> ten_node_answer(const NonlinearMesh& mesh, const Material& material,
-                                               const std::vector<int>& base, const std::vector<int>& handles,
+                                               const std::vector<int>& fixed, const std::vector<int>& handles,
                                                std::span<const UnitLoad> loads, const NodeSolution& solution,
                                                Control& control) {
     const std::shared_ptr<const NonlinearMesh> ten =
         make_nonlinear_mesh(mesh.tets, mesh.surface, ElementDegree::quadratic);
     const Eigen::MatrixXi& elements = ten->elements->elements();
-    const ConstrainedFemNodes nodes = constrain_nodes(ten->elements->positions(), ten->midpoints, base, handles);
+    const ConstrainedFemNodes nodes = constrain_nodes(ten->elements->positions(), ten->midpoints, fixed, handles);
     if (!holds(ten->elements->positions(), nodes.vertices)) return {};
     if (std::ssize(nodes.prescribed.nodes) == ten->elements->n_nodes()) return {};  // nothing is free
     Positions u = Positions::Zero(3, ten->elements->n_nodes());
@@ -181,12 +181,12 @@ NonlinearModel::NonlinearModel(const NonlinearModel& before, double poisson_rati
     facts_.stages.clear();
 }
 
-std::unique_ptr<ConstrainedSolid> NonlinearModel::constrain(std::span<const int> base, std::span<const int> handles,
+std::unique_ptr<ConstrainedSolid> NonlinearModel::constrain(std::span<const int> fixed, std::span<const int> handles,
                                                             std::span<const UnitLoad> loads, Control& control) const {
-    ConstrainedFemNodes nodes = constrain_nodes(mesh_->tets.vertices, mesh_->midpoints, base, handles);
+    ConstrainedFemNodes nodes = constrain_nodes(mesh_->tets.vertices, mesh_->midpoints, fixed, handles);
     const bool held = holds(mesh_->tets.vertices, nodes.vertices);
     auto solver = std::make_unique<RememberingSolver>(
-        *mesh_, material(), PrescribedNodes{nodes.prescribed.nodes, nodes.n_base, held}, loads, found_, control);
+        *mesh_, material(), PrescribedNodes{nodes.prescribed.nodes, nodes.n_fixed, held}, loads, found_, control);
     SolutionChecks checks;
     checks.residual = [its = solver.get()](const NodeSolution& solution, Control& its_control) {
         ElementWork work = its->elements().make_work();
@@ -195,17 +195,17 @@ std::unique_ptr<ConstrainedSolid> NonlinearModel::constrain(std::span<const int>
         return its->newton().residual(u.lpNorm<Eigen::Infinity>(), its->newton().forces(u, factors, work, its_control),
                                       u, factors);
     };
-    checks.reference = [mesh = mesh_, its = material(), vertices = nodes.vertices, n_base = base.size(),
-                        needed = check_memory(base, handles),
+    checks.reference = [mesh = mesh_, its = material(), vertices = nodes.vertices, n_fixed = fixed.size(),
+                        needed = check_memory(fixed, handles),
                         given = std::vector<UnitLoad>(loads.begin(), loads.end())](
                            const Eigen::VectorXd&, const NodeSolution& solution, Control& its_control) {
         if (mesh->linear) return linear_answer(*mesh, its, vertices, given, solution, its_control);
         if (needed == 0 || needed > available_memory_bytes()) return std::optional<ReferenceAnswer>();
-        const auto first_handle = vertices.begin() + static_cast<std::ptrdiff_t>(n_base);
+        const auto first_handle = vertices.begin() + static_cast<std::ptrdiff_t>(n_fixed);
         return ten_node_answer(*mesh, its, {vertices.begin(), first_handle}, {first_handle, vertices.end()}, given,
                                solution, its_control);
     };
-    checks.inside = [mesh = mesh_, nu = poisson_ratio_](NodeSolution&& solution, Control&) {
+    checks.interior_field = [mesh = mesh_, nu = poisson_ratio_](NodeSolution&& solution, Control&) {
         return std::make_shared<const NodalField>(tets_of(mesh), mesh->elements->degree(), nu,
                                                   std::move(solution.displacements), true);
     };

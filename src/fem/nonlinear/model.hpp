@@ -22,10 +22,10 @@ public:
     /// The same elements of another material.
     NonlinearModel(const NonlinearModel& before, double poisson_ratio);
 
-    std::unique_ptr<ConstrainedSolid> constrain(std::span<const int> base, std::span<const int> handles,
+    std::unique_ptr<ConstrainedSolid> constrain(std::span<const int> fixed, std::span<const int> handles,
                                                 std::span<const UnitLoad> loads, Control& control) const override;
-    std::uint64_t constrain_memory(std::span<const int> base, std::span<const int> handles) const override;
-    std::uint64_t check_memory(std::span<const int> base, std::span<const int> handles) const override;
+    std::uint64_t constrain_memory(std::span<const int> fixed, std::span<const int> handles) const override;
+    std::uint64_t check_memory(std::span<const int> fixed, std::span<const int> handles) const override;
     void visit_matrices(const std::function<void(const NamedMatrix&)>&) const override {}
     /// The tangent at rest.
     const SparseStiffness* sparse_stiffness() const override;

@@ -105,10 +105,10 @@ Eigen::VectorXd MotionPath::logarithm() const {
 }
 
 std::vector<int> patches_of_nodes(const Eigen::MatrixXi& elements, int n_nodes, const std::vector<int>& constrained,
-                                  int n_base) {
+                                  int n_fixed) {
     std::vector<int> place(static_cast<std::size_t>(n_nodes), -1);
     const int n = static_cast<int>(constrained.size());
-    for (int i = n_base; i < n; ++i) place[static_cast<std::size_t>(constrained[static_cast<std::size_t>(i)])] = i;
+    for (int i = n_fixed; i < n; ++i) place[static_cast<std::size_t>(constrained[static_cast<std::size_t>(i)])] = i;
     std::vector<int> parent(constrained.size());
     std::iota(parent.begin(), parent.end(), 0);
     for (const auto& element : elements.colwise()) {
@@ -123,7 +123,7 @@ std::vector<int> patches_of_nodes(const Eigen::MatrixXi& elements, int n_nodes, 
     }
     std::vector<int> patch(constrained.size(), -1), number(constrained.size(), -1);
     int next = 0;
-    for (int i = n_base; i < n; ++i) {
+    for (int i = n_fixed; i < n; ++i) {
         int& its = number[static_cast<std::size_t>(root_of(parent, i))];
         if (its < 0) its = next++;
         patch[static_cast<std::size_t>(i)] = its;

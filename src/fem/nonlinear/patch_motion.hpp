@@ -38,9 +38,9 @@ private:
     double largest_angle_ = 0.0;
 };
 
-/// Patches of constrained nodes: numbers of those that edges of elements connect, among the nodes from n_base on; -1
-/// for the base and for nodes that are connected to it.
+/// Patches of constrained nodes: numbers of those that edges of elements connect, among the nodes from n_fixed on; -1
+/// for the fixed set and for nodes that are connected to it.
 std::vector<int> patches_of_nodes(const Eigen::MatrixXi& elements, int n_nodes, const std::vector<int>& constrained,
-                                  int n_base);
+                                  int n_fixed);
 
 }  // namespace elastolab

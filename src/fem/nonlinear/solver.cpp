@@ -40,7 +40,7 @@ double shift_of(const FiniteElements& elements, const Material& material, bool h
 NonlinearSolver::NonlinearSolver(std::shared_ptr<const FiniteElements> elements, const Material& material,
                                  PrescribedNodes nodes, Control& control, NonlinearLoads loads)
     : nodes_(std::move(nodes)),
-      patches_(patches_of_nodes(elements->elements(), elements->n_nodes(), nodes_.nodes, nodes_.n_base)),
+      patches_(patches_of_nodes(elements->elements(), elements->n_nodes(), nodes_.nodes, nodes_.n_fixed)),
       rest_positions_(elements->positions()(Eigen::all, nodes_.nodes)),
       newton_(std::make_shared<const FreeTangent>(elements, nodes_.nodes, control), material,
               shift_of(*elements, material, nodes_.held), std::move(loads)) {
@@ -57,7 +57,7 @@ void NonlinearSolver::find_faces() {
             Eigen::Vector3i face;
             for (int c = 0; c < 3; ++c)
                 face[c] = place[static_cast<std::size_t>(elements().elements()((opposite + 1 + c) % 4, e))];
-            if (face.minCoeff() >= 0 && face.maxCoeff() >= nodes_.n_base) faces_.push_back(face);
+            if (face.minCoeff() >= 0 && face.maxCoeff() >= nodes_.n_fixed) faces_.push_back(face);
         }
 }
 

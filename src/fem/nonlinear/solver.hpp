@@ -19,7 +19,7 @@ namespace elastolab {
 /// Nodes that are prescribed, for a NonlinearSolver.
 struct PrescribedNodes {
     std::vector<int> nodes;
-    int n_base = 0;    ///< the first ones do not move
+    int n_fixed = 0;   ///< the first ones do not move
     bool held = true;  ///< false: the body can move as a whole, and of all motions the smallest is taken
 };
 

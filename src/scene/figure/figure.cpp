@@ -71,20 +71,20 @@ void require_sensible(const Deformer& deformer, std::size_t n_handles) {
 Figure make_figure(const Deformer& deformer, const Eigen::VectorXd& values, const std::vector<ConstraintGroup>& groups,
                    Control& control) {
     const ConstrainedSet& set = deformer.set();
-    const auto n_fixed = static_cast<int>(set.base.size());
+    const auto n_fixed = static_cast<int>(set.fixed.size());
     std::vector<ConstraintGroup> handles;
     for (const ConstraintGroup& group : groups)
         if (group.begin >= n_fixed && group.end > group.begin) handles.push_back(group);
     require_sensible(deformer, handles.size());
     control.begin_stage("figure");
-    std::vector<int> constrained = set.base;
+    std::vector<int> constrained = set.fixed;
     constrained.insert(constrained.end(), set.handles.begin(), set.handles.end());
     const Model& model = deformer.model();
     const Positions& x = model.body().surface->vertices;
     Figure figure{.title = std::filesystem::path(model.body().name).filename().string(),
                   .method = std::string(name(model.method().kind)),
                   .surface = model.body().surface,
-                  .fixed = set.base,
+                  .fixed = set.fixed,
                   .displacement = Eigen::VectorXd(3 * x.cols()),
                   .stress = Eigen::VectorXd(6 * x.cols()),
                   .handles = {}};

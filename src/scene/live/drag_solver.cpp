@@ -47,7 +47,7 @@ void DragSolver::prepare(const Eigen::VectorXd& values, double tolerance, Contro
     grab(values, handle, affine, tolerance, control, approach);
 }
 
-void DragSolver::refine(Control& control) {
+void DragSolver::converge(Control& control) {
     const Approach approach{response_.equilibrium, {}};
     if (handle_ == kNone) return start(start_values_, kSolveTolerance, control, approach);
     if (handle_ == loads()) return grab_loads(start_values_, kSolveTolerance, control, approach);

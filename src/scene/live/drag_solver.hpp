@@ -27,7 +27,7 @@ public:
     /// SolveError, Cancelled; what was at hand then stays.
     void prepare(const Eigen::VectorXd& values, double tolerance, Control& control, const Approach& approach = {});
     /// Solves anew for what is at hand, from there, to kSolveTolerance. Throws SolveError, Cancelled.
-    void refine(Control& control);
+    void converge(Control& control);
     /// Of what is at hand.
     double tolerance() const { return tolerance_; }
     /// Whether displace(values) needs no solve but one pass over the columns at hand.

@@ -52,12 +52,12 @@ Body LiveScene::body(MethodKind kind, const Proxy* proxy) const {
 }
 
 std::span<const int> LiveScene::vertices(int owner) const {
-    if (owner == kFixed) return constraints_.set.base;
+    if (owner == kFixed) return constraints_.set.fixed;
     const auto group = static_cast<std::size_t>(owner) + (constraints_.has_fixed() ? 1 : 0);
     const ConstraintGroup& range = constraints_.groups[group];
-    const auto n_base = constraints_.set.base.size();
+    const auto n_fixed = constraints_.set.fixed.size();
     return std::span<const int>(constraints_.set.handles)
-        .subspan(static_cast<std::size_t>(range.begin) - n_base, static_cast<std::size_t>(range.end - range.begin));
+        .subspan(static_cast<std::size_t>(range.begin) - n_fixed, static_cast<std::size_t>(range.end - range.begin));
 }
 
 Positions LiveScene::rest_positions(int handle) const {
@@ -67,13 +67,13 @@ Positions LiveScene::rest_positions(int handle) const {
 
 std::span<const int> LiveScene::fixed_vertices(int set) const {
     const ConstraintGroup& range = constraints_.fixed_sets[static_cast<std::size_t>(set)];
-    return std::span<const int>(constraints_.set.base)
+    return std::span<const int>(constraints_.set.fixed)
         .subspan(static_cast<std::size_t>(range.begin), static_cast<std::size_t>(range.end - range.begin));
 }
 
 int LiveScene::fixed_set_of(int vertex) const {
     if (owner(vertex) != kFixed) return kNobody;
-    const std::vector<int>& all = constraints_.set.base;
+    const std::vector<int>& all = constraints_.set.fixed;
     const auto place = std::find(all.begin(), all.end(), vertex) - all.begin();
     int set = 0;
     while (constraints_.fixed_sets[static_cast<std::size_t>(set)].end <= place) ++set;

@@ -56,7 +56,7 @@ void MethodRunner::poll() {
 void MethodRunner::handle(SetKeeper::Event event) {
     switch (event) {
         case SetKeeper::Event::another_set:
-        case SetKeeper::Event::refined:
+        case SetKeeper::Event::converged:
             up_to_date_ = false;
             break;
         case SetKeeper::Event::motion_failed:
@@ -182,7 +182,7 @@ std::shared_ptr<const Equilibrium> MethodRunner::equilibrium() const {
 
 void MethodRunner::check_at_rest() {
     check_.poll();
-    if (unchecked() && refined()) check_.begin_at_rest(deformer(), values_);
+    if (unchecked() && converged()) check_.begin_at_rest(deformer(), values_);
 }
 
 Findings MethodRunner::findings() const {

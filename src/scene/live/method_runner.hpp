@@ -93,17 +93,17 @@ public:
     /// Whether displacement() is the solution for values(): false where there is none, and the previous answer stands.
     bool solved() const { return solved_; }
     /// Relative residual of displacement(), where the method iterates: kFirstTolerance at first, and kSolveTolerance
-    /// once it is refined.
+    /// once it is converged.
     double tolerance() const { return tolerance_; }
-    bool refined() const { return tolerance_ <= kSolveTolerance; }
+    bool converged() const { return tolerance_ <= kSolveTolerance; }
     /// Of a method that is not linear: displacement() is what the tangent about the last equilibrium makes of the
     /// present motion, and the equilibrium is on its way.
     bool following() const { return following_; }
     /// Of a method that is not linear: the motion that was tried last has no equilibrium, and displacement() is the
     /// last one that was found.
     const std::optional<Crushed>& crushed() const { return sets_.crushed(); }
-    /// Whether it is being refined.
-    bool refining() const { return sets_.refining(); }
+    /// Whether it is being converged.
+    bool converging() const { return sets_.converging(); }
 
     /// Whether displacement() is what the scene asks for, by whichever model of this body and Poisson's ratio: a model
     /// with its inverse is prepared while the one without it answers.

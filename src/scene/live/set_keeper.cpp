@@ -61,7 +61,7 @@ void SetKeeper::want(const Constraints& constraints) {
     wanted_grips_ = constraints.grips();
     Wish wish = wish_of(constraints);
     if (!same(wish, wanted_)) {
-        may_refine_ = true;
+        may_converge_ = true;
         rest_ = {};
     }
     wanted_ = std::move(wish);
@@ -112,9 +112,9 @@ SetKeeper::Event SetKeeper::take_finished() {
     switch (job_.poll()) {
         case JobEvent::finished: {
             PreparedSet prepared = job_.take();
-            if (prepared.deformer == current_.deformer && refining_) {
+            if (prepared.deformer == current_.deformer && converging_) {
                 current_.drag = std::move(prepared.drag);
-                return Event::refined;
+                return Event::converged;
             }
             if (prepared.deformer == current_.deformer) return take_solution(std::move(prepared));
             if (&prepared.deformer->model() == model_.get()) spare_ = std::move(prepared);
@@ -152,7 +152,7 @@ SetKeeper::Event SetKeeper::take_failure() {
         failure_ = job_.failure();
         return Event::none;
     }
-    if (refining_) may_refine_ = false;
+    if (converging_) may_converge_ = false;
     if (!same(solving_, wanted_)) return Event::none;  // the motion went on: that is tried next
     motion_failure_ = job_.failure();
     failed_ = solving_;
@@ -172,9 +172,9 @@ SetKeeper::Event SetKeeper::use_or_prepare() {
     }
     if (!is_current()) {
         if (failure_.empty() && !(job_.running() && same_as_wanted(preparing_set_))) prepare(wanted_set_, wanted_);
-    } else if (may_refine_ && !job_.running() && current_.drag && current_.drag->tolerance() > kSolveTolerance &&
+    } else if (may_converge_ && !job_.running() && current_.drag && current_.drag->tolerance() > kSolveTolerance &&
                (is_exact() || failed_)) {
-        refine_on_worker();
+        converge_on_worker();
     } else if (prefetch_ && !job_.running()) {
         if (!same_as_wanted(*prefetch_) && !(spare_.deformer && spare_.deformer->set() == *prefetch_))
             prepare_prefetched(*prefetch_);
@@ -200,7 +200,7 @@ void SetKeeper::prepare_prefetched(const ConstrainedSet& set) {
 
 void SetKeeper::prepare(const ConstrainedSet& set, Wish wish) {
     preparing_set_ = set;
-    refining_ = false;
+    converging_ = false;
     solving_ = {};
     failed_.reset();
     const bool drags = rule_ == FrameRule::drag_columns || !model_->method().kind->linear;
@@ -268,7 +268,7 @@ std::optional<Wish> SetKeeper::next_step() const {
 void SetKeeper::solve_on_worker() {
     if (!is_current() || !may_solve_now()) return;
     preparing_set_ = wanted_set_;
-    refining_ = false;
+    converging_ = false;
     solving_ = wanted_;
     failed_.reset();
     motion_failure_.clear();
@@ -304,13 +304,13 @@ void SetKeeper::update_on_worker() {
     });
 }
 
-void SetKeeper::refine_on_worker() {
+void SetKeeper::converge_on_worker() {
     preparing_set_ = wanted_set_;
-    refining_ = true;
+    converging_ = true;
     solving_ = wanted_;
     job_.start([deformer = current_.deformer, drag = *current_.drag](Control& control) mutable {
-        control.begin_stage("refine");
-        drag.refine(control);
+        control.begin_stage("converge");
+        drag.converge(control);
         return PreparedSet{.deformer = deformer, .drag = std::move(drag)};
     });
 }
@@ -318,8 +318,8 @@ void SetKeeper::refine_on_worker() {
 SetKeeper::Event SetKeeper::cancel() {
     if (!job_.running()) return Event::none;
     job_.cancel();
-    if (refining_) {
-        may_refine_ = false;
+    if (converging_) {
+        may_converge_ = false;
         return Event::none;
     }
     if (!same_as_wanted(preparing_set_)) return Event::none;  // a prefetch

@@ -52,8 +52,8 @@ struct PreparedSet {
 };
 
 /// Prepares the wanted constrained set on a worker thread, and solves there for motions within it that take long. Where
-/// the method iterates, columns to kFirstTolerance come first, and are refined to kSolveTolerance when there is nothing
-/// else to do for the set. The set used before stays at hand. All members are for one thread.
+/// the method iterates, columns to kFirstTolerance come first, and are converged to kSolveTolerance when there is
+/// nothing else to do for the set. The set used before stays at hand. All members are for one thread.
 ///
 /// Of a method that is not linear the worker follows the motion with equilibria, each from the one before: always for
 /// the newest wish, never for a queue of them; where they take long, by turns that are not too far. Where it may hold
@@ -81,7 +81,7 @@ public:
     enum class Event {
         none,
         another_set,    ///< current() has changed: earlier answers do not belong to it
-        refined,        ///< current().drag has the same to kSolveTolerance
+        converged,      ///< current().drag has the same to kSolveTolerance
         motion_solved,  ///< current() has the motion that was given to the worker; as columns, its continuation too
         motion_failed   ///< see motion_failure(); of a method that is not linear, current() has what it had
     };
@@ -112,21 +112,21 @@ public:
     bool is_exact() const;
     /// Of a method that is not linear: why the motion that was tried last has no equilibrium.
     const std::optional<Crushed>& crushed() const { return current_.crushed; }
-    bool solving() const { return job_.running() && !refining_ && is_current() && same_as_wanted(preparing_set_); }
+    bool solving() const { return job_.running() && !converging_ && is_current() && same_as_wanted(preparing_set_); }
     /// Of a method that is not linear: how what is wanted is reached from the equilibrium at hand; for another thread.
     Approach approach() const { return is_current() ? approach_to(wanted_) : Approach{}; }
     /// A motion will be solved for once it rests.
     bool holding_off() const { return holding_off_; }
-    /// Whether the worker refines what current() answers with.
-    bool refining() const { return job_.running() && refining_; }
+    /// Whether the worker iterates on what current() answers with.
+    bool converging() const { return job_.running() && converging_; }
 
-    /// Stops what runs; what is not refined stays so until the next motion. Event: motion_failed when a motion that was
-    /// waited for is given up.
+    /// Stops what runs; what is not converged stays so until the next motion. Event: motion_failed when a motion that
+    /// was waited for is given up.
     Event cancel();
     void retry() {
         failure_.clear();
         failed_.reset();
-        may_refine_ = true;
+        may_converge_ = true;
     }
     bool preparing() const { return job_.running(); }
     bool working() const { return job_.working(); }
@@ -146,7 +146,7 @@ private:
     bool may_solve_now();
     Approach approach_to(const Wish& wish) const;
     std::optional<Wish> next_step() const;
-    void refine_on_worker();
+    void converge_on_worker();
     Event take_failure();
     void prepare_prefetched(const ConstrainedSet& set);
     bool same_as_wanted(const ConstrainedSet& set) const;
@@ -162,7 +162,7 @@ private:
     PreparedSet current_;
     PreparedSet spare_;  ///< of the same model: prefetched, or the one used before
     ConstrainedSet preparing_set_;
-    bool refining_ = false, may_refine_ = true;
+    bool converging_ = false, may_converge_ = true;
     Wish solving_;                ///< what the worker solves for within the present set
     std::optional<Wish> failed_;  ///< that has no equilibrium
     bool may_hold_off_ = false, holding_off_ = false;

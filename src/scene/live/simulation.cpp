@@ -226,7 +226,7 @@ bool Simulation::choose_answer(Entry& entry) const {
         return entry.previewing != before;
     }
     entry.replaced_preview = before || entry.replaced_preview;
-    if (entry.replaced_preview && entry.runner->runner().refined() && coarser.runner().answers()) {
+    if (entry.replaced_preview && entry.runner->runner().converged() && coarser.runner().answers()) {
         entry.replaced_preview = false;
         const Eigen::VectorXd& exact = entry.runner->displacement();
         const Eigen::VectorXd& coarse = coarser.displacement();
@@ -310,7 +310,7 @@ void Simulation::gauge_theory(const LiveScene& scene) {
         gauge_.rest();
         gauged_ = std::move(wish);
     }
-    if (runner(kind).state() != State::ready || !runner(kind).refined() || !runner(kind).answers()) return;
+    if (runner(kind).state() != State::ready || !runner(kind).converged() || !runner(kind).answers()) return;
     gauged_on_ = scene.surface();
     Body body{.name = scene.name(), .surface = scene.surface(), .material = scene.document().material};
     if (is_quick_at_equilibria(scene)) return gauge_.update(body, asked.set, wish_of(asked));
@@ -362,7 +362,7 @@ bool Simulation::waiting() const {
 
 bool Simulation::busy() const {
     return waiting() || preparing_preview() || std::any_of(shown_.begin(), shown_.end(), [&](MethodKind kind) {
-               return runner(kind).refining() || runner(kind).completing();
+               return runner(kind).converging() || runner(kind).completing();
            });
 }
 

@@ -96,7 +96,7 @@ public:
 
     bool preparing_preview() const;  ///< the preview cannot answer yet, and will by itself
     bool waiting() const;            ///< a method of the last update is not ready yet, and will be by itself
-    bool busy() const;               ///< the same, or an answer is being refined, or K and its inverse completed
+    bool busy() const;               ///< the same, or an answer is being converged, or K and its inverse completed
     bool checking() const;           ///< an answer is being checked, or will be once it has rested
     void cancel();                   ///< stops all workers at their next checkpoints
     bool stopping() const;           ///< some worker has not stopped yet; for use after cancel(), without update()
@@ -109,7 +109,7 @@ private:
         bool waits_for_proxy = false;
         bool waits_for_preview = false;  ///< its constraints are older than the scene's
         bool previewing = false;
-        bool replaced_preview = false;  ///< by an answer that is not refined yet
+        bool replaced_preview = false;  ///< by an answer that is not converged yet
         std::optional<double> preview_error = {};
         std::uint64_t last_shown = 0;  ///< clock_ then
     };

@@ -23,7 +23,8 @@ constexpr int kVerticesAtATime = 4096;
 constexpr double kSameTriangle = 1e-6;
 
 bool same_set(const Constraints& a, const Constraints& b) {
-    if (a.set.base != b.set.base || a.set.handles != b.set.handles || a.groups.size() != b.groups.size()) return false;
+    if (a.set.fixed != b.set.fixed || a.set.handles != b.set.handles || a.groups.size() != b.groups.size())
+        return false;
     if (a.groups != b.groups || a.fixed_sets != b.fixed_sets || a.loads != b.loads) return false;
     // Which of a handle's neighbours follow it depends on whether its motion is defined away from its own vertices.
     return std::equal(a.motions.begin(), a.motions.end(), b.motions.begin(), b.motions.end(),
@@ -50,10 +51,10 @@ void CarriedConstraints::set(const Constraints& shown) {
 
 std::vector<int> CarriedConstraints::vertices_of(const Constraints& constraints, std::size_t group) const {
     const ConstraintGroup& range = constraints.groups[group];
-    const auto n_base = static_cast<int>(constraints.set.base.size());
-    const bool in_base = range.begin < n_base;
-    const std::vector<int>& all = in_base ? constraints.set.base : constraints.set.handles;
-    const int shift = in_base ? 0 : n_base;
+    const auto n_fixed = static_cast<int>(constraints.set.fixed.size());
+    const bool in_fixed = range.begin < n_fixed;
+    const std::vector<int>& all = in_fixed ? constraints.set.fixed : constraints.set.handles;
+    const int shift = in_fixed ? 0 : n_fixed;
     return {all.begin() + (range.begin - shift), all.begin() + (range.end - shift)};
 }
 
@@ -148,9 +149,9 @@ void CarriedConstraints::divide_fixed(const Part& fixed, std::vector<Nearest>& n
 
 /// The vertices of one fixed set, each by itself.
 CarriedConstraints::Part CarriedConstraints::fixed_part(const ConstraintGroup& set) const {
-    const auto base = shown_.set.base.begin();
+    const auto fixed = shown_.set.fixed.begin();
     Part part;
-    part.surface.vertices = proxy_->shown->vertices(Eigen::all, std::vector<int>(base + set.begin, base + set.end));
+    part.surface.vertices = proxy_->shown->vertices(Eigen::all, std::vector<int>(fixed + set.begin, fixed + set.end));
     part.surface.triangles =
         Eigen::RowVectorXi::LinSpaced(set.end - set.begin, 0, set.end - set.begin - 1).replicate<3, 1>();
     return part;
@@ -198,13 +199,13 @@ void CarriedConstraints::choose_vertices() {
     carried_.fixed_sets = shown_.fixed_sets;
     const std::size_t first_handle = shown_.has_fixed() ? 1 : 0;
     for (std::size_t s = 0; s < shown_.fixed_sets.size(); ++s) {
-        carried_.fixed_sets[s].begin = static_cast<int>(carried_.set.base.size());
+        carried_.fixed_sets[s].begin = static_cast<int>(carried_.set.fixed.size());
         for (std::size_t v = 0; v < nearest.size(); ++v)
             if (first_handle == 1 && nearest[v].group == 0 && nearest[v].fixed_set == s)
-                carried_.set.base.push_back(static_cast<int>(v));
-        carried_.fixed_sets[s].end = static_cast<int>(carried_.set.base.size());
+                carried_.set.fixed.push_back(static_cast<int>(v));
+        carried_.fixed_sets[s].end = static_cast<int>(carried_.set.fixed.size());
     }
-    auto end = static_cast<int>(carried_.set.base.size());
+    auto end = static_cast<int>(carried_.set.fixed.size());
     if (first_handle == 1) carried_.groups[0] = {shown_.groups[0].name, 0, end};
     origins_.clear();
     origin_weights_.clear();
@@ -229,7 +230,7 @@ void CarriedConstraints::carry_loads() {
     if (shown_.loads.empty()) return;
     const SurfaceMesh& surface = *proxy_->surface;
     std::vector<char> is_held(static_cast<std::size_t>(surface.n_vertices()), 0);
-    for (const std::vector<int>* held : {&carried_.set.base, &carried_.set.handles})
+    for (const std::vector<int>* held : {&carried_.set.fixed, &carried_.set.handles})
         for (const int v : *held) is_held[static_cast<std::size_t>(v)] = 1;
     std::vector<int> nearest(static_cast<std::size_t>(surface.n_triangles()), -1);
     const ClosestPoint closest(*proxy_->shown);
@@ -312,13 +313,13 @@ void CarriedConstraints::carry_values() {
     carried_.values.resize(carried_.set.n_values());
     carried_.values.tail(std::ssize(carried_.set.loads)) = shown_.values.tail(std::ssize(shown_.set.loads));
     const std::size_t first_handle = shown_.has_fixed() ? 1 : 0;
-    const auto n_base = static_cast<int>(carried_.set.base.size());
+    const auto n_fixed = static_cast<int>(carried_.set.fixed.size());
     for (std::size_t h = 0; h < carried_.motions.size(); ++h) {
         const ConstraintGroup& group = carried_.groups[h + first_handle];
         const auto* affine = std::get_if<AffineMotion>(&shown_.motions[h]);
         AffineMap& map = maps_[h] = affine ? map_of(*affine) : AffineMap{};
         VertexMotion carried_motion;
-        for (int i = group.begin - n_base; i < group.end - n_base; ++i) {
+        for (int i = group.begin - n_fixed; i < group.end - n_fixed; ++i) {
             const auto place = static_cast<std::size_t>(i);
             Vector3d u = Vector3d::Zero();
             if (affine) {

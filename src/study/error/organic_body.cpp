@@ -76,14 +76,14 @@ std::vector<int> patch(const SurfaceMesh& mesh, const std::function<bool(const E
     return vertices;
 }
 
-/// `tip`: direction of the pulled bump. The cap is within `cap` of its summit; the base is the lowest part, `foot` of
-/// the height.
+/// `tip`: direction of the pulled bump. The cap is within `cap` of its summit; the fixed set is the lowest part, `foot`
+/// of the height.
 OrganicBody make_body(std::string name, const Shape& shape, int n, const Eigen::Vector3d& tip, double cap,
                       double foot) {
     OrganicBody body{std::move(name), make_surface(shape, n), {}, {}, tip.normalized()};
     const double bottom = body.surface.vertices.row(2).minCoeff(), top = body.surface.vertices.row(2).maxCoeff();
     const Eigen::Vector3d summit = shape.place(tip.normalized());
-    body.base = patch(body.surface, [&](const auto& p) { return p[2] < bottom + foot * (top - bottom); });
+    body.fixed = patch(body.surface, [&](const auto& p) { return p[2] < bottom + foot * (top - bottom); });
     body.pull = patch(body.surface, [&](const auto& p) { return (p - summit).norm() < cap; });
     return body;
 }
@@ -94,19 +94,19 @@ double cap_for(int n, double least) { return std::max(least, 6.5 / std::sqrt(sta
 }  // namespace
 
 std::vector<int> OrganicBody::constrained() const {
-    std::vector<int> vertices = base;
+    std::vector<int> vertices = fixed;
     vertices.insert(vertices.end(), pull.begin(), pull.end());
     return vertices;
 }
 
 Positions OrganicBody::values(double distance) const {
-    Positions values = Positions::Zero(3, std::ssize(base) + std::ssize(pull));
+    Positions values = Positions::Zero(3, std::ssize(fixed) + std::ssize(pull));
     values.rightCols(std::ssize(pull)).colwise() = distance * pull_direction;
     return values;
 }
 
 Positions OrganicBody::turned_values(double angle) const {
-    Positions values = Positions::Zero(3, std::ssize(base) + std::ssize(pull));
+    Positions values = Positions::Zero(3, std::ssize(fixed) + std::ssize(pull));
     const Positions rest = surface.vertices(Eigen::all, pull);
     const Eigen::Vector3d middle = rest.rowwise().mean();
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, pull_direction.unitOrthogonal()).toRotationMatrix();

@@ -12,11 +12,12 @@ namespace elastolab {
 struct OrganicBody {
     std::string name;
     SurfaceMesh surface;
-    std::vector<int> base;           ///< at the bottom; every vertex belongs to a triangle of base vertices
+    std::vector<int> fixed;          ///< at the bottom; every vertex belongs to a triangle of fixed vertices
     std::vector<int> pull;           ///< a cap at the tip of an ear; likewise
     Eigen::Vector3d pull_direction;  ///< outward at the cap, unit
 
-    /// Base, then pull; and their displacements: base at rest, pull moved by `distance` along its direction [L].
+    /// Fixed set, then pull; and their displacements: the fixed set at rest, pull moved by `distance` along its
+    /// direction [L].
     std::vector<int> constrained() const;
     Positions values(double distance) const;
     /// The same with the pull turned by a finite angle [rad], as by a wrist, about an axis through its middle that is

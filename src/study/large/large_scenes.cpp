@@ -34,7 +34,7 @@ LargeScene held_bar(int cells,
                     const std::function<Eigen::VectorXd(const SurfaceMesh&, const std::vector<int>&, double)>& motion) {
     SurfaceMesh mesh = make_box(cells, Eigen::Vector3d(kLength, 1.0, 1.0));
     LargeScene scene;
-    scene.set.base = vertices_where(mesh, [](const auto& p) { return p[0] < 1e-9; });
+    scene.set.fixed = vertices_where(mesh, [](const auto& p) { return p[0] < 1e-9; });
     scene.set.handles = vertices_where(mesh, [](const auto& p) { return p[0] > kLength - 1e-9; });
     scene.body = study_body(std::move(mesh), kRubber, "bar");
     scene.values = [surface = scene.body.surface, handles = scene.set.handles, motion](double amount) {
@@ -68,7 +68,7 @@ LargeScene turned_ear(int cells) {
     const auto rabbit = std::make_shared<const OrganicBody>(make_rabbit(cells < 4 ? 350 : 600));
     LargeScene scene;
     scene.body = study_body(rabbit->surface, kRubber, rabbit->name);
-    scene.set = {rabbit->base, rabbit->pull};
+    scene.set = {rabbit->fixed, rabbit->pull};
     scene.values = [rabbit](double degrees) {
         const Positions all = rabbit->turned_values(degrees * std::numbers::pi / 180.0);
         return Eigen::VectorXd(all.rightCols(std::ssize(rabbit->pull)).reshaped());

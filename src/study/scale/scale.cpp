@@ -91,7 +91,7 @@ std::vector<Row> measure_growth(const Method& method, int cells, Control& contro
     }
     return {row.set("vertices", body.surface->n_vertices())
                 .set("unknowns", deformer->model().facts().n_degrees_of_freedom)
-                .set("constrained", std::ssize(set.base) + std::ssize(set.handles))
+                .set("constrained", std::ssize(set.fixed) + std::ssize(set.handles))
                 .set("precompute_s", median(precomputed))
                 .set("set_change_s", median(set_change))
                 .set("frame_s", frame)

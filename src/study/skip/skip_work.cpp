@@ -85,11 +85,11 @@ Seconds again_with(double E, double nu) {
     };
 }
 
-/// Another base for an existing model: each time a fresh one, which has none of the base's columns yet.
-double base_on_known_model(const SkipScene& scene) {
+/// Another fixed set for an existing model: each time a fresh one, which has none of its columns yet.
+double fixed_set_on_known_model(const SkipScene& scene) {
     ConstrainedSet other = scene.set;
-    other.handles.push_back(other.base.back());
-    other.base.pop_back();
+    other.handles.push_back(other.fixed.back());
+    other.fixed.pop_back();
     std::vector<double> seconds;
     timed([&] {
         Deformer deformer = scene.ready(scene.model(scene.method));
@@ -100,18 +100,18 @@ double base_on_known_model(const SkipScene& scene) {
     return median(seconds);
 }
 
-/// A handle changes to other vertices while the base stays, given as the base or among the handles. Each time for a
-/// fresh model, which has none of the new handle's columns yet.
-Seconds handles_change(bool base_is_known) {
+/// A handle changes to other vertices while the fixed set stays, given as the fixed set or among the handles. Each time
+/// for a fresh model, which has none of the new handle's columns yet.
+Seconds handles_change(bool fixed_set_is_known) {
     return [=](const SkipScene& scene) {
         ConstrainedSet before = scene.set, after = scene.set;
         const auto half = static_cast<std::ptrdiff_t>(scene.set.handles.size() / 2);
         before.handles.erase(before.handles.begin(), before.handles.begin() + half);
         after.handles.erase(after.handles.begin() + half, after.handles.end());
         for (ConstrainedSet* set : {&before, &after})
-            if (!base_is_known) {
-                set->handles.insert(set->handles.end(), set->base.begin(), set->base.end());
-                set->base.clear();
+            if (!fixed_set_is_known) {
+                set->handles.insert(set->handles.end(), set->fixed.begin(), set->fixed.end());
+                set->fixed.clear();
             }
         std::vector<double> seconds;
         timed([&] {
@@ -149,7 +149,7 @@ SkipScene::SkipScene(MethodKind kind, int cells, Control& its_control)
     : body(study_body(make_box(cells), Material{1.0, 0.3}, "cube")), control(its_control) {
     method.kind = kind;
     const Eigen::Vector3d middle(1.0, 0.5, 0.5);
-    set.base = vertices_where(*body.surface, [](const auto& x) { return x[0] < 1e-9; });
+    set.fixed = vertices_where(*body.surface, [](const auto& x) { return x[0] < 1e-9; });
     set.handles =
         vertices_where(*body.surface, [&](const auto& x) { return x[0] > 1.0 - 1e-9 && (x - middle).norm() < 0.26; });
 }
@@ -192,7 +192,7 @@ std::vector<Skip> all_skips() {
         if (is_fem)
             skips.push_back({"poisson", "tetrahedra and integrals when Poisson's ratio changes", kind,
                              again_with(1.0, 0.4), precomputed_in(Mode::on_demand)});
-        skips.push_back({"base-change", "the precomputation when the fixed set changes", kind, base_on_known_model,
+        skips.push_back({"base-change", "the precomputation when the fixed set changes", kind, fixed_set_on_known_model,
                          ready_in(Mode::on_demand)});
         skips.push_back({"single-solve", "what only a drag needs: one factorisation for a single solve", kind,
                          ready_in(Mode::on_demand, Update::direct), ready_in(Mode::on_demand)});

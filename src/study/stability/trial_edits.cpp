@@ -21,22 +21,23 @@ class EditedSet {
 public:
     EditedSet(int n_vertices, unsigned seed) : n_vertices_(n_vertices), random_(seed) {}
 
-    /// Constrains a free vertex or frees a constrained one, moves one between base and handles, or draws new values.
+    /// Constrains a free vertex or frees a constrained one, moves one between fixed set and handles, or draws new
+    /// values.
     void edit() {
         const unsigned what = random_() % 8;
         const int v = static_cast<int>(random_() % static_cast<unsigned>(n_vertices_));
         if (what < 4) {
-            if (!remove(set_.base, v) && !remove(set_.handles, v) && size() < 0.4 * n_vertices_)
-                (what < 1 ? set_.base : set_.handles).push_back(v);
+            if (!remove(set_.fixed, v) && !remove(set_.handles, v) && size() < 0.4 * n_vertices_)
+                (what < 1 ? set_.fixed : set_.handles).push_back(v);
         } else if (what < 5 && !set_.handles.empty()) {
             const int moved = set_.handles[random_() % set_.handles.size()];
             remove(set_.handles, moved);
-            set_.base.push_back(moved);
+            set_.fixed.push_back(moved);
         }
         values_.resize(3 * std::ssize(set_.handles));
         for (double& value : values_) value = 2.0 * random_() / static_cast<double>(std::mt19937::max()) - 1.0;
     }
-    int size() const { return static_cast<int>(set_.base.size() + set_.handles.size()); }
+    int size() const { return static_cast<int>(set_.fixed.size() + set_.handles.size()); }
     const ConstrainedSet& set() const { return set_; }
     const Eigen::VectorXd& values() const { return values_; }
 

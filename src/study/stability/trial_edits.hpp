@@ -6,7 +6,7 @@
 
 namespace elastolab {
 
-/// One deformer goes through `n_edits` random edits: vertices become constrained or free, base or handle, and get new
+/// One deformer goes through `n_edits` random edits: vertices become constrained or free, fixed or handle, and get new
 /// values. Every so often its displacements are compared with those of a new model and a new deformer with the direct
 /// update, which shares nothing with it but the integrals. Sets that hold nothing are left out of the comparison.
 /// edits, checks, error (worst relative difference), allowed, outcome, vertices, constrained (largest set).

@@ -33,10 +33,10 @@ public:
 class EndlessModel : public SlowModel {
 public:
     using SlowModel::SlowModel;
-    std::unique_ptr<ConstrainedSolid> constrain(std::span<const int> base, std::span<const int> handles,
+    std::unique_ptr<ConstrainedSolid> constrain(std::span<const int> fixed, std::span<const int> handles,
                                                 std::span<const UnitLoad>, Control&) const override {
         return std::make_unique<ConstrainedSolid>(
-            facts_.n_vertices, constrain_vertices(joined(base, handles)), std::vector<LoadShare>{}, nullptr,
+            facts_.n_vertices, constrain_vertices(joined(fixed, handles)), std::vector<LoadShare>{}, nullptr,
             std::make_unique<EndlessSolver>(facts_.n_vertices, false), SolutionChecks{});
     }
 };

@@ -1,4 +1,4 @@
-// What is shown and written besides the displacements of an answer that is not refined yet.
+// What is shown and written besides the displacements of an answer that is not converged yet.
 
 #include <gtest/gtest.h>
 
@@ -40,7 +40,7 @@ struct FirstAnswer : testing::Test {
 
 TEST_F(FirstAnswer, IsRefinedBeforeItIsWritten) {
     const TemporaryFolder folder;
-    ASSERT_FALSE(embedded.runner().refined());
+    ASSERT_FALSE(embedded.runner().converged());
     write_export(folder.path() / "moved.obj", export_source(scene, embedded), control);
     const Positions moved = load_surface(folder.path() / "moved.obj").vertices - scene.mesh().vertices;
     const Eigen::VectorXd truth = exact.displace(scene.constraints().values);
@@ -48,11 +48,11 @@ TEST_F(FirstAnswer, IsRefinedBeforeItIsWritten) {
 }
 
 TEST_F(FirstAnswer, HasNoReactionsUntilItIsRefined) {
-    ASSERT_TRUE(embedded.runner().refining());
+    ASSERT_TRUE(embedded.runner().converging());
     ReactionRunner reactions([] {});
     reactions.update(embedded.runner());
     EXPECT_FALSE(reactions.running()) << "would iterate for what is being iterated for";
-    poll_until([&] { return embedded.runner().refined(); });
+    poll_until([&] { return embedded.runner().converged(); });
     wait_for([&] {
         reactions.update(embedded.runner());
         return reactions.surface() != nullptr;

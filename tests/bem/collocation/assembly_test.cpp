@@ -22,11 +22,11 @@ using test::all_triangles;
 
 constexpr double kTolerance = 1e-10;  // of the integrals
 
-Eigen::MatrixXd matrix(Layer layer, const Boundary& boundary, const Sources& sources, const Elements& elements,
+Eigen::MatrixXd matrix(Layer layer, const Boundary& boundary, const CollocationPoints& points, const Elements& elements,
                        const Material& material, double tolerance = kTolerance) {
     Control control;
-    Eigen::MatrixXd result(3 * sources.size(), 3 * elements.n_slots);
-    assemble(layer, boundary, sources, elements, material, tolerance, result, control);
+    Eigen::MatrixXd result(3 * points.size(), 3 * elements.n_slots);
+    assemble(layer, boundary, points, elements, material, tolerance, result, control);
     return result;
 }
 
@@ -43,7 +43,7 @@ TEST(BemAssembly, GivesNoTractionToARotationByLinearElements) {
     for (const auto& [name, mesh] : bodies()) {
         const Boundary boundary(mesh);
         for (const double nu : {-0.5, 0.0, 0.3, 0.49, 0.5}) {
-            const Eigen::MatrixXd H = matrix(Layer::double_layer, boundary, vertex_sources(boundary),
+            const Eigen::MatrixXd H = matrix(Layer::double_layer, boundary, vertex_collocation_points(boundary),
                                              vertex_elements(boundary), Material{1.0, nu}, 1e-14);
             const Eigen::VectorXd u = rigid_motion(mesh.vertices, Eigen::Vector3d::Zero(), {0.3, -0.5, 0.8});
             EXPECT_LT((H * u).norm(), 1e-13 * H.norm() * u.norm()) << name << ", nu " << nu;
@@ -55,7 +55,7 @@ TEST(BemAssembly, GivesNoTractionToARotationAtInteriorPoints) {
     const SurfaceMesh mesh = make_rabbit(300).surface;
     const Boundary boundary(mesh);
     const std::vector<int> triangles = {0, 5, 17, 100};
-    const Eigen::MatrixXd H = matrix(Layer::double_layer, boundary, sources_inside(boundary, triangles),
+    const Eigen::MatrixXd H = matrix(Layer::double_layer, boundary, inner_collocation_points(boundary, triangles),
                                      vertex_elements(boundary), Material{1.0, 0.3}, 1e-14);
     const Eigen::VectorXd u = rigid_motion(mesh.vertices, Eigen::Vector3d::Zero(), {0.3, -0.5, 0.8});
     EXPECT_LT((H * u).norm(), 1e-13 * H.norm() * u.norm());
@@ -65,10 +65,10 @@ TEST(BemAssembly, GivesNoTractionToARotationAtInteriorPoints) {
 TEST(BemAssembly, ResistsARotationByConstantElementsAtFirstOrder) {
     const auto residual = [](int cells) {
         const Boundary boundary(make_box(cells));
-        const Sources sources = centroid_sources(boundary);
-        const Eigen::MatrixXd H = matrix(Layer::double_layer, boundary, sources,
+        const CollocationPoints points = centroid_collocation_points(boundary);
+        const Eigen::MatrixXd H = matrix(Layer::double_layer, boundary, points,
                                          constant_elements(all_triangles(boundary)), Material{1.0, 0.3});
-        const Eigen::VectorXd u = rigid_motion(sources.points, Eigen::Vector3d::Zero(), {0.3, -0.5, 0.8});
+        const Eigen::VectorXd u = rigid_motion(points.positions, Eigen::Vector3d::Zero(), {0.3, -0.5, 0.8});
         return (H * u).norm() / u.norm();
     };
     const double coarse = residual(3), fine = residual(6);
@@ -83,7 +83,7 @@ TEST(BemAssembly, HasHalfTheUnitMatrixAsFreeTermOnAFace) {
     const Boundary boundary(mesh);
     const Elements elements = vertex_elements(boundary);
     const Eigen::MatrixXd H =
-        matrix(Layer::double_layer, boundary, vertex_sources(boundary), elements, Material{1.0, 0.3});
+        matrix(Layer::double_layer, boundary, vertex_collocation_points(boundary), elements, Material{1.0, 0.3});
     int n_on_faces = 0;
     for (int v = 0; v < mesh.n_vertices(); ++v) {
         const auto& x = mesh.vertices.col(v).array();
@@ -112,9 +112,9 @@ double somigliana_defect(int cells, const Material& material) {
     const PointForceField field{material, {2.6, 0.4, 0.7}, {0.3, 1.0, -0.4}};
     const std::vector<int> triangles = all_triangles(boundary);
     const Eigen::MatrixXd H =
-        matrix(Layer::double_layer, boundary, vertex_sources(boundary), vertex_elements(boundary), material);
+        matrix(Layer::double_layer, boundary, vertex_collocation_points(boundary), vertex_elements(boundary), material);
     const Eigen::MatrixXd G =
-        matrix(Layer::single_layer, boundary, vertex_sources(boundary), own_elements(triangles), material);
+        matrix(Layer::single_layer, boundary, vertex_collocation_points(boundary), own_elements(triangles), material);
     Eigen::VectorXd u(3 * mesh.n_vertices()), t(9 * mesh.n_triangles());
     for (int v = 0; v < mesh.n_vertices(); ++v) u.segment<3>(3 * v) = field.displacement(mesh.vertices.col(v));
     for (const int k : triangles)
@@ -137,10 +137,10 @@ TEST(BemAssembly, SumsTheLinearFunctionsOfATriangleToTheConstantOne) {
     const Boundary boundary(make_rabbit(300).surface);
     const std::vector<int> triangles = {3, 50, 200};
     const Material material{1.0, 0.3};
-    const Sources sources = centroid_sources(boundary);
+    const CollocationPoints points = centroid_collocation_points(boundary);
     const Eigen::MatrixXd constant =
-        matrix(Layer::single_layer, boundary, sources, constant_elements(triangles), material);
-    const Eigen::MatrixXd linear = matrix(Layer::single_layer, boundary, sources, own_elements(triangles), material);
+        matrix(Layer::single_layer, boundary, points, constant_elements(triangles), material);
+    const Eigen::MatrixXd linear = matrix(Layer::single_layer, boundary, points, own_elements(triangles), material);
     for (Eigen::Index k = 0; k < 3; ++k) {
         const Eigen::MatrixXd sum =
             linear.middleCols<3>(9 * k) + linear.middleCols<3>(9 * k + 3) + linear.middleCols<3>(9 * k + 6);
@@ -170,9 +170,9 @@ TEST(BemAssembly, IntegratesATriangleOnceForAllItsTractions) {
             apart.n_slots += block.n_slots;
         }
         ASSERT_EQ(apart.n_slots, space.n_slots());
-        const Sources sources = vertex_sources(boundary);
-        const Eigen::MatrixXd truth = matrix(Layer::single_layer, boundary, sources, apart, Material{1.0, 0.3});
-        const Eigen::MatrixXd G = matrix(Layer::single_layer, boundary, sources, space.elements, Material{1.0, 0.3});
+        const CollocationPoints points = vertex_collocation_points(boundary);
+        const Eigen::MatrixXd truth = matrix(Layer::single_layer, boundary, points, apart, Material{1.0, 0.3});
+        const Eigen::MatrixXd G = matrix(Layer::single_layer, boundary, points, space.elements, Material{1.0, 0.3});
         EXPECT_LT((G - truth).norm(), 1e-14 * truth.norm());
     }
 }
@@ -182,7 +182,7 @@ TEST(BemAssembly, DoesNotDependOnTheNumberOfThreads) {
     const int threads = thread_count();
     const auto assembled = [&](int n) {
         set_thread_count(n);
-        return matrix(Layer::double_layer, boundary, vertex_sources(boundary), vertex_elements(boundary),
+        return matrix(Layer::double_layer, boundary, vertex_collocation_points(boundary), vertex_elements(boundary),
                       Material{1.0, 0.3});
     };
     const Eigen::MatrixXd one = assembled(1), three = assembled(3);
@@ -203,8 +203,8 @@ TEST(BemAssembly, KeepsTheToleranceOnALongBodyNumberedAtRandom) {
     for (int& v : shuffled.triangles.reshaped()) v = place[static_cast<std::size_t>(v)];
     const Boundary boundary(shuffled);
     const auto double_layer = [&](double tolerance) {
-        return matrix(Layer::double_layer, boundary, vertex_sources(boundary), vertex_elements(boundary), {1.0, 0.3},
-                      tolerance);
+        return matrix(Layer::double_layer, boundary, vertex_collocation_points(boundary), vertex_elements(boundary),
+                      {1.0, 0.3}, tolerance);
     };
     const Eigen::MatrixXd exact = double_layer(1e-14);
     for (const double tolerance : {1e-6, 1e-10}) {
@@ -218,12 +218,12 @@ TEST(BemAssembly, KeepsTheToleranceOnALongBodyNumberedAtRandom) {
 
 TEST(BemAssembly, StopsWhenCancelled) {
     const Boundary boundary(make_box(4));
-    const Sources sources = vertex_sources(boundary);
+    const CollocationPoints points = vertex_collocation_points(boundary);
     const Elements elements = vertex_elements(boundary);
-    Eigen::MatrixXd H(3 * sources.size(), 3 * elements.n_slots);
+    Eigen::MatrixXd H(3 * points.size(), 3 * elements.n_slots);
     Control control;
     control.cancel();
-    EXPECT_THROW(assemble(Layer::double_layer, boundary, sources, elements, Material{}, kTolerance, H, control),
+    EXPECT_THROW(assemble(Layer::double_layer, boundary, points, elements, Material{}, kTolerance, H, control),
                  Cancelled);
 }
 

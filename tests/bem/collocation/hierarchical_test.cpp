@@ -69,11 +69,11 @@ TEST(HierarchicalCollocation, AFurtherHandleOnAKeptBaseIsAnsweredAsByTheDenseMat
     std::vector<int> both = body.pull;
     for (int v = 0; v < mesh.n_vertices(); ++v)
         if (mesh.vertices(0, v) > low[0] + 0.93 * (high[0] - low[0]) &&
-            std::ranges::find(body.base, v) == body.base.end() && std::ranges::find(both, v) == both.end())
+            std::ranges::find(body.fixed, v) == body.fixed.end() && std::ranges::find(both, v) == both.end())
             both.push_back(v);
     ASSERT_GT(both.size(), body.pull.size() + 3);
     const Eigen::VectorXd values = Eigen::Vector3d(0.1, -0.2, 0.15).replicate(std::ssize(both), 1);
-    const Eigen::VectorXd exact = displaced(precomputed(make_body(mesh), dense_linear()), {body.base, both}, values);
+    const Eigen::VectorXd exact = displaced(precomputed(make_body(mesh), dense_linear()), {body.fixed, both}, values);
     Control control;
     const auto boundary = std::make_shared<const Boundary>(mesh);
     const auto matrices = std::make_shared<const HierarchicalCollocation>(boundary, Material{1.0, 0.3}, 1e-10, control);
@@ -82,13 +82,13 @@ TEST(HierarchicalCollocation, AFurtherHandleOnAKeptBaseIsAnsweredAsByTheDenseMat
         const TractionSpace space = linear_traction_space(*boundary, around, Tractions::discontinuous, held);
         return CollocationSolver(matrices, space, held, {}, true, control);
     };
-    const CollocationSolver before = solver_of(joined(body.base, body.pull)),
-                            after = solver_of(joined(body.base, both));
+    const CollocationSolver before = solver_of(joined(body.fixed, body.pull)),
+                            after = solver_of(joined(body.fixed, both));
     const CollocationLoads &first = before.problem().loads(), &second = after.problem().loads();
     EXPECT_EQ(first.n_new_slots(), first.n_slots());
     EXPECT_GT(second.n_new_slots(), 0);
     EXPECT_LT(second.n_new_slots(), second.n_slots() / 2) << "what is kept is integrated again";
-    Eigen::VectorXd prescribed = Eigen::VectorXd::Zero(3 * std::ssize(body.base) + values.size());
+    Eigen::VectorXd prescribed = Eigen::VectorXd::Zero(3 * std::ssize(body.fixed) + values.size());
     prescribed.tail(values.size()) = values;
     EXPECT_LT(off(after.solve(prescribed, false).displacements, exact), 1e-6);
 }
@@ -98,7 +98,7 @@ class HierarchicalCollocationTractions : public testing::TestWithParam<Tractions
 TEST_P(HierarchicalCollocationTractions, AgreesWithTheDenseMatrixOnAnOrganicBody) {
     const OrganicBody body = make_rabbit(1000);
     const Positions moved = body.values(0.3).rightCols(std::ssize(body.pull));
-    expect_as_dense(body.surface, {body.base, body.pull}, moved.reshaped(), GetParam());
+    expect_as_dense(body.surface, {body.fixed, body.pull}, moved.reshaped(), GetParam());
 }
 
 INSTANTIATE_TEST_SUITE_P(All, HierarchicalCollocationTractions, testing::ValuesIn(kAllTractions),
@@ -108,7 +108,7 @@ INSTANTIATE_TEST_SUITE_P(All, HierarchicalCollocationTractions, testing::ValuesI
 TEST(HierarchicalCollocation, LoneVerticesAndTrianglesAreHeldAsByTheDenseMatrix) {
     const SurfaceMesh mesh = make_sphere(12);
     ConstrainedSet set;
-    set.base = vertices_where(mesh, [](const auto& x) { return x[2] < -0.8; });
+    set.fixed = vertices_where(mesh, [](const auto& x) { return x[2] < -0.8; });
     for (int t = 0; t < mesh.n_triangles() && set.handles.empty(); ++t) {
         const Eigen::Vector3i v = mesh.triangles.col(t);
         if (mesh.vertices(2, v).minCoeff() > 0.9) set.handles = {v[0], v[1], v[2]};
@@ -124,7 +124,7 @@ TEST(HierarchicalCollocation, LoneVerticesAndTrianglesAreHeldAsByTheDenseMatrix)
 TEST(HierarchicalCollocation, AHollowSphereIsPulledAsByTheDenseMatrix) {
     const SurfaceMesh mesh = make_hollow_sphere(7);
     ConstrainedSet set;
-    set.base = vertices_where(mesh, [](const auto& x) { return x[2] < -0.7; });
+    set.fixed = vertices_where(mesh, [](const auto& x) { return x[2] < -0.7; });
     set.handles = vertices_where(mesh, [](const auto& x) { return x[2] > 0.8; });
     const Eigen::VectorXd pull = Eigen::Vector3d(0.1, 0.05, 0.2).replicate(std::ssize(set.handles), 1);
     expect_as_dense(mesh, set, pull, Tractions::discontinuous);

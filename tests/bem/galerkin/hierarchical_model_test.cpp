@@ -39,7 +39,7 @@ Method dense() { return {.kind = kGalerkinBem, .update = Update::direct}; }
 
 TEST(HierarchicalGalerkin, AgreesWithTheDenseMatrixOnAnOrganicBody) {
     const OrganicBody body = make_rabbit(800);
-    const ConstrainedSet set{body.base, body.pull};
+    const ConstrainedSet set{body.fixed, body.pull};
     const Positions moved = body.values(0.3).rightCols(std::ssize(body.pull));
     const Eigen::VectorXd values = Eigen::Map<const Eigen::VectorXd>(moved.data(), moved.size());
     Control control;
@@ -62,7 +62,7 @@ TEST(HierarchicalGalerkin, AFurtherHandleOnAKeptBaseIsAnsweredAsByTheDenseMatrix
     const Positions moved = body.values(0.3).rightCols(std::ssize(body.pull));
     const Eigen::VectorXd values = moved.reshaped();
     const Eigen::VectorXd exact =
-        displaced(precomputed(make_body(body.surface), dense()), {body.base, body.pull}, values);
+        displaced(precomputed(make_body(body.surface), dense()), {body.fixed, body.pull}, values);
     StageTimes stages;
     Control control;
     const auto system = std::make_shared<const HierarchicalSystem>(body.surface, 0.3, hierarchical(), stages, control);
@@ -70,12 +70,12 @@ TEST(HierarchicalGalerkin, AFurtherHandleOnAKeptBaseIsAnsweredAsByTheDenseMatrix
         const GalerkinTractions tractions(body.surface, system->surfaces(), vertices);
         return HierarchicalSolver(system, vertices, tractions, {}, true, control);
     };
-    const HierarchicalSolver before = solver_of(body.base), after = solver_of(joined(body.base, body.pull));
+    const HierarchicalSolver before = solver_of(body.fixed), after = solver_of(joined(body.fixed, body.pull));
     EXPECT_GT(before.layers().n_new_triangles(), 0);
     EXPECT_GT(after.layers().n_new_triangles(), 0);
     EXPECT_EQ(3 * (before.layers().n_new_triangles() + after.layers().n_new_triangles()), after.layers().size())
-        << "the base is integrated again";
-    Eigen::VectorXd prescribed = Eigen::VectorXd::Zero(3 * std::ssize(body.base) + values.size());
+        << "the fixed is integrated again";
+    Eigen::VectorXd prescribed = Eigen::VectorXd::Zero(3 * std::ssize(body.fixed) + values.size());
     prescribed.tail(values.size()) = values;
     EXPECT_LT(off(after.solve(prescribed, false).displacements, exact), 1e-6);
 }
@@ -127,7 +127,7 @@ TEST(HierarchicalGalerkin, RigidMotionsCauseNoForceAndCavitiesFollow) {
 TEST(HierarchicalGalerkin, AHollowSphereIsPulledAsByTheDenseMatrix) {
     const SurfaceMesh mesh = make_hollow_sphere(7);
     ConstrainedSet set;
-    set.base = vertices_where(mesh, [](const auto& x) { return x[2] < -0.7; });
+    set.fixed = vertices_where(mesh, [](const auto& x) { return x[2] < -0.7; });
     set.handles = vertices_where(mesh, [](const auto& x) { return x[2] > 0.8; });
     const Eigen::VectorXd pull = Eigen::Vector3d(0.1, 0.05, 0.2).replicate(std::ssize(set.handles), 1);
     const Eigen::VectorXd truth = displaced(precomputed(make_body(mesh), dense()), set, pull);
@@ -170,7 +170,7 @@ TEST(HierarchicalGalerkin, SmallCavitiesAreAnsweredAsByTheDenseMatrix) {
             x += 0.3;
         }
         ConstrainedSet set;
-        set.base = vertices_where(mesh, [](const auto& p) { return p[2] < -0.7; });
+        set.fixed = vertices_where(mesh, [](const auto& p) { return p[2] < -0.7; });
         set.handles = vertices_where(mesh, [](const auto& p) { return p[2] > 0.8; });
         const Eigen::VectorXd pull = Eigen::Vector3d(0.1, 0.05, 0.2).replicate(std::ssize(set.handles), 1);
         const Eigen::VectorXd truth = displaced(precomputed(make_body(mesh), dense()), set, pull);
@@ -201,7 +201,7 @@ TEST(HierarchicalGalerkin, KeepsAnswersForCombinationsOfThem) {
     const OrganicBody body = make_rabbit(400);
     Control control;
     Deformer deformer(precomputed(make_body(body.surface), hierarchical()));
-    deformer.constrain({body.base, body.pull}, control);
+    deformer.constrain({body.fixed, body.pull}, control);
     const Eigen::Index n = std::ssize(body.pull);
     const Eigen::MatrixXd basis = Eigen::Matrix3d::Identity().replicate(n, 1);
     const DragResponse drag = deformer.drag_response(Eigen::VectorXd::Zero(3 * n), basis, control);

@@ -16,7 +16,7 @@ namespace {
 
 /// A load g on a body that is fixed and held at a patch, and a motion of the patch without the load.
 struct LoadAndMotion {
-    explicit LoadAndMotion(int n_vertices) : body(make_rabbit(n_vertices)), vertices(body.base) {
+    explicit LoadAndMotion(int n_vertices) : body(make_rabbit(n_vertices)), vertices(body.fixed) {
         vertices.insert(vertices.end(), body.pull.begin(), body.pull.end());
         std::vector<char> is_constrained(static_cast<std::size_t>(body.surface.n_vertices()), 0);
         for (const int v : vertices) is_constrained[static_cast<std::size_t>(v)] = 1;
@@ -31,7 +31,7 @@ struct LoadAndMotion {
         tractions = GalerkinTractions(body.surface, surfaces, vertices);
         const GalerkinDirectSolver solver(system, vertices, tractions, load, control);
         Eigen::VectorXd prescribed = Eigen::VectorXd::Zero(3 * std::ssize(vertices) + 1);
-        prescribed.segment(3 * std::ssize(body.base), 3 * std::ssize(body.pull)) =
+        prescribed.segment(3 * std::ssize(body.fixed), 3 * std::ssize(body.pull)) =
             Eigen::Vector3d(0.3, -0.1, 0.2).replicate(std::ssize(body.pull), 1);
         motion = prescribed.head(3 * std::ssize(vertices));
         moved = solver.solve(prescribed, true);

@@ -71,20 +71,20 @@ TEST(GalerkinBem, ForcesBalanceAndAreReciprocal) {
     const SurfaceMesh mesh = make_rabbit(300).surface;
     const double low = mesh.vertices.row(2).minCoeff(), high = mesh.vertices.row(2).maxCoeff();
     ConstrainedSet set;
-    set.base = vertices_where(mesh, [&](const auto& x) { return x[2] < low + 0.15 * (high - low); });
+    set.fixed = vertices_where(mesh, [&](const auto& x) { return x[2] < low + 0.15 * (high - low); });
     set.handles = vertices_where(mesh, [&](const auto& x) { return x[2] > high - 0.1 * (high - low); });
     ASSERT_GE(set.handles.size(), 3u);
     Control control;
     Deformer deformer(precomputed(make_body(mesh), kReduced));
     deformer.constrain(set, control);
-    const Eigen::Index n_base = std::ssize(set.base), n = 3 * std::ssize(set.handles);
+    const Eigen::Index n_fixed = std::ssize(set.fixed), n = 3 * std::ssize(set.handles);
     const Eigen::VectorXd a = Eigen::VectorXd::Random(n), b = Eigen::VectorXd::Random(n);
     const Reactions of_a = deformer.reactions(a), of_b = deformer.reactions(b);
     const double size = of_a.forces.colwise().norm().sum();
     EXPECT_LT(of_a.forces.rowwise().sum().norm(), 1e-8 * size);
     EXPECT_LT(of_a.moments.rowwise().sum().norm(), 1e-8 * of_a.moments.colwise().norm().sum());
     const auto work = [&](const Reactions& r, const Eigen::VectorXd& u) {
-        return Eigen::Map<const Eigen::VectorXd>(r.forces.data() + 3 * n_base, n).dot(u);
+        return Eigen::Map<const Eigen::VectorXd>(r.forces.data() + 3 * n_fixed, n).dot(u);
     };
     EXPECT_NEAR(work(of_a, b), work(of_b, a), 1e-10 * std::abs(work(of_a, a)));
 }
@@ -93,7 +93,7 @@ TEST(GalerkinBem, UpdatesAndModesAgree) {
     for (const SurfaceMesh& mesh : {make_rabbit(300).surface, make_hollow_sphere(3)}) {
         ConstrainedSet set;
         const double low = mesh.vertices.row(2).minCoeff();
-        set.base = vertices_where(mesh, [&](const auto& x) { return x[2] < low + 0.3; });
+        set.fixed = vertices_where(mesh, [&](const auto& x) { return x[2] < low + 0.3; });
         set.handles = {
             vertices_where(mesh, [&](const auto& x) { return x[2] > mesh.vertices.row(2).maxCoeff() - 1e-9; }).front()};
         const Eigen::Vector3d pull(0.1, 0.05, 0.2);

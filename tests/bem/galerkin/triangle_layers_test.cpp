@@ -63,28 +63,28 @@ void expect_same_operators(const TriangleLayers& layers, const TriangleLayers& a
 
 TEST(TriangleLayers, OfAKeptBaseAreNotIntegratedAgain) {
     Rabbit rabbit;
-    const auto base = rabbit.between(0.0, 0.2), pulled = rabbit.between(0.0, 0.2, 0.1),
+    const auto fixed = rabbit.between(0.0, 0.2), pulled = rabbit.between(0.0, 0.2, 0.1),
                moved = rabbit.between(0.0, 0.25, 0.05);
-    ASSERT_GT(pulled.size(), base.size());
-    const auto first = rabbit.layers(base), second = rabbit.layers(pulled), third = rabbit.layers(moved),
-               again = rabbit.layers(base);
+    ASSERT_GT(pulled.size(), fixed.size());
+    const auto first = rabbit.layers(fixed), second = rabbit.layers(pulled), third = rabbit.layers(moved),
+               again = rabbit.layers(fixed);
     EXPECT_EQ(first->n_new_triangles(), first->n_triangles());
-    EXPECT_EQ(second->n_new_triangles(), std::ssize(pulled) - std::ssize(base));
+    EXPECT_EQ(second->n_new_triangles(), std::ssize(pulled) - std::ssize(fixed));
     EXPECT_LT(third->n_new_triangles(), third->n_triangles() / 2);
     EXPECT_EQ(again->n_new_triangles(), 0);
     expect_same_operators(*second, *rabbit.layers_alone(pulled), rabbit.system.size());
     expect_same_operators(*third, *rabbit.layers_alone(moved), rabbit.system.size());
     EXPECT_EQ(third->last_generation()->depth, 3);
     const auto little = rabbit.between(0.0, 0.04);
-    ASSERT_LT(2 * little.size(), base.size());
+    ASSERT_LT(2 * little.size(), fixed.size());
     EXPECT_EQ(rabbit.layers(little)->n_new_triangles(), std::ssize(little)) << "the others would be of little use";
 }
 
 TEST(TriangleLayers, OfSetsThatAreGoneAreForgotten) {
     Rabbit rabbit;
-    const auto base = rabbit.between(0.0, 0.2);
-    rabbit.layers(base);
-    EXPECT_EQ(rabbit.layers(base)->n_new_triangles(), std::ssize(base));
+    const auto fixed = rabbit.between(0.0, 0.2);
+    rabbit.layers(fixed);
+    EXPECT_EQ(rabbit.layers(fixed)->n_new_triangles(), std::ssize(fixed));
 }
 
 }  // namespace

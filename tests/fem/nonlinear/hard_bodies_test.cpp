@@ -21,20 +21,20 @@ struct HardBody {
                        : std::make_shared<const FiniteElements>(quadratic.positions, quadratic.elements);
         length = mesh.vertices.row(0).maxCoeff();
         std::vector<int> nodes = test::nodes_where(*elements, [](const Vector3d& p) { return p[0] == 0.0; });
-        n_base = nodes.size();
+        n_fixed = nodes.size();
         const auto right = test::nodes_where(*elements, [&](const Vector3d& p) { return p[0] == length; });
         nodes.insert(nodes.end(), right.begin(), right.end());
         Control control;
         solver = std::make_unique<NonlinearSolver>(elements, Material{1.0, 0.3},
-                                                   PrescribedNodes{nodes, static_cast<int>(n_base), true}, control);
+                                                   PrescribedNodes{nodes, static_cast<int>(n_fixed), true}, control);
     }
     /// The moved end goes by x -> center + map (x - center), about its middle.
     EquilibriumFacts moved(const Matrix3d& map, const Vector3d& shift = Vector3d::Zero()) const {
         const std::vector<int>& nodes = solver->nodes();
         const Positions x = elements->positions()(Eigen::all, nodes);
-        const Vector3d center = x.rightCols(x.cols() - static_cast<Eigen::Index>(n_base)).rowwise().mean();
+        const Vector3d center = x.rightCols(x.cols() - static_cast<Eigen::Index>(n_fixed)).rowwise().mean();
         Eigen::VectorXd values = Eigen::VectorXd::Zero(x.size());
-        for (auto i = static_cast<Eigen::Index>(n_base); i < x.cols(); ++i)
+        for (auto i = static_cast<Eigen::Index>(n_fixed); i < x.cols(); ++i)
             values.segment<3>(3 * i) = center + map * (x.col(i) - center) + shift - x.col(i);
         const NodeSolution solution = solver->solve(values, false);
         const auto& state = dynamic_cast<const NonlinearState&>(*solution.state).newton();
@@ -45,7 +45,7 @@ struct HardBody {
 
     std::shared_ptr<const FiniteElements> elements;
     double length = 0.0;
-    std::size_t n_base = 0;
+    std::size_t n_fixed = 0;
     std::unique_ptr<NonlinearSolver> solver;
 };
 

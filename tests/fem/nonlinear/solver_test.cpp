@@ -206,13 +206,13 @@ TEST(NonlinearSolver, ACompressedBarBucklesRatherThanStaysStraight) {
 TEST(NonlinearSolver, AHalfThatIsTurnedInsideOutHasNoEquilibriumAndSaysWhere) {
     const auto elements = elements_of_box({4, 2, 2}, {2, 1, 1}, ElementDegree::linear);
     std::vector<int> nodes = test::nodes_where(*elements, [](const auto& p) { return p[0] == 0.0; });
-    const auto n_base = static_cast<Eigen::Index>(nodes.size());
+    const auto n_fixed = static_cast<Eigen::Index>(nodes.size());
     const std::vector<int> half = test::nodes_where(*elements, [](const auto& p) { return p[0] > 0.9; });
     nodes.insert(nodes.end(), half.begin(), half.end());
     Control control;
-    const NonlinearSolver solver(elements, {1.0, 0.3}, {nodes, static_cast<int>(n_base), true}, control);
+    const NonlinearSolver solver(elements, {1.0, 0.3}, {nodes, static_cast<int>(n_fixed), true}, control);
     Eigen::VectorXd values = Eigen::VectorXd::Zero(3 * std::ssize(nodes));
-    for (Eigen::Index i = n_base; i < std::ssize(nodes); ++i)
+    for (Eigen::Index i = n_fixed; i < std::ssize(nodes); ++i)
         values[3 * i + 1] = 1.0 - 2.0 * elements->positions()(1, nodes[static_cast<std::size_t>(i)]);
     try {
         solver.solve(values, false);

@@ -1,4 +1,4 @@
-#include "bem/hierarchical/free_motions.hpp"
+#include "bem/hierarchical/free_modes.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -15,7 +15,7 @@ constexpr double kUnseen = 1e-9;
 
 }  // namespace
 
-Eigen::MatrixXd unseen_motions(const Eigen::MatrixXd& motions, const std::vector<int>& items) {
+Eigen::MatrixXd unseen_modes(const Eigen::MatrixXd& motions, const std::vector<int>& items) {
     const Eigen::Index n_seen_rows = 3 * std::ssize(items);
     Eigen::MatrixXd seen =
         Eigen::MatrixXd::Zero(std::max(n_seen_rows, motions.cols()), motions.cols());  // so that V is square
