@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "app/panels/messages.hpp"
+#include "app/messages.hpp"
 #include "scene/live/background_job.hpp"
 
 namespace elastolab {

@@ -4,7 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "app/autosave.hpp"
+#include "app/files/autosave.hpp"
+#include "app/files/series.hpp"
 #include "app/input/interaction_log.hpp"
 #include "app/panels/gui.hpp"
 #include "app/panels/layout.hpp"
@@ -13,7 +14,6 @@
 #include "app/picture/pictures.hpp"
 #include "app/picture/scene_renderer.hpp"
 #include "app/preferences.hpp"
-#include "app/series.hpp"
 #include "app/six_axis.hpp"
 #include "app/viewer.hpp"
 #include "app/viewer_state.hpp"

@@ -8,16 +8,16 @@
 #include <utility>
 #include <vector>
 
-#include "app/autosave.hpp"
-#include "app/exports.hpp"
+#include "app/files/autosave.hpp"
+#include "app/files/exports.hpp"
+#include "app/files/scene_io.hpp"
+#include "app/files/unsaved_changes.hpp"
 #include "app/input/gestures.hpp"
 #include "app/measurements.hpp"
-#include "app/panels/messages.hpp"
+#include "app/messages.hpp"
 #include "app/picture/shown_scene.hpp"
 #include "app/probes.hpp"
-#include "app/scene_files.hpp"
 #include "app/settings.hpp"
-#include "app/unsaved_changes.hpp"
 #include "app/viewer_requests.hpp"
 #include "methods/registry.hpp"
 #include "render/camera.hpp"

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "app/picture/reaction_runner.hpp"
-#include "app/scene_files.hpp"
+#include "app/files/export_source.hpp"
 #include "bem/collocation/method.hpp"
 #include "mesh/input/import.hpp"
 #include "scene/iterating_method.hpp"

@@ -1,5 +1,5 @@
 // What a viewer that is killed leaves behind, and who finds it.
-#include "app/autosave.hpp"
+#include "app/files/autosave.hpp"
 
 #include <gmock/gmock.h>
 

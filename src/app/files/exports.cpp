@@ -1,4 +1,4 @@
-#include "app/exports.hpp"
+#include "app/files/exports.hpp"
 
 #include <memory>
 #include <utility>

@@ -1,5 +1,5 @@
 // No change is lost without a question.
-#include "app/unsaved_changes.hpp"
+#include "app/files/unsaved_changes.hpp"
 
 #include <gmock/gmock.h>
 

@@ -4,11 +4,8 @@
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "base/control.hpp"
-#include "deform/deformer.hpp"
-#include "scene/live/embedded_runner.hpp"
 #include "scene/live/live_scene.hpp"
 
 namespace elastolab {
@@ -29,32 +26,12 @@ LoadedScene load_scene_or_mesh(const std::filesystem::path& file, Control& contr
 /// Reads a scene that was kept for a viewer which did not end as it should; `origin`: the file that it belongs to.
 LoadedScene load_autosaved(const std::filesystem::path& file, const std::filesystem::path& origin, Control& control);
 
-/// The scene as it is to be kept, whatever folder it is read from: the name of its mesh is absolute.
+/// The scene as it is to be kept, with this method and seen from there, whatever folder it is read from: the name of
+/// its mesh is absolute.
 Document movable_document(const LiveScene& scene, MethodKind method, const ViewPoint& camera);
 
 /// Writes the scene, with this method and seen from there, in such a way that it finds its mesh. Throws Error.
 void write_scene(const std::filesystem::path& file, const LiveScene& scene, MethodKind method, const ViewPoint& camera);
-
-/// The answer of a method as it is now, to be written while the scene goes on.
-struct ExportSource {
-    std::shared_ptr<const SurfaceMesh> shown;
-    std::shared_ptr<const Proxy> proxy;        ///< null: shown itself is simulated
-    std::shared_ptr<const Deformer> deformer;  ///< null: there is no answer yet
-    Eigen::VectorXd values, displacement, simulated_displacement;
-    Approach approach = {};                     ///< of a method that is not linear: how to reach `values`
-    std::vector<ConstraintGroup> groups = {};   ///< of the deformer's set
-    bool refined = true;                        ///< else displacements are solved for again, to kSolveTolerance
-    std::optional<CarriedConstraints> carried;  ///< to the shown vertices, where that is so and there is a proxy
-};
-ExportSource export_source(const LiveScene& scene, const EmbeddedRunner& answer);
-
-/// Writes the moved mesh or what else the ending of `file` stands for (scene/field_export.hpp, scene/figure); solves
-/// for the reactions where fields need them. A mesh is written at rest where there is no answer. Throws Error,
-/// Cancelled.
-void write_export(const std::filesystem::path& file, const ExportSource& source, Control& control);
-
-/// Whether what is written under this name takes solves, and so more than a frame.
-bool takes_solves(const std::filesystem::path& file);
 
 /// The scene that the viewer begins with: the paper's cube of about 1000 vertices, its left face fixed.
 Document default_document();
