@@ -4,7 +4,6 @@
 #include <optional>
 #include <vector>
 
-#include "app/files/autosave.hpp"
 #include "app/files/series.hpp"
 #include "app/input/interaction_log.hpp"
 #include "app/panels/gui.hpp"
@@ -121,7 +120,6 @@ private:
     SceneRenderer renderer_;
     Panels panels_;
     Pictures pictures_;
-    Autosave autosave_;
     std::optional<SixAxisMouse> six_axis_mouse_;  ///< none where nobody watches
     SixAxisControl six_axis_;
     std::optional<StartTimeline> timeline_;

@@ -84,8 +84,7 @@ Document movable_document(const LiveScene& scene, MethodKind method, const ViewP
     return document;
 }
 
-void write_scene(const fs::path& file, const LiveScene& scene, MethodKind method, const ViewPoint& camera) {
-    Document document = movable_document(scene, method, camera);
+void write_scene(const fs::path& file, Document document) {
     if (auto* mesh = std::get_if<MeshFile>(&document.mesh)) {
         const fs::path relative = fs::path(mesh->file).lexically_relative(fs::absolute(file).parent_path());
         if (!relative.empty()) mesh->file = relative.string();

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "base/control.hpp"
@@ -17,6 +18,7 @@ struct LoadedScene {
     std::filesystem::path file;                          ///< the file it can be saved over; empty for a bare mesh
     std::string note = {};                               ///< for the user: why it begins with another method than usual
     bool recovered = false;                              ///< from a viewer that was killed: its changes are unsaved
+    std::optional<MethodKind> method = {};               ///< that was asked for, instead of its own
 };
 
 /// Reads a scene file (.json), or a mesh, whose lowest part is held. The time grows with the mesh. Throws
@@ -30,8 +32,8 @@ LoadedScene load_autosaved(const std::filesystem::path& file, const std::filesys
 /// its mesh is absolute.
 Document movable_document(const LiveScene& scene, MethodKind method, const ViewPoint& camera);
 
-/// Writes the scene, with this method and seen from there, in such a way that it finds its mesh. Throws Error.
-void write_scene(const std::filesystem::path& file, const LiveScene& scene, MethodKind method, const ViewPoint& camera);
+/// Writes a movable_document() in such a way that it finds its mesh. Throws Error.
+void write_scene(const std::filesystem::path& file, Document document);
 
 /// The scene that the viewer begins with: the paper's cube of about 1000 vertices, its left face fixed.
 Document default_document();

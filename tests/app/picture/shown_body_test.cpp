@@ -290,7 +290,7 @@ TEST_F(ShownBodyTest, ADifferenceAloneHasTheReferenceComputed) {
 TEST_F(ShownBodyTest, IsAtRestBeforeTheFirstAnswer) {
     stage.scene().clear_handles();
     const Document document = stage.scene().document();
-    state.open_document(document, "scene.json");
+    state.files.open_document(document, "scene.json");
     state.display.field = Field::von_mises;
     state.display.arrows = true;
     stage.frame();
