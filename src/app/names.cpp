@@ -26,6 +26,24 @@ std::string with_titles(std::string text) {
     return text;
 }
 
+std::string field_title(Field field, MethodKind reference, const UnitNames& units) {
+    static const std::map<Field, std::string> stresses = {{Field::von_mises, "von Mises stress"},
+                                                          {Field::first_principal, "first principal stress"},
+                                                          {Field::third_principal, "third principal stress"},
+                                                          {Field::stress_xx, "stress xx"},
+                                                          {Field::stress_yy, "stress yy"},
+                                                          {Field::stress_zz, "stress zz"},
+                                                          {Field::stress_xy, "stress xy"},
+                                                          {Field::stress_yz, "stress yz"},
+                                                          {Field::stress_xz, "stress xz"}};
+    const std::string lengths = " [" + units.of_length() + "]", per_area = " [" + units.of_stress() + "]";
+    if (const auto found = stresses.find(field); found != stresses.end()) return found->second + per_area;
+    if (field == Field::displacement) return "displacement" + lengths;
+    if (const auto axis = displacement_axis(field)) return std::string("displacement ") + "xyz"[*axis] + lengths;
+    if (field == Field::difference) return "difference to " + std::string(title(reference)) + lengths;
+    return field == Field::traction ? "traction" + per_area : "";
+}
+
 std::string stage_words(std::string_view stage) {
     static const std::map<std::string_view, std::string> words = {{"proxy", "wrapping the surface"},
                                                                   {"tetrahedralize", "making tetrahedra"},

@@ -15,6 +15,9 @@ std::string title(MethodKind kind);
 /// Parts of longer words ("fem.obj", "my-fem") stay.
 std::string with_titles(std::string text);
 
+/// "displacement", "difference to linear-bem", ... and its unit in words.
+std::string field_title(Field field, MethodKind reference, const UnitNames& units = {});
+
 /// What a worker is doing, for people, from the name of the stage in reports ("tetrahedralize": "making tetrahedra").
 std::string stage_words(std::string_view stage);
 

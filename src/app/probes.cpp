@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/names.hpp"
 #include "base/atomic_file.hpp"
 #include "base/csv.hpp"
 

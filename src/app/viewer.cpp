@@ -31,7 +31,7 @@ void ViewerSession::run() {
     pictures_.take_at_end(options_, renderer_, state_, palette());
     write_outputs(options_, state_, pictures_.last());
     if (series_) series_->finish();
-    autosave_.clear();
+    state_.files.remove_copy();
     end_workers();
 }
 

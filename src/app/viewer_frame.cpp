@@ -18,7 +18,7 @@ void ViewerSession::draw_frame() {
     panels_.visit_user_texts(state_, [&](std::string_view text) { gui_.want_characters(text); });
     gui_.begin(events, now - std::exchange(last_frame_seconds_, now));
     const Layout layout = layout_of(window_.size(), gui_.scale(), state_.display);
-    window_.set_title(state_.blank() ? "Elastolab" : state_.scene_title() + " \u2013 Elastolab");
+    window_.set_title(state_.blank() ? "Elastolab" : state_.files.title() + " \u2013 Elastolab");
     arrange(layout);
     times.gui_ms = 1e3 * part.seconds();
 
@@ -103,7 +103,7 @@ void ViewerSession::end_frame(const FrameTimes& times, double now) {
 
 void ViewerSession::mark_start() {
     timeline_->mark(StartTimeline::window);
-    if (state_.loading()) return;
+    if (state_.files.loading()) return;
     timeline_->mark(StartTimeline::loaded);
     const EmbeddedRunner& shown = state_.simulation.answer(state_.method);
     if (!shown.has_answer()) return;

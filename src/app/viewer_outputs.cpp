@@ -2,7 +2,6 @@
 
 #include <exception>
 
-#include "app/picture/view_point.hpp"
 #include "base/error.hpp"
 
 namespace elastolab {
@@ -17,8 +16,7 @@ void write_outputs(const ViewerOptions& options, ViewerState& state, const std::
         }
     };
     Control never_cancelled;
-    if (!options.scene_out.empty())
-        attempt([&] { write_scene(options.scene_out, state.scene(), state.method, view_point_of(state.camera)); });
+    if (!options.scene_out.empty()) attempt([&] { write_scene(options.scene_out, state.document_to_save()); });
     if (!options.mesh_out.empty())
         attempt([&] {
             write_export(options.mesh_out, export_source(state.scene(), state.simulation.answer(state.method)),

@@ -28,7 +28,6 @@ struct ViewerRequests {
     std::optional<PictureRequest> picture;
     bool stop_pictures = false;
     bool quit = false;
-    bool scene_name = false;  ///< the scene has no file yet: a name, then answer_unsaved(save)
 };
 
 }  // namespace elastolab

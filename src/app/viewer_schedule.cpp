@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/picture/view_point.hpp"
 #include "app/viewer_session.hpp"
 
 namespace elastolab {
@@ -36,30 +35,21 @@ double ViewerSession::timeout_of_work() const {
     if (state_.simulation.checking()) return kCheckSeconds;
     if (const double rest = six_axis_.due_in(Window::seconds()); rest >= 0.0) return rest + 0.01;
     if (message_seconds_ >= 0.0) return std::max(message_seconds_, 0.01);
-    const double keeping = state_.gestures.dragging() ? -1.0 : autosave_.due_in(Window::seconds());
+    const double keeping = state_.gestures.dragging() ? -1.0 : state_.files.copy_due_in(Window::seconds());
     if (!gui_.wants_text()) return keeping;
     return keeping < 0.0 ? kCaretSeconds : std::min(kCaretSeconds, keeping);
 }
 
 void ViewerSession::keep_scene() {
     if (nobody_watches() || state_.gestures.dragging() || pictures_.filming()) return;
-    if (std::optional<AutosavedScene> recovered = state_.take_recovered()) autosave_.adopt(std::move(*recovered));
-    autosave_.update(
-        {.revision = state_.scene().revision() + (state_.scene_number() << 32),
-         .modified = state_.scene().modified(),
-         .origin = state_.scene_file(),
-         .document = [this] { return movable_document(state_.scene(), state_.method, view_point_of(state_.camera)); }},
-        Window::seconds());
-    if (state_.keeping_failure == autosave_.failure()) return;
-    state_.keeping_failure = autosave_.failure();
-    pending_frames_ = kSettlingFrames;
+    if (state_.files.keep_copy(Window::seconds())) pending_frames_ = kSettlingFrames;
 }
 
 bool ViewerSession::must_draw() {
     std::vector<InputEvent> events = window_.take_events();
     if (!replaying()) queue_.insert(queue_.end(), events.begin(), events.end());
     for (const std::filesystem::path& file : window_.take_dropped_files()) {
-        state_.open(file);
+        state_.files.open(file);
         pending_frames_ = kSettlingFrames;  // for the question that it may raise
     }
     if (std::any_of(events.begin(), events.end(), [](const InputEvent& event) { return event.pressed; }))
@@ -96,7 +86,7 @@ bool ViewerSession::may_close() {
 std::vector<InputEvent> ViewerSession::take_events() {
     std::vector<InputEvent> events;
     if (replaying()) {
-        if (!replay_->done() && !state_.simulation.busy() && !state_.loading() && state_.measurements.frame > 2)
+        if (!replay_->done() && !state_.simulation.busy() && !state_.files.loading() && state_.measurements.frame > 2)
             events = replay_->log.frames[replay_->next++].events;
     } else {
         const auto n = static_cast<std::ptrdiff_t>(Gui::n_for_one_frame(queue_));

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "app/autosave.hpp"
+#include "app/files/series.hpp"
 #include "app/input/interaction_log.hpp"
 #include "app/panels/gui.hpp"
 #include "app/panels/layout.hpp"
@@ -13,7 +13,6 @@
 #include "app/picture/pictures.hpp"
 #include "app/picture/scene_renderer.hpp"
 #include "app/preferences.hpp"
-#include "app/series.hpp"
 #include "app/six_axis.hpp"
 #include "app/viewer.hpp"
 #include "app/viewer_state.hpp"
@@ -121,7 +120,6 @@ private:
     SceneRenderer renderer_;
     Panels panels_;
     Pictures pictures_;
-    Autosave autosave_;
     std::optional<SixAxisMouse> six_axis_mouse_;  ///< none where nobody watches
     SixAxisControl six_axis_;
     std::optional<StartTimeline> timeline_;

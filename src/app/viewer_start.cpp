@@ -20,10 +20,9 @@ ViewerSession::ViewerSession(const ViewerOptions& options, Control& control)
           {.title = "Elastolab", .width = window_size().x(), .height = window_size().y(), .visible = !options.hidden}),
       gui_(window_),
       state_([] { Window::wake(); }),
-      pictures_([] { Window::wake(); }),
-      autosave_([] { Window::wake(); }) {
+      pictures_([] { Window::wake(); }) {
     if (options.n_frames > 0 || options.hidden) window_.disable_vsync();
-    if (nobody_watches() || !options.scene_out.empty()) state_.unsaved.never_ask();  // that keeps the changes
+    if (nobody_watches() || !options.scene_out.empty()) state_.files.unsaved.never_ask();  // that keeps the changes
     if (!options.timings.empty()) state_.measurements.timings = std::make_unique<TimingsRecorder>(options.timings);
     if (!options.timeline.empty()) timeline_.emplace(options.timeline);
     if (!options.record.empty())
@@ -34,7 +33,7 @@ ViewerSession::ViewerSession(const ViewerOptions& options, Control& control)
     if (!nobody_watches()) take(load_preferences());
     open_input();
     if (!nobody_watches()) six_axis_mouse_.emplace([] { Window::wake(); });
-    if (!nobody_watches()) state_.recoverable = find_autosaved();
+    if (!nobody_watches()) state_.files.recoverable = find_autosaved();
 }
 
 std::optional<Replay> ViewerSession::load_replay(const ViewerOptions& options) {
@@ -50,9 +49,9 @@ Eigen::Vector2i ViewerSession::window_size() const {
 void ViewerSession::open_input() {
     if (!options_.input.empty()) {
         if (nobody_watches())
-            state_.open_now(options_.input, control_);
+            state_.files.open_now(options_.input, control_);
         else
-            state_.open(options_.input);
+            state_.files.open(options_.input);
     }
     if (options_.method) state_.start_with(*options_.method);
     if (options_.field) state_.display.field = *options_.field;

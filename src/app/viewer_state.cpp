@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "app/job_notes.hpp"
 #include "app/names.hpp"
-#include "app/window/recent_files.hpp"
 #include "findings/cost.hpp"
 
 namespace elastolab {
@@ -43,13 +43,15 @@ Positions handles_put(const LiveScene& scene, double scale) {
 }  // namespace
 
 ViewerState::ViewerState(const std::function<void()>& wake)
-    : simulation(wake), shown(wake), recent_(load_recent_files()), load_job_(wake), exports_(wake) {
+    : simulation(wake),
+      shown(wake),
+      files({.scene = [this]() -> LiveScene& { return *scene_; },
+             .document = [this] { return document_to_save(); },
+             .finish_gesture = [this] { finish_gesture(); },
+             .replace = [this](LoadedScene loaded) { take_scene(std::move(loaded)); }},
+            messages, wake),
+      exports_(wake) {
     take_scene({.scene = std::make_unique<LiveScene>(default_document(), fs::path("cube.json")), .file = {}});
-}
-
-std::string ViewerState::scene_title() const {
-    const fs::path name = scene_file_.empty() ? fs::path(scene_->name()) : scene_file_;
-    return name.filename().string() + (scene_->modified() ? " (not saved)" : "");
 }
 
 /// Those of the paper and the reference, but for what nobody would wait for.
@@ -111,7 +113,7 @@ void ViewerState::frame_in_viewports(bool first_time) {
 }
 
 void ViewerState::cancel_workers() {
-    load_job_.cancel();
+    files.cancel();
     exports_.cancel();
     shown.cancel();
     simulation.cancel();
@@ -123,14 +125,14 @@ void ViewerState::export_mesh(const fs::path& file) {
 }
 
 void ViewerState::record_timings(const fs::path& file) {
-    attempt([&] {
+    attempt(messages, [&] {
         stop_timings();
         measurements.timings = std::make_unique<TimingsRecorder>(file);
     });
 }
 
 void ViewerState::stop_timings() {
-    attempt([&] {
+    attempt(messages, [&] {
         const std::unique_ptr<TimingsRecorder> ended = std::move(measurements.timings);
         if (!ended) return;
         ended->finish();
@@ -195,7 +197,7 @@ FrameRecord ViewerState::frame_record(const FrameTimes& times, double now) const
 }
 
 bool ViewerState::update_displacements() {
-    poll_loading();
+    files.poll();
     const bool has_exported = exports_.poll(messages);
     keep_method();
     if (blank()) return has_exported;  // the default scene would be computed for nothing

@@ -5,26 +5,21 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "app/autosave.hpp"
-#include "app/exports.hpp"
+#include "app/files/exports.hpp"
+#include "app/files/scene_files.hpp"
 #include "app/input/gestures.hpp"
 #include "app/measurements.hpp"
-#include "app/panels/messages.hpp"
+#include "app/messages.hpp"
 #include "app/picture/shown_scene.hpp"
 #include "app/probes.hpp"
-#include "app/scene_files.hpp"
 #include "app/settings.hpp"
-#include "app/unsaved_changes.hpp"
 #include "app/viewer_requests.hpp"
 #include "methods/registry.hpp"
 #include "render/camera.hpp"
-#include "scene/live/background_job.hpp"
 #include "scene/live/live_scene.hpp"
 #include "scene/live/simulation.hpp"
-#include "scene/user_text.hpp"
 
 namespace elastolab {
 
@@ -73,44 +68,21 @@ public:
     void record_timings(const std::filesystem::path& file);
     void stop_timings();
 
-    // Scenes. Failures become messages; what was there stays. What would lose unsaved changes waits until the person
-    // has answered: open, open_primitive and quit then only ask.
-    /// Opens a scene file (.json) or a mesh, on a worker.
-    void open(const std::filesystem::path& file);
-    /// The same, here and now, without a question. Throws SceneError, MeshError, Cancelled.
-    void open_now(const std::filesystem::path& file, Control& control);
-    void open_now(const std::filesystem::path& file) {
-        Control never_cancelled;
-        open_now(file, never_cancelled);
-    }
-    void open_document(Document document, const std::filesystem::path& scene_file);
-    /// A new body of the present material, held where its kind usually is.
+    // Files. Failures become messages; what was there stays.
+    SceneFiles files;
+    /// A new body of the present material, held where its kind usually is. Like quit(), it only asks where unsaved
+    /// changes would be lost.
     void open_primitive(const Primitive& primitive);
     void quit();
-    UnsavedChanges unsaved;
-    void answer_unsaved(UnsavedAnswer answer);
-    /// The file that the scene came from or was last saved to; empty when there is none.
-    const std::filesystem::path& scene_file() const { return scene_file_; }
-    /// What the scene is called: its file's name, or that of its body; " (not saved)" follows where it was changed.
-    std::string scene_title() const;
-    /// Whether that file was written here already, so that it may be written again without a question.
-    bool owns_scene_file() const { return owns_scene_file_; }
-    /// False when it could not be written.
-    bool save_scene(const std::filesystem::path& file);
+    /// The scene as it is saved: with the method, and as the camera sees it.
+    Document document_to_save() const;
+    /// The method to begin with, for the scene that is there and the one that is being opened.
+    void start_with(MethodKind kind);
     void save_probes(const std::filesystem::path& file);
     /// Writes a mesh, or fields, on a worker (write_export).
     void export_mesh(const std::filesystem::path& file);
-    const std::vector<std::filesystem::path>& recent_files() const { return recent_; }
-    /// Scenes left by viewers that were killed; recover() opens the first, unsaved as it was.
-    std::vector<AutosavedScene> recoverable;
-    void recover();
-    void discard_recoverable();
-    /// What was recovered, once it is open: whoever takes it keeps the scene there from then on (Autosave::adopt).
-    std::optional<AutosavedScene> take_recovered() { return std::exchange(recovered_, std::nullopt); }
-    /// Why the latest changes would be lost if this viewer were killed; empty while they would not.
-    std::string keeping_failure;
-    /// The method to begin with, for the scene that is there and the one that is being opened.
-    void start_with(MethodKind kind);
+    /// The file that a worker writes; empty when none does.
+    std::filesystem::path exported_file() const { return exports_.file(); }
 
     // Edits.
     void undo();
@@ -141,67 +113,34 @@ public:
     /// Each returns whether something changed.
     bool update_displacements();
     bool update_picture();
-    bool loading() const { return load_job_.running(); }
-    /// The file that is being opened, or was last.
-    const std::filesystem::path& loading_file() const { return pending_file_; }
-    /// The file that a worker writes; empty when none does.
-    std::filesystem::path exported_file() const { return exports_.file(); }
     /// The first file is being opened: until it is there, nothing is shown that could be pulled.
-    bool blank() const { return loading() && !simulated_; }
+    bool blank() const { return files.loading() && !simulated_; }
     /// A worker will bring something for the picture.
     bool waiting() const {
-        return loading() || exports_.running() || shown.cutting() || shown.solving() || simulation.waiting();
+        return files.loading() || exports_.running() || shown.cutting() || shown.solving() || simulation.waiting();
     }
     /// What is shown is not yet the converged answer to the scene as it is.
     bool answering() const;
     /// Stops all workers at their next checkpoints; stopping(): some have not stopped yet.
     void cancel_workers();
-    bool stopping() const {
-        return load_job_.working() || exports_.working() || shown.working() || simulation.stopping();
-    }
+    bool stopping() const { return files.working() || exports_.working() || shown.working() || simulation.stopping(); }
 
 private:
     void take_scene(LoadedScene loaded);
-    void begin_loading(const std::filesystem::path& file);
-    void take_loaded(LoadedScene loaded, const std::filesystem::path& file);
     void make_primitive_scene(const Primitive& primitive);
-    void poll_loading();
     void keep_method();
     void take_method();
     std::string selected_fixed_name() const;
     std::string selected_handle_name() const;
     void take_step(const std::function<void()>& step);
-    void add_recent(const std::filesystem::path& file);
-    /// False when it failed, which becomes a message.
-    template <class Action>
-    bool attempt(const Action& action);
 
     std::unique_ptr<LiveScene> scene_;
     std::unique_ptr<VertexGraph> graph_;
     std::uint64_t scene_number_ = 0;
-    std::filesystem::path scene_file_;
-    bool owns_scene_file_ = false;
     bool has_saved_view_ = false;  ///< the scene was saved with its camera
     bool simulated_ = false;       ///< something was computed already
-    std::vector<std::filesystem::path> recent_;
     std::vector<int> prefetched_;
-    std::filesystem::path pending_file_;  ///< being loaded since the scene had this revision:
-    std::uint64_t revision_at_open_ = 0;
-    std::optional<MethodKind> first_method_;
-    std::optional<AutosavedScene> recovering_, recovered_;
-    BackgroundJob<std::shared_ptr<LoadedScene>> load_job_;
     Exports exports_;
 };
-
-template <class Action>
-bool ViewerState::attempt(const Action& action) {
-    try {
-        action();
-        return true;
-    } catch (const std::exception& error) {
-        messages.error(user_text(error));
-        return false;
-    }
-}
 
 }  // namespace elastolab

@@ -1,9 +1,14 @@
 #include "app/names.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
+
+#include "bem/collocation/method.hpp"
+#include "fem/method.hpp"
 
 namespace elastolab {
 namespace {
+
+using testing::HasSubstr;
 
 TEST(Names, MethodsAreCalledAsOnTheirButtons) {
     EXPECT_EQ(with_titles("fem: too coarse. Choose galerkin-bem or quadratic-fem, or compare with fem."),
@@ -14,6 +19,23 @@ TEST(Names, MethodsAreCalledAsOnTheirButtons) {
 TEST(Names, WordsThatOnlyContainAMethodStay) {
     for (const char* text : {"fem.obj", "bodies/fem", "fem/ear.obj", "my-fem", "femur", "fem-2", "a.fem"})
         EXPECT_EQ(with_titles(text), text);
+}
+
+TEST(FieldTitles, NameTheUnitAndTheReference) {
+    EXPECT_THAT(field_title(Field::difference, kConstantBem), HasSubstr("Constant BEM"));
+    for (const Field field : {Field::displacement, Field::difference, Field::traction, Field::von_mises})
+        EXPECT_THAT(field_title(field, kFem), HasSubstr("unit"));
+    EXPECT_EQ(field_title(Field::none, kFem), "");
+}
+
+TEST(FieldTitle, HasTheUnitsThatAPersonNames) {
+    const UnitNames units{"mm", "N"};
+    EXPECT_EQ(field_title(Field::displacement, kFem), "displacement [mesh units]");
+    EXPECT_EQ(field_title(Field::displacement_y, kFem, units), "displacement y [mm]");
+    EXPECT_EQ(field_title(Field::von_mises, kFem, units), "von Mises stress [N/mm\u00b2]");
+    EXPECT_EQ(field_title(Field::traction, kFem, {"", "N"}), "traction [N/unit\u00b2]");
+    EXPECT_EQ(units.after_moment(), " N mm");
+    EXPECT_EQ(UnitNames{}.after_stress(), "");
 }
 
 }  // namespace

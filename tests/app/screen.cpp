@@ -5,7 +5,7 @@
 namespace elastolab::test {
 
 Screen::Screen(const std::filesystem::path& scene, const Eigen::Vector2i& window) {
-    state_.open_now(scene);
+    state_.files.open_now(scene);
     place_ = layout_of(window, 1.0f).scene;
     state_.shown.viewports = viewports_of(state_, place_);
     state_.frame_body();

@@ -33,13 +33,18 @@ std::string test_name(MethodKind kind) {
     return text;
 }
 
+int n_errors(const ViewerState& state) {
+    const auto& all = state.messages.all();
+    return static_cast<int>(std::count_if(all.begin(), all.end(), [](const auto& m) { return m.is_error; }));
+}
+
 Stage::Stage(int cells) {
     state.choices.complete_up_to = 0;
     open(cube_document(cells));
 }
 
 void Stage::open(const Document& document) {
-    state.open_document(document, "scene.json");
+    state.files.open_document(document, "scene.json");
     state.tools.patch_radius = 0.0;
     frame();
     state.frame_body();

@@ -16,6 +16,9 @@ Document cube_document_with_handle(int cells);
 /// For the names of tests that run with each method.
 std::string test_name(MethodKind kind);
 
+/// Messages that are errors.
+int n_errors(const ViewerState& state);
+
 /// The viewer without a window: its state, and what a person's mouse and keys do to it.
 class Stage {
 public:

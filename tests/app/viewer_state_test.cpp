@@ -2,14 +2,9 @@
 
 #include <gmock/gmock.h>
 
-#include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <limits>
-#include <sstream>
 
 #include "app/stage.hpp"
-#include "base/error.hpp"
 #include "bem/collocation/method.hpp"
 #include "fem/method.hpp"
 #include "mesh/input/export.hpp"
@@ -22,19 +17,13 @@
 namespace elastolab {
 namespace {
 
+using test::n_errors;
 using test::Stage;
 using test::TemporaryFolder;
 using test::wait_for;
-using testing::AllOf;
-using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 using testing::SizeIs;
-
-int n_errors(const ViewerState& state) {
-    const auto& all = state.messages.all();
-    return static_cast<int>(std::count_if(all.begin(), all.end(), [](const auto& m) { return m.is_error; }));
-}
 
 TEST(ViewerState, BeginsWithTheCubeOfThePaperHeldAtItsLeft) {
     ViewerState state([] {});
@@ -43,87 +32,39 @@ TEST(ViewerState, BeginsWithTheCubeOfThePaperHeldAtItsLeft) {
     EXPECT_EQ(state.method, first_method());
 }
 
-TEST(ViewerState, ABadFileIsTellingAndKeepsTheOldScene) {
-    const TemporaryFolder folder;
-    for (const auto& file :
-         {folder.write("bad.obj", "f 1 2 3\n"), folder.write("bad.json", "{}"),
-          folder.write("line.obj", "v 0 0 0\nv 1 0 0\nv nan 0 0\nf 1 2 3\n"), folder.path() / "none.stl"}) {
-        Stage stage(2);
-        const LiveScene* before = &stage.scene();
-        stage.state.open(file);
-        EXPECT_TRUE(stage.state.loading());
-        stage.settle();
-        EXPECT_EQ(&stage.scene(), before);
-        EXPECT_EQ(n_errors(stage.state), 1);
-        EXPECT_THAT(stage.state.messages.all()[0].text,
-                    AllOf(HasSubstr(file.filename().string()), Not(HasSubstr("\n"))));
-        EXPECT_THROW(stage.state.open_now(file), Error);
-        EXPECT_THAT(stage.state.recent_files(), IsEmpty());
-    }
-}
-
 TEST(ViewerState, ShowsNothingThatCouldBePulledWhileItsFirstFileIsOpened) {
     const TemporaryFolder folder;
     const auto file = folder.path() / "box.obj";
     save_surface(file, make_box(3));
     ViewerState state([] {});
     const Viewport scene{0, 0, 800, 600};
-    state.open(file);
+    state.files.open(file);
     state.update_displacements();
     EXPECT_TRUE(state.blank());
     EXPECT_THAT(viewports_of(state, scene, 1.0), IsEmpty());
     EXPECT_THAT(state.gesture_context().targets, IsEmpty());
     wait_for([&] {
         state.update_displacements();
-        return !state.loading();
+        return !state.files.loading();
     });
     EXPECT_FALSE(state.blank());
     EXPECT_EQ(state.scene().mesh().n_vertices(), 56);
     EXPECT_THAT(viewports_of(state, scene, 1.0), SizeIs(1));
-    state.open(file);
+    state.files.open(file);
     state.update_displacements();
     EXPECT_FALSE(state.blank()) << "the body before stays until the next is there";
 }
 
 TEST(ViewerState, ShowsItsCubeWhereTheFirstFileCannotBeOpened) {
     ViewerState state([] {});
-    state.open("/there/is/no/such.obj");
+    state.files.open("/there/is/no/such.obj");
     wait_for([&] {
         state.update_displacements();
-        return !state.loading();
+        return !state.files.loading();
     });
     EXPECT_FALSE(state.blank());
     EXPECT_EQ(n_errors(state), 1);
     EXPECT_THAT(viewports_of(state, {0, 0, 800, 600}, 1.0), SizeIs(1));
-}
-
-TEST(ViewerState, ALargeMeshBeginsWithAMethodThatIsExactSoonAndSaysSo) {
-    const TemporaryFolder folder;
-    Control control;
-    save_surface(folder.path() / "small.ply", make_box(5));
-    const LoadedScene small = load_scene_or_mesh(folder.path() / "small.ply", control);
-    EXPECT_EQ(small.scene->document().method, first_method());
-    EXPECT_THAT(small.note, IsEmpty());
-    save_surface(folder.path() / "large.ply", make_box(90));
-    const LoadedScene large = load_scene_or_mesh(folder.path() / "large.ply", control);
-    EXPECT_NE(large.scene->document().method, first_method());
-    EXPECT_THAT(large.note, AllOf(HasSubstr("exact in about"), HasSubstr("Galerkin BEM would take")));
-    EXPECT_FALSE(large.scene->modified());
-}
-
-TEST(ViewerState, ABareMeshIsHeldAtItsLowestPart) {
-    const TemporaryFolder folder;
-    const auto file = folder.path() / "box.obj";
-    save_surface(file, make_box(3));
-    Stage stage(2);
-    stage.state.open(file);
-    stage.settle();
-    EXPECT_EQ(stage.scene().mesh().n_vertices(), 56);
-    const std::span<const int> fixed = stage.scene().vertices(LiveScene::kFixed);
-    EXPECT_THAT(fixed, SizeIs(16));
-    for (const int v : fixed) EXPECT_EQ(stage.scene().mesh().vertices(1, v), 0.0);  // meshes from files have Y up
-    EXPECT_THAT(stage.state.recent_files(), SizeIs(1));
-    EXPECT_FALSE(stage.scene().modified()) << "nobody has changed anything yet";
 }
 
 TEST(ViewerState, ABodyThatCannotBeMadeIsTellingAndKeepsTheOldScene) {
@@ -155,121 +96,9 @@ TEST(ViewerState, YoungsModulusMustBeAPositiveNumber) {
     EXPECT_TRUE(stage.scene().can_undo());
 }
 
-TEST(ViewerState, TheMethodOfTheCommandLineOutlivesTheLoadingOfTheScene) {
-    const TemporaryFolder folder;
-    save_scene(folder.path() / "cube.json", test::cube_document(2));
-    Stage stage(2);
-    stage.state.open(folder.path() / "cube.json");
-    stage.state.start_with(kFem);
-    stage.settle();
-    EXPECT_EQ(stage.state.method, kFem);
-    stage.state.open(folder.path() / "cube.json");
-    stage.settle();
-    EXPECT_EQ(stage.state.method, kLinearBem);  // the scene's own, from then on
-}
-
-TEST(ViewerState, TheMethodOfTheCommandLineEndsWithAFileThatCannotBeLoaded) {
-    const TemporaryFolder folder;
-    save_scene(folder.path() / "cube.json", test::cube_document(2));
-    Stage stage(2);
-    stage.state.open(folder.write("bad.obj", "f 1 2 3\n"));
-    stage.state.start_with(kFem);
-    stage.settle();
-    stage.state.open(folder.path() / "cube.json");
-    stage.settle();
-    EXPECT_EQ(stage.state.method, kLinearBem);
-}
-
-TEST(ViewerState, ASavedSceneComesBackWithTheMethodAndTheHandles) {
-    const TemporaryFolder folder;
-    Stage stage(3);
-    stage.scene().add_handle(std::vector<int>{5, 7});
-    stage.scene().set_motion(0, AffineMotion{.translate = {0.1, 0.2, 1.0 / 3.0}});
-    stage.state.method = kConstantBem;
-    EXPECT_TRUE(stage.scene().modified());
-    stage.state.save_scene(folder.path() / "saved.json");
-    EXPECT_EQ(n_errors(stage.state), 0);
-    EXPECT_FALSE(stage.scene().modified());
-    const Document saved = load_scene(folder.path() / "saved.json");
-    EXPECT_EQ(saved.method, kConstantBem);
-    EXPECT_EQ(saved.handles, stage.scene().document().handles);
-}
-
-TEST(ViewerState, ASceneSavedElsewhereStillFindsItsMesh) {
-    const TemporaryFolder folder;
-    std::filesystem::create_directories(folder.path() / "a");
-    std::filesystem::create_directories(folder.path() / "b" / "c");
-    save_surface(folder.path() / "a" / "box.obj", make_box(2));
-    Stage stage(2);
-    stage.state.open_now(folder.path() / "a" / "box.obj");
-    stage.state.save_scene(folder.path() / "b" / "c" / "scene.json");
-    stage.state.save_scene(folder.path() / "scene.json");
-    for (const char* scene : {"b/c/scene.json", "scene.json"}) {
-        Stage other(2);
-        other.state.open_now(folder.path() / scene);
-        EXPECT_EQ(other.scene().mesh().n_vertices(), 26);
-        EXPECT_THAT(test::read_text(folder.path() / scene), Not(HasSubstr(folder.path().string())));
-    }
-}
-
-TEST(ViewerState, ExportsTheDeformedMesh) {
-    const TemporaryFolder folder;
-    Stage stage(2);
-    const int v = stage.vertex_near({1, 1, 1});
-    stage.scene().add_handle(std::vector<int>{v});
-    stage.scene().set_motion(0, AffineMotion{.translate = {0.5, 0, 0}});
-    stage.settle();
-    stage.state.export_mesh(folder.path() / "out.obj");
-    const LiveScene read(document_for_mesh(folder.path() / "out.obj"), folder.path() / "scene.json");
-    EXPECT_NEAR(read.mesh().vertices.row(0).maxCoeff(), 1.5, 1e-9);
-}
-
-TEST(ViewerState, ExportsFieldsOfTheAnswerOnAWorker) {
-    const TemporaryFolder folder;
-    Stage stage(2);
-    stage.state.method = kFem;
-    const int v = stage.vertex_near({1, 1, 1});
-    stage.scene().add_handle(std::vector<int>{v});
-    stage.scene().set_motion(0, AffineMotion{.translate = {0.5, 0, 0}});
-    stage.settle();
-    for (const char* name : {"out.ply", "out.vtp", "out.vtu", "out.csv"}) {
-        stage.state.export_mesh(folder.path() / name);
-        EXPECT_TRUE(stage.state.waiting());
-        stage.settle();
-        EXPECT_GT(std::filesystem::file_size(folder.path() / name), 500u) << name;
-    }
-    EXPECT_EQ(n_errors(stage.state), 0);
-    std::ifstream table(folder.path() / "out.csv");
-    std::string row;
-    for (int i = -2; i < v; ++i) std::getline(table, row);
-    std::replace(row.begin(), row.end(), ',', ' ');
-    std::istringstream numbers(row);
-    std::vector<double> values{std::istream_iterator<double>(numbers), {}};
-    ASSERT_EQ(values.size(), 17u);
-    EXPECT_EQ(values[0], v);
-    EXPECT_NEAR(values[4], 0.5, 1e-12);
-    EXPECT_GT(values[7], 0.0) << "von Mises";
-
-    stage.state.export_mesh(folder.path() / "first.vtp");
-    EXPECT_EQ(stage.state.exported_file(), folder.path() / "first.vtp");
-    stage.state.export_mesh(folder.path() / "second.vtp");
-    EXPECT_EQ(n_errors(stage.state), 1) << "the first is still being written";
-    EXPECT_THAT(stage.state.messages.all().back().text, HasSubstr("first.vtp is still being written"));
-    stage.settle();
-    EXPECT_TRUE(std::filesystem::exists(folder.path() / "first.vtp"));
-    EXPECT_FALSE(std::filesystem::exists(folder.path() / "second.vtp"));
-
-    stage.state.method = kLinearBem;
-    stage.settle();
-    stage.state.export_mesh(folder.path() / "none.vtu");
-    stage.settle();
-    EXPECT_EQ(n_errors(stage.state), 2);
-    EXPECT_FALSE(std::filesystem::exists(folder.path() / "none.vtu"));
-}
-
 TEST(ViewerState, FailuresOfOutputsBecomeMessages) {
     Stage stage(2);
-    stage.state.save_scene("/no/such/folder/scene.json");
+    stage.state.files.save("/no/such/folder/scene.json");
     stage.state.export_mesh("/no/such/folder/out.obj");
     stage.state.record_timings("/no/such/folder/t.csv");
     EXPECT_EQ(n_errors(stage.state), 3);
@@ -327,13 +156,13 @@ TEST(ViewerState, CancelledWorkersStop) {
     const TemporaryFolder folder;
     save_scene(folder.path() / "cube.json", test::cube_document(12));
     Stage stage(2);
-    stage.state.open(folder.path() / "cube.json");
+    stage.state.files.open(folder.path() / "cube.json");
     stage.state.cancel_workers();
     stage.settle();
     EXPECT_EQ(stage.scene().mesh().n_vertices(), 26);  // the old scene
     stage.open(test::cube_document(2));
     stage.state.choices.preview = false;  // else the method has not begun yet
-    stage.state.open_document(test::cube_document(10), "scene.json");
+    stage.state.files.open_document(test::cube_document(10), "scene.json");
     stage.frame();
     stage.state.cancel_workers();
     stage.settle();

@@ -35,6 +35,9 @@ struct GestureContext {
     std::vector<PointingTarget> targets;
     std::vector<Gizmo> gizmos = {};  ///< that can be taken hold of
     std::vector<LoadArrow> load_arrows = {};
+
+    /// False for vertices inside the body: they show where it is cut open, and cannot be grabbed.
+    bool is_on_surface(int vertex) const { return vertex < scene.mesh().n_vertices(); }
 };
 
 /// What the cursor points at when no button is down.
@@ -173,19 +176,50 @@ private:
         Eigen::Vector3d end = Eigen::Vector3d::Zero();  ///< of the arrow
     };
 
+    // Events: gestures.cpp
     void press(const InputEvent& event, GestureContext& context);
-    bool press_axes(GestureContext& context, const PointingTarget& target);
     void press_body(GestureContext& context, const PickHit& hit);
     void release(GestureContext& context);
     void move(GestureContext& context);
-    void move_view(GestureContext& context, const Eigen::Vector2d& before);
-    void scroll_zoom(double notches, GestureContext& context, const PointingTarget& target);
-    void scroll(const InputEvent& event, GestureContext& context);
     void point(GestureContext& context);
+    bool is_double_click(const InputEvent& event);
+    const PointingTarget* target_at(const GestureContext& context) const;
+    std::optional<PickHit> hit_in(const GestureContext& context, const PointingTarget& target) const;
+
+    // The view: view_gesture.cpp
+    void press_view(const InputEvent& event, const GestureContext& context);
+    bool press_axes(GestureContext& context, const PointingTarget& target);
+    void move_view(GestureContext& context, const Eigen::Vector2d& before);
+    void scroll(const InputEvent& event, GestureContext& context);
+    void scroll_zoom(double notches, GestureContext& context, const PointingTarget& target);
+
+    // Brush and box: brush_gesture.cpp
+    void paint(GestureContext& context);
+    void end_box(GestureContext& context);
+    void fix_or_free(const GestureContext& context, std::vector<int> vertices, Hold hold);
+    void toggle_fixed(GestureContext& context, int vertex);
+
+    // Pulls: pull_gesture.cpp
+    void begin_pull(GestureContext& context, int handle, Grabbed grabbed, const PickHit& hit);
+    void remove_pulled(GestureContext& context);
+    void set_baseline(GestureContext& context);
+    void pull(GestureContext& context);
+    PullMode pull_mode(const ToolSettings& tools) const;
+    Eigen::Vector3d pull_shift(const GestureContext& context) const;
+    void pull_by_spring(GestureContext& context);
+    Eigen::Vector3d pulled_center(const Positions& rest) const;
+    void turn_pulled(GestureContext& context, const Eigen::Vector3d& turn);
+    void end_pull(GestureContext& context);
+    void end_spring(GestureContext& context);
+
+    // Gizmos: gizmo_gesture.cpp
     bool press_gizmo(GestureContext& context, const PointingTarget& target);
-    void move_plane(GestureContext& context);
     double gizmo_amount(const GestureContext& context);
     bool snaps(const ToolSettings& tools) const;
+    void pull_by_gizmo(GestureContext& context);
+    void move_plane(GestureContext& context);
+
+    // Loads: load_gesture.cpp
     std::optional<int> arrow_at(const GestureContext& context, const PointingTarget& target) const;
     bool press_arrow(GestureContext& context, const PointingTarget& target);
     void press_force(GestureContext& context, const PickHit& hit);
@@ -196,25 +230,6 @@ private:
     void end_load(GestureContext& context);
     void remove_dragged_load(GestureContext& context);
     void paint_pressure(GestureContext& context, std::vector<int> vertices);
-    void begin_pull(GestureContext& context, int handle, Grabbed grabbed, const PickHit& hit);
-    void remove_pulled(GestureContext& context);
-    void set_baseline(GestureContext& context);
-    void pull(GestureContext& context);
-    PullMode pull_mode(const ToolSettings& tools) const;
-    Eigen::Vector3d pull_shift(const GestureContext& context) const;
-    void pull_by_gizmo(GestureContext& context);
-    void pull_by_spring(GestureContext& context);
-    Eigen::Vector3d pulled_center(const Positions& rest) const;
-    void turn_pulled(GestureContext& context, const Eigen::Vector3d& turn);
-    void end_pull(GestureContext& context);
-    void paint(GestureContext& context);
-    void end_box(GestureContext& context);
-    void fix_or_free(const GestureContext& context, std::vector<int> vertices, Hold hold);
-    void toggle_fixed(GestureContext& context, int vertex);
-    bool is_double_click(const InputEvent& event);
-    const PointingTarget* target_at(const GestureContext& context) const;
-    std::optional<PickHit> hit_in(const GestureContext& context, const PointingTarget& target) const;
-    void end_spring(GestureContext& context);
 
     Action action_ = Action::none;
     int button_ = -1;

@@ -52,7 +52,7 @@ void ExamplesPanel::draw(ViewerState& state, float scale) {
         const auto& [example, texture] = examples_[i];
         if (i % columns > 0) ImGui::SameLine(0.0f, kPictureGap * scale);
         const ImVec2 at = ImGui::GetCursorScreenPos();
-        if (ImGui::Selectable(("##" + example.name).c_str(), false, 0, size)) state.open(example.scene);
+        if (ImGui::Selectable(("##" + example.name).c_str(), false, 0, size)) state.files.open(example.scene);
         ImDrawList& list = *ImGui::GetWindowDrawList();
         if (texture)
             list.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(texture->id())), at,

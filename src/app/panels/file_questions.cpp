@@ -23,22 +23,23 @@ std::string suggested_name(const ViewerState& state, const std::string& ending) 
 }
 
 void FileQuestions::ask_open(ViewerState& state) {
-    dialog_.open({"Open a mesh or scene", with_scenes(kMeshFiles), "", [&](const auto& file) { state.open(file); }});
+    dialog_.open(
+        {"Open a mesh or scene", with_scenes(kMeshFiles), "", [&](const auto& file) { state.files.open(file); }});
 }
 
 void FileQuestions::save(ViewerState& state) {
-    if (state.owns_scene_file())
-        state.save_scene(std::filesystem::path(state.scene_file()));
+    if (state.files.owns_file())
+        state.files.save(std::filesystem::path(state.files.file()));
     else
         save_as(state);
 }
 
 void FileQuestions::save_as(ViewerState& state) {
-    const std::filesystem::path& present = state.scene_file();
+    const std::filesystem::path& present = state.files.file();
     dialog_.open({.title = "Save the scene",
                   .extensions = {".json"},
                   .suggestion = present.empty() ? suggested_name(state, ".json") : present.filename().string(),
-                  .done = [&](const auto& file) { state.save_scene(file); },
+                  .done = [&](const auto& file) { state.files.save(file); },
                   .folder = present.parent_path()});
 }
 
@@ -48,9 +49,9 @@ void FileQuestions::ask_name_of_unsaved(ViewerState& state) {
                   .suggestion = suggested_name(state, ".json"),
                   .done =
                       [&](const auto& file) {
-                          if (state.save_scene(file)) state.unsaved.proceed();
+                          if (state.files.save(file)) state.files.unsaved.proceed();
                       },
-                  .cancelled = [&] { state.unsaved.cancel(); }});
+                  .cancelled = [&] { state.files.unsaved.cancel(); }});
 }
 
 void FileQuestions::ask_export(ViewerState& state, const std::string& ending) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "app/names.hpp"
 #include "app/panels/overlays.hpp"
 #include "app/panels/widgets.hpp"
 #include "app/picture/load_arrows.hpp"

@@ -19,9 +19,9 @@ namespace elastolab {
 namespace {
 
 void draw_recent(ViewerState& state) {
-    if (!ImGui::BeginMenu("Open recent", !state.recent_files().empty())) return;
-    for (const std::filesystem::path& file : std::vector(state.recent_files()))
-        if (ImGui::MenuItem(file.string().c_str())) state.open(file);
+    if (!ImGui::BeginMenu("Open recent", !state.files.recent().empty())) return;
+    for (const std::filesystem::path& file : std::vector(state.files.recent()))
+        if (ImGui::MenuItem(file.string().c_str())) state.files.open(file);
     ImGui::EndMenu();
 }
 

@@ -154,7 +154,7 @@ void draw_blank(const PanelContext& context, ImDrawList& list) {
     const unsigned top = imgui_packed(context.palette.background_top);
     const unsigned bottom = imgui_packed(context.palette.background_bottom);
     list.AddRectFilledMultiColor(low, high, top, top, bottom, bottom);
-    const std::string text = "Opening " + context.state.loading_file().filename().string() + " ...";
+    const std::string text = "Opening " + context.state.files.loading_file().filename().string() + " ...";
     const float width = std::min(high.x - low.x - 2.0f * kOverlayMargin, ImGui::CalcTextSize(text.c_str()).x);
     const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, width);
     list.AddText(nullptr, 0.0f, {0.5f * (low.x + high.x - size.x), 0.5f * (low.y + high.y - size.y)},

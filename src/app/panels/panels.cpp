@@ -27,7 +27,7 @@ void Panels::draw(const PanelContext& context) {
     draw_status(context);
     draw_overlays(context);
     if (context.state.show_help) draw_help(context);
-    if (std::exchange(context.state.requests.scene_name, false)) files_.ask_name_of_unsaved(context.state);
+    if (std::exchange(context.state.files.wants_name, false)) files_.ask_name_of_unsaved(context.state);
     picture_.draw(context, files_);
     files_.draw(context.gui.scale());
     pull_.draw_name_alone(context);
@@ -43,7 +43,7 @@ void Panels::visit_user_texts(const ViewerState& state, const std::function<void
     for (int set = 0; set < scene.n_fixed_sets(); ++set) visit(scene.fixed_name(set));
     for (int load = 0; load < scene.n_loads(); ++load) visit(scene.load_name(load));
     for (const Messages::Message& message : state.messages.all()) visit(message.text);
-    for (const std::filesystem::path& file : state.recent_files()) visit(file.string());
+    for (const std::filesystem::path& file : state.files.recent()) visit(file.string());
     files_.visit_texts(visit);
 }
 

@@ -31,11 +31,11 @@ double seconds_since(std::filesystem::file_time_type time) {
 
 /// What a viewer that was killed has left.
 void RecoveryQuestion::draw(const PanelContext& context) {
-    ViewerState& state = context.state;
-    if (state.recoverable.empty()) return;
+    SceneFiles& files = context.state.files;
+    if (files.recoverable.empty()) return;
     if (!ImGui::IsPopupOpen(kRecoveryTitle)) choice_ = 0;
     if (!begin_question(kRecoveryTitle)) return;
-    const AutosavedScene& left = state.recoverable.front();
+    const AutosavedScene& left = files.recoverable.front();
     const std::string name = left.origin.empty() ? "a scene that was not saved yet" : left.origin.string();
     ImGui::TextUnformatted("A viewer ended unexpectedly, with unsaved changes of");
     ImGui::TextUnformatted(name.c_str());
@@ -44,9 +44,9 @@ void RecoveryQuestion::draw(const PanelContext& context) {
     const std::optional<int> answer = draw_answers(context, kRecoveryAnswers, choice_, later);
     if (answer) ImGui::CloseCurrentPopup();
     ImGui::EndPopup();
-    if (answer == recover) state.recover();
-    if (answer == discard) state.discard_recoverable();
-    if (answer == later) state.recoverable.clear();
+    if (answer == recover) files.recover();
+    if (answer == discard) files.discard_recoverable();
+    if (answer == later) files.recoverable.clear();
 }
 
 }  // namespace elastolab

@@ -18,7 +18,7 @@ std::string set_text(const LiveScene& scene, int vertex) {
 }
 
 std::string left_text(const ViewerState& state) {
-    if (state.loading()) return "Opening " + state.loading_file().filename().string() + " ...";
+    if (state.files.loading()) return "Opening " + state.files.loading_file().filename().string() + " ...";
     if (const auto file = state.exported_file(); !file.empty()) return "Writing " + file.filename().string() + " ...";
     const Gestures& gestures = state.gestures;
     if (gestures.hover().vertex >= 0) {
@@ -30,7 +30,7 @@ std::string left_text(const ViewerState& state) {
         if (n > 0) text += ", patch of " + count_text(n) + (n == 1 ? " vertex" : " vertices");
         return text;
     }
-    return state.scene_title();
+    return state.files.title();
 }
 
 std::string right_text(const ViewerState& state) {

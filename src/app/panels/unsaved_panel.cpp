@@ -22,11 +22,11 @@ constexpr std::array<QuestionAnswer, 3> kUnsavedAnswers = {{{"Save", "Enter: wri
 
 void UnsavedQuestion::draw(const PanelContext& context, bool naming) {
     ViewerState& state = context.state;
-    const bool asks = state.unsaved.asking() && !naming;
+    const bool asks = state.files.unsaved.asking() && !naming;
     if (!asks && !ImGui::IsPopupOpen(kTitle)) return;
     if (!ImGui::IsPopupOpen(kTitle)) choice_ = 0;
     if (!begin_question(kTitle)) return;
-    const std::filesystem::path& file = state.scene_file();
+    const std::filesystem::path& file = state.files.file();
     ImGui::Text("%s has changes that are not saved.",
                 (file.empty() ? std::filesystem::path(state.scene().name()) : file).filename().c_str());
     ImGui::Spacing();
@@ -34,7 +34,7 @@ void UnsavedQuestion::draw(const PanelContext& context, bool naming) {
         draw_answers(context, kUnsavedAnswers, choice_, static_cast<int>(UnsavedAnswer::cancel));
     if (answer || !asks) ImGui::CloseCurrentPopup();
     ImGui::EndPopup();
-    if (answer && asks) state.answer_unsaved(static_cast<UnsavedAnswer>(*answer));
+    if (answer && asks) state.files.answer(static_cast<UnsavedAnswer>(*answer));
 }
 
 }  // namespace elastolab

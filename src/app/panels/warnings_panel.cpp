@@ -80,8 +80,8 @@ std::vector<WarningsPanel::Warning> WarningsPanel::present(const ViewerState& st
          {state.simulation.problem(state.method), state.shown.reaction_failure(state.method),
           state.shown.section_failure(state.method)})
         if (!problem.empty()) warnings.push_back({problem, true});
-    if (!state.keeping_failure.empty())
-        warnings.push_back({"Changes would be lost if the viewer were killed: " + state.keeping_failure, true});
+    if (!state.files.copy_failure().empty())
+        warnings.push_back({"Changes would be lost if the viewer were killed: " + state.files.copy_failure(), true});
     for (const std::string& text : words(state.simulation.embedded(state.method).findings()))
         warnings.push_back({text, false});
     if (const std::string theory = theory_words(state); !theory.empty() && state.method->linear)

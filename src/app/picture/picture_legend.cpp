@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "app/names.hpp"
 #include "app/window/fonts.hpp"
 #include "base/error.hpp"
 #include "render/drawing/legend.hpp"

@@ -4,35 +4,20 @@
 #include <Eigen/Core>
 #include <memory>
 #include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 
+#include "app/picture/answer_fields.hpp"
 #include "app/picture/filling_shape.hpp"
 #include "app/picture/reaction_runner.hpp"
 #include "app/picture/section_runner.hpp"
 #include "app/picture/section_shape.hpp"
+#include "app/picture/shown_reactions.hpp"
 #include "app/settings.hpp"
 #include "scene/live/live_scene.hpp"
 #include "scene/live/simulation.hpp"
 
 namespace elastolab {
-
-/// Force and moment that the world exerts on the body through one handle or fixed set, and where it is.
-struct ShownReaction {
-    std::string name;
-    bool fixed = false;                    ///< a fixed set
-    Eigen::Vector3d force, moment, place;  ///< [force], [force * L] about the origin, mean position as shown [L]
-    Eigen::Vector3d middle;                ///< mean position of where forces act: at rest, of linear methods [L]
-    Eigen::Vector3d moment_about_middle() const { return moment - middle.cross(force); }
-};
-
-/// How far one answer is from the reference, over all vertices.
-struct Difference {
-    double max = 0.0, rms = 0.0;                    ///< [L]
-    double relative_max = 0.0, relative_rms = 0.0;  ///< over the same norm of the reference's displacements
-    int worst_vertex = -1;
-};
 
 /// The body cut open by a plane through its rest shape, deformed.
 struct ShownSection {
@@ -80,13 +65,12 @@ public:
     /// Whether a vertex of the surface is seen no more, as the body is cut away there.
     bool is_cut_away(int vertex) const;
     /// For every vertex, 3 x n and 6 x n [force / L^2]; without columns when not asked for, or not known yet.
-    const Eigen::MatrixXd& tractions() const { return shown_tractions_; }
-    const Eigen::MatrixXd& stresses() const { return shown_stresses_; }
+    const Eigen::MatrixXd& tractions() const { return probed_tractions_; }
+    const Eigen::MatrixXd& stresses() const { return probed_stresses_; }
     bool is_coloured() const { return !values_.empty(); }
     double max_displacement() const { return max_displacement_; }
     const std::optional<Difference>& difference() const { return difference_; }
-    /// Of every fixed set, then of every handle, as far as the answer knows them by their names; on a proxy not of a
-    /// fixed set whose vertices there belong to others.
+    /// Those of shown_reactions(); none where they are not asked for, or not known yet.
     const std::vector<ShownReaction>& reactions() const { return reactions_; }
     const std::optional<ShownSection>& section() const { return section_; }
     /// Where the body is simulated with its holes filled.
@@ -113,12 +97,10 @@ private:
     void update_positions(const Sources& sources, double scale);
     void update_filling(const Sources& sources, double scale);
     void update_reactions(const Sources& sources);
-    void update_difference(const Sources& sources);
     void update_section(const Sources& sources, const DisplaySettings& display);
     void colour_section(const SectionRunner* inside, Field field);
     void update_values(const Sources& sources, Field field);
-    void colour_filling(const Sources& sources, Field field);
-    Eigen::VectorXd simulated_values(const Sources& sources, Field field) const;
+    void colour_filling(const EmbeddedRunner& answer, const AnswerFields& fields, Field field);
     void update_seen();
     void update_probed(const Sources& sources);
 
@@ -136,12 +118,8 @@ private:
     std::optional<ShownSection> section_;
     std::optional<ShownFilling> filling_;
     double section_seconds_ = 0.0;
-    Eigen::Matrix3Xd tractions_;       ///< of the simulated vertices [force / L^2]; no columns when not known
-    Eigen::Matrix3Xd load_tractions_;  ///< of the simulated triangles; no columns without loads
-    Eigen::MatrixXd shown_tractions_, shown_stresses_;
+    AnswerTractions tractions_;
+    Eigen::MatrixXd probed_tractions_, probed_stresses_;
 };
-
-/// "displacement", "difference to linear-bem", ... and its unit in words.
-std::string field_title(Field field, MethodKind reference, const UnitNames& units = {});
 
 }  // namespace elastolab

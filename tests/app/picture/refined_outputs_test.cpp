@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "app/files/export_source.hpp"
 #include "app/picture/reaction_runner.hpp"
-#include "app/scene_files.hpp"
 #include "bem/collocation/method.hpp"
 #include "mesh/input/import.hpp"
 #include "scene/iterating_method.hpp"

@@ -13,7 +13,6 @@
 namespace elastolab {
 namespace {
 
-using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 
@@ -290,28 +289,11 @@ TEST_F(ShownBodyTest, ADifferenceAloneHasTheReferenceComputed) {
 TEST_F(ShownBodyTest, IsAtRestBeforeTheFirstAnswer) {
     stage.scene().clear_handles();
     const Document document = stage.scene().document();
-    state.open_document(document, "scene.json");
+    state.files.open_document(document, "scene.json");
     state.display.field = Field::von_mises;
     state.display.arrows = true;
     stage.frame();
     EXPECT_EQ(shown().positions(), stage.scene().mesh().vertices);
-}
-
-TEST(FieldTitles, NameTheUnitAndTheReference) {
-    EXPECT_THAT(field_title(Field::difference, kConstantBem), HasSubstr("Constant BEM"));
-    for (const Field field : {Field::displacement, Field::difference, Field::traction, Field::von_mises})
-        EXPECT_THAT(field_title(field, kFem), HasSubstr("unit"));
-    EXPECT_EQ(field_title(Field::none, kFem), "");
-}
-
-TEST(FieldTitle, HasTheUnitsThatAPersonNames) {
-    const UnitNames units{"mm", "N"};
-    EXPECT_EQ(field_title(Field::displacement, kFem), "displacement [mesh units]");
-    EXPECT_EQ(field_title(Field::displacement_y, kFem, units), "displacement y [mm]");
-    EXPECT_EQ(field_title(Field::von_mises, kFem, units), "von Mises stress [N/mm\u00b2]");
-    EXPECT_EQ(field_title(Field::traction, kFem, {"", "N"}), "traction [N/unit\u00b2]");
-    EXPECT_EQ(units.after_moment(), " N mm");
-    EXPECT_EQ(UnitNames{}.after_stress(), "");
 }
 
 }  // namespace

@@ -4,8 +4,8 @@
 #include <functional>
 #include <string>
 
-#include "app/panels/messages.hpp"
-#include "app/scene_files.hpp"
+#include "app/files/export_source.hpp"
+#include "app/messages.hpp"
 #include "scene/live/background_job.hpp"
 
 namespace elastolab {

@@ -1,10 +1,10 @@
-#include "app/series.hpp"
+#include "app/files/series.hpp"
 
 #include <array>
 #include <cstdio>
 #include <utility>
 
-#include "app/scene_files.hpp"
+#include "app/files/export_source.hpp"
 #include "base/atomic_file.hpp"
 #include "base/control.hpp"
 

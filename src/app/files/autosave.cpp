@@ -1,4 +1,4 @@
-#include "app/autosave.hpp"
+#include "app/files/autosave.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>

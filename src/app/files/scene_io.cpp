@@ -1,16 +1,12 @@
-#include "app/scene_files.hpp"
+#include "app/files/scene_io.hpp"
 
 #include <utility>
 #include <vector>
 
 #include "app/names.hpp"
-#include "base/error.hpp"
 #include "base/text.hpp"
 #include "findings/cost.hpp"
-#include "mesh/input/export.hpp"
 #include "methods/registry.hpp"
-#include "scene/field_export.hpp"
-#include "scene/figure/gltf.hpp"
 #include "scene/file/scene_file.hpp"
 
 namespace elastolab {
@@ -88,80 +84,12 @@ Document movable_document(const LiveScene& scene, MethodKind method, const ViewP
     return document;
 }
 
-void write_scene(const fs::path& file, const LiveScene& scene, MethodKind method, const ViewPoint& camera) {
-    Document document = movable_document(scene, method, camera);
+void write_scene(const fs::path& file, Document document) {
     if (auto* mesh = std::get_if<MeshFile>(&document.mesh)) {
         const fs::path relative = fs::path(mesh->file).lexically_relative(fs::absolute(file).parent_path());
         if (!relative.empty()) mesh->file = relative.string();
     }
     save_scene(file, document);
-}
-
-ExportSource export_source(const LiveScene& scene, const EmbeddedRunner& answer) {
-    ExportSource source{.shown = scene.surface(),
-                        .proxy = nullptr,
-                        .deformer = nullptr,
-                        .values = {},
-                        .displacement = answer.displacement(),
-                        .simulated_displacement = {},
-                        .carried = {}};
-    const MethodRunner& runner = answer.runner();
-    if (!answer.has_answer() || !answer.shows(scene.mesh()) || !runner.solved()) return source;
-    if (answer.proxy() != nullptr) source.proxy = std::make_shared<const Proxy>(*answer.proxy());
-    source.deformer = runner.deformer();
-    source.values = runner.values();
-    source.groups = answer.constraints().groups;
-    source.simulated_displacement = runner.displacement();
-    source.converged = runner.converged();
-    source.approach = runner.approach();
-    if (!source.converged && answer.carried() != nullptr) source.carried = *answer.carried();
-    return source;
-}
-
-namespace {
-
-void write_moved_mesh(const fs::path& file, const ExportSource& source) {
-    SurfaceMesh mesh = *source.shown;
-    if (source.displacement.size() == mesh.vertices.size())
-        mesh.vertices += Eigen::Map<const Eigen::Matrix3Xd>(source.displacement.data(), 3, mesh.vertices.cols());
-    save_surface(file, mesh);
-}
-
-/// What is shown first is not what is written.
-ExportSource converged(ExportSource source, Control& control) {
-    source.simulated_displacement = source.deformer->displace(source.values, control, kSolveTolerance, source.approach);
-    source.displacement =
-        source.carried ? source.carried->displacement(source.simulated_displacement) : source.simulated_displacement;
-    source.converged = true;
-    return source;
-}
-
-SolvedBody solved_body(const ExportSource& source, Control& control) {
-    const ConstrainedSet& set = source.deformer->set();
-    SolvedBody solved{.shown = source.shown,
-                      .proxy = source.proxy,
-                      .deformer = source.deformer,
-                      .values = source.values,
-                      .displacement = source.displacement,
-                      .simulated_displacement = source.simulated_displacement,
-                      .constrained = set.fixed,
-                      .forces = source.deformer->answer(source.values, {}, control).reactions.forces};
-    solved.constrained.insert(solved.constrained.end(), set.handles.begin(), set.handles.end());
-    return solved;
-}
-
-}  // namespace
-
-bool takes_solves(const fs::path& file) { return is_field_file(file) || is_figure_file(file) || is_glb_file(file); }
-
-void write_export(const fs::path& file, const ExportSource& source, Control& control) {
-    if (!source.converged) return write_export(file, converged(source, control), control);
-    if (source.deformer && (is_figure_file(file) || is_glb_file(file)))
-        return save_figure(file, make_figure(*source.deformer, source.values, source.groups, control));
-    if (source.deformer && is_field_file(file)) return save_field_file(file, solved_body(source, control), control);
-    if (takes_solves(file) && !(file.extension() == ".ply"))
-        throw Error(file.string() + ": there is no answer to write yet. Wait until the method is ready.");
-    write_moved_mesh(file, source);
 }
 
 Document default_document() {

@@ -1,5 +1,5 @@
 // No change is lost without a question.
-#include "app/unsaved_changes.hpp"
+#include "app/files/unsaved_changes.hpp"
 
 #include <gmock/gmock.h>
 
@@ -30,18 +30,18 @@ protected:
 
 TEST_F(Unsaved, NothingHappensBeforeTheAnswerAndNothingAfterACancel) {
     const std::vector<std::function<void()>> losses = {
-        [&] { state().open(folder.path() / "other.json"); },
+        [&] { state().files.open(folder.path() / "other.json"); },
         [&] { state().open_primitive({.name = "sphere", .resolution = 2, .size = {}}); },
         [&] { state().quit(); },
     };
     for (const auto& lose : losses) {
         lose();
-        EXPECT_TRUE(state().unsaved.asking());
+        EXPECT_TRUE(state().files.unsaved.asking());
         stage.settle();
         EXPECT_TRUE(is_kept());
-        state().answer_unsaved(UnsavedAnswer::cancel);
+        state().files.answer(UnsavedAnswer::cancel);
         stage.settle();
-        EXPECT_FALSE(state().unsaved.asking());
+        EXPECT_FALSE(state().files.unsaved.asking());
         EXPECT_TRUE(is_kept());
         EXPECT_FALSE(state().requests.quit);
         EXPECT_TRUE(state().scene().modified());
@@ -49,11 +49,11 @@ TEST_F(Unsaved, NothingHappensBeforeTheAnswerAndNothingAfterACancel) {
 }
 
 TEST_F(Unsaved, DiscardedChangesGo) {
-    state().open(folder.path() / "other.json");
-    state().answer_unsaved(UnsavedAnswer::discard);
+    state().files.open(folder.path() / "other.json");
+    state().files.answer(UnsavedAnswer::discard);
     stage.settle();
     EXPECT_EQ(stage.scene().mesh().n_vertices(), 56);
-    EXPECT_FALSE(state().unsaved.asking());
+    EXPECT_FALSE(state().files.unsaved.asking());
     state().open_primitive({.name = "cube", .resolution = 1, .size = {}});  // nothing to lose: no question
     EXPECT_EQ(stage.scene().mesh().n_vertices(), 8);
     state().quit();
@@ -62,18 +62,18 @@ TEST_F(Unsaved, DiscardedChangesGo) {
 
 TEST_F(Unsaved, SavingAsksForANameWhereThereIsNone) {
     state().quit();
-    state().answer_unsaved(UnsavedAnswer::save);
-    EXPECT_TRUE(state().requests.scene_name);
-    EXPECT_TRUE(state().unsaved.asking());
+    state().files.answer(UnsavedAnswer::save);
+    EXPECT_TRUE(state().files.wants_name);
+    EXPECT_TRUE(state().files.unsaved.asking());
     EXPECT_FALSE(state().requests.quit);
 }
 
 TEST_F(Unsaved, SavingWritesOverTheFileThatTheSceneCameFrom) {
     const auto file = folder.path() / "other.json";
-    state().open_now(file);
+    state().files.open_now(file);
     stage.scene().add_handle(std::vector<int>{stage.vertex_near({1, 1, 1})});
     state().quit();
-    state().answer_unsaved(UnsavedAnswer::save);
+    state().files.answer(UnsavedAnswer::save);
     EXPECT_TRUE(state().requests.quit);
     EXPECT_EQ(load_scene(file).handles.size(), 1u);
 }
@@ -81,39 +81,39 @@ TEST_F(Unsaved, SavingWritesOverTheFileThatTheSceneCameFrom) {
 TEST_F(Unsaved, ASaveThatFailsLosesNothing) {
     std::filesystem::create_directories(folder.path() / "gone");
     save_scene(folder.path() / "gone" / "cube.json", test::cube_document(2));
-    state().open_now(folder.path() / "gone" / "cube.json");
+    state().files.open_now(folder.path() / "gone" / "cube.json");
     stage.scene().add_handle(std::vector<int>{stage.vertex_near({1, 1, 1})});
     std::filesystem::remove_all(folder.path() / "gone");
     state().quit();
-    state().answer_unsaved(UnsavedAnswer::save);
+    state().files.answer(UnsavedAnswer::save);
     EXPECT_FALSE(state().requests.quit);
-    EXPECT_TRUE(state().unsaved.asking());
+    EXPECT_TRUE(state().files.unsaved.asking());
     EXPECT_TRUE(is_kept());
 }
 
 TEST_F(Unsaved, WhatIsChangedWhileAFileIsLoadedCounts) {
-    state().save_scene(folder.path() / "mine.json");
-    state().open(folder.path() / "other.json");
-    EXPECT_TRUE(state().loading());
+    state().files.save(folder.path() / "mine.json");
+    state().files.open(folder.path() / "other.json");
+    EXPECT_TRUE(state().files.loading());
     stage.scene().clear_handles();
     stage.settle();
-    EXPECT_TRUE(state().unsaved.asking());
+    EXPECT_TRUE(state().files.unsaved.asking());
     EXPECT_EQ(stage.scene().mesh().n_vertices(), 26);
-    state().answer_unsaved(UnsavedAnswer::discard);
+    state().files.answer(UnsavedAnswer::discard);
     EXPECT_EQ(stage.scene().mesh().n_vertices(), 56);
 }
 
 TEST_F(Unsaved, ADragThatIsNotOverIsAChange) {
-    state().save_scene(folder.path() / "mine.json");
+    state().files.save(folder.path() / "mine.json");
     stage.move(stage.pixel(stage.vertex_near({1, 1, 1})));
     stage.press();
     stage.move(stage.pixel(stage.vertex_near({1, 1, 1})) + Eigen::Vector2d(40, 0));
     state().quit();
-    EXPECT_TRUE(state().unsaved.asking());
+    EXPECT_TRUE(state().files.unsaved.asking());
 }
 
 TEST_F(Unsaved, NobodyIsAskedWhereChangesAreKeptAnyway) {
-    state().unsaved.never_ask();
+    state().files.unsaved.never_ask();
     state().quit();
     EXPECT_TRUE(state().requests.quit);
 }

@@ -1,4 +1,4 @@
-#include "app/panels/messages.hpp"
+#include "app/messages.hpp"
 
 #include <algorithm>
 

@@ -26,11 +26,11 @@ TEST(KeptCamera, ComesBackWithItsSceneAndIsNoChangeOfIt) {
     stage.state.camera.orbit(123.0, -45.0, stage.state.shown.viewports[0].place);
     stage.state.camera.zoom_to({500.0, 300.0}, 1.7, {0.5, 0.5, 0.5}, stage.state.shown.viewports[0].place);
     EXPECT_FALSE(stage.scene().modified());
-    ASSERT_TRUE(stage.state.save_scene(file));
+    ASSERT_TRUE(stage.state.files.save(file));
     const CameraPose saved = stage.state.camera.pose();
 
     Stage other(3);
-    other.state.open_now(file);
+    other.state.files.open_now(file);
     other.state.frame_in_viewports(true);
     const CameraPose& pose = other.state.camera.pose();
     EXPECT_LT((pose.target - saved.target).norm(), kPoseRounding);
@@ -47,7 +47,7 @@ TEST(KeptCamera, OfNoUseIsLeftAside) {
     save_scene(folder.path() / "far.json", document);
     Stage stage(2);
     const CameraPose framed = stage.state.camera.pose();
-    stage.state.open_now(folder.path() / "far.json");
+    stage.state.files.open_now(folder.path() / "far.json");
     stage.state.frame_in_viewports(true);
     EXPECT_NEAR(stage.state.camera.pose().distance, framed.distance, 1e-9);
 }
@@ -109,7 +109,7 @@ TEST(KeptMethod, ABodyJustOpenedIsNotChangedWhateverMethodItBeginsWith) {
     save_surface(folder.path() / "box.obj", make_box(3));
     Stage stage(2);
     for (const MethodKind kind : all_methods()) {
-        stage.state.open_now(folder.path() / "box.obj");
+        stage.state.files.open_now(folder.path() / "box.obj");
         stage.state.start_with(kind);
         stage.frame();
         EXPECT_FALSE(stage.scene().modified()) << name(kind);

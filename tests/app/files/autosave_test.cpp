@@ -1,5 +1,5 @@
 // What a viewer that is killed leaves behind, and who finds it.
-#include "app/autosave.hpp"
+#include "app/files/autosave.hpp"
 
 #include <gmock/gmock.h>
 
@@ -171,21 +171,17 @@ TEST(Autosave, IsRecoveredUnsavedAndKeptFromThenOn) {
         wait_for_file();
     }
     Stage stage(3);
-    stage.state.recoverable = find_autosaved();
-    ASSERT_THAT(stage.state.recoverable, SizeIs(1));
-    stage.state.recover();
+    stage.state.files.recoverable = find_autosaved();
+    ASSERT_THAT(stage.state.files.recoverable, SizeIs(1));
+    stage.state.files.recover();
     stage.settle();
     EXPECT_EQ(stage.scene().mesh().n_vertices(), 26);
     EXPECT_TRUE(stage.scene().modified());
-    EXPECT_EQ(stage.state.scene_file(), "/somewhere/cube.json");
-    EXPECT_FALSE(stage.state.owns_scene_file());
-    std::optional<AutosavedScene> recovered = stage.state.take_recovered();
-    ASSERT_TRUE(recovered);
+    EXPECT_EQ(stage.state.files.file(), "/somewhere/cube.json");
+    EXPECT_FALSE(stage.state.files.owns_file());
     EXPECT_THAT(files(), SizeIs(2)) << "it stays until the session ends";
-    Keeper next;
-    next.autosave.adopt(std::move(*recovered));
-    next.update(1, true, 0.0);
-    next.autosave.clear();
+    stage.state.files.keep_copy(0.0);
+    stage.state.files.remove_copy();
     EXPECT_THAT(files(), IsEmpty());
 }
 
@@ -196,10 +192,10 @@ TEST(Autosave, ThatCannotBeReadStays) {
         wait_for_file();
     }
     Stage stage(3);
-    stage.state.recoverable = find_autosaved();
-    ASSERT_THAT(stage.state.recoverable, SizeIs(1));
-    std::filesystem::resize_file(stage.state.recoverable[0].file, 10);
-    stage.state.recover();
+    stage.state.files.recoverable = find_autosaved();
+    ASSERT_THAT(stage.state.files.recoverable, SizeIs(1));
+    std::filesystem::resize_file(stage.state.files.recoverable[0].file, 10);
+    stage.state.files.recover();
     stage.settle();
     EXPECT_EQ(stage.scene().mesh().n_vertices(), 56);
     EXPECT_THAT(stage.state.messages.all(), SizeIs(1));

@@ -1,10 +1,9 @@
-#include "app/exports.hpp"
+#include "app/files/exports.hpp"
 
 #include <memory>
 #include <utility>
 
 #include "app/job_notes.hpp"
-#include "scene/user_text.hpp"
 
 namespace elastolab {
 
@@ -17,13 +16,11 @@ void Exports::start(const std::filesystem::path& file, const std::function<Expor
     }
     ExportSource source = make_source();
     if (!takes_solves(file) && source.converged) {  // the work of a frame
-        try {
+        attempt(messages, [&] {
             Control never_cancelled;
             write_export(file, source, never_cancelled);
             messages.note("Exported " + file.string());
-        } catch (const std::exception& error) {
-            messages.error(user_text(error));
-        }
+        });
         return;
     }
     std::string note = "Exported " + file.string() + (is_preview ? ", the preview: the method is not ready yet" : "");

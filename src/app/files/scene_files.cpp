@@ -1,0 +1,146 @@
+#include "app/files/scene_files.hpp"
+
+#include <utility>
+
+#include "app/job_notes.hpp"
+#include "app/window/recent_files.hpp"
+
+namespace elastolab {
+
+namespace fs = std::filesystem;
+
+SceneFiles::SceneFiles(EditedScene edited, Messages& messages, const std::function<void()>& wake)
+    : edited_(std::move(edited)), messages_(messages), recent_(load_recent_files()), load_job_(wake), autosave_(wake) {}
+
+void SceneFiles::open(const fs::path& file) {
+    guard([this, file] { begin_loading(file); });
+}
+
+void SceneFiles::open_now(const fs::path& file, Control& control) {
+    replace(load_scene_or_mesh(file, control));
+    add_recent(file);
+}
+
+void SceneFiles::open_document(Document document, const fs::path& fixed) {
+    edited_.finish_gesture();
+    attempt(messages_,
+            [&] { replace({.scene = std::make_unique<LiveScene>(std::move(document), fixed), .file = {}}); });
+}
+
+void SceneFiles::begin_with(MethodKind method) {
+    if (loading()) first_method_ = method;
+}
+
+void SceneFiles::begin_loading(const fs::path& file) {
+    recovering_.reset();  // another one is wanted now; it is offered again at the next start
+    load(file, [file](Control& control) { return load_scene_or_mesh(file, control); });
+}
+
+void SceneFiles::load(fs::path file, std::function<LoadedScene(Control&)> work) {
+    load_job_.start(
+        [work = std::move(work)](Control& control) { return std::make_shared<LoadedScene>(work(control)); });
+    pending_file_ = std::move(file);
+    revision_at_open_ = edited_.scene().revision();
+}
+
+void SceneFiles::poll() {
+    switch (load_job_.poll()) {
+        case JobEvent::finished:
+            // What was changed while it was being loaded counts, too.
+            unsaved.guard(
+                edited_.scene().modified() && edited_.scene().revision() != revision_at_open_,
+                [this, loaded = load_job_.take(), file = pending_file_] { take_loaded(std::move(*loaded), file); });
+            break;
+        case JobEvent::failed:
+            messages_.error(load_job_.failure());
+            first_method_.reset();
+            recovering_.reset();
+            break;
+        case JobEvent::cancelled:
+            first_method_.reset();
+            break;
+        case JobEvent::none:
+            break;
+    }
+}
+
+void SceneFiles::take_loaded(LoadedScene loaded, const fs::path& file) {
+    if (loaded.recovered) recovered_ = std::exchange(recovering_, std::nullopt);
+    replace(std::move(loaded));
+    add_recent(file);
+}
+
+void SceneFiles::replace(LoadedScene loaded) {
+    file_ = loaded.file;
+    owns_file_ = false;
+    ++n_replaced_;
+    loaded.method = std::exchange(first_method_, std::nullopt);
+    edited_.replace(std::move(loaded));
+}
+
+bool SceneFiles::save(const fs::path& file) {
+    edited_.finish_gesture();
+    return attempt(messages_, [&] {
+        write_scene(file, edited_.document());
+        edited_.scene().mark_saved();
+        file_ = fs::absolute(file);
+        owns_file_ = true;
+        add_recent(file);
+        messages_.note("Saved " + file.string());
+    });
+}
+
+std::string SceneFiles::title() const {
+    const LiveScene& scene = edited_.scene();
+    const fs::path name = file_.empty() ? fs::path(scene.name()) : file_;
+    return name.filename().string() + (scene.modified() ? " (not saved)" : "");
+}
+
+void SceneFiles::add_recent(const fs::path& file) {
+    if (file.empty()) return;  // a primitive
+    recent_ = with_recent_file(recent_, fs::absolute(file));
+    save_recent_files(recent_);
+}
+
+void SceneFiles::guard(UnsavedChanges::Action action) {
+    edited_.finish_gesture();
+    unsaved.guard(edited_.scene().modified(), std::move(action));
+}
+
+/// A save that fails leaves the question: there is still time to choose otherwise.
+void SceneFiles::answer(UnsavedAnswer answer) {
+    if (answer == UnsavedAnswer::cancel) return unsaved.cancel();
+    if (answer == UnsavedAnswer::save) {
+        wants_name = file_.empty();
+        if (wants_name || !save(fs::path(file_))) return;
+    }
+    unsaved.proceed();
+}
+
+void SceneFiles::recover() {
+    if (recoverable.empty()) return;
+    recovering_ = std::move(recoverable.front());
+    recoverable.erase(recoverable.begin());
+    load(recovering_->origin, [file = recovering_->file, origin = recovering_->origin](Control& control) {
+        return load_autosaved(file, origin, control);
+    });
+}
+
+void SceneFiles::discard_recoverable() {
+    if (recoverable.empty()) return;
+    recoverable.front().remove();
+    recoverable.erase(recoverable.begin());
+}
+
+bool SceneFiles::keep_copy(double now) {
+    const std::string before = autosave_.failure();
+    if (recovered_) autosave_.adopt(*std::exchange(recovered_, std::nullopt));
+    autosave_.update({.revision = edited_.scene().revision() + (n_replaced_ << 32),
+                      .modified = edited_.scene().modified(),
+                      .origin = file_,
+                      .document = edited_.document},
+                     now);
+    return autosave_.failure() != before;
+}
+
+}  // namespace elastolab
