@@ -20,7 +20,9 @@ SparseMatrix stiffness_of(const Share& share) {
     const Material material{1.0, share.poisson_ratio};
     parts.lambda.coeffs() =
         material.lame_lambda() * parts.lambda.coeffs() + material.shear_modulus() * parts.mu.coeffs();
-    return std::move(parts.lambda);
+    SparseMatrix K;
+    K.swap(parts.lambda);  // Eigen's sparse matrices are copied where others move
+    return K;
 }
 
 /// The rows of a process as PETSc takes them: its own ones of K, whose columns have their numbers among all.

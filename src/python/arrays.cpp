@@ -19,7 +19,7 @@ std::string shape_text(const py::array& array) {
 
 /// What NumPy makes of it, if its elements are of one of these kinds.
 py::array array_of(const py::handle& object, const std::string& name, const std::string& kinds, const char* wanted) {
-    const py::array array = py::array::ensure(object);
+    auto array = py::array::ensure(object);
     if (!array) {
         PyErr_Clear();
         throw py::type_error(name + ": is no array. Give " + wanted + ".");

@@ -25,6 +25,7 @@ using namespace elastolab;
 void bind_errors(py::module_& module) {
     // Kept for ever: the interpreter ends before static objects do.
     static const py::handle error = py::exception<Error>(module, "Error", PyExc_ValueError).release();
+    // NOLINTNEXTLINE(performance-unnecessary-value-param): the type that pybind11 asks for
     py::register_exception_translator([](std::exception_ptr pointer) {
         try {
             if (pointer) std::rethrow_exception(pointer);
