@@ -76,7 +76,7 @@ std::vector<Shortcut> make_shortcuts() {
         {GLFW_KEY_N, GLFW_MOD_SHIFT, "Shift+N", "begin a new fixed set",
          [](ViewerState& s, Panels&) { begin_fixed_set(s); }},
         {GLFW_KEY_F2, 0, "F2", "rename the selected handle or fixed set",
-         [](ViewerState& s, Panels& p) { p.pull().rename_selection(s); }},
+         [](ViewerState& s, Panels& p) { p.selection().rename(s); }},
         {GLFW_KEY_DELETE, 0, "Del", "remove the selected handle, fixed set or load",
          [](ViewerState& s, Panels&) { remove_selection(s); }},
         {GLFW_KEY_DELETE, GLFW_MOD_SHIFT, "Shift+Del", "remove all handles",

@@ -44,6 +44,7 @@ Layout layout_of(const Eigen::Vector2i& window, float scale, const DisplaySettin
 }
 
 bool is_short(const Layout& layout, double scale) { return layout.panel.height < kShortPanel * scale; }
+bool is_very_tall(const Layout& layout, double scale) { return layout.panel.height >= kVeryTallPanel * scale; }
 
 std::vector<SceneViewport> viewports_of(const ViewerState& state, const Viewport& scene, double scale) {
     if (state.blank()) return {};

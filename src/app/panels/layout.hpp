@@ -17,6 +17,7 @@ struct Layout {
 inline constexpr double kTallPanel = 840.0, kVeryTallPanel = 940.0;
 /// Whether the headings of all sections would not fit beside what is used most.
 bool is_short(const Layout& layout, double scale);
+bool is_very_tall(const Layout& layout, double scale);  ///< from kVeryTallPanel on
 
 /// For a window of this size and panels of this scale. In a window too small for both, the scene comes first.
 /// `display`: whether there is a panel, and how wide it was made.

@@ -9,7 +9,7 @@
 #include "app/panels/file_questions.hpp"
 #include "app/panels/panel_context.hpp"
 #include "app/panels/picture_panel.hpp"
-#include "app/panels/pull_panel.hpp"
+#include "app/panels/selection_panel.hpp"
 #include "app/panels/widgets.hpp"
 #include "app/selection.hpp"
 #include "mesh/primitives.hpp"
@@ -124,7 +124,7 @@ void MenuPanel::draw_edit(ViewerState& state) {
     if (ImGui::MenuItem("New fixed set", "Shift+N")) begin_fixed_set(state);
     ImGui::Separator();
     if (ImGui::MenuItem(("Rename " + quoted + "###rename").c_str(), "F2", false, !name.empty()))
-        panels_.pull.rename_selection(state);
+        panels_.selection.rename(state);
     if (ImGui::MenuItem(("Remove " + quoted + "###remove").c_str(), "Del", false, !name.empty()))
         remove_selection(state);
     if (ImGui::MenuItem("Remove all handles", "Shift+Del", false, scene.n_handles() > 0)) state.clear_handles();

@@ -8,7 +8,7 @@ struct PanelContext;
 class BodyPanel;
 class FileQuestions;
 class PicturePanel;
-class PullPanel;
+class SelectionPanel;
 class ViewerState;
 
 /// The menu bar. What is chosen there begins in the panel that it belongs to.
@@ -18,7 +18,7 @@ public:
         FileQuestions& files;
         BodyPanel& body;
         PicturePanel& picture;
-        PullPanel& pull;
+        SelectionPanel& selection;
     };
     explicit MenuPanel(const Beginners& panels) : panels_(panels) {}
     void draw(const PanelContext& context);

@@ -6,7 +6,7 @@ namespace elastolab {
 
 struct PanelContext;
 
-/// The methods with their costs, how far the chosen one is, and how it computes.
+/// The methods with their costs, how far the chosen one is, and how it computes (computation_panel.hpp).
 class MethodPanel {
 public:
     /// costs: lives longer.
@@ -14,7 +14,6 @@ public:
     void draw(const PanelContext& context);
 
 private:
-    void draw_mode(const PanelContext& context);
     MethodKind sooner_method(const ViewerState& state);
     void draw_sooner(const PanelContext& context);
 

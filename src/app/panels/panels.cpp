@@ -30,7 +30,7 @@ void Panels::draw(const PanelContext& context) {
     if (std::exchange(context.state.files.wants_name, false)) files_.ask_name_of_unsaved(context.state);
     picture_.draw(context, files_);
     files_.draw(context.gui.scale());
-    pull_.draw_name_alone(context);
+    selection_.draw_name_alone(context);
     recovery_.draw(context);
     unsaved_.draw(context, files_.asking());
 }
@@ -76,7 +76,12 @@ void Panels::draw_sections(const PanelContext& context) {
     const bool has_loads = !context.state.scene().constraints().loads.empty();
     const std::array<Section, 8> sections = {
         {{"Method", [&] { method_.draw(context); }, true},
-         {kPullTitle, [&] { pull_.draw(context, side_room_); }, true},
+         {kPullTitle,
+          [&] {
+              pull_.draw(context, side_room_);
+              selection_.draw(context);
+          },
+          true},
          {"Loads", [&] { loads_.draw(context); }, has_loads},
          {"Show", [&] { draw_display(context); }, tall},
          {"Body", [&] { body_.draw(context, [&] { files_.ask_open(context.state); }); }, tall},
@@ -94,7 +99,7 @@ void Panels::draw_sections(const PanelContext& context) {
 void Panels::draw_folding(const PanelContext& context, const Section& section) {
     ImGui::PushFont(context.gui.fonts().bold);
     ImGui::SetNextItemOpen(section.open, ImGuiCond_Once);
-    if (pull_.asks_name() && section.title == kPullTitle) ImGui::SetNextItemOpen(true);
+    if (selection_.asks_name() && section.title == kPullTitle) ImGui::SetNextItemOpen(true);
     const bool open = ImGui::CollapsingHeader(section.title);
     ImGui::PopFont();
     if (!open) return;
@@ -109,7 +114,7 @@ void Panels::draw_tabs(const PanelContext& context, std::span<const Section> sec
     std::vector<Segment> tabs;
     for (const Section& section : sections) tabs.push_back({section.title, ""});
     for (std::size_t i = 0; i < sections.size(); ++i)
-        if (pull_.asks_name() && sections[i].title == kPullTitle) tab_ = i;
+        if (selection_.asks_name() && sections[i].title == kPullTitle) tab_ = i;
     const Palette& palette = context.palette;
     ImGui::PushFont(context.gui.fonts().bold);
     ImGui::PushStyleColor(ImGuiCol_Button, ImVec4());

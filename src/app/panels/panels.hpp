@@ -18,6 +18,7 @@
 #include "app/panels/probe_panel.hpp"
 #include "app/panels/pull_panel.hpp"
 #include "app/panels/question.hpp"
+#include "app/panels/selection_panel.hpp"
 #include "app/panels/warnings_panel.hpp"
 
 namespace elastolab {
@@ -37,7 +38,7 @@ public:
 
     // What keys begin.
     FileQuestions& files() { return files_; }
-    PullPanel& pull() { return pull_; }
+    SelectionPanel& selection() { return selection_; }
 
 private:
     /// A part of the side panel.
@@ -56,6 +57,7 @@ private:
     CostPredictions costs_;
     MethodPanel method_{costs_};
     PullPanel pull_;
+    SelectionPanel selection_;
     LoadsPanel loads_;
     BodyPanel body_;
     ComparePanel compare_{costs_};
@@ -63,7 +65,7 @@ private:
     PerformancePanel performance_{files_};
     WarningsPanel warnings_;
     PicturePanel picture_;
-    MenuPanel menu_{{files_, body_, picture_, pull_}};
+    MenuPanel menu_{{files_, body_, picture_, selection_}};
     RecoveryQuestion recovery_;
     UnsavedQuestion unsaved_;
     std::size_t tab_ = 0;     ///< of the sections of a short panel

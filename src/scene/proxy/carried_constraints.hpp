@@ -1,30 +1,28 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <limits>
 #include <memory>
 #include <vector>
 
 #include "mesh/topology.hpp"
 #include "scene/constraints.hpp"
+#include "scene/proxy/followers.hpp"
 #include "scene/proxy/proxy.hpp"
 
 namespace elastolab {
 
 /// Constraints of the shown surface, carried over to its proxy, and displacements of the proxy, carried back.
 ///
-/// A vertex of the proxy is constrained when it is within kReach mean edges of the constrained part of the shown
-/// surface: the triangles of which all corners are constrained, and single constrained vertices. It follows the same
-/// motion. A handle or fixed set that is smaller than the proxy's triangles holds the corners of the nearest one. Of
-/// the fixed part, a vertex of the proxy belongs to the set of the shown vertex that it is nearest to.
+/// A vertex of the proxy is constrained when it is within ProxyOwner::kReach mean edges of the constrained part of the
+/// shown surface: the triangles of which all corners are constrained, and single constrained vertices. It follows the
+/// same motion. A handle or fixed set that is smaller than the proxy's triangles holds the corners of the nearest one.
+/// Of the fixed part, a vertex of the proxy belongs to the set of the shown vertex that it is nearest to.
 ///
 /// Shown vertices follow their places on the proxy, but constrained ones go exactly where they were put; the difference
 /// between the two fades out around them within one edge of the proxy. Where the proxy is the shown surface with its
 /// holes filled, vertices are carried to themselves.
 class CarriedConstraints {
 public:
-    static constexpr double kReach = 0.35;
-
     explicit CarriedConstraints(std::shared_ptr<const Proxy> proxy);
 
     const Proxy& proxy() const { return *proxy_; }
@@ -43,36 +41,7 @@ public:
     Findings as_shown(Findings of_proxy) const;
 
 private:
-    /// The constrained part of the shown surface that belongs to one group; its vertices are numbered anew.
-    struct Part {
-        SurfaceMesh surface;  ///< its vertices in the order of the group
-    };
-    /// A shown vertex that is constrained (share 1) or near one that is.
-    struct Follower {
-        int vertex;
-        std::size_t group;
-        int member;    ///< place in the group; -1 when it is only near
-        double share;  ///< of the group's motion in its displacement
-    };
-    static constexpr std::size_t kNoGroup = std::numeric_limits<std::size_t>::max();
-    /// What is closest to a proxy vertex: of which group, and where in its part.
-    struct Nearest {
-        std::size_t group = kNoGroup;
-        SurfacePoint point{-1, Eigen::Vector3d::Zero(), std::numeric_limits<double>::infinity()};
-        std::size_t fixed_set = 0;  ///< where the group is the fixed part
-    };
-    std::vector<int> vertices_of(const Constraints& constraints, std::size_t group) const;
-    std::vector<Part> parts() const;
-    std::vector<Nearest> nearest_parts(const std::vector<Part>& parts) const;
-    std::vector<Nearest> same_vertices() const;
-    void leave_out_lone_vertices(std::vector<Nearest>& nearest) const;
-    void divide_fixed(const Part& fixed, std::vector<Nearest>& nearest) const;
-    Part fixed_part(const ConstraintGroup& set) const;
-    void hold_nearest(const Part& part, const Nearest& owner, std::vector<Nearest>& nearest) const;
-    std::vector<Nearest> owners(const std::vector<Part>& constrained) const;
     void choose_vertices();
-    void carry_loads();
-    void find_followers();
     void carry_values();
     Eigen::Vector3d value_of(const Follower& follower) const;
 

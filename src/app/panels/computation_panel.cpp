@@ -1,0 +1,117 @@
+#include "app/panels/computation_panel.hpp"
+
+#include <imgui.h>
+
+#include <array>
+#include <memory>
+#include <string>
+
+#include "app/panels/cost_predictions.hpp"
+#include "app/panels/panel_context.hpp"
+#include "app/panels/widgets.hpp"
+#include "base/memory.hpp"
+#include "base/text.hpp"
+
+namespace elastolab {
+
+namespace {
+
+constexpr std::array<Choice<Mode>, 2> kModes = {
+    {{Mode::on_demand, "on demand",
+      "One factorisation; columns of the inverse when a handle needs them. Ready soonest."},
+     {Mode::full, "K and inverse", "The stiffness K and its (bordered) inverse in memory, as the paper has it."}}};
+
+constexpr std::array<Choice<Update>, 3> kUpdates = {
+    {{Update::reduced, "collapsed (9')",
+      "Solves the capacitance system, as small as the constrained set. Same displacements, least work."},
+     {Update::eqn9, "Eqn. 9",
+      "As the paper writes it: the inverse of the free block from the inverse of K. Needs K and inverse."},
+     {Update::direct, "Eqn. 7", "Factorises the free block of K again for every constrained set."}}};
+
+constexpr std::array<Choice<FrameRule>, 2> kFrameRules = {
+    {{FrameRule::drag_columns, "moving columns",
+      "The drag response: three columns, computed when the handle is grabbed. "
+      "A frame only reads them, as fast as memory allows."},
+     {FrameRule::displace, "whole update", "Every frame solves by the update rule above, to see what that costs."}}};
+
+constexpr std::array<Choice<ElementDegree>, 2> kElements = {
+    {{ElementDegree::quadratic, "ten-node", "Ten nodes a tetrahedron: accurate. Of nonlinear FEM."},
+     {ElementDegree::linear, "four-node",
+      "Four nodes a tetrahedron: an eighth of the unknowns, too stiff in bending."}}};
+constexpr std::array<Choice<Tractions>, 3> kTractions = {
+    {{Tractions::discontinuous, "discontinuous",
+      "Tractions may jump at the rim of a constrained patch, where they are "
+      "singular. Most accurate."},
+     {Tractions::restricted, "restricted", "Linear over a constrained patch, ending at its rim."},
+     {Tractions::continuous, "continuous",
+      "As in the paper: they leak over one ring of triangles onto the free surface."}}};
+
+const char* update_label(Update update) {
+    for (const Choice<Update>& choice : kUpdates)
+        if (choice.value == update) return choice.label;
+    return "";
+}
+
+/// What is there of the model, in rows that are there before it is.
+void draw_model(const PanelContext& context, const MethodRunner& runner) {
+    const Colour& dim = context.palette.text_dim;
+    const std::shared_ptr<const Model>& model = runner.model();
+    const auto told = [&](const auto& of) { return model ? of(model->facts()) : std::string("\u2013"); };
+    fact("degrees of freedom", told([](const ModelFacts& f) { return count_text(f.n_degrees_of_freedom); }), dim);
+    fact("memory", told([](const ModelFacts& f) { return readable_bytes(static_cast<double>(f.memory_bytes)); }), dim);
+    if (context.state.method->has_inside)
+        fact("tetrahedra", told([](const ModelFacts& f) { return count_text(f.n_tetrahedra); }), dim);
+    fact("K and its inverse", runner.completing() ? "being completed" : runner.has_inverse() ? "ready" : "\u2013", dim);
+    fact("update in use", model ? update_label(model->method().update) : "\u2013", dim);
+    tooltip(
+        "Eqn. 9 needs K and its inverse. Until they are computed the collapsed form is used, which gives the same "
+        "displacements.");
+}
+
+/// The modes with what each would cost; those that would not fit cannot be chosen.
+void draw_mode(const PanelContext& context, CostPredictions& costs) {
+    ViewerState& state = context.state;
+    set_item_width(context.gui.scale());
+    if (begin_choice("ahead", state.choices.mode == Mode::full ? kModes[1].label : kModes[0].label)) {
+        for (const Choice<Mode>& choice : kModes) {
+            Method method = state.choices.of(state.method);
+            method.mode = choice.value;
+            const Cost& price = costs.of(state, method);
+            const bool fits = price.memory_bytes < available_memory_bytes();
+            const std::string label = std::string(choice.label) + "   " + readable_seconds(price.seconds) + ", " +
+                                      readable_bytes(static_cast<double>(price.memory_bytes)) +
+                                      (fits ? "" : " (does not fit)");
+            ImGui::BeginDisabled(!fits);
+            if (choice_entry(label.c_str(), choice.explanation, choice.value == state.choices.mode))
+                state.choices.mode = choice.value;
+            ImGui::EndDisabled();
+        }
+        end_choice();
+    }
+    if (state.choices.mode != Mode::on_demand) return;
+    slider("complete up to", state.choices.complete_up_to, 0, 5000, "%d vertices", context.gui.scale());
+    tooltip(
+        "On bodies of up to this many vertices, K and its inverse are computed in the background once the body can be "
+        "pulled. After that a new handle is ready sooner.");
+}
+
+}  // namespace
+
+void draw_computation(const PanelContext& context, CostPredictions& costs) {
+    ViewerState& state = context.state;
+    if (!ImGui::TreeNode("How it computes")) return;
+    draw_model(context, state.simulation.runner(state.method));
+    draw_mode(context, costs);
+    const float scale = context.gui.scale();
+    set_item_width(scale);
+    choose<Update>("update", state.choices.update, kUpdates);
+    set_item_width(scale);
+    choose<FrameRule>("each frame", state.choices.frame_rule, kFrameRules);
+    set_item_width(scale);
+    choose<Tractions>("tractions", state.choices.tractions, kTractions);
+    set_item_width(scale);
+    choose<ElementDegree>("elements", state.choices.elements, kElements);
+    ImGui::TreePop();
+}
+
+}  // namespace elastolab
