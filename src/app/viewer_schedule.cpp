@@ -9,6 +9,8 @@ namespace elastolab {
 namespace {
 
 constexpr double kProgressSeconds = 1.0 / 15.0;  ///< between frames while a progress bar moves
+/// Between frames that settle while workers compute, who may want the cores that draw: software OpenGL takes them all.
+constexpr double kSettlingSeconds = 1.0 / 30.0;
 constexpr double kWaitingSeconds = 0.01;         ///< between looks at what the next frame of a film shows
 constexpr double kCheckSeconds = 0.25;           ///< between looks at a check that goes on in the background
 constexpr double kCaretSeconds = 0.4;            ///< between frames while a text cursor blinks
@@ -18,7 +20,7 @@ constexpr double kCaretSeconds = 0.4;            ///< between frames while a tex
 bool ViewerSession::held_back() const {
     const bool late_frames =
         options_.n_frames > 0 && 2 * (state_.measurements.frame + 1) > options_.n_frames && !replay_;
-    return late_frames && (computing() || state_.simulation.busy());
+    return late_frames && workers_compute();
 }
 
 double ViewerSession::timeout() const {
@@ -29,9 +31,10 @@ double ViewerSession::timeout() const {
 double ViewerSession::timeout_of_work() const {
     if (pictures_.filming()) return pictures_.waiting() ? kWaitingSeconds : 0.0;
     if (held_back()) return kProgressSeconds;
-    if (options_.n_frames > 0 || pending_frames_ > 0 || !queue_.empty()) return 0.0;
+    if (options_.n_frames > 0 || !queue_.empty()) return 0.0;
+    if (pending_frames_ > 0) return workers_compute() ? kSettlingSeconds : 0.0;
     if (replay_ && !replay_->done() && !state_.simulation.busy()) return 0.0;
-    if (computing() || state_.simulation.busy()) return kProgressSeconds;
+    if (workers_compute()) return kProgressSeconds;
     if (state_.simulation.checking()) return kCheckSeconds;
     if (const double rest = six_axis_.due_in(Window::seconds()); rest >= 0.0) return rest + 0.01;
     if (message_seconds_ >= 0.0) return std::max(message_seconds_, 0.01);
@@ -58,7 +61,8 @@ bool ViewerSession::must_draw() {
         pending_frames_ = kSettlingFrames;
     if (pictures_.poll(state_) || pictures_.filming()) pending_frames_ = kSettlingFrames;
     const bool damaged = window_.take_damage();
-    if (!queue_.empty() || damaged || state_.simulation.busy() || computing()) pending_frames_ = kSettlingFrames;
+    if (!queue_.empty() || damaged) pending_frames_ = kSettlingFrames;
+    if (workers_compute()) pending_frames_ = std::max(pending_frames_, 1);
     if (detail_.due_in(Window::seconds()) == 0.0) pending_frames_ = std::max(pending_frames_, 1);
     if (message_seconds_ >= 0.0 || gui_.wants_text()) pending_frames_ = std::max(pending_frames_, 1);
     if (window_.close_requested() && !may_close()) pending_frames_ = kSettlingFrames;  // for the question

@@ -52,6 +52,8 @@ private:
     /// A replay that is over leaves the window to the person.
     bool replaying() const { return replay_ && (options_.hidden || !replay_->done()); }
     bool computing() const { return state_.waiting(); }
+    /// The same, or the simulation works on an answer or on what one is made of.
+    bool workers_compute() const { return computing() || state_.simulation.busy(); }
 
     /// The later half of a given number of frames waits until the scene is ready and the model will not be replaced any
     /// more: the set of a completed one is prepared anew.
