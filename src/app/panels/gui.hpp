@@ -1,28 +1,14 @@
 #pragma once
 
-#include <filesystem>
-#include <list>
-#include <map>
-#include <optional>
+#include <cstddef>
 #include <span>
 #include <string_view>
-#include <vector>
 
-#include "app/window/fonts.hpp"
+#include "app/panels/gui_fonts.hpp"
 #include "app/window/input_event.hpp"
 #include "app/window/window.hpp"
 
-struct ImFont;
-using ImWchar = unsigned short;
-
 namespace elastolab {
-
-/// Fonts of the panels.
-struct Fonts {
-    ImFont* regular = nullptr;
-    ImFont* bold = nullptr;
-    ImFont* large = nullptr;
-};
 
 /// Dear ImGui in a window. Its input comes from our own events, so that a replay drives the panels as a person does.
 class Gui {
@@ -33,10 +19,10 @@ public:
     Gui& operator=(const Gui&) = delete;
 
     /// Sets fonts and sizes for the user's scale (1: as the screen suggests). Call it between frames.
-    void set_scale(float scale);
+    void set_scale(float scale) { fonts_.set_scale(scale); }
     /// Characters that will be shown, in UTF-8: those of scripts beside Latin and Greek get their glyphs from an
     /// installed font, from the next frame on.
-    void want_characters(std::string_view text);
+    void want_characters(std::string_view text) { fonts_.want_characters(text); }
     /// Begins a frame with these events. `dt` > 0: seconds since the frame before.
     void begin(std::span<const InputEvent> events, double dt);
     /// Draws the panels.
@@ -49,9 +35,9 @@ public:
     bool wants_text() const;  ///< a field is being typed in
     /// Keys are for the panels: a field is being typed in, or a menu, a list of choices or a dialog is open.
     bool wants_keys() const;
-    const Fonts& fonts() const { return fonts_; }
+    const Fonts& fonts() const { return fonts_.fonts(); }
     /// Logical pixels for a length that is 1 on an ordinary screen.
-    float scale() const { return scale_; }
+    float scale() const { return fonts_.scale(); }
 
     /// How many of these events one frame can take: a press and its release must not fall into the same frame,
     /// nor a press or release and what the cursor does after it.
@@ -59,21 +45,13 @@ public:
 
 private:
     void feed(const InputEvent& event);
-    void want_character(char32_t character);
-    void add_wanted_characters();
-    void load_fonts();
-    ImFont* load_font(const std::optional<std::filesystem::path>& file, float size);
     bool menu_is_open() const;
     void close_menus_on_escape();
     void update_cursor_shape();
 
     Window& window_;
-    Fonts fonts_;
-    float scale_ = 0.0f;
-    std::map<char32_t, std::optional<FontFile>> others_;  ///< characters beside our own, and a font that has them
-    std::vector<char32_t> wanted_;                        ///< those of them whose font is still to be found
-    std::list<std::vector<ImWchar>> ranges_;              ///< of the fonts that are loaded
-    bool popup_was_open_ = false;                         ///< before the events of this frame, which may have closed it
+    GuiFonts fonts_;
+    bool popup_was_open_ = false;  ///< before the events of this frame, which may have closed it
 };
 
 }  // namespace elastolab
