@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kProgressSeconds = 1.0 / 15.0;  ///< between frames while a progress bar moves
 /// Between frames that settle while workers compute, who may want the cores that draw: software OpenGL takes them all.
-constexpr double kSettlingSeconds = 1.0 / 30.0;
+constexpr double kSettlingSeconds = kProgressSeconds;
 constexpr double kWaitingSeconds = 0.01;         ///< between looks at what the next frame of a film shows
 constexpr double kCheckSeconds = 0.25;           ///< between looks at a check that goes on in the background
 constexpr double kCaretSeconds = 0.4;            ///< between frames while a text cursor blinks
