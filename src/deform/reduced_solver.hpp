@@ -11,8 +11,8 @@
 
 namespace elastolab {
 
-/// The compliance columns W of a solid to the unknown loads of one constrained set, and F, their border rows; and its
-/// compliance columns to loads that are given (UnitLoad), of which a factor is known.
+/// The compliance columns W of a solid for the unknown loads of one constrained set, and F, their border rows; and its
+/// compliance columns of loads that are given (UnitLoad), of which a factor is known.
 class ComplianceColumns {
 public:
     virtual ~ComplianceColumns() = default;
@@ -52,7 +52,7 @@ private:
     Columns columns_, given_;
 };
 
-/// The capacitance system of docs/formulation.md section 2: with W the compliance columns to unit loads, [E; J] the
+/// The capacitance system of docs/formulation.md section 2: with W the compliance columns of unit loads, [E; J] the
 /// response to unit border values c and F the border rows of W,
 ///     u = W_u q + E c,    u at the constrained nodes prescribed,    F q + J c = 0,    closing rows [q; c] = 0,
 /// where q are the unknown loads and the given ones.

@@ -15,7 +15,7 @@ enum class Layer {
     double_layer,  ///< H: Kelvin tractions T times shape functions, and the free term
 };
 
-/// Integrals of one layer over `elements` seen from `collocation points`, as a matrix for one material:
+/// Integrals of one layer over `elements` seen from `points`, as a matrix for one material:
 ///   out, 3*n_sources x 3*n_slots, block (x, k):  single_layer  int phi_k U(x, y) dS_y  [L^2 / force * L]
 ///                                                double_layer  int phi_k T(x, y) dS_y + c(x) phi_k(x)  [1]
 /// The free term c(x), jump and solid angle together, is minus the sum of all blocks of the row (a translation causes

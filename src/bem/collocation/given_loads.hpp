@@ -10,7 +10,7 @@
 
 namespace elastolab {
 
-/// The single layer of the loads' tractions, seen from collocation points: 3*collocation points x loads.size().
+/// The single layer of the loads' tractions, seen from collocation points: 3*points.size() x loads.size().
 /// Integrates in strips. Throws Cancelled.
 Eigen::MatrixXd given_single_layer(const Boundary& boundary, const CollocationPoints& points, const Material& material,
                                    double tolerance, std::span<const UnitLoad> loads, Control& control);

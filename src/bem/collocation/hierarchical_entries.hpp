@@ -66,7 +66,7 @@ public:
                             const HierarchicalOptions& options, Control& control);
 
     const CollocationPoints& points() const { return points_; }
-    /// c(x) of each source.
+    /// c(x) of each collocation point.
     const Eigen::Matrix3d& free_term(int source) const { return free_terms_[static_cast<std::size_t>(source)]; }
     Eigen::MatrixXd product(const Eigen::MatrixXd& U) const;
     /// The same for columns that are zero in most places. Throws Cancelled.

@@ -54,12 +54,12 @@ public:
 
     /// Collocation at every node.
     const CollocationPoints& nodes() const { return nodes_; }
-    /// Rows of H (3*collocation points x 3*n_nodes) and of G for a load ansatz (3*collocation points x 3*slots) at
+    /// Rows of H (3*points.size() x 3*n_nodes) and of G for a load ansatz (3*points.size() x 3*slots) at
     /// these collocation points, with the tolerance of the method or a larger one.
     Eigen::MatrixXd double_layer(const CollocationPoints& points, Control& control, double tolerance = 0.0) const;
     Eigen::MatrixXd single_layer(const CollocationPoints& points, const Elements& loads, Control& control,
                                  double tolerance = 0.0) const;
-    /// The single layer of the tractions of given loads, seen from these collocation points: 3*collocation points x
+    /// The single layer of the tractions of given loads, seen from these points: 3*points.size() x
     /// loads.size().
     Eigen::MatrixXd given_single_layer(const CollocationPoints& points, std::span<const UnitLoad> loads,
                                        Control& control) const;
@@ -68,7 +68,7 @@ public:
 
     /// Bytes of columns that are kept at most.
     std::uint64_t cache_budget() const { return cache_budget_; }
-    /// Whether the compliance columns to a space fit into what is kept.
+    /// Whether the compliance columns of a space fit into what is kept.
     bool keeps(const TractionSpace& space) const;
     /// ComplianceColumns Hhat^-1 [G; 0] to the unit loads of a space, then to its residuals; cached.
     Columns compliance_columns(const TractionSpace& space, Control& control) const;
