@@ -158,7 +158,7 @@ std::shared_ptr<const FactorisedBody> FemModel::at_hand(std::span<const int> fix
 
 FemModel::Elimination FemModel::cheapest_elimination(const ConstrainedFemNodes& nodes) const {
     const std::span<const int> all = nodes.prescribed.nodes, fixed = nodes.fixed();
-    const bool holding_base = holds(system_->positions(), fixed);
+    const bool fixed_set_holds = holds(system_->positions(), fixed);
     if (!holds(system_->positions(), all)) return Elimination::nothing;
     const SupernodalView pattern = mesh_->analysis->view();
     const double afresh = mesh_->prices.factorisation;
@@ -166,11 +166,11 @@ FemModel::Elimination FemModel::cheapest_elimination(const ConstrainedFemNodes& 
         return (at_hand(eliminated) ? 0.0 : afresh) +
                (keeps_columns(*system_, std::ssize(others)) ? 0.0 : block_price(pattern, others).price);
     };
-    const double with_fixed = holding_base ? price(fixed, all.subspan(fixed.size())) : price({}, all);
+    const double with_fixed = fixed_set_holds ? price(fixed, all.subspan(fixed.size())) : price({}, all);
     const double least = std::min(with_fixed, at_hand({}) ? price({}, all) : with_fixed);
     // Where a factorisation serves the next handle too, it may cost more than one that serves this set alone.
     if (least > (1.0 + kWorthForLater) * afresh) return Elimination::all;
-    return holding_base && with_fixed <= least ? Elimination::fixed : Elimination::nothing;
+    return fixed_set_holds && with_fixed <= least ? Elimination::fixed : Elimination::nothing;
 }
 
 std::uint64_t FemModel::constrain_memory(std::span<const int> fixed, std::span<const int> handles) const {

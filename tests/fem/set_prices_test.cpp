@@ -83,11 +83,11 @@ TEST_P(SetPrices, EveryWayGivesTheAnswerOfAFactorisationOfItsOwn) {
         };
         for (const Set& set :
              {Set{"a handle", potato.fixed, potato.patch({0, 0, 1.7}, 5)},
-              Set{"another on the same fixed", potato.fixed, potato.patch({1, 0, 0}, 4)},
+              Set{"another on the same fixed set", potato.fixed, potato.patch({1, 0, 0}, 4)},
               Set{"more than half of the surface", potato.fixed,
                   potato.patch({0, 0, 1.7}, potato.surface.n_vertices() * 2 / 3)},
-              Set{"two handles, no fixed", {}, two}, Set{"the fixed alone", potato.fixed, {}},
-              Set{"a fixed that does not hold", potato.patch({1, 0, 0}, 2), potato.patch({0, 0, 1.7}, 5)}}) {
+              Set{"two handles, no fixed set", {}, two}, Set{"the fixed set alone", potato.fixed, {}},
+              Set{"a fixed set that does not hold", potato.patch({1, 0, 0}, 2), potato.patch({0, 0, 1.7}, 5)}}) {
             SCOPED_TRACE(testing::Message() << cells << " cells, " << set.what);
             const SetAnswer truth = constrained_answer(*direct, set.fixed, set.handles),
                             answer = constrained_answer(*reduced, set.fixed, set.handles);

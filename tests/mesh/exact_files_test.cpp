@@ -45,11 +45,11 @@ std::string words(const SurfaceMesh& mesh, const std::string& before) {
     return text;
 }
 
-std::string faces(const SurfaceMesh& mesh, const std::string& before, int fixed) {
+std::string faces(const SurfaceMesh& mesh, const std::string& before, int base) {
     std::string text;
     for (const auto& t : mesh.triangles.colwise())
-        text += before + std::to_string(t.x() + fixed) + " " + std::to_string(t.y() + fixed) + " " +
-                std::to_string(t.z() + fixed) + "\n";
+        text += before + std::to_string(t.x() + base) + " " + std::to_string(t.y() + base) + " " +
+                std::to_string(t.z() + base) + "\n";
     return text;
 }
 

@@ -76,9 +76,9 @@ void expect_agreement(const SurfaceMesh& mesh, const Method& method, unsigned se
                 const Outcome other = outcome(model, set, values);
                 EXPECT_LT((other.displacements - reference.displacements).norm(),
                           kTolerance * reference.displacements.norm())
-                    << describe(model->method()) << ", " << share << (with_fixed ? " with a fixed" : "");
+                    << describe(model->method()) << ", " << share << (with_fixed ? " with a fixed set" : "");
                 EXPECT_LT((other.forces - reference.forces).norm(), kTolerance * reference.forces.norm())
-                    << describe(model->method()) << ", " << share << (with_fixed ? " with a fixed" : "");
+                    << describe(model->method()) << ", " << share << (with_fixed ? " with a fixed set" : "");
             }
         }
 }

@@ -49,21 +49,21 @@ TEST_F(TurnedEar, HasTheVerticesOfTheReference) {
 TEST_F(TurnedEar, OfTenNodesIsThatOfOtherCode) {
     const double rms = off_reference(make_method(kNonlinearFem));
     print_measured("ear turned by 60 degrees, ten nodes, relative rms difference to FEniCSx", rms);
-    EXPECT_LT(rms, 4e-3);
+    EXPECT_LT(rms, 3.5e-3);  // the reference itself is known to some 2e-3
 }
 
-TEST_F(TurnedEar, OfFourNodesIsAFewPerCentOff) {
+TEST_F(TurnedEar, OfFourNodesIsTwoPerCentOff) {
     Method method = make_method(kNonlinearFem);
     method.elements = ElementDegree::linear;
     const double rms = off_reference(method);
     print_measured("ear turned by 60 degrees, four nodes, relative rms difference to FEniCSx", rms);
-    EXPECT_LT(rms, 0.1);
+    EXPECT_NEAR(rms, 0.02, 0.005);
 }
 
 TEST_F(TurnedEar, ByLinearTheoryIsTensOfPerCentOff) {
     const double rms = off_reference(make_method(kQuadraticFem));
     print_measured("ear turned by 60 degrees, linear theory, relative rms difference to FEniCSx", rms);
-    EXPECT_GT(rms, 0.1);
+    EXPECT_GT(rms, 0.5);
 }
 
 }  // namespace

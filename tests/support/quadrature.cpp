@@ -60,13 +60,13 @@ public:
             for (std::size_t k = 0; k < n_values_; ++k) sum[k] += values[p][k], difference[k] -= values[p][k];
         }
         if (norm(difference) <= allowed || depth == kDeepest) return sum;
-        Values converged(n_values_, 0.0L);
+        Values refined(n_values_, 0.0L);
         for (std::size_t p = 0; p < kParts; ++p) {
             // The same bound at every depth: the difference is the error of the whole, the parts are far better.
             const Values part = adaptive(parts[p], values[p], allowed, depth + 1);
-            for (std::size_t k = 0; k < n_values_; ++k) converged[k] += part[k];
+            for (std::size_t k = 0; k < n_values_; ++k) refined[k] += part[k];
         }
-        return converged;
+        return refined;
     }
 
 private:
@@ -101,7 +101,7 @@ LegendreRule::LegendreRule(int n) : nodes(n), weights(n) {
 Values integrate(const std::array<Point, 3>& triangle, int n_values, const Function& function, long double tolerance) {
     const Integrator integrator(n_values, function);
     const Values whole = integrator.once(triangle);
-    // The norm of a first, coarse value sets the scale; near singularities it is converged once.
+    // The norm of a first, coarse value sets the scale; near singularities it is refined once.
     const Values better = integrator.adaptive(triangle, whole, 1e-6L * norm(whole), 0);
     return integrator.adaptive(triangle, whole, tolerance * norm(better), 0);
 }

@@ -21,10 +21,9 @@ void SceneFiles::open_now(const fs::path& file, Control& control) {
     add_recent(file);
 }
 
-void SceneFiles::open_document(Document document, const fs::path& fixed) {
+void SceneFiles::open_document(Document document, const fs::path& base) {
     edited_.finish_gesture();
-    attempt(messages_,
-            [&] { replace({.scene = std::make_unique<LiveScene>(std::move(document), fixed), .file = {}}); });
+    attempt(messages_, [&] { replace({.scene = std::make_unique<LiveScene>(std::move(document), base), .file = {}}); });
 }
 
 void SceneFiles::begin_with(MethodKind method) {

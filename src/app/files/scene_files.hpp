@@ -44,7 +44,7 @@ public:
     }
     /// A document that was read from no file, without a question. base: the file that the name of its mesh is relative
     /// to.
-    void open_document(Document document, const std::filesystem::path& fixed);
+    void open_document(Document document, const std::filesystem::path& base);
     /// The scene that is being opened begins with this method; nothing where none is.
     void begin_with(MethodKind method);
     /// Takes over what was opened. Once a frame.

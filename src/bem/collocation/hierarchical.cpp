@@ -46,9 +46,9 @@ HierarchicalCollocation::HierarchicalCollocation(std::shared_ptr<const Boundary>
       material_(material),
       tolerance_(tolerance),
       options_{.tolerance = std::min(kFarError * tolerance, kMostFarError), .eta = kEta},
-      motions_(std::make_shared<const Eigen::MatrixXd>(rigid_modes(boundary_->mesh().vertices))),
+      modes_(std::make_shared<const Eigen::MatrixXd>(rigid_modes(boundary_->mesh().vertices))),
       elements_(*boundary_, vertex_elements(*boundary_)),
-      H_(*boundary_, vertex_collocation_points(*boundary_), elements_, motions_, material_, tolerance_, options_,
+      H_(*boundary_, vertex_collocation_points(*boundary_), elements_, modes_, material_, tolerance_, options_,
          control) {}
 
 Eigen::MatrixXd HierarchicalCollocation::given_at_vertices(std::span<const UnitLoad> loads, Control& control) const {
@@ -61,8 +61,8 @@ Eigen::MatrixXd HierarchicalCollocation::given_at_vertices(std::span<const UnitL
 
 std::unique_ptr<const HierarchicalDoubleLayer> HierarchicalCollocation::seen_from(CollocationPoints points,
                                                                                   Control& control) const {
-    return std::make_unique<const HierarchicalDoubleLayer>(*boundary_, std::move(points), elements_, motions_,
-                                                           material_, tolerance_, options_, control);
+    return std::make_unique<const HierarchicalDoubleLayer>(*boundary_, std::move(points), elements_, modes_, material_,
+                                                           tolerance_, options_, control);
 }
 
 CollocationProblem::CollocationProblem(std::shared_ptr<const HierarchicalCollocation> matrices,
@@ -73,7 +73,7 @@ CollocationProblem::CollocationProblem(std::shared_ptr<const HierarchicalColloca
       constrained_(std::move(constrained)),
       at_(free_),
       traction_scale_(matrices_->material().shear_modulus() / mean_edge(matrices_->boundary().mesh())),
-      free_modes_(unseen_modes(*matrices_->motions(), constrained_)) {
+      free_modes_(unseen_modes(*matrices_->modes(), constrained_)) {
     if (must_hold && !holds_the_body()) throw NotHeldError();
     control.begin_stage("integrate tractions");
     const std::vector<int> collocated = without(constrained_, space.dropped_collocation);

@@ -33,7 +33,7 @@ public:
     /// The single layer of given loads at the vertices, 3*n_vertices x loads.size(); kept.
     Eigen::MatrixXd given_at_vertices(std::span<const UnitLoad> loads, Control& control) const;
     /// Rigid motions of all vertices, orthonormal: 3*n_vertices x 6.
-    const std::shared_ptr<const Eigen::MatrixXd>& motions() const { return motions_; }
+    const std::shared_ptr<const Eigen::MatrixXd>& modes() const { return modes_; }
     const ClusteredElements& elements() const { return elements_; }
     const HierarchicalDoubleLayer& at_vertices() const { return H_; }
     /// The double layer seen from other points.
@@ -50,7 +50,7 @@ private:
     Material material_;
     double tolerance_;
     HierarchicalOptions options_;
-    std::shared_ptr<const Eigen::MatrixXd> motions_;
+    std::shared_ptr<const Eigen::MatrixXd> modes_;
     ClusteredElements elements_;
     HierarchicalDoubleLayer H_;
     mutable LivingLayers<CollocationLoads> living_;

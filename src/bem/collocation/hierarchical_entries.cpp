@@ -130,31 +130,30 @@ Eigen::MatrixXd HierarchicalLayer::block(std::span<const int> points, std::span<
 
 HierarchicalDoubleLayer::HierarchicalDoubleLayer(const Boundary& boundary, CollocationPoints points,
                                                  const ClusteredElements& elements,
-                                                 std::shared_ptr<const Eigen::MatrixXd> motions,
-                                                 const Material& material, double tolerance,
-                                                 const HierarchicalOptions& options, Control& control)
+                                                 std::shared_ptr<const Eigen::MatrixXd> modes, const Material& material,
+                                                 double tolerance, const HierarchicalOptions& options, Control& control)
     : points_(std::move(points)),
-      motions_(std::move(motions)),
+      modes_(std::move(modes)),
       layer_(Layer::double_layer, boundary, points_, elements, material, tolerance, options, control) {
     const Eigen::MatrixXd sums = layer_.product(Eigen::Matrix3d::Identity().replicate(elements.n_slots(), 1));
     for (int source = 0; source < points_.size(); ++source) free_terms_.push_back(-sums.middleRows<3>(3 * source));
-    of_motions_ = layer_.product(*motions_);
+    of_modes_ = layer_.product(*modes_);
 }
 
 Eigen::MatrixXd HierarchicalDoubleLayer::product(const Eigen::MatrixXd& U) const {
     Eigen::MatrixXd bent = U;
-    bent.noalias() -= *motions_ * (motions_->transpose() * U).eval();
+    bent.noalias() -= *modes_ * (modes_->transpose() * U).eval();
     Eigen::MatrixXd rows = layer_.product(bent);
     add_free_terms(bent, rows);
     return rows;
 }
 
 Eigen::MatrixXd HierarchicalDoubleLayer::sparse_product(const SparseColumns& U, Control& control) const {
-    const Eigen::MatrixXd shares = motions_->transpose() * U;
+    const Eigen::MatrixXd shares = modes_->transpose() * U;
     Eigen::MatrixXd rows = layer_.sparse_product(U, control);
-    rows.noalias() -= of_motions_ * shares;
+    rows.noalias() -= of_modes_ * shares;
     Eigen::MatrixXd bent = U;
-    bent.noalias() -= *motions_ * shares;
+    bent.noalias() -= *modes_ * shares;
     add_free_terms(bent, rows);
     return rows;
 }

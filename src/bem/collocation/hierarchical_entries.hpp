@@ -59,10 +59,10 @@ private:
 /// body causes a traction, whatever the integrals and their approximation leave of it.
 class HierarchicalDoubleLayer {
 public:
-    /// elements: those of bem/boundary.hpp, vertex_elements. motions: rigid ones of all vertices, orthonormal.
+    /// elements: those of bem/boundary.hpp, vertex_elements. modes: rigid ones of all vertices, orthonormal.
     /// Throws Cancelled.
     HierarchicalDoubleLayer(const Boundary& boundary, CollocationPoints points, const ClusteredElements& elements,
-                            std::shared_ptr<const Eigen::MatrixXd> motions, const Material& material, double tolerance,
+                            std::shared_ptr<const Eigen::MatrixXd> modes, const Material& material, double tolerance,
                             const HierarchicalOptions& options, Control& control);
 
     const CollocationPoints& points() const { return points_; }
@@ -79,10 +79,10 @@ private:
     void add_free_terms(const Eigen::MatrixXd& U, Eigen::MatrixXd& rows) const;
 
     CollocationPoints points_;
-    std::shared_ptr<const Eigen::MatrixXd> motions_;
+    std::shared_ptr<const Eigen::MatrixXd> modes_;
     HierarchicalLayer layer_;
     std::vector<Eigen::Matrix3d> free_terms_;
-    Eigen::MatrixXd of_motions_;  ///< the layer times the rigid motions
+    Eigen::MatrixXd of_modes_;  ///< the layer times the rigid motions
 };
 
 }  // namespace elastolab

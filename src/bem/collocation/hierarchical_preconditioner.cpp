@@ -88,13 +88,13 @@ SparseColumns columns_of_parts(const CollocationProblem& problem, const ClusterT
             const int number = tree.order()[static_cast<std::size_t>(position)];
             (number < problem.n_free() ? vertices : slots).push_back(number);
         }
-        Eigen::MatrixXd motions(3 * std::ssize(vertices), 6);
+        Eigen::MatrixXd modes(3 * std::ssize(vertices), 6);
         for (std::size_t i = 0; i < vertices.size(); ++i) {
             const Eigen::Vector3d x = scale * (problem.points().col(vertices[i]) - box.center());
-            motions.middleRows<3>(3 * static_cast<Eigen::Index>(i)) << Eigen::Matrix3d::Identity(),
+            modes.middleRows<3>(3 * static_cast<Eigen::Index>(i)) << Eigen::Matrix3d::Identity(),
                 (Eigen::Matrix3d() << 0, x[2], -x[1], -x[2], 0, x[0], x[1], -x[0], 0).finished();
         }
-        add(vertices, motions);
+        add(vertices, modes);
         add(slots, Eigen::Matrix3d::Identity().replicate(std::ssize(slots), 1));
     }
     SparseColumns Z(problem.size(), n_columns);

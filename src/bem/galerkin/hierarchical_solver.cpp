@@ -27,19 +27,19 @@ Eigen::MatrixXd loose_modes(const Eigen::MatrixXd& surface_modes, const std::vec
 /// A preconditioner that stays orthogonal to the free motions.
 class Projected : public LinearOperator {
 public:
-    Projected(const LinearOperator& inner, const Eigen::MatrixXd& motions) : inner_(inner), motions_(motions) {}
+    Projected(const LinearOperator& inner, const Eigen::MatrixXd& modes) : inner_(inner), modes_(modes) {}
     Eigen::Index size() const override { return inner_.size(); }
     Eigen::MatrixXd product(const Eigen::MatrixXd& X) const override {
         Eigen::MatrixXd own = X;
-        orthogonalise(own, motions_);
+        orthogonalise(own, modes_);
         own = inner_.product(own);
-        orthogonalise(own, motions_);
+        orthogonalise(own, modes_);
         return own;
     }
 
 private:
     const LinearOperator& inner_;
-    const Eigen::MatrixXd& motions_;
+    const Eigen::MatrixXd& modes_;
 };
 
 }  // namespace

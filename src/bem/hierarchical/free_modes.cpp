@@ -15,14 +15,14 @@ constexpr double kUnseen = 1e-9;
 
 }  // namespace
 
-Eigen::MatrixXd unseen_modes(const Eigen::MatrixXd& motions, const std::vector<int>& items) {
+Eigen::MatrixXd unseen_modes(const Eigen::MatrixXd& modes, const std::vector<int>& items) {
     const Eigen::Index n_seen_rows = 3 * std::ssize(items);
     Eigen::MatrixXd seen =
-        Eigen::MatrixXd::Zero(std::max(n_seen_rows, motions.cols()), motions.cols());  // so that V is square
-    seen.topRows(n_seen_rows) = rows_of(motions, items);
+        Eigen::MatrixXd::Zero(std::max(n_seen_rows, modes.cols()), modes.cols());  // so that V is square
+    seen.topRows(n_seen_rows) = rows_of(modes, items);
     const SingularValues svd = singular_values(std::move(seen));
     const auto n_seen = (svd.sigma.array() > kUnseen * svd.sigma[0]).count();
-    return motions * svd.V.rightCols(motions.cols() - n_seen);
+    return modes * svd.V.rightCols(modes.cols() - n_seen);
 }
 
 void orthogonalise(Eigen::MatrixXd& X, const Eigen::MatrixXd& N) {

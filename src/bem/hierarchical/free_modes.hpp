@@ -5,9 +5,9 @@
 
 namespace elastolab {
 
-/// Orthonormal combinations of `motions` (orthonormal, three rows an item) that vanish at these items: what a
+/// Orthonormal combinations of `modes` (orthonormal, three rows an item) that vanish at these items: what a
 /// constrained set leaves free. Mostly none.
-Eigen::MatrixXd unseen_modes(const Eigen::MatrixXd& motions, const std::vector<int>& items);
+Eigen::MatrixXd unseen_modes(const Eigen::MatrixXd& modes, const std::vector<int>& items);
 
 /// Makes X orthogonal to the columns of N, which are orthonormal.
 void orthogonalise(Eigen::MatrixXd& X, const Eigen::MatrixXd& N);

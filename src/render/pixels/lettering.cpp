@@ -75,13 +75,13 @@ void Lettering::draw(Canvas& canvas, double left, double middle, std::string_vie
     const float scale = stbtt_ScaleForPixelHeight(info, static_cast<float>(size));
     int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
     stbtt_GetCodepointBox(info, '0', &x0, &y0, &x1, &y1);
-    const double fixed = middle + 0.5 * scale * y1;
+    const double base = middle + 0.5 * scale * y1;
     const std::vector<int> codes = code_points(text);
     std::vector<unsigned char> covers;
     double x = left;
     for (std::size_t i = 0; i < codes.size(); ++i) {
         const auto shift_x = static_cast<float>(x - std::floor(x)),
-                   shift_y = static_cast<float>(fixed - std::floor(fixed));
+                   shift_y = static_cast<float>(base - std::floor(base));
         stbtt_GetCodepointBitmapBoxSubpixel(info, codes[i], scale, scale, shift_x, shift_y, &x0, &y0, &x1, &y1);
         const int width = x1 - x0, height = y1 - y0;
         covers.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0);
@@ -93,7 +93,7 @@ void Lettering::draw(Canvas& canvas, double left, double middle, std::string_vie
                 const auto at = static_cast<std::size_t>(row) * static_cast<std::size_t>(width);
                 const float cover = static_cast<float>(covers[at + static_cast<std::size_t>(column)]) / 255.0f;
                 canvas.blend(static_cast<int>(std::floor(x)) + x0 + column,
-                             static_cast<int>(std::floor(fixed)) + y0 + row, colour, cover);
+                             static_cast<int>(std::floor(base)) + y0 + row, colour, cover);
             }
         x += scale * static_cast<double>(font_->advance(codes[i], i + 1 < codes.size() ? codes[i + 1] : 0));
     }

@@ -53,6 +53,13 @@ void wait_for_file() {
     FAIL() << "nothing is written";
 }
 
+/// As a viewer does that is killed.
+void leave_a_copy() {
+    Keeper keeper;
+    keeper.update(1, true, 0.0);
+    wait_for_file();
+}
+
 TEST(Autosave, OfAKilledViewerIsFoundWithItsFileAndOnlyOnce) {
     {
         Keeper keeper;
@@ -165,11 +172,7 @@ TEST(Autosave, OfTwoViewersAreTwo) {
 }
 
 TEST(Autosave, IsRecoveredUnsavedAndKeptFromThenOn) {
-    {
-        Keeper keeper;
-        keeper.update(1, true, 0.0);
-        wait_for_file();
-    }
+    ASSERT_NO_FATAL_FAILURE(leave_a_copy());
     Stage stage(3);
     stage.state.files.recoverable = find_autosaved();
     ASSERT_THAT(stage.state.files.recoverable, SizeIs(1));
@@ -186,11 +189,7 @@ TEST(Autosave, IsRecoveredUnsavedAndKeptFromThenOn) {
 }
 
 TEST(Autosave, ThatCannotBeReadStays) {
-    {
-        Keeper keeper;
-        keeper.update(1, true, 0.0);
-        wait_for_file();
-    }
+    ASSERT_NO_FATAL_FAILURE(leave_a_copy());
     Stage stage(3);
     stage.state.files.recoverable = find_autosaved();
     ASSERT_THAT(stage.state.files.recoverable, SizeIs(1));

@@ -74,7 +74,7 @@ TEST(HierarchicalGalerkin, AFurtherHandleOnAKeptBaseIsAnsweredAsByTheDenseMatrix
     EXPECT_GT(before.layers().n_new_triangles(), 0);
     EXPECT_GT(after.layers().n_new_triangles(), 0);
     EXPECT_EQ(3 * (before.layers().n_new_triangles() + after.layers().n_new_triangles()), after.layers().size())
-        << "the fixed is integrated again";
+        << "the fixed set is integrated again";
     Eigen::VectorXd prescribed = Eigen::VectorXd::Zero(3 * std::ssize(body.fixed) + values.size());
     prescribed.tail(values.size()) = values;
     EXPECT_LT(off(after.solve(prescribed, false).displacements, exact), 1e-6);

@@ -15,12 +15,12 @@ double relative_difference(const Eigen::VectorXd& u, const Eigen::VectorXd& trut
     return (u - truth).cwiseAbs().maxCoeff() / truth.cwiseAbs().maxCoeff();
 }
 
-struct Refinement : testing::Test {
+struct Convergence : testing::Test {
     LiveScene scene = pulled_cube(8);
     Eigen::VectorXd expected = truth(scene, {.kind = kLinearBem});  // by a factorisation
     MethodRunner runner{[] {}};
 
-    Refinement() { runner.set_body(scene.body(kLinearBem), test::iterating_linear_bem()); }
+    Convergence() { runner.set_body(scene.body(kLinearBem), test::iterating_linear_bem()); }
     template <class Condition>
     void poll_until(const Condition& condition) {
         test::wait_for([&] {
@@ -31,7 +31,7 @@ struct Refinement : testing::Test {
     }
 };
 
-TEST_F(Refinement, FollowsAFirstAnswerWithoutAJump) {
+TEST_F(Convergence, FollowsAFirstAnswerWithoutAJump) {
     poll_until([&] { return runner.answers(); });
     EXPECT_EQ(runner.state(), State::ready);
     EXPECT_FALSE(runner.converged());
@@ -48,7 +48,7 @@ TEST_F(Refinement, FollowsAFirstAnswerWithoutAJump) {
     EXPECT_FALSE(runner.converging());
 }
 
-TEST_F(Refinement, ServesFurtherMotionsToo) {
+TEST_F(Convergence, ServesFurtherMotionsToo) {
     poll_until([&] { return runner.answers() && runner.converged(); });
     scene.set_motion(0, AffineMotion{.translate = {0.2, -0.1, 0.1}});
     poll_until([&] { return runner.answers(); });
@@ -56,7 +56,7 @@ TEST_F(Refinement, ServesFurtherMotionsToo) {
     EXPECT_LT(relative_difference(runner.displacement(), truth(scene, {.kind = kLinearBem})), 1e-6);
 }
 
-TEST_F(Refinement, WaitsForMotionsThatTakeLong) {
+TEST_F(Convergence, WaitsForMotionsThatTakeLong) {
     runner.set_solve_budget(0.0);
     poll_until([&] { return runner.answers() && runner.converged(); });
     scene.set_motion(0, AffineMotion{.matrix = 0.2 * Eigen::Matrix3d::Identity(), .translate = {0.1, 0.0, 0.0}});
@@ -66,7 +66,7 @@ TEST_F(Refinement, WaitsForMotionsThatTakeLong) {
     EXPECT_LT(relative_difference(runner.displacement(), truth(scene, {.kind = kLinearBem})), 1e-6);
 }
 
-TEST_F(Refinement, ThatIsStoppedLeavesTheFirstAnswer) {
+TEST_F(Convergence, ThatIsStoppedLeavesTheFirstAnswer) {
     poll_until([&] { return runner.answers(); });
     ASSERT_TRUE(runner.converging());
     runner.cancel();

@@ -38,7 +38,7 @@ struct FirstAnswer : testing::Test {
     }
 };
 
-TEST_F(FirstAnswer, IsRefinedBeforeItIsWritten) {
+TEST_F(FirstAnswer, IsConvergedBeforeItIsWritten) {
     const TemporaryFolder folder;
     ASSERT_FALSE(embedded.runner().converged());
     write_export(folder.path() / "moved.obj", export_source(scene, embedded), control);
@@ -47,7 +47,7 @@ TEST_F(FirstAnswer, IsRefinedBeforeItIsWritten) {
     EXPECT_LT((moved.reshaped() - truth).cwiseAbs().maxCoeff(), 1e-6 * truth.cwiseAbs().maxCoeff());
 }
 
-TEST_F(FirstAnswer, HasNoReactionsUntilItIsRefined) {
+TEST_F(FirstAnswer, HasNoReactionsUntilItIsConverged) {
     ASSERT_TRUE(embedded.runner().converging());
     ReactionRunner reactions([] {});
     reactions.update(embedded.runner());
