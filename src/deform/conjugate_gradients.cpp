@@ -64,24 +64,30 @@ Eigen::MatrixXd conjugate_gradients(const LinearOperator& A, const LinearOperato
     }
     ActiveColumns active(options, size);
     Eigen::MatrixXd X = scaled_start(options.start, B.rows(), size);
-    if (report != nullptr) *report = {0, 1.0};  // of the right side itself, whose product is to be exact
+    IterationReport own;
+    IterationReport& so_far = report != nullptr ? *report : own;
+    so_far = {0, 1.0};  // of the right side itself, whose product is to be exact
     if (!X.isZero(0.0)) R -= A.product(X);
     Eigen::MatrixXd Z = preconditioner.product(R), P = Z;
     Eigen::RowVectorXd rz = column_products(R, Z);
     active.end_by_energy(rz);
     double residual = active.end_by_residual(R);
-    if (report != nullptr) *report = {0, residual};
+    so_far.residual = residual;
     for (int iterations = 0; active.any(); ++iterations) {
         if (iterations >= options.max_iterations && !options.must_converge) break;
         control.checkpoint();
         const Eigen::MatrixXd AP = A.product(P);
         const Eigen::RowVectorXd alpha = active.ratio(rz, column_products(P, AP));
+        so_far.indefinite = so_far.indefinite || (alpha.array() < 0.0).any();
+        if (so_far.indefinite && !options.must_converge) break;
         X += P * alpha.asDiagonal();
         R -= AP * alpha.asDiagonal();
         residual = active.end_by_residual(R);
-        if (report != nullptr) *report = {iterations + 1, residual};
+        so_far.iterations = iterations + 1;
+        so_far.residual = residual;
         if (!std::isfinite(residual) || iterations >= options.max_iterations) give_up_iteration(name, residual);
         control.set_progress(std::clamp(std::log(std::max(residual, 1e-300)) / std::log(options.tolerance), 0.0, 1.0));
+        if (!active.any()) break;
         Z = preconditioner.product(R);
         const Eigen::RowVectorXd next = column_products(R, Z);
         active.end_by_energy(next);

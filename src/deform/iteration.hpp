@@ -12,6 +12,8 @@ inline constexpr double kSolveTolerance = 1e-8, kFirstTolerance = 1e-4;
 struct IterationReport {
     int iterations = 0;
     double residual = 0.0;  ///< relative, the largest of all columns
+    /// Conjugate gradients met a direction along which the matrix is not positive: their answer is none.
+    bool indefinite = false;
 };
 
 /// Throws the SolveError of an iteration that ends at this residual without an answer. name: of its matrix.

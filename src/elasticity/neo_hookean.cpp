@@ -1,5 +1,6 @@
 #include "elasticity/neo_hookean.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <Eigen/Dense>
@@ -32,10 +33,12 @@ double volume_change(const Matrix3d& H) {
     return trace + 0.5 * (trace * trace - (H * H).trace()) + H.determinant();
 }
 
-double largest_stretch(const Matrix3d& H) {
-    const Matrix3d F = Matrix3d::Identity() + H;
-    const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(F.transpose() * F, Eigen::EigenvaluesOnly);
-    return std::sqrt(solver.eigenvalues()[2]);
+double largest_stretch(const Matrix3d& H, double least) {
+    const Matrix3d F = Matrix3d::Identity() + H, C = F.transpose() * F;
+    const double bound = C.cwiseAbs().rowwise().sum().maxCoeff();  // of the eigenvalues of C
+    if (bound <= least * least) return least;
+    const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(C, Eigen::EigenvaluesOnly);
+    return std::max(least, std::sqrt(solver.eigenvalues()[2]));
 }
 
 double NeoHookean::energy(const Matrix3d& H) const {

@@ -43,7 +43,7 @@ inline StressNumbers stress_of(const Eigen::Matrix3d& gradient, const Material& 
 
 /// J - 1 = det(I + H) - 1, without cancellation for small H.
 double volume_change(const Eigen::Matrix3d& H);
-/// Largest singular value of I + H: the largest ratio of a length after and before.
-double largest_stretch(const Eigen::Matrix3d& H);
+/// Largest singular value of I + H, the largest ratio of a length after and before; or `least`, where that is more.
+double largest_stretch(const Eigen::Matrix3d& H, double least = 0.0);
 
 }  // namespace elastolab

@@ -10,6 +10,7 @@
 
 #include "base/blas.hpp"
 #include "base/error.hpp"
+#include "base/spare.hpp"
 #include "fem/inverse_norm.hpp"
 #include "fem/supernodal.hpp"
 
@@ -144,9 +145,10 @@ SupernodalView view_of(const cholmod_factor& factor) {
 
 struct CholeskyAnalysis::Impl {
     FactorPtr factor;
+    std::shared_ptr<Spare<FactorPtr>> spare;  ///< null: memory is not kept
 };
 
-CholeskyAnalysis::CholeskyAnalysis(const SparseMatrix& pattern, int block) {
+CholeskyAnalysis::CholeskyAnalysis(const SparseMatrix& pattern, int block, bool keeps) {
     assert(pattern.rows() % block == 0);
     std::vector<int> order = ordering(pattern, block);
     Common common;
@@ -155,7 +157,8 @@ CholeskyAnalysis::CholeskyAnalysis(const SparseMatrix& pattern, int block) {
     cholmod_sparse view = sparse_view(pattern);
     FactorPtr factor(cholmod_analyze_p(&view, order.data(), nullptr, 0, common));
     common.check("stiffness matrix");
-    impl_ = std::make_unique<const Impl>(Impl{std::move(factor)});
+    impl_ =
+        std::make_unique<const Impl>(Impl{std::move(factor), keeps ? std::make_shared<Spare<FactorPtr>>() : nullptr});
 }
 
 CholeskyAnalysis::~CholeskyAnalysis() = default;
@@ -170,11 +173,34 @@ std::uint64_t CholeskyAnalysis::factor_bytes() const {
 SupernodalView CholeskyAnalysis::view() const { return view_of(*impl_->factor); }
 
 struct SparseCholesky::Impl {
+    Impl(FactorPtr its_factor, std::shared_ptr<Spare<FactorPtr>> its_spare)
+        : factor(std::move(its_factor)), spare(std::move(its_spare)) {}
+    ~Impl() {
+        if (spare) spare->give(std::move(factor));
+    }
+    Impl(const Impl&) = delete;
+    Impl& operator=(const Impl&) = delete;
+
     FactorPtr factor;
+    std::shared_ptr<Spare<FactorPtr>> spare;
     std::uint64_t bytes = 0;
     double norm = 0.0;
     std::string name;
 };
+
+namespace {
+
+/// A supernodal factor with room for its values.
+FactorPtr with_values(const cholmod_factor& analysis, const std::string& name) {
+    Common common;
+    FactorPtr factor(cholmod_copy_factor(const_cast<cholmod_factor*>(&analysis), common));
+    common.check(name);
+    cholmod_change_factor(CHOLMOD_REAL, 1, 1, 1, 1, factor.get(), common);
+    common.check(name);
+    return factor;
+}
+
+}  // namespace
 
 SparseCholesky::SparseCholesky(const CholeskyAnalysis& analysis, const SparseMatrix& A, std::string name,
                                Control* control) {
@@ -183,16 +209,18 @@ SparseCholesky::SparseCholesky(const CholeskyAnalysis& analysis, const SparseMat
     if (!sums.allFinite())  // the largest of them says nothing: a maximum may pass over NaN
         throw SolveError(name + ": has entries that are not finite. Check the mesh for degenerate tetrahedra.");
     const double norm = sums.size() == 0 ? 0.0 : sums.maxCoeff();
-    Common common;
-    FactorPtr factor(cholmod_copy_factor(analysis.impl_->factor.get(), common));
-    common.check(name);
-    // Supernodal and numeric: makes room for the values and no more.
-    cholmod_change_factor(CHOLMOD_REAL, 1, 1, 1, 1, factor.get(), common);
-    common.check(name);
+    const std::shared_ptr<Spare<FactorPtr>>& spare = analysis.impl_->spare;
+    FactorPtr factor = spare ? spare->take() : nullptr;
+    if (!factor) factor = with_values(*analysis.impl_->factor, name);
+    auto impl = std::make_unique<Impl>(std::move(factor), spare);  // which takes care of the memory, if this fails
+    cholmod_factor& L = *impl->factor;
     Control unwatched;
-    factorise_supernodes(view_of(*factor), A, static_cast<double*>(factor->x), name, control ? *control : unwatched);
-    factor->minor = factor->n;
-    impl_ = std::make_unique<const Impl>(Impl{std::move(factor), analysis.factor_bytes(), norm, std::move(name)});
+    factorise_supernodes(view_of(L), A, static_cast<double*>(L.x), name, control ? *control : unwatched);
+    L.minor = L.n;
+    impl->bytes = analysis.factor_bytes();
+    impl->norm = norm;
+    impl->name = std::move(name);
+    impl_ = std::move(impl);
 }
 
 SparseCholesky::~SparseCholesky() = default;

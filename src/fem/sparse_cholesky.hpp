@@ -29,8 +29,9 @@ public:
     /// `pattern`: both triangles or the lower one; values are ignored. Rows come in groups of `block` that share their
     /// pattern (three per node), and the ordering (the better of AMD and METIS) is found on the groups, which is
     /// several times faster and as good; a pattern that is not made of groups is still factorised correctly.
+    /// keeps: the memory of a factor that is no longer used serves the next one.
     /// Throws SolveError when memory runs out or the factor would exceed 2^31 entries.
-    explicit CholeskyAnalysis(const SparseMatrix& pattern, int block = 3);
+    explicit CholeskyAnalysis(const SparseMatrix& pattern, int block = 3, bool keeps = false);
     ~CholeskyAnalysis();
     CholeskyAnalysis(const CholeskyAnalysis&) = delete;
     CholeskyAnalysis& operator=(const CholeskyAnalysis&) = delete;

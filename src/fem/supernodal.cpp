@@ -161,15 +161,23 @@ void Factorisation::scatter(const SparseMatrix& A) {
     });
     control_.checkpoint();
     parallel_blocks(static_cast<int>(A.cols()), kColumns, inner, [&](int begin, int end) {
-        for (int j = begin; j < end; ++j)
+        for (int j = begin; j < end; ++j) {
+            int last = -1;
+            std::size_t found = 0;
             for (SparseMatrix::InnerIterator it(A, j); it; ++it) {
                 if (it.row() < j) continue;
                 const auto [column, row] = std::minmax(place[at(j)], place[static_cast<std::size_t>(it.row())]);
                 const int s = supernode_[at(column)];
                 const std::span<const int> rows_of_s = rows(s);
-                const auto found = std::lower_bound(rows_of_s.begin(), rows_of_s.end(), row) - rows_of_s.begin();
-                block(s, 0, column - first_column(s), 1)(found, 0) = it.value();
+                // The rows of a node mostly follow each other.
+                if (++found; s != last || found >= rows_of_s.size() || rows_of_s[found] != row)
+                    found = static_cast<std::size_t>(std::lower_bound(rows_of_s.begin(), rows_of_s.end(), row) -
+                                                     rows_of_s.begin());
+                last = s;
+                values_[L_.first_value[at(s)] + static_cast<std::ptrdiff_t>(column - first_column(s)) * n_rows(s) +
+                        static_cast<std::ptrdiff_t>(found)] = it.value();
             }
+        }
     });
     control_.checkpoint();
 }

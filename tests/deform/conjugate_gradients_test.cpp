@@ -119,6 +119,20 @@ TEST(ConjugateGradients, GiveWhatIsThereWhereTheyNeedNotConverge) {
     EXPECT_LT(error.dot(A * error), 0.9 * truth.col(0).dot(A * truth.col(0)));
 }
 
+TEST(ConjugateGradients, SayThatAMatrixIsNotPositiveAndHaveGoneDownhill) {
+    const Eigen::VectorXd diagonal = Eigen::VectorXd::LinSpaced(20, -0.5, 3.0);
+    const Eigen::MatrixXd A = diagonal.asDiagonal(), B = Eigen::MatrixXd::Ones(20, 1);
+    const DenseOperator one(Eigen::MatrixXd::Identity(20, 20));
+    Control control;
+    IterationReport report;
+    const Eigen::VectorXd x = conjugate_gradients(DenseOperator(A), one, B,
+                                                  {.tolerance = 1e-12, .must_converge = false}, "A", control, &report);
+    EXPECT_TRUE(report.indefinite);
+    EXPECT_LT(0.5 * x.dot(A * x), B.col(0).dot(x));
+    conjugate_gradients(DenseOperator(positive_definite(20)), one, B, {.tolerance = 1e-12}, "A", control, &report);
+    EXPECT_FALSE(report.indefinite);
+}
+
 /// Multiplies all columns but the first, of which it makes no numbers.
 class FirstColumnFails : public LinearOperator {
 public:

@@ -1,5 +1,6 @@
 #include "fem/nonlinear/elements.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <Eigen/Dense>
@@ -212,7 +213,7 @@ void FiniteElements::project(int element, const Eigen::VectorXd& u, const Materi
     }
 }
 
-Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 10> FiniteElements::shape_gradients(int element, int point) const {
+FiniteElements::ShapeGradients FiniteElements::shape_gradients(int element, int point) const {
     const ElementPack& pack = packs_[static_cast<std::size_t>(element / kPack)];
     Eigen::Matrix<double, 4, 3> corners;
     for (int c = 0; c < 4; ++c)
@@ -223,11 +224,24 @@ Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 10> FiniteElements::shape_gradients(
     return quadratic_slopes(L) * corners;
 }
 
-Eigen::Matrix3d FiniteElements::gradient(const Eigen::VectorXd& u, int element, int point) const {
-    const auto g = shape_gradients(element, point);
+Eigen::Matrix3d FiniteElements::gradient(const Eigen::VectorXd& u, int element, const ShapeGradients& shapes) const {
     Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
-    for (int a = 0; a < nodes_per_element(); ++a) H += u.segment<3>(3 * elements_(a, element)) * g.row(a);
+    for (int a = 0; a < nodes_per_element(); ++a) H += u.segment<3>(3 * elements_(a, element)) * shapes.row(a);
     return H;
+}
+
+double FiniteElements::largest_stretch(const Eigen::VectorXd& u, Control& control) const {
+    constexpr int kAtOnce = 256;
+    std::vector<double> largest(static_cast<std::size_t>(n_elements() / kAtOnce + 1), 1.0);
+    Control inner;
+    parallel_blocks(n_elements(), kAtOnce, inner, [&](int begin, int end) {
+        double& its = largest[static_cast<std::size_t>(begin / kAtOnce)];
+        for (int e = begin; e < end; ++e)
+            for (int point = 0; point < n_points(); ++point)
+                its = elastolab::largest_stretch(gradient(u, e, point), its);
+    });
+    control.checkpoint();
+    return *std::max_element(largest.begin(), largest.end());
 }
 
 double FiniteElements::volume(int element) const {

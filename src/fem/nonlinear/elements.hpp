@@ -66,9 +66,15 @@ public:
 
     int n_points() const { return nodes_per_element() == 4 ? 1 : 4; }
     /// Gradients of the shape functions of an element at a Gauss point, n x 3 [1/L].
-    Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 10> shape_gradients(int element, int point) const;
+    using ShapeGradients = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 10>;
+    ShapeGradients shape_gradients(int element, int point) const;
     /// Displacement gradient there.
-    Eigen::Matrix3d gradient(const Eigen::VectorXd& u, int element, int point) const;
+    Eigen::Matrix3d gradient(const Eigen::VectorXd& u, int element, int point) const {
+        return gradient(u, element, shape_gradients(element, point));
+    }
+    Eigen::Matrix3d gradient(const Eigen::VectorXd& u, int element, const ShapeGradients& shapes) const;
+    /// The largest ratio of a length after and before, at any Gauss point; at least 1.
+    double largest_stretch(const Eigen::VectorXd& u, Control& control) const;
     double volume(int element) const;
 
 private:

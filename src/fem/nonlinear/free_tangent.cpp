@@ -20,7 +20,7 @@ FreeTangent::FreeTangent(std::shared_ptr<const FiniteElements> elements, std::sp
         }
     find_pattern();
     control.checkpoint();
-    analysis_ = std::make_unique<const CholeskyAnalysis>(pattern_);
+    analysis_ = std::make_unique<const CholeskyAnalysis>(pattern_, 3, true);
     control.checkpoint();
 }
 

@@ -99,7 +99,7 @@ std::optional<ReferenceAnswer> linear_answer(const NonlinearMesh& mesh, const Ma
     const Newton newton(std::make_shared<const FreeTangent>(mesh.linear, vertices, control), material, 0.0,
                         {mesh.linear, mesh.surface, {}, loads});
     const Eigen::VectorXd factors = solution.factors.col(0);
-    ElementWork work = mesh.linear->make_work();
+    NewtonWork work = newton.make_work();
     Eigen::VectorXd u(3 * mesh.linear->n_nodes());
     for (int v = 0; v < mesh.linear->n_nodes(); ++v)
         u.segment<3>(3 * v) =
@@ -136,7 +136,7 @@ std::optional<ReferenceAnswer> ten_node_answer(const NonlinearMesh& mesh, const 
             u.col(element[4 + e]) = 0.5 * (u.col(element[kTetEdges[e][0]]) + u.col(element[kTetEdges[e][1]]));
     const Newton newton(std::make_shared<const FreeTangent>(ten->elements, nodes.prescribed.nodes, control), material,
                         0.0, {ten->elements, ten->surface, ten->surface_midpoints, loads});
-    ElementWork work = ten->elements->make_work();
+    NewtonWork work = newton.make_work();
     const Eigen::VectorXd factors = solution.factors.col(0);
     const NewtonState state = newton.run(u.reshaped(), factors, kCheckTolerance, kCheckIterations, work, control);
     if (!state.converged) return {};

@@ -4,63 +4,17 @@
 #include <random>
 
 #include "base/error.hpp"
+#include "deform/conjugate_gradients.hpp"
 #include "deform/gmres.hpp"
+#include "fem/nonlinear/newton_run.hpp"
+#include "fem/nonlinear/tangent_operators.hpp"
 
 namespace elastolab {
 
 namespace {
 
-/// Residual below which energies cannot tell better from worse.
-constexpr double kRoundedEnergy = 1e-6;
-/// Part of the decrease that the slope promises, which a step must bring.
-constexpr double kArmijo = 1e-4;
-constexpr double kShortestStep = 1e-8;
-/// Projected tangents, which a body takes that buckles, converge slowly: so many times as many iterations are allowed.
-constexpr int kMoreWhereProjected = 4;
 /// Reactions below this part of modulus times displacement times edge are rounding.
 constexpr double kNoForce = 1e-5;
-/// Steps under pressures that follow the surface.
-constexpr double kStepTolerance = 1e-4;
-constexpr int kMostStepIterations = 40;
-
-class FreeTangentProduct : public LinearOperator {
-public:
-    FreeTangentProduct(const Newton& newton, const Eigen::VectorXd& u, const Eigen::VectorXd& factors, double shift,
-                       ElementWork& work, Control& control)
-        : newton_(newton),
-          u_(u),
-          factors_(factors),
-          none_(newton.loads().none()),
-          shift_(shift),
-          work_(work),
-          control_(control) {}
-    Eigen::Index size() const override { return newton_.tangent().size(); }
-    Eigen::MatrixXd product(const Eigen::MatrixXd& X) const override {
-        control_.checkpoint();
-        Eigen::MatrixXd all = newton_.tangent().all_rows(X);
-        for (auto column : all.colwise())
-            column = newton_.force_change(u_, factors_, Eigen::VectorXd(column), none_, work_, control_);
-        return newton_.tangent().free_rows(all) + shift_ * X;
-    }
-
-private:
-    const Newton& newton_;
-    const Eigen::VectorXd &u_, &factors_;
-    Eigen::VectorXd none_;
-    double shift_;
-    ElementWork& work_;
-    Control& control_;
-};
-
-class FactorSolve : public LinearOperator {
-public:
-    explicit FactorSolve(const SparseCholesky& factor) : factor_(factor) {}
-    Eigen::Index size() const override { return factor_.size(); }
-    Eigen::MatrixXd product(const Eigen::MatrixXd& X) const override { return factor_.solve(X); }
-
-private:
-    const SparseCholesky& factor_;
-};
 
 }  // namespace
 
@@ -88,93 +42,51 @@ double Newton::residual(double size, const Eigen::VectorXd& forces, const Eigen:
 }
 
 std::shared_ptr<const SparseCholesky> Newton::factor_at(const Eigen::VectorXd& u, const Eigen::VectorXd& factors,
-                                                        ElementWork& work, SparseMatrix& K, bool& stable,
-                                                        Control& control) const {
+                                                        NewtonWork& work, bool& stable, Control& control) const {
     for (const bool projected : {false, true}) {
         tangent_->elements().stiffness(u, material_, projected, work, control);
         if (!projected) loads_.add_tangent(u, factors, work);
-        tangent_->assemble(work, shift_, K, control);
+        tangent_->assemble(work, shift_, work.K, control);
         stable = !projected;
-        if (std::optional<SparseCholesky> factor = factorised(*tangent_, K, control))
+        if (std::optional<SparseCholesky> factor = factorised(*tangent_, work.K, control))
             return std::make_shared<const SparseCholesky>(std::move(*factor));
     }
     return nullptr;
 }
 
-double Newton::step_length(const NewtonState& state, const Eigen::VectorXd& step, double slope, double gradient,
-                           ElementWork& work, Control& control) const {
-    for (int halvings = 0; std::ldexp(1.0, -halvings) > kShortestStep; ++halvings) {
-        const double length = std::ldexp(1.0, -halvings);
-        const Eigen::VectorXd to = state.u + length * step;
-        const double energy = this->energy(to, work, control).energy;
-        if (!std::isfinite(energy)) continue;
-        if (rise(state, to, energy) <= kArmijo * length * slope) return length;
-        if (loads_.follow() &&
-            tangent_->free_rows(forces(to, state.factors, work, control)).norm() <= (1.0 - kArmijo * length) * gradient)
-            return length;
-    }
-    return 0.0;
-}
-
 NewtonState Newton::run(Eigen::VectorXd u, const Eigen::VectorXd& factors, double tolerance, int most_iterations,
-                        ElementWork& work, Control& control, std::shared_ptr<const SparseCholesky> before) const {
-    NewtonState state;
-    state.u = std::move(u);
-    state.factor = std::move(before);
-    state.factor_residual = 1.0;
-    state.factors = factors;
-    SparseMatrix K = tangent_->make_matrix();
-    BodyEnergy energy = this->energy(state.u, work, control);
-    state.energy = energy.energy;
-    Eigen::VectorXd forces = this->forces(state.u, factors, work, control);
-    double size = state.u.lpNorm<Eigen::Infinity>();
-    state.residual = residual(size, forces, state.u, factors);
-    const double first = std::log(std::max(state.residual, tolerance));
-    int unhindered = 0;
-    while (state.residual > tolerance && unhindered < most_iterations &&
-           state.iterations < kMoreWhereProjected * most_iterations) {
-        control.set_progress(first > std::log(tolerance) ? 1.0 - (std::log(state.residual) - std::log(tolerance)) /
-                                                                     (first - std::log(tolerance))
-                                                         : 0.0);
-        state.factor.reset();  // not two at once
-        state.factor = factor_at(state.u, factors, work, K, state.stable, control);
-        if (!state.factor) break;
-        unhindered += state.stable ? 1 : 0;
-        state.factor_residual = state.residual;
-        ++state.iterations;
-        const Eigen::VectorXd gradient = tangent_->free_rows(forces);
-        Eigen::VectorXd reduced = -state.factor->solve(gradient);
-        if (loads_.follow())
-            if (const std::optional<Eigen::MatrixXd> whole = solve_tangent(
-                    state.u, factors, *state.factor, gradient, kStepTolerance, kMostStepIterations, work, control))
-                reduced = -whole->col(0);
-        const Eigen::VectorXd step = tangent_->all_rows(reduced);
-        double length = 1.0;
-        if (state.residual > kRoundedEnergy)
-            length = step_length(state, step, std::min(gradient.dot(reduced), 0.0), gradient.norm(), work, control);
-        if (length == 0.0) break;
-        const Eigen::VectorXd next = state.u + length * step;
-        const BodyEnergy next_energy = this->energy(next, work, control);
-        if (!std::isfinite(next_energy.energy)) break;
-        const Eigen::VectorXd next_forces = this->forces(next, factors, work, control);
-        if (loads_.size() > 0) size = std::max(size, next.lpNorm<Eigen::Infinity>());
-        const double next_residual = residual(size, next_forces, next, factors);
-        if (state.residual <= kRoundedEnergy && !(next_residual < state.residual)) break;
-        state.u = next;
-        energy = next_energy;
-        state.energy = energy.energy;
-        forces = next_forces;
-        state.residual = next_residual;
-    }
-    state.converged = state.residual <= tolerance;
-    state.least_J = energy.least_J;
-    state.crushed = energy.element;
-    return state;
+                        NewtonWork& work, Control& control, std::shared_ptr<const SparseCholesky> before) const {
+    return NewtonRun(*this, std::move(u), factors, tolerance, work, control, std::move(before)).run(most_iterations);
 }
 
-Eigen::VectorXd Newton::pushed(const NewtonState& state, ElementWork& work, Control& control) const {
+NearSolution Newton::solve_near(const Eigen::VectorXd& u, const Eigen::VectorXd& factors, const SparseCholesky& factor,
+                                const Eigen::MatrixXd& B, double tolerance, int most_iterations, ElementWork& work,
+                                Control& control) const {
+    if (loads_.follow()) {
+        std::optional<Eigen::MatrixXd> X =
+            solve_tangent(u, factors, factor, B, tolerance, most_iterations, work, control);
+        return X ? NearSolution{.X = std::move(*X), .converged = true} : NearSolution{};
+    }
+    Control of_its_own;
+    IterationReport report;
+    NearSolution near;
+    try {
+        near.X =
+            conjugate_gradients(FreeTangentProduct(*this, u, factors, shift_, work, control), FactorSolve(factor), B,
+                                {.tolerance = tolerance, .max_iterations = most_iterations, .must_converge = false},
+                                "tangent stiffness", of_its_own, &report);
+    } catch (const SolveError&) {
+        return {};
+    }
+    near.converged = report.residual <= tolerance;
+    near.indefinite = report.indefinite;
+    near.iterations = report.iterations;
+    return near;
+}
+
+Eigen::VectorXd Newton::pushed(const NewtonState& state, NewtonWork& work, Control& control) const {
     constexpr int kIterations = 40;
-    SparseMatrix K = tangent_->make_matrix();
+    SparseMatrix& K = work.K;
     tangent_->elements().stiffness(state.u, material_, false, work, control);
     loads_.add_tangent(state.u, state.factors, work);
     tangent_->assemble(work, 0.0, K, control);

@@ -18,15 +18,30 @@ struct NewtonState {
     Eigen::VectorXd u;        ///< 3*n_nodes [L]
     Eigen::VectorXd factors;  ///< of the loads
     bool converged = false;
-    int iterations = 0;  ///< linear systems factorised
+    int iterations = 0;  ///< linear systems solved
     double residual = 0.0;
     double energy = 0.0;  ///< stored in the body
     double least_J = 1.0;
     int crushed = -1;  ///< the element of least J
-    /// Factorised tangent: at the state itself, or where the residual was `factor_residual` before the last step.
+    /// Factorised tangent of a state close by: on the way to this one, where the residual was `factor_residual`, or
+    /// before it (1).
     std::shared_ptr<const SparseCholesky> factor = nullptr;
     double factor_residual = 0.0;
     bool stable = true;  ///< the last tangent was positive definite as it is
+};
+
+/// Workspace of Newton's method on one tangent, made once and used again.
+struct NewtonWork : ElementWork {
+    SparseMatrix K;  ///< the last tangent that was factorised
+};
+
+/// Answer of the true tangent that a factor of another one has preconditioned.
+struct NearSolution {
+    Eigen::MatrixXd X;  ///< at the free nodes; empty where there is none
+    bool converged = false;
+    /// The tangent is not positive definite: X is what conjugate gradients had before they saw that, and goes downhill.
+    bool indefinite = false;
+    int iterations = 0;
 };
 
 /// Equilibria of a body whose constrained nodes have their displacements already. Newton's method: the true tangent,
@@ -42,17 +57,19 @@ public:
            NonlinearLoads loads = {})
         : tangent_(std::move(tangent)), material_(material), shift_(shift), loads_(std::move(loads)) {}
 
+    NewtonWork make_work() const { return {tangent_->elements().make_work(), tangent_->make_matrix()}; }
+
     /// From u, which inverts no element, with loads of these factors, to this relative residual: of the forces at the
     /// free nodes over those of the loads and at the constrained ones. Not converged when there is no step that helps
     /// or so many iterations with the true tangent, or four times as many with any, do not suffice; what was reached is
     /// returned all the same. Throws SolveError, Cancelled.
-    /// before: a factor of a tangent near by, which is what state.factor is where no iteration is needed, and which is
-    /// let go of where one is, so that there are not two at once.
+    /// before: a factor of a tangent near by. It preconditions the steps, for as long as a few iterations do, down to
+    /// where the solution is close; there one factor is made that serves the rest. It is let go of before that.
     NewtonState run(Eigen::VectorXd u, const Eigen::VectorXd& factors, double tolerance, int most_iterations,
-                    ElementWork& work, Control& control, std::shared_ptr<const SparseCholesky> before = nullptr) const;
+                    NewtonWork& work, Control& control, std::shared_ptr<const SparseCholesky> before = nullptr) const;
     /// A push along the most unstable direction that lowers the energy less the loads' work; u itself where there is
     /// none.
-    Eigen::VectorXd pushed(const NewtonState& state, ElementWork& work, Control& control) const;
+    Eigen::VectorXd pushed(const NewtonState& state, NewtonWork& work, Control& control) const;
 
     BodyEnergy energy(const Eigen::VectorXd& u, ElementWork& work, Control& control) const {
         return tangent_->elements().energy(u, material_, work, control);
@@ -82,8 +99,7 @@ public:
     const NonlinearLoads& loads() const { return loads_; }
     /// The factorised tangent at u: the true one, or (stable false) the projected one, which leaves loads out.
     std::shared_ptr<const SparseCholesky> factor_at(const Eigen::VectorXd& u, const Eigen::VectorXd& factors,
-                                                    ElementWork& work, SparseMatrix& K, bool& stable,
-                                                    Control& control) const;
+                                                    NewtonWork& work, bool& stable, Control& control) const;
 
     /// X at the free nodes with tangent X = B, the true tangent at u, loads included, by GMRES; factor: of one close to
     /// it. Nothing where so many iterations do not reach the relative tolerance. Throws Cancelled.
@@ -92,12 +108,13 @@ public:
                                                  double tolerance, int most_iterations, ElementWork& work,
                                                  Control& control) const;
 
-private:
-    /// A step that inverts nothing and lowers the energy enough: its length, 0 when there is none. slope: of the energy
-    /// along it; gradient: norm of what is to vanish.
-    double step_length(const NewtonState& state, const Eigen::VectorXd& step, double slope, double gradient,
-                       ElementWork& work, Control& control) const;
+    /// The same with a factor that is known to be of a positive definite tangent: by conjugate gradients, and by GMRES
+    /// where loads follow the surface.
+    NearSolution solve_near(const Eigen::VectorXd& u, const Eigen::VectorXd& factors, const SparseCholesky& factor,
+                            const Eigen::MatrixXd& B, double tolerance, int most_iterations, ElementWork& work,
+                            Control& control) const;
 
+private:
     std::shared_ptr<const FreeTangent> tangent_;
     Material material_;
     double shift_;

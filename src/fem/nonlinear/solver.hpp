@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/control.hpp"
+#include "base/spare.hpp"
 #include "deform/equilibrium.hpp"
 #include "deform/node_solver.hpp"
 #include "elasticity/material.hpp"
@@ -66,30 +67,42 @@ public:
 
 private:
     using StatePtr = std::shared_ptr<const NonlinearState>;
+    /// Residual to which equilibria on the way are found.
+    static constexpr double kPassing = 1e-3;
+    /// Iterations that a factor of a state close by is worth.
+    static constexpr int kFewIterations = 8;
+    static constexpr const char* kNoTangent =
+        "tangent stiffness: is not finite. Check the mesh for degenerate tetrahedra.";
+
     /// The equilibrium for these values (NodeTask::prescribed), from one before it. far: rotation-strain warping may
     /// begin.
     StatePtr advance(const NonlinearState& from, const Eigen::VectorXd& values, bool far, double tolerance,
-                     ElementWork& work, Control& control) const;
-    NewtonState warped(const MotionPath& path, const Eigen::VectorXd& factors, double tolerance, ElementWork& work,
+                     NewtonWork& work, Control& control) const;
+    // The way from one equilibrium to the next (equilibrium_path.cpp).
+    NewtonState warped(const MotionPath& path, const Eigen::VectorXd& factors, double tolerance, NewtonWork& work,
                        Control& control) const;
+    Eigen::VectorXd tangent_answer(NewtonState& at, const Eigen::VectorXd& load, int& iterations, NewtonWork& work,
+                                   Control& control) const;
+    Eigen::VectorXd predicted(NewtonState& at, const Eigen::VectorXd& prescribed, const Eigen::VectorXd& factors,
+                              int& iterations, NewtonWork& work, Control& control) const;
     NewtonState followed(const NonlinearState& from, const MotionPath& path, const Eigen::VectorXd& factors,
-                         double tolerance, ElementWork& work, Control& control) const;
+                         double tolerance, NewtonWork& work, Control& control) const;
     Eigen::VectorXd factors_of(const Eigen::VectorXd& values) const { return values.tail(newton_.loads().size()); }
     Eigen::VectorXd displacements_of(const Eigen::VectorXd& values) const {
         return values.head(3 * std::ssize(nodes_.nodes));
     }
     /// The state itself where it is stable, else the stable one that it is left for, where there is one.
-    NewtonState stabilised(NewtonState state, double tolerance, ElementWork& work, Control& control) const;
-    StatePtr settled(NewtonState state, double tolerance, ElementWork& work, Control& control) const;
+    NewtonState stabilised(NewtonState state, double tolerance, NewtonWork& work, Control& control) const;
+    StatePtr settled(NewtonState state, double tolerance, NewtonWork& work, Control& control) const;
     /// Keeps a factor, in place of the last one.
     void keep(std::shared_ptr<const SparseCholesky> factor) const;
-    StatePtr at_rest(ElementWork& work, Control& control) const;
+    StatePtr at_rest(NewtonWork& work, Control& control) const;
     /// tolerance: of the state.
     Eigen::MatrixXd derivatives(const NonlinearState& state, const Eigen::MatrixXd& changes, double tolerance,
-                                ElementWork& work, Control& control) const;
+                                NewtonWork& work, Control& control) const;
     Eigen::VectorXd of_all_nodes(const Eigen::VectorXd& prescribed) const;
     Eigen::VectorXd of_prescribed(const Eigen::VectorXd& all) const;
-    std::shared_ptr<const WarpedStart> rest(ElementWork& work, Control& control) const;
+    std::shared_ptr<const WarpedStart> rest(NewtonWork& work, Control& control) const;
 
     void find_faces();
     /// Throws NoEquilibriumError where a prescribed face is flattened: the Gauss points of ten-node elements do not see
@@ -102,6 +115,7 @@ private:
     std::vector<int> patches_;
     Positions rest_positions_;
     Newton newton_;
+    mutable Spare<std::unique_ptr<NewtonWork>> work_;
     mutable std::mutex rest_mutex_;
     mutable std::shared_ptr<const WarpedStart> rest_;
     mutable std::mutex kept_mutex_;

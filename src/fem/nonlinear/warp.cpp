@@ -22,19 +22,20 @@ double laplacian(const FiniteElements& elements, int element, int a, int b) {
     return sum * elements.volume(element) / elements.n_points();
 }
 
-/// Adds int (target - gradient of u)^T-products with the shape gradients of one element into forces, n x 3.
-void add_target(const FiniteElements& elements, int element, const Eigen::VectorXd& linear, const Eigen::VectorXd& u,
-                double* forces) {
+/// Sets forces, n x 3, of one element to int (target - gradient of u)^T-products with the shape gradients. target: what
+/// the gradient of `from` becomes by the rotation and strain of `change`.
+void set_target(const FiniteElements& elements, int element, const Eigen::VectorXd& from, const Eigen::VectorXd& change,
+                const Eigen::VectorXd& u, double* forces) {
     for (int i = 0; i < 3 * elements.nodes_per_element(); ++i) forces[i] = 0.0;
     for (int point = 0; point < elements.n_points(); ++point) {
-        const Eigen::Matrix3d G = elements.gradient(linear, element, point);
+        const auto g = elements.shape_gradients(element, point);
+        const Eigen::Matrix3d F = Eigen::Matrix3d::Identity() + elements.gradient(from, element, g),
+                              G = elements.gradient(change, element, g) * F.inverse();
         const Eigen::Matrix3d strain = 0.5 * (G + G.transpose()), spin = 0.5 * (G - G.transpose());
         const Eigen::Vector3d turn(spin(2, 1), spin(0, 2), spin(1, 0));
-        const Eigen::Matrix3d target =
-            rotation_by(turn) * (Eigen::Matrix3d::Identity() + strain) - Eigen::Matrix3d::Identity();
+        const Eigen::Matrix3d target = rotation_by(turn) * (F + strain * F) - Eigen::Matrix3d::Identity();
         const Eigen::Matrix3d difference =
-            elements.volume(element) / elements.n_points() * (target - elements.gradient(u, element, point));
-        const auto g = elements.shape_gradients(element, point);
+            elements.volume(element) / elements.n_points() * (target - elements.gradient(u, element, g));
         for (int a = 0; a < elements.nodes_per_element(); ++a)
             Eigen::Map<Eigen::Vector3d>(forces + 3 * a) += difference * g.row(a).transpose();
     }
@@ -42,12 +43,11 @@ void add_target(const FiniteElements& elements, int element, const Eigen::Vector
 
 }  // namespace
 
-WarpedStart::WarpedStart(const Newton& newton, ElementWork& work, Control& control)
+WarpedStart::WarpedStart(const Newton& newton, NewtonWork& work, Control& control)
     : tangent_(newton.shared_tangent()), material_(newton.material()) {
-    SparseMatrix K = tangent_->make_matrix();
     bool stable = true;
-    rest_ = newton.factor_at(Eigen::VectorXd::Zero(3 * elements().n_nodes()), newton.loads().none(), work, K, stable,
-                             control);
+    rest_ =
+        newton.factor_at(Eigen::VectorXd::Zero(3 * elements().n_nodes()), newton.loads().none(), work, stable, control);
     if (!rest_)
         throw SolveError("stiffness at rest: is not positive definite. Check the mesh for degenerate tetrahedra.");
     SparseMatrix L =
@@ -62,11 +62,17 @@ Eigen::VectorXd WarpedStart::displace(const Eigen::VectorXd& logarithm, const Ei
     const Eigen::VectorXd zero = Eigen::VectorXd::Zero(prescribed.size());
     const Eigen::VectorXd load = elements().force_change(zero, logarithm, material_, work, control);
     const Eigen::VectorXd linear = logarithm - tangent_->all_rows(rest_->solve(tangent_->free_rows(load)));
+    return warped(zero, linear, prescribed, work, control);
+}
+
+Eigen::VectorXd WarpedStart::warped(const Eigen::VectorXd& from, const Eigen::VectorXd& change,
+                                    const Eigen::VectorXd& prescribed, ElementWork& work, Control& control) const {
     Control inner;
     const int n = 3 * elements().nodes_per_element();
     parallel_blocks(elements().n_elements(), kElementsAtOnce, inner, [&](int begin, int end) {
         for (int e = begin; e < end; ++e)
-            add_target(elements(), e, linear, prescribed, work.forces.data() + static_cast<std::ptrdiff_t>(n) * e);
+            set_target(elements(), e, from, change, prescribed,
+                       work.forces.data() + static_cast<std::ptrdiff_t>(n) * e);
     });
     const Eigen::VectorXd right = tangent_->free_rows(elements().gathered(work, control));
     const Eigen::MatrixXd by_axis = right.reshaped(3, right.size() / 3).transpose();

@@ -10,17 +10,20 @@
 
 namespace elastolab {
 
-/// A start for large jumps from rest (rotation-strain warping, Huang et al. 2011): the linear answer to the logarithms
-/// of the handles' motions tells rotation and strain everywhere; then the positions whose gradients are nearest to
-/// exp(rotation) (I + strain). Both factors are of the body at rest and kept.
+/// Starts for large motions (rotation-strain warping, Huang et al. 2011): the linear answer to the logarithms of the
+/// handles' motions tells rotation and strain everywhere; then the positions whose gradients are nearest to
+/// exp(rotation) (I + strain), times the gradients before. Both factors are of the body at rest and kept.
 class WarpedStart {
 public:
-    WarpedStart(const Newton& newton, ElementWork& work, Control& control);
+    WarpedStart(const Newton& newton, NewtonWork& work, Control& control);
 
     /// Displacements of all nodes from logarithms and displacements of the constrained ones, both 3*n_nodes with zeros
     /// at the free nodes.
     Eigen::VectorXd displace(const Eigen::VectorXd& logarithm, const Eigen::VectorXd& prescribed, ElementWork& work,
                              Control& control) const;
+    /// The same from displacements `from`, by a change to first order of all nodes.
+    Eigen::VectorXd warped(const Eigen::VectorXd& from, const Eigen::VectorXd& change,
+                           const Eigen::VectorXd& prescribed, ElementWork& work, Control& control) const;
     /// The factorised stiffness at rest.
     const std::shared_ptr<const SparseCholesky>& rest() const { return rest_; }
 

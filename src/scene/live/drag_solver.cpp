@@ -31,13 +31,13 @@ DragSolver::DragSolver(std::shared_ptr<const Deformer> deformer, std::vector<int
 void DragSolver::prepare(const Eigen::VectorXd& values, double tolerance, Control& control, const Approach& approach) {
     const bool turns = !deformer_->linear();  // about where it is by now
     int handle = kNone;
-    bool affine = turns;
+    bool affine = turns;  // until it is known that it is only shifted
     if (has_start(values)) {
         const Eigen::VectorXd change = values - start_values_;
         handle = changed_handle(change);
         if (handle >= 0 && handle != loads()) {
             const Eigen::Matrix3Xd moved = part_of(handle, change);
-            affine = turns || (moved.colwise() - moved.col(0)).cwiseAbs().maxCoeff() > tolerance_of(handle, moved);
+            affine = (moved.colwise() - moved.col(0)).cwiseAbs().maxCoeff() > tolerance_of(handle, moved);
         }
     }
     if (handle < 0) handle = turns && handle_ >= 0 ? handle_ : static_cast<int>(handle_ends_.size()) - 1;

@@ -1,0 +1,179 @@
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "fem/nonlinear/solver.hpp"
+
+namespace elastolab {
+
+namespace {
+
+/// Angle of a step that the tangent predicts well [rad].
+constexpr double kStepAngle = std::numbers::pi / 6.0;
+constexpr int kMostIterations = 40, kMostPassing = 30, kMostAltogether = 400;
+/// Steps shorter than this part of the way are given up.
+constexpr double kShortestPart = 1.0 / 512.0;
+/// Residual of the linear systems that predict a step.
+constexpr double kPrediction = 0.1;
+/// Smallest ratio of volumes that a predicted state may have: those below are far from any equilibrium.
+constexpr double kCrushed = 0.05;
+constexpr int kPushes = 3;
+
+}  // namespace
+
+/// The best that warping leads to; not converged where it does not.
+NewtonState NonlinearSolver::warped(const MotionPath& path, const Eigen::VectorXd& factors, double tolerance,
+                                    NewtonWork& work, Control& control) const {
+    const Eigen::VectorXd u =
+        rest(work, control)->displace(of_all_nodes(path.logarithm()), of_all_nodes(path.at(1.0)), work, control);
+    if (!(newton_.energy(u, work, control).least_J > kCrushed)) return {};
+    keep(nullptr);
+    return newton_.run(u, factors, tolerance, kMostIterations, work, control);
+}
+
+/// Tangent answer to a load, roughly; where the factor there is does not do, `at` gets one of its own.
+Eigen::VectorXd NonlinearSolver::tangent_answer(NewtonState& at, const Eigen::VectorXd& load, int& iterations,
+                                                NewtonWork& work, Control& control) const {
+    if (at.factor && at.stable)
+        if (const NearSolution near =
+                newton_.solve_near(at.u, at.factors, *at.factor, load, kPrediction, kFewIterations, work, control);
+            near.converged && !near.indefinite)
+            return near.X.col(0);
+    if (!at.factor || at.stable) {
+        keep(nullptr);  // not two at once
+        at.factor.reset();
+        at.factor = newton_.factor_at(at.u, at.factors, work, at.stable, control);
+        if (!at.factor) throw SolveError(kNoTangent);
+        ++iterations;
+    }
+    return at.factor->solve(load);
+}
+
+/// Where the equilibrium will be for these displacements of the constrained nodes: the tangent's answer to the
+/// velocities of their screws tells how everything turns and strains.
+Eigen::VectorXd NonlinearSolver::predicted(NewtonState& at, const Eigen::VectorXd& prescribed,
+                                           const Eigen::VectorXd& factors, int& iterations, NewtonWork& work,
+                                           Control& control) const {
+    const FreeTangent& tangent = newton_.tangent();
+    const MotionPath path(rest_positions_, patches_, of_prescribed(at.u), prescribed);
+    const Eigen::VectorXd velocities = of_all_nodes(path.logarithm());
+    const Eigen::VectorXd load =
+        tangent.free_rows(newton_.force_change(at.u, at.factors, velocities, factors - at.factors, work, control));
+    const Eigen::VectorXd change = velocities - tangent.all_rows(tangent_answer(at, load, iterations, work, control));
+    const Eigen::VectorXd goal = of_all_nodes(prescribed);
+    const Eigen::VectorXd warped = rest(work, control)->warped(at.u, change, goal, work, control);
+    if (std::isfinite(newton_.energy(warped, work, control).energy)) return warped;
+    return goal + tangent.all_rows(tangent.free_rows(at.u + change));
+}
+
+/// From one equilibrium to the next by predicted steps, which are halved where they fail.
+NewtonState NonlinearSolver::followed(const NonlinearState& from, const MotionPath& path,
+                                      const Eigen::VectorXd& factors, double tolerance, NewtonWork& work,
+                                      Control& control) const {
+    NewtonState at = from.with_factor();
+    at.iterations = 0;
+    double part = 0.0, length = 1.0 / std::max(1.0, std::ceil(path.largest_angle() / kStepAngle - 1e-6));
+    NewtonState failed;
+    int iterations = 0;
+    const Eigen::VectorXd before = at.factors;
+    while (part < 1.0 && length >= kShortestPart && iterations < kMostAltogether) {
+        control.checkpoint();
+        const double next = part + length > 1.0 - 1e-9 ? 1.0 : part + length;
+        const Eigen::VectorXd next_factors = next < 1.0 ? before + next * (factors - before) : factors;
+        const Eigen::VectorXd u = predicted(at, path.at(next), next_factors, iterations, work, control);
+        const BodyEnergy energy = newton_.energy(u, work, control);
+        if (!(energy.least_J > kCrushed * std::min(1.0, at.least_J))) {
+            failed.crushed = energy.element;
+            length *= 0.5;
+            continue;
+        }
+        const double wanted = next < 1.0 ? std::max(kPassing, tolerance) : tolerance;
+        const bool stable = at.stable;
+        keep(nullptr);  // a factor less at the same time; where the step fails, it is made again
+        NewtonState reached = newton_.run(u, next_factors, wanted, next < 1.0 ? kMostPassing : kMostIterations, work,
+                                          control, std::exchange(at.factor, nullptr));
+        if (reached.iterations == 0) reached.stable = stable;
+        if (reached.converged) reached = stabilised(std::move(reached), wanted, work, control);
+        iterations += reached.iterations;
+        if (!reached.converged) {
+            failed.crushed = reached.crushed;
+            length *= 0.5;
+            continue;
+        }
+        at = std::move(reached);
+        keep(at.factor);
+        part = next;
+        length = std::min(2.0 * length, 1.0);
+        if (part < 1.0 && path.largest_angle() > 0.0) length = std::min(length, kStepAngle / path.largest_angle());
+    }
+    at.iterations = iterations;
+    if (part < 1.0) {
+        failed.iterations = iterations;
+        failed.u = at.u;
+        return failed;
+    }
+    return at;
+}
+
+NonlinearSolver::StatePtr NonlinearSolver::advance(const NonlinearState& from, const Eigen::VectorXd& values, bool far,
+                                                   double tolerance, NewtonWork& work, Control& control) const {
+    const Eigen::VectorXd present = of_prescribed(from.newton().u), prescribed = displacements_of(values),
+                          factors = factors_of(values);
+    if (present == prescribed && from.newton().factors == factors && from.newton().residual <= tolerance)
+        return std::make_shared<const NonlinearState>(from.with_factor(), [&] {
+            EquilibriumFacts facts = from.facts();
+            facts.iterations = 0;
+            return facts;
+        }());
+    require_faces(prescribed);
+    const MotionPath path(rest_positions_, patches_, present, prescribed);
+    NewtonState state;
+    int iterations = 0;
+    if (far && path.largest_angle() > 0.5 * kStepAngle) {
+        state = warped(path, factors, tolerance, work, control);
+        iterations = state.iterations;
+    }
+    if (!state.converged) {
+        state = followed(from, path, factors, tolerance, work, control);
+        state.iterations += iterations;
+    }
+    if (!state.converged) {
+        const Eigen::Vector4i corners = elements().elements().col(std::max(state.crushed, 0)).head<4>();
+        throw NoEquilibriumError(newton_.loads().size() > 0 ? "no equilibrium was found for these motions and loads."
+                                                            : "no equilibrium was found for these motions.",
+                                 elements().positions()(Eigen::all, corners).rowwise().mean());
+    }
+    return settled(std::move(state), tolerance, work, control);
+}
+
+NewtonState NonlinearSolver::stabilised(NewtonState state, double tolerance, NewtonWork& work, Control& control) const {
+    for (int push = 0; push < kPushes && !state.stable && state.factor; ++push) {
+        const Eigen::VectorXd u = newton_.pushed(state, work, control);
+        if (u == state.u) break;
+        NewtonState left = newton_.run(u, state.factors, tolerance, 2 * kMostIterations, work, control);
+        if (!left.converged || !(newton_.rise(state, left.u, left.energy) < 0.0)) break;
+        left.iterations += state.iterations;
+        state = std::move(left);
+    }
+    return state;
+}
+
+void NonlinearSolver::keep(std::shared_ptr<const SparseCholesky> factor) const {
+    const std::scoped_lock lock(kept_mutex_);
+    kept_ = std::move(factor);
+}
+
+NonlinearSolver::StatePtr NonlinearSolver::settled(NewtonState state, double tolerance, NewtonWork& work,
+                                                   Control& control) const {
+    state = stabilised(std::move(state), tolerance, work, control);
+    keep(state.factor);
+    const Eigen::VectorXd rest = Eigen::VectorXd::Zero(state.u.size());
+    EquilibriumFacts facts{.iterations = state.iterations,
+                           .energy = state.energy,
+                           .work_of_loads = newton_.loads().work(rest, state.u, state.factors),
+                           .largest_stretch = elements().largest_stretch(state.u, control),
+                           .stable = state.stable};
+    return std::make_shared<const NonlinearState>(std::move(state), facts);
+}
+
+}  // namespace elastolab

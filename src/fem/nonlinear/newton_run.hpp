@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+
+#include "base/control.hpp"
+#include "fem/nonlinear/newton.hpp"
+
+namespace elastolab {
+
+/// One run of Newton's method: where it is, and how it goes on.
+class NewtonRun {
+public:
+    NewtonRun(const Newton& newton, Eigen::VectorXd u, const Eigen::VectorXd& factors, double tolerance,
+              NewtonWork& work, Control& control, std::shared_ptr<const SparseCholesky> before);
+    NewtonState run(int most_iterations);
+
+private:
+    Eigen::VectorXd free_rows(const Eigen::VectorXd& all) const { return newton_.tangent().free_rows(all); }
+    double progress() const;
+    bool may_use_factor() const;
+    /// Steps at the free nodes: by the factor there is, or nothing; by the one of this state, or nothing.
+    std::optional<Eigen::VectorXd> near_step(const Eigen::VectorXd& gradient);
+    std::optional<Eigen::VectorXd> own_step(const Eigen::VectorXd& gradient);
+    /// A part of the step that inverts nothing and lowers the energy enough, 0 when there is none.
+    double step_length(const Eigen::VectorXd& step, double slope, double gradient) const;
+    /// False where no part of the step helps: nothing has changed.
+    bool go(const Eigen::VectorXd& reduced, const Eigen::VectorXd& gradient);
+
+    const Newton& newton_;
+    double tolerance_, first_, size_;
+    NewtonWork& work_;
+    Control& control_;
+    NewtonState state_;
+    BodyEnergy energy_;
+    Eigen::VectorXd forces_;
+    bool stale_ = false;  ///< the factor is too far away by now
+    int n_downhill_ = 0;  ///< the last steps that were only known to go downhill
+};
+
+}  // namespace elastolab
