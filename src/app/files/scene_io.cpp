@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/files/up_axis.hpp"
 #include "app/names.hpp"
 #include "base/text.hpp"
 #include "findings/cost.hpp"
@@ -19,12 +20,7 @@ constexpr double kLowestPart = 0.06;  ///< part of a bare mesh's height that is 
 
 /// Holds the lowest part of a body that nothing holds yet. The person has changed nothing by that.
 void hold_lowest(LiveScene& scene, const Eigen::Vector3d& up) {
-    const Eigen::RowVectorXd heights = up.transpose() * scene.mesh().vertices;
-    const double limit = heights.minCoeff() + kLowestPart * (heights.maxCoeff() - heights.minCoeff());
-    std::vector<int> lowest;
-    for (Eigen::Index v = 0; v < heights.size(); ++v)
-        if (heights[v] <= limit) lowest.push_back(static_cast<int>(v));
-    scene.fix(lowest);
+    scene.fix(lowest_vertices(scene.mesh(), up, kLowestPart));
     scene.commit();
     scene.mark_saved();
 }
@@ -55,13 +51,13 @@ std::string begin_with_what_is_soon(LiveScene& scene) {
 
 }  // namespace
 
-/// Our scenes have Z up; bare meshes mostly Y, as most modelling programs have it.
+/// Our scenes have Z up.
 LoadedScene load_scene_or_mesh(const fs::path& file, Control& control) {
     if (is_scene_file(file))
         return {std::make_unique<LiveScene>(load_scene(file), file, control), Eigen::Vector3d::UnitZ(),
                 fs::absolute(file)};
     auto scene = std::make_unique<LiveScene>(document_for_mesh(file), file.parent_path() / "scene.json", control);
-    const Eigen::Vector3d up = Eigen::Vector3d::UnitY();
+    const Eigen::Vector3d up = up_axis_of(scene->mesh());
     hold_lowest(*scene, up);
     std::string note = begin_with_what_is_soon(*scene);
     return {std::move(scene), up, {}, std::move(note)};

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "mesh/surface_mesh.hpp"
+
+namespace elastolab {
+
+/// The vertices of the lowest part of a body: up to `part` of its height.
+std::vector<int> lowest_vertices(const SurfaceMesh& mesh, const Eigen::Vector3d& up, double part);
+
+/// The axis of a bare mesh that points up: Y, as most modelling programs have it, or Z where the body stands on its
+/// lowest part along Z and would fall over along Y.
+Eigen::Vector3d up_axis_of(const SurfaceMesh& mesh);
+
+}  // namespace elastolab
