@@ -7,7 +7,6 @@
 #include <cassert>
 #include <Eigen/Dense>
 #include <numeric>
-#include <optional>
 #include <vector>
 
 #include "base/blas.hpp"
@@ -22,21 +21,8 @@ using Block = Eigen::Map<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
 
 /// Columns of a block product at once: a fraction of a second for the largest bodies, between two checks for a cancel.
 constexpr int kPanel = 192;
-
-/// Floating-point operations of a BLAS call from which on it is worth several threads. Beside busy processes they wait
-/// for each other in every call, for a time slice of the scheduler: with thousands of small calls, ten times as long.
-constexpr double kWorthThreads = 1.5e8;
-
-/// Keeps a call of fewer operations on its caller's thread.
-class SmallCall {
-public:
-    explicit SmallCall(double operations) {
-        if (operations < kWorthThreads) serial_.emplace();
-    }
-
-private:
-    std::optional<SerialBlas> serial_;
-};
+/// Rows that a thread solves for at once.
+constexpr int kRows = 256;
 
 /// The update of a supernode by an earlier one, `from`, whose rows from `first_row` on are rows of this one.
 struct BlockUpdate {
@@ -49,6 +35,15 @@ struct Workspace {
     std::vector<int> local;
     Eigen::MatrixXd product;
 };
+
+/// How the parts of a supernode that do not depend on each other are eliminated.
+enum class Share {
+    alone,   ///< one after the other: other threads have supernodes of their own
+    threads  ///< by all threads
+};
+
+/// Columns of a supernode that are taken at once, of so many.
+int columns_at_once(int n, Share share) { return share == Share::alone ? kPanel : std::clamp(n / 8, 32, kPanel); }
 
 class Factorisation {
 public:
@@ -76,9 +71,21 @@ private:
     /// Maximal subtrees that are a small part of the whole, as ranges of supernodes, the largest first; and the rest.
     void find_parts();
     void scatter(const SparseMatrix& A);
-    void eliminate(int s, Workspace& workspace);
-    void take_over(const BlockUpdate& update, int s, Workspace& workspace);
-    void factorise_own(int s);
+    void eliminate(int s, Workspace& workspace, Share share);
+    /// What the updates subtract from columns [begin, end) of a supernode. place: of its rows
+    void take_over(const BlockUpdate& update, int s, int begin, int end, const std::vector<int>& place,
+                   Workspace& workspace);
+    void factorise_own(int s, Share share);
+    /// Calls use(begin, end) for blocks of [0, n).
+    template <class Use>
+    void for_blocks(int n, int at_once, Share share, const Use& use) {
+        if (share == Share::threads) {
+            Control inner;  // progress is that of the whole
+            parallel_blocks(n, at_once, inner, use);
+            return;
+        }
+        for (int begin = 0; begin < n; begin += at_once) use(begin, std::min(n, begin + at_once));
+    }
     void report(int s) { control_.set_progress((done_ += work(s)) / total_work_); }
 
     struct Part {
@@ -182,76 +189,83 @@ void Factorisation::scatter(const SparseMatrix& A) {
     control_.checkpoint();
 }
 
-void Factorisation::take_over(const BlockUpdate& update, int s, Workspace& workspace) {
+void Factorisation::take_over(const BlockUpdate& update, int s, int begin, int end, const std::vector<int>& place,
+                              Workspace& workspace) {
     const auto [from, first] = update;
-    const std::span<const int> theirs = rows(from).subspan(at(first));
-    const int end = first_column(s) + n_columns(s), n = static_cast<int>(theirs.size());
-    const auto n_shared = static_cast<int>(std::lower_bound(theirs.begin(), theirs.end(), end) - theirs.begin());
+    const std::span<const int> all = rows(from).subspan(at(first));
+    const auto of_column = [&](int column) {
+        return static_cast<int>(std::lower_bound(all.begin(), all.end(), first_column(s) + column) - all.begin());
+    };
+    const int skipped = of_column(begin), count = of_column(end) - skipped;
+    if (count == 0) return;
+    control_.checkpoint();
+    const std::span<const int> theirs = all.subspan(at(skipped));
+    const auto n = static_cast<int>(theirs.size());
     workspace.local.resize(theirs.size());
-    for (std::size_t i = 0; i < theirs.size(); ++i) workspace.local[i] = workspace.place[at(theirs[i])];
-    for (int begin = 0; begin < n_shared; begin += kPanel) {
-        control_.checkpoint();
-        const int count = std::min(kPanel, n_shared - begin);
-        const Block source = block(from, first + begin, 0, n_columns(from));
-        workspace.product.resize(n - begin, count);
-        {
-            const SmallCall call(2.0 * (n - begin) * count * n_columns(from));
-            workspace.product.noalias() = source * source.topRows(count).transpose();
-        }
-        for (int j = 0; j < count; ++j) {
-            const double* products = workspace.product.col(j).data() - begin;
-            double* target = block(s, 0, theirs[at(begin + j)] - first_column(s), 1).data();
-            for (int i = begin + j; i < n; ++i) target[workspace.local[at(i)]] -= products[i];
-        }
+    for (std::size_t i = 0; i < theirs.size(); ++i) workspace.local[i] = place[at(theirs[i])];
+    const Block source = block(from, first + skipped, 0, n_columns(from));
+    workspace.product.resize(n, count);
+    workspace.product.noalias() = source * source.topRows(count).transpose();
+    for (int j = 0; j < count; ++j) {
+        const double* products = workspace.product.col(j).data();
+        double* target = block(s, 0, theirs[at(j)] - first_column(s), 1).data();
+        for (int i = j; i < n; ++i) target[workspace.local[at(i)]] -= products[i];
     }
 }
 
-void Factorisation::factorise_own(int s) {
+void Factorisation::factorise_own(int s, Share share) {
     const int n = n_columns(s);
     for (int begin = 0; begin < n; begin += kPanel) {
         control_.checkpoint();
         const int count = std::min(kPanel, n - begin);
         Block panel = block(s, begin, begin, count);
-        const SmallCall call(static_cast<double>(panel.rows()) * count * count);
         if (LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'L', count, panel.data(), n_rows(s)) != 0)
             throw NotPositiveDefiniteError(name_ +
                                            ": is not positive definite. Check the mesh for degenerate tetrahedra.");
-        const Eigen::Index n_below = panel.rows() - count;
-        if (n_below == 0) continue;
-        auto below = panel.bottomRows(n_below);
-        panel.topRows(count).triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(below);
-        for (int next = begin + count; next < n; next += kPanel) {
+        const auto n_below = static_cast<int>(panel.rows()) - count;
+        for_blocks(n_below, kRows, share, [&](int first, int last) {
+            auto below = panel.middleRows(count + first, last - first);
+            panel.topRows(count).triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(below);
+        });
+        const int next = begin + count;
+        for_blocks(n - next, columns_at_once(n - next, share), share, [&](int first, int last) {
             control_.checkpoint();
-            const int n_next = std::min(kPanel, n - next);
-            const auto from_next = panel.bottomRows(n_rows(s) - next);
-            const SmallCall update(2.0 * static_cast<double>(from_next.rows()) * n_next * count);
-            block(s, next, next, n_next).noalias() -= from_next * from_next.topRows(n_next).transpose();
-        }
+            const auto from_next = panel.bottomRows(n_rows(s) - next - first);
+            block(s, next + first, next + first, last - first).noalias() -=
+                from_next * from_next.topRows(last - first).transpose();
+        });
     }
 }
 
-void Factorisation::eliminate(int s, Workspace& workspace) {
+void Factorisation::eliminate(int s, Workspace& workspace, Share share) {
     control_.checkpoint();
     if (workspace.place.empty()) workspace.place.resize(L_.permutation.size());
     const std::span<const int> own = rows(s);
     for (std::size_t i = 0; i < own.size(); ++i) workspace.place[at(own[i])] = static_cast<int>(i);
-    for (std::size_t u = first_update_[at(s)]; u < first_update_[at(s) + 1]; ++u) take_over(updates_[u], s, workspace);
-    factorise_own(s);
+    const auto take_over_all = [&](int begin, int end, Workspace& its) {
+        for (std::size_t u = first_update_[at(s)]; u < first_update_[at(s) + 1]; ++u)
+            take_over(updates_[u], s, begin, end, workspace.place, its);
+    };
+    const int n = n_columns(s);
+    for_blocks(n, columns_at_once(n, share), share, [&](int begin, int end) {
+        if (share == Share::alone) return take_over_all(begin, end, workspace);
+        Workspace its;
+        take_over_all(begin, end, its);
+    });
+    factorise_own(s, share);
     report(s);
 }
 
 void Factorisation::run(const SparseMatrix& A) {
     scatter(A);
-    {
-        const SerialBlas serial;
-        Control inner;  // progress is that of the whole
-        parallel_blocks(static_cast<int>(parts_.size()), 1, inner, [&](int begin, int) {
-            Workspace workspace;
-            for (int s = parts_[at(begin)].begin; s < parts_[at(begin)].end; ++s) eliminate(s, workspace);
-        });
-    }
+    const SerialBlas serial;
+    Control inner;  // progress is that of the whole
+    parallel_blocks(static_cast<int>(parts_.size()), 1, inner, [&](int begin, int) {
+        Workspace workspace;
+        for (int s = parts_[at(begin)].begin; s < parts_[at(begin)].end; ++s) eliminate(s, workspace, Share::alone);
+    });
     Workspace workspace;
-    for (const int s : top_) eliminate(s, workspace);
+    for (const int s : top_) eliminate(s, workspace, Share::threads);
 }
 
 }  // namespace

@@ -10,8 +10,9 @@ namespace elastolab {
 
 /// Numeric Cholesky factorisation by supernodes, left-looking: each is updated by those before it that have rows in
 /// common, by products of dense blocks. CHOLMOD's own can be neither stopped nor watched, and its threads are those of
-/// the BLAS alone; here independent subtrees of the elimination tree go to different threads, and the rest uses those
-/// of the BLAS. Neither the parts nor the order of sums depend on the number of threads.
+/// the BLAS alone, which wait for each other in every call; here independent subtrees of the elimination tree go to
+/// different threads, and then the columns of each supernode of the rest. Neither the parts nor the order of sums
+/// depend on the number of threads.
 /// pattern  where entries go; its values are not looked at
 /// A        its lower triangle is read
 /// values   room for all entries of the factor; the result
