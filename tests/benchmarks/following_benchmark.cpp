@@ -5,6 +5,7 @@
 #include "benchmarks/tools.hpp"
 #include "fem/nonlinear/method.hpp"
 #include "fem/nonlinear/model.hpp"
+#include "fem/quadratic/method.hpp"
 #include "scene/constraints.hpp"
 #include "scene/live/drag_solver.hpp"
 #include "scene/live/set_keeper.hpp"
@@ -83,6 +84,49 @@ void follow(benchmark::State& state, ElementDegree degree, int proxy_vertices) {
 }
 BENCHMARK_CAPTURE(follow, four_nodes, ElementDegree::linear, 0)->Iterations(1);
 BENCHMARK_CAPTURE(follow, ten_nodes_on_the_proxy, ElementDegree::quadratic, 700)->Iterations(1);
+
+/// A face of the cube that was turned by 90 degrees rests: how long until the equilibrium is shown, and until it is
+/// exact. And what a frame costs about it, beside one of linear elasticity on the same elements.
+void settle(benchmark::State& state) {
+    Control control;
+    Document document;
+    document.mesh = Primitive{.name = "cube", .resolution = 13, .size = {}};
+    document.fixed = {{.select = {PlaneSelector{{0, 0, 0}, {1, 0, 0}, 1e-9}}}};
+    document.handles = {{.name = "face", .select = {PlaneSelector{{1, 0, 0}, {1, 0, 0}, 1e-9}}}};
+    const auto surface = std::make_shared<const SurfaceMesh>(load_scene_mesh(document.mesh, "", control).checked.mesh);
+    Constraints constraints = make_constraints(document, *surface, "");
+    const Positions rest = surface->vertices(Eigen::all, constraints.set.handles);
+    constraints.move(0, AffineMotion{.rotate = {.axis = {1, 0, 0}, .degrees = 90.0, .center = {1, 0.5, 0.5}}},
+                     surface->vertices);
+    const Wish wish = wish_of(constraints);
+    const auto drag_by = [&](MethodKind kind) {
+        const auto deformer =
+            std::make_shared<Deformer>(precompute({"cube", surface, {1.0, 0.3}}, {.kind = kind}, control));
+        deformer->constrain(constraints.set, control);
+        return DragSolver(deformer, wish.ends);
+    };
+    const auto frame_us = [&](DragSolver& drag) {
+        constexpr int kFrames = 1000;
+        Eigen::VectorXd u;
+        const Stopwatch watch;
+        for (int i = 0; i < kFrames; ++i) drag.displace(wish.values * (1.0 + 1e-6 * i), u);
+        return 1e6 * watch.seconds() / kFrames;
+    };
+    for (auto _ : state) {
+        DragSolver drag = drag_by(kNonlinearFem), linear = drag_by(kQuadraticFem);
+        drag.prepare(wish.values * 0.0, kFirstTolerance, control, {});
+        const Stopwatch watch;
+        drag.prepare(wish.values, kFirstTolerance, control, {nullptr, way_to(wish, nullptr, rest).path});
+        state.counters["first_s"] = watch.seconds();
+        drag.converge(control);
+        state.counters["exact_s"] = watch.seconds();
+        linear.prepare(wish.values, kSolveTolerance, control, {});
+        linear.prepare(wish.values * 1.1, kSolveTolerance, control, {});  // the motion is an affine one
+        state.counters["frame_us"] = frame_us(drag);
+        state.counters["linear_frame_us"] = frame_us(linear);
+    }
+}
+BENCHMARK(settle)->Iterations(1);
 
 }  // namespace
 }  // namespace elastolab::test

@@ -1,22 +1,15 @@
 #include <gmock/gmock.h>
 
-#include <chrono>
 #include <cmath>
-#include <numbers>
-#include <thread>
 
 #include "base/error.hpp"
 #include "bem/collocation/method.hpp"
 #include "bem/galerkin/method.hpp"
-#include "elasticity/rotation.hpp"
 #include "fem/method.hpp"
 #include "fem/nonlinear/method.hpp"
 #include "fem/quadratic/method.hpp"
-#include "methods/precompute.hpp"
 #include "methods/registry.hpp"
-#include "scene/file/scene_file.hpp"
-#include "scene/live/drag_solver.hpp"
-#include "scene/live/haptic_loop.hpp"
+#include "scene/loaded_cube.hpp"
 #include "scene/selectors.hpp"
 #include "scene/solve.hpp"
 
@@ -28,20 +21,6 @@ using testing::Each;
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
-
-/// A cube, fixed at its left face, with weight, a pressure above, a force at its right face and a held front edge.
-constexpr const char* kLoadedCube = R"({"elastolab": 1,
-  "mesh": {"primitive": "cube", "resolution": 4},
-  "material": {"young_modulus": 1000.0, "poisson_ratio": 0.3},
-  "method": "fem",
-  "fixed": {"box": {"min": [0, 0, 0], "max": [0, 1, 1]}},
-  "handles": [{"name": "held", "select": {"box": {"min": [0.9, 0, 0], "max": [1, 0.3, 0.3]}}, "translate": [0, 0, 0.01]}],
-  "gravity": [0, 0, -9.81], "density": 2.0,
-  "loads": [{"name": "above", "select": {"box": {"min": [0, 0, 1], "max": [1, 1, 1]}}, "pressure": 3.0},
-            {"select": {"box": {"min": [1, 0.5, 0.5], "max": [1, 1, 1]}}, "force": [5, 0, 1]},
-            {"name": "side", "select": {"box": {"min": [0.25, 1, 0], "max": [1, 1, 1]}}, "traction": [0, 2, 0]}]})";
-
-Document loaded_cube() { return parse_scene(kLoadedCube, "scene.json"); }
 
 Solution solved(const Document& document, MethodKind kind = kFem) {
     Control control;
@@ -254,154 +233,6 @@ TEST(SceneLoads, AreCarriedToAProxyAroundTheBody) {
     }
     EXPECT_LT((proxy.displacement - own.displacement).norm(), 0.15 * own.displacement.norm());
     EXPECT_NEAR(*proxy.compliance, *own.compliance, 0.25 * *own.compliance);
-}
-
-/// loaded_cube() with what a drag solver of it is made from.
-struct DraggedCube {
-    Control control = {};
-    Document document = loaded_cube();
-    SceneMesh mesh = load_scene_mesh(document.mesh, "scene.json", control);
-    Constraints constraints = make_constraints(document, mesh.checked.mesh, "scene.json");
-
-    std::shared_ptr<const Deformer> deformer(MethodKind kind) {
-        const Body body{"cube", std::make_shared<const SurfaceMesh>(mesh.checked.mesh), document.material};
-        auto made = std::make_shared<Deformer>(precompute(body, {.kind = kind}, control));
-        made->constrain(constraints.set, control);
-        return made;
-    }
-    std::vector<int> handle_ends() const { return {static_cast<int>(constraints.set.handles.size())}; }
-};
-
-TEST(DragSolver, ServesChangesOfLoadsFromTheColumnsAtHand) {
-    DraggedCube cube;
-    for (const MethodKind kind : {kFem, kLinearBem, kGalerkinBem}) {
-        const auto deformer = cube.deformer(kind);
-        DragSolver drag(deformer, cube.handle_ends());
-        Eigen::VectorXd values = cube.constraints.values, u;
-        drag.prepare(values, kSolveTolerance, cube.control);
-        values[values.size() - 4] += 0.5;
-        drag.displace(values, u);  // the first change of a load takes its columns
-        for (int frame = 0; frame < 3; ++frame) {
-            values.tail(3) += Eigen::Vector3d(0.1, -0.2, 0.3);
-            values[values.size() - 10] -= 1.0;
-            EXPECT_TRUE(drag.has(values)) << name(kind);
-            drag.displace(values, u);
-            EXPECT_LT((u - deformer->displace(values)).norm(), 1e-10 * u.norm()) << name(kind);
-        }
-    }
-}
-
-/// Of large deformations: the tangent's columns, once the worker has found the equilibrium with the first change.
-TEST(DragSolver, ShowsAChangedLoadByTheTangentsColumns) {
-    DraggedCube cube;
-    const auto deformer = cube.deformer(kNonlinearFem);
-    DragSolver drag(deformer, cube.handle_ends());
-    Eigen::VectorXd values = cube.constraints.values, u;
-    drag.prepare(values, kSolveTolerance, cube.control);
-    const auto change = [&](double part) {
-        Eigen::VectorXd changed = values;
-        changed[values.size() - 4] += 20.0 * part;
-        changed.tail<3>() += part * Eigen::Vector3d(10, 20, -30);
-        return changed;
-    };
-    EXPECT_FALSE(drag.has(change(1.0))) << "the columns are those of the handle";
-    drag.prepare(change(0.01), kSolveTolerance, cube.control, {drag.equilibrium(), {}});
-    values = change(0.01);
-    std::vector<double> off;
-    for (const double part : {1.0, 0.5}) {
-        ASSERT_TRUE(drag.has(change(part)));
-        EXPECT_FALSE(drag.is_exact(change(part)));
-        drag.displace(change(part), u);
-        const Eigen::VectorXd truth = deformer->displace(change(part));
-        off.push_back((u - truth).norm());
-        EXPECT_LT(off.back(), 0.5 * (truth - drag.at_start()).norm());
-    }
-    EXPECT_NEAR(off[0] / off[1], 4.0, 0.5) << "right to second order";
-}
-
-/// The stiffness of the cube's held edge.
-struct Grasped {
-    Control control;
-    std::shared_ptr<Deformer> deformer;
-    Eigen::VectorXd values;
-
-    explicit Grasped(MethodKind kind) {
-        const Document document = loaded_cube();
-        const SceneMesh mesh = load_scene_mesh(document.mesh, "scene.json", control);
-        const Constraints constraints = make_constraints(document, mesh.checked.mesh, "scene.json");
-        const Body body{"cube", std::make_shared<const SurfaceMesh>(mesh.checked.mesh), document.material};
-        deformer = std::make_shared<Deformer>(precompute(body, {.kind = kind}, control));
-        deformer->constrain(constraints.set, control);
-        values = constraints.values;
-    }
-    GripStiffness stiffness() {
-        return {*deformer, values, {{0, static_cast<int>(deformer->set().handles.size())}}, control};
-    }
-};
-
-Eigen::VectorXd motion_at(double phase) {
-    const double a = 2.0 * std::numbers::pi * phase;
-    Eigen::VectorXd motion(6);
-    motion << 0.03 * std::sin(a), 0.02 * (1.0 - std::cos(a)), 0.02 * std::sin(2.0 * a), 0.1 * std::sin(a),
-        0.2 * (1.0 - std::cos(a)), -0.1 * std::sin(3.0 * a);
-    return motion;
-}
-
-TEST(GripStiffness, IsSymmetricAndDoesNoWorkAroundAClosedPathByFemAndGalerkin) {
-    for (const MethodKind kind : {kFem, kQuadraticFem, kGalerkinBem}) {
-        const GripStiffness grip = Grasped(kind).stiffness();
-        EXPECT_LT((grip.matrix() - grip.matrix().transpose()).norm(), 1e-9 * grip.matrix().norm()) << name(kind);
-        double work = 0.0, size = 0.0;
-        constexpr int kSteps = 500;
-        for (int i = 0; i < kSteps; ++i) {
-            const Eigen::VectorXd a = motion_at(i / double{kSteps}), b = motion_at((i + 1) / double{kSteps});
-            const double step = grip.forces(0.5 * (a + b)).dot(b - a);  // exact: forces are linear
-            work += step;
-            size += std::abs(step);
-        }
-        EXPECT_LT(std::abs(work), 1e-9 * size) << name(kind);
-    }
-}
-
-TEST(HapticLoop, GivesTheForcesOfASolveAndCountsItsTicks) {
-    Grasped grasped(kFem);
-    const GripStiffness grip = grasped.stiffness();
-    std::mutex mutex;
-    std::vector<std::pair<GripPose, FeltForce>> felt;
-    GripPose last;
-    HapticTimings timings;
-    {
-        HapticLoop loop(
-            grip,
-            [&](double seconds) {
-                const Eigen::VectorXd motion = motion_at(seconds);
-                last = {motion.head<3>(), motion.tail<3>()};
-                return last;
-            },
-            [&](double, const FeltForce& force) {
-                const std::scoped_lock lock(mutex);
-                felt.emplace_back(last, force);
-            });
-        const auto enough = [&] {
-            const std::scoped_lock lock(mutex);
-            return felt.size() >= 50;
-        };
-        while (!enough()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
-        timings = loop.timings();
-    }
-    EXPECT_GE(timings.ticks, 49u);
-    EXPECT_GT(timings.computation_p999_ms, 0.0);
-    for (const std::size_t i : {std::size_t{0}, felt.size() / 2, felt.size() - 1}) {
-        Eigen::VectorXd motion(6), values = grasped.values;
-        motion << felt[i].first.shift, felt[i].first.turn;
-        grip.move(motion, values);
-        const Reactions reactions = grasped.deformer->reactions(values);
-        const Eigen::Index n = std::ssize(grasped.deformer->set().handles);
-        const Eigen::Vector3d force = reactions.forces.rightCols(n).rowwise().sum();
-        const Eigen::Vector3d moment = reactions.moments.rightCols(n).rowwise().sum() - grip.middle(0).cross(force);
-        EXPECT_LT((felt[i].second.force + force).norm(), 1e-9 * force.norm());
-        EXPECT_LT((felt[i].second.moment + moment).norm(), 1e-9 * (moment.norm() + force.norm()));
-    }
 }
 
 }  // namespace
