@@ -15,7 +15,8 @@ struct IterationOptions {
     double energy_tolerance = 0.0;
     Eigen::MatrixXd start = {};  ///< what may be near X; empty: zero
     int max_iterations = 1000;
-    bool must_converge = true;  ///< false: what is there after max_iterations is the answer
+    /// false: what is there after max_iterations is the answer, or before a direction that is not positive
+    bool must_converge = true;
 };
 
 /// X with A X = B for A symmetric positive definite (or semidefinite, with B in its range), by conjugate gradients, all

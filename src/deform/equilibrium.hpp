@@ -11,7 +11,7 @@ namespace elastolab {
 
 /// What is known of an equilibrium of large deformations.
 struct EquilibriumFacts {
-    int iterations = 0;            ///< linear systems solved on the way to it
+    int iterations = 0;            ///< steps of Newton's method on the way to it; tangents factorised for predictions
     double energy = 0.0;           ///< stored in the body [force * L]
     double work_of_loads = 0.0;    ///< of the present loads along the straight way from rest [force * L]
     double largest_stretch = 1.0;  ///< largest ratio of a length after and before, in any element

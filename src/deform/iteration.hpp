@@ -12,7 +12,8 @@ inline constexpr double kSolveTolerance = 1e-8, kFirstTolerance = 1e-4;
 struct IterationReport {
     int iterations = 0;
     double residual = 0.0;  ///< relative, the largest of all columns
-    /// Conjugate gradients met a direction along which the matrix is not positive: their answer is none.
+    /// Conjugate gradients met a direction along which the matrix is not positive. Where they need not converge they
+    /// end before it, with what they had, which lowers x^T A x / 2 - x^T b.
     bool indefinite = false;
 };
 

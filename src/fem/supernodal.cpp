@@ -29,11 +29,16 @@ struct BlockUpdate {
     int from, first_row;
 };
 
-/// What a thread needs to eliminate one supernode after the other.
-struct Workspace {
-    std::vector<int> place;  ///< of a row of the factor among those of the supernode
+/// Buffers of a thread for updates.
+struct Scratch {
     std::vector<int> local;
     Eigen::MatrixXd product;
+};
+
+/// What it takes to eliminate one supernode after the other.
+struct Workspace {
+    std::vector<int> place;  ///< of a row of the factor among those of the supernode
+    Scratch scratch;
 };
 
 /// How the parts of a supernode that do not depend on each other are eliminated.
@@ -74,7 +79,7 @@ private:
     void eliminate(int s, Workspace& workspace, Share share);
     /// What the updates subtract from columns [begin, end) of a supernode. place: of its rows
     void take_over(const BlockUpdate& update, int s, int begin, int end, const std::vector<int>& place,
-                   Workspace& workspace);
+                   Scratch& scratch);
     void factorise_own(int s, Share share);
     /// Calls use(begin, end) for blocks of [0, n).
     template <class Use>
@@ -190,7 +195,7 @@ void Factorisation::scatter(const SparseMatrix& A) {
 }
 
 void Factorisation::take_over(const BlockUpdate& update, int s, int begin, int end, const std::vector<int>& place,
-                              Workspace& workspace) {
+                              Scratch& scratch) {
     const auto [from, first] = update;
     const std::span<const int> all = rows(from).subspan(at(first));
     const auto of_column = [&](int column) {
@@ -201,15 +206,15 @@ void Factorisation::take_over(const BlockUpdate& update, int s, int begin, int e
     control_.checkpoint();
     const std::span<const int> theirs = all.subspan(at(skipped));
     const auto n = static_cast<int>(theirs.size());
-    workspace.local.resize(theirs.size());
-    for (std::size_t i = 0; i < theirs.size(); ++i) workspace.local[i] = place[at(theirs[i])];
+    scratch.local.resize(theirs.size());
+    for (std::size_t i = 0; i < theirs.size(); ++i) scratch.local[i] = place[at(theirs[i])];
     const Block source = block(from, first + skipped, 0, n_columns(from));
-    workspace.product.resize(n, count);
-    workspace.product.noalias() = source * source.topRows(count).transpose();
+    scratch.product.resize(n, count);
+    scratch.product.noalias() = source * source.topRows(count).transpose();
     for (int j = 0; j < count; ++j) {
-        const double* products = workspace.product.col(j).data();
+        const double* products = scratch.product.col(j).data();
         double* target = block(s, 0, theirs[at(j)] - first_column(s), 1).data();
-        for (int i = j; i < n; ++i) target[workspace.local[at(i)]] -= products[i];
+        for (int i = j; i < n; ++i) target[scratch.local[at(i)]] -= products[i];
     }
 }
 
@@ -242,15 +247,15 @@ void Factorisation::eliminate(int s, Workspace& workspace, Share share) {
     if (workspace.place.empty()) workspace.place.resize(L_.permutation.size());
     const std::span<const int> own = rows(s);
     for (std::size_t i = 0; i < own.size(); ++i) workspace.place[at(own[i])] = static_cast<int>(i);
-    const auto take_over_all = [&](int begin, int end, Workspace& its) {
+    const auto take_over_all = [&](int begin, int end, Scratch& scratch) {
         for (std::size_t u = first_update_[at(s)]; u < first_update_[at(s) + 1]; ++u)
-            take_over(updates_[u], s, begin, end, workspace.place, its);
+            take_over(updates_[u], s, begin, end, workspace.place, scratch);
     };
     const int n = n_columns(s);
     for_blocks(n, columns_at_once(n, share), share, [&](int begin, int end) {
-        if (share == Share::alone) return take_over_all(begin, end, workspace);
-        Workspace its;
-        take_over_all(begin, end, its);
+        if (share == Share::alone) return take_over_all(begin, end, workspace.scratch);
+        Scratch of_thread;
+        take_over_all(begin, end, of_thread);
     });
     factorise_own(s, share);
     report(s);

@@ -1,7 +1,6 @@
 #include "app/files/scene_io.hpp"
 
 #include <utility>
-#include <vector>
 
 #include "app/files/up_axis.hpp"
 #include "app/names.hpp"
@@ -16,11 +15,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kLowestPart = 0.06;  ///< part of a bare mesh's height that is held
-
 /// Holds the lowest part of a body that nothing holds yet. The person has changed nothing by that.
 void hold_lowest(LiveScene& scene, const Eigen::Vector3d& up) {
-    scene.fix(lowest_vertices(scene.mesh(), up, kLowestPart));
+    scene.fix(lowest_vertices(scene.mesh(), up, kFeet));
     scene.commit();
     scene.mark_saved();
 }

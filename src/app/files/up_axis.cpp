@@ -10,8 +10,6 @@ namespace elastolab {
 
 namespace {
 
-constexpr double kFeet = 0.06;  ///< part of the height that a body stands on
-
 /// Of the surface.
 Eigen::Vector3d center_of(const SurfaceMesh& mesh) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();

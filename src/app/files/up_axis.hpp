@@ -7,6 +7,9 @@
 
 namespace elastolab {
 
+/// Part of a body's height that it stands on, and by which a bare mesh is held.
+inline constexpr double kFeet = 0.06;
+
 /// The vertices of the lowest part of a body: up to `part` of its height.
 std::vector<int> lowest_vertices(const SurfaceMesh& mesh, const Eigen::Vector3d& up, double part);
 

@@ -1,3 +1,4 @@
+// The part of NonlinearSolver that goes from one equilibrium to another.
 #include <cmath>
 #include <numbers>
 #include <utility>

@@ -18,7 +18,7 @@ struct NewtonState {
     Eigen::VectorXd u;        ///< 3*n_nodes [L]
     Eigen::VectorXd factors;  ///< of the loads
     bool converged = false;
-    int iterations = 0;  ///< linear systems solved
+    int iterations = 0;  ///< steps
     double residual = 0.0;
     double energy = 0.0;  ///< stored in the body
     double least_J = 1.0;
@@ -41,7 +41,7 @@ struct NearSolution {
     bool converged = false;
     /// The tangent is not positive definite: X is what conjugate gradients had before they saw that, and goes downhill.
     bool indefinite = false;
-    int iterations = 0;
+    int iterations = 0;  ///< of conjugate gradients
 };
 
 /// Equilibria of a body whose constrained nodes have their displacements already. Newton's method: the true tangent,
@@ -57,6 +57,7 @@ public:
            NonlinearLoads loads = {})
         : tangent_(std::move(tangent)), material_(material), shift_(shift), loads_(std::move(loads)) {}
 
+    /// For this method alone: its matrix has the pattern of this tangent.
     NewtonWork make_work() const { return {tangent_->elements().make_work(), tangent_->make_matrix()}; }
 
     /// From u, which inverts no element, with loads of these factors, to this relative residual: of the forces at the
@@ -109,7 +110,7 @@ public:
                                                  Control& control) const;
 
     /// The same with a factor that is known to be of a positive definite tangent: by conjugate gradients, and by GMRES
-    /// where loads follow the surface.
+    /// where loads follow the surface. Not converged: see NearSolution. Throws Cancelled.
     NearSolution solve_near(const Eigen::VectorXd& u, const Eigen::VectorXd& factors, const SparseCholesky& factor,
                             const Eigen::MatrixXd& B, double tolerance, int most_iterations, ElementWork& work,
                             Control& control) const;

@@ -9,7 +9,7 @@
 
 namespace elastolab {
 
-/// One run of Newton's method: where it is, and how it goes on.
+/// One run of Newton's method: where it is, and how it goes on. Parameters, units and errors: Newton::run.
 class NewtonRun {
 public:
     NewtonRun(const Newton& newton, Eigen::VectorXd u, const Eigen::VectorXd& factors, double tolerance,

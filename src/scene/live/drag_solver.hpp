@@ -21,8 +21,9 @@ public:
     /// handle_ends[i]: where the vertices of handle i end in the list of all handles' vertices (deformer->set()).
     DragSolver(std::shared_ptr<const Deformer> deformer, std::vector<int> handle_ends);
 
-    /// Solves ahead for these values, and for further motion of the kind that led to them from the start; if that was
-    /// not of one handle, for translations of the last. displace() then needs no solve for these. tolerance: relative
+    /// Solves ahead for these values, and for further motion of the kind that led to them from the start (translations
+    /// or affine motions of one handle, loads); if that was not of one handle, for translations of the last one, and
+    /// affine motions where the method is not linear. displace() then needs no solve for these. tolerance: relative
     /// residual, where the method iterates (Deformer::iterates). approach: for methods that are not linear. Throws
     /// SolveError, Cancelled; what was at hand then stays.
     void prepare(const Eigen::VectorXd& values, double tolerance, Control& control, const Approach& approach = {});
