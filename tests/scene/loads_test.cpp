@@ -5,6 +5,7 @@
 #include "base/error.hpp"
 #include "bem/collocation/method.hpp"
 #include "bem/galerkin/method.hpp"
+#include "elasticity/rotation.hpp"
 #include "fem/method.hpp"
 #include "fem/nonlinear/method.hpp"
 #include "fem/quadratic/method.hpp"
