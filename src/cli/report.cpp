@@ -63,6 +63,7 @@ void print_heading(std::ostream& out, const SolveRequest& request, const Method&
     out << request.scene_file.string() << ": " << name(method.kind) << ", " << name(method.mode) << ", ";
     if (method.kind->chooses_tractions) out << name(method.tractions) << " tractions, ";
     if (method.kind->chooses_elements) out << name(method.elements) << " elements, ";
+    if (method.rims > 0) out << "rims halved " << (method.rims == 1 ? "once, " : method.rims == 2 ? "twice, " : "three times, ");
     out << name(method.update) << " update\n";
 }
 
@@ -148,6 +149,7 @@ void write_report(std::ostream& out, const Solution& solution) {
         {"mode", std::string(name(method.mode))},
         {"tractions", tractions(method)},
         {"elements", method.kind->chooses_elements ? Json(std::string(name(method.elements))) : Json(nullptr)},
+        {"rims", method.kind->chooses_rims ? Json(method.rims) : Json(nullptr)},
         {"update", std::string(name(method.update))},
         {"vertices", solution.surface->n_vertices()},
         {"faces", solution.surface->n_triangles()},

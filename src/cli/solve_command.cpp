@@ -28,7 +28,7 @@ struct SolveOptions {
     std::string scene, method, mode, tractions, elements, update;
     std::string displacements, fields, mesh_out, forces, report, matrices, figure;
     ProxyOptions proxy;
-    int threads = 0;
+    int rims = 0, threads = 0;
     bool deformed = false, quiet = false;
 
     OutputPaths outputs() const {
@@ -57,6 +57,11 @@ void add_options(CLI::App& parser, SolveOptions& options) {
         ->check(tractions);
     parser.add_option("--elements", options.elements, "of nonlinear FEM: ten nodes or four (default quadratic)")
         ->check(CLI::IsMember({"quadratic", "linear"}));
+    parser
+        .add_option(
+            "--rims", options.rims,
+            "of Galerkin BEM: times that triangles along the rims of constrained patches are halved (default 0)")
+        ->check(CLI::Range(0, kMostRims));
     parser
         .add_option("--update", options.update,
                     "direct: Eqn. 7; eqn9: Eqn. 9; reduced: its collapsed form (default: reduced; on-demand: direct)")
@@ -107,6 +112,7 @@ Method choose_method(const SolveOptions& options, const Document& document, cons
     choose(method.tractions, options.tractions, parse_tractions);
     choose(method.update, options.update, parse_update);
     if (method.kind->chooses_elements) choose(method.elements, options.elements, parse_elements);
+    if (method.kind->chooses_rims) method.rims = options.rims;
     require_sensible(method, !options.matrices.empty());
     return method;
 }
@@ -147,6 +153,8 @@ void run_solve(const SolveOptions& options, const SolveVariant& variant) {
         solution.findings.push_back({.kind = FindingKind::choice_left_aside, .object = "--tractions"});
     if (!options.elements.empty() && !request.method.kind->chooses_elements)
         solution.findings.push_back({.kind = FindingKind::choice_left_aside, .first = 1, .object = "--elements"});
+    if (options.rims > 0 && !request.method.kind->chooses_rims)
+        solution.findings.push_back({.kind = FindingKind::choice_left_aside, .first = 2, .object = "--rims"});
     write_outputs(options.outputs(), solution, control);
     if (options.quiet) return;
     lseek(STDOUT_FILENO, 0, SEEK_END);  // after an output that went to /dev/stdout, if that is a file

@@ -74,6 +74,7 @@ struct MethodTraits {
     bool linear = true;
     bool chooses_tractions = false;      ///< Method::tractions means something
     bool chooses_elements = false;       ///< Method::elements means something
+    bool chooses_rims = false;           ///< Method::rims means something
     bool has_inside = false;             ///< nodes inside: the surface must be one that tetrahedra can fill
     bool full_serves_sets = true;        ///< the mode full makes constrained sets faster than on demand
     bool sparse = false;                 ///< the matrix factorised on demand is sparse
@@ -109,6 +110,9 @@ struct Method {
     Tractions tractions = Tractions::discontinuous;
     Update update = Update::reduced;
     ElementDegree elements = ElementDegree::quadratic;  ///< nonlinear FEM: ten nodes or four
+    /// Galerkin BEM: how many times triangles are halved, each time those along the rims of the constrained patches and
+    /// at re-entrant edges, at most kMostRims. With 1 or more every set is solved afresh, whatever the update.
+    int rims = 0;
     /// BEM: relative error allowed to a boundary integral; decides which rule is used where. 0: that of the method
     /// (MethodTraits::integral_tolerance).
     double integral_tolerance = 0.0;
@@ -116,6 +120,9 @@ struct Method {
     /// eighth of the matrix and 40 MiB on demand, one matrix and 40 MiB in the mode `full`.
     std::optional<std::uint64_t> column_memory = {};
 };
+
+/// Of Method::rims: errors at the rims are an eighth then, and what is left is elsewhere.
+inline constexpr int kMostRims = 3;
 
 /// Relative error allowed to a boundary integral.
 inline double integral_tolerance(const Method& method) {
@@ -128,10 +135,10 @@ bool has(MethodKind kind, Update update);
 /// Why a method cannot be used with these choices at this Poisson's ratio, with a way forward; empty when it can.
 std::string refusal(const Method& method, double poisson_ratio);
 
-/// Whether a system is factorised before there is a constrained set: not on demand with the update direct, where each
-/// set has a system of its own.
+/// Whether a system is factorised before there is a constrained set: not on demand with the update direct or with finer
+/// rims, where each set has a system of its own.
 inline bool factorises_ahead(const Method& method) {
-    return method.mode != Mode::on_demand || method.update != Update::direct;
+    return method.mode != Mode::on_demand || (method.update != Update::direct && method.rims == 0);
 }
 
 /// The names used in scene files, command lines and tables; parse_* return nothing for an unknown name.

@@ -75,7 +75,8 @@ Eigen::MatrixXd ConstrainedSolid::displacements(NodeSolution&& solution) const {
 }
 
 void ConstrainedSolid::add_particular(const Eigen::MatrixXd& factors, Eigen::Ref<Eigen::MatrixXd> displacements) const {
-    if (!particular_.empty()) displacements.noalias() += particular_.at_vertices * factors;
+    if (!particular_.empty())
+        displacements.noalias() += particular_.at_vertices.topRows(displacements.rows()) * factors;
 }
 
 Reactions present_reactions(const std::vector<LoadShare>& shares, const Eigen::VectorXd& moved,

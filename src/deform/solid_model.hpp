@@ -59,7 +59,7 @@ Reactions present_reactions(const std::vector<LoadShare>& shares, const Eigen::V
 /// displacements less this (BEM's body forces, docs/formulation.md section 13).
 struct ParticularField {
     Eigen::MatrixXd at_nodes;     ///< 3*n_constrained_nodes x n_loads
-    Eigen::MatrixXd at_vertices;  ///< 3*n_vertices x n_loads; empty: there is no such field
+    Eigen::MatrixXd at_vertices;  ///< 3*n_vertices x n_loads, or more rows; empty: there is no such field
 
     bool empty() const { return at_vertices.size() == 0; }
 };

@@ -48,6 +48,24 @@ Eigen::Matrix3Xd RefinedSurface::interpolate(const Eigen::Matrix3Xd& coarse) con
     return values;
 }
 
+SurfaceWeights RefinedSurface::weights() const {
+    const int n = mesh.n_vertices(), n_coarse = n - static_cast<int>(parents.size());
+    std::vector<std::map<int, double>> rows(static_cast<std::size_t>(n));
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int v = 0; v < n; ++v) {
+        std::map<int, double>& row = rows[static_cast<std::size_t>(v)];
+        if (v < n_coarse) row[v] = 1.0;
+        for (std::size_t i = 0; i < 2 && v >= n_coarse; ++i)
+            for (const auto& [of, weight] :
+                 rows[static_cast<std::size_t>(parents[static_cast<std::size_t>(v - n_coarse)][i])])
+                row[of] += 0.5 * weight;
+        for (const auto& [of, weight] : row) entries.emplace_back(v, of, weight);
+    }
+    SurfaceWeights weights(n, n_coarse);
+    weights.setFromTriplets(entries.begin(), entries.end());
+    return weights;
+}
+
 RefinedSurface unrefined(const SurfaceMesh& mesh) {
     RefinedSurface surface{mesh, {}, {}};
     for (int t = 0; t < mesh.n_triangles(); ++t) surface.coarse_triangle.push_back(t);

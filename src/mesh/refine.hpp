@@ -2,11 +2,14 @@
 
 #include <array>
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 #include <vector>
 
 #include "mesh/surface_mesh.hpp"
 
 namespace elastolab {
+
+using SurfaceWeights = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 /// A finer triangulation of the same polyhedron. The vertices of the coarse one come first, unmoved.
 struct RefinedSurface {
@@ -22,6 +25,8 @@ struct RefinedSurface {
     /// The transpose: takes loads at all vertices (3 x n) to those at the coarse ones that do the same work, half of a
     /// midpoint's to each of its two vertices.
     Eigen::Matrix3Xd gather(Eigen::Matrix3Xd loads) const;
+    /// Interpolation as a matrix: what each coarse vertex contributes to each vertex, n x n_coarse.
+    SurfaceWeights weights() const;
 };
 
 /// The mesh itself, as the beginning of a chain of refinements.

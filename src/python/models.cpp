@@ -58,8 +58,8 @@ Body body_of(const Surface& surface, const Material& material, const Method& met
 
 ModelPointer precompute_model(const Surface& surface, const Material& material, const std::string& method,
                               const std::string& mode, const std::string& tractions, const std::string& update,
-                              const std::string& elements, const py::object& progress) {
-    const Method chosen = method_of(method, mode, tractions, update, elements);
+                              const std::string& elements, int rims, const py::object& progress) {
+    const Method chosen = method_of(method, mode, tractions, update, elements, rims);
     const Body body = body_of(surface, material, chosen);
     return watched(progress,
                    [&](Control& control) { return std::const_pointer_cast<Model>(precompute(body, chosen, control)); });
@@ -67,14 +67,14 @@ ModelPointer precompute_model(const Surface& surface, const Material& material, 
 
 ModelPointer changed(const Model& before, const std::optional<Material>& material, const std::string& method,
                      const std::string& mode, const std::string& tractions, const std::string& update,
-                     const std::string& elements, const py::object& progress) {
+                     const std::string& elements, std::optional<int> rims, const py::object& progress) {
     const Method& old = before.method();
     const auto word = [](const std::string& given, std::string_view kept) {
         return given.empty() ? std::string(kept) : given;
     };
     const Method chosen =
         method_of(word(method, name(old.kind)), word(mode, name(old.mode)), word(tractions, name(old.tractions)),
-                  word(update, name(old.update)), word(elements, name(old.elements)));
+                  word(update, name(old.update)), word(elements, name(old.elements)), rims.value_or(old.rims));
     const Material other = material.value_or(before.body().material);
     require_material(other);
     if (const std::string why = refusal(chosen, other.poisson_ratio); !why.empty()) throw py::value_error(why);
@@ -147,6 +147,7 @@ py::dict describe(const MethodTraits& traits) {
     row["updates"] = names_of(traits.updates);
     row["tractions"] = traits.chooses_tractions ? names_of(kAllTractions) : std::vector<std::string_view>{};
     row["elements"] = traits.chooses_elements ? names_of(kAllElements) : std::vector<std::string_view>{};
+    row["chooses_rims"] = traits.chooses_rims;
     row["linear"] = traits.linear;
     row["has_inside"] = traits.has_inside;
     row["takes_incompressible"] = traits.takes_incompressible;
@@ -160,7 +161,7 @@ py::list all_described() {
 }
 
 py::dict predicted(const Surface& surface, const std::string& method, const std::string& mode) {
-    const Method chosen = method_of(method, mode, "", "", "");
+    const Method chosen = method_of(method, mode, "", "", "", 0);
     require_usable(surface.report, surface.name, chosen.kind->has_inside);
     const Cost cost = predict_cost(*surface.mesh, chosen);
     py::dict row;
@@ -183,6 +184,7 @@ void bind_model(py::module_& module) {
         .def_property_readonly("tractions", [](const Model& m) { return name(m.method().tractions); })
         .def_property_readonly("update", [](const Model& m) { return name(m.method().update); })
         .def_property_readonly("elements", [](const Model& m) { return name(m.method().elements); })
+        .def_property_readonly("rims", [](const Model& m) { return m.method().rims; })
         .def_property_readonly("n_vertices", [](const Model& m) { return m.facts().n_vertices; })
         .def_property_readonly("n_tetrahedra", [](const Model& m) { return m.facts().n_tetrahedra; })
         .def_property_readonly("degrees_of_freedom", [](const Model& m) { return m.facts().n_degrees_of_freedom; })
@@ -204,7 +206,7 @@ loads    what acts besides: a list of Loads
 A number may occur only once.)")
         .def("again", &changed, py::arg("material") = std::nullopt, py::kw_only(), py::arg("method") = "",
              py::arg("mode") = "", py::arg("tractions") = "", py::arg("update") = "", py::arg("elements") = "",
-             py::arg("progress") = py::none(),
+             py::arg("rims") = py::none(), py::arg("progress") = py::none(),
              "The same body with another material or method; takes over what does not change.")
         .def("__repr__", [](const Model& m) {
             return "<elastolab.Model of '" + m.body().name + "': " + std::string(name(m.method().kind)) + ", " +
@@ -215,7 +217,7 @@ A number may occur only once.)")
 }  // namespace
 
 Method method_of(const std::string& method, const std::string& mode, const std::string& tractions,
-                 const std::string& update, const std::string& elements) {
+                 const std::string& update, const std::string& elements, int rims) {
     Method chosen;
     chosen.kind = default_method();
     choose(
@@ -230,6 +232,10 @@ Method method_of(const std::string& method, const std::string& mode, const std::
     choose(
         chosen.elements, "elements", elements, [](const std::string& w) { return parse_elements(w); },
         names_of(kAllElements));
+    if (rims < 0 || rims > kMostRims)
+        throw py::value_error("rims: must be 0 to " + std::to_string(kMostRims) +
+                              ", how many times triangles along the rims are halved.");
+    if (chosen.kind->chooses_rims) chosen.rims = rims;
     return chosen;
 }
 
@@ -250,7 +256,7 @@ void bind_models(py::module_& module) {
                "What a precomputation would take: degrees_of_freedom, memory_bytes, seconds.");
     module.def("precompute", &precompute_model, py::arg("surface"), py::arg("material") = Material{}, py::kw_only(),
                py::arg("method") = "", py::arg("mode") = "", py::arg("tractions") = "", py::arg("update") = "",
-               py::arg("elements") = "", py::arg("progress") = py::none(),
+               py::arg("elements") = "", py::arg("rims") = 0, py::arg("progress") = py::none(),
                R"(Makes a Model of a body; milliseconds to minutes, Ctrl-C ends it.
 
 surface   without fatal defects
@@ -258,6 +264,7 @@ method    'fem', 'constant-bem', 'linear-bem', 'galerkin-bem', 'quadratic-fem' .
 mode      'on-demand', 'full' or 'full-volume';  tractions  'discontinuous', 'restricted' or 'continuous'
 update    'direct', 'eqn9' or 'reduced'
 elements  of 'nonlinear-fem': 'quadratic' or 'linear'
+rims      of 'galerkin-bem': times that triangles along the rims of constrained patches are halved, 0 to 3
 progress  called with a stage and a fraction; what it raises ends the precomputation)");
 }
 

@@ -28,10 +28,10 @@ using SolutionPointer = std::shared_ptr<Solution>;
 /// The words of a scene where nothing else is asked for.
 SolveRequest request_of(const std::string& text, const fs::path& file, const std::string& method,
                         const std::string& mode, const std::string& tractions, const std::string& update,
-                        const std::string& elements, bool checks) {
+                        const std::string& elements, int rims, bool checks) {
     SolveRequest request{.scene_file = file, .document = parse_scene(text, file.string()), .method = {}};
     request.method = method_of(method.empty() ? std::string(name(request.document.method)) : method, mode, tractions,
-                               update, elements);
+                               update, elements, rims);
     if (const std::string why = refusal(request.method, request.document.material.poisson_ratio); !why.empty())
         throw py::value_error(why);
     request.solve_once = update.empty() && request.method.mode == Mode::on_demand;
@@ -41,8 +41,8 @@ SolveRequest request_of(const std::string& text, const fs::path& file, const std
 
 SolutionPointer solve_scene(const std::string& text, const fs::path& file, const std::string& method,
                             const std::string& mode, const std::string& tractions, const std::string& update,
-                            const std::string& elements, bool checks, const py::object& progress) {
-    const SolveRequest request = request_of(text, file, method, mode, tractions, update, elements, checks);
+                            const std::string& elements, int rims, bool checks, const py::object& progress) {
+    const SolveRequest request = request_of(text, file, method, mode, tractions, update, elements, rims, checks);
     return watched(progress, [&](Control& control) { return std::make_shared<Solution>(solve(request, control)); });
 }
 
@@ -158,7 +158,8 @@ void bind_scenes(py::module_& module) {
     module.def("_normal_text", &normal_text, py::arg("text"), py::arg("name"));
     module.def("_save_text", &save_text, py::arg("text"), py::arg("name"), py::arg("file"));
     module.def("_solve_text", &solve_scene, py::arg("text"), py::arg("file"), py::arg("method"), py::arg("mode"),
-               py::arg("tractions"), py::arg("update"), py::arg("elements"), py::arg("checks"), py::arg("progress"));
+               py::arg("tractions"), py::arg("update"), py::arg("elements"), py::arg("rims"), py::arg("checks"),
+               py::arg("progress"));
 }
 
 }  // namespace elastolab::python

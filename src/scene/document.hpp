@@ -174,6 +174,7 @@ struct MethodSettings {
     Tractions tractions = Tractions::discontinuous;
     Update update = Update::reduced;
     ElementDegree elements = ElementDegree::quadratic;
+    int rims = 0;
     bool operator==(const MethodSettings&) const = default;
 };
 

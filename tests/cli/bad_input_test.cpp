@@ -204,6 +204,7 @@ INSTANTIATE_TEST_SUITE_P(
         usage("UnknownMethod", {"solve", "good.json", "--method", "fdm"}, {"--method", "fdm"}),
         usage("UnknownMode", {"solve", "good.json", "--mode", "half"}, {"--mode", "half"}),
         usage("UnknownTractions", {"solve", "good.json", "--tractions", "none"}, {"--tractions", "none"}),
+        usage("TooFineRims", {"solve", "good.json", "--rims", "4"}, {"--rims"}),
         usage("UnknownUpdate", {"solve", "good.json", "--update", "eqn8"}, {"--update", "eqn8"}),
         usage("NoThreads", {"solve", "good.json", "--threads", "0"}, {"--threads"}),
         usage("HalfAThread", {"solve", "good.json", "--threads", "1.5"}, {"--threads"}),

@@ -229,6 +229,7 @@ TEST_F(SolveTest, WritesAReportWithEveryKey) {
                                            "mode",
                                            "tractions",
                                            "elements",
+                                           "rims",
                                            "update",
                                            "vertices",
                                            "faces",
@@ -380,6 +381,27 @@ TEST_F(SolveTest, WritesOnStandardOutputWhenAskedTo) {
 
 TEST_F(SolveTest, SaysThatOnlyLinearBemHasAChoiceOfTractions) {
     EXPECT_THAT(solve(test::cube_scene("fem", 2), {"--tractions", "restricted"}).out, HasSubstr("was ignored"));
+}
+
+TEST_F(SolveTest, HalvesTheRimsOfGalerkinBemAlone) {
+    EXPECT_THAT(solve(test::cube_scene("fem", 2), {"--rims", "1"}).out,
+                HasSubstr("--rims: applies to galerkin-bem only, and was ignored"));
+    const auto report_of = [&](const std::string& rims) {
+        EXPECT_THAT(solve(test::cube_scene("galerkin-bem", 6), {"--rims", rims, "--report", "r.json"}).out,
+                    HasSubstr(rims == "0" ? "on-demand, " : "rims halved twice"));
+        return json("r.json");
+    };
+    const nlohmann::json given = report_of("0"), finer = report_of("2");
+    EXPECT_EQ(given["rims"], 0);
+    EXPECT_EQ(finer["rims"], 2);
+    EXPECT_LT(finer["residual"].get<double>(), 1e-9);
+    EXPECT_LT(finer["error_estimate"]["displacement"].get<double>(),
+              given["error_estimate"]["displacement"].get<double>());
+    const double taken = finer["peak_memory_bytes"].get<double>() - given["peak_memory_bytes"].get<double>();
+    const double predicted =
+        finer["predicted_memory_bytes"].get<double>() - given["predicted_memory_bytes"].get<double>();
+    EXPECT_GT(predicted, 0.7 * taken);
+    EXPECT_LT(predicted, 2.0 * taken + 20e6);
 }
 
 TEST_F(SolveTest, TreatsTheSolidsOfASceneByThemselves) {

@@ -28,6 +28,7 @@ const std::vector<std::vector<std::string>>& variants() {
         {"--method", "fem", "--mode", "full-volume"},
         {"--method", "constant-bem", "--mode", "full", "--update", "direct"},
         {"--method", "linear-bem", "--update", "reduced"},
+        {"--method", "galerkin-bem", "--rims", "1"},
         {"--method", "linear-bem", "--tractions", "continuous"},
         {"--method", "linear-bem", "--tractions", "restricted", "--mode", "full"},
     };

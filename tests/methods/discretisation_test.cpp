@@ -295,6 +295,36 @@ TEST(DiscretisationCheck, IsWithinAFactorOfThreeOnOrganicBodiesInNineOfTenCasesA
     EXPECT_GE(good, 0.9 * all);
 }
 
+/// With finer rims the second answer is the worse one.
+TEST(DiscretisationCheck, IsWithinAFactorOfThreeWhereTheRimsAreHalved) {
+    const std::vector<std::pair<OrganicCase, double>> bodies = {
+        {organic_case(make_cactus(220)), 0.3},
+        {held_below("bent tube", make_bent_tube(2, 0.35, 4.0, 3.0), {0.1, 0.3, 1.0}, 0.15, 0.6), 0.0},
+        {held_below("torus", make_torus(4), {1.0, 0.0, 0.2}, 0.15, 0.7), 0.49}};
+    int good = 0, all = 0;
+    for (const auto& [body, nu] : bodies) {
+        const std::vector<Eigen::Matrix3Xd> motions = {body.pulled(), body.turned()};
+        const std::vector<KnownAnswer> truths = refined_answers(body, motions, nu, 2);
+        std::vector<double> as_given(2, 0.0);
+        for (const int rims : {0, 1, 2}) {
+            Control control;
+            Deformer deformer(precomputed(make_body(body.surface, {1.0, nu}), {.kind = kGalerkinBem, .rims = rims}));
+            deformer.constrain(body.set, control);
+            for (std::size_t m = 0; m < motions.size(); ++m) {
+                const std::string what = (m == 0 ? "pulled" : "turned") + std::string(", rims ") + std::to_string(rims);
+                const auto judged = judge(body, what, kGalerkinBem, body.values(motions[m]), truths[m], deformer);
+                if (rims == 0) as_given[m] = judged[0].error;
+                EXPECT_LE(judged[0].error, (rims == 0 ? 1.0 : 0.75) * as_given[m]) << body.name << " " << what;
+                for (const Judged& one : judged) {
+                    good += one.within(3.0) ? 1 : 0;
+                    ++all;
+                }
+            }
+        }
+    }
+    EXPECT_GE(good, 0.9 * all);
+}
+
 /// The iterations of the estimate of linear tetrahedra stop early enough to be cheap and late enough to be right.
 TEST(DiscretisationCheck, OfFemIsHalfAgainTheDifferenceToQuadraticFem) {
     const OrganicCase body = held_below("bent tube", make_bent_tube(2, 0.35, 4.0, 3.0), {0.1, 0.3, 1.0}, 0.15, 0.6);

@@ -40,44 +40,62 @@ struct LoadedBody {
         return compute_truth(body.surface, body.fixed, Positions::Zero(3, std::ssize(body.fixed)), {1.0, nu}, {1},
                              {set.loads, factors});
     }
-    Deformer::Answer answer(double nu, MethodKind kind, Deformer::Wanted wanted) const {
+    Deformer::Answer answer(double nu, MethodKind kind, Deformer::Wanted wanted, int rims = 0) const {
         Control control;
-        Deformer deformer(precomputed(make_body(body.surface, {1.0, nu}), make_method(kind)));
+        Method method = make_method(kind);
+        method.rims = rims;
+        Deformer deformer(precomputed(make_body(body.surface, {1.0, nu}), method));
         deformer.constrain(set, control);
         return deformer.answer(factors, wanted, control);
+    }
+    /// The estimated error over that of the worst vertex.
+    static double estimate_over_error(const Deformer::Answer& answer, const Positions& truth) {
+        const Eigen::Matrix3Xd off = answer.displacements.reshaped(3, truth.cols()) - truth;
+        return answer.check.value().relative_error * truth.colwise().norm().maxCoeff() /
+               off.colwise().norm().maxCoeff();
     }
     double rms_error(const Eigen::VectorXd& u, const Positions& truth) const {
         return (u - truth.reshaped()).norm() / truth.norm();  // both vanish where the body is fixed
     }
 };
 
-/// The error is that of the stiffness: flat triangles of these sizes bend too little, and the whole answer by the same
-/// part (2.25 % on the rabbit). most: relative rms error.
-void expect_galerkin_within(double most, const LoadedBody& loaded, double nu) {
+/// The body is too stiff at the rim of its fixed part, and the whole answer is too small by the same share: 2.25 % on
+/// the rabbit with triangles as given, a third of that with those at the rim halved twice.
+void expect_galerkin_close(const LoadedBody& loaded, double nu) {
     const OrganicTruth truth = loaded.truth(nu);
     const Deformer::Answer galerkin = loaded.answer(nu, kGalerkinBem, {.check = true});
     const double error = loaded.rms_error(galerkin.displacements, truth.displacements);
     print_measured(loaded.body.name + " under weight and pressure, Galerkin BEM, relative rms error", error);
     print_measured(loaded.body.name + ", truth, estimated relative error", truth.relative_error);
-    EXPECT_LT(error, most);
+    EXPECT_LT(error, 0.03);
     EXPECT_LT(error, loaded.rms_error(loaded.answer(nu, kFem, {}).displacements, truth.displacements));
-    ASSERT_TRUE(galerkin.check.has_value());
-    const Eigen::Matrix3Xd off = galerkin.displacements.reshaped(3, truth.displacements.cols()) - truth.displacements;
-    const double worst = off.colwise().norm().maxCoeff() / truth.displacements.colwise().norm().maxCoeff();
-    print_measured(loaded.body.name + ", the estimate over the largest error", galerkin.check->relative_error / worst);
-    EXPECT_GT(galerkin.check->relative_error, worst / 5.0);
-    EXPECT_LT(galerkin.check->relative_error, worst * 5.0);
+    const double estimate = LoadedBody::estimate_over_error(galerkin, truth.displacements);
+    print_measured(loaded.body.name + ", the estimate over the largest error", estimate);
+    EXPECT_GT(estimate, 1.0 / 5.0);
+    EXPECT_LT(estimate, 5.0);
+    for (const int rims : {1, 2}) {
+        const Deformer::Answer finer = loaded.answer(nu, kGalerkinBem, {.residual = true, .check = true}, rims);
+        const double left = loaded.rms_error(finer.displacements, truth.displacements);
+        const double its_estimate = LoadedBody::estimate_over_error(finer, truth.displacements);
+        print_measured("rims halved " + std::to_string(rims) + " times, relative rms error", left);
+        print_measured("rims halved " + std::to_string(rims) + " times, the estimate over the largest error",
+                       its_estimate);
+        EXPECT_LT(left, rims == 1 ? 0.015 : 0.01);
+        EXPECT_GT(its_estimate, 1.0 / 3.0);
+        EXPECT_LT(its_estimate, 3.0);
+        EXPECT_LT(finer.residual.value(), 1e-7);
+    }
     const Eigen::Vector3d support = galerkin.reactions.forces.rowwise().sum(),
                           true_support = truth.reactions.forces.rowwise().sum();
     EXPECT_LT((support - true_support).norm(), 1e-6 * true_support.norm()) << "both balance the same loads";
 }
 
-TEST(OrganicLoads, MoveARabbitOfSixHundredVerticesWithinThreePercentByGalerkin) {
-    expect_galerkin_within(0.03, LoadedBody(make_rabbit(600)), 0.3);
+TEST(OrganicLoads, MoveARabbitOfSixHundredVerticesWithinOnePercentByGalerkinWithFinerRims) {
+    expect_galerkin_close(LoadedBody(make_rabbit(600)), 0.3);
 }
 
-TEST(OrganicLoads, MoveANearlyIncompressiblePotatoOfSixHundredVerticesWithinThreePercentByGalerkin) {
-    expect_galerkin_within(0.03, LoadedBody(make_potato(600)), 0.45);
+TEST(OrganicLoads, MoveANearlyIncompressiblePotatoOfSixHundredVerticesWithinOnePercentByGalerkinWithFinerRims) {
+    expect_galerkin_close(LoadedBody(make_potato(600)), 0.45);
 }
 
 /// No finite elements here can take nu = 1/2: the answers go there smoothly, and forces balance.

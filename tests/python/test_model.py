@@ -213,6 +213,24 @@ def test_another_material_or_method_of_the_same_body():
         model.again(el.Material(1.0, 0.5))
 
 
+def test_rims_of_galerkin_bem_are_halved_for_each_set():
+    cube = el.Surface.primitive("cube", 5)
+    given = el.precompute(cube, method="galerkin-bem")
+    finer = given.again(rims=2)
+    assert (given.rims, finer.rims, finer.again(el.Material(1.0, 0.2)).rims) == (0, 2, 2)
+    assert el.precompute(cube, method="fem", rims=1).rims == 0
+    low = np.flatnonzero(cube.vertices[:, 0] < 1e-9)
+    high = np.flatnonzero(cube.vertices[:, 0] > 1 - 1e-9)
+    forces = []
+    for model in (given, finer, el.precompute(cube, method="galerkin-bem", rims=1)):
+        body = model.constrain(fixed=low, handles=high)
+        forces.append(body.reactions([[0.1, 0, 0]] * len(high)).forces[len(low):, 0].sum())
+    # Finer rims let the sides contract closer to them: the force falls, less each time.
+    assert forces[0] > forces[2] > forces[1] > 0.97 * forces[0]
+    with pytest.raises(ValueError, match="rims: must be 0 to 3"):
+        el.precompute(cube, method="galerkin-bem", rims=4)
+
+
 def test_wrong_words_and_numbers_are_named():
     cube = el.Surface.primitive("cube", 2)
     with pytest.raises(ValueError, match="method 'x' is unknown. Use one of: fem, "):

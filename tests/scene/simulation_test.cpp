@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 
 #include "bem/collocation/method.hpp"
+#include "bem/galerkin/method.hpp"
 #include "fem/method.hpp"
 #include "findings/cost.hpp"
 #include "methods/registry.hpp"
@@ -91,6 +92,25 @@ TEST(Simulation, EveryFrameRuleAndUpdateShowsTheSame) {
             bench.settle(scene);
             expect_near(bench.runner().displacement(), expected);
         }
+}
+
+/// Another choice of the rims is another model, and the same one for the methods that have no such choice.
+TEST(Simulation, FinerRimsAreAnsweredOnceTheyAreChosen) {
+    LiveScene scene = pulled_cube();
+    Bench bench({kGalerkinBem});
+    bench.settle(scene);
+    const Eigen::VectorXd given = bench.runner(kGalerkinBem).displacement();
+    bench.choices.rims = 1;
+    bench.settle(scene);
+    const Eigen::VectorXd finer = bench.runner(kGalerkinBem).displacement();
+    expect_near(finer, truth(scene, bench.choices.of(kGalerkinBem)));
+    EXPECT_GT((finer - given).norm(), 1e-4 * given.norm());
+    EXPECT_EQ(bench.choices.of(kGalerkinBem).rims, 1);
+    EXPECT_EQ(bench.choices.of(kLinearBem).rims, 0);
+    const int handle = scene.add_handle(where(scene, 0.9, -1.0));
+    scene.set_motion(handle, AffineMotion{.translate = {0.1, 0, 0}});
+    bench.settle(scene);
+    expect_near(bench.runner(kGalerkinBem).displacement(), truth(scene, bench.choices.of(kGalerkinBem)));
 }
 
 TEST(Simulation, TheOldAnswerStaysWhileAnotherMaterialIsPrecomputed) {

@@ -38,6 +38,13 @@ constexpr std::array<Choice<ElementDegree>, 2> kElements = {
     {{ElementDegree::quadratic, "ten-node", "Ten nodes a tetrahedron: accurate. Of nonlinear FEM."},
      {ElementDegree::linear, "four-node",
       "Four nodes a tetrahedron: an eighth of the unknowns, too stiff in bending."}}};
+constexpr std::array<Choice<int>, 3> kRims = {
+    {{0, "as given", "The triangles of the body."},
+     {1, "halved once",
+      "Triangles along the rims of the constrained patches are halved, where most of the error comes from: half the "
+      "error, and some three times the time until a new handle is ready. Of Galerkin BEM."},
+     {2, "halved twice",
+      "Those next to the rims once more: a third of the error, ten times the time. Of Galerkin BEM."}}};
 constexpr std::array<Choice<Tractions>, 3> kTractions = {
     {{Tractions::discontinuous, "discontinuous",
       "Tractions may jump at the rim of a constrained patch, where they are "
@@ -62,7 +69,8 @@ void draw_model(const PanelContext& context, const MethodRunner& runner) {
     if (context.state.method->has_inside)
         fact("tetrahedra", told([](const ModelFacts& f) { return count_text(f.n_tetrahedra); }), dim);
     fact("K and its inverse", runner.completing() ? "being completed" : runner.has_inverse() ? "ready" : "\u2013", dim);
-    fact("update in use", model ? update_label(model->method().update) : "\u2013", dim);
+    fact("update in use",
+         model ? update_label(model->method().rims > 0 ? Update::direct : model->method().update) : "\u2013", dim);
     tooltip(
         "Eqn. 9 needs K and its inverse. Until they are computed the collapsed form is used, which gives the same "
         "displacements.");
@@ -111,6 +119,8 @@ void draw_computation(const PanelContext& context, CostPredictions& costs) {
     choose<Tractions>("tractions", state.choices.tractions, kTractions);
     set_item_width(scale);
     choose<ElementDegree>("elements", state.choices.elements, kElements);
+    set_item_width(scale);
+    choose<int>("rims", state.choices.rims, kRims);
     ImGui::TreePop();
 }
 

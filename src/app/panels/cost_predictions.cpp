@@ -21,8 +21,8 @@ const Cost& CostPredictions::of(const ViewerState& state, const Method& method) 
         static const Cost kUnknown;
         return kUnknown;
     }
-    const auto [place, is_new] =
-        costs_.try_emplace({method.kind, method.mode, method.update, surface->n_vertices(), surface->n_triangles()});
+    const auto [place, is_new] = costs_.try_emplace(
+        {method.kind, method.mode, method.update, method.rims, surface->n_vertices(), surface->n_triangles()});
     if (is_new) place->second = predict_cost(*surface, method);
     return place->second;
 }
@@ -32,8 +32,9 @@ std::uint64_t CostPredictions::memory_with_completion(const ViewerState& state, 
     if (surface == nullptr) return 0;
     const std::uint64_t own = of(state, state.choices.of(kind)).memory_bytes;
     const MethodChoices& choices = state.choices;
-    const auto [place, is_new] = completed_bytes_.try_emplace(
-        {kind, choices.mode, choices.update, choices.complete_up_to, surface->n_vertices(), surface->n_triangles()});
+    const auto [place, is_new] =
+        completed_bytes_.try_emplace({kind, choices.mode, choices.update, choices.rims, choices.complete_up_to,
+                                      surface->n_vertices(), surface->n_triangles()});
     if (!is_new) return place->second;
     const std::optional<Method> completion = completion_of(*surface, kind, choices);
     return place->second = completion ? std::max(own, of(state, *completion).memory_bytes) : own;

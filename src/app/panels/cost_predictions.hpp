@@ -24,9 +24,9 @@ public:
 
 private:
     std::uint64_t scene_number_ = 0;
-    std::map<std::tuple<MethodKind, Mode, Update, int, int>, Cost>
-        costs_;  ///< by vertices and triangles of what is simulated
-    std::map<std::tuple<MethodKind, Mode, Update, int, int, int>, std::uint64_t> completed_bytes_;  ///< likewise
+    std::map<std::tuple<MethodKind, Mode, Update, int, int, int>, Cost>
+        costs_;  ///< by rims, vertices and triangles of what is simulated
+    std::map<std::tuple<MethodKind, Mode, Update, int, int, int, int>, std::uint64_t> completed_bytes_;  ///< likewise
     std::uint64_t program_bytes_ = 0;
 };
 

@@ -39,10 +39,15 @@ Cost predict_galerkin_bem(const SurfaceMesh& mesh, const Method& method) {
     const double waiting =
         std::min(kLeastRowMemory + kRowMemoryPerVertex * vertices, kRowMemoryPerPair * vertices * vertices);
     Cost cost{static_cast<std::int64_t>(n), kLeastMemory + static_cast<std::uint64_t>(waiting), 0.0};
-    if (!factorises_ahead(method)) return cost;
-    cost.memory_bytes += square_bytes(n);
-    double flops = n * n * n / 3.0 + 0.5 * kFlopsPerPair * triangles * triangles + kGalerkinCloseFlops * triangles +
-                   nearly_touching_flops(mesh);
+    const bool factorises = factorises_ahead(method), keeps_integrals = method.rims > 0;
+    if (!factorises && !keeps_integrals) return cost;
+    double flops =
+        0.5 * kFlopsPerPair * triangles * triangles + kGalerkinCloseFlops * triangles + nearly_touching_flops(mesh);
+    if (keeps_integrals) cost.memory_bytes += square_bytes(n);
+    if (factorises) {
+        cost.memory_bytes += square_bytes(n);
+        flops += n * n * n / 3.0;
+    }
     if (method.mode != Mode::on_demand) {
         cost.memory_bytes += 4 * square_bytes(n);
         flops += 2.0 * n * n * n;

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "bem/galerkin/finer_rims.hpp"
 #include "bem/galerkin/hierarchical_system.hpp"
 #include "deform/solid_model.hpp"
 
@@ -9,7 +10,8 @@ namespace elastolab {
 
 /// A solid by symmetric Galerkin boundary elements as GalerkinModel, for surfaces whose dense matrix would be too
 /// large: the operators are hierarchical, each constrained set is solved for by iteration. Memory and time grow a
-/// little faster than the number of vertices. The updates `direct` and `reduced` solve alike; on demand only.
+/// little faster than the number of vertices. The updates `direct` and `reduced` solve alike; on demand only. With
+/// finer rims (Method::rims) nothing is computed ahead: the operators are those of each set's own surface.
 class HierarchicalGalerkinModel : public SolidModel {
 public:
     /// before: as in GalerkinModel. Throws SolveError, Cancelled.
@@ -23,8 +25,13 @@ public:
     void visit_matrices(const std::function<void(const NamedMatrix&)>&) const override {}
 
 private:
+    std::unique_ptr<ConstrainedSolid> constrain(std::shared_ptr<const HierarchicalSystem> system, const SurfaceSet& set,
+                                                const SurfaceSet& of_body, Control& control) const;
+
     Method method_;
-    std::shared_ptr<const HierarchicalSystem> system_;
+    std::shared_ptr<const SurfaceMesh> surface_;
+    double poisson_ratio_;
+    std::shared_ptr<const HierarchicalSystem> system_;  ///< null with finer rims
 };
 
 }  // namespace elastolab

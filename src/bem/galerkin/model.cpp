@@ -21,7 +21,7 @@ bool same_integrals(const Method& a, const Method& b) { return integral_toleranc
 
 bool same_galerkin_system(const Method& a, const Method& b) {
     return a.mode == b.mode && same_integrals(a, b) && a.column_memory == b.column_memory &&
-           factorises_ahead(a) == factorises_ahead(b);
+           factorises_ahead(a) == factorises_ahead(b) && (a.rims > 0) == (b.rims > 0);
 }
 
 /// D's integrals for every Poisson's ratio: those at hand or, when the ratio changes for the first time, made now (for
@@ -64,20 +64,41 @@ GalerkinModel::GalerkinModel(const SurfaceMesh& surface, double poisson_ratio, c
 }
 
 std::unique_ptr<ConstrainedSolid> GalerkinModel::constrain(std::span<const int> fixed, std::span<const int> handles,
-                                                           std::span<const UnitLoad> unit_loads,
-                                                           Control& control) const {
-    const std::vector<int> vertices = joined(fixed, handles);
-    const std::vector<UnitLoad> loads(unit_loads.begin(), unit_loads.end());
+                                                           std::span<const UnitLoad> loads, Control& control) const {
     const SurfaceMesh& mesh = system_->boundary().mesh();
-    const GalerkinTractions tractions(mesh, system_->surfaces(), vertices);
+    const SurfaceSet given(mesh, joined(fixed, handles), loads);
+    if (method_.rims == 0) return constrain(system_, given, method_.update, given, control);
+    try {
+        const FinerRims rims(mesh, given.vertices, loads, method_.rims, LoneVertices::kept);
+        control.begin_stage("integrate");
+        auto system = std::make_shared<const GalerkinSystem>(*system_, rims.surface, control);
+        return constrain(std::move(system), rims, Update::direct, given, control);
+    } catch (const NotHeldError&) {
+        // What moves least is found from compliance columns, which are those of the surface as given.
+        if (method_.update == Update::direct) throw;
+        Method method = method_;
+        method.rims = 0;
+        StageTimes stages;
+        auto system = std::make_shared<const GalerkinSystem>(system_->shared_boundary(), poisson_ratio_, method,
+                                                             system_->parts(), stages, control);
+        return constrain(std::move(system), given, method.update, given, control);
+    }
+}
+
+std::unique_ptr<ConstrainedSolid> GalerkinModel::constrain(std::shared_ptr<const GalerkinSystem> system,
+                                                           const SurfaceSet& set, Update update,
+                                                           const SurfaceSet& of_body, Control& control) const {
+    const auto& [vertices, loads, nodes, shares] = set;
+    const SurfaceMesh& mesh = system->boundary().mesh();
+    const GalerkinTractions tractions(mesh, system->surfaces(), vertices);
     std::unique_ptr<NodeSolver> solver;
-    if (method_.update == Update::direct)
-        solver = std::make_unique<GalerkinDirectSolver>(*system_, vertices, tractions, loads, control);
+    if (update == Update::direct)
+        solver = std::make_unique<GalerkinDirectSolver>(*system, vertices, tractions, loads, control);
     else
-        solver = std::make_unique<ReducedSolver>(galerkin_reduced_system(system_, vertices, tractions, loads, control),
+        solver = std::make_unique<ReducedSolver>(galerkin_reduced_system(system, vertices, tractions, loads, control),
                                                  control);
-    const auto residual = [system = system_, vertices, tractions, loads](const NodeSolution& solution,
-                                                                         Control& its_control) {
+    const auto residual = [system, vertices = vertices, loads = loads, tractions](const NodeSolution& solution,
+                                                                                  Control& its_control) {
         const auto pairs = std::make_shared<const BoundaryPairs>(system->shared_boundary(), system->tolerance());
         const GalerkinEquations equations{pairs, pairs->cluster_vertices(kVerticesOfALeaf), system->surfaces(),
                                           system->material()};
@@ -87,23 +108,30 @@ std::unique_ptr<ConstrainedSolid> GalerkinModel::constrain(std::span<const int> 
                      system->given_single_layer(tractions, loads, its_control) * solution.factors.col(0)};
         return galerkin_residual(equations, vertices, tractions, given, solution, its_control);
     };
-    const auto reference = [system = system_, method = method_, nu = poisson_ratio_, vertices, loads](
-                               const Eigen::VectorXd& values, const NodeSolution&, Control& its_control) {
-        return galerkin_self_reference(system->boundary().mesh(), method, nu, vertices, loads, values, its_control);
+    const auto reference = [body = system_, method = method_, nu = poisson_ratio_, vertices = of_body.vertices,
+                            loads = of_body.loads](const Eigen::VectorXd& values, const NodeSolution&,
+                                                   Control& its_control) {
+        return galerkin_self_reference(body->boundary().mesh(), method, nu, vertices, loads, values, its_control);
     };
-    const auto inside = [boundary = std::shared_ptr<const Boundary>(system_, &system_->boundary()), vertices, tractions,
-                         loads, nu = poisson_ratio_](NodeSolution&& solution, Control&) {
+    const auto inside = [boundary = system->shared_boundary(), vertices = vertices, loads = loads, tractions,
+                         nu = poisson_ratio_](NodeSolution&& solution, Control&) {
         return galerkin_field(boundary, nu, vertices, tractions, loads, std::move(solution));
     };
     return std::make_unique<ConstrainedSolid>(
-        facts_.n_vertices, constrain_vertices(vertices), nodal_shares(mesh.vertices, vertices), nullptr,
-        std::move(solver), SolutionChecks{residual, reference, inside}, static_cast<int>(loads.size()),
+        facts_.n_vertices, nodes, shares, nullptr, std::move(solver), SolutionChecks{residual, reference, inside},
+        static_cast<int>(loads.size()),
         particular_field(mesh, poisson_ratio_, mesh.vertices(Eigen::all, vertices), loads));
 }
 
 std::uint64_t GalerkinModel::constrain_memory(std::span<const int> fixed, std::span<const int> handles) const {
     const std::vector<int> vertices = joined(fixed, handles);
-    const GalerkinTractions tractions(system_->boundary().mesh(), system_->surfaces(), vertices);
+    const SurfaceMesh& mesh = system_->boundary().mesh();
+    if (method_.rims > 0) {
+        const FinerRims rims(mesh, vertices, {}, method_.rims, LoneVertices::kept);
+        const auto n = static_cast<std::uint64_t>(3 * rims.surface.mesh.n_vertices());
+        return 8 * n * n + galerkin_direct_memory(static_cast<std::int64_t>(n), 3 * rims.n_constrained_triangles);
+    }
+    const GalerkinTractions tractions(mesh, system_->surfaces(), vertices);
     const Eigen::Index n_loads = 3 * std::ssize(vertices);
     if (method_.update == Update::reduced) return half_column_memory(*system_, n_loads + tractions.size());
     return galerkin_direct_memory(system_->size(), tractions.size());
@@ -111,9 +139,14 @@ std::uint64_t GalerkinModel::constrain_memory(std::span<const int> fixed, std::s
 
 std::uint64_t GalerkinModel::check_memory(std::span<const int> fixed, std::span<const int> handles) const {
     const std::vector<int> vertices = joined(fixed, handles);
-    const GalerkinTractions tractions(system_->boundary().mesh(), system_->surfaces(), vertices);
-    return std::max(galerkin_reference_memory(system_->boundary().mesh(), method_, vertices),
-                    galerkin_residual_memory(system_->boundary().mesh(), tractions.n_loaded(system_->surfaces())));
+    const SurfaceMesh& mesh = system_->boundary().mesh();
+    const GalerkinTractions tractions(mesh, system_->surfaces(), vertices);
+    const std::int64_t n_loaded = tractions.n_loaded(system_->surfaces());
+    if (method_.rims == 0)
+        return std::max(galerkin_reference_memory(mesh, method_, vertices), galerkin_residual_memory(mesh, n_loaded));
+    const FinerRims rims(mesh, vertices, {}, method_.rims, LoneVertices::kept);
+    return std::max(galerkin_direct_memory(system_->size(), tractions.size()),
+                    galerkin_residual_memory(rims.surface.mesh, n_loaded + rims.n_constrained_triangles));
 }
 
 void GalerkinModel::visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const {

@@ -2,13 +2,15 @@
 
 #include <memory>
 
+#include "bem/galerkin/finer_rims.hpp"
 #include "bem/galerkin/system.hpp"
 #include "deform/solid_model.hpp"
 
 namespace elastolab {
 
 /// A solid by symmetric Galerkin boundary elements: displacements linear on triangles, tractions constant on
-/// constrained ones. A constrained vertex without a constrained triangle has a reaction and no traction.
+/// constrained ones. A constrained vertex without a constrained triangle has a reaction and no traction. With finer
+/// rims (Method::rims) each set is solved on a surface of its own.
 class GalerkinModel : public SolidModel {
 public:
     /// before: a model of the same surface, from which all that still serves is taken over, or null. Throws SolveError,
@@ -23,6 +25,10 @@ public:
     void visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const override;
 
 private:
+    /// of_body: the same set on the body's own surface.
+    std::unique_ptr<ConstrainedSolid> constrain(std::shared_ptr<const GalerkinSystem> system, const SurfaceSet& set,
+                                                Update update, const SurfaceSet& of_body, Control& control) const;
+
     Method method_;
     double poisson_ratio_;
     std::shared_ptr<const GalerkinSystem> system_;

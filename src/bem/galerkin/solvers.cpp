@@ -123,7 +123,10 @@ GalerkinDirectSolver::GalerkinDirectSolver(const GalerkinSystem& system, const s
     D_constrained_ = D(partition_.constrained, Eigen::all);
     Eigen::MatrixXd S = D(partition_.free, partition_.free);
     const Eigen::MatrixXd Y_free = Y_(Eigen::all, partition_.free);
-    S.noalias() += Y_free.transpose() * Y_free;
+    for_strips(S.cols(), [&](Eigen::Index first, Eigen::Index count) {  // what is below the diagonal is enough
+        const Eigen::Index n = S.rows() - first;
+        S.block(first, first, n, count).noalias() += Y_free.rightCols(n).transpose() * Y_free.middleCols(first, count);
+    });
     constexpr double kSingular = 1e-14;
     try {
         free_ = CholeskyFactorization(std::move(S), "Galerkin matrix of the free vertices", &control);

@@ -5,6 +5,7 @@
 
 #include "base/blas.hpp"
 #include "base/parallel.hpp"
+#include "bem/galerkin/finer_rims.hpp"
 #include "bem/galerkin/given_loads.hpp"
 #include "bem/galerkin/traction_rows.hpp"
 #include "deform/load_columns.hpp"
@@ -106,6 +107,10 @@ GalerkinSystem::GalerkinSystem(std::shared_ptr<const Boundary> boundary, double 
       body_modes_(rigid_modes(boundary_->mesh().vertices)),
       parts_(std::move(parts)),
       cache_(std::make_unique<ColumnCache>(method.column_memory.value_or(half_column_budget(size(), method.mode)))) {
+    if (method.rims > 0) {
+        const Stage stage(parts_ ? "combine" : "integrate", control, stages);
+        integrals_ = integrals(control);
+    }
     if (!factorises_ahead(method)) return;
     Eigen::MatrixXd D, kept;
     {
@@ -126,6 +131,15 @@ GalerkinSystem::GalerkinSystem(std::shared_ptr<const Boundary> boundary, double 
     if (method.mode != Mode::on_demand) complete(std::move(kept), stages, control);
 }
 
+GalerkinSystem::GalerkinSystem(const GalerkinSystem& coarse, const RefinedSurface& fine, Control& control)
+    : boundary_(std::make_shared<const Boundary>(fine.mesh)),
+      material_(coarse.material_),
+      tolerance_(coarse.tolerance_),
+      surfaces_(fine.mesh),
+      body_modes_(rigid_modes(fine.mesh.vertices)),
+      integrals_(refined_hypersingular(
+          coarse.integrals_, fine, std::make_shared<const BoundaryPairs>(boundary_, tolerance_), material_, control)) {}
+
 Eigen::MatrixXd GalerkinSystem::hypersingular(Control& control) const {
     Eigen::MatrixXd D = integrals(control);
     RigidPart(D, surfaces_.rigid, control).replace(D, 0.0, control);
@@ -133,6 +147,7 @@ Eigen::MatrixXd GalerkinSystem::hypersingular(Control& control) const {
 }
 
 Eigen::MatrixXd GalerkinSystem::integrals(Control& control) const {
+    if (integrals_.size() > 0) return integrals_;
     Eigen::MatrixXd D(size(), size());
     if (parts_)
         parts_->evaluate(material_, D);
@@ -252,7 +267,7 @@ void GalerkinSystem::complete(Eigen::MatrixXd D, StageTimes& stages, Control& co
 
 std::uint64_t GalerkinSystem::memory_bytes() const {
     const auto n = static_cast<std::uint64_t>(factor_.size());
-    return 8 * n * n * ((dense_ ? 3u : 1u) + (parts_ ? 2u : 0u));
+    return 8 * (n * n * ((dense_ ? 3u : 1u) + (parts_ ? 2u : 0u)) + static_cast<std::uint64_t>(integrals_.size()));
 }
 
 std::uint64_t half_column_memory(const GalerkinSystem& system, Eigen::Index n_degrees_of_freedom) {

@@ -12,6 +12,7 @@
 #include "deform/columns.hpp"
 #include "deform/method.hpp"
 #include "deform/unit_load.hpp"
+#include "mesh/refine.hpp"
 
 namespace elastolab {
 
@@ -27,10 +28,12 @@ struct DenseHypersingular {
 /// R is the reaction: the derivative of the energy with respect to the prescribed displacements. Any thread may use it.
 class GalerkinSystem {
 public:
-    /// On demand with the update `direct` nothing is factorised here. `parts`: D's integrals of this boundary and
-    /// tolerance, or null.
+    /// On demand with the update `direct` nothing is factorised here; with finer rims D is integrated and kept.
+    /// `parts`: D's integrals of this boundary and tolerance, or null.
     GalerkinSystem(std::shared_ptr<const Boundary> boundary, double poisson_ratio, const Method& method,
                    std::shared_ptr<const HypersingularParts> parts, StageTimes& stages, Control& control);
+    /// The same body with finer triangles, for one set by GalerkinDirectSolver. coarse: one that keeps D.
+    GalerkinSystem(const GalerkinSystem& coarse, const RefinedSurface& fine, Control& control);
 
     const Boundary& boundary() const { return *boundary_; }
     std::shared_ptr<const Boundary> shared_boundary() const { return boundary_; }
@@ -78,6 +81,7 @@ private:
     ClosedSurfaces surfaces_;
     Eigen::MatrixXd body_modes_;  ///< 3V x 6: rigid motions of the whole body
     std::shared_ptr<const HypersingularParts> parts_;
+    Eigen::MatrixXd integrals_;  ///< D as integrated, where it is kept
     double shift_ = 1.0;
     CholeskyFactorization factor_;
     std::shared_ptr<const DenseHypersingular> dense_;

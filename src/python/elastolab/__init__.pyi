@@ -157,6 +157,8 @@ class Model:
     @property
     def elements(self) -> str: ...
     @property
+    def rims(self) -> int: ...
+    @property
     def n_vertices(self) -> int: ...
     @property
     def n_tetrahedra(self) -> int: ...
@@ -189,6 +191,7 @@ class Model:
         tractions: str = ...,
         update: str = ...,
         elements: str = ...,
+        rims: int | None = ...,
         progress: _Progress = ...,
     ) -> Model: ...
 
@@ -336,6 +339,7 @@ class Scene:
         tractions: str = "",
         update: str = "",
         elements: str = "",
+        rims: int = 0,
         checks: bool = True,
         progress: _Progress = None,
     ) -> Solution: ...
@@ -350,6 +354,7 @@ def solve(
     tractions: str = "",
     update: str = "",
     elements: str = "",
+    rims: int = 0,
     checks: bool = True,
     progress: _Progress = None,
 ) -> Solution: ...
@@ -365,6 +370,7 @@ def precompute(
     tractions: str = ...,
     update: str = ...,
     elements: str = ...,
+    rims: int = ...,
     progress: _Progress = ...,
 ) -> Model: ...
 def blas_kernels() -> str: ...

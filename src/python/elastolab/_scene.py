@@ -58,13 +58,14 @@ class Scene:
             data["mesh"]["file"] = os.path.relpath(where, file.parent.resolve())
         _core._save_text(_text(data), str(file), file)
 
-    def solve(self, *, method="", mode="", tractions="", update="", elements="", checks=True, progress=None):
+    def solve(self, *, method="", mode="", tractions="", update="", elements="", rims=0, checks=True, progress=None):
         """Solves it, as `elastolab solve` does: a Solution. Words that are left empty are the scene's or the program's.
 
         checks    residual and error estimates, which take up to three times the solve
         progress  called with a stage and a fraction; what it raises ends the computation
         """
-        return _core._solve_text(_text(self.data), self.file, method, mode, tractions, update, elements, checks, progress)
+        return _core._solve_text(_text(self.data), self.file, method, mode, tractions, update, elements, rims, checks,
+                                 progress)
 
     def __eq__(self, other):
         return isinstance(other, Scene) and self.data == other.data
@@ -75,11 +76,11 @@ class Scene:
         return f"<elastolab.Scene {self.data.get('mesh') if isinstance(self.data, dict) else self.data!r}>"
 
 
-def solve(scene, *, method="", mode="", tractions="", update="", elements="", checks=True, progress=None):
+def solve(scene, *, method="", mode="", tractions="", update="", elements="", rims=0, checks=True, progress=None):
     """Solves a Scene, or a scene file: a Solution. See Scene.solve."""
     scene = scene if isinstance(scene, Scene) else Scene.load(scene)
-    return scene.solve(method=method, mode=mode, tractions=tractions, update=update, elements=elements, checks=checks,
-                       progress=progress)
+    return scene.solve(method=method, mode=mode, tractions=tractions, update=update, elements=elements, rims=rims,
+                       checks=checks, progress=progress)
 
 
 def show(scene):

@@ -62,6 +62,7 @@ Method MethodChoices::of(MethodKind kind) const {
     if (!has(kind, mode)) method.mode = has(kind, Mode::full) ? Mode::full : Mode::on_demand;
     if (!has(kind, update)) method.update = Update::reduced;
     if (kind->chooses_elements) method.elements = elements;
+    if (kind->chooses_rims) method.rims = rims;
     if (!kind->chooses_tractions) method.tractions = Tractions::discontinuous;
     if (method.mode == Mode::on_demand && method.update == Update::eqn9) method.update = Update::reduced;
     return method;

@@ -23,6 +23,7 @@ struct MethodChoices {
     Tractions tractions = Tractions::discontinuous;
     Update update = Update::reduced;
     ElementDegree elements = ElementDegree::quadratic;
+    int rims = 0;
     FrameRule frame_rule = FrameRule::drag_columns;
     /// Bodies of at most so many vertices get K and its inverse in the background.
     int complete_up_to = 2000;
@@ -30,12 +31,13 @@ struct MethodChoices {
     bool preview = true;
 
     /// The choices that a scene remembers.
-    MethodSettings settings() const { return {mode, tractions, update, elements}; }
+    MethodSettings settings() const { return {mode, tractions, update, elements, rims}; }
     void set(const MethodSettings& settings) {
         mode = settings.mode;
         tractions = settings.tractions;
         update = settings.update;
         elements = settings.elements;
+        rims = settings.rims;
     }
     /// The whole method of a kind under these choices.
     Method of(MethodKind kind) const;

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <utility>
 
+#include "bem/galerkin/always_hierarchical.hpp"
 #include "bem/galerkin/cost.hpp"
 #include "bem/galerkin/error_estimate.hpp"
 #include "bem/galerkin/hierarchical_model.hpp"
@@ -17,24 +18,7 @@
 namespace elastolab::test {
 namespace {
 
-std::shared_ptr<const SolidModel> precompute_hierarchical(const SurfaceMesh& surface, const std::string&,
-                                                          double poisson_ratio, const Method& method,
-                                                          const SolidModel* before, Control& control) {
-    return std::make_shared<HierarchicalGalerkinModel>(surface, poisson_ratio, method,
-                                                       dynamic_cast<const HierarchicalGalerkinModel*>(before), control);
-}
-
-/// Galerkin BEM that is hierarchical on surfaces of any size.
-const MethodTraits& always_hierarchical() {
-    static const MethodTraits traits = [] {
-        MethodTraits its = kGalerkinBemTraits;
-        its.precompute = precompute_hierarchical;
-        return its;
-    }();
-    return traits;
-}
-
-Method hierarchical(Update update = Update::reduced) { return {.kind = &always_hierarchical(), .update = update}; }
+Method hierarchical(Update update = Update::reduced) { return {.kind = always_hierarchical(), .update = update}; }
 Method dense() { return {.kind = kGalerkinBem, .update = Update::direct}; }
 
 TEST(HierarchicalGalerkin, AgreesWithTheDenseMatrixOnAnOrganicBody) {

@@ -1,0 +1,184 @@
+#include "bem/galerkin/finer_rims.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <Eigen/Geometry>
+
+#include "base/parallel.hpp"
+#include "bem/hierarchical/cluster_tree.hpp"
+#include "mesh/topology.hpp"
+
+namespace elastolab {
+
+namespace {
+
+/// Faces turn into the body at a re-entrant edge by more than this angle, in radians: at less, curved surfaces in flat
+/// triangles have such edges everywhere.
+constexpr double kReentrant = 0.8;
+/// Vertices whose columns are integrated at once: neighbours share triangles, most of them lie at a rim.
+constexpr int kVerticesAtOnce = 16;
+
+bool all_corners(const Eigen::Vector3i& triangle, const std::vector<char>& marked) {
+    return std::all_of(triangle.begin(), triangle.end(), [&](int v) { return marked[static_cast<std::size_t>(v)]; });
+}
+
+std::vector<char> marked_vertices(const SurfaceMesh& surface, std::span<const int> vertices) {
+    std::vector<char> marked(static_cast<std::size_t>(surface.n_vertices()), 0);
+    for (const int v : vertices) marked[static_cast<std::size_t>(v)] = 1;
+    return marked;
+}
+
+std::vector<char> constrained_triangles(const SurfaceMesh& surface, const std::vector<char>& is_constrained) {
+    std::vector<char> inside;
+    for (const auto& t : surface.triangles.colwise()) inside.push_back(all_corners(t, is_constrained) ? 1 : 0);
+    return inside;
+}
+
+void mark_around(const SurfaceMesh& surface, const std::vector<char>& vertices, std::vector<char>& marked) {
+    for (int t = 0; t < surface.n_triangles(); ++t)
+        for (const int v : surface.triangles.col(t))
+            if (vertices[static_cast<std::size_t>(v)]) marked[static_cast<std::size_t>(t)] = 1;
+}
+
+void mark_around_reentrant_edges(const SurfaceMesh& surface, std::vector<char>& marked) {
+    const auto corner = [&](int t, int k) -> Eigen::Vector3d {
+        return surface.vertices.col(surface.triangles(k % 3, t));
+    };
+    const auto normal = [&](int t) -> Eigen::Vector3d {
+        return (corner(t, 1) - corner(t, 0)).cross(corner(t, 2) - corner(t, 0)).normalized();
+    };
+    const EdgeTable edges(surface);
+    std::vector<char> at_edge(static_cast<std::size_t>(surface.n_vertices()), 0);
+    for (int e = 0; e < edges.size(); ++e) {
+        const auto halves = edges.half_edges(e);
+        if (halves.size() != 2) continue;
+        const int t = halves[0] / 3, s = halves[1] / 3;
+        const Eigen::Vector3d along = corner(t, halves[0] % 3 + 1) - corner(t, halves[0] % 3);
+        const double turn = std::atan2(normal(t).cross(normal(s)).dot(along.normalized()), normal(t).dot(normal(s)));
+        if (turn > -kReentrant) continue;  // convex edges turn by a positive angle
+        at_edge[static_cast<std::size_t>(edges[e].a)] = at_edge[static_cast<std::size_t>(edges[e].b)] = 1;
+    }
+    mark_around(surface, at_edge, marked);
+}
+
+std::vector<char> lone_vertices(const SurfaceMesh& body, std::vector<char> is_constrained,
+                                const std::vector<char>& inside) {
+    for (int t = 0; t < body.n_triangles(); ++t)
+        for (const int v : body.triangles.col(t))
+            if (inside[static_cast<std::size_t>(t)]) is_constrained[static_cast<std::size_t>(v)] = 0;
+    return is_constrained;
+}
+
+/// The loads of the triangles that the finer ones are parts of.
+std::vector<UnitLoad> on_finer_triangles(const RefinedSurface& fine, std::span<const UnitLoad> loads) {
+    std::vector<UnitLoad> result(loads.begin(), loads.end());
+    for (UnitLoad& load : result) {
+        std::vector<int> place(fine.coarse_triangle.size(), -1), columns, triangles;  // no more coarse ones than fine
+        for (std::size_t k = 0; k < load.triangles.size(); ++k)
+            place[static_cast<std::size_t>(load.triangles[k])] = static_cast<int>(k);
+        for (std::size_t t = 0; t < fine.coarse_triangle.size(); ++t)
+            if (const int k = place[static_cast<std::size_t>(fine.coarse_triangle[t])]; k >= 0) {
+                triangles.push_back(static_cast<int>(t));
+                columns.push_back(k);
+            }
+        load.tractions = Eigen::Matrix3Xd(load.tractions(Eigen::all, columns));
+        load.triangles = std::move(triangles);
+    }
+    return result;
+}
+
+}  // namespace
+
+SurfaceSet::SurfaceSet(const SurfaceMesh& surface, std::vector<int> constrained, std::span<const UnitLoad> unit_loads)
+    : vertices(std::move(constrained)),
+      loads(unit_loads.begin(), unit_loads.end()),
+      nodes(constrain_vertices(vertices)),
+      shares(nodal_shares(surface.vertices, vertices)) {}
+
+FinerRims::FinerRims(const SurfaceMesh& body, std::span<const int> constrained, std::span<const UnitLoad> unit_loads,
+                     int levels, LoneVertices lone)
+    : surface(unrefined(body)) {
+    const std::vector<char> of_body = marked_vertices(body, constrained), inside = constrained_triangles(body, of_body);
+    std::vector<char> around = lone_vertices(body, of_body, inside);
+    for (int level = 0; level < levels; ++level) {
+        std::vector<char> marked = around_rim(surface, inside);
+        if (level == 0) mark_around_reentrant_edges(surface.mesh, marked);
+        around.resize(static_cast<std::size_t>(surface.mesh.n_vertices()), 0);
+        if (lone == LoneVertices::refined) mark_around(surface.mesh, around, marked);
+        surface = refine_marked(surface, marked);
+    }
+    loads = on_finer_triangles(surface, unit_loads);
+
+    std::vector<char> is_constrained = of_body;
+    is_constrained.resize(static_cast<std::size_t>(surface.mesh.n_vertices()), 0);
+    for (int t = 0; t < surface.mesh.n_triangles(); ++t)
+        if (inside[static_cast<std::size_t>(surface.coarse_triangle[static_cast<std::size_t>(t)])]) {
+            ++n_constrained_triangles;
+            for (const int v : surface.mesh.triangles.col(t)) is_constrained[static_cast<std::size_t>(v)] = 1;
+        }
+    for (int v = 0; v < surface.mesh.n_vertices(); ++v)
+        if (is_constrained[static_cast<std::size_t>(v)]) vertices.push_back(v);
+
+    std::vector<int> place(of_body.size(), -1);
+    for (std::size_t i = 0; i < constrained.size(); ++i)
+        place[static_cast<std::size_t>(constrained[i])] = static_cast<int>(i);
+    const SurfaceWeights weights = surface.weights();
+    BlockWeights prescribe;
+    for (int node = 0; node < std::ssize(vertices); ++node) {
+        const int v = vertices[static_cast<std::size_t>(node)];
+        for (SurfaceWeights::InnerIterator at(weights, v); at; ++at) {
+            const int i = place[static_cast<std::size_t>(at.col())];
+            prescribe.add(node, i, at.value());
+            shares.push_back({node, i, at.value(), at.value() * surface.mesh.vertices.col(v)});
+        }
+    }
+    nodes = {vertices, prescribe.build(std::ssize(vertices), std::ssize(constrained))};
+}
+
+Eigen::MatrixXd refined_hypersingular(const Eigen::MatrixXd& coarse, const RefinedSurface& fine,
+                                      const std::shared_ptr<const BoundaryPairs>& pairs, const Material& material,
+                                      Control& control) {
+    const int n = fine.mesh.n_vertices(), n_old = static_cast<int>(coarse.cols() / 3);
+    const Eigen::Index n_new = 3 * Eigen::Index{n - n_old};
+    const auto tree = pairs->cluster_vertices(kVerticesAtOnce);
+    const HypersingularEntries entries(pairs, tree, material);
+    Eigen::MatrixXd D(3 * n, 3 * n);
+    parallel_blocks(static_cast<int>(tree->leaves().size()), 1, control, [&](int leaf, int) {
+        const PositionRange range = tree->cluster(tree->leaves()[static_cast<std::size_t>(leaf)]).range;
+        const auto vertex = [&](int position) { return tree->order()[static_cast<std::size_t>(position)]; };
+        Eigen::MatrixXd rows;
+        for (int position = range.begin; position < range.end; ++position) {
+            if (vertex(position) < n_old) continue;
+            if (rows.size() == 0) {
+                rows.resize(3 * range.size(), 3 * n);
+                entries.fill(range, {0, n}, rows);
+            }
+            for (int other = 0; other < n; ++other)
+                D.block<3, 3>(3 * vertex(other), 3 * vertex(position)) =
+                    rows.block<3, 3>(3 * (position - range.begin), 3 * other).transpose();
+        }
+    });
+    auto D_nn = D.bottomRightCorner(n_new, n_new);
+    D_nn = (0.5 * (D_nn + D_nn.transpose())).eval();  // equal but for the tolerance of the integrals
+    D.bottomLeftCorner(n_new, coarse.cols()) = D.topRightCorner(coarse.rows(), n_new).transpose();
+
+    // (D_on + P^T D_nn / 2) P and its transpose are what D_oo lacks.
+    const SurfaceWeights weights = fine.weights();
+    const auto for_parents = [&](const auto& use) {
+        for (int v = n_old; v < n; ++v)
+            for (SurfaceWeights::InnerIterator at(weights, v); at; ++at)
+                use(3 * Eigen::Index{v - n_old}, 3 * static_cast<Eigen::Index>(at.col()), at.value());
+    };
+    Eigen::MatrixXd half = D.topRightCorner(coarse.rows(), n_new),
+                    lacking = Eigen::MatrixXd::Zero(coarse.rows(), coarse.cols());
+    for_parents([&](Eigen::Index v, Eigen::Index parent, double weight) {
+        half.middleRows<3>(parent) += 0.5 * weight * D_nn.middleRows<3>(v);
+    });
+    for_parents([&](Eigen::Index v, Eigen::Index parent, double weight) {
+        lacking.middleCols<3>(parent) += weight * half.middleCols<3>(v);
+    });
+    D.topLeftCorner(coarse.rows(), coarse.cols()) = coarse - (lacking + lacking.transpose());
+    return D;
+}
+
+}  // namespace elastolab

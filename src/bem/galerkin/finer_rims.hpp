@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <Eigen/Core>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "base/control.hpp"
+#include "bem/galerkin/boundary_entries.hpp"
+#include "deform/constraint_map.hpp"
+#include "deform/load_share.hpp"
+#include "deform/unit_load.hpp"
+#include "elasticity/material.hpp"
+#include "mesh/refine.hpp"
+
+namespace elastolab {
+
+/// A constrained set on the surface where its equations are made: that of the body, or one with finer rims.
+struct SurfaceSet {
+    std::vector<int> vertices;  ///< constrained ones of that surface
+    std::vector<UnitLoad> loads;
+    ConstrainedNodes nodes;         ///< how the body's constrained vertices act on them
+    std::vector<LoadShare> shares;  ///< which of the body's carries which reaction
+
+    /// On the body's own surface.
+    SurfaceSet(const SurfaceMesh& surface, std::vector<int> vertices, std::span<const UnitLoad> loads);
+
+protected:
+    SurfaceSet() = default;
+};
+
+/// What happens around a constrained vertex without a constrained triangle. Its answer is that of a force spread over
+/// the triangles around it, and has no limit as they become smaller.
+enum class LoneVertices { kept, refined };
+
+/// The same set on a surface whose triangles are halved along the rims of the constrained patches, where tractions are
+/// singular, and at re-entrant edges of the body, where stresses are singular too (docs/formulation.md section 7). The
+/// polyhedron is the same; the body's vertices come first. What is prescribed is linear on each of the body's
+/// triangles.
+struct FinerRims : SurfaceSet {
+    RefinedSurface surface;
+    std::int64_t n_constrained_triangles = 0;
+
+    /// levels: how many times triangles at the rim are halved, each time those next to the rim; those at re-entrant edges
+    /// once, since scans have many of them
+    FinerRims(const SurfaceMesh& body, std::span<const int> vertices, std::span<const UnitLoad> loads, int levels,
+              LoneVertices lone);
+};
+
+/// The hypersingular operator of a refined surface, as integrated, from that of the coarse one: only the columns of new
+/// vertices are integrated. A coarse hat is the sum of fine ones, so that with P the weights of coarse vertices at new
+/// ones   D_coarse = D_oo + P^T D_no + D_on P + P^T D_nn P   gives D_oo, the part between old vertices.
+/// pairs: of the refined surface. Throws Cancelled.
+Eigen::MatrixXd refined_hypersingular(const Eigen::MatrixXd& coarse, const RefinedSurface& fine,
+                                      const std::shared_ptr<const BoundaryPairs>& pairs, const Material& material,
+                                      Control& control);
+
+}  // namespace elastolab
