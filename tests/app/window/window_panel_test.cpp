@@ -1,7 +1,10 @@
 // The panel of the real window: what is typed and clicked there, and that it keeps still.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <functional>
+#include <string_view>
+#include <thread>
 
 #include "app/pixels.hpp"
 #include "app/real_window.hpp"
@@ -72,6 +75,30 @@ TEST(RealPanel, KeysNameAndRemoveWhatIsSelected) {
     EXPECT_EQ(left.handles[0].name, "middle");
     ASSERT_EQ(left.fixed.size(), 1u);
     EXPECT_EQ(left.fixed[0].name, "wall");
+}
+
+/// Below the panel linear answers say how far linear theory is off, with a button that switches to the method that is
+/// not; they say nothing of a motion that it is right for, whose place of the button is empty.
+TEST(RealPanel, WhereLinearTheoryIsOffAButtonSwitchesToNonlinearFem) {
+    const Eigen::Vector2d button(80, 909);  // above two warnings of a coarse mesh
+    for (const double degrees : {2.0, 60.0}) {
+        const TemporaryFolder folder;
+        Document document = cube_document_with_handle(4);
+        document.handles[0].motion =
+            AffineMotion{.rotate = {.axis = Eigen::Vector3d::UnitX(), .degrees = degrees, .center = {1, 0.5, 0.5}}};
+        save_scene(folder.path() / "cube.json", document);
+        RealWindow window({"cube.json", "--method", "fem", "--size", "1000x1000", "--scene-out", "out.json"},
+                          folder.path());
+        for (int attempt = 0; attempt < 5; ++attempt) {  // what says so comes after the answer, from a worker
+            std::this_thread::sleep_for(std::chrono::milliseconds(500));
+            window.settle();
+            window.click(button);
+        }
+        window.settle();
+        ASSERT_EQ(window.quit().exit_code, 0);
+        EXPECT_EQ(name(load_scene(folder.path() / "out.json").method),
+                  std::string_view(degrees > 10.0 ? "nonlinear-fem" : "fem"));
+    }
 }
 
 /// Where the bars that head the sections of the panel begin and end: right of everything else in it, and above where
