@@ -71,12 +71,13 @@ Subject::Subject(fs::path program, const fs::path& seeds, fs::path folder, doubl
 
 std::size_t Subject::n_variants() { return variants().size(); }
 
-/// Only the seeds are left: a replay may have written anywhere.
-void Subject::tidy() {
+/// Only the seeds are left beside it: a replay may have written anywhere.
+void Subject::lay_down(const Input& input) {
     fs::remove_all(folder_);
     fs::create_directories(folder_);
     for (const auto& entry : fs::directory_iterator(seeds_))
         fs::copy_file(entry.path(), folder_ / entry.path().filename());
+    std::ofstream(folder_ / input.name, std::ios::binary) << input.bytes;
 }
 
 Outcome Subject::execute(std::vector<std::string> arguments) {
@@ -103,7 +104,10 @@ void Subject::check_outputs(Outcome& outcome, const std::vector<std::string>& ou
         if (entry.path().filename().string().starts_with(".elastolab")) outcome.complaint = "a temporary file is left";
 }
 
-Outcome Subject::solve(const std::string& scene, std::size_t variant) {
+Outcome Subject::solve(const Input& input, std::size_t variant) {
+    const bool is_scene = kind_of(input.name) == Kind::scene;
+    const std::string scene = is_scene ? input.name : "around.json";
+    if (!is_scene) std::ofstream(folder_ / scene) << scene_around(input.name);
     constexpr std::array kMeshes = {"out.obj", "out.ply", "out.stl"};
     const std::string mesh = kMeshes[variant % kMeshes.size()];
     const std::vector<std::string> outputs = {"displacements.csv", "forces.csv", "report.json", mesh};
@@ -126,9 +130,7 @@ Outcome Subject::try_body(const Input& input, std::size_t variant) {
         outcome.complaint = facts.complaint;
         if (!facts.complaint.empty() || facts.n_vertices > kMostVertices) return outcome;
     }
-    if (is_scene) return solve(input.name, variant);
-    std::ofstream(folder_ / "around.json") << scene_around(input.name);
-    return solve("around.json", variant);
+    return solve(input, variant);
 }
 
 Outcome Subject::try_replay(const Input& input) {
@@ -140,9 +142,13 @@ Outcome Subject::try_replay(const Input& input) {
 }
 
 Outcome Subject::try_input(const Input& input, std::size_t variant) {
-    tidy();
-    std::ofstream(folder_ / input.name, std::ios::binary) << input.bytes;
+    lay_down(input);
     return kind_of(input.name) == Kind::replay ? try_replay(input) : try_body(input, variant);
+}
+
+Outcome Subject::try_solve(const Input& input, std::size_t variant) {
+    lay_down(input);
+    return solve(input, variant);
 }
 
 }  // namespace elastolab::fuzz

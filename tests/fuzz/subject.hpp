@@ -31,16 +31,18 @@ public:
     /// vertices, to solve in one of several ways; replays to the viewer.
     /// variant  which of the ways, 0 to n_variants() - 1
     Outcome try_input(const Input& input, std::size_t variant);
+    /// Feeds a mesh or scene to solve alone: info, which is slow on the worst of them, says the same in every way.
+    Outcome try_solve(const Input& input, std::size_t variant);
 
     static std::size_t n_variants();
 
 private:
     Outcome execute(std::vector<std::string> arguments);
-    Outcome solve(const std::string& scene, std::size_t variant);
+    Outcome solve(const Input& input, std::size_t variant);
     Outcome try_body(const Input& input, std::size_t variant);
     Outcome try_replay(const Input& input);
     void check_outputs(Outcome& outcome, const std::vector<std::string>& outputs) const;
-    void tidy();
+    void lay_down(const Input& input);
 
     std::filesystem::path program_, seeds_, folder_;
     double slowness_;
