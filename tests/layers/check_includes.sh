@@ -42,10 +42,10 @@ wrapped=(
 failures=0
 complain() { echo "$1"; failures=$((failures + 1)); }
 
-includes() {  # PATTERN: "file:text" of every include of our sources whose text behind #include this matches
-  grep -rsHoE --include='*.[ch]pp' "^[[:space:]]*#[[:space:]]*include[[:space:]]*$1" ./*/ |
-    sed -E 's|^\./+||; s|^([^:]*):[^"<]*|\1:|' | sort || true
-}
+# "file:<name" or "file:"name" of every include of our sources.
+all=$(grep -rsHoE --include='*.[ch]pp' '^[[:space:]]*#[[:space:]]*include[[:space:]]*[<"][^">]*' ./*/ |
+  sed -E 's|^\./+||; s|^([^:]*):[^"<]*|\1:|' | sort || true)
+includes() { grep -oE "^[^:]*:$1" <<< "$all" || true; }  # PATTERN: those that begin like this, as far as they match
 
 while read -r layer; do
   [[ -n ${below[$layer]+known} ]] || complain "$layer: is no known layer"
@@ -57,11 +57,12 @@ while IFS=: read -r file included; do
 done < <(includes '"[a-z_]+/')
 
 # Among the folders of a layer arrows go one way too: what two need lies in the layer itself, or in a third.
-while read -r layer; do
-  loop=$(includes "\"$layer/[a-z_]+/" | sed -E 's|^(.*)/[^/:]*:"(.*)/$|\1 \2|' | awk 'split($1, parts, "/") > 1 && $1 != $2' |
-    tsort 2>&1 >/dev/null | sed -n 's/^tsort: \([a-z].*\)/\1/p' | sort -u | tr '\n' ' ') || true
-  [[ -z $loop ]] || complain "$layer: folders include each other in a circle: $loop"
-done < <(printf '%s\n' "${!below[@]}" | sort)
+in_circles=$(includes '"[a-z_]+/[a-z_]+/' | sed -E 's|^(.*)/[^/:]*:"(.*)/$|\1 \2|' |
+  awk '{ n = split($1, from, "/"); split($2, to, "/") } n > 1 && from[1] == to[1] && $1 != $2' |
+  tsort 2>&1 >/dev/null | sed -n 's/^tsort: \([a-z].*\)/\1/p' | sort -u) || true
+for layer in $(cut -d/ -f1 <<< "$in_circles" | sort -u); do
+  complain "$layer: folders include each other in a circle: $(grep "^$layer/" <<< "$in_circles" | tr '\n' ' ')"
+done
 
 # The registry names methods; what else they have stays in their folders.
 while IFS=: read -r file included; do
