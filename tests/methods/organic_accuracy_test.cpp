@@ -8,10 +8,10 @@
 #include "bem/galerkin/method.hpp"
 #include "fem/method.hpp"
 #include "mesh/refine.hpp"
+#include "methods/known_truth.hpp"
 #include "methods/problem.hpp"
 #include "methods/registry.hpp"
 #include "study/error/organic_body.hpp"
-#include "study/error/organic_truth.hpp"
 
 namespace elastolab::test {
 namespace {
@@ -37,7 +37,9 @@ TEST(OrganicBody, IsDisplacedNoWorseByTheDefaultTractionsThanByFem) {
         const Material material{1.0, nu};
         const std::vector<int> constrained = organic.constrained();
         const Positions values = organic.values(0.2);
-        const OrganicTruth truth = compute_truth(organic.surface, constrained, values, material, {1});
+        const std::string file = nu == 0.3 ? "pulled_potato.csv" : "pulled_potato_nearly_incompressible.csv";
+        const KnownTruth truth = known_truth(
+            file, organic.surface, [&] { return compute_truth(organic.surface, constrained, values, material, {1}); });
         const Body body = make_body(organic.surface, material);
         const auto error = [&](const Method& method) {
             const Eigen::VectorXd u = displaced(precomputed(body, method), {{}, constrained}, values.reshaped());
@@ -68,7 +70,10 @@ TEST(OrganicBody, HalvingTheTrianglesAlongTheRimsHalvesTheError) {
     const RefinedSurface whole = unrefined(coarse), halved = refine_marked(whole, around_rim(whole, in_region));
     for (const bool turned : {false, true}) {
         const Positions values = turned ? organic.turned_values(0.35) : organic.values(0.2);
-        const OrganicTruth truth = compute_truth(coarse, constrained, values, {1.0, 0.3}, {1});
+        const KnownTruth truth =
+            known_truth(turned ? "turned_potato_of_200.csv" : "pulled_potato_of_200.csv", coarse, [&] {
+                return compute_truth(coarse, constrained, values, {1.0, 0.3}, {1});
+            });
         Positions everywhere = Positions::Zero(3, coarse.n_vertices());
         everywhere(Eigen::all, constrained) = values;
         const auto error = [&](const RefinedSurface& surface, const Method& method) {
