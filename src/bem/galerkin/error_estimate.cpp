@@ -80,7 +80,9 @@ NodeSolution solve_by_galerkin(const SurfaceMesh& surface, const SurfaceSet& set
     const GalerkinSystem system(std::make_shared<const Boundary>(surface), poisson_ratio, reference_method(), nullptr,
                                 stages, control);
     const GalerkinTractions tractions(surface, system.surfaces(), set.vertices);
-    return whole(GalerkinDirectSolver(system, set.vertices, tractions, set.loads, control).solve(values, true));
+    return whole(
+        GalerkinDirectSolver(system, system.hypersingular(control), set.vertices, tractions, set.loads, control)
+            .solve(values, true));
 }
 
 /// The body's part of such a solution. values: at the body's constrained vertices, then the loads' factors.

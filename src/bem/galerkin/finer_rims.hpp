@@ -42,8 +42,8 @@ struct FinerRims : SurfaceSet {
     RefinedSurface surface;
     std::int64_t n_constrained_triangles = 0;
 
-    /// levels: how many times triangles at the rim are halved, each time those next to the rim; those at re-entrant edges
-    /// once, since scans have many of them
+    /// levels: how many times triangles at the rim are halved, each time those next to the rim; those at re-entrant
+    /// edges once, since scans have many of them
     FinerRims(const SurfaceMesh& body, std::span<const int> vertices, std::span<const UnitLoad> loads, int levels,
               LoneVertices lone);
 };

@@ -67,33 +67,43 @@ std::unique_ptr<ConstrainedSolid> GalerkinModel::constrain(std::span<const int> 
                                                            std::span<const UnitLoad> loads, Control& control) const {
     const SurfaceMesh& mesh = system_->boundary().mesh();
     const SurfaceSet given(mesh, joined(fixed, handles), loads);
-    if (method_.rims == 0) return constrain(system_, given, method_.update, given, control);
+    StageTimes stages;
+    if (method_.rims == 0) {
+        std::optional<Eigen::MatrixXd> D;
+        if (method_.update == Update::direct) {
+            control.begin_stage("integrate");
+            D = system_->hypersingular(control);
+        }
+        return constrain(system_, std::move(D), given, given, control);
+    }
     try {
         const FinerRims rims(mesh, given.vertices, loads, method_.rims, LoneVertices::kept);
+        const Method direct{
+            .kind = method_.kind, .update = Update::direct, .integral_tolerance = method_.integral_tolerance};
+        const auto system = std::make_shared<const GalerkinSystem>(std::make_shared<const Boundary>(rims.surface.mesh),
+                                                                   poisson_ratio_, direct, nullptr, stages, control);
         control.begin_stage("integrate");
-        auto system = std::make_shared<const GalerkinSystem>(*system_, rims.surface, control);
-        return constrain(std::move(system), rims, Update::direct, given, control);
+        return constrain(system, system->hypersingular(*system_, rims.surface, control), rims, given, control);
     } catch (const NotHeldError&) {
         // What moves least is found from compliance columns, which are those of the surface as given.
         if (method_.update == Update::direct) throw;
         Method method = method_;
         method.rims = 0;
-        StageTimes stages;
-        auto system = std::make_shared<const GalerkinSystem>(system_->shared_boundary(), poisson_ratio_, method,
-                                                             system_->parts(), stages, control);
-        return constrain(std::move(system), given, method.update, given, control);
+        const auto system = std::make_shared<const GalerkinSystem>(system_->shared_boundary(), poisson_ratio_, method,
+                                                                   system_->parts(), stages, control);
+        return constrain(system, std::nullopt, given, given, control);
     }
 }
 
 std::unique_ptr<ConstrainedSolid> GalerkinModel::constrain(std::shared_ptr<const GalerkinSystem> system,
-                                                           const SurfaceSet& set, Update update,
+                                                           std::optional<Eigen::MatrixXd> D, const SurfaceSet& set,
                                                            const SurfaceSet& of_body, Control& control) const {
     const auto& [vertices, loads, nodes, shares] = set;
     const SurfaceMesh& mesh = system->boundary().mesh();
     const GalerkinTractions tractions(mesh, system->surfaces(), vertices);
     std::unique_ptr<NodeSolver> solver;
-    if (update == Update::direct)
-        solver = std::make_unique<GalerkinDirectSolver>(*system, vertices, tractions, loads, control);
+    if (D)
+        solver = std::make_unique<GalerkinDirectSolver>(*system, *std::move(D), vertices, tractions, loads, control);
     else
         solver = std::make_unique<ReducedSolver>(galerkin_reduced_system(system, vertices, tractions, loads, control),
                                                  control);
@@ -128,8 +138,8 @@ std::uint64_t GalerkinModel::constrain_memory(std::span<const int> fixed, std::s
     const SurfaceMesh& mesh = system_->boundary().mesh();
     if (method_.rims > 0) {
         const FinerRims rims(mesh, vertices, {}, method_.rims, LoneVertices::kept);
-        const auto n = static_cast<std::uint64_t>(3 * rims.surface.mesh.n_vertices());
-        return 8 * n * n + galerkin_direct_memory(static_cast<std::int64_t>(n), 3 * rims.n_constrained_triangles);
+        return galerkin_direct_memory(3 * std::int64_t{rims.surface.mesh.n_vertices()},
+                                      3 * rims.n_constrained_triangles);
     }
     const GalerkinTractions tractions(mesh, system_->surfaces(), vertices);
     const Eigen::Index n_loads = 3 * std::ssize(vertices);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "bem/galerkin/finer_rims.hpp"
 #include "bem/galerkin/system.hpp"
@@ -25,9 +26,11 @@ public:
     void visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const override;
 
 private:
+    /// D: the hypersingular matrix, for a factorisation of this set alone; without one, from compliance columns.
     /// of_body: the same set on the body's own surface.
-    std::unique_ptr<ConstrainedSolid> constrain(std::shared_ptr<const GalerkinSystem> system, const SurfaceSet& set,
-                                                Update update, const SurfaceSet& of_body, Control& control) const;
+    std::unique_ptr<ConstrainedSolid> constrain(std::shared_ptr<const GalerkinSystem> system,
+                                                std::optional<Eigen::MatrixXd> D, const SurfaceSet& set,
+                                                const SurfaceSet& of_body, Control& control) const;
 
     Method method_;
     double poisson_ratio_;

@@ -104,9 +104,9 @@ std::uint64_t galerkin_direct_memory(std::int64_t n_degrees_of_freedom, std::int
     return 8 * (2 * n * n + 3 * n * m + m * m);
 }
 
-GalerkinDirectSolver::GalerkinDirectSolver(const GalerkinSystem& system, const std::vector<int>& vertices,
-                                           const GalerkinTractions& tractions, std::span<const UnitLoad> loads,
-                                           Control& control)
+GalerkinDirectSolver::GalerkinDirectSolver(const GalerkinSystem& system, Eigen::MatrixXd&& matrix,
+                                           const std::vector<int>& vertices, const GalerkinTractions& tractions,
+                                           std::span<const UnitLoad> loads, Control& control)
     : partition_(system.size(), vertices) {
     control.begin_stage("integrate");
     if (!loads.empty()) {
@@ -114,7 +114,7 @@ GalerkinDirectSolver::GalerkinDirectSolver(const GalerkinSystem& system, const s
         given_ = system.given_single_layer(tractions, loads, control);
     }
     GalerkinOperators operators = system.operators(tractions, control);
-    const Eigen::MatrixXd D = system.hypersingular(control);
+    const Eigen::MatrixXd D = std::move(matrix);
     control.begin_stage("factorise");
     single_layer_ = CholeskyFactorization(std::move(operators.single_layer), "single-layer matrix", &control);
     Y_ = std::move(operators.double_layer);

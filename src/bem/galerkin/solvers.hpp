@@ -40,8 +40,9 @@ private:
 /// symmetric positive definite. Factorised afresh for each constrained set.
 class GalerkinDirectSolver : public NodeSolver {
 public:
-    /// Throws NotHeldError when the constraints do not hold the body; SolveError, Cancelled.
-    GalerkinDirectSolver(const GalerkinSystem& system, const std::vector<int>& vertices,
+    /// D: GalerkinSystem::hypersingular. Throws NotHeldError when the constraints do not hold the body; SolveError,
+    /// Cancelled.
+    GalerkinDirectSolver(const GalerkinSystem& system, Eigen::MatrixXd&& D, const std::vector<int>& vertices,
                          const GalerkinTractions& tractions, std::span<const UnitLoad> loads, Control& control);
     /// loads: reactions at the vertices, then tractions.
     NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const override;

@@ -131,17 +131,16 @@ GalerkinSystem::GalerkinSystem(std::shared_ptr<const Boundary> boundary, double 
     if (method.mode != Mode::on_demand) complete(std::move(kept), stages, control);
 }
 
-GalerkinSystem::GalerkinSystem(const GalerkinSystem& coarse, const RefinedSurface& fine, Control& control)
-    : boundary_(std::make_shared<const Boundary>(fine.mesh)),
-      material_(coarse.material_),
-      tolerance_(coarse.tolerance_),
-      surfaces_(fine.mesh),
-      body_modes_(rigid_modes(fine.mesh.vertices)),
-      integrals_(refined_hypersingular(
-          coarse.integrals_, fine, std::make_shared<const BoundaryPairs>(boundary_, tolerance_), material_, control)) {}
-
 Eigen::MatrixXd GalerkinSystem::hypersingular(Control& control) const {
     Eigen::MatrixXd D = integrals(control);
+    RigidPart(D, surfaces_.rigid, control).replace(D, 0.0, control);
+    return D;
+}
+
+Eigen::MatrixXd GalerkinSystem::hypersingular(const GalerkinSystem& coarse, const RefinedSurface& fine,
+                                              Control& control) const {
+    const auto pairs = std::make_shared<const BoundaryPairs>(boundary_, tolerance_);
+    Eigen::MatrixXd D = refined_hypersingular(coarse.integrals_, fine, pairs, material_, control);
     RigidPart(D, surfaces_.rigid, control).replace(D, 0.0, control);
     return D;
 }

@@ -32,8 +32,6 @@ public:
     /// `parts`: D's integrals of this boundary and tolerance, or null.
     GalerkinSystem(std::shared_ptr<const Boundary> boundary, double poisson_ratio, const Method& method,
                    std::shared_ptr<const HypersingularParts> parts, StageTimes& stages, Control& control);
-    /// The same body with finer triangles, for one set by GalerkinDirectSolver. coarse: one that keeps D.
-    GalerkinSystem(const GalerkinSystem& coarse, const RefinedSurface& fine, Control& control);
 
     const Boundary& boundary() const { return *boundary_; }
     std::shared_ptr<const Boundary> shared_boundary() const { return boundary_; }
@@ -47,6 +45,8 @@ public:
 
     /// D afresh, both triangles, freed of rigid motions.
     Eigen::MatrixXd hypersingular(Control& control) const;
+    /// The same of a system on a refined surface. coarse: that of the body, which keeps D.
+    Eigen::MatrixXd hypersingular(const GalerkinSystem& coarse, const RefinedSurface& fine, Control& control) const;
     /// V and K of a traction space, integrated afresh.
     GalerkinOperators operators(const GalerkinTractions& tractions, Control& control) const;
     /// V alone: pairs of its own triangles.
@@ -81,7 +81,7 @@ private:
     ClosedSurfaces surfaces_;
     Eigen::MatrixXd body_modes_;  ///< 3V x 6: rigid motions of the whole body
     std::shared_ptr<const HypersingularParts> parts_;
-    Eigen::MatrixXd integrals_;  ///< D as integrated, where it is kept
+    Eigen::MatrixXd integrals_;  ///< D as integrated, kept for sets with finer rims
     double shift_ = 1.0;
     CholeskyFactorization factor_;
     std::shared_ptr<const DenseHypersingular> dense_;

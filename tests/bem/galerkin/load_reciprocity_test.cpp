@@ -29,7 +29,7 @@ struct LoadAndMotion {
         }
         load = {unit_pressure(body.surface, pressed)};
         tractions = GalerkinTractions(body.surface, surfaces, vertices);
-        const GalerkinDirectSolver solver(system, vertices, tractions, load, control);
+        const GalerkinDirectSolver solver(system, system.hypersingular(control), vertices, tractions, load, control);
         Eigen::VectorXd prescribed = Eigen::VectorXd::Zero(3 * std::ssize(vertices) + 1);
         prescribed.segment(3 * std::ssize(body.fixed), 3 * std::ssize(body.pull)) =
             Eigen::Vector3d(0.3, -0.1, 0.2).replicate(std::ssize(body.pull), 1);

@@ -31,7 +31,8 @@ struct StretchedBox {
         Eigen::VectorXd values = Eigen::VectorXd::Zero(3 * std::ssize(ends));
         for (std::size_t i = 0; i < ends.size(); ++i)
             values[3 * static_cast<Eigen::Index>(i)] = mesh.vertices(0, ends[i]);
-        return GalerkinDirectSolver(system, ends, tractions, {}, control).solve(values, true);
+        return GalerkinDirectSolver(system, system.hypersingular(control), ends, tractions, {}, control)
+            .solve(values, true);
     }
     double residual(const NodeSolution& solution) {
         const auto pairs = std::make_shared<const BoundaryPairs>(std::make_shared<const Boundary>(mesh), 1e-8);
