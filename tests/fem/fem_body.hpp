@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Cholesky>
+
 #include "fem/assembly.hpp"
 #include "fem/sparse_cholesky.hpp"
 #include "support/tet_box.hpp"

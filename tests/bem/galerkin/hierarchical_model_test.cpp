@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <utility>
 
+#include "bem/cost.hpp"
 #include "bem/galerkin/always_hierarchical.hpp"
 #include "bem/galerkin/cost.hpp"
 #include "bem/galerkin/error_estimate.hpp"
