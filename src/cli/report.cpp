@@ -63,7 +63,8 @@ void print_heading(std::ostream& out, const SolveRequest& request, const Method&
     out << request.scene_file.string() << ": " << name(method.kind) << ", " << name(method.mode) << ", ";
     if (method.kind->chooses_tractions) out << name(method.tractions) << " tractions, ";
     if (method.kind->chooses_elements) out << name(method.elements) << " elements, ";
-    if (method.rims > 0) out << "rims halved " << (method.rims == 1 ? "once, " : method.rims == 2 ? "twice, " : "three times, ");
+    if (method.rims > 0)
+        out << "rims halved " << (method.rims == 1 ? "once, " : method.rims == 2 ? "twice, " : "three times, ");
     out << name(method.update) << " update\n";
 }
 

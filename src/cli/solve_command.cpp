@@ -1,8 +1,10 @@
 #include <unistd.h>
 
+#include <algorithm>
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
+#include <span>
 #include <utility>
 
 #include "base/error.hpp"
@@ -117,6 +119,19 @@ Method choose_method(const SolveOptions& options, const Document& document, cons
     return method;
 }
 
+/// Tells of options that mean nothing to the method.
+void add_choices_left_aside(const SolveOptions& options, MethodKind kind, Findings& findings) {
+    const auto tell = [&](bool is_given, bool MethodTraits::*chooses, const char* option) {
+        if (!is_given || kind->*chooses) return;
+        const std::span<const MethodKind> all = all_methods();
+        const auto its = std::find_if(all.begin(), all.end(), [&](MethodKind other) { return other->*chooses; });
+        findings.push_back({.kind = FindingKind::choice_left_aside, .method = *its, .object = option});
+    };
+    tell(!options.tractions.empty(), &MethodTraits::chooses_tractions, "--tractions");
+    tell(!options.elements.empty(), &MethodTraits::chooses_elements, "--elements");
+    tell(options.rims > 0, &MethodTraits::chooses_rims, "--rims");
+}
+
 std::vector<fs::path> input_files(const SolveRequest& request) {
     std::vector<fs::path> inputs = {request.scene_file};
     if (const auto* mesh = std::get_if<MeshFile>(&request.document.mesh))
@@ -149,12 +164,7 @@ void run_solve(const SolveOptions& options, const SolveVariant& variant) {
     require_inside(request.method.kind, options.mesh_out);
 
     Solution solution = solve_with_progress(request, control, !options.quiet);
-    if (!options.tractions.empty() && !request.method.kind->chooses_tractions)
-        solution.findings.push_back({.kind = FindingKind::choice_left_aside, .object = "--tractions"});
-    if (!options.elements.empty() && !request.method.kind->chooses_elements)
-        solution.findings.push_back({.kind = FindingKind::choice_left_aside, .first = 1, .object = "--elements"});
-    if (options.rims > 0 && !request.method.kind->chooses_rims)
-        solution.findings.push_back({.kind = FindingKind::choice_left_aside, .first = 2, .object = "--rims"});
+    add_choices_left_aside(options, request.method.kind, solution.findings);
     write_outputs(options.outputs(), solution, control);
     if (options.quiet) return;
     lseek(STDOUT_FILENO, 0, SEEK_END);  // after an output that went to /dev/stdout, if that is a file

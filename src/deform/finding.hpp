@@ -28,7 +28,7 @@ enum class FindingKind {
     force_imbalance,       ///< resultant of all reaction forces, over the largest
     moment_imbalance,      ///< resultant of all reaction moments, over the largest
     nothing_constrained,   ///< no vertex of the scene `object` is fixed or moved
-    choice_left_aside,     ///< the option `object` means nothing to the method; `first` 1: it is of nonlinear FEM
+    choice_left_aside,     ///< the option `object` means nothing to the method, it is one of `method`
     impossible_volume,     ///< change of volume over volume, of an incompressible solid that is held all over
     large_residual,        ///< relative residual of the solution
     proxy,                 ///< a closed surface of `first` vertices stands for the mesh `object`; its largest distance

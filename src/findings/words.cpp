@@ -171,11 +171,7 @@ std::string words(const Finding& finding) {
         case FindingKind::nothing_constrained:
             return finding.object + ": no vertex is fixed or moved, so the body rests. Add a handle.";
         case FindingKind::choice_left_aside:
-            return finding.object + ": applies to " +
-                   (finding.first == 2   ? "galerkin-bem"
-                    : finding.first == 1 ? "nonlinear-fem"
-                                         : "linear-bem") +
-                   " only, and was ignored.";
+            return finding.object + ": applies to " + std::string(name(finding.method)) + " only, and was ignored.";
         case FindingKind::impossible_volume:
             return "constraints: prescribe the whole surface of an incompressible body and change its volume by " +
                    percent(finding.value) +
