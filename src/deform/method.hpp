@@ -110,8 +110,8 @@ struct Method {
     Tractions tractions = Tractions::discontinuous;
     Update update = Update::reduced;
     ElementDegree elements = ElementDegree::quadratic;  ///< nonlinear FEM: ten nodes or four
-    /// Galerkin BEM: how many times triangles are halved, each time those along the rims of the constrained patches and
-    /// at re-entrant edges, at most kMostRims. With 1 or more every set is solved afresh, whatever the update.
+    /// Galerkin BEM: how many times triangles along the rims of the constrained patches are halved (once also those at
+    /// re-entrant edges), at most kMostRims. With 1 or more every set is solved afresh, whatever the update.
     int rims = 0;
     /// BEM: relative error allowed to a boundary integral; decides which rule is used where. 0: that of the method
     /// (MethodTraits::integral_tolerance).

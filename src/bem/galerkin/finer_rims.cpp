@@ -4,8 +4,6 @@
 #include <cmath>
 #include <Eigen/Geometry>
 
-#include "base/parallel.hpp"
-#include "bem/hierarchical/cluster_tree.hpp"
 #include "mesh/topology.hpp"
 
 namespace elastolab {
@@ -15,8 +13,6 @@ namespace {
 /// Faces turn into the body at a re-entrant edge by more than this angle, in radians: at less, curved surfaces in flat
 /// triangles have such edges everywhere.
 constexpr double kReentrant = 0.8;
-/// Vertices whose columns are integrated at once: neighbours share triangles, most of them lie at a rim.
-constexpr int kVerticesAtOnce = 16;
 
 bool all_corners(const Eigen::Vector3i& triangle, const std::vector<char>& marked) {
     return std::all_of(triangle.begin(), triangle.end(), [&](int v) { return marked[static_cast<std::size_t>(v)]; });
@@ -133,52 +129,6 @@ FinerRims::FinerRims(const SurfaceMesh& body, std::span<const int> constrained, 
         }
     }
     nodes = {vertices, prescribe.build(std::ssize(vertices), std::ssize(constrained))};
-}
-
-Eigen::MatrixXd refined_hypersingular(const Eigen::MatrixXd& coarse, const RefinedSurface& fine,
-                                      const std::shared_ptr<const BoundaryPairs>& pairs, const Material& material,
-                                      Control& control) {
-    const int n = fine.mesh.n_vertices(), n_old = static_cast<int>(coarse.cols() / 3);
-    const Eigen::Index n_new = 3 * Eigen::Index{n - n_old};
-    const auto tree = pairs->cluster_vertices(kVerticesAtOnce);
-    const HypersingularEntries entries(pairs, tree, material);
-    Eigen::MatrixXd D(3 * n, 3 * n);
-    parallel_blocks(static_cast<int>(tree->leaves().size()), 1, control, [&](int leaf, int) {
-        const PositionRange range = tree->cluster(tree->leaves()[static_cast<std::size_t>(leaf)]).range;
-        const auto vertex = [&](int position) { return tree->order()[static_cast<std::size_t>(position)]; };
-        Eigen::MatrixXd rows;
-        for (int position = range.begin; position < range.end; ++position) {
-            if (vertex(position) < n_old) continue;
-            if (rows.size() == 0) {
-                rows.resize(3 * range.size(), 3 * n);
-                entries.fill(range, {0, n}, rows);
-            }
-            for (int other = 0; other < n; ++other)
-                D.block<3, 3>(3 * vertex(other), 3 * vertex(position)) =
-                    rows.block<3, 3>(3 * (position - range.begin), 3 * other).transpose();
-        }
-    });
-    auto D_nn = D.bottomRightCorner(n_new, n_new);
-    D_nn = (0.5 * (D_nn + D_nn.transpose())).eval();  // equal but for the tolerance of the integrals
-    D.bottomLeftCorner(n_new, coarse.cols()) = D.topRightCorner(coarse.rows(), n_new).transpose();
-
-    // (D_on + P^T D_nn / 2) P and its transpose are what D_oo lacks.
-    const SurfaceWeights weights = fine.weights();
-    const auto for_parents = [&](const auto& use) {
-        for (int v = n_old; v < n; ++v)
-            for (SurfaceWeights::InnerIterator at(weights, v); at; ++at)
-                use(3 * Eigen::Index{v - n_old}, 3 * static_cast<Eigen::Index>(at.col()), at.value());
-    };
-    Eigen::MatrixXd half = D.topRightCorner(coarse.rows(), n_new),
-                    lacking = Eigen::MatrixXd::Zero(coarse.rows(), coarse.cols());
-    for_parents([&](Eigen::Index v, Eigen::Index parent, double weight) {
-        half.middleRows<3>(parent) += 0.5 * weight * D_nn.middleRows<3>(v);
-    });
-    for_parents([&](Eigen::Index v, Eigen::Index parent, double weight) {
-        lacking.middleCols<3>(parent) += weight * half.middleCols<3>(v);
-    });
-    D.topLeftCorner(coarse.rows(), coarse.cols()) = coarse - (lacking + lacking.transpose());
-    return D;
 }
 
 }  // namespace elastolab

@@ -2,16 +2,12 @@
 
 #include <cstdint>
 #include <Eigen/Core>
-#include <memory>
 #include <span>
 #include <vector>
 
-#include "base/control.hpp"
-#include "bem/galerkin/boundary_entries.hpp"
 #include "deform/constraint_map.hpp"
 #include "deform/load_share.hpp"
 #include "deform/unit_load.hpp"
-#include "elasticity/material.hpp"
 #include "mesh/refine.hpp"
 
 namespace elastolab {
@@ -47,13 +43,5 @@ struct FinerRims : SurfaceSet {
     FinerRims(const SurfaceMesh& body, std::span<const int> vertices, std::span<const UnitLoad> loads, int levels,
               LoneVertices lone);
 };
-
-/// The hypersingular operator of a refined surface, as integrated, from that of the coarse one: only the columns of new
-/// vertices are integrated. A coarse hat is the sum of fine ones, so that with P the weights of coarse vertices at new
-/// ones   D_coarse = D_oo + P^T D_no + D_on P + P^T D_nn P   gives D_oo, the part between old vertices.
-/// pairs: of the refined surface. Throws Cancelled.
-Eigen::MatrixXd refined_hypersingular(const Eigen::MatrixXd& coarse, const RefinedSurface& fine,
-                                      const std::shared_ptr<const BoundaryPairs>& pairs, const Material& material,
-                                      Control& control);
 
 }  // namespace elastolab

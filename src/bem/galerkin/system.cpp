@@ -5,8 +5,8 @@
 
 #include "base/blas.hpp"
 #include "base/parallel.hpp"
-#include "bem/galerkin/finer_rims.hpp"
 #include "bem/galerkin/given_loads.hpp"
+#include "bem/galerkin/refined_hypersingular.hpp"
 #include "bem/galerkin/traction_rows.hpp"
 #include "deform/load_columns.hpp"
 #include "elasticity/rigid_motion.hpp"

@@ -8,6 +8,7 @@
 #include "bem/galerkin/always_hierarchical.hpp"
 #include "bem/galerkin/hypersingular.hpp"
 #include "bem/galerkin/method.hpp"
+#include "bem/galerkin/refined_hypersingular.hpp"
 #include "bem/hierarchical/cases.hpp"
 #include "elasticity/rigid_motion.hpp"
 #include "mesh/primitives.hpp"
