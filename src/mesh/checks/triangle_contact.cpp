@@ -86,8 +86,25 @@ bool strangers_meet(const Corners& a, const Corners& b) {
     return false;
 }
 
+/// Whether a plane through the common first corner has the rest of both strictly on its two sides: a test without exact
+/// arithmetic, which knows most of the many pairs around one vertex apart. The plane need not be exact; a side is
+/// believed where it is far above the rounding of a product of three terms and of the differences in it.
+bool parted_by_plane(const Corners& a, const Corners& b) {
+    constexpr double kRounding = 1e-14;
+    const std::array<Vector3d, 4> edges{a[1] - a[0], a[2] - a[0], b[1] - b[0], b[2] - b[0]};
+    std::array<double, 4> lengths{};
+    for (std::size_t i = 0; i < 4; ++i) lengths[i] = edges[i].norm();
+    const Vector3d normal =
+        edges[0] / lengths[0] + edges[1] / lengths[1] - edges[2] / lengths[2] - edges[3] / lengths[3];
+    const double size = kRounding * normal.norm();
+    for (std::size_t i = 0; i < 4; ++i)
+        if (!((i < 2 ? 1.0 : -1.0) * normal.dot(edges[i]) > size * lengths[i])) return false;
+    return true;
+}
+
 /// For a common first corner. If they share more, then by convexity a segment from that corner to an edge opposite it.
 bool meet_beyond_corner(const Corners& a, const Corners& b) {
+    if (parted_by_plane(a, b)) return false;
     const std::array<int, 3> sa = sides(b, a), sb = sides(a, b);
     return segment_meets(a[1], a[2], sa[1], sa[2], b) || segment_meets(b[1], b[2], sb[1], sb[2], a);
 }
