@@ -22,6 +22,22 @@ constexpr int kDenseVertices = 2000;    ///< above, a wireframe hides more than 
 
 double diagonal(const MeshReport& report) { return (report.max_corner - report.min_corner).norm(); }
 
+/// What a person is told of a surface's defects as it is loaded. Where a closed surface stands for it, nothing has to
+/// be done about them; the panel lists them.
+void note_defects(const LiveScene& scene, MethodKind method, Messages& messages) {
+    const std::vector<Defect>& defects = scene.report().defects;
+    const std::string name = fs::path(scene.name()).filename().string() + ": ";
+    const auto is_fatal = [](const Defect& defect) { return defect.fatal && !defect.repaired; };
+    const auto fatal = std::ranges::find_if(defects, is_fatal);
+    if (!scene.needs_proxy(method) || fatal == defects.end()) {
+        for (const Defect& defect : defects) messages.note(name + defect.text);
+        return;
+    }
+    const bool has_more = std::ranges::count_if(defects, is_fatal) > 1;
+    messages.note(name + fatal->found + (has_more ? " and other defects" : "") +
+                  ". A closed surface is simulated in its place.");
+}
+
 }  // namespace
 
 void ViewerState::start_with(MethodKind kind) {
@@ -74,7 +90,7 @@ void ViewerState::take_scene(LoadedScene loaded) {
         camera.set_view(ViewDirection::isometric);
         frame_body();
     }
-    for (const Defect& defect : scene_->report().defects) messages.note(scene_->name() + ": " + defect.text);
+    note_defects(*scene_, method, messages);
 }
 
 void ViewerState::save_probes(const fs::path& file) {

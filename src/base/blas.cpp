@@ -1,7 +1,6 @@
 #include "base/blas.hpp"
 
 #include <cblas.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -11,6 +10,7 @@
 
 #include "base/instruction_set.hpp"
 #include "base/machine.hpp"
+#include "base/restart.hpp"
 
 namespace elastolab {
 
@@ -47,7 +47,7 @@ void prepare_parallel_libraries(char** argv) {
     set_where_unset("OMP_WAIT_POLICY", "passive");
     set_where_unset("OPENBLAS_THREAD_TIMEOUT", "12");  // its threads look for more work for 2^12 cycles, not for 2^26
     set_where_unset("GLIBC_TUNABLES", "glibc.malloc.hugetlb=1");
-    if (changed) execv("/proc/self/exe", argv);  // on failure all is slower, and reports say which kernels run
+    if (changed) restart(argv);  // on failure all is slower, and reports say which kernels run
     if (openblas_get_num_threads() > thread_count()) set_thread_count(thread_count());  // it knows of no quota
 }
 

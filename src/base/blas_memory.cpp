@@ -2,7 +2,6 @@
 
 #include <sys/mman.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <fstream>
@@ -10,6 +9,7 @@
 
 #include "base/blas.hpp"
 #include "base/error.hpp"
+#include "base/restart.hpp"
 #include "base/text.hpp"
 
 // Exported by OpenBLAS but declared in none of its headers; null in a library without them.
@@ -58,7 +58,7 @@ void take_buffers_once(int n) {
 
 void start_blas_within_limits(char** argv) {
     if (!are_addresses_limited() || std::getenv(kThreadsVariable) != nullptr) return;
-    if (setenv(kThreadsVariable, "1", 0) == 0) execv("/proc/self/exe", argv);  // on failure: as without limits
+    if (setenv(kThreadsVariable, "1", 0) == 0) restart(argv);  // on failure: as without limits
 }
 
 void reserve_blas_buffers() {

@@ -1,10 +1,10 @@
 #include "base/stack.hpp"
 
 #include <sys/resource.h>
-#include <unistd.h>
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "base/restart.hpp"
 #include "base/text.hpp"
 
 namespace elastolab {
@@ -19,7 +19,7 @@ void ensure_stack(char** argv) {
     if (setrlimit(RLIMIT_STACK, &limit) != 0)
         throw Error("stack: limited to " + readable_bytes(static_cast<double>(before)) +
                     ", linear algebra on several threads needs 8 MiB. Raise it, as by 'ulimit -s 8192'.");
-    execv("/proc/self/exe", argv);  // returns only where it fails; the main thread has its larger stack all the same
+    restart(argv);  // returns only where it fails; the main thread has its larger stack all the same
 }
 
 }  // namespace elastolab

@@ -15,6 +15,11 @@ constexpr double kRounding = std::numeric_limits<double>::epsilon();
 
 std::string place_of(const Finding& finding) { return readable_point(finding.place.value_or(Eigen::Vector3d::Zero())); }
 
+/// "1 hole", "1020 holes".
+std::string counted(double count, const std::string& noun) {
+    return formatted("%.0f ", count) + noun + (count == 1.0 ? "" : "s");
+}
+
 /// Two significant digits, without an exponent: "3.7 %", "370 %".
 std::string percent(double part) {
     const std::string digits = readable_number(100.0 * part);
@@ -183,13 +188,12 @@ std::string words(const Finding& finding) {
         case FindingKind::chosen_proxy:
             return proxy(finding);
         case FindingKind::capped_holes:
-            return finding.object + ": taken for a solid, " + readable_number(finding.value) +
-                   (finding.value == 1.0 ? " hole" : " holes") +
+            return finding.object + ": taken for a solid, " + counted(finding.value, "hole") +
                    " closed. Take it for a sheet (proxy as sheet) where thin walls are meant, or close the holes in "
                    "the file.";
         case FindingKind::filled_holes:
-            return finding.object + ": simulated with its " + readable_number(finding.value) +
-                   (finding.value == 1.0 ? " hole" : " holes") + " filled by " + std::to_string(finding.first) +
+            return finding.object + ": simulated with its " + counted(finding.value, "hole") + " filled by " +
+                   std::to_string(finding.first) +
                    " triangles, which no output contains. Close them in the file where another shape is meant.";
         case FindingKind::linear_theory:
             return linear_theory(finding);
@@ -200,8 +204,7 @@ std::string words(const Finding& finding) {
         case FindingKind::thin_sheets:
             return thin_sheets(finding);
         case FindingKind::narrow_openings:
-            return finding.object + ": " + readable_number(finding.value) +
-                   (finding.value == 1.0 ? " opening is" : " openings are") +
+            return finding.object + ": " + counted(finding.value, "opening") + (finding.value == 1.0 ? " is" : " are") +
                    " narrower than the proxy's triangles, so it is simulated as a solid although it was to be a sheet. "
                    "Ask for more proxy vertices.";
     }

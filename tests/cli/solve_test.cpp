@@ -15,7 +15,6 @@ using test::run_program;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::IsEmpty;
 
 const std::vector<std::string> kMethods = {"fem", "constant-bem", "linear-bem"};
 
@@ -433,18 +432,6 @@ TEST_F(SolveTest, EndsWithoutOutputsWhenItIsInterrupted) {
         EXPECT_EQ(test::read_text(file("u.csv")), "before");
         EXPECT_THAT(folder_.listing(), ElementsAre("scene.json", "u.csv"));
     }
-}
-
-TEST(Program, HelpsAndTellsItsVersion) {
-    const std::vector<std::vector<std::string>> commands = {
-        {"--help"}, {"view", "--help"}, {"solve", "--help"}, {"info", "--help"}};
-    for (const auto& arguments : commands) {
-        const ProgramRun run = run_program(arguments, ".");
-        EXPECT_EQ(run.exit_code, 0);
-        EXPECT_THAT(run.out, HasSubstr("Usage"));
-        EXPECT_THAT(run.err, IsEmpty());
-    }
-    EXPECT_THAT(run_program({"--version"}, ".").out, testing::StartsWith("elastolab "));
 }
 
 }  // namespace

@@ -191,6 +191,14 @@ TEST(Findings, WritePercentagesOut) {
     EXPECT_THAT(told(3.74), HasSubstr("about 370 %"));
 }
 
+TEST(Findings, CountHolesInWholeNumbers) {
+    const auto holes = [](double n) {
+        return words(Finding{.kind = FindingKind::capped_holes, .value = n, .object = "a.obj"});
+    };
+    EXPECT_THAT(holes(1.0), HasSubstr("a solid, 1 hole closed"));
+    EXPECT_THAT(holes(1020.0), HasSubstr("a solid, 1020 holes closed"));
+}
+
 TEST(Findings, TellOfTheDigitsThatAConditionLeaves) {
     EXPECT_THAT(words(findings_of_condition("matrix", 1e9)), IsEmpty());
     EXPECT_THAT(words(findings_of_condition("matrix", 1e11)), Contains(HasSubstr("2.2e-05")));

@@ -16,6 +16,13 @@ constexpr int kBands = 10;
 constexpr double kGroundPart = 3.0, kShadowPart = 1.4;  ///< radii of the ground and of the shadow, of the scene's
 constexpr double kLeastDeformation = 0.01;              ///< of the scene's radius, from which a ghost is drawn
 
+/// The edges at which a surface is not closed. Where they are thousands, as of a soup, they would hide the body.
+LineStyle rim_style(Eigen::Index n_edges, const Palette& palette) {
+    constexpr Eigen::Index kMany = 1000;
+    if (n_edges > kMany) return {.colour = palette.bad.with_opacity(0.35f), .width = 1.0f};
+    return {.colour = palette.bad, .width = 1.8f, .hidden_opacity = 0.25f};
+}
+
 }  // namespace
 
 float filling_opacity(const ViewerState& state, MethodKind kind) {
@@ -161,8 +168,7 @@ void SceneRenderer::draw_viewport(const ViewerState& state, const SceneViewport&
     main.marks.draw_areas(view);
     draw_filling(state, view, viewport.kinds.front(), palette);
     draw_ghosts(state, view, viewport, palette, extent.detail);
-    if (state.display.defects && main.rim)
-        main.rim->draw(view, {.colour = palette.bad, .width = 1.8f, .hidden_opacity = 0.25f});
+    if (state.display.defects && main.rim) main.rim->draw(view, rim_style(rim_.edges.cols(), palette));
     main.marks.draw(view, mesh_->n_vertices(), palette);
     if (extent.axes) gizmo_->draw(state.camera, viewport.place, AxesGizmo::place_in(viewport.place), pixel_ratio);
 }

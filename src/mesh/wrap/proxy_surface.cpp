@@ -195,6 +195,16 @@ constexpr int kFewestOfAWrap = 8;
 
 /// Surfaces of more vertices are wrapped even where they are sound: to collapse their edges takes several times longer.
 constexpr int kMostCollapsed = 100000;
+/// So are those with more triangles around one vertex, as in the cap of a finely divided cylinder: to collapse its edges
+/// takes a time that grows with the third power of their number, two seconds for 500.
+constexpr int kMostAroundVertex = 700;
+
+bool is_quick_to_collapse(const SurfaceMesh& surface) {
+    if (surface.n_vertices() > kMostCollapsed) return false;
+    std::vector<int> around(static_cast<std::size_t>(surface.n_vertices()), 0);
+    for (const int v : surface.triangles.reshaped()) ++around[static_cast<std::size_t>(v)];
+    return around.empty() || std::ranges::max(around) <= kMostAroundVertex;
+}
 
 WrapResult succeeded(WrapResult wrap) {
     if (wrap.failure.empty()) return wrap;
@@ -325,7 +335,7 @@ std::vector<ProxySurface> make_proxy_surfaces(const SurfaceMesh& shown, const Me
     const UnitFrame frame = to_unit_size(triangles);
     const HoleCaps capped = cap_holes(triangles, taken_for);
     std::vector<ProxySurface> proxies;
-    if (shown.n_vertices() <= kMostCollapsed)
+    if (is_quick_to_collapse(triangles))
         if (const auto sound = sound_surface(triangles, capped, report, control))
             proxies = collapsed_to(*sound, sizes, control);
     if (proxies.empty()) proxies = wrapped(capped, sizes, control);

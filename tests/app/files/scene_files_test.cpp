@@ -19,6 +19,7 @@ using test::n_errors;
 using test::Stage;
 using test::TemporaryFolder;
 using testing::AllOf;
+using testing::AnyOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
@@ -41,6 +42,20 @@ TEST(SceneFiles, ABadFileIsTellingAndKeepsTheOldScene) {
         EXPECT_THROW(stage.state.files.open_now(file), Error);
         EXPECT_THAT(stage.state.files.recent(), IsEmpty());
     }
+}
+
+/// A person is not asked to mend what a proxy stands for.
+TEST(SceneFiles, TellsOfDefectsInOneMessageWhereAProxyIsSimulated) {
+    const TemporaryFolder folder;
+    SurfaceMesh open = make_box(5);
+    open.triangles.conservativeResize(3, open.n_triangles() - 3);
+    save_surface(folder.path() / "open.ply", open);
+    Stage stage(2);
+    stage.state.files.open_now(folder.path() / "open.ply");
+    ASSERT_THAT(stage.state.messages.all(), SizeIs(1));
+    const std::string text = stage.state.messages.all()[0].text;
+    EXPECT_THAT(text, AllOf(HasSubstr("open.ply: "), HasSubstr("open edges"), HasSubstr("simulated in its place")));
+    EXPECT_THAT(text, Not(AnyOf(HasSubstr("reload"), HasSubstr("/"))));
 }
 
 TEST(SceneFiles, ALargeMeshBeginsWithAMethodThatIsExactSoonAndSaysSo) {

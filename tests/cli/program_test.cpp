@@ -1,0 +1,40 @@
+#include "cli/program.hpp"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "support/temporary_folder.hpp"
+#include "support/wait_until.hpp"
+
+namespace elastolab {
+namespace {
+
+/// It sets variables that libraries read as they are loaded, and begins anew.
+TEST(Program, KeepsItsNameWhenItBeginsAnew) {
+    const test::TemporaryFolder folder;
+    folder.write("scene.json", test::cube_scene("galerkin-bem", 16));
+    test::RunningProgram program({"solve", "scene.json"}, folder.path());
+    const std::filesystem::path process = "/proc/" + std::to_string(program.id());
+    test::wait_for([&] {
+        return test::read_text(process / "environ").find("GLIBC_TUNABLES=") != std::string::npos || program.ended();
+    });
+    EXPECT_EQ(test::read_text(process / "comm"), "elastolab\n");
+}
+
+TEST(Program, HelpsAndTellsItsVersion) {
+    const std::vector<std::vector<std::string>> commands = {
+        {"--help"}, {"view", "--help"}, {"solve", "--help"}, {"info", "--help"}};
+    for (const auto& arguments : commands) {
+        const test::ProgramRun run = test::run_program(arguments, ".");
+        EXPECT_EQ(run.exit_code, 0);
+        EXPECT_THAT(run.out, testing::HasSubstr("Usage"));
+        EXPECT_THAT(run.err, testing::IsEmpty());
+    }
+    EXPECT_THAT(test::run_program({"--version"}, ".").out, testing::StartsWith("elastolab "));
+}
+
+}  // namespace
+}  // namespace elastolab
