@@ -6,6 +6,7 @@
 
 #include "app/viewer_outputs.hpp"
 #include "app/viewer_session.hpp"
+#include "app/viewer_start.hpp"
 #include "base/timer.hpp"
 
 namespace elastolab {
@@ -53,7 +54,11 @@ void ViewerSession::end_workers() {
     if (state_.stopping()) std::_Exit(EXIT_SUCCESS);
 }
 
-void run_viewer(const ViewerOptions& options, Control& control) { ViewerSession(options, control).run(); }
+void run_viewer(const ViewerOptions& options, Control& control) {
+    ViewerState state([] { Window::wake(); });
+    begin(state, options, control);
+    ViewerSession(options, state, control).run();
+}
 
 void run_viewer(const ViewerOptions& options) {
     Control never_cancelled;

@@ -15,6 +15,7 @@
 #include "app/preferences.hpp"
 #include "app/six_axis.hpp"
 #include "app/viewer.hpp"
+#include "app/viewer_start.hpp"
 #include "app/viewer_state.hpp"
 #include "app/window/six_axis_mouse.hpp"
 #include "app/window/start_timeline.hpp"
@@ -34,7 +35,8 @@ struct Replay {
 /// it waits for in viewer_schedule.cpp, what a frame is in viewer_frame.cpp, and how it ends in viewer.cpp.
 class ViewerSession {
 public:
-    ViewerSession(const ViewerOptions& options, Control& control);
+    /// `state` has begun (begin() of viewer_start.hpp).
+    ViewerSession(const ViewerOptions& options, ViewerState& state, Control& control);
     /// Until the window is closed, or all is done that `options` ask for. Throws what went wrong where nobody watches.
     void run();
 
@@ -44,10 +46,7 @@ private:
     Preferences preferences() const;
     void take(const Preferences& preferences);
     void keep_preferences();
-    bool nobody_watches() const { return options_.hidden || options_.n_frames > 0; }
-
-    /// Where somebody sees the window, a file that cannot be opened is reported there.
-    void open_input();
+    bool nobody_watches() const { return elastolab::nobody_watches(options_); }
 
     /// A replay that is over leaves the window to the person.
     bool replaying() const { return replay_ && (options_.hidden || !replay_->done()); }
@@ -118,7 +117,7 @@ private:
     std::optional<Replay> replay_;
     Window window_;
     Gui gui_;
-    ViewerState state_;
+    ViewerState& state_;
     SceneRenderer renderer_;
     Panels panels_;
     Pictures pictures_;

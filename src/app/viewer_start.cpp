@@ -1,4 +1,6 @@
 // How the viewer begins: the window, what the options ask for, and what was kept from the last time.
+#include "app/viewer_start.hpp"
+
 #include <memory>
 
 #include "app/viewer_session.hpp"
@@ -12,28 +14,48 @@ const Eigen::Vector2i kDefaultSize(1280, 800);
 
 }  // namespace
 
-ViewerSession::ViewerSession(const ViewerOptions& options, Control& control)
+bool nobody_watches(const ViewerOptions& options) { return options.hidden || options.n_frames > 0; }
+
+void begin(ViewerState& state, const ViewerOptions& options, Control& control) {
+    const bool keeps_changes = !options.scene_out.empty();
+    if (nobody_watches(options) || keeps_changes) state.files.unsaved.never_ask();
+    for (const std::filesystem::path& file : {options.screenshot, options.picture, options.scene_out, options.mesh_out})
+        if (!file.empty()) AtomicFile::require_writable(file);
+    if (!options.input.empty()) {
+        if (nobody_watches(options))
+            state.files.open_now(options.input, control);
+        else
+            state.files.open(options.input);
+    }
+    if (options.method) state.start_with(*options.method);
+    if (options.field) state.display.field = *options.field;
+    if (options.cut_axis) {
+        state.display.section = true;
+        state.display.section_axis = *options.cut_axis;
+    }
+    state.update_displacements();  // begins the precomputation
+}
+
+ViewerSession::ViewerSession(const ViewerOptions& options, ViewerState& state, Control& control)
     : options_(options),
       control_(control),
       replay_(load_replay(options)),
       window_(
           {.title = "Elastolab", .width = window_size().x(), .height = window_size().y(), .visible = !options.hidden}),
       gui_(window_),
-      state_([] { Window::wake(); }),
+      state_(state),
       pictures_([] { Window::wake(); }) {
+    state_.update_displacements();  // goes on with what is ready by now
     if (options.n_frames > 0 || options.hidden) window_.disable_vsync();
-    if (nobody_watches() || !options.scene_out.empty()) state_.files.unsaved.never_ask();  // that keeps the changes
     if (!options.timings.empty()) state_.measurements.timings = std::make_unique<TimingsRecorder>(options.timings);
     if (!options.timeline.empty()) timeline_.emplace(options.timeline);
     if (!options.record.empty())
         state_.measurements.recorder = std::make_unique<InteractionRecorder>(options.record, window_.size());
     if (!options.series.empty()) series_.emplace(options.series);
-    for (const std::filesystem::path& file : {options.screenshot, options.picture, options.scene_out, options.mesh_out})
-        if (!file.empty()) AtomicFile::require_writable(file);
-    if (!nobody_watches()) take(load_preferences());
-    open_input();
-    if (!nobody_watches()) six_axis_mouse_.emplace([] { Window::wake(); });
-    if (!nobody_watches()) state_.files.recoverable = find_autosaved();
+    if (nobody_watches()) return;
+    take(load_preferences());
+    six_axis_mouse_.emplace([] { Window::wake(); });
+    state_.files.recoverable = find_autosaved();
 }
 
 std::optional<Replay> ViewerSession::load_replay(const ViewerOptions& options) {
@@ -44,22 +66,6 @@ std::optional<Replay> ViewerSession::load_replay(const ViewerOptions& options) {
 Eigen::Vector2i ViewerSession::window_size() const {
     if (options_.size) return *options_.size;
     return replay_ ? replay_->log.window_size : kDefaultSize;
-}
-
-void ViewerSession::open_input() {
-    if (!options_.input.empty()) {
-        if (nobody_watches())
-            state_.files.open_now(options_.input, control_);
-        else
-            state_.files.open(options_.input);
-    }
-    if (options_.method) state_.start_with(*options_.method);
-    if (options_.field) state_.display.field = *options_.field;
-    if (options_.cut_axis) {
-        state_.display.section = true;
-        state_.display.section_axis = *options_.cut_axis;
-    }
-    state_.update_displacements();  // begins the precomputation
 }
 
 Preferences ViewerSession::preferences() const {

@@ -10,7 +10,7 @@ namespace elastolab {
 
 namespace {
 
-constexpr Eigen::Index kRowsOfProduct = 512;
+constexpr Eigen::Index kRowsOfProduct = 512, kBlocksOfCopy = 64;
 
 std::uint64_t bytes_of(const Columns::Block& block) { return 8 * static_cast<std::uint64_t>(block->size()); }
 
@@ -23,12 +23,20 @@ Columns::Columns(std::vector<Block> blocks) : blocks_(std::move(blocks)) {
 Eigen::MatrixXd Columns::middle(Eigen::Index first, Eigen::Index count) const {
     assert(first + count <= n_cols_);
     Eigen::MatrixXd part(blocks_.empty() ? 0 : blocks_.front()->rows(), count);
-    Eigen::Index begin = 0;
+    std::vector<Eigen::Index> begins;
+    Eigen::Index next = 0;
     for (const Block& block : blocks_) {
-        const Eigen::Index from = std::max(first, begin), to = std::min(first + count, begin + block->cols());
-        if (from < to) part.middleCols(from - first, to - from) = block->middleCols(from - begin, to - from);
-        begin += block->cols();
+        begins.push_back(next);
+        next += block->cols();
     }
+    for_strips(std::ssize(blocks_), kBlocksOfCopy, [&](Eigen::Index first_block, Eigen::Index n_blocks) {
+        for (auto i = static_cast<std::size_t>(first_block); i < static_cast<std::size_t>(first_block + n_blocks);
+             ++i) {
+            const Eigen::Index begin = begins[i], from = std::max(first, begin),
+                               to = std::min(first + count, begin + blocks_[i]->cols());
+            if (from < to) part.middleCols(from - first, to - from) = blocks_[i]->middleCols(from - begin, to - from);
+        }
+    });
     return part;
 }
 

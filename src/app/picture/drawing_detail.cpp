@@ -28,10 +28,16 @@ const std::array<DrawingDetail, DetailKeeper::kLevels>& DetailKeeper::levels() {
 }
 
 const DrawingDetail& DetailKeeper::choose(bool moved, double now) {
-    if (moved) {
+    if (is_first_) {
+        rest_since_ = now;
+        shown_ = while_moving_ = kFirstLevel;
+    } else if (moved) {
         const bool begins = now - rest_since_ > kRestSeconds;
         rest_since_ = now;
-        if (begins && cost_[0] <= kSlowSeconds) while_moving_ = 0;
+        const double cost = cost_[while_moving_];
+        const bool may_be_quick = cost_[0] == 0.0 && cost > 0.0 && cost <= kQuickSeconds;
+        const bool is_quick = begins && cost_[0] > 0.0 && cost_[0] <= kSlowSeconds;
+        if (may_be_quick || is_quick) while_moving_ = 0;
         if (!begins) while_moving_ = std::min(kLevels - 1, while_moving_ + steps(cost_[while_moving_]));
         shown_ = while_moving_;
     } else if (now - rest_since_ > kRestSeconds) {
@@ -41,7 +47,9 @@ const DrawingDetail& DetailKeeper::choose(bool moved, double now) {
 }
 
 void DetailKeeper::took(double seconds) {
-    cost_[shown_] = seconds;
+    const bool compiled_shaders = is_first_ && seconds > kQuickSeconds;  // the next one will not
+    if (!compiled_shaders) cost_[shown_] = seconds;
+    is_first_ = false;
     rest_since_ += seconds;  // a picture that takes longer than a rest is none
 }
 

@@ -17,7 +17,8 @@ struct DrawingDetail {
 };
 
 /// Chooses the detail of every picture: all of it at rest and wherever that is quick; else, while something moves, as
-/// much as can be drawn in kSlowSeconds. Knows no clock of its own.
+/// much as can be drawn in kSlowSeconds. The first picture of a body, which somebody waits for, is drawn without soft
+/// shadows and smooth edges, and so are those of a motion until more is known to be quick. Knows no clock of its own.
 class DetailKeeper {
 public:
     static constexpr double kSlowSeconds = 0.05, kRestSeconds = 0.35;
@@ -32,10 +33,12 @@ public:
     void forget() { *this = {}; }
 
 private:
-    static constexpr std::size_t kLevels = 7;
+    static constexpr std::size_t kLevels = 7, kFirstLevel = 2;
+    static constexpr double kQuickSeconds = kSlowSeconds / 4.0;  ///< where all detail, too, will not be slow
     static const std::array<DrawingDetail, kLevels>& levels();
 
     std::array<double, kLevels> cost_{};        ///< [s]; 0: not known
+    bool is_first_ = true;                      ///< nothing was drawn yet
     std::size_t shown_ = 0, while_moving_ = 0;  ///< levels
     double rest_since_ = -1e9;                  ///< the end of the last picture that moved [s]
 };

@@ -5,6 +5,7 @@
 #include <GLFW/glfw3.h>
 
 #include <array>
+#include <mutex>
 #include <utility>
 
 #include "base/error.hpp"
@@ -17,6 +18,15 @@ std::string last_glfw_error() {
     const char* description = nullptr;
     glfwGetError(&description);
     return description != nullptr ? description : "no reason given";
+}
+
+/// Whether a window is there that can be woken. Workers may begin before it and end after it.
+std::mutex wake_mutex;
+bool can_wake = false;
+
+void let_wake(bool value) {
+    const std::lock_guard lock(wake_mutex);
+    can_wake = value;
 }
 
 constexpr std::array kCursorShapes = {GLFW_ARROW_CURSOR,   GLFW_IBEAM_CURSOR,   GLFW_HAND_CURSOR,
@@ -115,9 +125,11 @@ Window::Window(const Options& options) : state_(std::make_unique<State>()), titl
     glfwSetWindowRefreshCallback(handle_, &Callbacks::refresh);
     glfwSetFramebufferSizeCallback(handle_, &Callbacks::resized);
     glfwSwapInterval(options.visible ? 1 : 0);
+    let_wake(true);
 }
 
 Window::~Window() {
+    let_wake(false);
     for (GLFWcursor* cursor : state_->cursors)
         if (cursor != nullptr) glfwDestroyCursor(cursor);
     glfwDestroyWindow(handle_);
@@ -133,7 +145,10 @@ void Window::wait(double timeout) {
         glfwWaitEventsTimeout(timeout);
 }
 
-void Window::wake() { glfwPostEmptyEvent(); }
+void Window::wake() {
+    const std::lock_guard lock(wake_mutex);
+    if (can_wake) glfwPostEmptyEvent();
+}
 
 std::vector<InputEvent> Window::take_events() { return std::exchange(state_->events, {}); }
 std::vector<std::filesystem::path> Window::take_dropped_files() { return std::exchange(state_->dropped, {}); }

@@ -29,7 +29,7 @@ public:
 
     /// Sleeps until something happens, at most `timeout` seconds: forever when negative, not at all when zero.
     void wait(double timeout);
-    /// Ends a wait(); for any thread, while the window exists.
+    /// Ends a wait(); for any thread. Without a window it does nothing.
     static void wake();
 
     /// What happened since the last call, in order.

@@ -5,9 +5,11 @@
 #include <cassert>
 #include <numbers>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/parallel.hpp"
+#include "base/zero_buffers.hpp"
 #include "bem/galerkin/hat_curls.hpp"
 #include "bem/space_curve.hpp"
 #include "elasticity/pair_integrals.hpp"
@@ -57,14 +59,16 @@ public:
     void run(Control& control) const {
         for (Wanted& wanted : wanted_) set_zero(wanted.matrix, control);
         const int n_packs = (n_ + integrals_.lanes() - 1) / integrals_.lanes();
+        ZeroBuffers all_sums(kCurlNumbers * last_.size() * static_cast<std::size_t>(integrals_.lanes()));
         std::vector<PackRows> memory(static_cast<std::size_t>(std::min(n_packs, packs_at_once())));
         for (int first = 0; first < n_packs; first += static_cast<int>(memory.size())) {
             const auto packs =
                 std::span(memory).first(std::min(memory.size(), static_cast<std::size_t>(n_packs - first)));
             parallel_blocks(static_cast<int>(packs.size()), kPacksPerTask, control, [&](int begin, int end) {
-                std::vector<double> sums(kCurlNumbers * last_.size() * static_cast<std::size_t>(integrals_.lanes()));
+                std::vector<double> sums = all_sums.take();
                 for (int i = begin; i < end; ++i)
                     make_rows((first + i) * integrals_.lanes(), sums, packs[static_cast<std::size_t>(i)]);
+                all_sums.give_back(std::move(sums));
             });
             for (std::size_t w = 0; w < wanted_.size(); ++w) add(packs, w, control);
         }
@@ -89,7 +93,7 @@ private:
         return static_cast<int>(std::clamp<std::size_t>(kRowBytes / bytes, kLeastPacks, 4096));
     }
 
-    /// The pairs of the triangles from position `first` on with all from there on.
+    /// The pairs of the triangles from position `first` on with all from there on. `sums` are zero before and after.
     void make_rows(int first, std::vector<double>& sums, PackRows& rows) const {
         const int end = std::min(n_, first + integrals_.lanes());
         rows.first = first;
@@ -105,7 +109,6 @@ private:
         const auto tests =
             std::span(order_).subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(end - first));
         const PairIntegrals::Pack pack = integrals_.pack(tests);
-        std::fill(sums.begin(), sums.end(), 0.0);
         for (int position = first; position < n_; ++position) add_field(pack, first, end, position, sums);
         contract(pack, first, end, sums, rows);
     }
@@ -159,6 +162,7 @@ private:
                         for (std::size_t i = 0; i < 9; ++i)
                             row[9 * row_of[3 * lane + k] + i] += blocks[(9 * k + i) * lanes + lane];
             }
+            std::fill_n(sums_of(sums, b), kCurlNumbers * lanes, 0.0);
         }
     }
 

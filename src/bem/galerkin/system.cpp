@@ -5,6 +5,7 @@
 
 #include "base/blas.hpp"
 #include "base/parallel.hpp"
+#include "base/strips.hpp"
 #include "bem/galerkin/given_loads.hpp"
 #include "bem/galerkin/refined_hypersingular.hpp"
 #include "bem/galerkin/traction_rows.hpp"
@@ -77,6 +78,11 @@ public:
     }
     const std::vector<int>& triangles() const { return triangles_; }
 
+    /// Of a symmetric matrix.
+    Eigen::MatrixXd rows_and_columns(Eigen::MatrixXd all) const {
+        if (rigid_.empty()) return all;
+        return rows(rows(std::move(all)).transpose());
+    }
     Eigen::MatrixXd rows(Eigen::MatrixXd all) const {
         if (rigid_.empty()) return all;
         Eigen::MatrixXd reduced(n_single_ + 6 * std::ssize(rigid_), all.cols());
@@ -95,6 +101,32 @@ private:
     std::vector<int> triangles_;
     std::vector<Eigen::MatrixXd> rigid_;
 };
+
+/// T <- -K^T, in parts that fit the caches of several threads.
+void write_negative_transpose(const Eigen::MatrixXd& K, Eigen::Ref<Eigen::MatrixXd> T) {
+    for_strips(K.cols(), 64, [&](Eigen::Index first, Eigen::Index count) {
+        T.middleRows(first, count) = -K.middleCols(first, count).transpose();
+    });
+}
+
+/// Copies of these columns, a block for each key.
+void append_blocks(const Eigen::MatrixXd& columns, std::span<const ColumnKey> keys,
+                   std::vector<Columns::Block>& blocks) {
+    std::vector<std::shared_ptr<Eigen::MatrixXd>> copies;
+    std::vector<Eigen::Index> first_columns;
+    Eigen::Index next = 0;
+    for (const ColumnKey& key : keys) {
+        const int count = components_of(key);
+        copies.push_back(std::make_shared<Eigen::MatrixXd>(columns.rows(), count));
+        first_columns.push_back(next);
+        next += count;
+    }
+    for_strips(std::ssize(copies), 16, [&](Eigen::Index first, Eigen::Index count) {
+        for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(first + count); ++i)
+            *copies[i] = columns.middleCols(first_columns[i], copies[i]->cols());
+    });
+    blocks.insert(blocks.end(), copies.begin(), copies.end());
+}
 
 }  // namespace
 
@@ -166,16 +198,14 @@ GalerkinOperators GalerkinSystem::operators(const GalerkinTractions& tractions, 
     GalerkinOperators operators;
     operators.double_layer = reduction.rows(std::move(rows.double_layer));
     free_of_rigid_motions(operators.double_layer);
-    const Eigen::MatrixXd half = reduction.rows(std::move(rows.single_layer));
-    operators.single_layer = reduction.rows(half.transpose());
+    operators.single_layer = reduction.rows_and_columns(std::move(rows.single_layer));
     return operators;
 }
 
 Eigen::MatrixXd GalerkinSystem::single_layer(const GalerkinTractions& tractions, Control& control) const {
     const Reduction reduction(*boundary_, surfaces_, tractions);
-    const Eigen::MatrixXd half =
-        reduction.rows(assemble_single_layer(*boundary_, reduction.triangles(), material_, tolerance_, control));
-    return reduction.rows(half.transpose());
+    return reduction.rows_and_columns(
+        assemble_single_layer(*boundary_, reduction.triangles(), material_, tolerance_, control));
 }
 
 Columns GalerkinSystem::half_columns(std::span<const int> vertices, const GalerkinTractions& tractions,
@@ -226,21 +256,19 @@ std::vector<Columns::Block> GalerkinSystem::compute(const std::vector<ColumnKey>
             if (key.front() == kSurfaceTraction) tractions.free_surfaces.push_back(key.back());
             n_columns += components_of(key);
         }
-        Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(n + n_border, n_columns);
+        Eigen::MatrixXd columns(n + n_border, n_columns);
         const Eigen::Index n_loads = n_columns - tractions.size();  // vertices come first
+        columns.leftCols(n_loads).setZero();
         for (Eigen::Index i = 0; 3 * i < n_loads; ++i)
             columns.block<3, 3>(3 * missing[begin + static_cast<std::size_t>(i)].back(), 3 * i).setIdentity();
         if (tractions.size() > 0)
-            columns.topRightCorner(n, tractions.size()) = -operators(tractions, control).double_layer.transpose();
+            write_negative_transpose(operators(tractions, control).double_layer,
+                                     columns.topRightCorner(n, tractions.size()));
         columns.bottomRows(n_border) = surfaces_.rigid.transpose() * columns.topRows(n);
         factor_.solve_lower_in_place(columns.topRows(n));
         control.checkpoint();
-        Eigen::Index next = 0;
-        for (; begin < end; ++begin) {
-            const int count = components_of(missing[begin]);
-            blocks.push_back(std::make_shared<const Eigen::MatrixXd>(columns.middleCols(next, count)));
-            next += count;
-        }
+        append_blocks(columns, std::span(missing).subspan(begin, end - begin), blocks);
+        begin = end;
     }
     return blocks;
 }

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "base/parallel.hpp"
+#include "base/zero_buffers.hpp"
 #include "bem/galerkin/hat_curls.hpp"
 #include "bem/space_curve.hpp"
 #include "elasticity/pair_integrals.hpp"
@@ -31,12 +33,17 @@ public:
 
     int n_packs() const { return (static_cast<int>(order_.size()) + integrals_.lanes() - 1) / integrals_.lanes(); }
 
-    /// Both layers.
-    void run(int number, TractionRows& rows) const {
+    /// Numbers that run() adds up.
+    std::size_t n_sums() const {
+        return (kCurlNumbers + 1) * static_cast<std::size_t>(integrals_.lanes() * boundary_.mesh().n_vertices());
+    }
+
+    /// Both layers. `memory`: n_sums() zeros, before and after.
+    void run(int number, std::vector<double>& memory, TractionRows& rows) const {
         const std::span<const int> tests = tests_of(number);
         const auto lanes = static_cast<std::size_t>(integrals_.lanes());
         const PairIntegrals::Pack pack = integrals_.pack(tests);
-        Sums sums(boundary_.mesh().vertices.cols(), lanes);
+        Sums sums(boundary_.mesh().vertices.cols(), lanes, memory);
         for (int s = 0; s < boundary_.n_triangles(); ++s) {
             double numbers[kPairNumbers * kMaxLanes];
             integrals_.integrate(pack, s, true, numbers);
@@ -45,6 +52,7 @@ public:
         }
         for (std::size_t lane = 0; lane < tests.size(); ++lane)
             write_double(tests[lane], lane, sums, rows.double_layer);
+        std::fill(memory.begin(), memory.end(), 0.0);
     }
 
     /// The single layer.
@@ -67,14 +75,14 @@ private:
 
     /// What the vertices have collected: [vertex][number][lane].
     struct Sums {
-        Sums(Eigen::Index n_vertices, std::size_t n_lanes)
+        Sums(Eigen::Index n_vertices, std::size_t n_lanes, std::vector<double>& memory)
             : lanes(n_lanes),
-              curls(kCurlNumbers * n_lanes * static_cast<std::size_t>(n_vertices)),
-              normals(n_lanes * static_cast<std::size_t>(n_vertices)) {}
-        double* curls_of(int vertex) { return curls.data() + kCurlNumbers * lanes * static_cast<std::size_t>(vertex); }
-        double* normals_of(int vertex) { return normals.data() + lanes * static_cast<std::size_t>(vertex); }
+              curls(memory.data()),
+              normals(memory.data() + kCurlNumbers * n_lanes * static_cast<std::size_t>(n_vertices)) {}
+        double* curls_of(int vertex) const { return curls + kCurlNumbers * lanes * static_cast<std::size_t>(vertex); }
+        double* normals_of(int vertex) const { return normals + lanes * static_cast<std::size_t>(vertex); }
         std::size_t lanes;
-        std::vector<double> curls, normals;
+        double *curls, *normals;
     };
 
     static std::vector<TriangleGeometry> triangles_of(const Boundary& boundary) {
@@ -100,7 +108,7 @@ private:
         }
     }
 
-    void add_field(int field, const double* numbers, Sums& sums) const {
+    void add_field(int field, const double* numbers, const Sums& sums) const {
         const int lanes = integrals_.lanes();
         const double* normal = numbers + kPairTensorNumbers * lanes;
         const Eigen::Matrix3d c = hat_curls(triangles_[static_cast<std::size_t>(field)]);
@@ -115,7 +123,7 @@ private:
         kernels_.add_curls(numbers, double_layer_factors(nu_), curls, into);
     }
 
-    void write_double(int test, std::size_t lane, Sums& sums, Eigen::MatrixXd& K) const {
+    void write_double(int test, std::size_t lane, const Sums& sums, Eigen::MatrixXd& K) const {
         const int row = 3 * row_of_[static_cast<std::size_t>(test)];
         const double pi = std::numbers::pi, factor = 1.0 / (8.0 * pi * (1.0 - nu_));
         for (int b = 0; b < boundary_.mesh().n_vertices(); ++b) {
@@ -148,8 +156,11 @@ TractionRows assemble_traction_rows(const Boundary& boundary, std::span<const in
     TractionRows rows{Eigen::MatrixXd(n, n), Eigen::MatrixXd(n, 3 * boundary.mesh().n_vertices())};
     if (triangles.empty()) return rows;
     const RowAssembly assembly(boundary, triangles, material, tolerance);
+    ZeroBuffers buffers(assembly.n_sums());
     parallel_blocks(assembly.n_packs(), 1, control, [&](int begin, int end) {
-        for (int pack = begin; pack < end; ++pack) assembly.run(pack, rows);
+        std::vector<double> memory = buffers.take();
+        for (int pack = begin; pack < end; ++pack) assembly.run(pack, memory, rows);
+        buffers.give_back(std::move(memory));
     });
     return rows;
 }
