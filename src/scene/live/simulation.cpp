@@ -116,10 +116,6 @@ void Simulation::ask_for_proxies(const LiveScene& scene, const MethodChoices& ch
     proxies_.poll();
 }
 
-bool Simulation::precomputing_preview() const {
-    return (has_preview_ && preview_.runner().precomputing()) || (finite_ && finite_preview_.runner().precomputing());
-}
-
 bool Simulation::preparing_preview() const {
     const auto prepares = [](const MethodRunner& runner) {
         const State state = runner.state();
@@ -253,7 +249,7 @@ bool Simulation::update(const LiveScene& scene, const std::vector<MethodKind>& s
     bool changed = false;
     const bool preview_changed = update_preview(scene, choices);
     const bool finite_changed = update_finite_preview(scene);
-    bool waiting = (has_preview_ || finite_) && (proxies_.running() || precomputing_preview());
+    bool waiting = (has_preview_ || finite_) && (proxies_.running() || preparing_preview());
     for (const MethodKind kind : shown) {
         Entry& present = entries_[place(kind)];
         changed = update_method(present, scene, choices, !waiting) || changed;

@@ -119,7 +119,6 @@ private:
     bool is_shown(MethodKind kind) const;
     void rest_hidden(const LiveScene& scene);
     EmbeddedRunner& own(MethodKind kind) { return *entries_[place(kind)].runner; }
-    bool precomputing_preview() const;  ///< its model is not there yet
     void ask_for_proxies(const LiveScene& scene, const MethodChoices& choices);
     bool update_preview(const LiveScene& scene, const MethodChoices& choices);
     bool give_preview_body(EmbeddedRunner& preview, Method method, MethodKind fallback, bool wanted,
