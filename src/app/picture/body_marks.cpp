@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kArrowPart = 0.3;  ///< length of the longest reaction arrow, of the scene's radius
 constexpr float kPointSize = 6.0f, kActivePointSize = 8.0f, kHoverPointSize = 7.0f, kLoadedPointSize = 4.0f;
-constexpr float kPatchTint = 0.38f, kLoadTint = 0.12f;  ///< a load may cover all of the body
+constexpr float kPatchTint = 0.38f, kHoverTint = 0.2f, kLoadTint = 0.12f;  ///< a load may cover all of the body
 constexpr int kMostHidden = 6000;    ///< vertices up to which points show through the body; more would cover it
 constexpr double kFullView = 800.0;  ///< width from which on points have their full size [logical pixels]
 
@@ -102,7 +102,7 @@ void BodyMarks::update(const ViewerState& state, const ShownBody& body, const Pa
         update_areas(state, body, key, frame);
     }
     if (is_new || other_load) update_arrows(state, body, key, frame);
-    update_points(state, body, key, frame);
+    update_hover(state, body, key, frame);
     key_ = key;
 }
 
@@ -122,13 +122,17 @@ void BodyMarks::update_areas(const ViewerState& state, const ShownBody& body, co
             add_dots(body, patches[i].vertices, seen_, patches[i].colour, key.size * patches[i].dot_size, dots_);
 }
 
-/// The dots, and where nothing is dragged what the mouse points at.
-void BodyMarks::update_points(const ViewerState& state, const ShownBody& body, const Key& key,
-                              const SceneFrame& frame) {
+/// The dots, and where nothing is dragged what the mouse points at: as patches are shown, too.
+void BodyMarks::update_hover(const ViewerState& state, const ShownBody& body, const Key& key, const SceneFrame& frame) {
     std::vector<PointSprite> points = dots_;
     const Hover& hover = state.gestures.hover();
+    std::vector<PatchAreas::Patch> areas;
+    if (!dragging_ && !body.section())
+        areas.push_back({hover.patch, key.palette->hover, key.has_field ? 0.0f : kHoverTint});
+    const std::vector<char> is_area = hover_area_.update(state.scene().mesh(), body.positions(), frame, areas, true);
     if (!dragging_) {
-        add_dots(body, hover.patch, seen_, key.palette->hover, key.size * kHoverPointSize, points);
+        if (is_area.empty() || is_area.front() == 0)
+            add_dots(body, hover.patch, seen_, key.palette->hover, key.size * kHoverPointSize, points);
         if (hover.vertex >= 0)
             points.push_back({body.positions().col(hover.vertex), key.palette->hover, kHoverPointSize + 3.0f});
     }

@@ -22,7 +22,10 @@ public:
     int n_updates() const { return n_updates_; }
 
     /// Over the body, which is drawn already.
-    void draw_areas(const SceneView& view) { areas_.draw(view); }
+    void draw_areas(const SceneView& view) {
+        areas_.draw(view);
+        hover_area_.draw(view);
+    }
     /// Dots and arrows, on a body of so many vertices.
     void draw(const SceneView& view, int n_vertices, const Palette& palette);
 
@@ -41,7 +44,7 @@ private:
     static Key key_of(const ViewerState& state, const ShownBody& body, const Palette& palette);
     void update_areas(const ViewerState& state, const ShownBody& body, const Key& key, const SceneFrame& frame);
     void update_arrows(const ViewerState& state, const ShownBody& body, const Key& key, const SceneFrame& frame);
-    void update_points(const ViewerState& state, const ShownBody& body, const Key& key, const SceneFrame& frame);
+    void update_hover(const ViewerState& state, const ShownBody& body, const Key& key, const SceneFrame& frame);
 
     std::optional<Key> key_;
     Hover hover_;
@@ -49,7 +52,7 @@ private:
     int n_updates_ = 0;
     std::vector<char> seen_;         ///< whether each vertex is: where the body is cut open, those of what is left
     std::vector<PointSprite> dots_;  ///< of the patches that are no areas
-    PatchAreas areas_;
+    PatchAreas areas_, hover_area_;
     PointsDrawing points_;
     ArrowsDrawing arrows_;
 };

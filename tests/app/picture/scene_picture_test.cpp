@@ -12,6 +12,7 @@
 #include "app/stage.hpp"
 #include "app/window/window.hpp"
 #include "base/error.hpp"
+#include "fem/method.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace elastolab {
@@ -131,10 +132,27 @@ TEST_F(ScenePicture, WithoutBackgroundIsOpaqueOnTheBodyAndClearBesideIt) {
         EXPECT_EQ(at(x, y)[3], 0);
 }
 
+/// What is changed by marks of this colour is a face of the cube, and hardly a pixel of it has the colour itself.
+void expect_tint(const Image& with, const Image& without, const Colour& colour) {
+    const Eigen::Vector3f dot = 255.0f * Eigen::Vector3f(colour.r, colour.g, colour.b);
+    int changed = 0, tinted = 0;
+    for (std::size_t i = 0; i + 2 < with.pixels.size(); i += 3) {
+        const auto at = [&](const Image& image) {
+            return Eigen::Vector3f(image.pixels[i], image.pixels[i + 1], image.pixels[i + 2]);
+        };
+        if ((at(with) - at(without)).norm() < 12.0f) continue;
+        ++changed;
+        if ((at(with) - dot).norm() > 30.0f) ++tinted;
+    }
+    EXPECT_GT(changed, 4000);
+    EXPECT_GT(tinted, 0.8 * changed);
+}
+
 /// Dots at a patch of more than 300 vertices would hide the body: most of what it changes is a tint.
 TEST_F(ScenePicture, TintsALargePatch) {
     Document document;
     document.mesh = Primitive{.name = "cube", .resolution = 20, .size = {}};
+    document.method = kFem;
     document.fixed = {{.select = {PlaneSelector{{0, 0, 0}, {0, 1, 0}, 1e-9}}}};
     stage.open(document);
     stage.state.frame_body();
@@ -147,19 +165,28 @@ TEST_F(ScenePicture, TintsALargePatch) {
         return scene_picture(renderer, stage.state, palette, {640, 400});
     };
     ASSERT_GT(stage.scene().fixed_vertices(0).size(), PatchAreas::kMostDots);
-    const Image with = picture(true), without = picture(false);
-    const Eigen::Vector3f dot = 255.0f * Eigen::Vector3f(palette.fixed.r, palette.fixed.g, palette.fixed.b);
-    int changed = 0, tinted = 0;
-    for (std::size_t i = 0; i + 2 < with.pixels.size(); i += 3) {
-        const auto at = [&](const Image& image) {
-            return Eigen::Vector3f(image.pixels[i], image.pixels[i + 1], image.pixels[i + 2]);
-        };
-        if ((at(with) - at(without)).norm() < 12.0f) continue;
-        ++changed;
-        if ((at(with) - dot).norm() > 30.0f) ++tinted;
-    }
-    EXPECT_GT(changed, 4000) << "a face of the cube";
-    EXPECT_GT(tinted, 0.8 * changed);
+    expect_tint(picture(true), picture(false), palette.fixed);
+}
+
+/// So would they where the mouse points at.
+TEST_F(ScenePicture, TintsALargePatchThatTheMousePointsAt) {
+    Document document;
+    document.mesh = Primitive{.name = "cube", .resolution = 20, .size = {}};
+    document.method = kFem;
+    stage.open(document);
+    stage.state.frame_body();
+    stage.state.display.wireframe = false;
+    stage.state.tools.patch_radius = 0.6;
+    const auto picture = [&](const Eigen::Vector2d& cursor) {
+        stage.move(cursor);
+        stage.settle();
+        stage.state.update_picture();
+        renderer.upload(stage.state, palette);
+        return scene_picture(renderer, stage.state, palette, {640, 400});
+    };
+    const Image with = picture(stage.pixel(stage.vertex_near({0.5, 0.0, 0.5})));
+    ASSERT_GT(stage.state.gestures.hover().patch.size(), PatchAreas::kMostDots);
+    expect_tint(with, picture(stage.empty_place()), palette.hover);
 }
 
 TEST_F(ScenePicture, PutsMarksTogetherAnewOnlyWhenTheyHaveChanged) {
