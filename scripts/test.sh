@@ -24,4 +24,7 @@ if [[ $code -ne 0 ]]; then cat build/release/ctest.log; fi
 
 echo "Installed and built in $built s, tested in $((SECONDS - begin - built)) s, $((SECONDS - begin)) s in all."
 grep -E '^[0-9]+% tests passed|^Total Test time|^No tests' build/release/ctest.log || true
+# An entry of ctest runs some of the tests of a program.
+count() { grep -ch "^\[ *$1 *\] .* (.* ms)$" build/release/Testing/Temporary/LastTest.log || true; }
+echo "In them $(count OK) tests of googletest passed, $(count SKIPPED) were skipped, $(count FAILED) failed."
 exit "$code"

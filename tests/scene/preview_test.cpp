@@ -22,6 +22,7 @@ struct PreviewBench : Bench {
     using Bench::Bench;
     void begin(const LiveScene& scene) {
         choices.preview = true;
+        choices.complete_up_to = 0;  // which comes after all that is seen here
         update(scene);
     }
     /// Frames until the preview answers for what is pulled now.
