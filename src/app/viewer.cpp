@@ -56,7 +56,7 @@ void ViewerSession::end_workers() {
 
 void run_viewer(const ViewerOptions& options, Control& control) {
     ViewerState state([] { Window::wake(); });
-    begin(state, options, control);
+    begin_viewer(state, options, control);
     ViewerSession(options, state, control).run();
 }
 

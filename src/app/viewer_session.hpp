@@ -35,7 +35,7 @@ struct Replay {
 /// it waits for in viewer_schedule.cpp, what a frame is in viewer_frame.cpp, and how it ends in viewer.cpp.
 class ViewerSession {
 public:
-    /// `state` has begun (begin() of viewer_start.hpp).
+    /// `state` has begun (begin_viewer()).
     ViewerSession(const ViewerOptions& options, ViewerState& state, Control& control);
     /// Until the window is closed, or all is done that `options` ask for. Throws what went wrong where nobody watches.
     void run();

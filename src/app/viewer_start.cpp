@@ -16,7 +16,7 @@ const Eigen::Vector2i kDefaultSize(1280, 800);
 
 bool nobody_watches(const ViewerOptions& options) { return options.hidden || options.n_frames > 0; }
 
-void begin(ViewerState& state, const ViewerOptions& options, Control& control) {
+void begin_viewer(ViewerState& state, const ViewerOptions& options, Control& control) {
     const bool keeps_changes = !options.scene_out.empty();
     if (nobody_watches(options) || keeps_changes) state.files.unsaved.never_ask();
     for (const std::filesystem::path& file : {options.screenshot, options.picture, options.scene_out, options.mesh_out})

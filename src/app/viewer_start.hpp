@@ -12,6 +12,6 @@ bool nobody_watches(const ViewerOptions& options);
 /// What needs no window: the body, the method and what is shown of it as the options ask, and the beginning of the
 /// precomputation, which goes on while the window is being made. Where somebody will see the window, a file that cannot
 /// be opened is reported there. Throws as run_viewer() does.
-void begin(ViewerState& state, const ViewerOptions& options, Control& control);
+void begin_viewer(ViewerState& state, const ViewerOptions& options, Control& control);
 
 }  // namespace elastolab
