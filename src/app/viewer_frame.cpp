@@ -41,9 +41,9 @@ void ViewerSession::draw_frame() {
     const double ratio = static_cast<double>(window_.framebuffer_size().x()) / window_.size().x();
     const int n_drawn = renderer_.draw(state_, palette(), ratio, detail_at(now, ratio));
     renderer_.show(state_, ratio, window_.framebuffer_size());
+    times.draw_ms = 1e3 * part.seconds();
     // The first picture takes long, as shaders are compiled for it. What workers have ready by then has not to wait.
     if (state_.measurements.frame == 0) guarded([&] { state_.update_displacements(); });
-    times.draw_ms = 1e3 * part.seconds();
 
     part = {};
     if (!guarded([&] { panels_.draw({state_, gui_, layout, palette()}); })) gui_.recover();

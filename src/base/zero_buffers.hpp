@@ -8,9 +8,11 @@
 namespace elastolab {
 
 /// Buffers of zeros for sums of tasks on several threads. A buffer is handed on from task to task: memory that is new
-/// for each of them would have its pages cleared by the system again and again.
+/// for each of them would have its pages cleared by the system again and again. Any thread may call take() and
+/// give_back(); a buffer that is not given back, as after an exception, is freed by its owner.
 class ZeroBuffers {
 public:
+    /// `size`: numbers in each buffer.
     explicit ZeroBuffers(std::size_t size) : size_(size) {}
 
     std::vector<double> take() {
