@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <array>
+#include <cmath>
 #include <numbers>
 #include <random>
 
@@ -47,6 +48,22 @@ SurfaceMesh sheet(int cells) {
     for (int t = 0; t < box.n_triangles(); ++t)
         if (centroid(box, t).z() < 1e-9) kept.push_back(t);
     return {box.vertices, box.triangles(Eigen::all, kept)};
+}
+
+/// Of radius 1 and height 0.3; both caps have n triangles around their centre.
+SurfaceMesh cylinder_of_fans(int n) {
+    SurfaceMesh mesh{Positions(3, 2 * n + 2), Triangles(3, 4 * n)};
+    mesh.vertices.col(0).setZero();
+    mesh.vertices.col(1) = Eigen::Vector3d(0.0, 0.0, 0.3);
+    for (int i = 0; i < n; ++i) {
+        const double angle = 2.0 * std::numbers::pi * i / n;
+        const int a = 2 + 2 * i, b = a + 1, c = 2 + 2 * ((i + 1) % n), d = c + 1;
+        for (const int v : {a, b}) mesh.vertices.col(v) << std::cos(angle), std::sin(angle), v == a ? 0.0 : 0.3;
+        mesh.triangles.middleCols<4>(4 * i) << 0, 1, a, a,  //
+            c, b, c, d,                                     //
+            a, d, d, b;
+    }
+    return mesh;
 }
 
 /// Two balls, one of them far smaller and sticking out of the other, and needles around them.
@@ -175,6 +192,16 @@ TEST(ProxySurface, ABowlBecomesAWallAndAThinPlateStaysAsThinAsItIs) {
 }
 
 /// A search among thousands of triangles in one place takes minutes.
+/// Edges are not collapsed where that would take minutes, and are where it does not.
+TEST(ProxySurface, ThousandTrianglesAroundAVertexAreWrapped) {
+    for (const int n : {300, 1000}) {
+        const ProxySurface proxy = proxy_of(cylinder_of_fans(n), 60);
+        EXPECT_EQ(proxy.kind, n > 700 ? ProxySurface::Kind::wrapped : ProxySurface::Kind::collapsed);
+        EXPECT_NEAR(enclosed_volume(proxy.surface), 0.3 * std::numbers::pi, 0.05);
+        EXPECT_TRUE(can_be_filled(proxy.surface));
+    }
+}
+
 TEST(ProxySurface, TrianglesThatRepeatOthersChangeNothing) {
     const SurfaceMesh once = sheet(3);
     SurfaceMesh often = once;
