@@ -13,6 +13,8 @@
 #include "app/window/window.hpp"
 #include "base/error.hpp"
 #include "fem/method.hpp"
+#include "mesh/input/export.hpp"
+#include "mesh/primitives.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace elastolab {
@@ -187,6 +189,40 @@ TEST_F(ScenePicture, TintsALargePatchThatTheMousePointsAt) {
     const Image with = picture(stage.pixel(stage.vertex_near({0.5, 0.0, 0.5})));
     ASSERT_GT(stage.state.gestures.hover().patch.size(), PatchAreas::kMostDots);
     expect_tint(with, picture(stage.empty_place()), palette.hover);
+}
+
+/// A box whose triangles hang together nowhere.
+SurfaceMesh loose_box(int cells) {
+    const SurfaceMesh box = make_box(cells);
+    SurfaceMesh loose{Positions(3, 3 * box.n_triangles()), Triangles(3, box.n_triangles())};
+    for (int t = 0; t < box.n_triangles(); ++t) {
+        const Positions corners = box.vertices(Eigen::all, box.triangles.col(t));
+        const Eigen::Vector3d middle = corners.rowwise().mean();
+        loose.vertices.middleCols<3>(3 * t) = (0.9 * corners).colwise() + 0.1 * middle;
+        loose.triangles.col(t) << 3 * t, 3 * t + 1, 3 * t + 2;
+    }
+    return loose;
+}
+
+/// The body has to be seen behind them.
+TEST_F(ScenePicture, DrawsThousandsOfOpenEdgesFaintly) {
+    const test::TemporaryFolder folder;
+    const Eigen::Vector3f bad = 255.0f * Eigen::Vector3f(palette.bad.r, palette.bad.g, palette.bad.b);
+    const auto n_bad = [&](int cells) {
+        save_surface(folder.path() / "loose.ply", loose_box(cells));
+        stage.state.files.open_now(folder.path() / "loose.ply");
+        stage.frame();
+        stage.state.update_picture();
+        renderer.upload(stage.state, palette);
+        const Image image = scene_picture(renderer, stage.state, palette, {640, 400});
+        int n = 0;
+        for (std::size_t i = 0; i + 2 < image.pixels.size(); i += 3)
+            if ((Eigen::Vector3f(image.pixels[i], image.pixels[i + 1], image.pixels[i + 2]) - bad).norm() < 40.0f) ++n;
+        return n;
+    };
+    const int few = n_bad(4);  // 576 edges, and then 5184
+    EXPECT_GT(few, 1000);
+    EXPECT_LT(n_bad(12), few / 10);
 }
 
 TEST_F(ScenePicture, PutsMarksTogetherAnewOnlyWhenTheyHaveChanged) {
