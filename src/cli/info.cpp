@@ -52,11 +52,17 @@ const char* name(Defect::Kind kind) {
     return "unknown";
 }
 
-/// What a defect means for the user.
-const char* consequence(const Defect& defect) {
+/// What a defect means for the user. Where a proxy stands in for the surface, nothing has to be done about it.
+const char* consequence(const Defect& defect, bool has_proxy) {
     if (defect.repaired) return "repaired";
-    if (defect.fatal) return "error";
-    return defect.fatal_for_fem ? "error for fem" : "warning";
+    if (!defect.fatal && !defect.fatal_for_fem) return "warning";
+    if (has_proxy) return "defect";
+    return defect.fatal ? "error" : "error for fem";
+}
+
+std::string defect_words(const Defect& defect, bool has_proxy) {
+    const bool stands_in = has_proxy && (defect.fatal || defect.fatal_for_fem) && !defect.repaired;
+    return one_line(stands_in ? defect.found : defect.text);
 }
 
 std::string corner(const Eigen::Vector3d& x) { return formatted("(%.6g, %.6g, %.6g)", x.x(), x.y(), x.z()); }
@@ -171,7 +177,9 @@ void print_info(std::ostream& out, const MeshInfo& info) {
               formatted("%.4g to %.4g, mean %.4g", report.shortest_edge, report.longest_edge, report.mean_edge));
     print_row(out, "thinnest", formatted("altitude / edge %.3g", report.smallest_altitude_ratio));
     if (report.defects.empty()) print_row(out, "defects", "none");
-    for (const Defect& defect : report.defects) print_row(out, consequence(defect), one_line(defect.text));
+    const bool has_proxy = info.proxy != nullptr;
+    for (const Defect& defect : report.defects)
+        print_row(out, consequence(defect, has_proxy), defect_words(defect, has_proxy));
     if (info.proxy) print_row(out, "proxy", proxy_words(*info.proxy));
     if (!info.proxy_problem.empty()) print_row(out, "no proxy", one_line(info.proxy_problem));
     print_costs(out, info.costs, info.proxy && info.proxy->is_filled());

@@ -2,8 +2,10 @@
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "base/blas.hpp"
@@ -18,6 +20,19 @@ namespace {
 
 using namespace elastolab;
 
+/// `elastolab FILE` opens the file, as programs that show files do. A command's name is always the command.
+std::vector<std::string> with_command(int argc, char** argv, const std::vector<Command>& commands) {
+    std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+    if (words.empty() || words.front().starts_with('-')) return words;
+    const auto names_it = [&](const Command& command) { return command.parser->get_name() == words.front(); };
+    if (std::any_of(commands.begin(), commands.end(), names_it)) return words;
+    std::error_code ignored;
+    if (!std::filesystem::exists(words.front(), ignored))
+        throw UsageError(words.front() + ": neither a command nor a file. See elastolab --help.");
+    words.insert(words.begin(), commands.front().parser->get_name());
+    return words;
+}
+
 int run(int argc, char** argv) {
     CLI::App program("Elastolab: elastic bodies by finite and boundary elements.", "elastolab");
     program.set_version_flag("--version", std::string("elastolab ") + version());
@@ -25,8 +40,10 @@ int run(int argc, char** argv) {
     const std::vector<Command> commands = {add_view_command(program), add_solve_command(program),
                                            add_info_command(program), add_bench_command(program),
                                            add_feel_command(program), add_thumbnail_command(program)};
+    std::vector<std::string> words = with_command(argc, argv, commands);
+    std::reverse(words.begin(), words.end());  // as the parser takes them
     try {
-        program.parse(argc, argv);
+        program.parse(words);
     } catch (const CLI::Success& request) {
         return program.exit(request);  // --help and --version
     } catch (const CLI::ParseError& error) {

@@ -14,6 +14,7 @@ namespace {
 using test::ProgramRun;
 using test::run_program;
 using testing::HasSubstr;
+using testing::Not;
 
 nlohmann::json info(const std::string& file, const std::filesystem::path& folder) {
     const ProgramRun run = run_program({"info", "--json", file}, folder);
@@ -84,7 +85,10 @@ TEST(Info, ListsTheDefectsOfAMeshThatNoMethodCanUse) {
         EXPECT_GT(row["memory_bytes"].get<double>(), 0.0);
     }
     EXPECT_GT(json["proxy"]["vertices"].get<int>(), 100);
-    EXPECT_THAT(run_program({"info", "open.obj"}, folder.path()).out, HasSubstr("on the proxy"));
+    const std::string table = run_program({"info", "open.obj"}, folder.path()).out;
+    EXPECT_THAT(table, HasSubstr("on the proxy"));
+    EXPECT_THAT(table, HasSubstr("  defect        3 open edges near (")) << "nothing has to be done about it";
+    EXPECT_THAT(table, Not(HasSubstr("Fill the holes")));
 }
 
 TEST(Info, SimulatesAProxyAsTheOptionsSay) {
@@ -104,6 +108,7 @@ TEST(Info, SimulatesAProxyAsTheOptionsSay) {
     EXPECT_EQ(run_program({"info", "--proxy", "sometimes", "open.obj"}, folder.path()).exit_code, 2);
     const ProgramRun never = run_program({"info", "--proxy", "never", "open.obj"}, folder.path());
     EXPECT_THAT(never.out, HasSubstr("not possible"));
+    EXPECT_THAT(never.out, HasSubstr("Fill the holes and reload"));
 }
 
 TEST(Info, TellsWhyThereIsNoProxy) {

@@ -45,5 +45,20 @@ TEST(Program, HelpsAndTellsItsVersion) {
     EXPECT_THAT(test::run_program({"--version"}, ".").out, testing::StartsWith("elastolab "));
 }
 
+TEST(Program, TakesAFileWithoutACommandForTheViewer) {
+    const test::TemporaryFolder folder;
+    folder.write("scene.json", test::cube_scene("fem", 2));
+    const test::ProgramRun viewer = test::run_program({"scene.json", "--hidden"}, folder.path());
+    EXPECT_EQ(viewer.exit_code, 2);
+    EXPECT_THAT(viewer.err, testing::HasSubstr("--hidden: nobody could close that window"));
+
+    folder.write("info", "a file with the name of a command");
+    EXPECT_EQ(test::run_program({"info", "scene.json"}, folder.path()).exit_code, 0);
+
+    const test::ProgramRun typo = test::run_program({"solv", "scene.json"}, folder.path());
+    EXPECT_EQ(typo.exit_code, 2);
+    EXPECT_EQ(typo.err, "elastolab: solv: neither a command nor a file. See elastolab --help.\n");
+}
+
 }  // namespace
 }  // namespace elastolab
