@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "bem/collocation/method.hpp"
 #include "fem/method.hpp"
+#include "fem/nonlinear/method.hpp"
 #include "mesh/input/export.hpp"
 #include "mesh/measures.hpp"
 #include "mesh/meshes.hpp"
@@ -78,7 +79,7 @@ TEST(Preview, MovesANewHandleWhileTheMethodPreparesIt) {
         expect_handles_where_they_are_put(scene, bench.simulation.answer(kConstantBem).displacement());
     }
     bench.settle(scene);
-    expect_handles_where_they_are_put(scene, bench.simulation.preview().displacement());
+    expect_handles_where_they_are_put(scene, bench.simulation.preview(kConstantBem).displacement());
     expect_near(bench.simulation.answer(kConstantBem).displacement(), bench.runner(kConstantBem).displacement());
 }
 
@@ -87,8 +88,8 @@ TEST(Preview, OfAThousandVerticesIsTheSurfaceItself) {
     PreviewBench bench({kConstantBem});
     bench.begin(scene);
     bench.wait_for_preview(scene);
-    EXPECT_EQ(bench.simulation.preview().surface(), scene.surface().get());
-    EXPECT_EQ(bench.simulation.preview().proxy(), nullptr);
+    EXPECT_EQ(bench.simulation.preview(kConstantBem).surface(), scene.surface().get());
+    EXPECT_EQ(bench.simulation.preview(kConstantBem).proxy(), nullptr);
     EXPECT_EQ(bench.simulation.proxies().preview(), nullptr) << "nothing is made that nobody looks at";
     scene.set_material({.young_modulus = 1.0, .poisson_ratio = 0.49});
     bench.update_until(scene, [&] { return bench.simulation.proxies().preview() != nullptr; });
@@ -99,7 +100,39 @@ TEST(Preview, IsNotMadeBesideTheMethodThatItWouldBeMadeBy) {
     PreviewBench bench({quick_method()});
     bench.begin(scene);
     bench.settle(scene);
-    EXPECT_EQ(bench.simulation.preview().surface(), nullptr);
+    EXPECT_EQ(bench.simulation.preview(kConstantBem).surface(), nullptr);
+}
+
+TEST(ChangeOfMethod, ShowsWhatWasLookedAtUntilTheNewOneAnswers) {
+    LiveScene scene = pulled_cube(8);
+    Bench bench({kFem});
+    bench.choices.complete_up_to = 0;
+    bench.settle(scene);
+    bench.shown = {kNonlinearFem};
+    bench.update(scene);
+    ASSERT_EQ(bench.simulation.stand_in(kNonlinearFem), kFem);
+    EXPECT_TRUE(bench.simulation.previewing(kNonlinearFem));
+    scene.set_motion(0, AffineMotion{.translate = {0.2, 0, 0}});
+    bench.update(scene);
+    if (bench.simulation.stand_in(kNonlinearFem))  // else it was there in no time
+        expect_near(bench.simulation.answer(kNonlinearFem).displacement(), truth(scene, bench.choices.of(kFem)));
+
+    bench.settle(scene);
+    EXPECT_EQ(bench.simulation.stand_in(kNonlinearFem), nullptr);
+    EXPECT_EQ(&bench.simulation.answer(kNonlinearFem), &bench.simulation.embedded(kNonlinearFem));
+}
+
+TEST(ChangeOfMethod, ShowsNothingInPlaceOfOneThatCannotTakeTheBody) {
+    LiveScene scene = pulled_cube(3);
+    scene.set_material({.young_modulus = 1.0, .poisson_ratio = 0.5});
+    Bench bench({kLinearBem});
+    bench.settle(scene);
+    ASSERT_TRUE(bench.simulation.answer(kLinearBem).has_answer());
+    bench.shown = {kFem};
+    bench.settle(scene);
+    EXPECT_NE(bench.simulation.problem(kFem), "");
+    EXPECT_EQ(bench.simulation.stand_in(kFem), nullptr);
+    EXPECT_FALSE(bench.simulation.answer(kFem).has_answer());
 }
 
 TEST(HiddenMethods, AreLetGoWhereTheyTakeTooMuchMemoryThoseOfLongAgoFirst) {
@@ -128,7 +161,7 @@ TEST(Preview, IsNotMadeForABodyThatIsReadyAtOnce) {
     PreviewBench bench;
     bench.begin(scene);
     bench.settle(scene);
-    EXPECT_EQ(bench.simulation.preview().surface(), nullptr);
+    EXPECT_EQ(bench.simulation.preview(kConstantBem).surface(), nullptr);
 }
 
 /// The cube without the lid at z = 1, in a file.

@@ -31,7 +31,9 @@ std::string source_words(const ViewerState& state, MethodKind kind) {
         return stage_words(status.stage) + formatted(" %.0f\u00a0%%", std::floor(100.0 * status.progress));
     };
     std::string text;
-    if (simulation.previewing(kind)) {
+    if (const MethodKind other = simulation.stand_in(kind)) {
+        text = std::string(kDash) + title(other) + " until it is there";
+    } else if (simulation.previewing(kind)) {
         const Proxy* proxy = simulation.preview(kind).proxy();
         text = std::string(kDash) + (runner.has_set() && !kind->linear ? "preview is following" : "preview");
         if (proxy) text += " (proxy of " + count_text(proxy->surface->n_vertices()) + " vertices)";

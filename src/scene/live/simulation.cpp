@@ -19,33 +19,6 @@ constexpr double kMaxCompletionSeconds = 120.0;
 /// Of the memory that is free, methods that are not shown keep one part in so many.
 constexpr std::uint64_t kPartForHidden = 4;
 
-/// A body with no more vertices than this is ready before a person has looked at it.
-constexpr int kFewestToPreview = 300;
-/// Vertices of a preview's surface, which a worker has ready within a second.
-constexpr int kPreviewVertices = 700;
-/// A sound surface with no more vertices than this needs no coarser one: with quick_method() it answers sooner than a
-/// proxy of it is made.
-constexpr int kMostToPreviewThemselves = 3000;
-/// The same for preview_method(), which takes longer, and bends rubber as well as steel.
-constexpr int kMostToPreviewRubber = 900;
-/// From this Poisson's ratio on quick_method() is too stiff to show what will come.
-constexpr double kRubber = 0.45;
-/// The preview's elements cannot take 1/2 itself.
-constexpr double kPreviewPoissonRatio = 0.49;
-
-/// The method that the preview simulates the scene's own surface by; null where it is made on a proxy.
-MethodKind preview_on_itself(const LiveScene& scene) {
-    const bool is_rubber = scene.document().material.poisson_ratio > kRubber;
-    const MethodKind kind = is_rubber ? preview_method() : quick_method();
-    const int most = is_rubber ? kMostToPreviewRubber : kMostToPreviewThemselves;
-    return scene.needs_proxy(kind) || scene.mesh().n_vertices() > most ? nullptr : kind;
-}
-
-/// Whether equilibria of the scene's own surface follow a drag.
-bool is_quick_at_equilibria(const LiveScene& scene) {
-    return !scene.needs_proxy(preview_method()) && scene.mesh().n_vertices() <= kMostToPreviewRubber;
-}
-
 }  // namespace
 
 std::optional<Method> completion_of(const SurfaceMesh& mesh, MethodKind kind, const MethodChoices& choices) {
@@ -68,8 +41,7 @@ Method MethodChoices::of(MethodKind kind) const {
     return method;
 }
 
-Simulation::Simulation(const std::function<void()>& wake)
-    : proxies_(wake), preview_(wake), finite_preview_(wake), gauge_(wake) {
+Simulation::Simulation(const std::function<void()>& wake) : proxies_(wake), previews_(wake), gauge_(wake) {
     for (const MethodKind kind : all_methods()) entries_.push_back({kind, std::make_unique<EmbeddedRunner>(wake)});
 }
 
@@ -83,9 +55,17 @@ bool Simulation::is_shown(MethodKind kind) const {
     return std::find(shown_.begin(), shown_.end(), kind) != shown_.end();
 }
 
-const EmbeddedRunner& Simulation::answer(MethodKind kind) const {
+MethodKind Simulation::stand_in(MethodKind kind) const {
     const Entry& entry = entries_[place(kind)];
-    return entry.previewing ? preview(kind) : *entry.runner;
+    if (entry.before == nullptr || is_shown(entry.before) || entry.previewing || entry.runner->has_answer())
+        return nullptr;
+    return problem(kind).empty() && embedded(entry.before).has_answer() ? entry.before : nullptr;
+}
+
+const EmbeddedRunner& Simulation::answer(MethodKind kind) const {
+    if (entries_[place(kind)].previewing) return preview(kind);
+    const MethodKind other = stand_in(kind);
+    return embedded(other ? other : kind);
 }
 
 std::string Simulation::problem(MethodKind kind) const {
@@ -101,73 +81,13 @@ const SurfaceMesh* Simulation::simulated_surface(MethodKind kind, const LiveScen
 }
 
 void Simulation::ask_for_proxies(const LiveScene& scene, const MethodChoices& choices) {
+    previews_.choose(scene, shown_, choices.preview);
     const auto needs_proxy = [&](MethodKind kind) { return scene.needs_proxy(kind); };
     const bool needs_model = std::any_of(shown_.begin(), shown_.end(), needs_proxy) || proxies_.model();
-    const MethodKind on_itself = preview_on_itself(scene);
-    const bool comes_first_anyway = !shown_.empty() && shown_.front() == on_itself;
-    const bool worth_one = choices.preview && scene.mesh().n_vertices() > kFewestToPreview;
-    const auto finite = std::find_if(shown_.begin(), shown_.end(), [](MethodKind kind) { return !kind->linear; });
-    has_preview_ = worth_one && !comes_first_anyway &&
-                   std::any_of(shown_.begin(), shown_.end(), [](MethodKind kind) { return kind->linear; });
-    finite_ = worth_one && finite != shown_.end() && !is_quick_at_equilibria(scene) ? *finite : nullptr;
-    const bool gauges = worth_one && gauged_on_.lock() == scene.surface() && !is_quick_at_equilibria(scene);
-    const bool needs_coarse = (has_preview_ && on_itself == nullptr) || finite_ || gauges;
-    proxies_.ask(scene, needs_model, needs_coarse ? kPreviewVertices : 0);
+    const bool gauges = choices.preview && is_worth_a_preview(scene) && gauged_on_.lock() == scene.surface() &&
+                        !is_quick_at_equilibria(scene);
+    proxies_.ask(scene, needs_model, previews_.need_proxy() || gauges ? kPreviewVertices : 0);
     proxies_.poll();
-}
-
-bool Simulation::preparing_preview() const {
-    const auto prepares = [](const MethodRunner& runner) {
-        const State state = runner.state();
-        return state == State::precomputing || (state == State::preparing && !runner.has_set());
-    };
-    return (has_preview_ && prepares(preview_.runner())) || (finite_ && prepares(finite_preview_.runner()));
-}
-
-/// The preview is served before all methods: its model is what a press waits for.
-bool Simulation::update_preview(const LiveScene& scene, const MethodChoices& choices) {
-    const std::uint64_t before = preview_.version();
-    if (!give_preview_body(preview_, {.kind = preview_on_itself(scene)}, preview_method(), has_preview_, scene))
-        return preview_.version() != before;
-    preview_.runner().set_frame_rule(choices.frame_rule);
-    preview_.set_constraints(scene.constraints());
-    preview_.poll();
-    return preview_.version() != before;
-}
-
-/// The same for a method that is not linear. Its preview follows while the method itself cannot.
-bool Simulation::update_finite_preview(const LiveScene& scene) {
-    const std::uint64_t before = finite_preview_.version();
-    if (!give_preview_body(finite_preview_, {}, finite_, finite_ != nullptr, scene))
-        return finite_preview_.version() != before;
-    const MethodRunner& method = runner(finite_);
-    finite_follows_ = !method.has_set() || method.is_slow();
-    if (finite_follows_) finite_preview_.set_constraints(scene.constraints());
-    finite_preview_.poll();
-    return finite_preview_.version() != before;
-}
-
-/// Gives a preview the body that it simulates: the scene's own surface by `method`, or, without one, the proxy by
-/// `fallback`; false when it has none.
-bool Simulation::give_preview_body(EmbeddedRunner& preview, Method method, MethodKind fallback, bool wanted,
-                                   const LiveScene& scene) const {
-    const std::shared_ptr<const Proxy>& proxy = proxies_.preview();
-    const bool on_itself = method.kind != nullptr;
-    if (!wanted || (proxies_.running() && !on_itself)) {
-        if (!proxy || proxy->shown != scene.surface()) preview.clear();
-        if (!wanted) return false;
-    }
-    if (!on_itself) method.kind = fallback;
-    if (!on_itself && !proxy) {
-        preview.clear();
-        return false;
-    }
-    Body body{.name = scene.name(),
-              .surface = on_itself ? scene.surface() : proxy->surface,
-              .material = scene.document().material};
-    body.material.poisson_ratio = std::min(body.material.poisson_ratio, kPreviewPoissonRatio);
-    preview.set_body(body, method, on_itself ? nullptr : proxy);
-    return true;
 }
 
 /// Gives a method the body that it simulates; false when it cannot have one, or not yet.
@@ -203,9 +123,9 @@ bool Simulation::update_method(Entry& entry, const LiveScene& scene, const Metho
         return runner.version() != before;
     }
     // Two at a time would slow each other down, and the preview's set takes only a moment.
-    entry.waits_for_preview = preparing_preview();
+    entry.waits_for_preview = previews_.preparing();
     runner.runner().set_frame_rule(choices.frame_rule);
-    runner.runner().set_may_hold_off(entry.kind == finite_ && finite_preview_.has_answer());
+    runner.runner().set_may_hold_off(entry.kind == previews_.finite_kind() && preview(entry.kind).has_answer());
     if (!entry.waits_for_preview) runner.set_constraints(scene.constraints());
     runner.poll();
     return runner.version() != before;
@@ -218,10 +138,10 @@ bool Simulation::choose_answer(Entry& entry) const {
     const EmbeddedRunner& coarser = preview(entry.kind);
     if (ready || entry.runner->runner().crushed())
         entry.previewing = false;
-    else if (has_preview(entry.kind) && coarser.runner().answers())
+    else if (previews_.follow(entry.kind) && coarser.runner().answers())
         entry.previewing = true;
     else if (entry.previewing ? !coarser.has_answer() : !entry.runner->has_answer())
-        entry.previewing = has_preview(entry.kind) && coarser.has_answer();
+        entry.previewing = previews_.follow(entry.kind) && coarser.has_answer();
     if (entry.previewing || !ready) {
         if (entry.previewing) entry.preview_error.reset();
         return entry.previewing != before;
@@ -237,23 +157,43 @@ bool Simulation::choose_answer(Entry& entry) const {
     return entry.previewing != before;
 }
 
+void Simulation::show(const std::vector<MethodKind>& shown) {
+    if (shown_ == shown) return;
+    const MethodKind front = shown_.empty() ? nullptr : shown_.front();
+    const MethodKind seen = front && stand_in(front) ? stand_in(front) : front;
+    for (const MethodKind kind : shown)
+        if (!is_shown(kind)) entries_[place(kind)].before = seen;
+    shown_ = shown;
+    ++clock_;
+    for (const MethodKind kind : shown) entries_[place(kind)].last_shown = clock_;
+    bound_hidden_memory();
+}
+
+/// It follows the scene like one that is looked at. Returns whether its displacements changed.
+bool Simulation::update_stand_in(const Entry& entry, const LiveScene& scene) {
+    const MethodKind kind = stand_in(entry.kind);
+    if (kind == nullptr) return false;
+    const std::uint64_t before = own(kind).version();
+    own(kind).set_constraints(scene.constraints());
+    own(kind).poll();
+    return own(kind).version() != before;
+}
+
 bool Simulation::update(const LiveScene& scene, const std::vector<MethodKind>& shown, const MethodChoices& choices) {
-    if (shown_ != shown) {
-        shown_ = shown;
-        ++clock_;
-        for (const MethodKind kind : shown) entries_[place(kind)].last_shown = clock_;
-        bound_hidden_memory();
-    }
+    show(shown);
     ask_for_proxies(scene, choices);
     rest_hidden(scene);
     bool changed = false;
-    const bool preview_changed = update_preview(scene, choices);
-    const bool finite_changed = update_finite_preview(scene);
-    bool waiting = (has_preview_ || finite_) && (proxies_.running() || preparing_preview());
+    // Previews are served before all methods: their models are what a press waits for.
+    const bool preview_changed = previews_.update_linear(scene, proxies_, choices.frame_rule);
+    const MethodKind finite = previews_.finite_kind();
+    const bool finite_changed = previews_.update_finite(scene, proxies_, finite ? &runner(finite) : nullptr);
+    bool waiting = previews_.any() && (proxies_.running() || previews_.preparing());
     for (const MethodKind kind : shown) {
         Entry& present = entries_[place(kind)];
         changed = update_method(present, scene, choices, !waiting) || changed;
         changed = choose_answer(present) || changed;
+        changed = update_stand_in(present, scene) || changed;
         changed = changed || (present.previewing && (kind->linear ? preview_changed : finite_changed));
         waiting = waiting || present.runner->runner().precomputing();
     }
@@ -340,15 +280,13 @@ void Simulation::complete_one(const MethodChoices& choices) {
 }
 
 void Simulation::prefetch(const Constraints& constraints) {
-    if (has_preview_) preview_.prefetch(constraints);
-    if (finite_) finite_preview_.prefetch(constraints);
+    previews_.prefetch(constraints);
     for (const MethodKind kind : shown_) own(kind).prefetch(constraints);
 }
 
 void Simulation::retry(MethodKind kind) {
     proxies_.retry();
-    preview_.retry();
-    finite_preview_.retry();
+    previews_.retry();
     own(kind).retry();
 }
 
@@ -362,7 +300,7 @@ bool Simulation::waiting() const {
 }
 
 bool Simulation::busy() const {
-    return waiting() || preparing_preview() || std::any_of(shown_.begin(), shown_.end(), [&](MethodKind kind) {
+    return waiting() || previews_.preparing() || std::any_of(shown_.begin(), shown_.end(), [&](MethodKind kind) {
                return runner(kind).converging() || runner(kind).completing();
            });
 }
@@ -374,14 +312,13 @@ bool Simulation::checking() const {
 
 void Simulation::cancel() {
     proxies_.cancel();
-    preview_.cancel();
-    finite_preview_.cancel();
+    previews_.cancel();
     gauge_.cancel();
     for (Entry& entry : entries_) entry.runner->cancel();
 }
 
 bool Simulation::stopping() const {
-    return proxies_.working() || preview_.stopping() || finite_preview_.stopping() || gauge_.working() ||
+    return proxies_.working() || previews_.stopping() || gauge_.working() ||
            std::any_of(entries_.begin(), entries_.end(), [](const Entry& entry) { return entry.runner->stopping(); });
 }
 

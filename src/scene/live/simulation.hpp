@@ -12,6 +12,7 @@
 #include "methods/registry.hpp"
 #include "scene/live/embedded_runner.hpp"
 #include "scene/live/live_scene.hpp"
+#include "scene/live/previews.hpp"
 #include "scene/live/proxy_keeper.hpp"
 #include "scene/live/theory_gauge.hpp"
 
@@ -71,14 +72,17 @@ public:
     const EmbeddedRunner& embedded(MethodKind kind) const { return *entries_[place(kind)].runner; }
     /// What is to be shown for the method: its answer, or the preview's.
     const EmbeddedRunner& answer(MethodKind kind) const;
-    bool previewing(MethodKind kind) const { return entries_[place(kind)].previewing; }
+    /// Something else answers in the method's place: its coarse preview, or stand_in().
+    bool previewing(MethodKind kind) const { return entries_[place(kind)].previewing || stand_in(kind) != nullptr; }
+    /// The method that was looked at before, where its answer is shown until this one or its preview has one; else
+    /// null.
+    MethodKind stand_in(MethodKind kind) const;
     /// How far the preview was from the method's answer when that came: rms over all vertices, relative to the
     /// answer's; nothing when there was none.
     std::optional<double> preview_error(MethodKind kind) const { return entries_[place(kind)].preview_error; }
     /// The proxies: the one that methods simulate, and the preview's.
     const ProxyKeeper& proxies() const { return proxies_; }
-    const EmbeddedRunner& preview() const { return preview_; }  ///< of linear methods
-    const EmbeddedRunner& preview(MethodKind kind) const { return kind->linear ? preview_ : finite_preview_; }
+    const EmbeddedRunner& preview(MethodKind kind) const { return previews_.of(kind); }
     /// The surface that a method computes on in this scene; null while its proxy is not there.
     const SurfaceMesh* simulated_surface(MethodKind kind, const LiveScene& scene) const;
     /// Whether the proxy that a method needs is being made.
@@ -96,12 +100,12 @@ public:
     /// answered; nothing until it is known. Computed on a mesh as coarse as the preview's.
     const std::optional<TheoryError>& theory_error() const { return gauge_.error(); }
 
-    bool preparing_preview() const;  ///< the preview cannot answer yet, and will by itself
-    bool waiting() const;            ///< a method of the last update is not ready yet, and will be by itself
-    bool busy() const;               ///< the same, or an answer is being converged, or K and its inverse completed
-    bool checking() const;           ///< an answer is being checked, or will be once it has rested
-    void cancel();                   ///< stops all workers at their next checkpoints
-    bool stopping() const;           ///< some worker has not stopped yet; for use after cancel(), without update()
+    bool preparing_preview() const { return previews_.preparing(); }
+    bool waiting() const;   ///< a method of the last update is not ready yet, and will be by itself
+    bool busy() const;      ///< the same, or an answer is being converged, or K and its inverse completed
+    bool checking() const;  ///< an answer is being checked, or will be once it has rested
+    void cancel();          ///< stops all workers at their next checkpoints
+    bool stopping() const;  ///< some worker has not stopped yet; for use after cancel(), without update()
 
 private:
     struct Entry {
@@ -110,8 +114,9 @@ private:
         std::string unfit = {};
         bool waits_for_proxy = false;
         bool waits_for_preview = false;  ///< its constraints are older than the scene's
-        bool previewing = false;
-        bool replaced_preview = false;  ///< by an answer that is not converged yet
+        bool previewing = false;         ///< by its coarse preview
+        MethodKind before = nullptr;     ///< what was looked at when this one was chosen
+        bool replaced_preview = false;   ///< by an answer that is not converged yet
         std::optional<double> preview_error = {};
         std::uint64_t last_shown = 0;  ///< clock_ then
     };
@@ -120,13 +125,10 @@ private:
     void rest_hidden(const LiveScene& scene);
     EmbeddedRunner& own(MethodKind kind) { return *entries_[place(kind)].runner; }
     void ask_for_proxies(const LiveScene& scene, const MethodChoices& choices);
-    bool update_preview(const LiveScene& scene, const MethodChoices& choices);
-    bool give_preview_body(EmbeddedRunner& preview, Method method, MethodKind fallback, bool wanted,
-                           const LiveScene& scene) const;
-    bool update_finite_preview(const LiveScene& scene);
-    bool has_preview(MethodKind kind) const { return kind->linear ? has_preview_ : finite_ && finite_follows_; }
     bool update_method(Entry& entry, const LiveScene& scene, const MethodChoices& choices, bool may_begin);
     bool choose_answer(Entry& entry) const;
+    void show(const std::vector<MethodKind>& shown);
+    bool update_stand_in(const Entry& entry, const LiveScene& scene);
     bool give_body(Entry& entry, const LiveScene& scene, const MethodChoices& choices);
     void complete_one(const MethodChoices& choices);
     void gauge_theory(const LiveScene& scene);
@@ -139,11 +141,7 @@ private:
     std::uint64_t clock_ = 0;  ///< grows when other methods are shown
     std::optional<std::uint64_t> hidden_memory_;
     ProxyKeeper proxies_;
-    EmbeddedRunner preview_;
-    bool has_preview_ = false;  ///< this scene is worth one
-    EmbeddedRunner finite_preview_;
-    MethodKind finite_ = nullptr;  ///< the method on the screen that it answers for, if any
-    bool finite_follows_ = false;  ///< it is asked what the scene asks for, as the method cannot follow
+    Previews previews_;
     TheoryGauge gauge_;
     Wish gauged_;                                 ///< of the scene, that it was asked about
     std::weak_ptr<const SurfaceMesh> gauged_on_;  ///< the scene it was needed for

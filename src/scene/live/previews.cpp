@@ -1,0 +1,112 @@
+#include "scene/live/previews.hpp"
+
+#include <algorithm>
+
+namespace elastolab {
+
+namespace {
+
+/// A body with no more vertices than this is ready before a person has looked at it.
+constexpr int kFewestToPreview = 300;
+/// A sound surface with no more vertices than this needs no coarser one: with quick_method() it answers sooner than a
+/// proxy of it is made.
+constexpr int kMostToPreviewThemselves = 3000;
+/// The same for preview_method(), which takes longer, and bends rubber as well as steel.
+constexpr int kMostToPreviewRubber = 900;
+/// From this Poisson's ratio on quick_method() is too stiff to show what will come.
+constexpr double kRubber = 0.45;
+/// The preview's elements cannot take 1/2 itself.
+constexpr double kPreviewPoissonRatio = 0.49;
+
+/// The method that the preview simulates the scene's own surface by; null where it is made on a proxy.
+MethodKind preview_on_itself(const LiveScene& scene) {
+    const bool is_rubber = scene.document().material.poisson_ratio > kRubber;
+    const MethodKind kind = is_rubber ? preview_method() : quick_method();
+    const int most = is_rubber ? kMostToPreviewRubber : kMostToPreviewThemselves;
+    return scene.needs_proxy(kind) || scene.mesh().n_vertices() > most ? nullptr : kind;
+}
+
+/// Gives a preview the body that it simulates: the scene's own surface by `on_itself`, or, where that is null, the
+/// proxy by `on_proxy`; false when it has none.
+bool give_body(EmbeddedRunner& preview, MethodKind on_itself, MethodKind on_proxy, bool wanted, const LiveScene& scene,
+               const ProxyKeeper& proxies) {
+    const std::shared_ptr<const Proxy>& proxy = proxies.preview();
+    if (!wanted || (proxies.running() && !on_itself)) {
+        if (!proxy || proxy->shown != scene.surface()) preview.clear();
+        if (!wanted) return false;
+    }
+    if (!on_itself && !proxy) {
+        preview.clear();
+        return false;
+    }
+    Body body{.name = scene.name(),
+              .surface = on_itself ? scene.surface() : proxy->surface,
+              .material = scene.document().material};
+    body.material.poisson_ratio = std::min(body.material.poisson_ratio, kPreviewPoissonRatio);
+    preview.set_body(body, {.kind = on_itself ? on_itself : on_proxy}, on_itself ? nullptr : proxy);
+    return true;
+}
+
+}  // namespace
+
+bool is_worth_a_preview(const LiveScene& scene) { return scene.mesh().n_vertices() > kFewestToPreview; }
+
+bool is_quick_at_equilibria(const LiveScene& scene) {
+    return !scene.needs_proxy(preview_method()) && scene.mesh().n_vertices() <= kMostToPreviewRubber;
+}
+
+void Previews::choose(const LiveScene& scene, const std::vector<MethodKind>& shown, bool wanted) {
+    wanted = wanted && is_worth_a_preview(scene);
+    on_itself_ = preview_on_itself(scene);
+    const bool comes_first_anyway = !shown.empty() && shown.front() == on_itself_;
+    has_linear_ = wanted && !comes_first_anyway &&
+                  std::any_of(shown.begin(), shown.end(), [](MethodKind kind) { return kind->linear; });
+    const auto finite = std::find_if(shown.begin(), shown.end(), [](MethodKind kind) { return !kind->linear; });
+    finite_kind_ = wanted && finite != shown.end() && !is_quick_at_equilibria(scene) ? *finite : nullptr;
+}
+
+bool Previews::update_linear(const LiveScene& scene, const ProxyKeeper& proxies, FrameRule rule) {
+    const std::uint64_t before = linear_.version();
+    if (!give_body(linear_, on_itself_, preview_method(), has_linear_, scene, proxies))
+        return linear_.version() != before;
+    linear_.runner().set_frame_rule(rule);
+    linear_.set_constraints(scene.constraints());
+    linear_.poll();
+    return linear_.version() != before;
+}
+
+bool Previews::update_finite(const LiveScene& scene, const ProxyKeeper& proxies, const MethodRunner* method) {
+    const std::uint64_t before = finite_.version();
+    if (!give_body(finite_, nullptr, finite_kind_, finite_kind_ != nullptr, scene, proxies))
+        return finite_.version() != before;
+    finite_follows_ = !method->has_set() || method->is_slow();
+    if (finite_follows_) finite_.set_constraints(scene.constraints());
+    finite_.poll();
+    return finite_.version() != before;
+}
+
+bool Previews::preparing() const {
+    const auto prepares = [](const MethodRunner& runner) {
+        const MethodRunner::State state = runner.state();
+        return state == MethodRunner::State::precomputing ||
+               (state == MethodRunner::State::preparing && !runner.has_set());
+    };
+    return (has_linear_ && prepares(linear_.runner())) || (finite_kind_ && prepares(finite_.runner()));
+}
+
+void Previews::prefetch(const Constraints& constraints) {
+    if (has_linear_) linear_.prefetch(constraints);
+    if (finite_kind_) finite_.prefetch(constraints);
+}
+
+void Previews::retry() {
+    linear_.retry();
+    finite_.retry();
+}
+
+void Previews::cancel() {
+    linear_.cancel();
+    finite_.cancel();
+}
+
+}  // namespace elastolab
