@@ -100,6 +100,17 @@ TEST(Studies, EndInFilesWhateverTheCases) {
     }
 }
 
+TEST(Studies, ShowWhatFinerRimsLeaveOfTheErrorOnOrganicBodies) {
+    const TemporaryFolder folder;
+    const Table table = run(with_cases("error", {"organic potato galerkin-bem"}), folder.path() / "error").table;
+    const auto error = [&](const char* variant) {
+        return table.where({{"variant", variant}}).rows.at(0).number("error");
+    };
+    EXPECT_LT(error("galerkin-bem rims 1"), 0.75 * error("galerkin-bem"));
+    EXPECT_LT(error("galerkin-bem rims 2"), 0.75 * error("galerkin-bem rims 1"));
+    EXPECT_THAT(read_text(folder.path() / "error" / "README.md"), HasSubstr("galerkin-bem rims 2"));
+}
+
 TEST(PaperProcedure, AgreesWithItselfInAllFourForms) {
     Control control;
     for (const MethodKind kind : paper_methods()) {
