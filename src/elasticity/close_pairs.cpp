@@ -17,7 +17,6 @@ constexpr double kGrading = 0.17;  ///< ratio of successive pieces towards a sin
 constexpr int kMaxDepth = 40;
 
 Vec corner(const TriangleGeometry& T, int i) { return Eigen::Map<const Vec>(T.corner[i % 3]); }
-Vec normal(const TriangleGeometry& T) { return Eigen::Map<const Vec>(T.n); }
 
 double distance_to_segment(const Vec& p, const Vec& a, const Vec& b) {
     const Vec ab = b - a;
@@ -31,7 +30,12 @@ public:
     /// plane_normal: nullptr, or the normal of the plane in which the points y lie; then the sum's normal numbers are
     /// those of the adjoint, phi_k(y) int (y - x) . n / r^3 dx, else those of the triangle's own hats (if `all`).
     PotentialSum(const TriangleGeometry& triangle, bool all, const double* plane_normal, PairNumbers& sum)
-        : triangle_(triangle), all_(all), plane_normal_(plane_normal), sum_(sum) {}
+        : triangle_(triangle),
+          wanted_(!all           ? Potential::tensor
+                  : plane_normal ? Potential::with_gradient
+                                 : Potential::with_normals),
+          plane_normal_(plane_normal),
+          sum_(sum) {}
 
     void add(const Vec& x, double weight, const Vec& phi) {
         points_.x[n_] = x[0], points_.y[n_] = x[1], points_.z[n_] = x[2];
@@ -47,47 +51,28 @@ public:
             points_.x[i] = points_.x[0], points_.y[i] = points_.y[0], points_.z[i] = points_.z[0];
             points_.own_triangle[i] = -1.0;
         }
-        add_tensor();
-        if (all_ && plane_normal_ == nullptr) add_normal();
-        if (all_ && plane_normal_ != nullptr) add_adjoint();
+        double values[kPotentialNumbers * kMaxLanes] = {};
+        kernels_.potential(triangle_, points_, wanted_, values);
+        const int n_summed = wanted_ == Potential::with_normals ? kPairNumbers : kPairTensorNumbers;
+        for (int k = 0; k < n_summed; ++k)
+            for (int i = 0; i < n_; ++i)
+                sum_[static_cast<std::size_t>(k)] += weights_[i] * values[k * kernels_.lanes + i];
+        if (wanted_ == Potential::with_gradient) add_adjoint(values + kPairTensorNumbers * kernels_.lanes);
         n_ = 0;
     }
 
 private:
-    void add_tensor() {
-        double values[kSingleLayerNumbers * kMaxLanes] = {};
-        double* const out[1] = {values};
-        kernels_.single_layer_constant(triangle_, points_, nullptr, out);
-        for (int k = 0; k < kPairTensorNumbers; ++k)
-            for (int i = 0; i < n_; ++i)
-                sum_[static_cast<std::size_t>(k)] += weights_[i] * values[(1 + k) * kernels_.lanes + i];
-    }
-
-    void add_normal() {
-        double values[3][kDoubleLayerNumbers * kMaxLanes] = {};
-        double* const out[3] = {values[0], values[1], values[2]};
-        kernels_.double_layer_linear(triangle_, points_, nullptr, out);
-        for (int k = 0; k < 3; ++k)
-            for (int i = 0; i < n_; ++i)
-                sum_[static_cast<std::size_t>(kPairTensorNumbers + k)] += weights_[i] * values[k][i];
-    }
-
-    void add_adjoint() {
-        double values[kDoubleLayerNumbers * kMaxLanes] = {};
-        double* const out[1] = {values};
-        kernels_.double_layer_constant(triangle_, points_, nullptr, out);
-        const Vec n = normal(triangle_), plane = Eigen::Map<const Vec>(plane_normal_);
+    void add_adjoint(const double* gradient) {
         for (int i = 0; i < n_; ++i) {
-            const auto number = [&](int k) { return values[k * kernels_.lanes + i]; };
-            const Vec c(number(1), number(2), number(3));
-            const double g = -plane.dot(number(0) * n + n.cross(c));
+            double along = 0.0;
+            for (int c = 0; c < 3; ++c) along -= plane_normal_[c] * gradient[c * kernels_.lanes + i];
             for (int k = 0; k < 3; ++k)
-                sum_[static_cast<std::size_t>(kPairTensorNumbers + k)] += weights_[i] * phi_[i][k] * g;
+                sum_[static_cast<std::size_t>(kPairTensorNumbers + k)] += weights_[i] * phi_[i][k] * along;
         }
     }
 
     const TriangleGeometry& triangle_;
-    bool all_;
+    Potential wanted_;
     const double* plane_normal_;
     PairNumbers& sum_;
     const TriangleKernels& kernels_ = best_triangle_kernels();

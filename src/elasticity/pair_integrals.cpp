@@ -216,7 +216,8 @@ void PairIntegrals::integrate_close(const Pack& pack, int field, bool all, doubl
 }
 
 void PairIntegrals::add_medium(const Pack& pack, const TriangleGeometry& s, int n, bool all, double* out) const {
-    std::fill(out, out + (all ? kPairNumbers : kPairTensorNumbers) * lanes(), 0.0);
+    const int n_numbers = all ? kPairNumbers : kPairTensorNumbers;
+    std::fill(out, out + n_numbers * lanes(), 0.0);
     const TriangleRule& rule = triangle_rule(n);
     SourceLanes points{};
     std::fill(points.own_triangle, points.own_triangle + kMaxLanes, -1.0);
@@ -228,20 +229,12 @@ void PairIntegrals::add_medium(const Pack& pack, const TriangleGeometry& s, int 
                 const double* c = pack.corners.data() + axis * lanes() + lane;
                 coordinates[axis][lane] = b[0] * c[0] + b[1] * c[3 * lanes()] + b[2] * c[6 * lanes()];
             }
-        double single[kSingleLayerNumbers * kMaxLanes] = {};
-        double* const single_out[1] = {single};
-        closed_forms_.single_layer_constant(s, points, nullptr, single_out);
-        for (int i = 0; i < kPairTensorNumbers * lanes(); ++i) out[i] += rule.weights[q] * single[lanes() + i];
-        if (!all) continue;
-        double values[3][kDoubleLayerNumbers * kMaxLanes] = {};
-        double* const double_out[3] = {values[0], values[1], values[2]};
-        closed_forms_.double_layer_linear(s, points, nullptr, double_out);
-        for (int k = 0; k < 3; ++k)
-            for (int lane = 0; lane < lanes(); ++lane)
-                out[(kPairTensorNumbers + k) * lanes() + lane] += rule.weights[q] * values[k][lane];
+        double values[kPotentialNumbers * kMaxLanes] = {};
+        closed_forms_.potential(s, points, all ? Potential::with_normals : Potential::tensor, values);
+        for (int i = 0; i < n_numbers * lanes(); ++i) out[i] += rule.weights[q] * values[i];
     }
     for (int lane = 0; lane < lanes(); ++lane)
-        for (int k = 0; k < (all ? kPairNumbers : kPairTensorNumbers); ++k) out[k * lanes() + lane] *= pack.area[lane];
+        for (int k = 0; k < n_numbers; ++k) out[k * lanes() + lane] *= pack.area[lane];
 }
 
 }  // namespace elastolab

@@ -15,5 +15,7 @@ void add_single_layer_of_sliver(const TriangleGeometry& triangle, const SourceLa
                                 double* const* out);
 void add_double_layer_of_sliver(const TriangleGeometry& triangle, const SourceLanes& sources, int lanes, bool linear,
                                 double* const* out);
+void add_potential_of_sliver(const TriangleGeometry& triangle, const SourceLanes& sources, int lanes, Potential wanted,
+                             double* out);
 
 }  // namespace elastolab

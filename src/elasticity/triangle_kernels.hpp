@@ -26,6 +26,10 @@ using TriangleGeometry = BasicTriangleGeometry<double>;
 /// errors by (edge / altitude)^2, so that the kernels evaluate them in extended precision (see sliver_kernels.hpp).
 constexpr double kSliverAltitude = 0.01;
 
+/// The same for the potential, which has no product of a hat and a tensor: at this altitude its normals lose 3e-9 at
+/// worst, next to the triangle, and 1e-13 on the average; its tensor 1.5e-11 at worst.
+constexpr double kSliverAltitudeOfPotential = 2e-3;
+
 /// Largest number of sources in one kernel call.
 constexpr int kMaxLanes = 8;
 
@@ -45,6 +49,13 @@ struct SourceLanes {
 constexpr int kSingleLayerNumbers = 7;
 constexpr int kDoubleLayerNumbers = 10;
 
+/// What is wanted of the potential of a triangle, as pairs of triangles need it; e = (y - x) / r, n the normal:
+///   tensor         xx yy zz xy xz yz of int e e^T / r
+///   with_normals   then int phi_k (e . n) / r^2, k = 0, 1, 2
+///   with_gradient  then instead int e / r^2, x y z
+enum class Potential { tensor, with_normals, with_gradient };
+constexpr int kPotentialTensorNumbers = 6, kPotentialNumbers = 9;
+
 /// Integrals of Kelvin's kernels times shape functions over one triangle, for several sources at once.
 /// Every function ADDS its result to out[k]: numbers x lanes doubles for shape function k (the lane runs fastest).
 /// rule == nullptr: closed form; else that Gauss rule, for sources far away.
@@ -61,6 +72,8 @@ struct TriangleKernels {
                                 double* const out[3]);
     void (*double_layer_constant)(const TriangleGeometry&, const SourceLanes&, const GaussRule* rule,
                                   double* const out[1]);
+    /// In closed form: 6 or 9 numbers x lanes.
+    void (*potential)(const TriangleGeometry&, const SourceLanes&, Potential wanted, double* out);
 };
 
 /// The widest kernels that this CPU can run: AVX-512 (8 lanes), AVX2 (4), or plain (1).

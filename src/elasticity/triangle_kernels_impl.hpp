@@ -30,6 +30,24 @@ void closed_form(const Geometry<B>& T, const SourceLanes& sources, double* const
     }
 }
 
+template <class B>
+void add_potential(const Geometry<B>& T, const SourceLanes& sources, Potential wanted, double* out) {
+    constexpr int kLanes = Lanes<B>::kCount;
+    const View<B> view = view_from<B>(T, sources);
+    const auto M = SingleMoments<B>::of(T, view, std::false_type{});
+    add_tensor(T, M.constant().S, out);
+    double* const rest = out + kPotentialTensorNumbers * kLanes;
+    if (wanted == Potential::with_normals) {
+        const B second = M.normal(Shape<B>(T, view, 1)), third = M.normal(Shape<B>(T, view, 2));
+        Lanes<B>::add(rest, M.omega - second - third);
+        Lanes<B>::add(rest + kLanes, second);
+        Lanes<B>::add(rest + 2 * kLanes, third);
+    }
+    if (wanted == Potential::with_gradient)
+        for (int i = 0; i < 3; ++i)
+            Lanes<B>::add(rest + i * kLanes, M.omega * T.n[i] + M.Nx * T.e1[i] + M.Ny * T.e2[i]);
+}
+
 /// The kernel at one point, times weight: 7 or 10 numbers in the global frame; d = y - x.
 template <class B>
 void point_values(const TriangleGeometry&, const B (&d)[3], const B& inverse_r, double weight,
@@ -75,8 +93,8 @@ void gauss(const TriangleGeometry& T, const SourceLanes& sources, const GaussRul
         for (int k = 0; k < kNumbers; ++k) Lanes<B>::add(out[shape] + k * Lanes<B>::kCount, sums[shape][k]);
 }
 
-inline bool is_sliver(const TriangleGeometry& T) {
-    return T.double_area < kSliverAltitude * T.longest_edge * T.longest_edge;
+inline bool is_sliver(const TriangleGeometry& T, double altitude = kSliverAltitude) {
+    return T.double_area < altitude * T.longest_edge * T.longest_edge;
 }
 
 template <class B, bool kLinear>
@@ -94,13 +112,21 @@ void double_layer(const TriangleGeometry& T, const SourceLanes& sources, const G
 }
 
 template <class B>
+void potential(const TriangleGeometry& T, const SourceLanes& sources, Potential wanted, double* out) {
+    if (is_sliver(T, kSliverAltitudeOfPotential))
+        return add_potential_of_sliver(T, sources, Lanes<B>::kCount, wanted, out);
+    add_potential<B>(T, sources, wanted, out);
+}
+
+template <class B>
 constexpr TriangleKernels make_kernels(const char* name) {
     return {name,
             Lanes<B>::kCount,
             &single_layer<B, true>,
             &single_layer<B, false>,
             &double_layer<B, true>,
-            &double_layer<B, false>};
+            &double_layer<B, false>,
+            &potential<B>};
 }
 
 }  // namespace

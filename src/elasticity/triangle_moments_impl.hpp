@@ -114,18 +114,19 @@ struct EdgeSum3 {
     }
 };
 
-/// Moments of 1/r and rho.../r^3 over the triangle: everything that the single layer needs.
+/// Moments of 1/r and rho.../r^3 over the triangle: everything that the single layer and the potential need.
 template <class B>
 struct SingleMoments {
-    B z, z_omega, I, Jx, Jy, Nx, Ny, Qxx, Qxy, Qyy;  ///< docs/formulation.md section 3
-    B T111, T112, T122, T222;                        ///< int rho rho rho / r^3
+    B z, omega, z_omega, I, Jx, Jy, Nx, Ny, Qxx, Qxy, Qyy;  ///< docs/formulation.md section 3
+    B T111, T112, T122, T222;                               ///< int rho rho rho / r^3
 
     template <bool kHats>
     static SingleMoments of(const Geometry<B>& T, const View<B>& v, std::bool_constant<kHats>) {
         SingleMoments M;
         const B zero(0.0);
         M.z = v.z;
-        M.z_omega = v.z * solid_angle(T, v);
+        M.omega = solid_angle(T, v);
+        M.z_omega = v.z * M.omega;
         M.I = -M.z_omega;
         M.Nx = M.Ny = M.Jx = M.Jy = zero;
         EdgeSum2<B> S;
@@ -156,6 +157,9 @@ struct SingleMoments {
         }
         return M;
     }
+
+    /// int phi z / r^3.
+    B normal(const Shape<B>& p) const { return p.f * omega + z * (Nx * p.gx + Ny * p.gy); }
 
     SingleBlock<B> constant() const { return {I, {Qxx, Qyy, z_omega, Qxy, z * Nx, z * Ny}}; }
 

@@ -293,6 +293,64 @@ TEST(TriangleKernels, KeepTheirDigitsOnSlivers) {
     }
 }
 
+/// What the kernels of both layers say of the numbers of a potential.
+std::vector<double> potential_of_layers(const Corners& t, const Vector3d& x, Potential wanted) {
+    const TriangleKernels& kernels = plain_triangle_kernels();
+    const SourceLanes points = lanes_at(x);
+    const std::vector<double> single = integral(kernels, t, points, Layer::single, -1);
+    std::vector<double> values(single.begin() + 1, single.end());
+    if (wanted == Potential::with_normals)
+        for (const int shape : {0, 1, 2}) values.push_back(integral(kernels, t, points, Layer::twofold, shape)[0]);
+    if (wanted == Potential::with_gradient) {
+        const std::vector<double> twofold = integral(kernels, t, points, Layer::twofold, -1);
+        const Vector3d n(t.geometry().n), c(twofold[1], twofold[2], twofold[3]);
+        const Vector3d gradient = twofold[0] * n + n.cross(c);
+        values.insert(values.end(), gradient.begin(), gradient.end());
+    }
+    return values;
+}
+
+/// Largest error over all kernels, relative to the largest number; of normals and gradients, to the largest of these.
+double potential_error(const Corners& t, const Vector3d& x, Potential wanted) {
+    const std::vector<double> expected = potential_of_layers(t, x, wanted);
+    const std::vector<double> gradients = potential_of_layers(t, x, Potential::with_gradient);
+    const auto largest = [](auto begin, auto end) {
+        double size = 0.0;
+        for (; begin != end; ++begin) size = std::max(size, std::abs(*begin));
+        return size;
+    };
+    const auto rest = gradients.begin() + kPotentialTensorNumbers;
+    const double tensor = largest(gradients.begin(), rest), gradient = largest(rest, gradients.end());
+    double worst = 0.0;
+    for (const TriangleKernels* kernels : {&plain_triangle_kernels(), &best_triangle_kernels()}) {
+        std::vector<double> out(static_cast<std::size_t>(kPotentialNumbers * kernels->lanes), 0.0);
+        kernels->potential(t.geometry(), lanes_at(x), wanted, out.data());
+        for (int k = 0; k < std::ssize(expected); ++k)
+            worst = std::max(worst, std::abs(out[k * kernels->lanes] - expected[k]) /
+                                        (k < kPotentialTensorNumbers ? tensor : gradient));
+    }
+    return worst;
+}
+
+/// On both sides of every limit of slivers; the layers of slivers are computed in extended precision.
+TEST(TriangleKernels, HaveThePotentialsThatTheLayersHave) {
+    std::mt19937 random(23);
+    std::normal_distribution<double> normal;
+    for (const auto& [altitude, tolerance] :
+         {std::pair(0.7, 1e-12), {0.009, 5e-10}, {2.1e-3, 5e-9}, {1.9e-3, 1e-12}, {1e-4, 1e-9}}) {
+        const Corners t{{0, 0, 0}, {1, 0, 0}, {0.37, altitude, 0}};
+        for (int trial = 0; trial < 40; ++trial) {
+            Vector3d x(0.5 + normal(random), normal(random), normal(random));
+            if (trial % 4 == 1) x = {normal(random), 0.1 * normal(random), 0.0};
+            if (trial % 4 == 2) x = {0.4, 0.5 * altitude, 0.01 * normal(random)};
+            if (trial == 3) x = t.b;
+            for (const Potential wanted : {Potential::tensor, Potential::with_normals, Potential::with_gradient})
+                EXPECT_LT(potential_error(t, x, wanted), tolerance)
+                    << "altitude " << altitude << ", x " << x.transpose();
+        }
+    }
+}
+
 void expect_same_in_every_lane(const Corners& t, std::mt19937& random) {
     std::normal_distribution<double> normal;
     const TriangleKernels &best = best_triangle_kernels(), &plain = plain_triangle_kernels();
