@@ -5,8 +5,9 @@
 namespace elastolab {
 
 /// Flops, at the speed of the matrix product, of the pairs of triangles that nearly touch without a common corner, as
-/// on both sides of a thin plate: from the quadrature points of a few of them and the number around some triangles.
-/// Zero for bodies without such walls. Milliseconds.
+/// on both sides of a thin plate, and of slivers with what is around them, whose closed forms take extended precision:
+/// from the quadrature points of a few of them and the number around some triangles. Zero for bodies without such walls
+/// and slivers. Milliseconds.
 double nearly_touching_flops(const SurfaceMesh& surface);
 
 }  // namespace elastolab

@@ -45,7 +45,7 @@ bool is_quick(const SurfaceMesh& surface, const SurfaceMesh& fine, Method answer
     return seconds <= kAlwaysSeconds || seconds <= kMostTimes * answer.kind->predict(surface, answer).seconds;
 }
 
-/// Nothing where it would take too long or more memory than there is.
+/// Nothing where it would take too long or more memory than there is, or where it would be on the same surface.
 std::uint64_t affordable_memory(const SurfaceMesh& surface, const Method& answer, const FinerRims& rims) {
     const SurfaceMesh& fine = rims.surface.mesh;
     const std::int64_t n_tractions = 3 * rims.n_constrained_triangles;
@@ -55,7 +55,7 @@ std::uint64_t affordable_memory(const SurfaceMesh& surface, const Method& answer
                   hierarchical_set_memory(fine.n_vertices(), rims.n_constrained_triangles, n_tractions)
             : galerkin_direct_memory(3 * fine.n_vertices(), n_tractions);
     const bool fits = fine.n_vertices() <= kMostVertices && bytes < available_memory_bytes();
-    return fits && is_quick(surface, fine, answer) ? bytes : 0;
+    return rims.is_finer && fits && is_quick(surface, fine, answer) ? bytes : 0;
 }
 
 /// values: at the nodes of the set, then the loads' factors. Throws NotHeldError, SolveError, Cancelled.
@@ -131,6 +131,7 @@ std::optional<ReferenceAnswer> galerkin_self_reference(const SurfaceMesh& surfac
         if (reference) reference->share = kShareOfRims;
         return reference;
     }
+    if (!FinerRims(surface, vertices, loads, answer.rims, LoneVertices::kept).is_finer) return {};
     const SurfaceSet given(surface, {vertices.begin(), vertices.end()}, loads);
     reference = reference_on(surface, given, surface.n_vertices(), poisson_ratio, values, control);
     if (reference) reference->share = -kShareLeft / (std::exp2(answer.rims) - 1.0);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <Eigen/Geometry>
 
+#include "elasticity/triangle_kernels.hpp"
+#include "mesh/measures.hpp"
 #include "mesh/topology.hpp"
 
 namespace elastolab {
@@ -57,6 +59,13 @@ void mark_around_reentrant_edges(const SurfaceMesh& surface, std::vector<char>& 
     mark_around(surface, at_edge, marked);
 }
 
+/// Halved, a sliver becomes slivers: its integrals cost far more, and its error stays.
+bool is_sliver(const SurfaceMesh& surface, int t) {
+    const TrianglePoints p = triangle_points(surface, t);
+    const double square = std::max({(p.b - p.a).squaredNorm(), (p.c - p.b).squaredNorm(), (p.a - p.c).squaredNorm()});
+    return area_vector(p).norm() < kSliverAltitudeOfPotential * square;
+}
+
 std::vector<char> lone_vertices(const SurfaceMesh& body, std::vector<char> is_constrained,
                                 const std::vector<char>& inside) {
     for (int t = 0; t < body.n_triangles(); ++t)
@@ -101,8 +110,11 @@ FinerRims::FinerRims(const SurfaceMesh& body, std::span<const int> constrained, 
         if (level == 0) mark_around_reentrant_edges(surface.mesh, marked);
         around.resize(static_cast<std::size_t>(surface.mesh.n_vertices()), 0);
         if (lone == LoneVertices::refined) mark_around(surface.mesh, around, marked);
+        for (int t = 0; t < surface.mesh.n_triangles(); ++t)
+            if (is_sliver(surface.mesh, t)) marked[static_cast<std::size_t>(t)] = 0;
         surface = refine_marked(surface, marked);
     }
+    is_finer = surface.mesh.n_triangles() > body.n_triangles();
     loads = on_finer_triangles(surface, unit_loads);
 
     std::vector<char> is_constrained = of_body;

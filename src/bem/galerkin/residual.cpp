@@ -5,6 +5,7 @@
 
 #include "base/blas.hpp"
 #include "base/parallel.hpp"
+#include "bem/galerkin/close_cost.hpp"
 #include "bem/hierarchical/item_rows.hpp"
 #include "elasticity/rigid_motion.hpp"
 
@@ -13,6 +14,16 @@ namespace elastolab {
 namespace {
 
 constexpr int kSampleVertices = 128, kSampleTriangles = 64;
+/// Where slivers or thin walls make rows take more flops than this together, fewer are looked at, but some always.
+constexpr double kMostCloseFlops = 1e10, kLeastShare = 0.125;
+
+/// Of the sample that is looked at.
+double affordable_share(const SurfaceMesh& mesh) {
+    constexpr double kTrianglesAround = 6.0, kTimesOfAPair = 2.0;  // integrated once for all rows, and for either of it
+    const double of_a_row = kTrianglesAround * kTimesOfAPair * nearly_touching_flops(mesh) / mesh.n_triangles();
+    const double rows = std::min<double>(kSampleVertices, mesh.n_vertices());
+    return of_a_row > 0.0 ? std::clamp(kMostCloseFlops / (rows * of_a_row), kLeastShare, 1.0) : 1.0;
+}
 
 /// What is off in some equations, and the size of their terms.
 struct EquationBalance {
@@ -81,7 +92,11 @@ double galerkin_residual(const GalerkinEquations& equations, const std::vector<i
     const Eigen::Matrix3d one = Eigen::Matrix3d::Identity();
     Eigen::VectorXd given_forces;
     if (given.nodal_forces.size() > 0) given_forces = to_tree_order(tree, given.nodal_forces);
-    const int n_rows = std::min(n, kSampleVertices), n_loads = static_cast<int>(loaded.triangles.size());
+    const double share = affordable_share(equations.pairs->boundary().mesh());
+    const auto sampled = [&](int n_all, int most) {
+        return std::min(n_all, static_cast<int>(std::ceil(share * std::min(n_all, most))));
+    };
+    const int n_rows = sampled(n, kSampleVertices), n_loads = static_cast<int>(loaded.triangles.size());
     EquationBalance forces(n_rows);
     parallel_blocks(n_rows, 1, control, [&](int i, int) {
         const int at = sample(i, n_rows, n);
@@ -96,7 +111,7 @@ double galerkin_residual(const GalerkinEquations& equations, const std::vector<i
         forces.add(i, column.transpose(), t, t, 1.0);
     });
     const int n_triangles = static_cast<int>(tractions.triangles.size()),
-              n_tests = std::min(n_triangles, kSampleTriangles);
+              n_tests = sampled(n_triangles, kSampleTriangles);
     EquationBalance tests(n_tests);
     parallel_blocks(n_tests, 1, control, [&](int i, int) {
         const int at = triangle_tree->positions()[static_cast<std::size_t>(sample(i, n_tests, n_triangles))];

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "bem/galerkin/always_hierarchical.hpp"
+#include "bem/galerkin/error_estimate.hpp"
 #include "bem/galerkin/hypersingular.hpp"
 #include "bem/galerkin/method.hpp"
 #include "bem/galerkin/refined_hypersingular.hpp"
@@ -192,6 +193,39 @@ TEST(FinerRims, TakeTheMemoryThatIsPredictedForThem) {
     const auto n = static_cast<std::uint64_t>(3 * rims.surface.mesh.n_vertices());
     EXPECT_GT(deformer.predict_memory(rabbit.set), 8 * 2 * n * n);
     EXPECT_GT(model->facts().memory_bytes, 0u) << "D is kept";
+}
+
+/// One long, in five cells.
+SurfaceMesh bar_of_section(double width, double height) {
+    SurfaceMesh bar = make_box(1, {5, 1, 1});
+    bar.vertices = Eigen::Vector3d(0.2, width, height).asDiagonal() * bar.vertices;
+    return bar;
+}
+
+std::vector<int> lower_end(const SurfaceMesh& bar) {
+    return vertices_where(bar, [](const auto& x) { return x[0] < kEdge; });
+}
+
+/// A needle of 24 vertices took a minute: halves of slivers are slivers as well, and close to each other.
+TEST(FinerRims, LeaveSliversAsTheyAre) {
+    const SurfaceMesh bar = bar_of_section(0.1, 0.1), needle = bar_of_section(1e-4, 1e-4);
+    const FinerRims of_bar(bar, lower_end(bar), {}, 2, LoneVertices::kept);
+    const FinerRims of_needle(needle, lower_end(needle), {}, 2, LoneVertices::kept);
+    EXPECT_TRUE(of_bar.is_finer);
+    EXPECT_TRUE(of_needle.is_finer) << "its end is no sliver";
+    EXPECT_LT(of_needle.surface.mesh.n_triangles(), of_bar.surface.mesh.n_triangles());
+    const SurfaceMesh ribbon = bar_of_section(1e-4, 1e-7);
+    EXPECT_FALSE(FinerRims(ribbon, lower_end(ribbon), {}, 2, LoneVertices::refined).is_finer);
+}
+
+/// The same surface again would say that there is no error.
+TEST(FinerRims, AreNoSecondAnswerWhereNothingIsFiner) {
+    const SurfaceMesh ribbon = bar_of_section(1e-4, 1e-7);
+    const std::vector<int> end = lower_end(ribbon);
+    const Eigen::VectorXd still = Eigen::VectorXd::Zero(3 * std::ssize(end));
+    Control control;
+    for (const int levels : {0, 1})
+        EXPECT_FALSE(galerkin_self_reference(ribbon, with_rims(levels), 0.3, end, {}, still, control)) << levels;
 }
 
 TEST(FinerRims, KeepLoneVerticesAsTheyAre) {
