@@ -5,6 +5,7 @@
 #   scripts/fuzz.sh 600 7                               ten minutes of seed 7
 #   scripts/fuzz.sh 1e9 7 --inputs 1 --first 1234       input 1234 of seed 7 again
 #   scripts/fuzz.sh 600 7 --only ply                    seeds whose name has this part
+#   scripts/fuzz.sh 600 7 --bodies                      bodies made at random, not mutated files
 set -euo pipefail
 cd "$(dirname "$0")/.."
 seconds=${1:-60} seed=${2:-$(date +%s)}

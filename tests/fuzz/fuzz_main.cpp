@@ -1,5 +1,6 @@
 // fuzz_program: feeds mutated meshes, scenes and replays to the program, and tells of each that it does not bear.
 //   fuzz_program --program ELASTOLAB --seeds FOLDER [--seconds S | --inputs N] [--seed K] [--keep FOLDER]
+//   fuzz_program --program ELASTOLAB --seeds FOLDER --bodies ...       bodies made at random in place of mutated files
 //   fuzz_program --program ELASTOLAB --seeds FOLDER --replay FOLDER    every file of a folder, in every way
 // Exit code 1 when there is a find; its input is kept in the folder, and seed and number bring it back.
 #include <atomic>
@@ -12,6 +13,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "fuzz/body_maker.hpp"
 #include "fuzz/mutator.hpp"
 #include "fuzz/subject.hpp"
 #include "support/temporary_folder.hpp"
@@ -26,7 +28,7 @@ struct Options {
     std::string program, seeds, replay, keep = "fuzz-finds", only;
     double seconds = 60.0, slowness = 1.0;
     std::uint64_t n_inputs = 0, seed = 1, first = 0;
-    bool all_accepted = false;
+    bool all_accepted = false, bodies = false;
     int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 };
 
@@ -37,6 +39,7 @@ void add_options(CLI::App& parser, Options& options) {
     parser.add_flag("--all-accepted", options.all_accepted, "of --replay: that a file is refused is a find");
     parser.add_option("--keep", options.keep, "folder for the finds");
     parser.add_option("--only", options.only, "seeds whose name has this part");
+    parser.add_flag("--bodies", options.bodies, "bodies and scenes made at random in place of mutated files");
     parser.add_option("--seconds", options.seconds, "how long");
     parser.add_option("--inputs", options.n_inputs, "how many, in place of how long");
     parser.add_option("--seed", options.seed, "of the mutations");
@@ -87,6 +90,10 @@ private:
         if (keep_.empty()) return;
         fs::create_directories(keep_);
         std::ofstream(keep_ / (name + fs::path(input.name).extension().string()), std::ios::binary) << input.bytes;
+        for (const Seed& file : input.beside) {
+            fs::create_directories(keep_ / name);
+            std::ofstream(keep_ / name / file.name, std::ios::binary) << file.bytes;
+        }
     }
 
     fs::path keep_;
@@ -129,7 +136,7 @@ void fuzz(const Options& options, Tally& tally) {
                                  ? number - options.first < options.n_inputs
                                  : Clock::now() - begin < std::chrono::duration<double>(options.seconds);
         if (!goes_on) return false;
-        const Input input = make_input(seeds, options.seed, number);
+        const Input input = options.bodies ? make_body(options.seed, number) : make_input(seeds, options.seed, number);
         tally.add(input, subject.try_input(input, variant_of(input)),
                   "find-" + std::to_string(options.seed) + "-" + std::to_string(number));
         return true;

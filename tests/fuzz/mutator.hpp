@@ -21,10 +21,11 @@ struct Seed {
 /// All files of a folder that are input of a command, by name. Throws std::runtime_error when there are none.
 std::vector<Seed> load_seeds(const std::filesystem::path& folder);
 
-/// A mutated file.
+/// What is fed to a command.
 struct Input {
     std::string name;  ///< without a folder; its extension says the format
     std::string bytes;
+    std::vector<Seed> beside = {};  ///< files that it names
 };
 
 /// Input `number` of the run of `seed`: one of the seeds after one or more changes.

@@ -4,8 +4,10 @@
 #include <gmock/gmock.h>
 
 #include <csignal>
+#include <nlohmann/json.hpp>
 #include <set>
 
+#include "fuzz/body_maker.hpp"
 #include "fuzz/mutator.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -84,6 +86,21 @@ TEST(Mutator, InputsAreThoseOfTheirSeedAndDiffer) {
     EXPECT_GT(contents.size(), kInputs * 9 / 10);
     EXPECT_EQ(formats.size(), 11u);  // 9 formats of meshes, scenes, replays
     EXPECT_NE(make_input(seeds, 5, 1).bytes, make_input(seeds, 6, 1).bytes);
+}
+
+TEST(BodyMaker, BodiesAreThoseOfTheirSeedAndHaveWhatTheirScenesName) {
+    std::set<std::string> meshes;
+    constexpr std::uint64_t kInputs = 200;
+    for (std::uint64_t i = 0; i < kInputs; ++i) {
+        const Input input = make_body(5, i);
+        const nlohmann::json scene = nlohmann::json::parse(input.bytes);
+        ASSERT_EQ(input.beside.size(), 1U);
+        EXPECT_EQ(scene.at("mesh").at("file"), input.beside[0].name);
+        EXPECT_EQ(make_body(5, i).bytes, input.bytes);
+        EXPECT_EQ(make_body(5, i).beside[0].bytes, input.beside[0].bytes);
+        meshes.insert(input.beside[0].bytes);
+    }
+    EXPECT_GT(meshes.size(), kInputs / 2);
 }
 
 }  // namespace

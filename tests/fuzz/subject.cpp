@@ -77,6 +77,7 @@ void Subject::lay_down(const Input& input) {
     fs::create_directories(folder_);
     for (const auto& entry : fs::directory_iterator(seeds_))
         fs::copy_file(entry.path(), folder_ / entry.path().filename());
+    for (const Seed& file : input.beside) std::ofstream(folder_ / file.name, std::ios::binary) << file.bytes;
     std::ofstream(folder_ / input.name, std::ios::binary) << input.bytes;
 }
 
