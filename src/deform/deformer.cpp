@@ -192,7 +192,7 @@ double Deformer::unit_of(std::size_t part) const { return linear() ? 1.0 : model
 
 Approach Deformer::remembered(const Eigen::VectorXd& values, const Approach& approach) const {
     if (linear() || approach.start || approach.path.cols() > 0) return approach;
-    return {memory_->find(values), {}};
+    return {memory_->find(values), {}, approach.most_steps};
 }
 
 NodeSolution Deformer::solve(std::size_t part, const Eigen::MatrixXd& values, const Eigen::MatrixXd& changes,
@@ -203,8 +203,8 @@ NodeSolution Deformer::solve(std::size_t part, const Eigen::MatrixXd& values, co
         if (all.cols() == 0) return {};
         return unit == 1.0 ? state.values(all) : Eigen::MatrixXd(unit * state.values(all));
     };
-    const NodeTask task{own(values), own(changes), approach.start ? approach.start->solids[part].get() : nullptr,
-                        own(approach.path), want_loads};
+    const NodeTask task{own(values),        own(changes), approach.start ? approach.start->solids[part].get() : nullptr,
+                        own(approach.path), want_loads,   approach.most_steps};
     try {
         return state.solid->solve(task, tolerance, control);
     } catch (const NoEquilibriumError& error) {

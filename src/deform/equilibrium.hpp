@@ -33,6 +33,9 @@ struct Equilibrium {
     std::vector<std::shared_ptr<const NodeState>> solids;  ///< one for each part of the model; null: it rests
 };
 
+/// What any equilibrium that is found takes less than.
+inline constexpr int kMostEquilibriumSteps = 400;
+
 /// Where to begin, and what to pass on the way: it makes an answer faster, and where there are several equilibria for
 /// the same values (a bar turned twice about its axis prescribes what one at rest does) it decides which one is found.
 /// Linear methods ignore it.
@@ -42,6 +45,8 @@ struct Approach {
     /// Values to pass, one column each, in their order, before those that are asked for: as many as it takes to tell
     /// motions of more than half a turn apart. No columns: the shortest rotation of each handle.
     Eigen::MatrixXd path = {};
+    /// Steps of Newton's method from one of these values to the next, after which there is no equilibrium.
+    int most_steps = kMostEquilibriumSteps;
 };
 
 /// No equilibrium was found for the prescribed values.

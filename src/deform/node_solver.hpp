@@ -49,6 +49,7 @@ struct NodeTask {
     const NodeState* start = nullptr;  ///< as in Approach; null: rest
     Eigen::MatrixXd path = {};         ///< as in Approach, of the constrained nodes
     bool want_loads = false;
+    int most_steps = kMostEquilibriumSteps;  ///< as in Approach
 };
 
 /// Displacements of all nodes from those prescribed at the constrained ones. Immutable.

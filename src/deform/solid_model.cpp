@@ -29,8 +29,8 @@ ConstrainedSolid::ConstrainedSolid(int n_vertices, ConstrainedNodes nodes, std::
       particular_(std::move(particular)) {}
 
 NodeSolution ConstrainedSolid::solve(const NodeTask& task, double tolerance, Control& control) const {
-    const NodeTask own{of_nodes(task.prescribed), of_nodes(task.changes), task.start, of_nodes(task.path),
-                       task.want_loads};
+    const NodeTask own{of_nodes(task.prescribed), of_nodes(task.changes), task.start,
+                       of_nodes(task.path),       task.want_loads,        task.most_steps};
     NodeSolution solution = solver_->solve_task(own, tolerance, control);
     solution.factors.resize(n_loads_, task.prescribed.cols() + task.changes.cols());
     solution.factors.leftCols(task.prescribed.cols()) = task.prescribed.bottomRows(n_loads_);

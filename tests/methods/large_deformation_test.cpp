@@ -110,6 +110,17 @@ TEST(LargeDeformation, ADragFollowsFromOneEquilibriumToTheNext) {
     EXPECT_LT((predicted - exact).norm(), 1e-3 * (exact - drag.rest).norm() + 1e-2 * drag.X.norm());
 }
 
+TEST(LargeDeformation, IsGivenUpAfterAsManyStepsAsAreAllowed) {
+    const Bar bar;
+    Control control;
+    const Eigen::VectorXd goal = bar.turned({0, 0, 1}, 90);
+    Approach approach{.path = bar.turned({0, 0, 1}, 45), .most_steps = 1};  // which take some each
+    EXPECT_THROW(bar.deformer->displace(goal, control, kSolveTolerance, approach), NoEquilibriumError);
+    approach.most_steps = kMostEquilibriumSteps;
+    const Eigen::VectorXd u = bar.deformer->displace(goal, control, kSolveTolerance, approach);
+    EXPECT_LT((u - bar.deformer->displace(goal)).norm(), kLargeTolerance * u.norm());
+}
+
 TEST(LargeDeformation, SmallMotionsAgreeWithQuadraticFem) {
     const Bar bar;
     const Eigen::VectorXd values = 1e-6 * bar.turned({0, 1, 1}, 30, {0.1, 0.2, 0.3});

@@ -11,7 +11,7 @@ namespace {
 
 /// Angle of a step that the tangent predicts well [rad].
 constexpr double kStepAngle = std::numbers::pi / 6.0;
-constexpr int kMostIterations = 40, kMostPassing = 30, kMostAltogether = 400;
+constexpr int kMostIterations = 40, kMostPassing = 30;
 /// Steps shorter than this part of the way are given up.
 constexpr double kShortestPart = 1.0 / 512.0;
 /// Residual of the linear systems that predict a step.
@@ -69,15 +69,15 @@ Eigen::VectorXd NonlinearSolver::predicted(NewtonState& at, const Eigen::VectorX
 
 /// From one equilibrium to the next by predicted steps, which are halved where they fail.
 NewtonState NonlinearSolver::followed(const NonlinearState& from, const MotionPath& path,
-                                      const Eigen::VectorXd& factors, double tolerance, NewtonWork& work,
-                                      Control& control) const {
+                                      const Eigen::VectorXd& factors, double tolerance, int most_steps,
+                                      NewtonWork& work, Control& control) const {
     NewtonState at = from.with_factor();
     at.iterations = 0;
     double part = 0.0, length = 1.0 / std::max(1.0, std::ceil(path.largest_angle() / kStepAngle - 1e-6));
     NewtonState failed;
     int iterations = 0;
     const Eigen::VectorXd before = at.factors;
-    while (part < 1.0 && length >= kShortestPart && iterations < kMostAltogether) {
+    while (part < 1.0 && length >= kShortestPart && iterations < most_steps) {
         control.checkpoint();
         const double next = part + length > 1.0 - 1e-9 ? 1.0 : part + length;
         const Eigen::VectorXd next_factors = next < 1.0 ? before + next * (factors - before) : factors;
@@ -117,7 +117,8 @@ NewtonState NonlinearSolver::followed(const NonlinearState& from, const MotionPa
 }
 
 NonlinearSolver::StatePtr NonlinearSolver::advance(const NonlinearState& from, const Eigen::VectorXd& values, bool far,
-                                                   double tolerance, NewtonWork& work, Control& control) const {
+                                                   double tolerance, int most_steps, NewtonWork& work,
+                                                   Control& control) const {
     const Eigen::VectorXd present = of_prescribed(from.newton().u), prescribed = displacements_of(values),
                           factors = factors_of(values);
     if (present == prescribed && from.newton().factors == factors && from.newton().residual <= tolerance)
@@ -135,7 +136,7 @@ NonlinearSolver::StatePtr NonlinearSolver::advance(const NonlinearState& from, c
         iterations = state.iterations;
     }
     if (!state.converged) {
-        state = followed(from, path, factors, tolerance, work, control);
+        state = followed(from, path, factors, tolerance, most_steps, work, control);
         state.iterations += iterations;
     }
     if (!state.converged) {

@@ -117,11 +117,11 @@ NodeSolution NonlinearSolver::solve_task(const NodeTask& task, double tolerance,
             state = at_rest(work, control);
         int iterations = 0;
         for (Eigen::Index p = 0; p < task.path.cols(); ++p) {
-            state = advance(*state, task.path.col(p), false, kPassing, work, control);
+            state = advance(*state, task.path.col(p), false, kPassing, task.most_steps, work, control);
             iterations += state->facts().iterations;
         }
         const bool far = task.start == nullptr && task.path.cols() == 0;
-        state = advance(*state, task.prescribed.col(c), far, tolerance, work, control);
+        state = advance(*state, task.prescribed.col(c), far, tolerance, task.most_steps, work, control);
         EquilibriumFacts facts = state->facts();
         facts.iterations += iterations;
         state = std::make_shared<const NonlinearState>(state->with_factor(), facts);

@@ -77,7 +77,7 @@ private:
     /// The equilibrium for these values (NodeTask::prescribed), from one before it. far: rotation-strain warping may
     /// begin.
     StatePtr advance(const NonlinearState& from, const Eigen::VectorXd& values, bool far, double tolerance,
-                     NewtonWork& work, Control& control) const;
+                     int most_steps, NewtonWork& work, Control& control) const;
     // The way from one equilibrium to the next (equilibrium_path.cpp).
     NewtonState warped(const MotionPath& path, const Eigen::VectorXd& factors, double tolerance, NewtonWork& work,
                        Control& control) const;
@@ -86,7 +86,7 @@ private:
     Eigen::VectorXd predicted(NewtonState& at, const Eigen::VectorXd& prescribed, const Eigen::VectorXd& factors,
                               int& iterations, NewtonWork& work, Control& control) const;
     NewtonState followed(const NonlinearState& from, const MotionPath& path, const Eigen::VectorXd& factors,
-                         double tolerance, NewtonWork& work, Control& control) const;
+                         double tolerance, int most_steps, NewtonWork& work, Control& control) const;
     Eigen::VectorXd factors_of(const Eigen::VectorXd& values) const { return values.tail(newton_.loads().size()); }
     Eigen::VectorXd displacements_of(const Eigen::VectorXd& values) const {
         return values.head(3 * std::ssize(nodes_.nodes));
