@@ -83,7 +83,7 @@ private:
 
 }  // namespace
 
-double nearly_touching_flops(const SurfaceMesh& surface) {
+double costly_pair_flops(const SurfaceMesh& surface) {
     const SampledSurface triangles(surface);
     const int n_sample = std::min(triangles.size(), kTrianglesLookedAt);
     std::vector<std::pair<int, int>> pairs;

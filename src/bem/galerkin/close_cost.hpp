@@ -8,6 +8,6 @@ namespace elastolab {
 /// on both sides of a thin plate, and of slivers with what is around them, whose closed forms take extended precision:
 /// from the quadrature points of a few of them and the number around some triangles. Zero for bodies without such walls
 /// and slivers. Milliseconds.
-double nearly_touching_flops(const SurfaceMesh& surface);
+double costly_pair_flops(const SurfaceMesh& surface);
 
 }  // namespace elastolab

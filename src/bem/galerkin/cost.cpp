@@ -31,7 +31,7 @@ std::uint64_t hierarchical_set_memory(std::int64_t n_vertices, std::int64_t n_lo
 Cost predict_galerkin_bem(const SurfaceMesh& mesh, const Method& method) {
     if (is_hierarchical(mesh, method)) {
         Cost cost = predict_hierarchical(mesh, kBytesPerVertexAndLevel, kHierarchicalFlops);
-        cost.seconds += nearly_touching_flops(mesh) / product_speed();
+        cost.seconds += costly_pair_flops(mesh) / product_speed();
         return cost;
     }
     const double n = 3.0 * mesh.n_vertices(), triangles = mesh.n_triangles();
@@ -42,7 +42,7 @@ Cost predict_galerkin_bem(const SurfaceMesh& mesh, const Method& method) {
     const bool factorises = factorises_ahead(method), keeps_integrals = method.rims > 0;
     if (!factorises && !keeps_integrals) return cost;
     double flops =
-        0.5 * kFlopsPerPair * triangles * triangles + kGalerkinCloseFlops * triangles + nearly_touching_flops(mesh);
+        0.5 * kFlopsPerPair * triangles * triangles + kGalerkinCloseFlops * triangles + costly_pair_flops(mesh);
     if (keeps_integrals) cost.memory_bytes += square_bytes(n);
     if (factorises) {
         cost.memory_bytes += square_bytes(n);

@@ -20,7 +20,7 @@ constexpr double kMostCloseFlops = 1e10, kLeastShare = 0.125;
 /// Of the sample that is looked at.
 double affordable_share(const SurfaceMesh& mesh) {
     constexpr double kTrianglesAround = 6.0, kTimesOfAPair = 2.0;  // integrated once for all rows, and for either of it
-    const double of_a_row = kTrianglesAround * kTimesOfAPair * nearly_touching_flops(mesh) / mesh.n_triangles();
+    const double of_a_row = kTrianglesAround * kTimesOfAPair * costly_pair_flops(mesh) / mesh.n_triangles();
     const double rows = std::min<double>(kSampleVertices, mesh.n_vertices());
     return of_a_row > 0.0 ? std::clamp(kMostCloseFlops / (rows * of_a_row), kLeastShare, 1.0) : 1.0;
 }

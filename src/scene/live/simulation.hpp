@@ -70,7 +70,7 @@ public:
     const MethodRunner& runner(MethodKind kind) const { return embedded(kind).runner(); }
     /// The method's own answer, whether it is ready or not.
     const EmbeddedRunner& embedded(MethodKind kind) const { return *entries_[place(kind)].runner; }
-    /// What is to be shown for the method: its answer, or the preview's.
+    /// What is to be shown for the method: its answer, or what answers in its place.
     const EmbeddedRunner& answer(MethodKind kind) const;
     /// Something else answers in the method's place: its coarse preview, or stand_in().
     bool previewing(MethodKind kind) const { return entries_[place(kind)].previewing || stand_in(kind) != nullptr; }

@@ -10,6 +10,7 @@
 #include "bem/galerkin/hypersingular.hpp"
 #include "bem/galerkin/method.hpp"
 #include "bem/galerkin/refined_hypersingular.hpp"
+#include "bem/galerkin/slender_bar.hpp"
 #include "bem/hierarchical/cases.hpp"
 #include "elasticity/rigid_motion.hpp"
 #include "mesh/primitives.hpp"
@@ -193,13 +194,6 @@ TEST(FinerRims, TakeTheMemoryThatIsPredictedForThem) {
     const auto n = static_cast<std::uint64_t>(3 * rims.surface.mesh.n_vertices());
     EXPECT_GT(deformer.predict_memory(rabbit.set), 8 * 2 * n * n);
     EXPECT_GT(model->facts().memory_bytes, 0u) << "D is kept";
-}
-
-/// One long, in five cells.
-SurfaceMesh bar_of_section(double width, double height) {
-    SurfaceMesh bar = make_box(1, {5, 1, 1});
-    bar.vertices = Eigen::Vector3d(0.2, width, height).asDiagonal() * bar.vertices;
-    return bar;
 }
 
 std::vector<int> lower_end(const SurfaceMesh& bar) {
