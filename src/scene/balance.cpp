@@ -118,8 +118,9 @@ bool moves_rigidly(const Constraints& constraints, const SurfaceMesh& surface) {
     const ConstrainedSet& set = constraints.set;
     if (constraints.has_forces() || !constraints.values.tail(std::ssize(set.loads)).isZero(0.0)) return false;
     Positions places = surface.vertices(Eigen::all, joined(set.fixed, set.handles));
+    if (places.cols() == 0) return true;  // BLAS complains of matrices without rows
     places.colwise() -= surface.vertices.rowwise().mean().eval();
-    const double length = places.size() > 0 ? places.cwiseAbs().maxCoeff() : 1.0;
+    const double length = places.cwiseAbs().maxCoeff();
     Eigen::VectorXd values = Eigen::VectorXd::Zero(places.size());
     values.tail(3 * std::ssize(set.handles)) = constraints.values.head(3 * std::ssize(set.handles));
     Eigen::MatrixXd motions(values.size(), 6);

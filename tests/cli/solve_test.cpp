@@ -419,6 +419,19 @@ TEST_F(SolveTest, TreatsTheSolidsOfASceneByThemselves) {
     }
 }
 
+/// Arrays without rows: BLAS complains of them on standard output.
+TEST_F(SolveTest, ABodyThatNothingHoldsOrMovesIsAtRestAndNothingIsSaid) {
+    const std::string scene = R"({"elastolab": 1, "mesh": {"primitive": "cube", "resolution": 2}, "method": ")";
+    for (const char* method : {"fem", "quadratic-fem", "nonlinear-fem", "constant-bem", "linear-bem", "galerkin-bem"}) {
+        SCOPED_TRACE(method);
+        const ProgramRun run = solve(scene + method + "\"}", {"--quiet", "--displacements", "u.csv", "--forces",
+                                                              "f.csv", "--report", "r.json", "--fields", "fields.csv"});
+        EXPECT_EQ(run.out, "");
+        for (const std::vector<double>& row : test::read_csv(file("u.csv")).rows) EXPECT_EQ(row[4], 0.0);
+        EXPECT_THAT(solve(scene + method + "\"}", {}).out, testing::StartsWith("scene.json: "));
+    }
+}
+
 TEST_F(SolveTest, EndsWithoutOutputsWhenItIsInterrupted) {
     folder_.write("u.csv", "before");
     for (const std::string& method : kMethods) {
