@@ -48,6 +48,10 @@ TriangleGeometry make_triangle_geometry(const Eigen::Vector3d& v0, const Eigen::
     return geometry_of<double>({v0, v1, v2}, index);
 }
 
+bool has_sliver_potential(const TriangleGeometry& triangle) {
+    return triangle.double_area < kSliverAltitudeOfPotential * triangle.longest_edge * triangle.longest_edge;
+}
+
 BasicTriangleGeometry<long double> extended_geometry(const TriangleGeometry& triangle) {
     std::array<Vector3<long double>, 3> corners;
     for (std::size_t i = 0; i < 3; ++i)

@@ -11,6 +11,9 @@ namespace elastolab {
 TriangleGeometry make_triangle_geometry(const Eigen::Vector3d& v0, const Eigen::Vector3d& v1, const Eigen::Vector3d& v2,
                                         int index);
 
+/// Whether its potential is that of a sliver (kSliverAltitudeOfPotential): far more expensive.
+bool has_sliver_potential(const TriangleGeometry& triangle);
+
 /// The same triangle with everything computed in extended precision from its corners.
 BasicTriangleGeometry<long double> extended_geometry(const TriangleGeometry& triangle);
 

@@ -50,9 +50,9 @@ constexpr int kSingleLayerNumbers = 7;
 constexpr int kDoubleLayerNumbers = 10;
 
 /// What is wanted of the potential of a triangle, as pairs of triangles need it; e = (y - x) / r, n the normal:
-///   tensor         xx yy zz xy xz yz of int e e^T / r
-///   with_normals   then int phi_k (e . n) / r^2, k = 0, 1, 2
-///   with_gradient  then instead int e / r^2, x y z
+///   tensor         xx yy zz xy xz yz of int e e^T / r           [L]
+///   with_normals   then int phi_k (e . n) / r^2, k = 0, 1, 2    [1]
+///   with_gradient  then instead int e / r^2, x y z              [1]
 enum class Potential { tensor, with_normals, with_gradient };
 constexpr int kPotentialTensorNumbers = 6, kPotentialNumbers = 9;
 

@@ -30,9 +30,7 @@ public:
             const Eigen::Matrix3d corners = surface.vertices(Eigen::all, surface.triangles.col(t));
             centroids_.col(t) = corners.rowwise().mean();
             radii_.push_back((corners.colwise() - centroids_.col(t)).colwise().norm().maxCoeff());
-            const TriangleGeometry one = geometry(t);
-            const double square = one.longest_edge * one.longest_edge;
-            is_sliver_.push_back(one.double_area < kSliverAltitudeOfPotential * square ? 1 : 0);
+            is_sliver_.push_back(has_sliver_potential(geometry(t)) ? 1 : 0);
         }
     }
     int size() const { return surface_.n_triangles(); }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <Eigen/Geometry>
 
-#include "elasticity/triangle_kernels.hpp"
+#include "elasticity/triangle_geometry.hpp"
 #include "mesh/measures.hpp"
 #include "mesh/topology.hpp"
 
@@ -62,8 +62,7 @@ void mark_around_reentrant_edges(const SurfaceMesh& surface, std::vector<char>& 
 /// Halved, a sliver becomes slivers: its integrals cost far more, and its error stays.
 bool is_sliver(const SurfaceMesh& surface, int t) {
     const TrianglePoints p = triangle_points(surface, t);
-    const double square = std::max({(p.b - p.a).squaredNorm(), (p.c - p.b).squaredNorm(), (p.a - p.c).squaredNorm()});
-    return area_vector(p).norm() < kSliverAltitudeOfPotential * square;
+    return has_sliver_potential(make_triangle_geometry(p.a, p.b, p.c, t));
 }
 
 std::vector<char> lone_vertices(const SurfaceMesh& body, std::vector<char> is_constrained,
