@@ -61,6 +61,19 @@ TEST(Studies, HaveCasesWithDifferentKeys) {
         }
 }
 
+/// The time left is told from the weights of the cases: one that outweighs all others makes it meaningless.
+TEST(Studies, SpreadTheTimeLeftOverTheirCases) {
+    for (const StudyEntry& entry : studies())
+        for (const bool quick : {true, false}) {
+            double all = 0.0, largest = 0.0;
+            for (const Case& one : entry.make({.quick = quick, .seed = 1}).cases) {
+                all += one.weight;
+                largest = std::max(largest, one.weight);
+            }
+            EXPECT_LT(largest, 0.3 * all) << entry.name << (quick ? " --quick" : "");
+        }
+}
+
 TEST(Studies, GiveTheSameNumbersForTheSameSeed) {
     const TemporaryFolder folder;
     const std::vector<std::pair<std::string, std::vector<std::string>>> some = {

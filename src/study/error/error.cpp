@@ -84,8 +84,9 @@ public:
                           }});
     }
     void add(const std::string& part, const std::string& family, const Variant& variant, double nu, int size) {
-        const double weight = 0.3 + (variant.name == "constant-bem" ? 8e-6 : 1e-6) * size * size * size * size * size;
-        add(part, family, variant.name, nu, size, variant.method.kind->sparse ? 0.5 : weight,
+        // Seconds on two cores; sizes are cells along an edge, or vertices, and then most of it is the truth.
+        const double weight = 0.5 + (problem_family(family).organic ? 1e-5 : 2e-2) * size * size;
+        add(part, family, variant.name, nu, size, weight,
             [method = variant.method, many = repeats_](const Problem& problem, Control& control) {
                 return measure(problem, method, many, control).set("method", text(method.kind));
             });

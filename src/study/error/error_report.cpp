@@ -30,6 +30,12 @@ double observed_order(const Table& rows, const std::string& column) {
     return fitted_exponent(h, error);
 }
 
+/// "-" where the elements hold the field: the order of rounding means nothing.
+std::string order_text(const Table& rows, const std::string& column) {
+    constexpr double kRounding = 1e-9;
+    return rows.rows.back().number(column) < kRounding ? "-" : short_number(observed_order(rows, column));
+}
+
 std::string theory(const std::string& variant) {
     if (variant == "constant-bem") return "1";
     if (variant == "quadratic-fem") return "3 (2 on curved sides)";
@@ -56,12 +62,9 @@ std::string order_findings(const Table& table) {
     const Table refinement = table.where({{"part", "refinement"}});
     const auto cells = [](const Table& some, const std::string& variant) -> std::vector<std::string> {
         const Row& finest = some.rows.back();
-        return {short_number(observed_order(some, "error")),
-                theory(variant),
-                finest.text("vertices"),
-                percent(finest.number("error")),
-                short_number(observed_order(some, "error_force")),
-                percent(finest.number("error_force")),
+        return {order_text(some, "error"),         theory(variant),
+                finest.text("vertices"),           percent(finest.number("error")),
+                order_text(some, "error_force"),   percent(finest.number("error_force")),
                 duration(finest.number("ready_s"))};
     };
     const auto rows = rows_of_refinements(refinement, kVariants, cells);
@@ -69,8 +72,7 @@ std::string order_findings(const Table& table) {
            "fitted over the three finest meshes. Forces: total force and moment of the worst constrained patch, over "
            "the "
            "largest (those of hollow spheres add up to nothing, or there are none). Nothing here is compared with a "
-           "finer mesh of the "
-           "same method.\n\n" +
+           "finer mesh of the same method.\n\n" +
            markdown_table({"problem", "nu", "variant", "order", "theory", "vertices of the finest", "its error",
                            "order of forces", "error of forces", "ready to drag after"},
                           rows);
@@ -94,7 +96,16 @@ std::string winner_at(const std::vector<FrontierPoint>& winners, const FrontierP
     return found == winners.end() ? "-" : found->variant + ", " + duration(found->seconds);
 }
 
+/// Those whose time is measured against their error.
+std::vector<std::string> refined_methods(const Table& table) {
+    const Table refinement = table.where({{"part", "refinement"}});
+    std::vector<std::string> methods = method_names();
+    std::erase_if(methods, [&](const auto& method) { return refinement.where({{"variant", method}}).rows.empty(); });
+    return methods;
+}
+
 std::string frontier_lines(const Table& table, const std::string& error) {
+    const std::vector<std::string> methods = refined_methods(table);
     const std::vector<FrontierPoint> points = frontier(table, "ready_s", error);
     const std::vector<FrontierPoint> best_default = fastest(defaults_of(points));
     const std::vector<FrontierPoint> once = fastest(defaults_of(frontier(table, "once_s", error)));
@@ -102,12 +113,12 @@ std::string frontier_lines(const Table& table, const std::string& error) {
     for (const FrontierPoint& best : fastest(points)) {
         std::vector<std::string> row = {best.problem, best.nu, target_text(best.target), winner_at(best_default, best),
                                         best.variant + ", " + duration(best.seconds)};
-        for (const std::string& method : method_names()) row.push_back(seconds_at(points, best, method));
+        for (const std::string& method : methods) row.push_back(seconds_at(points, best, method));
         row.push_back(winner_at(once, best));
         rows.push_back(row);
     }
     std::vector<std::string> titles = {"problem", "nu", "error", "fastest default", "fastest variant"};
-    for (const std::string& method : method_names()) titles.push_back(method);
+    titles.insert(titles.end(), methods.begin(), methods.end());
     titles.push_back("fastest default for a single solve");
     return markdown_table(titles, rows);
 }
@@ -185,7 +196,7 @@ std::string finite_findings(const Table& table) {
     const Table finite = table.where({{"part", "finite"}});
     const auto cells = [](const Table& some, const std::string&) -> std::vector<std::string> {
         const Row& finest = some.rows.back();
-        return {some.rows.size() > 1 ? short_number(observed_order(some, "error")) : "-", finest.text("vertices"),
+        return {some.rows.size() > 1 ? order_text(some, "error") : "-", finest.text("vertices"),
                 percent(finest.number("error")), percent(finest.number("error_max")),
                 duration(finest.number("once_s"))};
     };
