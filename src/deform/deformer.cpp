@@ -146,7 +146,9 @@ void Deformer::constrain(ConstrainedSet set, Control& control) {
             const Positions& all = model_->body().surface->vertices;
             const bool holds_it = holds(all(Eigen::all, part.vertices), joined(state.fixed, state.handles));
             state.solid = constrained(*part.solid, state.fixed, state.handles, state.loads, holds_it, control);
-            quality.condition_estimate = std::max(quality.condition_estimate, state.solid->condition());
+            // Of a body that may move it is singular by nature, which tells nothing of the smallest motion.
+            if (holds_it || state.solid->held())
+                quality.condition_estimate = std::max(quality.condition_estimate, state.solid->condition());
             quality.held = quality.held && state.solid->held() && holds_it;
             quality.free_to_move = quality.free_to_move || !holds_it;
         }

@@ -110,11 +110,13 @@ std::shared_ptr<const InteriorField> ConstrainedSolid::interior_field(NodeSoluti
 std::optional<SolutionError> ConstrainedSolid::error(const Eigen::VectorXd& values, const NodeSolution& solution,
                                                      Control& control) const {
     if (!checks_.reference) return {};
-    const std::optional<ReferenceAnswer> reference = checks_.reference(values, solution, control);
-    if (!reference) return {};
     Eigen::MatrixXd u = display_ ? Eigen::MatrixXd(*display_ * solution.displacements.col(0))
                                  : Eigen::MatrixXd(solution.displacements.col(0).head(3 * n_vertices_));
     add_particular(solution.factors, u);
+    NodeSolution first = solution;
+    if (display_ || !particular_.empty()) first.displacements = u;
+    const std::optional<ReferenceAnswer> reference = checks_.reference(values, first, control);
+    if (!reference) return {};
     const Reactions own = reactions(solution);
     return SolutionError{reference->share * (reference->displacements - u.col(0)),
                          {reference->share * (reference->reactions.forces - own.forces),

@@ -9,8 +9,8 @@
 
 #include "base/memory.hpp"
 #include "deform/conjugate_gradients.hpp"
-#include "deform/holds.hpp"
 #include "deform/node_rows.hpp"
+#include "deform/pinned_body.hpp"
 #include "fem/constrained_nodes.hpp"
 #include "fem/constraints.hpp"
 #include "fem/load_vectors.hpp"
@@ -147,19 +147,22 @@ std::uint64_t linear_reference_memory(const FemSystem& quadratic) {
 
 std::optional<ReferenceAnswer> quadratic_reference(const FemSystem& linear, double poisson_ratio,
                                                    std::span<const int> vertices, std::span<const UnitLoad> loads,
-                                                   const Eigen::VectorXd& values, Control& control) {
-    if (!holds(linear.positions(), vertices)) return {};
+                                                   const Eigen::VectorXd& values, const Eigen::VectorXd& first,
+                                                   Control& control) {
+    const PinnedBody body(linear.positions().leftCols(linear.n_vertices()), vertices, values, first);
     control.checkpoint();
     const QuadraticMesh mesh(linear.mesh->tets);
     if (quadratic_reference_memory(linear) > available_memory_bytes()) return {};
     const SparseMatrix K = stiffness(assemble_stiffness_parts(mesh, control), Material{1.0, poisson_ratio});
-    const SparseCholesky coarse(*linear.mesh->analysis, eliminated(linear.K, vertices), "stiffness matrix", &control);
+    const SparseCholesky coarse(*linear.mesh->analysis, eliminated(linear.K, body.vertices()), "stiffness matrix",
+                                &control);
     ReferenceOperators apply;
     apply.linear = [&](const Eigen::VectorXd& u) -> Eigen::VectorXd { return linear.K * u; };
     apply.quadratic = [&](const Eigen::VectorXd& u) -> Eigen::VectorXd { return K * u; };
     apply.solve_linear = [&](const Eigen::VectorXd& f) -> Eigen::VectorXd { return coarse.solve(f).col(0); };
     apply.diagonal = [&](int node) -> Eigen::Matrix3d { return K.block(3 * node, 3 * node, 3, 3); };
-    return quadratic_reference(mesh, *linear.mesh, apply, vertices, loads, values, control);
+    return body.released(
+        quadratic_reference(mesh, *linear.mesh, apply, body.vertices(), loads, body.values(), control));
 }
 
 ReferenceAnswer quadratic_reference(const QuadraticMesh& mesh, const FemMesh& linear, const ReferenceOperators& apply,
@@ -193,22 +196,21 @@ ReferenceAnswer quadratic_reference(const QuadraticMesh& mesh, const FemMesh& li
 
 std::optional<ReferenceAnswer> linear_reference(const FemSystem& quadratic, std::span<const int> vertices,
                                                 std::span<const UnitLoad> loads, const Eigen::VectorXd& values,
-                                                Control& control) {
-    if (!holds(quadratic.positions(), vertices)) return {};
+                                                const Eigen::VectorXd& first, Control& control) {
+    const PinnedBody body(quadratic.positions().leftCols(quadratic.n_vertices()), vertices, values, first);
+    const std::vector<int>& held = body.vertices();
     const CornerNodes corners(rejoined(quadratic.mesh->tets), quadratic.mesh->tets.n_vertices());
     const SparseMatrix prolongation = corners.prolongation();
     const SparseMatrix K = SparseMatrix(prolongation.transpose()) * (quadratic.K * prolongation);
     control.checkpoint();
-    const Eigen::Index n = 3 * std::ssize(vertices);
     const Eigen::MatrixXd given =
         prolongation.transpose() * (load_vectors(*quadratic.mesh, loads) * values.tail(std::ssize(loads)));
     const PrescribedSolution solution =
-        solve_prescribed(K, CholeskyAnalysis(K), vertices, values.head(n), control, given);
-    const std::vector<LoadShare> shares =
-        nodal_shares(quadratic.positions(), std::vector<int>(vertices.begin(), vertices.end()));
-    return ReferenceAnswer{solution.displacements.col(0).head(3 * quadratic.n_vertices()),
-                           gathered_reactions(shares, static_cast<int>(vertices.size()), solution.forces.col(0)),
-                           -kLeftByQuadratic};
+        solve_prescribed(K, CholeskyAnalysis(K), held, body.values().head(3 * std::ssize(held)), control, given);
+    const std::vector<LoadShare> shares = nodal_shares(quadratic.positions(), held);
+    return body.released({solution.displacements.col(0).head(3 * quadratic.n_vertices()),
+                          gathered_reactions(shares, static_cast<int>(held.size()), solution.forces.col(0)),
+                          -kLeftByQuadratic});
 }
 
 }  // namespace elastolab

@@ -27,17 +27,20 @@ struct ReferenceOperators {
 
 /// The answer that linear tetrahedra are judged by: quadratic elements on the same tetrahedra, solved by conjugate
 /// gradients to a few per cent in energy. Two levels precondition them: the factorised linear stiffness on the corners,
-/// and the diagonal blocks of the midpoints; their number of steps does not depend on the size of the mesh. Nothing
-/// where the constraints do not hold the body or memory does not suffice.
+/// and the diagonal blocks of the midpoints; their number of steps does not depend on the size of the mesh. A body that
+/// is not held is pinned (deform/pinned_body.hpp). Nothing where memory does not suffice.
 /// vertices  constrained, all different
 /// loads     unit loads
 /// values    the vertices' displacements, 3*vertices.size(), then a factor for each load
+/// first     the answer that is judged: displacements that begin with those of the surface's vertices
 /// Throws SolveError, Cancelled.
 std::optional<ReferenceAnswer> quadratic_reference(const FemSystem& linear, double poisson_ratio,
                                                    std::span<const int> vertices, std::span<const UnitLoad> loads,
-                                                   const Eigen::VectorXd& values, Control& control);
+                                                   const Eigen::VectorXd& values, const Eigen::VectorXd& first,
+                                                   Control& control);
 
-/// The same with these operators. mesh: the quadratic elements on the tetrahedra of the linear mesh.
+/// The same with these operators, for vertices that hold the body. mesh: the quadratic elements on the tetrahedra of
+/// the linear mesh.
 ReferenceAnswer quadratic_reference(const QuadraticMesh& mesh, const FemMesh& linear, const ReferenceOperators& apply,
                                     std::span<const int> vertices, std::span<const UnitLoad> loads,
                                     const Eigen::VectorXd& values, Control& control);
@@ -50,6 +53,6 @@ std::uint64_t linear_reference_memory(const FemSystem& quadratic);
 /// degree changed indicates what a third would.
 std::optional<ReferenceAnswer> linear_reference(const FemSystem& quadratic, std::span<const int> vertices,
                                                 std::span<const UnitLoad> loads, const Eigen::VectorXd& values,
-                                                Control& control);
+                                                const Eigen::VectorXd& first, Control& control);
 
 }  // namespace elastolab

@@ -308,9 +308,10 @@ std::unique_ptr<ConstrainedSolid> FemModel::constrain_reduced(ConstrainedFemNode
 decltype(SolutionChecks::reference) FemModel::reference_for(const ConstrainedFemNodes& nodes, Loads loads) const {
     return [system = system_, degree = degree(), nu = poisson_ratio_, vertices = nodes.vertices,
             loads = std::vector<UnitLoad>(loads.begin(), loads.end())](const Eigen::VectorXd& values,
-                                                                       const NodeSolution&, Control& control) {
-        return degree == ElementDegree::linear ? quadratic_reference(*system, nu, vertices, loads, values, control)
-                                               : linear_reference(*system, vertices, loads, values, control);
+                                                                       const NodeSolution& first, Control& control) {
+        const Eigen::VectorXd u = first.displacements.col(0);
+        return degree == ElementDegree::linear ? quadratic_reference(*system, nu, vertices, loads, values, u, control)
+                                               : linear_reference(*system, vertices, loads, values, u, control);
     };
 }
 

@@ -156,7 +156,7 @@ Findings findings_of_answer(const Deformer& deformer, const Deformer::Answer& an
     const MethodKind method = deformer.model().method().kind;
     Findings findings = findings_of_volume(deformer, answer.displacements);
     const bool has_limit = answer.check && method->reported_error;
-    if (!answer.check && method->reported_error && deformer.quality().held)
+    if (!answer.check && method->reported_error)
         findings.push_back({.kind = FindingKind::no_estimate, .severity = Severity::note, .method = method});
     if (has_limit && answer.check->relative_force_error > *method->reported_error)
         findings.push_back(

@@ -31,7 +31,7 @@ std::string locking(const Finding& finding) {
     return std::string(finding.method->name) + ": linear tetrahedra lock at Poisson's ratio " +
            readable_number(finding.value, 6) +
            ". In bending their error is 3, 9 and 29 times that at 0.3 for ratios of 0.49, 0.499 and 0.4999. Choose "
-           "linear-bem, which does not lock, or refine the mesh.";
+           "galerkin-bem or linear-bem, which do not lock, or refine the mesh.";
 }
 
 std::string lost_digits(const Finding& finding) {
@@ -168,7 +168,9 @@ std::string words(const Finding& finding) {
         case FindingKind::no_estimate:
             return std::string(finding.method->name) +
                    ": the error is not estimated. The second, better answer that it is told by would take more than "
-                   "ten times as long as this one, more memory than there is, or cannot be computed.";
+                   "ten times as long as this one, more memory than there is, cannot be computed, or finds no rim "
+                   "where "
+                   "it would be better.";
         case FindingKind::force_imbalance:
             return imbalance(finding, "forces");
         case FindingKind::moment_imbalance:

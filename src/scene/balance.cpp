@@ -43,15 +43,6 @@ std::vector<int> numbers_among(const std::vector<int>& chosen, int n) {
     return numbers;
 }
 
-/// Total size of a load's forces, whether they balance or not.
-double size_of(const SurfaceMesh& surface, const UnitLoad& load) {
-    double size = load.is_body_force() ? resultant(surface, load).force.norm() : 0.0;
-    for (std::size_t k = 0; k < load.triangles.size(); ++k)
-        size += 0.5 * area_vector(triangle_points(surface, load.triangles[k])).norm() *
-                load.tractions.col(static_cast<Eigen::Index>(k)).norm();
-    return size;
-}
-
 SumOfLoads loads_on(const Solid& solid, const Constraints& constraints, const SurfaceMesh& surface) {
     SumOfLoads sum;
     const std::vector<int> own = numbers_among(solid.triangles, surface.n_triangles());
@@ -93,6 +84,14 @@ std::vector<int> holding(const Solid& solid, const Constraints& constraints, con
 }
 
 }  // namespace
+
+double size_of(const SurfaceMesh& surface, const UnitLoad& load) {
+    double size = load.is_body_force() ? resultant(surface, load).force.norm() : 0.0;
+    for (std::size_t k = 0; k < load.triangles.size(); ++k)
+        size += 0.5 * area_vector(triangle_points(surface, load.triangles[k])).norm() *
+                load.tractions.col(static_cast<Eigen::Index>(k)).norm();
+    return size;
+}
 
 void require_balance(const Document& document, const Constraints& constraints, const SurfaceMesh& surface,
                      const fs::path& scene_file) {

@@ -131,6 +131,16 @@ constexpr int kMostGaugedThemselves = 1200;
 /// Share of the largest reaction above which an imbalance is reported.
 constexpr double kLargeImbalance = 0.05;
 
+/// Of loads and at constrained vertices.
+double size_of_forces(const Constraints& constraints, const Reactions& reactions, const SurfaceMesh& surface) {
+    double size = 0.0;
+    for (const auto& force : reactions.forces.colwise()) size += force.stableNorm();
+    const Eigen::VectorXd factors = constraints.values.tail(std::ssize(constraints.set.loads));
+    for (std::size_t i = 0; i < constraints.set.loads.size(); ++i)
+        size += std::abs(factors[static_cast<Eigen::Index>(i)]) * size_of(surface, constraints.set.loads[i]);
+    return size;
+}
+
 void add_imbalance(const Imbalance& imbalance, MethodKind method, Findings& findings) {
     const auto add = [&](FindingKind kind, double value) {
         if (!(value > kLargeImbalance)) return;
@@ -180,7 +190,9 @@ void apply(Constraints& constraints, Constraints* shown, bool with_checks, Solut
         std::vector<GroupReaction> all = solution.reactions;
         all.insert(all.end(), solution.loads.begin(), solution.loads.end());
         if (!moves_rigidly(constraints, *solution.model->body().surface))
-            solution.imbalance = imbalance_of(all, *solution.model->body().surface);
+            solution.imbalance =
+                imbalance_of(all, size_of_forces(constraints, answer.reactions, *solution.model->body().surface),
+                             *solution.model->body().surface);
         if (!constraints.loads.empty())
             solution.compliance = answer.facts
                                       ? answer.facts->work_of_loads
@@ -247,11 +259,12 @@ void carry_back(const CarriedConstraints& carried, Solution& solution) {
 
 }  // namespace
 
-Imbalance imbalance_of(const std::vector<GroupReaction>& reactions, const SurfaceMesh& surface) {
+Imbalance imbalance_of(const std::vector<GroupReaction>& reactions, double size, const SurfaceMesh& surface) {
+    constexpr double kShare = 0.1;
     const Eigen::Vector3d centre = surface.vertices.rowwise().mean();
     const double radius = (surface.vertices.colwise() - centre).colwise().norm().maxCoeff();
     Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = force;
-    double largest_force = 0.0, largest_moment = 0.0;
+    double largest_force = kShare * size, largest_moment = radius * largest_force;
     for (const GroupReaction& reaction : reactions) {
         const Eigen::Vector3d about_centre = reaction.moment - centre.cross(reaction.force);
         force += reaction.force;

@@ -36,13 +36,14 @@ struct GroupReaction {
     Eigen::Vector3d force, moment;
 };
 
-/// How far the reactions are from equilibrium: the resultant of all groups over the largest of one group; 0 where
-/// there is no force. Moments are about the mean of the body's vertices; a force times the body's radius counts as one
-/// when the largest is sought.
+/// How far the reactions are from equilibrium: the resultant of all groups over the largest of one group, or over a
+/// tenth of all forces where groups balance themselves; 0 where there is no force. Moments are about the mean of the
+/// body's vertices; a force times the body's radius counts as one when the largest is sought.
 struct Imbalance {
     double force = 0.0, moment = 0.0;
 };
-Imbalance imbalance_of(const std::vector<GroupReaction>& reactions, const SurfaceMesh& surface);
+/// size: of all forces, added up, whether they balance or not.
+Imbalance imbalance_of(const std::vector<GroupReaction>& reactions, double size, const SurfaceMesh& surface);
 
 /// Everything that solve writes or prints.
 struct Solution {

@@ -432,6 +432,29 @@ TEST_F(SolveTest, ABodyThatNothingHoldsOrMovesIsAtRestAndNothingIsSaid) {
     }
 }
 
+/// A pressure that balances itself has no resultant that anything could be compared with.
+TEST_F(SolveTest, AFreeBodyUnderPressureIsNotSaidToLackBalance) {
+    for (const char* mesh :
+         {R"({"primitive": "cube", "resolution": 2})", R"({"primitive": "hollow-sphere", "resolution": 3})"})
+        for (const char* method :
+             {"fem", "quadratic-fem", "nonlinear-fem", "constant-bem", "linear-bem", "galerkin-bem"}) {
+            SCOPED_TRACE(std::string(mesh) + " " + method);
+            const ProgramRun run =
+                solve(std::string(R"({"elastolab": 1, "mesh": )") + mesh + R"(, "method": ")" + method +
+                          R"(", "loads": [{"name": "air", "select": {"box": {"min": [-2, -2, -2], "max": [2, 2, 2]}},
+                                           "pressure": 0.01}]})",
+                      {"--quiet", "--report", "r.json"});
+            EXPECT_EQ(run.exit_code, 0) << run.err;
+            EXPECT_EQ(run.out, "");
+            const nlohmann::json report = json("r.json");
+            EXPECT_LT(report.at("force_imbalance").get<double>(), 1e-6);
+            EXPECT_LT(report.at("moment_imbalance").get<double>(), 1e-6);
+            EXPECT_LT(report.at("condition_estimate").get<double>(), 1e9);
+            for (const nlohmann::json& warning : report.at("warnings"))
+                EXPECT_THAT(warning.get<std::string>(), testing::Not(testing::HasSubstr("balance")));
+        }
+}
+
 TEST_F(SolveTest, EndsWithoutOutputsWhenItIsInterrupted) {
     folder_.write("u.csv", "before");
     for (const std::string& method : kMethods) {

@@ -133,8 +133,9 @@ SolutionChecks BemModel::checks(const TractionSpace& space, std::vector<int> ver
     };
     checks.reference = [boundary = system_->shared_boundary(), method = method_, nu = poisson_ratio_,
                         vertices = std::move(vertices),
-                        loads](const Eigen::VectorXd& values, const NodeSolution&, Control& control) {
-        return galerkin_reference(boundary->mesh(), method, nu, vertices, loads, values, control);
+                        loads](const Eigen::VectorXd& values, const NodeSolution& first, Control& control) {
+        return galerkin_reference(boundary->mesh(), method, nu, vertices, loads, values, first.displacements.col(0),
+                                  control);
     };
     return checks;
 }

@@ -13,6 +13,8 @@
 #include "bem/galerkin/method.hpp"
 #include "bem/galerkin/solvers.hpp"
 #include "bem/given_loads.hpp"
+#include "deform/holds.hpp"
+#include "deform/pinned_body.hpp"
 
 namespace elastolab {
 
@@ -45,7 +47,7 @@ bool is_quick(const SurfaceMesh& surface, const SurfaceMesh& fine, Method answer
     return seconds <= kAlwaysSeconds || seconds <= kMostTimes * answer.kind->predict(surface, answer).seconds;
 }
 
-/// Nothing where it would take too long or more memory than there is, or where it would be on the same surface.
+/// Nothing where it would take too long or more memory than there is, or where it would be the same answer.
 std::uint64_t affordable_memory(const SurfaceMesh& surface, const Method& answer, const FinerRims& rims) {
     const SurfaceMesh& fine = rims.surface.mesh;
     const std::int64_t n_tractions = 3 * rims.n_constrained_triangles;
@@ -55,7 +57,8 @@ std::uint64_t affordable_memory(const SurfaceMesh& surface, const Method& answer
                   hierarchical_set_memory(fine.n_vertices(), rims.n_constrained_triangles, n_tractions)
             : galerkin_direct_memory(3 * fine.n_vertices(), n_tractions);
     const bool fits = fine.n_vertices() <= kMostVertices && bytes < available_memory_bytes();
-    return rims.is_finer && fits && is_quick(surface, fine, answer) ? bytes : 0;
+    const bool differs = rims.is_finer || answer.kind != kGalerkinBem;
+    return differs && fits && is_quick(surface, fine, answer) ? bytes : 0;
 }
 
 /// values: at the nodes of the set, then the loads' factors. Throws NotHeldError, SolveError, Cancelled.
@@ -101,8 +104,10 @@ std::optional<ReferenceAnswer> reference_on(const SurfaceMesh& surface, const Su
     }
 }
 
-FinerRims reference_rims(const SurfaceMesh& surface, std::span<const int> vertices, std::span<const UnitLoad> loads) {
-    return FinerRims(surface, vertices, loads, 1, LoneVertices::refined);
+/// pinned: what holds the body bears nothing, so that nothing is singular there.
+FinerRims reference_rims(const SurfaceMesh& surface, std::span<const int> vertices, std::span<const UnitLoad> loads,
+                         bool pinned) {
+    return FinerRims(surface, vertices, loads, 1, pinned ? LoneVertices::kept : LoneVertices::refined);
 }
 
 }  // namespace
@@ -110,31 +115,39 @@ FinerRims reference_rims(const SurfaceMesh& surface, std::span<const int> vertic
 std::optional<ReferenceAnswer> galerkin_reference(const SurfaceMesh& surface, const Method& answer,
                                                   double poisson_ratio, std::span<const int> vertices,
                                                   std::span<const UnitLoad> loads, const Eigen::VectorXd& values,
-                                                  Control& control) {
-    const FinerRims rims = reference_rims(surface, vertices, loads);
+                                                  const Eigen::VectorXd& first, Control& control) {
+    const PinnedBody body(surface.vertices, vertices, values, first);
+    const FinerRims rims = reference_rims(surface, body.vertices(), loads, body.is_pinned());
     if (affordable_memory(surface, answer, rims) == 0) return {};
-    return reference_on(rims.surface.mesh, rims, surface.n_vertices(), poisson_ratio, values, control);
+    std::optional<ReferenceAnswer> reference =
+        reference_on(rims.surface.mesh, rims, surface.n_vertices(), poisson_ratio, body.values(), control);
+    if (reference) reference = body.released(*std::move(reference));
+    return reference;
 }
 
 std::uint64_t galerkin_reference_memory(const SurfaceMesh& surface, const Method& answer,
                                         std::span<const int> vertices) {
-    return affordable_memory(surface, answer, reference_rims(surface, vertices, {}));
+    return affordable_memory(surface, answer,
+                             reference_rims(surface, vertices, {}, !holds(surface.vertices, vertices)));
 }
 
 std::optional<ReferenceAnswer> galerkin_self_reference(const SurfaceMesh& surface, const Method& answer,
                                                        double poisson_ratio, std::span<const int> vertices,
                                                        std::span<const UnitLoad> loads, const Eigen::VectorXd& values,
-                                                       Control& control) {
+                                                       const Eigen::VectorXd& first, Control& control) {
     std::optional<ReferenceAnswer> reference;
     if (answer.rims == 0) {
-        reference = galerkin_reference(surface, answer, poisson_ratio, vertices, loads, values, control);
+        reference = galerkin_reference(surface, answer, poisson_ratio, vertices, loads, values, first, control);
         if (reference) reference->share = kShareOfRims;
         return reference;
     }
     if (!FinerRims(surface, vertices, loads, answer.rims, LoneVertices::kept).is_finer) return {};
-    const SurfaceSet given(surface, {vertices.begin(), vertices.end()}, loads);
-    reference = reference_on(surface, given, surface.n_vertices(), poisson_ratio, values, control);
-    if (reference) reference->share = -kShareLeft / (std::exp2(answer.rims) - 1.0);
+    const PinnedBody body(surface.vertices, vertices, values, first);
+    const SurfaceSet given(surface, body.vertices(), loads);
+    reference = reference_on(surface, given, surface.n_vertices(), poisson_ratio, body.values(), control);
+    if (!reference) return {};
+    reference = body.released(*std::move(reference));
+    reference->share = -kShareLeft / (std::exp2(answer.rims) - 1.0);
     return reference;
 }
 

@@ -16,17 +16,15 @@ namespace elastolab {
 /// times more accurate than collocation on organic bodies, and most of what is left comes from the rims, where
 /// tractions are singular: refining there gains nearly what refining everywhere does. Triangles at
 /// re-entrant edges of the body, where stresses are singular too, are refined with them. Solved afresh each time, large
-/// surfaces by hierarchical matrices. Nothing where the body is not held, where it would take too much memory, more
-/// than ten times as long as the answer (and a fifth of a second), or where it cannot be solved.
-/// answer          the method that is judged
-/// vertices  constrained, all different
-/// loads     given ones, on triangles of the surface
-/// values    the vertices' displacements, 3*vertices.size(), then a factor for each load
-/// Throws Cancelled.
+/// surfaces by hierarchical matrices. A body that is not held is pinned (deform/pinned_body.hpp). Nothing where it
+/// would take too much memory, more than ten times as long as the answer (and a fifth of a second), or cannot be
+/// solved. answer          the method that is judged vertices  constrained, all different loads     given ones, on
+/// triangles of the surface values    the vertices' displacements, 3*vertices.size(), then a factor for each load first
+/// that answer: displacements that begin with those of the surface's vertices Throws Cancelled.
 std::optional<ReferenceAnswer> galerkin_reference(const SurfaceMesh& surface, const Method& answer,
                                                   double poisson_ratio, std::span<const int> vertices,
                                                   std::span<const UnitLoad> loads, const Eigen::VectorXd& values,
-                                                  Control& control);
+                                                  const Eigen::VectorXd& first, Control& control);
 
 /// Bytes that it takes; nothing where it would not be computed. Milliseconds.
 std::uint64_t galerkin_reference_memory(const SurfaceMesh& surface, const Method& answer,
@@ -38,6 +36,6 @@ std::uint64_t galerkin_reference_memory(const SurfaceMesh& surface, const Method
 std::optional<ReferenceAnswer> galerkin_self_reference(const SurfaceMesh& surface, const Method& answer,
                                                        double poisson_ratio, std::span<const int> vertices,
                                                        std::span<const UnitLoad> loads, const Eigen::VectorXd& values,
-                                                       Control& control);
+                                                       const Eigen::VectorXd& first, Control& control);
 
 }  // namespace elastolab

@@ -55,17 +55,19 @@ std::unique_ptr<ConstrainedSolid> HierarchicalGalerkinModel::constrain(std::shar
         const GalerkinEquations equations{system->pairs(), system->tree(), system->surfaces(), system->material()};
         GivenTerms given;
         if (!loads.empty())
-            given = {to_item_order(*system->tree(), system->given_nodal_forces(loads, its_control)) *
-                         solution.factors.col(0),
-                     given_single_layer(system->pairs(), system->surfaces(), tractions, system->material(), loads,
-                                        its_control) *
-                         solution.factors.col(0)};
+            given.nodal_forces = to_item_order(*system->tree(), system->given_nodal_forces(loads, its_control)) *
+                                 solution.factors.col(0);
+        if (!loads.empty() && tractions.size() > 0)
+            given.single_layer = given_single_layer(system->pairs(), system->surfaces(), tractions, system->material(),
+                                                    loads, its_control) *
+                                 solution.factors.col(0);
         return galerkin_residual(equations, vertices, tractions, given, solution, its_control);
     };
     const auto reference = [surface = surface_, method = method_, nu = poisson_ratio_, vertices = of_body.vertices,
-                            loads = of_body.loads](const Eigen::VectorXd& values, const NodeSolution&,
+                            loads = of_body.loads](const Eigen::VectorXd& values, const NodeSolution& first,
                                                    Control& its_control) {
-        return galerkin_self_reference(*surface, method, nu, vertices, loads, values, its_control);
+        return galerkin_self_reference(*surface, method, nu, vertices, loads, values, first.displacements.col(0),
+                                       its_control);
     };
     const auto inside = [boundary = std::shared_ptr<const Boundary>(system, &system->boundary()), tractions,
                          vertices = vertices, loads = loads, nu = poisson_ratio_](NodeSolution&& solution, Control&) {

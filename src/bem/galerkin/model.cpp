@@ -113,15 +113,16 @@ std::unique_ptr<ConstrainedSolid> GalerkinModel::constrain(std::shared_ptr<const
         const GalerkinEquations equations{pairs, pairs->cluster_vertices(kVerticesOfALeaf), system->surfaces(),
                                           system->material()};
         GivenTerms given;
-        if (!loads.empty())
-            given = {system->given_nodal_forces(loads, its_control) * solution.factors.col(0),
-                     system->given_single_layer(tractions, loads, its_control) * solution.factors.col(0)};
+        if (!loads.empty()) given.nodal_forces = system->given_nodal_forces(loads, its_control) * solution.factors.col(0);
+        if (!loads.empty() && tractions.size() > 0)
+            given.single_layer = system->given_single_layer(tractions, loads, its_control) * solution.factors.col(0);
         return galerkin_residual(equations, vertices, tractions, given, solution, its_control);
     };
     const auto reference = [body = system_, method = method_, nu = poisson_ratio_, vertices = of_body.vertices,
-                            loads = of_body.loads](const Eigen::VectorXd& values, const NodeSolution&,
+                            loads = of_body.loads](const Eigen::VectorXd& values, const NodeSolution& first,
                                                    Control& its_control) {
-        return galerkin_self_reference(body->boundary().mesh(), method, nu, vertices, loads, values, its_control);
+        return galerkin_self_reference(body->boundary().mesh(), method, nu, vertices, loads, values,
+                                       first.displacements.col(0), its_control);
     };
     const auto inside = [boundary = system->shared_boundary(), vertices = vertices, loads = loads, tractions,
                          nu = poisson_ratio_](NodeSolution&& solution, Control&) {

@@ -217,9 +217,11 @@ TEST(FinerRims, AreNoSecondAnswerWhereNothingIsFiner) {
     const SurfaceMesh ribbon = bar_of_section(1e-4, 1e-7);
     const std::vector<int> end = lower_end(ribbon);
     const Eigen::VectorXd still = Eigen::VectorXd::Zero(3 * std::ssize(end));
+    const Eigen::VectorXd at_rest = Eigen::VectorXd::Zero(ribbon.vertices.size());
     Control control;
     for (const int levels : {0, 1})
-        EXPECT_FALSE(galerkin_self_reference(ribbon, with_rims(levels), 0.3, end, {}, still, control)) << levels;
+        EXPECT_FALSE(galerkin_self_reference(ribbon, with_rims(levels), 0.3, end, {}, still, at_rest, control))
+            << levels;
 }
 
 TEST(FinerRims, KeepLoneVerticesAsTheyAre) {

@@ -93,7 +93,7 @@ TEST(HierarchicalGalerkin, GivesTheSecondAnswerThatEstimatesAreMadeOf) {
     const Eigen::VectorXd values = stretched(Eigen::all, ends).reshaped();
     EXPECT_GT(galerkin_reference_memory(mesh, dense(), ends), 0u);
     Control control;
-    const auto answer = galerkin_reference(mesh, dense(), 0.3, ends, {}, values, control);
+    const auto answer = galerkin_reference(mesh, dense(), 0.3, ends, {}, values, stretched.reshaped(), control);
     ASSERT_TRUE(answer);
     EXPECT_LT(off(answer->displacements, stretched.reshaped()), 1e-5);
     double pull = 0.0;
