@@ -204,6 +204,13 @@ void act(Json& scene, const Json& end, double length, Random& random) {
     }
 }
 
+/// Nothing holds the body, and a pressure all over it, which balances itself, acts alone.
+void blow_up(Json& scene, const Point& low, const Point& high) {
+    for (const char* key : {"fixed", "handles", "gravity", "density"}) scene.erase(key);
+    const Json everything = {{"box", {{"min", low}, {"max", high}}}};
+    scene["loads"] = Json::array({{{"select", everything}, {"pressure", -1e-3}}});
+}
+
 }  // namespace
 
 Input make_body(std::uint64_t seed, std::uint64_t number) {
@@ -230,6 +237,7 @@ Input make_body(std::uint64_t seed, std::uint64_t number) {
                                                     "quadratic-fem", "nonlinear-fem"})}};
     if (!random.once_in(5)) scene["fixed"] = slab(low);
     act(scene, slab(high), length, random);
+    if (random.once_in(8)) blow_up(scene, low, high);
     return {"input.json", scene.dump(1), {{"body.off", off_text(body)}}};
 }
 

@@ -119,6 +119,7 @@ Outcome Subject::solve(const Input& input, std::size_t variant) {
     arguments.insert(arguments.end(), variants()[variant].begin(), variants()[variant].end());
     Outcome outcome = execute(arguments);
     check_outputs(outcome, outputs);
+    if (outcome.complaint.empty() && !out_.empty()) outcome.complaint = "prints something although it is to be quiet";
     return outcome;
 }
 

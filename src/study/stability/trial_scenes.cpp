@@ -118,10 +118,12 @@ std::vector<TrialGroup> all_groups() {
          {1.0, 30.0, 60.0, 90.0, 120.0, 170.0},
          [](double angle) { return finite_torsion(4, 0.3, angle); },
          true},
+        // Pressed to less than half of its length the bar buckles (at 0.3 with 0.28 of the energy of the straight one),
+        // and nothing tells which of its equilibria would be the right one.
         {"finite-stretch",
          "bar pulled or pressed to so many times its length",
          "length / length at rest",
-         {1.01, 0.3, 0.7, 1.5, 2.0, 4.0},
+         {1.01, 0.55, 0.7, 1.5, 2.0, 4.0},
          [](double stretch) { return finite_stretch(3, 0.3, stretch); },
          true},
         {"finite-swelling",
