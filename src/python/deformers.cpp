@@ -227,7 +227,8 @@ void bind_answers(py::module_& module) {
         .def_readonly("displacement", &DiscretisationCheck::relative_error,
                       "Of the worst vertex, over the largest displacement.")
         .def_readonly("vertex", &DiscretisationCheck::vertex, "The worst.")
-        .def_readonly("force", &DiscretisationCheck::relative_force_error, "Of the reactions of the worst patch.")
+        .def_readonly("force", &DiscretisationCheck::relative_force_error,
+                      "Of the reactions of the worst patch; nan where the body may still move.")
         .def("__repr__", [](const DiscretisationCheck& c) {
             return "<elastolab.ErrorEstimate: displacement " + std::to_string(c.relative_error) + ", force " +
                    std::to_string(c.relative_force_error) + ">";

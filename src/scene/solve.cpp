@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <Eigen/Geometry>
 #include <utility>
 
@@ -206,7 +207,8 @@ void apply(Constraints& constraints, Constraints* shown, bool with_checks, Solut
         answer.check = deformer.discretisation_check(constraints.values, control);
         if (answer.check) {
             solution.error_estimate = answer.check->relative_error;
-            solution.force_error_estimate = answer.check->relative_force_error;
+            if (std::isfinite(answer.check->relative_force_error))
+                solution.force_error_estimate = answer.check->relative_force_error;
         }
         append(solution.findings, findings_of_answer(deformer, answer));
     }

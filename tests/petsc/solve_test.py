@@ -45,13 +45,16 @@ class Petsc(PetscCase):
             self.assertEqual(one.keys(), all_.keys())
             if scene is TURNED:  # the forces are nothing but rounding, and so is their imbalance
                 self.assertLess(np.abs(self.numbers("all-forces.csv")).max(), TOLERANCE * 1e5)
+                # On several processes the error of a body that nothing holds is not estimated, and that is said.
                 one["warnings"], all_["warnings"] = ([warning for warning in report["warnings"]
-                                                      if "do not balance" not in warning] for report in (one, all_))
-                # As singular as rounding lets the set be; for the same reason there is no estimate of the error.
-                self.assertGreater(min(one["condition_estimate"], all_["condition_estimate"]), 1e15)
+                                                      if not any(text in warning for text in (
+                                                          "do not balance", "is not estimated", "is too coarse"))]
+                                                     for report in (one, all_))
+                self.assertTrue(all(value is None for value in all_["error_estimate"].values()))
+                one["error_estimate"] = all_["error_estimate"]
             else:
                 self.assert_same("one-forces.csv", "all-forces.csv")
-                np.testing.assert_allclose(all_["condition_estimate"], one["condition_estimate"], rtol=1e-5)
+            np.testing.assert_allclose(all_["condition_estimate"], one["condition_estimate"], rtol=1e-5)
             self.assertEqual(one["warnings"], all_["warnings"])
             self.assertEqual(one["degrees_of_freedom"], all_["degrees_of_freedom"])
             self.assertLess(all_["residual"], 1e-9)
