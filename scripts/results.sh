@@ -11,7 +11,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 readonly results=assets/results
 readonly documents=(README.md docs/results.md)
-readonly studies=(paper error stability scale skip)
+readonly studies=(paper error stability scale skip large)
 readonly benchmarks=(core_benchmark first_answer_benchmark first_pull_benchmark hierarchical_benchmark)
 
 # ---- the reports ------------------------------------------------------------------------------------------------------
@@ -81,10 +81,11 @@ organic() {
 }
 block_organic_displacements() { organic error truth_error; }
 block_organic_forces() { organic error_force truth_force_error; }
-# By how much the errors of the others exceed that of Galerkin BEM, geometric means over bodies and ratios.
+# By how much the errors of the others exceed that of Galerkin BEM, geometric means over bodies and ratios; without the
+# cantilever, whose force is its weight and so exact by some.
 value_organic_factors() {
   csv error/error.csv '
-    $col["part"] == "organic" && $col["variant"] == $col["method"] {
+    $col["part"] == "organic" && $col["problem"] != "cantilever" && $col["variant"] == $col["method"] {
       key = $col["problem"] " " $col["nu"]; keys[key]
       error[key, $col["method"]] = $col["error"]; force[key, $col["method"]] = $col["error_force"]
     }
@@ -99,6 +100,26 @@ value_organic_factors() {
         printf "%s%s %.2g and %.2g times", m == 2 ? "" : ", ", method[m], exp(sum / n), exp(sum_force / n)
       }
       print ""
+    }'
+}
+# What halving the triangles along the rims leaves of the errors of Galerkin BEM, geometric means likewise.
+value_finer_rims() {
+  csv error/error.csv '
+    $col["part"] == "organic" && $col["problem"] != "cantilever" && $col["method"] == "galerkin-bem" {
+      rims = $col["variant"] == "galerkin-bem" ? 0 : substr($col["variant"], length("galerkin-bem rims ") + 1)
+      key = $col["problem"] " " $col["nu"]; keys[key]
+      error[key, rims] = $col["error"]; force[key, rims] = $col["error_force"]
+    }
+    END {
+      for (rims = 1; rims <= 2; ++rims) {
+        sum = sum_force = n = 0
+        for (key in keys) {
+          if (!((key, rims) in error)) continue
+          sum += log(error[key, rims] / error[key, 0]); sum_force += log(force[key, rims] / force[key, 0]); ++n
+        }
+        printf "%s`--rims %d` leaves %.2g of the errors in displacements and %.2g in forces", rims == 1 ? "" : ", ", rims, exp(sum / n), exp(sum_force / n)
+      }
+      print "."
     }'
 }
 # Estimates of displacements beside the true error of the worst vertex.
@@ -134,6 +155,23 @@ block_breaks() {
 }
 value_breaks() { opening stability | grep '^Of ' | head -1; }
 value_edits() { opening stability | grep -i 'random edits' | head -1; }
+
+# How far each motion may go before linear theory is off by so much of the largest displacement.
+value_linear_theory() {
+  csv large/large.csv '
+    $col["part"] == "theory" {
+      what = $col["what"]; if (!(what in seen)) name[++n] = what; seen[what]
+      for (limit = 2; limit <= 10; limit += 8) if (100 * $col["largest_error"] < limit) reach[what, limit] = $col["amount"] " " $col["unit"]
+    }
+    END {
+      for (limit = 2; limit <= 10; limit += 8) {
+        printf("%s", limit == 2 ? "Linear theory is off by less than 2 % of the largest displacement up to" : "; by less than 10 % up to")
+        for (i = 1; i <= n; ++i) if ((name[i], limit) in reach) printf("%s %s (%s)", i > 1 ? "," : "", reach[name[i], limit], name[i])
+      }
+      print "."
+    }'
+}
+block_linear_theory() { opening large | table 1 | rows '^[|] [a-z ]+ [|] ((5|20|60|120) degrees|(10|50|200) per cent) '; }
 
 # A small and a large cube, until a handle can be dragged, on demand.
 block_ready() {

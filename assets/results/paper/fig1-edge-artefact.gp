@@ -471,10 +471,10 @@ set object polygon from 2.9907,0.8662 to 3.1391,0.8227 to 3.1974,0.8664 to 2.990
 set object polygon from 2.7840,0.8659 to 2.9324,0.8225 to 2.9907,0.8662 to 2.7840,0.8659 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.5773,0.8657 to 2.7257,0.8222 to 2.7840,0.8659 to 2.5773,0.8657 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.3706,0.8654 to 2.5190,0.8220 to 2.5773,0.8657 to 2.3706,0.8654 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
-set object polygon from 2.1639,0.8652 to 2.3123,0.8217 to 2.3706,0.8654 to 2.1639,0.8652 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.1374,0.1075 to 2.1374,0.2047 to 1.9890,0.2481 to 2.1374,0.1075 fc rgb '#9f9988' fs solid border lc rgb '#5a5a5a' lw 0.5
-set object polygon from 1.9572,0.8649 to 2.1056,0.8215 to 2.1639,0.8652 to 1.9572,0.8649 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
+set object polygon from 2.1639,0.8652 to 2.3123,0.8217 to 2.3706,0.8654 to 2.1639,0.8652 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 3.4359,0.3471 to 3.4942,0.3908 to 3.4359,0.4443 to 3.4359,0.3471 fc rgb '#746f62' fs solid border lc rgb '#5a5a5a' lw 0.5
+set object polygon from 1.9572,0.8649 to 2.1056,0.8215 to 2.1639,0.8652 to 1.9572,0.8649 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 1.8406,0.3888 to 1.9890,0.3453 to 1.9890,0.4425 to 1.8406,0.3888 fc rgb '#9f9988' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 3.2610,-0.1727 to 3.3193,-0.1291 to 3.3193,-0.0319 to 3.2610,-0.1727 fc rgb '#746f62' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.2858,-0.1303 to 2.4342,-0.1737 to 2.2858,-0.0331 to 2.2858,-0.1303 fc rgb '#9f9988' fs solid border lc rgb '#5a5a5a' lw 0.5
@@ -496,12 +496,12 @@ set object polygon from 2.7257,0.8222 to 2.8741,0.7788 to 2.7840,0.8659 to 2.725
 set object polygon from 2.6674,0.7785 to 2.7257,0.8222 to 2.5773,0.8657 to 2.6674,0.7785 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.5190,0.8220 to 2.6674,0.7785 to 2.5773,0.8657 to 2.5190,0.8220 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.4607,0.7783 to 2.5190,0.8220 to 2.3706,0.8654 to 2.4607,0.7783 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
-set object polygon from 2.3123,0.8217 to 2.4607,0.7783 to 2.3706,0.8654 to 2.3123,0.8217 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.1374,0.1075 to 2.2858,0.1613 to 2.1374,0.2047 to 2.1374,0.1075 fc rgb '#9f9988' fs solid border lc rgb '#5a5a5a' lw 0.5
+set object polygon from 2.3123,0.8217 to 2.4607,0.7783 to 2.3706,0.8654 to 2.3123,0.8217 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.2540,0.7780 to 2.3123,0.8217 to 2.1639,0.8652 to 2.2540,0.7780 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.1056,0.8215 to 2.2540,0.7780 to 2.1639,0.8652 to 2.1056,0.8215 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
-set object polygon from 2.0473,0.7778 to 2.1056,0.8215 to 1.9572,0.8649 to 2.0473,0.7778 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 3.3776,0.3034 to 3.4359,0.3471 to 3.4359,0.4443 to 3.3776,0.3034 fc rgb '#746f62' fs solid border lc rgb '#5a5a5a' lw 0.5
+set object polygon from 2.0473,0.7778 to 2.1056,0.8215 to 1.9572,0.8649 to 2.0473,0.7778 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 1.8989,0.8212 to 2.0473,0.7778 to 1.9572,0.8649 to 1.8989,0.8212 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 1.9890,0.3453 to 2.1374,0.3019 to 1.9890,0.4425 to 1.9890,0.3453 fc rgb '#9f9988' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 3.2610,-0.1727 to 3.3193,-0.0319 to 3.2610,-0.0756 to 3.2610,-0.1727 fc rgb '#746f62' fs solid border lc rgb '#5a5a5a' lw 0.5
@@ -555,8 +555,8 @@ set object polygon from 3.2875,0.7793 to 3.4359,0.7358 to 3.4942,0.7795 to 3.287
 set object polygon from 3.0808,0.7790 to 3.2292,0.7356 to 3.2875,0.7793 to 3.0808,0.7790 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.8741,0.7788 to 3.0225,0.7354 to 3.0808,0.7790 to 2.8741,0.7788 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.6674,0.7785 to 2.8158,0.7351 to 2.8741,0.7788 to 2.6674,0.7785 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
-set object polygon from 2.4607,0.7783 to 2.6091,0.7349 to 2.6674,0.7785 to 2.4607,0.7783 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.4342,0.0206 to 2.4342,0.1178 to 2.2858,0.1613 to 2.4342,0.0206 fc rgb '#9f9988' fs solid border lc rgb '#5a5a5a' lw 0.5
+set object polygon from 2.4607,0.7783 to 2.6091,0.7349 to 2.6674,0.7785 to 2.4607,0.7783 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.2540,0.7780 to 2.4024,0.7346 to 2.4607,0.7783 to 2.2540,0.7780 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.0473,0.7778 to 2.1957,0.7344 to 2.2540,0.7780 to 2.0473,0.7778 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 3.3193,0.2597 to 3.3776,0.3034 to 3.3193,0.3569 to 3.3193,0.2597 fc rgb '#746f62' fs solid border lc rgb '#5a5a5a' lw 0.5
@@ -645,8 +645,8 @@ set object polygon from 2.2858,0.4529 to 2.4342,0.4094 to 2.2858,0.5500 to 2.285
 set object polygon from 3.1444,-0.0657 to 3.2027,0.0752 to 3.1444,0.0315 to 3.1444,-0.0657 fc rgb '#746f62' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 3.1709,0.6919 to 3.3193,0.6485 to 3.3776,0.6922 to 3.1709,0.6919 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.9642,0.6917 to 3.1126,0.6482 to 3.1709,0.6919 to 2.9642,0.6917 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
-set object polygon from 2.7575,0.6914 to 2.9059,0.6480 to 2.9642,0.6917 to 2.7575,0.6914 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.7310,-0.0662 to 2.7310,0.0310 to 2.5826,0.0744 to 2.7310,-0.0662 fc rgb '#9f9988' fs solid border lc rgb '#5a5a5a' lw 0.5
+set object polygon from 2.7575,0.6914 to 2.9059,0.6480 to 2.9642,0.6917 to 2.7575,0.6914 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.5508,0.6912 to 2.6992,0.6477 to 2.7575,0.6914 to 2.5508,0.6912 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.3441,0.6909 to 2.4925,0.6475 to 2.5508,0.6912 to 2.3441,0.6909 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.1374,0.6907 to 2.2858,0.6472 to 2.3441,0.6909 to 2.1374,0.6907 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
@@ -670,8 +670,8 @@ set object polygon from 3.1444,-0.0657 to 3.1444,0.0315 to 3.0861,-0.0122 to 3.1
 set object polygon from 3.2610,0.6048 to 3.3193,0.6485 to 3.1709,0.6919 to 3.2610,0.6048 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 3.1126,0.6482 to 3.2610,0.6048 to 3.1709,0.6919 to 3.1126,0.6482 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 3.0543,0.6046 to 3.1126,0.6482 to 2.9642,0.6917 to 3.0543,0.6046 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
-set object polygon from 2.9059,0.6480 to 3.0543,0.6046 to 2.9642,0.6917 to 2.9059,0.6480 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.7310,-0.0662 to 2.8794,-0.0125 to 2.7310,0.0310 to 2.7310,-0.0662 fc rgb '#9f9988' fs solid border lc rgb '#5a5a5a' lw 0.5
+set object polygon from 2.9059,0.6480 to 3.0543,0.6046 to 2.9642,0.6917 to 2.9059,0.6480 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.8476,0.6043 to 2.9059,0.6480 to 2.7575,0.6914 to 2.8476,0.6043 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.6992,0.6477 to 2.8476,0.6043 to 2.7575,0.6914 to 2.6992,0.6477 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
 set object polygon from 2.6409,0.6041 to 2.6992,0.6477 to 2.5508,0.6912 to 2.6409,0.6041 fc rgb '#dfd5be' fs solid border lc rgb '#5a5a5a' lw 0.5
