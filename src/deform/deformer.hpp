@@ -62,7 +62,8 @@ struct DiscretisationCheck {
     /// Estimated error of the worst vertex, over the largest displacement of the better answer.
     double relative_error = 0.0;
     int vertex = -1;  ///< the worst
-    /// Estimated error of the reactions of the worst patch, over the largest (deform/patch_reactions.hpp).
+    /// Estimated error of the reactions of the worst patch, over the largest (deform/patch_reactions.hpp); not a number
+    /// where constrained vertices leave the body free to move.
     double relative_force_error = 0.0;
 };
 
