@@ -3,37 +3,19 @@
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
-#include "cli/program.hpp"
-#include "support/sanitized.hpp"
-#include "support/temporary_folder.hpp"
+#include "cli/solve_case.hpp"
 
 namespace elastolab {
 namespace {
 
 using test::ProgramRun;
 using test::run_program;
+using test::SolveTest;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
 const std::vector<std::string> kMethods = {"fem", "constant-bem", "linear-bem"};
-
-class SolveTest : public testing::Test {
-protected:
-    /// Runs solve on a scene with these options; it must succeed silently.
-    ProgramRun solve(const std::string& scene, std::vector<std::string> options) {
-        folder_.write("scene.json", scene);
-        options.insert(options.begin(), {"solve", "scene.json"});
-        const ProgramRun run = run_program(options, folder_.path());
-        EXPECT_EQ(run.exit_code, 0) << run.err;
-        EXPECT_EQ(run.err, "");
-        return run;
-    }
-    std::filesystem::path file(const std::string& name) const { return folder_.path() / name; }
-    nlohmann::json json(const std::string& name) const { return nlohmann::json::parse(test::read_text(file(name))); }
-
-    test::TemporaryFolder folder_;
-};
 
 /// Displacements are prescribed exactly for nodal methods; constant BEM shows a vertex at the mean of its triangles.
 void expect_prescribed(const test::Table& table, const std::string& method) {
@@ -270,56 +252,6 @@ TEST_F(SolveTest, WritesAReportWithEveryKey) {
     }
 }
 
-TEST_F(SolveTest, PredictsTheMemoryThatItTakes) {
-#ifdef ELASTOLAB_TEST_SANITIZED
-    GTEST_SKIP() << "a sanitizer has memory of its own";
-#endif
-    const auto report_of = [&](const std::string& method, const std::string& update, int cells) {
-        solve(test::cube_scene(method, cells), {"--update", update, "--report", "r.json", "--quiet"});
-        return json("r.json");
-    };
-    for (const std::string& method : kMethods)
-        for (const std::string update : {"direct", "reduced"}) {
-            SCOPED_TRACE(method + ", " + update);
-            const double program = report_of(method, update, 1)["peak_memory_bytes"].get<double>();
-            const nlohmann::json report = report_of(method, update, 9);
-            const double taken = report["peak_memory_bytes"].get<double>() - program;
-            EXPECT_GT(report["predicted_memory_bytes"].get<double>(), 0.75 * taken);
-            EXPECT_LT(report["predicted_memory_bytes"].get<double>(), 1.7 * taken + 20e6);
-        }
-}
-
-/// A bar that is turned at once, which takes no factor of a start, and along a way of turns.
-TEST_F(SolveTest, PredictsTheMemoryOfEquilibria) {
-#ifdef ELASTOLAB_TEST_SANITIZED
-    GTEST_SKIP() << "a sanitizer has memory of its own";
-#endif
-    const auto report_of = [&](int cells, int degrees) {
-        nlohmann::json scene = nlohmann::json::parse(test::cube_scene("nonlinear-fem", cells));
-        scene["mesh"]["primitive"] = "beam";
-        nlohmann::json& handle = scene["handles"][0];
-        handle["select"]["plane"]["point"] = {4, 0, 0};
-        handle.erase("translate");
-        handle["rotate"] = {{"axis", {1, 0, 0}}, {"degrees", degrees}, {"center", {4, 0.5, 0.5}}};
-        solve(scene.dump(), {"--report", "r.json", "--quiet"});
-        return json("r.json");
-    };
-    const double program = report_of(1, 20)["peak_memory_bytes"].get<double>();
-    for (const int degrees : {20, 200}) {
-        SCOPED_TRACE(degrees);
-        const nlohmann::json report = report_of(5, degrees);
-        const double taken = report["peak_memory_bytes"].get<double>() - program;
-        EXPECT_GT(report["predicted_memory_bytes"].get<double>(), 0.75 * taken);
-        EXPECT_LT(report["predicted_memory_bytes"].get<double>(), 2.0 * taken + 20e6);
-    }
-}
-
-/// The estimate of the error has no other answer to compare with.
-TEST_F(SolveTest, ABodyWithAllVerticesPrescribedHasAnEquilibrium) {
-    solve(test::cube_scene("nonlinear-fem", 1), {"--report", "r.json", "--quiet"});
-    EXPECT_TRUE(json("r.json")["error_estimate"]["displacement"].is_null());
-}
-
 TEST_F(SolveTest, PrintsASummaryUnlessItShallBeQuiet) {
     const ProgramRun run = solve(test::cube_scene("linear-bem", 2), {});
     for (const char* text : {"linear-bem, on-demand", "26 vertices", "residual", "right", "kernels"})
@@ -401,58 +333,6 @@ TEST_F(SolveTest, HalvesTheRimsOfGalerkinBemAlone) {
         finer["predicted_memory_bytes"].get<double>() - given["predicted_memory_bytes"].get<double>();
     EXPECT_GT(predicted, 0.7 * taken);
     EXPECT_LT(predicted, 2.0 * taken + 20e6);
-}
-
-TEST_F(SolveTest, TreatsTheSolidsOfASceneByThemselves) {
-    folder_.write("two.obj",
-                  "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 5 0 0\nv 6 0 0\nv 5 1 0\nv 5 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n"
-                  "f 2 3 4\nf 5 7 6\nf 5 6 8\nf 5 8 7\nf 6 7 8\n");
-    const std::string scene = R"({"elastolab": 1, "mesh": {"file": "two.obj"}, "fixed": {"vertices": [0, 1, 2]},
-                                  "handles": [{"select": {"vertices": [3]}, "translate": [0, 0, 0.1]}]})";
-    for (const std::string& method : kMethods) {
-        SCOPED_TRACE(method);
-        solve(scene, {"--method", method, "--mode", "full", "--displacements", "u.csv", "--matrices", "m", "--quiet"});
-        const test::Table table = test::read_csv(file("u.csv"));
-        ASSERT_EQ(table.rows.size(), 8U);
-        for (std::size_t v = 4; v < 8; ++v) EXPECT_EQ(table.rows[v][5], 0.0) << "nothing holds or moves this solid";
-        EXPECT_THAT(folder_.listing(), testing::IsSupersetOf({"m/K-solid1.npy", "m/K-solid2.npy"}));
-    }
-}
-
-/// Arrays without rows: BLAS complains of them on standard output.
-TEST_F(SolveTest, ABodyThatNothingHoldsOrMovesIsAtRestAndNothingIsSaid) {
-    const std::string scene = R"({"elastolab": 1, "mesh": {"primitive": "cube", "resolution": 2}, "method": ")";
-    for (const char* method : {"fem", "quadratic-fem", "nonlinear-fem", "constant-bem", "linear-bem", "galerkin-bem"}) {
-        SCOPED_TRACE(method);
-        const ProgramRun run = solve(scene + method + "\"}", {"--quiet", "--displacements", "u.csv", "--forces",
-                                                              "f.csv", "--report", "r.json", "--fields", "fields.csv"});
-        EXPECT_EQ(run.out, "");
-        for (const std::vector<double>& row : test::read_csv(file("u.csv")).rows) EXPECT_EQ(row[4], 0.0);
-        EXPECT_THAT(solve(scene + method + "\"}", {}).out, testing::StartsWith("scene.json: "));
-    }
-}
-
-/// A pressure that balances itself has no resultant that anything could be compared with.
-TEST_F(SolveTest, AFreeBodyUnderPressureIsNotSaidToLackBalance) {
-    for (const char* mesh :
-         {R"({"primitive": "cube", "resolution": 2})", R"({"primitive": "hollow-sphere", "resolution": 3})"})
-        for (const char* method :
-             {"fem", "quadratic-fem", "nonlinear-fem", "constant-bem", "linear-bem", "galerkin-bem"}) {
-            SCOPED_TRACE(std::string(mesh) + " " + method);
-            const ProgramRun run =
-                solve(std::string(R"({"elastolab": 1, "mesh": )") + mesh + R"(, "method": ")" + method +
-                          R"(", "loads": [{"name": "air", "select": {"box": {"min": [-2, -2, -2], "max": [2, 2, 2]}},
-                                           "pressure": 0.01}]})",
-                      {"--quiet", "--report", "r.json"});
-            EXPECT_EQ(run.exit_code, 0) << run.err;
-            EXPECT_EQ(run.out, "");
-            const nlohmann::json report = json("r.json");
-            EXPECT_LT(report.at("force_imbalance").get<double>(), 1e-6);
-            EXPECT_LT(report.at("moment_imbalance").get<double>(), 1e-6);
-            EXPECT_LT(report.at("condition_estimate").get<double>(), 1e9);
-            for (const nlohmann::json& warning : report.at("warnings"))
-                EXPECT_THAT(warning.get<std::string>(), testing::Not(testing::HasSubstr("balance")));
-        }
 }
 
 TEST_F(SolveTest, EndsWithoutOutputsWhenItIsInterrupted) {

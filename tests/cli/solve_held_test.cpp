@@ -1,0 +1,71 @@
+// solve of bodies that are held all over, by parts or not at all.
+#include <gmock/gmock.h>
+
+#include "cli/solve_case.hpp"
+
+namespace elastolab {
+namespace {
+
+using test::ProgramRun;
+using test::SolveTest;
+
+/// The estimate of the error has no other answer to compare with.
+TEST_F(SolveTest, ABodyWithAllVerticesPrescribedHasAnEquilibrium) {
+    solve(test::cube_scene("nonlinear-fem", 1), {"--report", "r.json", "--quiet"});
+    EXPECT_TRUE(json("r.json")["error_estimate"]["displacement"].is_null());
+}
+
+TEST_F(SolveTest, TreatsTheSolidsOfASceneByThemselves) {
+    folder_.write("two.obj",
+                  "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 5 0 0\nv 6 0 0\nv 5 1 0\nv 5 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n"
+                  "f 2 3 4\nf 5 7 6\nf 5 6 8\nf 5 8 7\nf 6 7 8\n");
+    const std::string scene = R"({"elastolab": 1, "mesh": {"file": "two.obj"}, "fixed": {"vertices": [0, 1, 2]},
+                                  "handles": [{"select": {"vertices": [3]}, "translate": [0, 0, 0.1]}]})";
+    for (const std::string method : {"fem", "constant-bem", "linear-bem"}) {
+        SCOPED_TRACE(method);
+        solve(scene, {"--method", method, "--mode", "full", "--displacements", "u.csv", "--matrices", "m", "--quiet"});
+        const test::Table table = test::read_csv(file("u.csv"));
+        ASSERT_EQ(table.rows.size(), 8U);
+        for (std::size_t v = 4; v < 8; ++v) EXPECT_EQ(table.rows[v][5], 0.0) << "nothing holds or moves this solid";
+        EXPECT_THAT(folder_.listing(), testing::IsSupersetOf({"m/K-solid1.npy", "m/K-solid2.npy"}));
+    }
+}
+
+/// Arrays without rows: BLAS complains of them on standard output.
+TEST_F(SolveTest, ABodyThatNothingHoldsOrMovesIsAtRestAndNothingIsSaid) {
+    const std::string scene = R"({"elastolab": 1, "mesh": {"primitive": "cube", "resolution": 2}, "method": ")";
+    for (const char* method : {"fem", "quadratic-fem", "nonlinear-fem", "constant-bem", "linear-bem", "galerkin-bem"}) {
+        SCOPED_TRACE(method);
+        const ProgramRun run = solve(scene + method + "\"}", {"--quiet", "--displacements", "u.csv", "--forces",
+                                                              "f.csv", "--report", "r.json", "--fields", "fields.csv"});
+        EXPECT_EQ(run.out, "");
+        for (const std::vector<double>& row : test::read_csv(file("u.csv")).rows) EXPECT_EQ(row[4], 0.0);
+        EXPECT_THAT(solve(scene + method + "\"}", {}).out, testing::StartsWith("scene.json: "));
+    }
+}
+
+/// A pressure that balances itself has no resultant that anything could be compared with.
+TEST_F(SolveTest, AFreeBodyUnderPressureIsNotSaidToLackBalance) {
+    for (const char* mesh :
+         {R"({"primitive": "cube", "resolution": 2})", R"({"primitive": "hollow-sphere", "resolution": 3})"})
+        for (const char* method :
+             {"fem", "quadratic-fem", "nonlinear-fem", "constant-bem", "linear-bem", "galerkin-bem"}) {
+            SCOPED_TRACE(std::string(mesh) + " " + method);
+            const ProgramRun run =
+                solve(std::string(R"({"elastolab": 1, "mesh": )") + mesh + R"(, "method": ")" + method +
+                          R"(", "loads": [{"name": "air", "select": {"box": {"min": [-2, -2, -2], "max": [2, 2, 2]}},
+                                           "pressure": 0.01}]})",
+                      {"--quiet", "--report", "r.json"});
+            EXPECT_EQ(run.exit_code, 0) << run.err;
+            EXPECT_EQ(run.out, "");
+            const nlohmann::json report = json("r.json");
+            EXPECT_LT(report.at("force_imbalance").get<double>(), 1e-6);
+            EXPECT_LT(report.at("moment_imbalance").get<double>(), 1e-6);
+            EXPECT_LT(report.at("condition_estimate").get<double>(), 1e9);
+            for (const nlohmann::json& warning : report.at("warnings"))
+                EXPECT_THAT(warning.get<std::string>(), testing::Not(testing::HasSubstr("balance")));
+        }
+}
+
+}  // namespace
+}  // namespace elastolab
