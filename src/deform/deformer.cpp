@@ -146,7 +146,7 @@ void Deformer::constrain(ConstrainedSet set, Control& control) {
             const Positions& all = model_->body().surface->vertices;
             const bool holds_it = holds(all(Eigen::all, part.vertices), joined(state.fixed, state.handles));
             state.solid = constrained(*part.solid, state.fixed, state.handles, state.loads, holds_it, control);
-            // Of a body that may move it is singular by nature, which tells nothing of the smallest motion.
+            // The system of a body that may move is singular by nature: its condition tells nothing of the answer.
             if (holds_it || state.solid->held())
                 quality.condition_estimate = std::max(quality.condition_estimate, state.solid->condition());
             quality.held = quality.held && state.solid->held() && holds_it;

@@ -124,6 +124,13 @@ std::optional<DiscretisationCheck> Deformer::check_of(const Answer& answer, cons
     const double size = largest_motion(answer.displacements + error.to_better * error.displacements, moving_most);
     const double off = largest_motion(error.displacements, worst);
     if (!std::isfinite(off)) return {};
+    const double u_error = size > 0.0 ? off / size : 0.0;
+    const auto check = [&](double force_error) {
+        return DiscretisationCheck{u_error, static_cast<int>(worst), force_error};
+    };
+    if (answer.reactions.forces.cols() == 0) return check(0.0);
+    // What pins bear is missing in the reactions of the second answer (deform/pinned_body.hpp).
+    if (!quality_.held) return check(std::numeric_limits<double>::quiet_NaN());
     const ConstrainedPatches patches = constrained_patches(surface, set_.fixed, set_.handles);
     const double length = (surface.vertices.rowwise().maxCoeff() - surface.vertices.rowwise().minCoeff()).norm();
     const Reactions better{answer.reactions.forces + error.to_better * error.reactions.forces,
@@ -131,15 +138,8 @@ std::optional<DiscretisationCheck> Deformer::check_of(const Answer& answer, cons
     const double force = std::max(largest_patch_reaction(surface, patches, better),
                                   kNoForce * model_->body().material.young_modulus * size * length);
     const double force_off = largest_patch_reaction(surface, patches, error.reactions);
-    const double u_error = size > 0.0 ? off / size : 0.0;
-    if (!quality_.held) {  // what pins bear is missing in the reactions of the second answer (deform/pinned_body.hpp)
-        const bool no_reactions = answer.reactions.forces.cols() == 0;
-        return DiscretisationCheck{u_error, static_cast<int>(worst),
-                                   no_reactions ? 0.0 : std::numeric_limits<double>::quiet_NaN()};
-    }
-    return DiscretisationCheck{
-        u_error, static_cast<int>(worst),
-        std::max(force > 0.0 ? force_off / force : 0.0, kShearForces * u_error * shear_over_stretch(model_->body()))};
+    return check(
+        std::max(force > 0.0 ? force_off / force : 0.0, kShearForces * u_error * shear_over_stretch(model_->body())));
 }
 
 Deformer::Answer Deformer::answer(const Eigen::VectorXd& values, Wanted wanted, Control& control,

@@ -28,17 +28,17 @@ int farthest(const Positions& positions, std::span<const int> taken, const Dista
     return best;
 }
 
-/// Adds three vertices far from each other.
+/// Adds three vertices far from each other, or those that are left.
 void add_pins(const Positions& positions, std::vector<int>& vertices) {
-    const Vector3d centre = positions.rowwise().mean();
-    const auto add = [&](const auto& distance) {
-        vertices.push_back(farthest(positions, vertices, distance));
-        return Vector3d(positions.col(vertices.back()));
-    };
-    const Vector3d first = add([&](const Vector3d& x) { return (x - centre).norm(); });
-    const Vector3d second = add([&](const Vector3d& x) { return (x - first).norm(); });
-    const Vector3d line = (second - first).normalized();
-    add([&](const Vector3d& x) { return (x - first).cross(line).norm(); });
+    Vector3d from = positions.rowwise().mean(), line = Vector3d::Zero();
+    for (int pin = 0; pin < 3 && std::ssize(vertices) < positions.cols(); ++pin) {
+        const int v = farthest(positions, vertices, [&](const Vector3d& x) {
+            return pin < 2 ? (x - from).norm() : (x - from).cross(line).norm();
+        });
+        vertices.push_back(v);
+        if (pin == 1) line = (positions.col(v) - from).normalized();
+        if (pin == 0) from = positions.col(v);
+    }
 }
 
 }  // namespace
@@ -50,9 +50,14 @@ PinnedBody::PinnedBody(const Positions& positions, std::span<const int> vertices
       n_constrained_(std::ssize(vertices)),
       vertices_(vertices.begin(), vertices.end()),
       values_(values) {
-    if (holds(positions, vertices) || positions.cols() < n_constrained_ + 3) return;
+    if (holds(positions, vertices)) return;
     add_pins(positions, vertices_);
-    values_.resize(values.size() + 9);
+    is_held_ = holds(positions, vertices_);
+    if (!is_held_) {
+        vertices_.resize(static_cast<std::size_t>(n_constrained_));
+        return;
+    }
+    values_.resize(values.size() + 3 * (std::ssize(vertices_) - n_constrained_));
     values_.head(3 * n_constrained_) = values.head(3 * n_constrained_);
     for (Eigen::Index i = n_constrained_; i < std::ssize(vertices_); ++i)
         values_.segment<3>(3 * i) = first.segment<3>(3 * vertices_[static_cast<std::size_t>(i)]);

@@ -85,6 +85,14 @@ Resultant resultant(const SurfaceMesh& surface, const UnitLoad& load) {
     return sum;
 }
 
+double gross_force(const SurfaceMesh& surface, const UnitLoad& load) {
+    double sum = load.is_body_force() ? resultant(surface, load).force.norm() : 0.0;
+    for (std::size_t k = 0; k < load.triangles.size(); ++k)
+        sum += 0.5 * area_vector(triangle_points(surface, load.triangles[k])).norm() *
+               load.tractions.col(static_cast<Eigen::Index>(k)).norm();
+    return sum;
+}
+
 Eigen::MatrixXd free_rigid_motions(const Positions& positions, std::span<const int> vertices,
                                    const Eigen::Vector3d& centre, double size) {
     Eigen::Matrix<double, 6, 6> squared = Eigen::Matrix<double, 6, 6>::Zero();
@@ -110,12 +118,7 @@ FreeWork::FreeWork(const SurfaceMesh& surface, std::span<const int> constrained,
         const UnitLoad& load = loads[static_cast<std::size_t>(i)];
         const Resultant sum = resultant(surface, load);
         resultants.col(i) << sum.force, (sum.moment - centre.cross(sum.force)) / size;
-        // A load that balances itself has no resultant, but a size.
-        double own = sum.force.norm();
-        for (std::size_t k = 0; k < load.triangles.size(); ++k)
-            own += 0.5 * area_vector(triangle_points(surface, load.triangles[k])).norm() *
-                   load.tractions.col(static_cast<Eigen::Index>(k)).norm();
-        size_[i] = own;
+        size_[i] = gross_force(surface, load);
     }
     work_ = motions.transpose() * resultants;
 }

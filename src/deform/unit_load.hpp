@@ -43,6 +43,9 @@ struct Resultant {
 /// surface: closed, one solid or several.
 Resultant resultant(const SurfaceMesh& surface, const UnitLoad& load);
 
+/// Sizes of all forces of a load of size one, added up [force]: more than its resultant where they balance each other.
+double gross_force(const SurfaceMesh& surface, const UnitLoad& load);
+
 /// Rigid motions a + omega x (p - centre) that vanish at these vertices: a over omega * size, orthonormal columns, 6 x
 /// n. `size` makes both parts lengths; about a millionth of it counts as no distance. With no vertices: all six.
 Eigen::MatrixXd free_rigid_motions(const Positions& positions, std::span<const int> vertices,

@@ -150,6 +150,7 @@ std::optional<ReferenceAnswer> quadratic_reference(const FemSystem& linear, doub
                                                    const Eigen::VectorXd& values, const Eigen::VectorXd& first,
                                                    Control& control) {
     const PinnedBody body(linear.positions().leftCols(linear.n_vertices()), vertices, values, first);
+    if (!body.is_held()) return {};
     control.checkpoint();
     const QuadraticMesh mesh(linear.mesh->tets);
     if (quadratic_reference_memory(linear) > available_memory_bytes()) return {};
@@ -198,6 +199,7 @@ std::optional<ReferenceAnswer> linear_reference(const FemSystem& quadratic, std:
                                                 std::span<const UnitLoad> loads, const Eigen::VectorXd& values,
                                                 const Eigen::VectorXd& first, Control& control) {
     const PinnedBody body(quadratic.positions().leftCols(quadratic.n_vertices()), vertices, values, first);
+    if (!body.is_held()) return {};
     const std::vector<int>& held = body.vertices();
     const CornerNodes corners(rejoined(quadratic.mesh->tets), quadratic.mesh->tets.n_vertices());
     const SparseMatrix prolongation = corners.prolongation();

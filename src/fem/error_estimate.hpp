@@ -32,7 +32,7 @@ struct ReferenceOperators {
 /// vertices  constrained, all different
 /// loads     unit loads
 /// values    the vertices' displacements, 3*vertices.size(), then a factor for each load
-/// first     the answer that is judged: displacements that begin with those of the surface's vertices
+/// first     the answer that is judged: displacements [L] that begin with those of the surface's vertices
 /// Throws SolveError, Cancelled.
 std::optional<ReferenceAnswer> quadratic_reference(const FemSystem& linear, double poisson_ratio,
                                                    std::span<const int> vertices, std::span<const UnitLoad> loads,

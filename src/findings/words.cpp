@@ -169,8 +169,7 @@ std::string words(const Finding& finding) {
             return std::string(finding.method->name) +
                    ": the error is not estimated. The second, better answer that it is told by would take more than "
                    "ten times as long as this one, more memory than there is, cannot be computed, or finds no rim "
-                   "where "
-                   "it would be better.";
+                   "where it would be better.";
         case FindingKind::force_imbalance:
             return imbalance(finding, "forces");
         case FindingKind::moment_imbalance:

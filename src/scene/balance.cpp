@@ -52,7 +52,7 @@ SumOfLoads loads_on(const Solid& solid, const Constraints& constraints, const Su
         if (part.triangles.empty() && !constraints.set.loads[k].is_body_force()) continue;
         const double factor = factors[static_cast<Eigen::Index>(k)];
         const Resultant unit = resultant(solid.surface, part);
-        sum.add({factor * unit.force, factor * unit.moment}, std::abs(factor) * size_of(solid.surface, part));
+        sum.add({factor * unit.force, factor * unit.moment}, std::abs(factor) * gross_force(solid.surface, part));
     }
     const std::vector<int> local = numbers_among(solid.vertices, surface.n_vertices());
     for (std::size_t h = 0; h < constraints.forces.size(); ++h) {
@@ -84,14 +84,6 @@ std::vector<int> holding(const Solid& solid, const Constraints& constraints, con
 }
 
 }  // namespace
-
-double size_of(const SurfaceMesh& surface, const UnitLoad& load) {
-    double size = load.is_body_force() ? resultant(surface, load).force.norm() : 0.0;
-    for (std::size_t k = 0; k < load.triangles.size(); ++k)
-        size += 0.5 * area_vector(triangle_points(surface, load.triangles[k])).norm() *
-                load.tractions.col(static_cast<Eigen::Index>(k)).norm();
-    return size;
-}
 
 void require_balance(const Document& document, const Constraints& constraints, const SurfaceMesh& surface,
                      const fs::path& scene_file) {

@@ -15,7 +15,4 @@ void require_balance(const Document& document, const Constraints& constraints, c
 /// reactions are zero and those of an answer are rounding. surface: what the set is on.
 bool moves_rigidly(const Constraints& constraints, const SurfaceMesh& surface);
 
-/// The forces of a unit load, their sizes added up: more than that of its resultant where they balance each other.
-double size_of(const SurfaceMesh& surface, const UnitLoad& load);
-
 }  // namespace elastolab

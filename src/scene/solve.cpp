@@ -129,18 +129,18 @@ void precompute_model(const Method& method, const Body& body, Solution& solution
 /// Vertices of a surface that is gauged itself.
 constexpr int kMostGaugedThemselves = 1200;
 
-/// Share of the largest reaction above which an imbalance is reported.
-constexpr double kLargeImbalance = 0.05;
-
-/// Of loads and at constrained vertices.
-double size_of_forces(const Constraints& constraints, const Reactions& reactions, const SurfaceMesh& surface) {
-    double size = 0.0;
-    for (const auto& force : reactions.forces.colwise()) size += force.stableNorm();
+/// Sizes of all forces, of loads and at constrained vertices, added up.
+double all_forces(const Constraints& constraints, const Reactions& reactions, const SurfaceMesh& surface) {
+    double sum = 0.0;
+    for (const auto& force : reactions.forces.colwise()) sum += force.stableNorm();
     const Eigen::VectorXd factors = constraints.values.tail(std::ssize(constraints.set.loads));
     for (std::size_t i = 0; i < constraints.set.loads.size(); ++i)
-        size += std::abs(factors[static_cast<Eigen::Index>(i)]) * size_of(surface, constraints.set.loads[i]);
-    return size;
+        sum += std::abs(factors[static_cast<Eigen::Index>(i)]) * gross_force(surface, constraints.set.loads[i]);
+    return sum;
 }
+
+/// Share of the largest reaction above which an imbalance is reported.
+constexpr double kLargeImbalance = 0.05;
 
 void add_imbalance(const Imbalance& imbalance, MethodKind method, Findings& findings) {
     const auto add = [&](FindingKind kind, double value) {
@@ -192,7 +192,7 @@ void apply(Constraints& constraints, Constraints* shown, bool with_checks, Solut
         all.insert(all.end(), solution.loads.begin(), solution.loads.end());
         if (!moves_rigidly(constraints, *solution.model->body().surface))
             solution.imbalance =
-                imbalance_of(all, size_of_forces(constraints, answer.reactions, *solution.model->body().surface),
+                imbalance_of(all, all_forces(constraints, answer.reactions, *solution.model->body().surface),
                              *solution.model->body().surface);
         if (!constraints.loads.empty())
             solution.compliance = answer.facts
@@ -261,12 +261,12 @@ void carry_back(const CarriedConstraints& carried, Solution& solution) {
 
 }  // namespace
 
-Imbalance imbalance_of(const std::vector<GroupReaction>& reactions, double size, const SurfaceMesh& surface) {
-    constexpr double kShare = 0.1;
+Imbalance imbalance_of(const std::vector<GroupReaction>& reactions, double all_forces, const SurfaceMesh& surface) {
+    constexpr double kShareOfAll = 0.1;  // resultants that are smaller tell nothing of what they are made of
     const Eigen::Vector3d centre = surface.vertices.rowwise().mean();
     const double radius = (surface.vertices.colwise() - centre).colwise().norm().maxCoeff();
     Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = force;
-    double largest_force = kShare * size, largest_moment = radius * largest_force;
+    double largest_force = kShareOfAll * all_forces, largest_moment = radius * largest_force;
     for (const GroupReaction& reaction : reactions) {
         const Eigen::Vector3d about_centre = reaction.moment - centre.cross(reaction.force);
         force += reaction.force;

@@ -42,8 +42,8 @@ struct GroupReaction {
 struct Imbalance {
     double force = 0.0, moment = 0.0;
 };
-/// size: of all forces, added up, whether they balance or not.
-Imbalance imbalance_of(const std::vector<GroupReaction>& reactions, double size, const SurfaceMesh& surface);
+/// all_forces: their sizes, added up, whether they balance or not [force].
+Imbalance imbalance_of(const std::vector<GroupReaction>& reactions, double all_forces, const SurfaceMesh& surface);
 
 /// Everything that solve writes or prints.
 struct Solution {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <numeric>
 
 #include "mesh/primitives.hpp"
 
@@ -51,6 +52,31 @@ TEST(PinnedBody, IsHeldByThreeVerticesWhereTheFirstAnswerPutsThem) {
         EXPECT_NE(v, 4);
         EXPECT_EQ(body.values().segment<3>(3 * i), first.segment<3>(3 * v));
     }
+}
+
+TEST(PinnedBody, OfFourVerticesTakesWhatIsLeft) {
+    Positions tetrahedron = Positions::Zero(3, 4);
+    tetrahedron.rightCols<3>().setIdentity();
+    const std::vector<int> edge = {0, 1};
+    const PinnedBody body(tetrahedron, edge, Eigen::VectorXd::Zero(6), Eigen::VectorXd::Ones(12));
+    EXPECT_TRUE(body.is_held());
+    EXPECT_EQ(body.vertices().size(), 4U);
+    EXPECT_EQ(body.values().tail(6), Eigen::VectorXd::Ones(6));
+    EXPECT_EQ(body.released(answer_of(Eigen::VectorXd::Ones(12), 4)).reactions.forces.cols(), 2);
+}
+
+TEST(PinnedBody, OfANeedleIsNotHeldByPinsEither) {
+    Positions needle = make_box(2).vertices;
+    needle.bottomRows<2>() *= 1e-8;
+    const Eigen::VectorXd first = Eigen::VectorXd::Zero(needle.size());
+    const PinnedBody free(needle, {}, Eigen::VectorXd(), first);
+    EXPECT_FALSE(free.is_held());
+    EXPECT_FALSE(free.is_pinned());
+    std::vector<int> all(static_cast<std::size_t>(needle.cols()));
+    std::iota(all.begin(), all.end(), 0);
+    const PinnedBody constrained(needle, all, first, first);
+    EXPECT_FALSE(constrained.is_held());
+    EXPECT_EQ(constrained.vertices(), all);
 }
 
 /// Both answers differ by a stretch: a rigid motion between them is none of their errors.

@@ -70,8 +70,8 @@ std::string order_findings(const Table& table) {
     const auto rows = rows_of_refinements(refinement, kVariants, cells);
     return "## Orders\n\nError against the exact solution, root mean square over the free vertices, relative; order "
            "fitted over the three finest meshes. Forces: total force and moment of the worst constrained patch, over "
-           "the "
-           "largest (those of hollow spheres add up to nothing, or there are none). Nothing here is compared with a "
+           "the largest (those of hollow spheres add up to nothing, or there are none). Nothing here is compared with "
+           "a "
            "finer mesh of the same method.\n\n" +
            markdown_table({"problem", "nu", "variant", "order", "theory", "vertices of the finest", "its error",
                            "order of forces", "error of forces", "ready to drag after"},
@@ -245,8 +245,7 @@ std::string choice_findings(const Table& table) {
     for (const Row& row : table.where({{"part", "choices"}}).rows)
         rows.push_back({row.text("variant"), row.text("unknowns"), percent(row.number("error")),
                         duration(row.number("precompute_s")), duration(row.number("once_s"))});
-    return "## Choices within a method\n\nOn the bending bar, nu 0.3. Tetrahedra: bound on their volume in units of "
-           "the "
+    return "## Choices within a method\n\nOn the bending bar, nu 0.3. Tetrahedra: bound on their volume in units of the "
            "surface's edge (the program uses 1.8) and on circumradius over shortest edge (1.4). Boundary elements: "
            "error allowed to an integral (1e-10).\n\n" +
            markdown_table({"choice", "unknowns", "error", "precomputation", "single solve"}, rows);
