@@ -126,7 +126,7 @@ const std::vector<Shortcut>& shortcuts() {
 }
 
 std::span<const GestureHelp> gesture_help() {
-    static constexpr std::array<GestureHelp, 19> all = {
+    static constexpr std::array<GestureHelp, 20> all = {
         {{"drag on the body", "pull the patch under the cursor, in the plane of the screen"},
          {"... with Shift", "along the surface normal"},
          {"... with X, Y or Z", "along an axis"},
@@ -146,6 +146,7 @@ std::span<const GestureHelp> gesture_help() {
           "a force on the patch under the cursor; its arrow grows with the mouse; Shift, X, Y, Z as for a pull"},
          {"pressure: drag", "a pressure where it is painted; with Shift take the paint off"},
          {"end of an arrow", "drag it: another size or direction of the load; Shift, X, Y, Z as for a pull"},
+         {"touch screen", "one finger is the left button; two move and zoom the view, three turn it"},
          {"drop a file", "open it"}}};
     return all;
 }

@@ -35,6 +35,7 @@ wrapped=(
   '(GL|GLES2|GLES3|glad|EGL|epoxy)/|^(render|app)/[a-z_/]*\.(cpp|hpp)$'
   'GLFW/|^(app|cli)/[a-z_/]*\.(cpp|hpp)$'
   'spnav\.h|^app/window/six_axis_mouse\.cpp$'
+  'X11/|^app/window/touch_screen\.cpp$'
   'imgui|^app/[a-z_/]*\.(cpp|hpp)$'
   '(cblas|lapacke|openblas_config)\.h|^(base|elasticity|fem|bem|deform)/[a-z_/]*\.cpp$'
 )

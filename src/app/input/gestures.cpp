@@ -33,6 +33,9 @@ void Gestures::handle(const InputEvent& event, GestureContext& context) {
         case InputEvent::Kind::scroll:
             scroll(event, context);
             break;
+        case InputEvent::Kind::fingers:
+            move_by_fingers(event, context);
+            break;
         case InputEvent::Kind::key:
             std::erase(held_keys_, event.code);
             if (event.pressed) held_keys_.push_back(event.code);

@@ -191,7 +191,9 @@ private:
     bool press_axes(GestureContext& context, const PointingTarget& target);
     void move_view(GestureContext& context, const Eigen::Vector2d& before);
     void scroll(const InputEvent& event, GestureContext& context);
-    void scroll_zoom(double notches, GestureContext& context, const PointingTarget& target);
+    void zoom(double factor, GestureContext& context, const PointingTarget& target);
+    void move_by_fingers(const InputEvent& event, GestureContext& context);
+    void keep_drags_in_view(GestureContext& context);
 
     // Brush and box: brush_gesture.cpp
     void paint(GestureContext& context);

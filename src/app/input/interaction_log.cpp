@@ -20,16 +20,19 @@ constexpr int kVersion = 1;
 constexpr int kMaxWindow = 16384;
 constexpr int kLargestCode = 0x10FFFF;  ///< of characters; GLFW_KEY_UNKNOWN is -1
 /// In the order of InputEvent::Kind.
-constexpr std::array<std::string_view, 6> kKinds = {"cursor", "button", "scroll", "key", "text", "focus"};
+constexpr std::array<std::string_view, 7> kKinds = {"cursor", "button", "scroll", "key", "text", "focus", "fingers"};
 
 Json to_json(const InputEvent& event) {
-    return {std::string(kKinds[static_cast<std::size_t>(event.kind)]),
-            event.cursor.x(),
-            event.cursor.y(),
-            event.code,
-            event.pressed,
-            event.repeated,
-            event.modifiers};
+    Json json = {std::string(kKinds[static_cast<std::size_t>(event.kind)]),
+                 event.cursor.x(),
+                 event.cursor.y(),
+                 event.code,
+                 event.pressed,
+                 event.repeated,
+                 event.modifiers};
+    if (event.kind == InputEvent::Kind::fingers)
+        for (const double more : {event.from.x(), event.from.y(), event.zoom}) json.push_back(more);
+    return json;
 }
 
 int integer(const Json& json, int low, int high) {
@@ -40,14 +43,20 @@ int integer(const Json& json, int low, int high) {
 
 InputEvent event_of(const Json& json, double seconds) {
     const auto kind = std::find(kKinds.begin(), kKinds.end(), json.at(0).get<std::string>());
-    if (kind == kKinds.end() || json.size() != 7) throw std::runtime_error("is not a known event");
     InputEvent event;
     event.kind = static_cast<InputEvent::Kind>(kind - kKinds.begin());
+    const bool of_fingers = event.kind == InputEvent::Kind::fingers;
+    if (kind == kKinds.end() || json.size() != (of_fingers ? 10 : 7)) throw std::runtime_error("is not a known event");
     event.cursor = {json.at(1).get<double>(), json.at(2).get<double>()};
     event.code = integer(json.at(3), -1, kLargestCode);
     event.pressed = json.at(4).get<bool>();
     event.repeated = json.at(5).get<bool>();
     event.modifiers = integer(json.at(6), 0, 0xFF);
+    if (of_fingers) {
+        event.from = {json.at(7).get<double>(), json.at(8).get<double>()};
+        event.zoom = json.at(9).get<double>();
+        if (!(event.zoom > 0.0)) throw std::runtime_error("a number is out of its range");
+    }
     event.seconds = seconds;
     return event;
 }

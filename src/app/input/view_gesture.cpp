@@ -61,17 +61,38 @@ void Gestures::scroll(const InputEvent& event, GestureContext& context) {
             context.camera.pan(cursor_, cursor_ + fingers, target->viewport);
             break;
         case ViewDrag::zoom:
-            scroll_zoom(event.cursor.y(), context, *target);
+            zoom(std::pow(kZoomStep, event.cursor.y()), context, *target);
             break;
     }
+    keep_drags_in_view(context);
+}
+
+/// Two move and zoom, three turn.
+void Gestures::move_by_fingers(const InputEvent& event, GestureContext& context) {
+    cursor_ = event.from;
+    const PointingTarget* target = target_at(context);
+    const Eigen::Vector2d d = event.cursor - event.from;
+    if (target != nullptr && event.code > 2) context.camera.orbit(d.x(), d.y(), target->viewport);
+    if (target != nullptr && event.code == 2) {
+        context.camera.pan(event.from, event.cursor, target->viewport);
+        cursor_ = event.cursor;
+        zoom(event.zoom, context, *target);
+    }
+    cursor_ = event.cursor;
+    if (target != nullptr) keep_drags_in_view(context);
+}
+
+/// What is dragged meanwhile goes on from where the cursor now points.
+void Gestures::keep_drags_in_view(GestureContext& context) {
     if (pulling()) set_baseline(context);
     if (load_drag_ && !gizmo_drag_) set_load_baseline(context);
 }
 
-void Gestures::scroll_zoom(double notches, GestureContext& context, const PointingTarget& target) {
+/// The point under the cursor stays there.
+void Gestures::zoom(double factor, GestureContext& context, const PointingTarget& target) {
     const std::optional<PickHit> hit = hit_in(context, target);
     const Eigen::Vector3d anchor = hit ? hit->point : context.camera.pose().target;
-    context.camera.zoom_to(cursor_, std::pow(kZoomStep, notches), anchor, target.viewport);
+    context.camera.zoom_to(cursor_, factor, anchor, target.viewport);
 }
 
 }  // namespace elastolab

@@ -13,6 +13,8 @@ namespace elastolab {
 
 namespace {
 
+constexpr float kNotchPixels = 75.0f;  ///< that Dear ImGui scrolls by for a notch of the wheel: five lines
+
 /// Keys by which ImGui edits text and moves about.
 void map_keys(ImGuiIO& io) {
     constexpr std::array<std::pair<int, int>, 22> keys = {{{ImGuiKey_Tab, GLFW_KEY_TAB},
@@ -98,6 +100,10 @@ void Gui::feed(const InputEvent& event) {
         case InputEvent::Kind::scroll:
             io.MouseWheelH += static_cast<float>(event.cursor.x());
             io.MouseWheel += static_cast<float>(event.cursor.y());
+            break;
+        case InputEvent::Kind::fingers:
+            io.MousePos = {static_cast<float>(event.cursor.x()), static_cast<float>(event.cursor.y())};
+            io.MouseWheel += static_cast<float>(event.cursor.y() - event.from.y()) / (kNotchPixels * fonts_.scale());
             break;
         case InputEvent::Kind::key:
             if (code < std::size(io.KeysDown)) io.KeysDown[code] = event.pressed;

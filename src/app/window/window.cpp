@@ -6,8 +6,10 @@
 
 #include <array>
 #include <mutex>
+#include <optional>
 #include <utility>
 
+#include "app/window/touch_screen.hpp"
 #include "base/error.hpp"
 
 namespace elastolab {
@@ -42,6 +44,7 @@ struct Window::State {
     Eigen::Vector2d cursor = Eigen::Vector2d::Zero();
     std::array<GLFWcursor*, kCursorShapes.size()> cursors{};
     CursorShape shape = CursorShape::arrow;
+    std::optional<TouchScreen> touch_screen;  ///< none where nobody sees the window
 
     void add(InputEvent event) {
         event.seconds = glfwGetTime();
@@ -126,10 +129,12 @@ Window::Window(const Options& options) : state_(std::make_unique<State>()), titl
     glfwSetFramebufferSizeCallback(handle_, &Callbacks::resized);
     glfwSwapInterval(options.visible ? 1 : 0);
     let_wake(true);
+    if (options.visible) state_->touch_screen.emplace(handle_, [] { wake(); });
 }
 
 Window::~Window() {
     let_wake(false);
+    state_->touch_screen.reset();
     for (GLFWcursor* cursor : state_->cursors)
         if (cursor != nullptr) glfwDestroyCursor(cursor);
     glfwDestroyWindow(handle_);
@@ -150,7 +155,15 @@ void Window::wake() {
     if (can_wake) glfwPostEmptyEvent();
 }
 
-std::vector<InputEvent> Window::take_events() { return std::exchange(state_->events, {}); }
+std::vector<InputEvent> Window::take_events() {
+    if (state_->touch_screen)
+        for (const InputEvent& event : state_->touch_screen->take()) {
+            state_->cursor = event.cursor;
+            state_->add(event);
+        }
+    return std::exchange(state_->events, {});
+}
+
 std::vector<std::filesystem::path> Window::take_dropped_files() { return std::exchange(state_->dropped, {}); }
 bool Window::take_damage() { return std::exchange(state_->damaged, false); }
 

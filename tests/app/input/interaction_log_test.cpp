@@ -23,7 +23,8 @@ const LoggedFrame kSecond{
     .seconds = 0.75,
     .events = {{.kind = Kind::key, .code = 88, .pressed = true, .repeated = true, .modifiers = 3, .seconds = 0.75},
                {.kind = Kind::text, .code = 0x20ac, .seconds = 0.75},
-               {.kind = Kind::focus, .code = 1, .seconds = 0.75}}};
+               {.kind = Kind::focus, .code = 1, .seconds = 0.75},
+               {.kind = Kind::fingers, .cursor = {5, 6}, .from = {4, 7}, .zoom = 1.1, .code = 2, .seconds = 0.75}}};
 
 TEST(InteractionLog, ComesBackAsItWasRecorded) {
     const TemporaryFolder folder;
@@ -76,6 +77,8 @@ TEST(InteractionLog, ErrorsNameFileLineFindingAndAWayForwardInOneLine) {
         {kHeader + "\n{\"seconds\":1,\"events\":[[\"jump\",0,0,0,false,false,0]]}\n", "not a known event"},
         {kHeader + "\n{\"seconds\":1,\"events\":[[\"key\",0,0,0,false,false]]}\n", "line 2: "},
         {kHeader + "\n{\"seconds\":1,\"events\":[[\"key\",0,0,0,false,false,0,0]]}\n", "not a known event"},
+        {kHeader + "\n{\"seconds\":1,\"events\":[[\"fingers\",0,0,2,false,false,0]]}\n", "not a known event"},
+        {kHeader + "\n{\"seconds\":1,\"events\":[[\"fingers\",0,0,2,false,false,0,0,0,0]]}\n", "out of its range"},
         {kHeader + "\n{\"seconds\":1,\"events\":[[\"key\",0,0,\"x\",false,false,0]]}\n", "line 2: "},
     };
     for (const auto& [text, finding] : bad)
