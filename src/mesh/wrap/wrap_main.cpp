@@ -2,9 +2,14 @@
 // that a crash or a long run of theirs harms nobody, and so that nothing else has to be compiled with them. Standard
 // input is a socket to the caller.
 #include <CGAL/alpha_wrap_3.h>
+#include <CGAL/Polygon_mesh_processing/detect_features.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Bounded_normal_change_filter.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Constrained_placement.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Count_stop_predicate.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Edge_length_cost.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Midpoint_placement.h>
 
 #include <algorithm>
 #include <array>
@@ -26,6 +31,7 @@
 namespace {
 
 using namespace elastolab;
+namespace sms = CGAL::Surface_mesh_simplification;
 
 using Oracle = CGAL::Alpha_wraps_3::internal::Triangle_soup_oracle<Kernel>;
 
@@ -152,7 +158,7 @@ Result wrap(const Soup& soup, const WrapRequestHeader& request) {
 /// length would cost keeps triangles there of one size. Lengths are in parts of the body's.
 struct CollapseCost {
     static constexpr double kLengthPart = 1e-4;
-    CGAL::Surface_mesh_simplification::LindstromTurk_cost<Mesh> shape;
+    sms::LindstromTurk_cost<Mesh> shape;
 
     template <class Profile>
     boost::optional<Kernel::FT> operator()(const Profile& profile,
@@ -164,12 +170,29 @@ struct CollapseCost {
     }
 };
 
+/// Collapses the shortest edges to their midpoints, which takes a quarter of the time, and leaves sharp edges and the
+/// triangles at them as they are.
+void collapse_short_edges(Mesh& mesh, std::size_t n_edges) {
+    constexpr double kSharpDegrees = 40.0;
+    const auto sharp = mesh.add_property_map<Mesh::Edge_index, bool>("e:sharp", false).first;
+    CGAL::Polygon_mesh_processing::detect_sharp_edges(mesh, kSharpDegrees, sharp);
+    using Placement = sms::Constrained_placement<sms::Midpoint_placement<Mesh>, decltype(sharp)>;
+    sms::edge_collapse(mesh, sms::Count_stop_predicate<Mesh>(n_edges),
+                       CGAL::parameters::get_cost(sms::Edge_length_cost<Mesh>())
+                           .get_placement(Placement(sharp))
+                           .edge_is_constrained_map(sharp)
+                           .filter(sms::Bounded_normal_change_filter<>()));
+}
+
+/// No collapse may turn a triangle over: without the filter, triangles fold where many lie in one plane.
 Result collapse(const Soup& soup, int wanted) {
-    namespace sms = CGAL::Surface_mesh_simplification;
+    constexpr std::size_t kFar = 32, kShortEdgesUpTo = 8;
     Result result;
     result.mesh = mesh_of(soup);
-    const sms::Count_stop_predicate<Mesh> stop(3 * static_cast<std::size_t>(wanted));
-    sms::edge_collapse(result.mesh, stop, CGAL::parameters::get_cost(CollapseCost{}));
+    const std::size_t n_edges = 3 * static_cast<std::size_t>(wanted);
+    if (result.mesh.number_of_edges() > kFar * n_edges) collapse_short_edges(result.mesh, kShortEdgesUpTo * n_edges);
+    sms::edge_collapse(result.mesh, sms::Count_stop_predicate<Mesh>(n_edges),
+                       CGAL::parameters::get_cost(CollapseCost{}).filter(sms::Bounded_normal_change_filter<>()));
     result.mesh.collect_garbage();
     return result;
 }

@@ -11,7 +11,7 @@
 namespace elastolab {
 
 /// Vertices of a preview's proxy, which a worker has ready within a second.
-inline constexpr int kPreviewVertices = 700;
+inline constexpr int kPreviewVertices = 500;
 
 /// Whether the scene's body is not ready before a person has looked at it.
 bool is_worth_a_preview(const LiveScene& scene);
