@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <span>
+#include <string_view>
 
 #include "app/panels/panel_context.hpp"
 #include "app/panels/widgets.hpp"
@@ -12,6 +13,14 @@
 namespace elastolab {
 
 namespace {
+
+/// Lines that the entries of a list take, roughly.
+std::size_t n_lines(const auto& entries) {
+    constexpr std::size_t kCharacters = 40;
+    std::size_t n = 0;
+    for (const auto& entry : entries) n += 1 + std::string_view(entry.action).size() / kCharacters;
+    return n;
+}
 
 /// Two columns: what is done with the mouse or keyboard, and what it does.
 void draw_help_list(const char* id, const PanelContext& context, const auto& entries, const auto& keys_of) {
@@ -35,8 +44,10 @@ void draw_help(const PanelContext& context) {
     const float scale = context.gui.scale();
     ImGui::SetNextWindowPos({0.5f * screen.x, 0.5f * screen.y}, ImGuiCond_Always, {0.5f, 0.5f});
     const std::span<const Shortcut> keys = shortcuts();
-    const std::size_t beside_mouse = (keys.size() - gesture_help().size()) / 2;  // so that both columns end alike
-    const float rows = static_cast<float>(keys.size() - beside_mouse) + 1.0f;
+    const std::size_t of_keys = n_lines(keys), of_mouse = n_lines(gesture_help());
+    const std::size_t beside_mouse =
+        of_keys > of_mouse ? (of_keys - of_mouse) / 2 : 0;  // so that both columns end alike
+    const float rows = static_cast<float>(std::max(of_mouse + beside_mouse, of_keys - beside_mouse));
     const float height = rows * ImGui::GetTextLineHeightWithSpacing() + 2.0f * ImGui::GetFrameHeight();
     ImGui::SetNextWindowSize({std::min(820.0f * scale, screen.x), std::min(height, screen.y)});
     if (ImGui::Begin("Mouse and keys", &context.state.show_help,
