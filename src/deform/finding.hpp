@@ -54,8 +54,8 @@ struct Finding {
     double value = 0.0;
     MethodKind method = nullptr;                ///< of which it is said, where that matters
     std::optional<Eigen::Vector3d> place = {};  ///< [L]
-    int first = -1, second = -1;                ///< vertex or solids, by kind
-    std::string object = {};                    ///< what it is said of, where the kind does not tell
+    int first = -1, second = -1;  ///< vertex or solids, by kind; coarse_mesh: vertex, how many are constrained
+    std::string object = {};      ///< what it is said of, where the kind does not tell
 };
 
 using Findings = std::vector<Finding>;

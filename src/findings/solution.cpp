@@ -166,7 +166,8 @@ Findings findings_of_answer(const Deformer& deformer, const Deformer::Answer& an
                             .value = answer.check->relative_error,
                             .method = method,
                             .place = deformer.model().body().surface->vertices.col(answer.check->vertex),
-                            .first = answer.check->vertex});
+                            .first = answer.check->vertex,
+                            .second = static_cast<int>(deformer.set().fixed.size() + deformer.set().handles.size())});
     if (answer.residual && !(*answer.residual < kLargeResidual))
         findings.push_back(
             {.kind = FindingKind::large_residual, .value = *answer.residual, .object = deformer.model().body().name});

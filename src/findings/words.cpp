@@ -85,7 +85,7 @@ std::string weak_hold(const Finding& finding) {
 std::string coarse_mesh(const Finding& finding) {
     const std::string begin = std::string(finding.method->name) + ": ";
     const std::string off = percent(finding.value) + " of the largest", place = place_of(finding);
-    const std::string advice(finding.method->against_coarseness);
+    const std::string advice(finding.second == 0 ? "Refine the mesh." : finding.method->against_coarseness);
     return begin + "the mesh is too coarse near " + place + ": displacements there are off by about " + off + ". " +
            advice;
 }

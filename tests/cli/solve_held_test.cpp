@@ -46,6 +46,7 @@ TEST_F(SolveTest, ABodyThatNothingHoldsOrMovesIsAtRestAndNothingIsSaid) {
 
 /// A pressure that balances itself has no resultant that anything could be compared with.
 TEST_F(SolveTest, AFreeBodyUnderPressureIsNotSaidToLackBalance) {
+    std::string all_warnings;
     for (const char* mesh :
          {R"({"primitive": "cube", "resolution": 2})", R"({"primitive": "hollow-sphere", "resolution": 3})"})
         for (const char* method :
@@ -62,9 +63,12 @@ TEST_F(SolveTest, AFreeBodyUnderPressureIsNotSaidToLackBalance) {
             EXPECT_LT(report.at("force_imbalance").get<double>(), 1e-6);
             EXPECT_LT(report.at("moment_imbalance").get<double>(), 1e-6);
             EXPECT_LT(report.at("condition_estimate").get<double>(), 1e9);
-            for (const nlohmann::json& warning : report.at("warnings"))
-                EXPECT_THAT(warning.get<std::string>(), testing::Not(testing::HasSubstr("balance")));
+            all_warnings += report.at("warnings").dump();
         }
+    EXPECT_THAT(all_warnings, testing::Not(testing::HasSubstr("balance")));
+    // Some are too coarse; no patch is constrained, whose rims could be refined.
+    EXPECT_THAT(all_warnings, testing::HasSubstr("Refine the mesh."));
+    EXPECT_THAT(all_warnings, testing::Not(testing::HasSubstr("rims")));
 }
 
 }  // namespace
