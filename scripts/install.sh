@@ -7,8 +7,9 @@ packages=(
   g++ cmake ninja-build pkg-config
   libeigen3-dev libopenblas-dev liblapacke-dev libsuitesparse-dev libxsimd-dev
   libassimp-dev libtet1.5-dev libcgal-dev libgmp-dev libmpfr-dev nlohmann-json3-dev libcli11-dev
-  libglfw3-dev libimgui-dev libepoxy-dev libstb-dev libfontconfig-dev libgl1-mesa-dri fonts-roboto-unhinted gnuplot-nox xvfb xdotool libx11-dev libxi-dev libspnav-dev
-  xserver-xorg-core xserver-xorg-video-dummy
+  libglfw3-dev libimgui-dev libepoxy-dev libstb-dev libfontconfig-dev libxi-dev libspnav-dev
+  libgl1-mesa-dri fonts-roboto-unhinted gnuplot-nox
+  xvfb xdotool libx11-dev xserver-xorg-core xserver-xorg-video-dummy
   libgtest-dev libgmock-dev libbenchmark-dev
   pybind11-dev python3-dev python3-numpy python3-pytest python3-distributed python3-vtk9 mypy python3-mypy chromium "$@"
 )

@@ -1,9 +1,10 @@
 // Fingers on a touch screen, in the real program on an X server that has one.
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
-#include <thread>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "app/real_window.hpp"
 #include "app/screen.hpp"
