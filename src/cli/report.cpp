@@ -64,7 +64,7 @@ void print_heading(std::ostream& out, const SolveRequest& request, const Method&
     if (method.kind->chooses_tractions) out << name(method.tractions) << " tractions, ";
     if (method.kind->chooses_elements) out << name(method.elements) << " elements, ";
     if (method.rims > 0)
-        out << "rims halved " << (method.rims == 1 ? "once, " : method.rims == 2 ? "twice, " : "three times, ");
+        out << method.rims << (method.rims == 1 ? " thin row" : " thin rows") << " along rims, ";
     out << name(method.update) << " update\n";
 }
 

@@ -62,7 +62,7 @@ void add_options(CLI::App& parser, SolveOptions& options) {
     parser
         .add_option(
             "--rims", options.rims,
-            "of Galerkin BEM: times that triangles along the rims of constrained patches are halved (default 0)")
+            "of Galerkin BEM: rows of thin triangles to add along the rims of constrained patches (default 0)")
         ->check(CLI::Range(0, kMostRims));
     parser
         .add_option("--update", options.update,

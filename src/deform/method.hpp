@@ -110,8 +110,9 @@ struct Method {
     Tractions tractions = Tractions::discontinuous;
     Update update = Update::reduced;
     ElementDegree elements = ElementDegree::quadratic;  ///< nonlinear FEM: ten nodes or four
-    /// Galerkin BEM: how many times triangles along the rims of the constrained patches are halved (once also those at
-    /// re-entrant edges), at most kMostRims. With 1 or more every set is solved afresh, whatever the update.
+    /// Galerkin BEM: rows of thin triangles that are added along the rims of the constrained patches, at most
+    /// kMostRims; with any, triangles at re-entrant edges are halved. Every set is then solved afresh, whatever the
+    /// update.
     int rims = 0;
     /// BEM: relative error allowed to a boundary integral; decides which rule is used where. 0: that of the method
     /// (MethodTraits::integral_tolerance).
@@ -121,7 +122,7 @@ struct Method {
     std::optional<std::uint64_t> column_memory = {};
 };
 
-/// Of Method::rims: errors at the rims are an eighth then, and what is left is elsewhere.
+/// Of Method::rims: what is left of the error is elsewhere then.
 inline constexpr int kMostRims = 3;
 
 /// Relative error allowed to a boundary integral.

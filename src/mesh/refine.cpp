@@ -4,6 +4,7 @@
 #include <cassert>
 #include <Eigen/Geometry>
 #include <map>
+#include <set>
 #include <utility>
 
 namespace elastolab {
@@ -13,7 +14,7 @@ namespace {
 using Edge = std::pair<int, int>;
 Edge edge_of(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
-/// The parts of a triangle, given the midpoints of its edges 01, 12, 20 (-1: not split).
+/// The parts of a triangle, given the new vertices on its edges 01, 12, 20 (-1: not split).
 std::vector<Eigen::Vector3i> parts(const Eigen::Vector3i& v, const Eigen::Vector3i& middle) {
     const auto n_split = (middle.array() >= 0).count();
     if (n_split == 0) return {v};
@@ -22,7 +23,7 @@ std::vector<Eigen::Vector3i> parts(const Eigen::Vector3i& v, const Eigen::Vector
     for (int i = 0; i < 3; ++i) {
         const int j = (i + 1) % 3, k = (i + 2) % 3;
         if (n_split == 1 && middle[i] >= 0) return {{v[i], middle[i], v[k]}, {middle[i], v[j], v[k]}};
-        if (n_split == 2 && middle[i] < 0)  // edge ij is whole; k is the corner between the two midpoints
+        if (n_split == 2 && middle[i] < 0)  // edge ij is whole; k is the corner between the two new vertices
             return {{middle[j], v[k], middle[k]}, {v[i], v[j], middle[j]}, {v[i], middle[j], middle[k]}};
     }
     return {v};
@@ -31,34 +32,38 @@ std::vector<Eigen::Vector3i> parts(const Eigen::Vector3i& v, const Eigen::Vector
 }  // namespace
 
 Eigen::Matrix3Xd RefinedSurface::gather(Eigen::Matrix3Xd loads) const {
-    const Eigen::Index n_coarse = mesh.n_vertices() - std::ssize(parents);
+    const Eigen::Index n_coarse = mesh.n_vertices() - std::ssize(cuts);
     for (Eigen::Index v = loads.cols() - 1; v >= n_coarse; --v)
-        for (const int parent : parents[static_cast<std::size_t>(v - n_coarse)])
-            loads.col(parent) += 0.5 * loads.col(v).eval();
+        for (const std::size_t end : {0, 1}) {
+            const EdgeCut& cut = cuts[static_cast<std::size_t>(v - n_coarse)];
+            loads.col(cut.ends[end]) += cut.weight(end) * loads.col(v).eval();
+        }
     return loads.leftCols(n_coarse);
 }
 
 Eigen::Matrix3Xd RefinedSurface::interpolate(const Eigen::Matrix3Xd& coarse) const {
-    const Eigen::Index n = mesh.n_vertices() - std::ssize(parents);
+    const Eigen::Index n = mesh.n_vertices() - std::ssize(cuts);
     assert(coarse.cols() == n);
     Eigen::Matrix3Xd values(3, mesh.n_vertices());
     values.leftCols(n) = coarse;
-    for (std::size_t i = 0; i < parents.size(); ++i)
-        values.col(n + static_cast<Eigen::Index>(i)) = 0.5 * (values.col(parents[i][0]) + values.col(parents[i][1]));
+    for (std::size_t i = 0; i < cuts.size(); ++i)
+        values.col(n + static_cast<Eigen::Index>(i)) =
+            cuts[i].weight(0) * values.col(cuts[i].ends[0]) + cuts[i].weight(1) * values.col(cuts[i].ends[1]);
     return values;
 }
 
 SurfaceWeights RefinedSurface::weights() const {
-    const int n = mesh.n_vertices(), n_coarse = n - static_cast<int>(parents.size());
+    const int n = mesh.n_vertices(), n_coarse = n - static_cast<int>(cuts.size());
     std::vector<std::map<int, double>> rows(static_cast<std::size_t>(n));
     std::vector<Eigen::Triplet<double>> entries;
     for (int v = 0; v < n; ++v) {
         std::map<int, double>& row = rows[static_cast<std::size_t>(v)];
         if (v < n_coarse) row[v] = 1.0;
-        for (std::size_t i = 0; i < 2 && v >= n_coarse; ++i)
-            for (const auto& [of, weight] :
-                 rows[static_cast<std::size_t>(parents[static_cast<std::size_t>(v - n_coarse)][i])])
-                row[of] += 0.5 * weight;
+        for (std::size_t end = 0; end < 2 && v >= n_coarse; ++end) {
+            const EdgeCut& cut = cuts[static_cast<std::size_t>(v - n_coarse)];
+            for (const auto& [of, weight] : rows[static_cast<std::size_t>(cut.ends[end])])
+                row[of] += cut.weight(end) * weight;
+        }
         for (const auto& [of, weight] : row) entries.emplace_back(v, of, weight);
     }
     SurfaceWeights weights(n, n_coarse);
@@ -72,25 +77,21 @@ RefinedSurface unrefined(const SurfaceMesh& mesh) {
     return surface;
 }
 
-RefinedSurface refine_marked(const RefinedSurface& surface, const std::vector<char>& marked) {
+RefinedSurface cut_edges(const RefinedSurface& surface, const std::vector<EdgeCut>& cuts) {
     const Triangles& triangles = surface.mesh.triangles;
-    std::map<Edge, int> midpoints;
+    const int n_old = surface.mesh.n_vertices(), n = n_old + static_cast<int>(cuts.size());
     RefinedSurface fine;
-    fine.parents = surface.parents;
-    int n = surface.mesh.n_vertices();
-    for (Eigen::Index t = 0; t < triangles.cols(); ++t)
-        for (int i = 0; i < 3 && marked[static_cast<std::size_t>(t)]; ++i) {
-            const Edge edge = edge_of(triangles(i, t), triangles((i + 1) % 3, t));
-            if (!midpoints.try_emplace(edge, n).second) continue;
-            fine.parents.push_back({edge.first, edge.second});
-            ++n;
-        }
+    fine.cuts = surface.cuts;
+    fine.cuts.insert(fine.cuts.end(), cuts.begin(), cuts.end());
+    std::map<Edge, int> new_vertex;
+    for (std::size_t i = 0; i < cuts.size(); ++i)
+        new_vertex[edge_of(cuts[i].ends[0], cuts[i].ends[1])] = n_old + static_cast<int>(i);
     std::vector<Eigen::Vector3i> all;
     for (Eigen::Index t = 0; t < triangles.cols(); ++t) {
         Eigen::Vector3i middle;
         for (int i = 0; i < 3; ++i) {
-            const auto found = midpoints.find(edge_of(triangles(i, t), triangles((i + 1) % 3, t)));
-            middle[i] = found == midpoints.end() ? -1 : found->second;
+            const auto found = new_vertex.find(edge_of(triangles(i, t), triangles((i + 1) % 3, t)));
+            middle[i] = found == new_vertex.end() ? -1 : found->second;
         }
         for (const Eigen::Vector3i& part : parts(triangles.col(t), middle)) {
             all.push_back(part);
@@ -100,9 +101,21 @@ RefinedSurface refine_marked(const RefinedSurface& surface, const std::vector<ch
     fine.mesh.triangles.resize(3, std::ssize(all));
     for (std::size_t i = 0; i < all.size(); ++i) fine.mesh.triangles.col(static_cast<Eigen::Index>(i)) = all[i];
     fine.mesh.vertices.resize(3, n);
-    const Eigen::Index n_coarse = n - std::ssize(fine.parents);
+    const Eigen::Index n_coarse = n - std::ssize(fine.cuts);
     fine.mesh.vertices = fine.interpolate(surface.mesh.vertices.leftCols(n_coarse));
     return fine;
+}
+
+RefinedSurface refine_marked(const RefinedSurface& surface, const std::vector<char>& marked) {
+    const Triangles& triangles = surface.mesh.triangles;
+    std::set<Edge> halved;
+    std::vector<EdgeCut> cuts;
+    for (Eigen::Index t = 0; t < triangles.cols(); ++t)
+        for (int i = 0; i < 3 && marked[static_cast<std::size_t>(t)]; ++i) {
+            const Edge edge = edge_of(triangles(i, t), triangles((i + 1) % 3, t));
+            if (halved.insert(edge).second) cuts.push_back({{edge.first, edge.second}});
+        }
+    return cut_edges(surface, cuts);
 }
 
 RefinedSurface refine_all(const RefinedSurface& surface) {
@@ -113,9 +126,9 @@ TetMesh refine_tetrahedra(const TetMesh& mesh, const RefinedSurface& fine) {
     const int n_surface = fine.mesh.n_vertices(), shift = n_surface - mesh.n_surface_vertices;
     const auto number = [&](int v) { return v < mesh.n_surface_vertices ? v : v + shift; };
     std::map<Edge, int> midpoints;
-    const int first_new = n_surface - static_cast<int>(fine.parents.size());
-    for (std::size_t i = 0; i < fine.parents.size(); ++i)
-        midpoints[edge_of(fine.parents[i][0], fine.parents[i][1])] = first_new + static_cast<int>(i);
+    const int first_new = n_surface - static_cast<int>(fine.cuts.size());
+    for (std::size_t i = 0; i < fine.cuts.size(); ++i)
+        midpoints[edge_of(fine.cuts[i].ends[0], fine.cuts[i].ends[1])] = first_new + static_cast<int>(i);
     std::vector<Eigen::Vector3d> positions(static_cast<std::size_t>(mesh.n_vertices() + shift));
     for (int v = 0; v < mesh.n_vertices(); ++v) positions[static_cast<std::size_t>(number(v))] = mesh.vertices.col(v);
     for (int v = 0; v < n_surface; ++v) positions[static_cast<std::size_t>(v)] = fine.mesh.vertices.col(v);
@@ -152,23 +165,6 @@ TetMesh refine_tetrahedra(const TetMesh& mesh, const RefinedSurface& fine) {
     result.vertices.resize(3, std::ssize(positions));
     for (std::size_t v = 0; v < positions.size(); ++v) result.vertices.col(static_cast<Eigen::Index>(v)) = positions[v];
     return result;
-}
-
-std::vector<char> around_rim(const RefinedSurface& surface, const std::vector<char>& in_region) {
-    const Triangles& triangles = surface.mesh.triangles;
-    const auto inside = [&](Eigen::Index t) {
-        return in_region[static_cast<std::size_t>(surface.coarse_triangle[static_cast<std::size_t>(t)])] != 0;
-    };
-    // A rim vertex has triangles of both kinds around it.
-    std::vector<char> sees_inside(static_cast<std::size_t>(surface.mesh.n_vertices()), 0), sees_outside = sees_inside;
-    for (Eigen::Index t = 0; t < triangles.cols(); ++t)
-        for (int v : triangles.col(t)) (inside(t) ? sees_inside : sees_outside)[static_cast<std::size_t>(v)] = 1;
-    std::vector<char> marked(static_cast<std::size_t>(triangles.cols()), 0);
-    for (Eigen::Index t = 0; t < triangles.cols(); ++t)
-        for (int v : triangles.col(t))
-            if (sees_inside[static_cast<std::size_t>(v)] && sees_outside[static_cast<std::size_t>(v)])
-                marked[static_cast<std::size_t>(t)] = 1;
-    return marked;
 }
 
 }  // namespace elastolab

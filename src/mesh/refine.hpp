@@ -11,19 +11,24 @@ namespace elastolab {
 
 using SurfaceWeights = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
+/// A new vertex on an edge.
+struct EdgeCut {
+    std::array<int, 2> ends;  ///< vertices of the edge, ascending
+    double share = 0.5;       ///< how far it is from the first, as a part of the edge
+
+    double weight(std::size_t end) const { return end == 0 ? 1.0 - share : share; }
+};
+
 /// A finer triangulation of the same polyhedron. The vertices of the coarse one come first, unmoved.
 struct RefinedSurface {
     SurfaceMesh mesh;
-    /// For every new vertex (n_vertices of the coarse mesh onward), the two vertices it is the midpoint of; both have
-    /// smaller numbers.
-    std::vector<std::array<int, 2>> parents;
+    std::vector<EdgeCut> cuts;  ///< where every new vertex is, from n_vertices of the coarse mesh onward
     /// For every triangle, the coarse triangle that it is a part of.
     std::vector<int> coarse_triangle;
 
     /// Extends values at the coarse vertices (3 x n_coarse) to all, linearly on every coarse triangle.
     Eigen::Matrix3Xd interpolate(const Eigen::Matrix3Xd& coarse) const;
-    /// The transpose: takes loads at all vertices (3 x n) to those at the coarse ones that do the same work, half of a
-    /// midpoint's to each of its two vertices.
+    /// The transpose: takes loads at all vertices (3 x n) to those at the coarse ones that do the same work.
     Eigen::Matrix3Xd gather(Eigen::Matrix3Xd loads) const;
     /// Interpolation as a matrix: what each coarse vertex contributes to each vertex, n x n_coarse.
     SurfaceWeights weights() const;
@@ -31,6 +36,10 @@ struct RefinedSurface {
 
 /// The mesh itself, as the beginning of a chain of refinements.
 RefinedSurface unrefined(const SurfaceMesh& mesh);
+
+/// Cuts edges, none of them twice, and the triangles beside them from the new vertices, so that the surface stays
+/// closed.
+RefinedSurface cut_edges(const RefinedSurface& surface, const std::vector<EdgeCut>& cuts);
 
 /// Splits the marked triangles in four by the midpoints of their edges; a neighbour that gets one or two midpoints is
 /// cut from them, so that the surface stays closed.
@@ -42,8 +51,5 @@ RefinedSurface refine_all(const RefinedSurface& surface);
 /// Every tetrahedron in eight, the octahedron in its middle cut along its shortest diagonal. `fine` is refine_all of
 /// the surface of the mesh; its vertices are the surface vertices of the result.
 TetMesh refine_tetrahedra(const TetMesh& mesh, const RefinedSurface& fine);
-
-/// Marks the triangles that touch the rim of a region of coarse triangles.
-std::vector<char> around_rim(const RefinedSurface& surface, const std::vector<char>& in_region);
 
 }  // namespace elastolab

@@ -8,7 +8,7 @@
 namespace elastolab::python {
 
 /// A method by the words of the command line; an empty one: the default. Throws ValueError for an unknown word
-/// and for a number of halved rims that is not offered.
+/// and for a number of rows along rims that is not offered.
 Method method_of(const std::string& method, const std::string& mode, const std::string& tractions,
                  const std::string& update, const std::string& elements, int rims);
 

@@ -234,7 +234,7 @@ Method method_of(const std::string& method, const std::string& mode, const std::
         names_of(kAllElements));
     if (rims < 0 || rims > kMostRims)
         throw py::value_error("rims: must be 0 to " + std::to_string(kMostRims) +
-                              ", how many times triangles along the rims are halved.");
+                              ", rows of thin triangles along the rims.");
     if (chosen.kind->chooses_rims) chosen.rims = rims;
     return chosen;
 }
@@ -264,7 +264,7 @@ method    'fem', 'constant-bem', 'linear-bem', 'galerkin-bem', 'quadratic-fem' .
 mode      'on-demand', 'full' or 'full-volume';  tractions  'discontinuous', 'restricted' or 'continuous'
 update    'direct', 'eqn9' or 'reduced'
 elements  of 'nonlinear-fem': 'quadratic' or 'linear'
-rims      of 'galerkin-bem': times that triangles along the rims of constrained patches are halved, 0 to 3
+rims      of 'galerkin-bem': rows of thin triangles along the rims of constrained patches, 0 to 3
 progress  called with a stage and a fraction; what it raises ends the precomputation)");
 }
 

@@ -295,13 +295,13 @@ TEST(DiscretisationCheck, IsWithinAFactorOfThreeOnOrganicBodiesInNineOfTenCasesA
     EXPECT_GE(good, 0.9 * all);
 }
 
-/// With finer rims the second answer is the worse one.
-TEST(DiscretisationCheck, IsWithinAFactorOfThreeWhereTheRimsAreHalved) {
+/// With finer rims the second answer is the worse one, which shows what the rims contributed; of forces, that can be
+/// far more than what is left.
+TEST(DiscretisationCheck, IsWithinAFactorOfThreeWhereTheRimsAreFinerButForForcesThatAreBetter) {
     const std::vector<std::pair<OrganicCase, double>> bodies = {
         {organic_case(make_cactus(220)), 0.3},
         {held_below("bent tube", make_bent_tube(2, 0.35, 4.0, 3.0), {0.1, 0.3, 1.0}, 0.15, 0.6), 0.0},
         {held_below("torus", make_torus(4), {1.0, 0.0, 0.2}, 0.15, 0.7), 0.49}};
-    int good = 0, all = 0;
     for (const auto& [body, nu] : bodies) {
         const std::vector<Eigen::Matrix3Xd> motions = {body.pulled(), body.turned()};
         const std::vector<KnownAnswer> truths = refined_answers(body, motions, nu, 2);
@@ -315,14 +315,11 @@ TEST(DiscretisationCheck, IsWithinAFactorOfThreeWhereTheRimsAreHalved) {
                 const auto judged = judge(body, what, kGalerkinBem, body.values(motions[m]), truths[m], deformer);
                 if (rims == 0) as_given[m] = judged[0].error;
                 EXPECT_LE(judged[0].error, (rims == 0 ? 1.0 : 0.75) * as_given[m]) << body.name << " " << what;
-                for (const Judged& one : judged) {
-                    good += one.within(3.0) ? 1 : 0;
-                    ++all;
-                }
+                EXPECT_TRUE(judged[0].within(3.0)) << judged[0].what;
+                EXPECT_LT(judged[1].error, 3.0 * judged[1].estimate) << judged[1].what;
             }
         }
     }
-    EXPECT_GE(good, 0.9 * all);
 }
 
 /// The iterations of the estimate of linear tetrahedra stop early enough to be cheap and late enough to be right.

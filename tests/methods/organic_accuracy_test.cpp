@@ -7,7 +7,7 @@
 #include "bem/collocation/method.hpp"
 #include "bem/galerkin/method.hpp"
 #include "fem/method.hpp"
-#include "mesh/refine.hpp"
+#include "mesh/rims.hpp"
 #include "methods/known_truth.hpp"
 #include "methods/problem.hpp"
 #include "methods/registry.hpp"
@@ -27,6 +27,14 @@ double free_error(const SurfaceMesh& mesh, const std::vector<int>& constrained, 
         size += truth.col(v).squaredNorm();
     }
     return std::sqrt(off / size);
+}
+
+/// Of make_potato(200), pulled or turned.
+KnownTruth truth_of_200(const OrganicBody& organic, bool turned) {
+    return known_truth(turned ? "turned_potato_of_200.csv" : "pulled_potato_of_200.csv", organic.surface, [&] {
+        return compute_truth(organic.surface, organic.constrained(),
+                             turned ? organic.turned_values(0.35) : organic.values(0.2), {1.0, 0.3}, {1});
+    });
 }
 
 /// A small patch pulled on an organic body, against quadratic finite elements graded towards the rims and extrapolated:
@@ -56,6 +64,37 @@ TEST(OrganicBody, IsDisplacedNoWorseByTheDefaultTractionsThanByFem) {
     }
 }
 
+/// Small patches, whose rims are most of the error of all triangles.
+TEST(OrganicBody, IsDisplacedThreeTimesAsAccuratelyWithARowOfThinTrianglesAlongTheRims) {
+    const OrganicBody organic = make_potato(200);
+    const std::vector<int> constrained = organic.constrained();
+    for (const bool turned : {false, true}) {
+        const Positions values = turned ? organic.turned_values(0.35) : organic.values(0.2);
+        const KnownTruth truth = truth_of_200(organic, turned);
+        const auto answer = [&](int rows) {
+            const Method method{.kind = kGalerkinBem, .rims = rows};
+            Deformer deformer(precomputed(make_body(organic.surface, {1.0, 0.3}), method));
+            Control control;
+            deformer.constrain({{}, constrained}, control);
+            return deformer.answer(values.reshaped(), {.check = true}, control);
+        };
+        const double as_given = free_error(organic.surface, constrained, answer(0).displacements, truth.displacements);
+        for (const int rows : {1, 2, 3}) {
+            const Deformer::Answer finer = answer(rows);
+            const double left = free_error(organic.surface, constrained, finer.displacements, truth.displacements);
+            const Eigen::Matrix3Xd off =
+                finer.displacements.reshaped(3, truth.displacements.cols()) - truth.displacements;
+            const double estimate = finer.check.value().relative_error *
+                                    truth.displacements.colwise().norm().maxCoeff() / off.colwise().norm().maxCoeff();
+            print_measured(std::to_string(rows) + (turned ? " rows, turned" : " rows, pulled"), left);
+            print_measured("the estimate over the largest error", estimate);
+            EXPECT_LT(left, (rows == 1 ? 0.33 : 0.25) * as_given) << rows;
+            EXPECT_GT(estimate, 1.0 / 2.5) << rows;
+            EXPECT_LT(estimate, 2.5) << rows;
+        }
+    }
+}
+
 /// What the advice beside a coarse mesh says: the triangles along the rims of the constrained patches decide, for a
 /// patch that is turned as for one that is pulled, whatever carries the tractions.
 TEST(OrganicBody, HalvingTheTrianglesAlongTheRimsHalvesTheError) {
@@ -70,10 +109,7 @@ TEST(OrganicBody, HalvingTheTrianglesAlongTheRimsHalvesTheError) {
     const RefinedSurface whole = unrefined(coarse), halved = refine_marked(whole, around_rim(whole, in_region));
     for (const bool turned : {false, true}) {
         const Positions values = turned ? organic.turned_values(0.35) : organic.values(0.2);
-        const KnownTruth truth =
-            known_truth(turned ? "turned_potato_of_200.csv" : "pulled_potato_of_200.csv", coarse, [&] {
-                return compute_truth(coarse, constrained, values, {1.0, 0.3}, {1});
-            });
+        const KnownTruth truth = truth_of_200(organic, turned);
         Positions everywhere = Positions::Zero(3, coarse.n_vertices());
         everywhere(Eigen::all, constrained) = values;
         const auto error = [&](const RefinedSurface& surface, const Method& method) {

@@ -10,7 +10,7 @@
 #include "bem/galerkin/method.hpp"
 #include "deform/patch_reactions.hpp"
 #include "mesh/primitives.hpp"
-#include "mesh/refine.hpp"
+#include "mesh/rims.hpp"
 #include "methods/problem.hpp"
 #include "study/error/organic_body.hpp"
 
@@ -105,10 +105,10 @@ struct KnownAnswer {
     Reactions reactions;
 };
 
-/// Answers to several motions by Galerkin BEM on the same polyhedron, all triangles halved and those at the rims
-/// `rounds` times more.
+/// Answers to several motions by Galerkin BEM on the same polyhedron, all triangles halved, with so many rows of thin
+/// ones along the rims.
 inline std::vector<KnownAnswer> refined_answers(const OrganicCase& body, const std::vector<Eigen::Matrix3Xd>& motions,
-                                                double poisson_ratio, int rounds) {
+                                                double poisson_ratio, int rows) {
     const auto marks = [&](const std::vector<int>& vertices, const RefinedSurface& fine, std::vector<char>& inside) {
         std::vector<char> chosen(static_cast<std::size_t>(body.surface.n_vertices()), 0);
         for (const int v : vertices) chosen[static_cast<std::size_t>(v)] = 1;
@@ -129,7 +129,7 @@ inline std::vector<KnownAnswer> refined_answers(const OrganicCase& body, const s
     RefinedSurface fine = refine_all(unrefined(body.surface));
     marks(body.set.fixed, fine, inside);
     marks(body.set.handles, fine, inside);
-    for (int round = 0; round < rounds; ++round) fine = refine_marked(fine, around_rim(fine, inside));
+    fine = add_rows_along_rim(fine, inside, rows, [](const SurfaceMesh&, int, double) { return true; });
     const std::vector<char> in_fixed = marks(body.set.fixed, fine, inside),
                             in_handle = marks(body.set.handles, fine, inside);
     ConstrainedSet set;

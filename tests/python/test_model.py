@@ -213,7 +213,7 @@ def test_another_material_or_method_of_the_same_body():
         model.again(el.Material(1.0, 0.5))
 
 
-def test_rims_of_galerkin_bem_are_halved_for_each_set():
+def test_rims_of_galerkin_bem_are_finer_for_each_set():
     cube = el.Surface.primitive("cube", 5)
     given = el.precompute(cube, method="galerkin-bem")
     finer = given.again(rims=2)

@@ -9,7 +9,7 @@
 
 #include "elasticity/exact_fields.hpp"
 #include "fem/fem_body.hpp"
-#include "mesh/refine.hpp"
+#include "mesh/rims.hpp"
 #include "study/error/organic_body.hpp"
 
 namespace elastolab {

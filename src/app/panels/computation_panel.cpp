@@ -40,11 +40,12 @@ constexpr std::array<Choice<ElementDegree>, 2> kElements = {
       "Four nodes a tetrahedron: an eighth of the unknowns, too stiff in bending."}}};
 constexpr std::array<Choice<int>, 3> kRims = {
     {{0, "as given", "The triangles of the body."},
-     {1, "halved once",
-      "Triangles along the rims of the constrained patches are halved, where most of the error comes from: half the "
-      "error, and some three times the time until a new handle is ready. Of Galerkin BEM."},
-     {2, "halved twice",
-      "Those next to the rims once more: a third of the error, ten times the time. Of Galerkin BEM."}}};
+     {1, "one thin row",
+      "A row of thin triangles along the rims of the constrained patches, where most of the error comes from: a "
+      "quarter "
+      "of the error, and three to five times the time until a new handle is ready. Of Galerkin BEM."},
+     {2, "two thin rows",
+      "Two of them, thinner towards the rim: a sixth of the error, ten times the time. Of Galerkin BEM."}}};
 constexpr std::array<Choice<Tractions>, 3> kTractions = {
     {{Tractions::discontinuous, "discontinuous",
       "Tractions may jump at the rim of a constrained patch, where they are "

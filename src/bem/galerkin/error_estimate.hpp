@@ -34,9 +34,8 @@ std::optional<ReferenceAnswer> galerkin_reference(const SurfaceMesh& surface, co
 std::uint64_t galerkin_reference_memory(const SurfaceMesh& surface, const Method& answer,
                                         std::span<const int> vertices);
 
-/// The same for an answer by Galerkin on the surface as it is: errors at a rim fall with the first power of the size of
-/// its triangles, so that halving their edges shows only part of the error. Where the answer has finer rims already
-/// (Method::rims), the second answer is the worse one, with rims as given.
+/// The same for an answer by Galerkin on the surface as it is, of whose error a row along the rims shows most. Where
+/// the answer has such rows already (Method::rims), the second answer is the worse one, with rims as given.
 std::optional<ReferenceAnswer> galerkin_self_reference(const SurfaceMesh& surface, const Method& answer,
                                                        double poisson_ratio, std::span<const int> vertices,
                                                        std::span<const UnitLoad> loads, const Eigen::VectorXd& values,

@@ -6,6 +6,7 @@
 
 #include "elasticity/triangle_geometry.hpp"
 #include "mesh/measures.hpp"
+#include "mesh/rims.hpp"
 #include "mesh/topology.hpp"
 
 namespace elastolab {
@@ -59,10 +60,22 @@ void mark_around_reentrant_edges(const SurfaceMesh& surface, std::vector<char>& 
     mark_around(surface, at_edge, marked);
 }
 
-/// Halved, a sliver becomes slivers: its integrals cost far more, and its error stays.
-bool is_sliver(const SurfaceMesh& surface, int t) {
+/// Cut, a sliver becomes slivers: its integrals cost far more, and its error stays.
+bool may_be_cut(const SurfaceMesh& surface, int t, double share) {
     const TrianglePoints p = triangle_points(surface, t);
-    return has_sliver_potential(make_triangle_geometry(p.a, p.b, p.c, t));
+    TriangleGeometry cut = make_triangle_geometry(p.a, p.b, p.c, t);
+    cut.double_area *= share;
+    return !has_sliver_potential(cut);
+}
+
+/// Triangles at re-entrant edges and around these vertices in four.
+RefinedSurface halved_off_rims(const SurfaceMesh& body, const std::vector<char>& around) {
+    std::vector<char> marked(static_cast<std::size_t>(body.n_triangles()), 0);
+    mark_around_reentrant_edges(body, marked);
+    mark_around(body, around, marked);
+    for (int t = 0; t < body.n_triangles(); ++t)
+        if (!may_be_cut(body, t, 1.0)) marked[static_cast<std::size_t>(t)] = 0;
+    return refine_marked(unrefined(body), marked);
 }
 
 std::vector<char> lone_vertices(const SurfaceMesh& body, std::vector<char> is_constrained,
@@ -100,18 +113,13 @@ SurfaceSet::SurfaceSet(const SurfaceMesh& surface, std::vector<int> constrained,
       shares(nodal_shares(surface.vertices, vertices)) {}
 
 FinerRims::FinerRims(const SurfaceMesh& body, std::span<const int> constrained, std::span<const UnitLoad> unit_loads,
-                     int levels, LoneVertices lone)
+                     int rows, LoneVertices lone)
     : surface(unrefined(body)) {
     const std::vector<char> of_body = marked_vertices(body, constrained), inside = constrained_triangles(body, of_body);
-    std::vector<char> around = lone_vertices(body, of_body, inside);
-    for (int level = 0; level < levels; ++level) {
-        std::vector<char> marked = around_rim(surface, inside);
-        if (level == 0) mark_around_reentrant_edges(surface.mesh, marked);
-        around.resize(static_cast<std::size_t>(surface.mesh.n_vertices()), 0);
-        if (lone == LoneVertices::refined) mark_around(surface.mesh, around, marked);
-        for (int t = 0; t < surface.mesh.n_triangles(); ++t)
-            if (is_sliver(surface.mesh, t)) marked[static_cast<std::size_t>(t)] = 0;
-        surface = refine_marked(surface, marked);
+    if (rows > 0) {
+        std::vector<char> around(of_body.size(), 0);
+        if (lone == LoneVertices::refined) around = lone_vertices(body, of_body, inside);
+        surface = add_rows_along_rim(halved_off_rims(body, around), inside, rows, may_be_cut);
     }
     is_finer = surface.mesh.n_triangles() > body.n_triangles();
     loads = on_finer_triangles(surface, unit_loads);

@@ -30,18 +30,18 @@ protected:
 /// the triangles around it, and has no limit as they become smaller.
 enum class LoneVertices { kept, refined };
 
-/// The same set on a surface whose triangles are halved along the rims of the constrained patches, where tractions are
-/// singular, and at re-entrant edges of the body, where stresses are singular too (docs/formulation.md section 7). The
-/// polyhedron is the same; the body's vertices come first. What is prescribed is linear on each of the body's
-/// triangles. Slivers (kSliverAltitudeOfPotential) are cut by their neighbours' midpoints only.
+/// The same set on a surface with rows of thin triangles along the rims of the constrained patches
+/// (add_rows_along_rim), where tractions are singular, and with triangles halved at re-entrant edges of the body, where
+/// stresses are singular too (docs/formulation.md section 7). The polyhedron is the same; the body's vertices come
+/// first. What is prescribed is linear on each of the body's triangles. What would become a sliver
+/// (kSliverAltitudeOfPotential) is cut by its neighbours' new vertices only.
 struct FinerRims : SurfaceSet {
     RefinedSurface surface;
     std::int64_t n_constrained_triangles = 0;
     bool is_finer = false;  ///< false where there is no rim, nor re-entrant edge, or only slivers are there
 
-    /// levels: how many times triangles at the rim are halved, each time those next to the rim; those at re-entrant
-    /// edges once, since scans have many of them
-    FinerRims(const SurfaceMesh& body, std::span<const int> vertices, std::span<const UnitLoad> loads, int levels,
+    /// rows: along the rims, on each side
+    FinerRims(const SurfaceMesh& body, std::span<const int> vertices, std::span<const UnitLoad> loads, int rows,
               LoneVertices lone);
 };
 

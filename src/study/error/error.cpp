@@ -43,7 +43,7 @@ std::vector<Variant> main_variants(bool quick) {
             {"linear-bem continuous", with_tractions(Tractions::continuous), up_to(12, quick)}};
 }
 
-/// Galerkin BEM whose triangles are halved along the rims, where most of the error on organic bodies comes from.
+/// Galerkin BEM with thin triangles along the rims, where most of the error on organic bodies comes from.
 std::vector<Variant> finer_rim_variants() {
     return {{"galerkin-bem rims 1", {.kind = kGalerkinBem, .rims = 1}, {}},
             {"galerkin-bem rims 2", {.kind = kGalerkinBem, .rims = 2}, {}}};

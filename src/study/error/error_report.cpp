@@ -185,7 +185,7 @@ std::string organic_findings(const Table& table) {
     titles.insert(titles.end(), variants.begin(), variants.end());
     return "## Organic bodies\n\nMoved at a small patch, or bent by its weight (cantilever); error (rms) and time "
            "until ready, the worst vertex and the forces of the worst patch with what the program says of them. With "
-           "\"rims\", triangles along the rims of the patches are halved so many times. Truth: quadratic finite "
+           "\"rims\", so many rows of thin triangles are added along the rims of the patches. Truth: quadratic finite "
            "elements on the same polyhedron, graded towards the rims of the patches and extrapolated.\n\n" +
            markdown_table(titles, rows);
 }
@@ -245,7 +245,8 @@ std::string choice_findings(const Table& table) {
     for (const Row& row : table.where({{"part", "choices"}}).rows)
         rows.push_back({row.text("variant"), row.text("unknowns"), percent(row.number("error")),
                         duration(row.number("precompute_s")), duration(row.number("once_s"))});
-    return "## Choices within a method\n\nOn the bending bar, nu 0.3. Tetrahedra: bound on their volume in units of the "
+    return "## Choices within a method\n\nOn the bending bar, nu 0.3. Tetrahedra: bound on their volume in units of "
+           "the "
            "surface's edge (the program uses 1.8) and on circumradius over shortest edge (1.4). Boundary elements: "
            "error allowed to an integral (1e-10).\n\n" +
            markdown_table({"choice", "unknowns", "error", "precomputation", "single solve"}, rows);

@@ -13,7 +13,7 @@
 #include "fem/prescribed.hpp"
 #include "fem/quadratic_mesh.hpp"
 #include "mesh/measures.hpp"
-#include "mesh/refine.hpp"
+#include "mesh/rims.hpp"
 #include "mesh/tets/tetrahedralize.hpp"
 
 namespace elastolab {

@@ -1,4 +1,4 @@
-// Galerkin BEM with triangles that are halved along the rims of the constrained patches.
+// Galerkin BEM with rows of thin triangles along the rims of the constrained patches.
 #include "bem/galerkin/finer_rims.hpp"
 
 #include <gtest/gtest.h>
@@ -20,8 +20,8 @@
 namespace elastolab::test {
 namespace {
 
-Method with_rims(int levels, Update update = Update::reduced) {
-    return {.kind = kGalerkinBem, .update = update, .rims = levels};
+Method with_rims(int rows, Update update = Update::reduced) {
+    return {.kind = kGalerkinBem, .update = update, .rims = rows};
 }
 
 /// A rabbit that is held and pulled, and pressed on some free triangles in its middle.
@@ -64,8 +64,8 @@ TEST(FinerRims, HaveTheHypersingularOperatorOfTheirSurface) {
     const Material material{1.0, 0.3};
     Eigen::MatrixXd coarse(3 * body.surface.n_vertices(), 3 * body.surface.n_vertices());
     assemble_hypersingular(Boundary(body.surface), material, tolerance, coarse, control);
-    for (const int levels : {1, 2}) {
-        const FinerRims rims(body.surface, body.fixed, {}, levels, LoneVertices::kept);
+    for (const int rows : {1, 2}) {
+        const FinerRims rims(body.surface, body.fixed, {}, rows, LoneVertices::kept);
         const SurfaceMesh& fine = rims.surface.mesh;
         EXPECT_GT(fine.n_vertices(), body.surface.n_vertices());
         const auto boundary = std::make_shared<const Boundary>(fine);
@@ -73,8 +73,8 @@ TEST(FinerRims, HaveTheHypersingularOperatorOfTheirSurface) {
         assemble_hypersingular(*boundary, material, tolerance, expected, control);
         const Eigen::MatrixXd D = refined_hypersingular(
             coarse, rims.surface, std::make_shared<const BoundaryPairs>(boundary, tolerance), material, control);
-        EXPECT_LT((D - expected).norm(), 1e-7 * expected.norm()) << levels;
-        EXPECT_EQ((D - D.transpose()).norm(), 0.0) << levels;
+        EXPECT_LT((D - expected).norm(), 1e-7 * expected.norm()) << rows;
+        EXPECT_EQ((D - D.transpose()).norm(), 0.0) << rows;
     }
 }
 
@@ -83,9 +83,9 @@ TEST(FinerRims, HaveTheHypersingularOperatorOfTheirSurface) {
 TEST(FinerRims, AnswerAsTheFinerSurfaceItself) {
     const PulledRabbit rabbit;
     Control control;
-    for (const int levels : {1, 2}) {
+    for (const int rows : {1, 2}) {
         const auto vertices = joined(rabbit.body.fixed, rabbit.body.pull);
-        const FinerRims rims(rabbit.body.surface, vertices, rabbit.set.loads, levels, LoneVertices::kept);
+        const FinerRims rims(rabbit.body.surface, vertices, rabbit.set.loads, rows, LoneVertices::kept);
         Eigen::Matrix3Xd moved = Eigen::Matrix3Xd::Zero(3, rabbit.body.surface.n_vertices());
         for (std::size_t i = 0; i < rabbit.body.pull.size(); ++i)
             moved.col(rabbit.body.pull[i]) = rabbit.values.segment<3>(3 * static_cast<Eigen::Index>(i));
@@ -94,16 +94,16 @@ TEST(FinerRims, AnswerAsTheFinerSurfaceItself) {
         Deformer fine(precomputed(make_body(rims.surface.mesh), Method{.kind = kGalerkinBem}));
         fine.constrain({{}, rims.vertices, rims.loads}, control);
         const Deformer::Answer expected = fine.answer(values, {}, control);
-        const Deformer::Answer answer = rabbit.answer(with_rims(levels), {.residual = true});
+        const Deformer::Answer answer = rabbit.answer(with_rims(rows), {.residual = true});
         const Eigen::VectorXd there = expected.displacements.head(answer.displacements.size());
-        EXPECT_LT(off(answer.displacements, there), 1e-5) << levels;  // the middle of the body differs by rounding
+        EXPECT_LT(off(answer.displacements, there), 1e-5) << rows;  // the middle of the body differs by rounding
         EXPECT_LT((answer.reactions.forces.rowwise().sum() - expected.reactions.forces.rowwise().sum()).norm(),
                   1e-6 * expected.reactions.forces.colwise().norm().sum())
-            << levels;
+            << rows;
         EXPECT_LT((answer.reactions.moments.rowwise().sum() - expected.reactions.moments.rowwise().sum()).norm(),
                   1e-5 * expected.reactions.moments.colwise().norm().sum())
-            << levels;
-        EXPECT_LT(answer.residual.value(), 1e-8) << levels;
+            << rows;
+        EXPECT_LT(answer.residual.value(), 1e-8) << rows;
     }
 }
 
@@ -120,8 +120,8 @@ TEST(FinerRims, AnswerTheSameByHierarchicalMatrices) {
 
 TEST(FinerRims, AreExactForAStretchedBox) {
     for (const double nu : {0.0, 0.3, 0.5})
-        for (const int levels : {1, 2, 3}) {
-            const SurfaceMesh mesh = make_box(levels < 3 ? 3 : 1, {2.0, 1.0, 1.0});  // of one cell: all are constrained
+        for (const int rows : {1, 2, 3}) {
+            const SurfaceMesh mesh = make_box(rows < 3 ? 3 : 1, {2.0, 1.0, 1.0});  // of one cell: all are constrained
             Eigen::VectorXd exact(3 * mesh.n_vertices());
             for (int v = 0; v < mesh.n_vertices(); ++v)
                 exact.segment<3>(3 * v) = mesh.vertices.col(v).cwiseProduct(Eigen::Vector3d(1.0, -nu, -nu));
@@ -129,16 +129,16 @@ TEST(FinerRims, AreExactForAStretchedBox) {
             const auto ends =
                 vertices_where(mesh, [&](const auto& x) { return x[0] < low + 1e-9 || x[0] > high - 1e-9; });
             Control control;
-            Deformer deformer(precomputed(make_body(mesh, {1.0, nu}), with_rims(levels)));
+            Deformer deformer(precomputed(make_body(mesh, {1.0, nu}), with_rims(rows)));
             deformer.constrain({{}, ends}, control);
             const Deformer::Answer answer = deformer.answer(at(exact, ends), {.residual = true}, control);
-            EXPECT_LT((answer.displacements - exact).cwiseAbs().maxCoeff(), 1e-7) << nu << " " << levels;
-            EXPECT_LT(answer.residual.value(), 1e-8) << nu << " " << levels;
+            EXPECT_LT((answer.displacements - exact).cwiseAbs().maxCoeff(), 1e-7) << nu << " " << rows;
+            EXPECT_LT(answer.residual.value(), 1e-8) << nu << " " << rows;
             double right = 0.0;
             for (std::size_t i = 0; i < ends.size(); ++i)
                 if (mesh.vertices(0, ends[i]) > 0.5 * (low + high))
                     right += answer.reactions.forces(0, static_cast<Eigen::Index>(i));
-            EXPECT_NEAR(right, 1.0, 1e-7) << nu << " " << levels;
+            EXPECT_NEAR(right, 1.0, 1e-7) << nu << " " << rows;
         }
 }
 
@@ -176,8 +176,8 @@ TEST(FinerRims, LeaveABodyThatNothingHoldsAsItIs) {
     Eigen::VectorXd values(6);
     values << 0.1, 0.0, 0.0, -0.1, 0.2, 0.0;
     std::vector<Eigen::VectorXd> answers;
-    for (const int levels : {0, 1}) {
-        Deformer deformer(precomputed(make_body(mesh), with_rims(levels)));
+    for (const int rows : {0, 1}) {
+        Deformer deformer(precomputed(make_body(mesh), with_rims(rows)));
         deformer.constrain({{}, {0, mesh.n_vertices() - 1}}, control);
         answers.push_back(deformer.displace(values));
     }
@@ -219,9 +219,8 @@ TEST(FinerRims, AreNoSecondAnswerWhereNothingIsFiner) {
     const Eigen::VectorXd still = Eigen::VectorXd::Zero(3 * std::ssize(end));
     const Eigen::VectorXd at_rest = Eigen::VectorXd::Zero(ribbon.vertices.size());
     Control control;
-    for (const int levels : {0, 1})
-        EXPECT_FALSE(galerkin_self_reference(ribbon, with_rims(levels), 0.3, end, {}, still, at_rest, control))
-            << levels;
+    for (const int rows : {0, 1})
+        EXPECT_FALSE(galerkin_self_reference(ribbon, with_rims(rows), 0.3, end, {}, still, at_rest, control)) << rows;
 }
 
 TEST(FinerRims, KeepLoneVerticesAsTheyAre) {
