@@ -102,7 +102,7 @@ value_organic_factors() {
       print ""
     }'
 }
-# What halving the triangles along the rims leaves of the errors of Galerkin BEM, geometric means likewise.
+# What thin triangles along the rims leave of the errors of Galerkin BEM, geometric means likewise.
 value_finer_rims() {
   csv error/error.csv '
     $col["part"] == "organic" && $col["problem"] != "cantilever" && $col["method"] == "galerkin-bem" {
