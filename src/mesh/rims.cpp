@@ -1,5 +1,6 @@
 #include "mesh/rims.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>

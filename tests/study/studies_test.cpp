@@ -119,8 +119,8 @@ TEST(Studies, ShowWhatFinerRimsLeaveOfTheErrorOnOrganicBodies) {
     const auto error = [&](const char* variant) {
         return table.where({{"variant", variant}}).rows.at(0).number("error");
     };
-    EXPECT_LT(error("galerkin-bem rims 1"), 0.75 * error("galerkin-bem"));
-    EXPECT_LT(error("galerkin-bem rims 2"), 0.75 * error("galerkin-bem rims 1"));
+    EXPECT_LT(error("galerkin-bem rims 1"), 0.4 * error("galerkin-bem"));
+    EXPECT_LT(error("galerkin-bem rims 2"), 0.4 * error("galerkin-bem")) << "most of what is left is elsewhere";
     EXPECT_THAT(read_text(folder.path() / "error" / "README.md"), HasSubstr("galerkin-bem rims 2"));
 }
 
