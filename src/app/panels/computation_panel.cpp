@@ -45,7 +45,7 @@ constexpr std::array<Choice<int>, 3> kRims = {
       "quarter "
       "of the error, and three to five times the time until a new handle is ready. Of Galerkin BEM."},
      {2, "two thin rows",
-      "Two of them, thinner towards the rim: a sixth of the error, ten times the time. Of Galerkin BEM."}}};
+      "Two of them, thinner towards the rim: a fifth of the error, ten times the time. Of Galerkin BEM."}}};
 constexpr std::array<Choice<Tractions>, 3> kTractions = {
     {{Tractions::discontinuous, "discontinuous",
       "Tractions may jump at the rim of a constrained patch, where they are "
