@@ -78,6 +78,7 @@ RefinedSurface unrefined(const SurfaceMesh& mesh) {
 }
 
 RefinedSurface cut_edges(const RefinedSurface& surface, const std::vector<EdgeCut>& cuts) {
+    if (cuts.empty()) return surface;
     const Triangles& triangles = surface.mesh.triangles;
     const int n_old = surface.mesh.n_vertices(), n = n_old + static_cast<int>(cuts.size());
     RefinedSurface fine;

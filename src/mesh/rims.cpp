@@ -10,8 +10,8 @@ namespace elastolab {
 
 namespace {
 
-/// Fields that grow with the root of the distance from the rim need rows graded by more than the second power. With one
-/// row 2.5 leaves a fifth less of the error than 2, and 3 as much as 2.5, by thinner triangles.
+/// By how much rows become thinner. On organic bodies one row leaves a tenth to a quarter less of the error with 2.5
+/// than with 2, and some tenth less again with 3, by thinner triangles.
 constexpr double kGrading = 2.5;
 
 /// The rim between a region of coarse triangles and the others.
@@ -19,17 +19,17 @@ class Rim {
 public:
     Rim(const RefinedSurface& surface, const std::vector<char>& in_region) : surface_(surface) {
         for (auto& seen : sees_) seen.resize(static_cast<std::size_t>(surface.mesh.n_vertices()), 0);
-        for (int t = 0; t < surface.mesh.n_triangles(); ++t) {
-            const bool inside =
-                in_region[static_cast<std::size_t>(surface.coarse_triangle[static_cast<std::size_t>(t)])];
-            for (int i = 0; i < 3; ++i) {
-                sees_[inside][static_cast<std::size_t>(corner(t, i))] = 1;
-                beside_[edge(t, i)][inside] = true;
-            }
-        }
+        const auto inside = [&](int t) {
+            return in_region[static_cast<std::size_t>(surface.coarse_triangle[static_cast<std::size_t>(t)])] != 0;
+        };
+        for (int t = 0; t < surface.mesh.n_triangles(); ++t)
+            for (int i = 0; i < 3; ++i) sees_[inside(t)][static_cast<std::size_t>(corner(t, i))] = 1;
+        for (int t = 0; t < surface.mesh.n_triangles(); ++t)
+            for (int i = 0; i < 3 && touches(t); ++i) beside_[edge(t, i)][inside(t)] = true;
     }
     /// A vertex at the rim has triangles of both kinds around it.
     bool has(int v) const { return sees_[0][static_cast<std::size_t>(v)] && sees_[1][static_cast<std::size_t>(v)]; }
+    bool touches(int t) const { return has(corner(t, 0)) || has(corner(t, 1)) || has(corner(t, 2)); }
     bool has_all_edges(int t) const { return has_edge(edge(t, 0)) && has_edge(edge(t, 1)) && has_edge(edge(t, 2)); }
 
     /// The edges of triangles that all lie on the rim, halved.
@@ -56,8 +56,7 @@ private:
     std::vector<EdgeCut> cuts(const MayBeCut& may_be_cut, double share, const Chosen& is_chosen) const {
         std::map<Edge, double> cut;
         for (int t = 0; t < surface_.mesh.n_triangles(); ++t) {
-            if (!has(corner(t, 0)) && !has(corner(t, 1)) && !has(corner(t, 2))) continue;
-            if (!may_be_cut(surface_.mesh, t, share)) continue;
+            if (!touches(t) || !may_be_cut(surface_.mesh, t, share)) continue;
             for (int i = 0; i < 3; ++i)
                 if (const Edge e = edge(t, i); is_chosen(t, e)) cut[e] = has(e.first) ? share : 1.0 - share;
         }
@@ -67,8 +66,8 @@ private:
     }
 
     const RefinedSurface& surface_;
-    std::array<std::vector<char>, 2> sees_;  ///< by vertex: has a triangle outside, inside
-    std::map<Edge, std::array<bool, 2>> beside_;
+    std::array<std::vector<char>, 2> sees_;       ///< by vertex: has a triangle outside, inside
+    std::map<Edge, std::array<bool, 2>> beside_;  ///< by edge of a triangle that touches it: the same
 };
 
 }  // namespace
@@ -76,8 +75,7 @@ private:
 std::vector<char> around_rim(const RefinedSurface& surface, const std::vector<char>& in_region) {
     const Rim rim(surface, in_region);
     std::vector<char> marked;
-    for (const auto& triangle : surface.mesh.triangles.colwise())
-        marked.push_back(rim.has(triangle[0]) || rim.has(triangle[1]) || rim.has(triangle[2]) ? 1 : 0);
+    for (int t = 0; t < surface.mesh.n_triangles(); ++t) marked.push_back(rim.touches(t) ? 1 : 0);
     return marked;
 }
 
