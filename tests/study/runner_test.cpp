@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "study/report/journal.hpp"
+#include "study/report/report.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace elastolab::test {
@@ -171,6 +172,15 @@ TEST_F(RunnerTest, MakesTheReportAgainFromTheTable) {
     EXPECT_EQ(run_study(counting.study(), settings, progress, control).table.rows.size(), 3U);
     EXPECT_EQ(counting.first, 1);
     EXPECT_THAT(text("README.md"), HasSubstr("3 rows"));
+}
+
+TEST_F(RunnerTest, SaysInTheReportWhichRowsAreOfAnotherMachine) {
+    Counting counting;
+    const RunResult result = run(counting);
+    EXPECT_THAT(text("README.md"), testing::Not(HasSubstr("another machine")));
+    Table table = result.table;
+    table.rows.back().set("cpu", std::string("another"));
+    EXPECT_THAT(report(counting.study(), {}, table, "out"), HasSubstr("1 of 3 rows are of another machine"));
 }
 
 Row origin(int seed) { return Row().set("study", std::string("tiny")).set("seed", seed); }

@@ -1,5 +1,6 @@
 #include "study/report/report.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/text.hpp"
@@ -21,13 +22,24 @@ std::string markdown_line(const std::vector<std::string>& fields) {
     return line + "\n";
 }
 
+/// Of tables that were put together from several runs: their times do not compare.
+std::string other_machines(const Table& table) {
+    const std::string first = table.rows.front().text("cpu");
+    const auto n =
+        std::count_if(table.rows.begin(), table.rows.end(), [&](const Row& row) { return row.text("cpu") != first; });
+    if (n == 0) return "";
+    return "\n" + std::to_string(n) + " of " + std::to_string(table.rows.size()) +
+           " rows are of another machine (column cpu): errors compare, times do not.\n";
+}
+
 std::string machine_text(const Table& table) {
     if (table.rows.empty()) return "No case was run.\n";
     const Row& row = table.rows.front();
     return "Elastolab " + row.text("version") + " on " + row.text("cpu") + ", " + row.text("cores") + " cores, " +
            readable_bytes(row.number("memory_bytes")) + " of memory; BLAS kernels " + row.text("blas_kernels") + ", " +
            row.text("threads") + " threads; seed " + row.text("seed") +
-           (row.text("quick") == "yes" ? ". A quick run: small sizes, few repeats" : "") + ".\n";
+           (row.text("quick") == "yes" ? ". A quick run: small sizes, few repeats" : "") + ".\n" +
+           other_machines(table);
 }
 
 std::string command(const std::string& study, const Table& table, const std::string& folder) {
