@@ -314,7 +314,7 @@ TEST_F(SolveTest, SaysThatOnlyLinearBemHasAChoiceOfTractions) {
     EXPECT_THAT(solve(test::cube_scene("fem", 2), {"--tractions", "restricted"}).out, HasSubstr("was ignored"));
 }
 
-TEST_F(SolveTest, HalvesTheRimsOfGalerkinBemAlone) {
+TEST_F(SolveTest, MakesFinerRimsForGalerkinBemAlone) {
     EXPECT_THAT(solve(test::cube_scene("fem", 2), {"--rims", "1"}).out,
                 HasSubstr("--rims: applies to galerkin-bem only, and was ignored"));
     const auto report_of = [&](const std::string& rims) {

@@ -246,8 +246,7 @@ std::string choice_findings(const Table& table) {
         rows.push_back({row.text("variant"), row.text("unknowns"), percent(row.number("error")),
                         duration(row.number("precompute_s")), duration(row.number("once_s"))});
     return "## Choices within a method\n\nOn the bending bar, nu 0.3. Tetrahedra: bound on their volume in units of "
-           "the "
-           "surface's edge (the program uses 1.8) and on circumradius over shortest edge (1.4). Boundary elements: "
+           "the surface's edge (the program uses 1.8) and on circumradius over shortest edge (1.4). Boundary elements: "
            "error allowed to an integral (1e-10).\n\n" +
            markdown_table({"choice", "unknowns", "error", "precomputation", "single solve"}, rows);
 }
