@@ -141,10 +141,10 @@ private:
     /// B(u) with A and B singular at the opposite edge only.
     double ellipse(double from, double to) const {
         const Vec p = point(from), q = point(to);
-        if (singular_ < 0) return analytic_ellipse(p.data(), q.data(), other_);
+        if (singular_ < 0) return analytic_ellipse(p, q, other_);
         const double to_end = (from + to) / (to - from);
         return std::min(to_end + std::sqrt(to_end * to_end - 1.0),
-                        analytic_ellipse(p.data(), q.data(), other_, (singular_ + 1) % 3));
+                        analytic_ellipse(p, q, other_, (singular_ + 1) % 3));
     }
 
     Vec a_, b_;

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <Eigen/Geometry>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -31,30 +30,62 @@ double axis_through_zeros(double ww, double wh, double hh) {
     return 0.5 * (std::sqrt(left * left + imaginary2) + std::sqrt(right * right + imaginary2));
 }
 
-/// Long semi-axis of the largest ellipse for the chord m + z h, -1 <= z <= 1. Its singularities are the zeros of the
-/// distance from either end, and those of the distance from the line through both ends that project between them.
-double axis_beside_edge(const Vec& m, const Vec& h, const Vec& begin, const Vec& end) {
-    const Vec w = m - begin, edge = end - begin;
-    const double hh = h.squaredNorm(), length = edge.norm();
-    const double axis = std::min(axis_through_zeros(w.squaredNorm(), w.dot(h), hh),
-                                 axis_through_zeros((m - end).squaredNorm(), (m - end).dot(h), hh));
-    const Vec t = edge / length;
-    const Vec w_across = w - w.dot(t) * t, h_across = h - h.dot(t) * t;
-    const double across = h_across.squaredNorm();
-    if (across < 1e-24 * hh) return axis;
-    const double nearest = (w - w_across.dot(h_across) / across * h).dot(t);
-    if (nearest < 0.0 || nearest > length) return axis;
-    return std::min(axis, axis_through_zeros(w_across.squaredNorm(), w_across.dot(h_across), across));
-}
+/// The singularities of the closed form over a triangle, for many chords.
+class EdgeSingularities {
+public:
+    explicit EdgeSingularities(const TriangleGeometry& field) {
+        for (int i = 0; i < 3; ++i) {
+            const Eigen::Map<const Vec> begin(field.corner[i]), end(field.corner[(i + 1) % 3]);
+            edges_[static_cast<std::size_t>(i)] = {begin, (end - begin).normalized(), (end - begin).norm()};
+        }
+    }
 
-double axis_beside_edge(const double* p, const double* q, const TriangleGeometry& field, int edge) {
-    const Eigen::Map<const Vec> from(p), to(q), begin(field.corner[edge]), end(field.corner[(edge + 1) % 3]);
-    const Vec half = 0.5 * (to - from);
-    return half.squaredNorm() == 0.0 ? kInfinite : axis_beside_edge(0.5 * (from + to), half, begin, end);
-}
+    /// Long semi-axis of the largest ellipse for the chord m + z h, -1 <= z <= 1; `least` where it is no smaller.
+    double axis(const Vec& m, const Vec& h, double least) const {
+        for (std::size_t i = 0; i < 3; ++i) least = beside_line(edges_[i], m, h, at_corner(edges_[i], m, h, least));
+        return least;
+    }
+
+    /// The same where one edge and its ends are all that counts.
+    double axis_of(int edge, const Vec& m, const Vec& h) const {
+        const auto i = static_cast<std::size_t>(edge);
+        const double at_corners = at_corner(edges_[(i + 1) % 3], m, h, at_corner(edges_[i], m, h, kInfinite));
+        return beside_line(edges_[i], m, h, at_corners);
+    }
+
+private:
+    struct Edge {
+        Vec begin, along;  ///< along: unit
+        double length;
+    };
+
+    /// Of the zeros of the distance from the corner where an edge begins. A zero lies no farther than the ellipse's
+    /// long semi-axis from the middle, which tells of most chords that they need no roots.
+    static double at_corner(const Edge& edge, const Vec& m, const Vec& h, double least) {
+        const Vec w = m - edge.begin;
+        const double ww = w.squaredNorm(), hh = h.squaredNorm();
+        return ww < least * least * hh ? std::min(least, axis_through_zeros(ww, w.dot(h), hh)) : least;
+    }
+
+    /// Of the zeros of the distance from the line through both ends that project between them.
+    static double beside_line(const Edge& edge, const Vec& m, const Vec& h, double least) {
+        const Vec w = m - edge.begin;
+        const double w_along = w.dot(edge.along), h_along = h.dot(edge.along);
+        const Vec w_across = w - w_along * edge.along, h_across = h - h_along * edge.along;
+        const double ww = w_across.squaredNorm(), hh = h_across.squaredNorm();
+        if (hh < 1e-24 * h.squaredNorm() || ww >= least * least * hh) return least;
+        const double wh = w_across.dot(h_across), nearest = w_along - wh / hh * h_along;
+        if (nearest < 0.0 || nearest > edge.length) return least;
+        return std::min(least, axis_through_zeros(ww, wh, hh));
+    }
+
+    std::array<Edge, 3> edges_;
+};
 
 /// The parameter rho, which is the sum of both semi-axes, from the long one.
-double ellipse_of(double axis) { return axis < kInfinite ? axis + std::sqrt(axis * axis - 1.0) : kInfinite; }
+double ellipse_of(double axis) {
+    return axis < kInfinite ? axis + std::sqrt(std::max(0.0, axis * axis - 1.0)) : kInfinite;
+}
 
 using Corners = std::array<Vec, 3>;
 
@@ -64,15 +95,16 @@ Vec point(const Corners& T, double u, double v) { return T[0] + u * (T[1] - T[0]
 class Cutter {
 public:
     /// share: of the part in the whole test triangle.
-    Cutter(const Corners& part, double share, const TriangleGeometry& field, const OuterAccuracy& accuracy,
+    Cutter(const Corners& part, double share, const EdgeSingularities& singularities, const OuterAccuracy& accuracy,
            const std::function<void(const OuterCell&)>& visit)
-        : part_(part), share_(share), field_(field), accuracy_(accuracy), visit_(visit) {}
+        : part_(part), share_(share), singularities_(singularities), accuracy_(accuracy), visit_(visit) {}
 
     void cut(OuterCell cell, int n_cuts) const {
         const double u = 0.5 * (cell.u0 + cell.u1), v = 0.5 * (cell.v0 + cell.v1);
-        double rho_u = kInfinite, rho_v = kInfinite;
-        for (const double at : {cell.v0, v, cell.v1}) rho_u = std::min(rho_u, chord(cell.u0, at, cell.u1, at));
-        for (const double at : {cell.u0, u, cell.u1}) rho_v = std::min(rho_v, chord(at, cell.v0, at, cell.v1));
+        double axis_u = kInfinite, axis_v = kInfinite;
+        for (const double at : {v, cell.v0, cell.v1}) axis_u = axis(cell.u0, at, cell.u1, at, axis_u);
+        for (const double at : {u, cell.u0, cell.u1}) axis_v = axis(at, cell.v0, at, cell.v1, axis_v);
+        const double rho_u = ellipse_of(axis_u), rho_v = ellipse_of(axis_v);
         // Small cells may be less exact: those of one size lie side by side along a line, so that there are few of
         // them.
         const double share = share_ * (cell.u1 * cell.u1 - cell.u0 * cell.u0) * (cell.v1 - cell.v0);
@@ -100,14 +132,14 @@ private:
         const double width = accuracy_.is_continuous ? std::min(cell.u1 - cell.u0, cell.u1 * (cell.v1 - cell.v0)) : 1.0;
         return share * width < kNegligible * accuracy_.tolerance;
     }
-    double chord(double u0, double v0, double u1, double v1) const {
-        const Vec p = point(part_, u0, v0), q = point(part_, u1, v1);
-        return analytic_ellipse(p.data(), q.data(), field_);
+    double axis(double u0, double v0, double u1, double v1, double least) const {
+        const Vec p = point(part_, u0, v0), q = point(part_, u1, v1), half = 0.5 * (q - p);
+        return half.squaredNorm() == 0.0 ? least : singularities_.axis(0.5 * (p + q), half, least);
     }
 
     const Corners& part_;
     double share_;
-    const TriangleGeometry& field_;
+    const EdgeSingularities& singularities_;
     const OuterAccuracy& accuracy_;
     const std::function<void(const OuterCell&)>& visit_;
 };
@@ -177,14 +209,12 @@ std::vector<Polygon> parts_of(const Corners& test, const TriangleGeometry& field
 
 }  // namespace
 
-double analytic_ellipse(const double* p, const double* q, const TriangleGeometry& field, int edge) {
-    return ellipse_of(axis_beside_edge(p, q, field, edge));
-}
-
-double analytic_ellipse(const double* p, const double* q, const TriangleGeometry& field) {
-    double axis = kInfinite;
-    for (int edge = 0; edge < 3; ++edge) axis = std::min(axis, axis_beside_edge(p, q, field, edge));
-    return ellipse_of(axis);
+double analytic_ellipse(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const TriangleGeometry& field,
+                        std::optional<int> edge) {
+    const EdgeSingularities singularities(field);
+    const Vec middle = 0.5 * (p + q), half = 0.5 * (q - p);
+    if (half.squaredNorm() == 0.0) return kInfinite;
+    return ellipse_of(edge ? singularities.axis_of(*edge, middle, half) : singularities.axis(middle, half, kInfinite));
 }
 
 int gauss_points(double rho, double tolerance) {
@@ -195,13 +225,14 @@ int gauss_points(double rho, double tolerance) {
 void for_each_outer_cell(const TriangleGeometry& test, const TriangleGeometry& field, const OuterAccuracy& accuracy,
                          const std::function<void(const OuterPart&, const OuterCell&)>& visit) {
     const auto corner = [&](int i) { return Vec(Eigen::Map<const Vec>(test.corner[i])); };
+    const EdgeSingularities singularities(field);
     for (const Polygon& polygon : parts_of({corner(0), corner(1), corner(2)}, field))
         for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
             const Corners corners{polygon[0], polygon[i], polygon[i + 1]};
             const double area = (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
             if (area == 0.0) continue;
             const OuterPart part{corners[0], corners[1] - corners[0], corners[2] - corners[1], area};
-            Cutter(corners, area / test.double_area, field, accuracy, [&](const OuterCell& cell) {
+            Cutter(corners, area / test.double_area, singularities, accuracy, [&](const OuterCell& cell) {
                 visit(part, cell);
             }).cut({0.0, 1.0, 0.0, 1.0, 0, 0}, 0);
         }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <optional>
 
 #include "elasticity/triangle_kernels.hpp"
 
@@ -28,11 +29,10 @@ struct OuterAccuracy {
 };
 
 /// The parameter rho > 1 of the largest Bernstein ellipse around [p, q], in the complex line through both, in which a
-/// closed form over `field` is analytic: its singularities are the edges. Infinite for p = q. p, q: 3 coordinates.
-double analytic_ellipse(const double* p, const double* q, const TriangleGeometry& field);
-
-/// The same where `edge`, from corner `edge` to the next, is the only one that counts.
-double analytic_ellipse(const double* p, const double* q, const TriangleGeometry& field, int edge);
+/// closed form over `field` is analytic: its singularities are the edges, or the one edge from corner `edge` to the
+/// next. Infinite for p = q.
+double analytic_ellipse(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const TriangleGeometry& field,
+                        std::optional<int> edge = {});
 
 /// Number n of Gauss-Legendre points that keep `tolerance` for an integrand of size 1 that is analytic in the ellipse
 /// rho: their error is like rho^(-2n). Where n is large, the cell had better be cut.

@@ -6,6 +6,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <Eigen/Geometry>
 #include <limits>
 #include <map>
 #include <thread>
@@ -277,6 +278,19 @@ TEST(Tetrahedralize, SaysWhatTetGenFindsInACrossingSurface) {
     EXPECT_THAT(text, testing::StartsWith("body: "));
     EXPECT_THAT(text, testing::HasSubstr("intersects itself"));
     EXPECT_THAT(text, testing::Not(testing::HasSubstr("\n")));
+}
+
+/// Twisted by so many radians per length about its axis.
+SurfaceMesh twisted_bar(double twist) {
+    SurfaceMesh bar = moved(make_box(2, {4.0, 1.0, 1.0}), {0.0, -0.5, -0.5});
+    for (auto p : bar.vertices.colwise())
+        p = Eigen::AngleAxisd(twist * p.x(), Eigen::Vector3d::UnitX()) * Eigen::Vector3d(p);
+    return bar;
+}
+
+TEST(Tetrahedralize, EndsWhereTetGenAloneWouldNot) {
+    EXPECT_EQ(failure(twisted_bar(1.0)), "filled");
+    EXPECT_THAT(failure(twisted_bar(4.436)), testing::HasSubstr("TetGen comes to no end"));
 }
 
 TEST(Tetrahedralize, SurvivesEveryUnusableSurface) {

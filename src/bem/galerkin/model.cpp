@@ -9,6 +9,7 @@
 #include "bem/galerkin/residual.hpp"
 #include "bem/galerkin/solvers.hpp"
 #include "bem/given_loads.hpp"
+#include "deform/holds.hpp"
 
 namespace elastolab {
 
@@ -67,32 +68,42 @@ std::unique_ptr<ConstrainedSolid> GalerkinModel::constrain(std::span<const int> 
                                                            std::span<const UnitLoad> loads, Control& control) const {
     const SurfaceMesh& mesh = system_->boundary().mesh();
     const SurfaceSet given(mesh, joined(fixed, handles), loads);
-    StageTimes stages;
+    const bool is_direct = method_.update == Update::direct, is_held = holds(mesh.vertices, given.vertices);
+    if (is_direct && !is_held) throw NotHeldError();
     if (method_.rims == 0) {
         std::optional<Eigen::MatrixXd> D;
-        if (method_.update == Update::direct) {
+        if (is_direct) {
             control.begin_stage("integrate");
             D = system_->hypersingular(control);
         }
         return constrain(system_, std::move(D), given, given, control);
     }
-    try {
-        const FinerRims rims(mesh, given.vertices, loads, method_.rims, LoneVertices::kept);
-        const Method direct{
-            .kind = method_.kind, .update = Update::direct, .integral_tolerance = method_.integral_tolerance};
-        const auto system = std::make_shared<const GalerkinSystem>(std::make_shared<const Boundary>(rims.surface.mesh),
-                                                                   poisson_ratio_, direct, nullptr, stages, control);
-        control.begin_stage("integrate");
-        return constrain(system, system->hypersingular(*system_, rims.surface, control), rims, given, control);
-    } catch (const NotHeldError&) {
-        // What moves least is found from compliance columns, which are those of the surface as given.
-        if (method_.update == Update::direct) throw;
-        Method method = method_;
-        method.rims = 0;
-        const auto system = std::make_shared<const GalerkinSystem>(system_->shared_boundary(), poisson_ratio_, method,
-                                                                   system_->parts(), stages, control);
-        return constrain(system, std::nullopt, given, given, control);
+    if (is_held) {
+        try {
+            return constrain_with_finer_rims(given, control);
+        } catch (const NotHeldError&) {
+            if (is_direct) throw;
+        }
     }
+    // What moves least is found from compliance columns, which are those of the surface as given.
+    StageTimes stages;
+    Method method = method_;
+    method.rims = 0;
+    const auto system = std::make_shared<const GalerkinSystem>(system_->shared_boundary(), poisson_ratio_, method,
+                                                               system_->parts(), stages, control);
+    return constrain(system, std::nullopt, given, given, control);
+}
+
+std::unique_ptr<ConstrainedSolid> GalerkinModel::constrain_with_finer_rims(const SurfaceSet& given,
+                                                                           Control& control) const {
+    const FinerRims rims(system_->boundary().mesh(), given.vertices, given.loads, method_.rims, LoneVertices::kept);
+    const Method direct{
+        .kind = method_.kind, .update = Update::direct, .integral_tolerance = method_.integral_tolerance};
+    StageTimes stages;
+    const auto system = std::make_shared<const GalerkinSystem>(std::make_shared<const Boundary>(rims.surface.mesh),
+                                                               poisson_ratio_, direct, nullptr, stages, control);
+    control.begin_stage("integrate");
+    return constrain(system, system->hypersingular(*system_, rims.surface, control), rims, given, control);
 }
 
 std::unique_ptr<ConstrainedSolid> GalerkinModel::constrain(std::shared_ptr<const GalerkinSystem> system,
@@ -113,7 +124,8 @@ std::unique_ptr<ConstrainedSolid> GalerkinModel::constrain(std::shared_ptr<const
         const GalerkinEquations equations{pairs, pairs->cluster_vertices(kVerticesOfALeaf), system->surfaces(),
                                           system->material()};
         GivenTerms given;
-        if (!loads.empty()) given.nodal_forces = system->given_nodal_forces(loads, its_control) * solution.factors.col(0);
+        if (!loads.empty())
+            given.nodal_forces = system->given_nodal_forces(loads, its_control) * solution.factors.col(0);
         if (!loads.empty() && tractions.size() > 0)
             given.single_layer = system->given_single_layer(tractions, loads, its_control) * solution.factors.col(0);
         return galerkin_residual(equations, vertices, tractions, given, solution, its_control);

@@ -31,6 +31,8 @@ private:
     std::unique_ptr<ConstrainedSolid> constrain(std::shared_ptr<const GalerkinSystem> system,
                                                 std::optional<Eigen::MatrixXd> D, const SurfaceSet& set,
                                                 const SurfaceSet& of_body, Control& control) const;
+    /// Throws NotHeldError when the set does not hold the body.
+    std::unique_ptr<ConstrainedSolid> constrain_with_finer_rims(const SurfaceSet& given, Control& control) const;
 
     Method method_;
     double poisson_ratio_;

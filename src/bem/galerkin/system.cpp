@@ -234,7 +234,10 @@ Columns GalerkinSystem::half_load_columns(std::span<const UnitLoad> loads, Contr
 
 Eigen::MatrixXd GalerkinSystem::given_nodal_forces(std::span<const UnitLoad> loads, Control& control) const {
     const auto pairs = std::make_shared<const BoundaryPairs>(boundary_, tolerance_);
-    return elastolab::given_nodal_forces(pairs, material_, loads, control);
+    const auto compute = [&](std::span<const UnitLoad> missing) {
+        return elastolab::given_nodal_forces(pairs, material_, missing, control);
+    };
+    return load_columns(given_, loads, size(), compute, control).middle(0, std::ssize(loads));
 }
 
 Eigen::MatrixXd GalerkinSystem::given_single_layer(const GalerkinTractions& tractions, std::span<const UnitLoad> loads,

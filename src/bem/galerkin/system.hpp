@@ -56,7 +56,7 @@ public:
     Columns half_columns(std::span<const int> vertices, const GalerkinTractions& tractions, Control& control) const;
     /// The same for given loads: Z = (B - K)^T g, a column each.
     Columns half_load_columns(std::span<const UnitLoad> loads, Control& control) const;
-    /// (B - K)^T g of given loads at all nodes, and V g on the tractions of a set.
+    /// (B - K)^T g of given loads at all nodes, kept; and V g on the tractions of a set.
     Eigen::MatrixXd given_nodal_forces(std::span<const UnitLoad> loads, Control& control) const;
     Eigen::MatrixXd given_single_layer(const GalerkinTractions& tractions, std::span<const UnitLoad> loads,
                                        Control& control) const;
@@ -86,6 +86,7 @@ private:
     CholeskyFactorization factor_;
     std::shared_ptr<const DenseHypersingular> dense_;
     std::unique_ptr<ColumnCache> cache_;
+    mutable ColumnCache given_{64ull << 20};
 };
 
 /// Bytes of half compliance columns for a constrained set, and of the capacitance system made from them.

@@ -46,6 +46,13 @@ inline void begin_helper() {
     std::setvbuf(stdout, nullptr, _IOLBF, 0);
 }
 
+/// Of the processor; then SIGXCPU ends the helper.
+inline void limit_seconds(std::int32_t seconds) {
+    const auto soft = static_cast<rlim_t>(seconds);
+    const rlimit cpu{soft, soft + 1};
+    ::setrlimit(RLIMIT_CPU, &cpu);
+}
+
 inline void read_bytes(void* data, std::size_t size) {
     for (auto* to = static_cast<std::byte*>(data); size > 0;) {
         const ssize_t n = ::read(STDIN_FILENO, to, size);

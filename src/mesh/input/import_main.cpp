@@ -91,11 +91,9 @@ void reply(const Imported& imported) {
 }
 
 void limit(const ImportRequestHeader& request) {
-    const auto seconds = static_cast<rlim_t>(request.cpu_seconds);
-    const rlimit cpu{seconds, seconds};
-    ::setrlimit(RLIMIT_CPU, &cpu);
-    ::alarm(static_cast<unsigned>(4 * seconds));  // it may also wait: for memory, or for a slow disk
-    if (kSanitized) return;                       // their bookkeeping takes terabytes of addresses
+    limit_seconds(request.cpu_seconds);
+    ::alarm(static_cast<unsigned>(4 * request.cpu_seconds));  // it may also wait: for memory, or for a slow disk
+    if (kSanitized) return;                                   // their bookkeeping takes terabytes of addresses
     const auto bytes = static_cast<rlim_t>(request.memory_bytes);
     const rlimit memory{bytes, bytes};
     ::setrlimit(RLIMIT_DATA, &memory);

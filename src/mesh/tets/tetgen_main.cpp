@@ -93,6 +93,7 @@ int main() {
     TetgenRequestHeader request;
     read_bytes(&request, sizeof(request));
     if (request.magic != kTetgenMagic || request.switches.back() != '\0') return kHelperMisused;
+    limit_seconds(request.cpu_seconds);
     const auto vertices = read_array<double>(3 * request.n_vertices);
     const auto triangles = read_array<int>(3 * request.n_triangles);
     const auto holes = read_array<double>(3 * request.n_holes);

@@ -17,6 +17,9 @@ namespace elastolab {
 
 namespace {
 
+/// Seconds of the processor that TetGen may take: some at least, and as many per vertex.
+constexpr double kLeastSeconds = 3.0, kSecondsPerVertex = 0.01;
+
 std::string request_bytes(const SurfaceMesh& surface, const Positions& holes, const TetgenSettings& settings) {
     TetgenRequestHeader header;
     assert(settings.switches.size() < header.switches.size());
@@ -24,6 +27,7 @@ std::string request_bytes(const SurfaceMesh& surface, const Positions& holes, co
     header.relative_volume = settings.relative_volume;
     header.growth = settings.growth;
     header.seeded = settings.seeded ? 1 : 0;
+    header.cpu_seconds = static_cast<std::int32_t>(kLeastSeconds + kSecondsPerVertex * surface.n_vertices());
     header.n_vertices = surface.n_vertices();
     header.n_triangles = surface.n_triangles();
     header.n_holes = static_cast<std::int32_t>(holes.cols());
@@ -68,7 +72,11 @@ std::string meaning_of_status(int status) {
     }
 }
 
+bool ran_out_of_time(int status) { return WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU; }
+
 std::string end_of_tetgen(int status) {
+    if (ran_out_of_time(status))
+        return "TetGen comes to no end, as it does where a surface is twisted or folds through itself";
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL) return "TetGen was killed, most likely for lack of memory";
     if (WIFSIGNALED(status)) return "TetGen crashed on it (signal " + std::to_string(WTERMSIG(status)) + ")";
     return "TetGen ended early (exit code " + std::to_string(WEXITSTATUS(status)) + ")";
@@ -92,6 +100,7 @@ TetgenResult run_tetgen(const SurfaceMesh& surface, const Positions& holes, cons
     if (reply.size() >= sizeof(header)) std::memcpy(&header, reply.data(), sizeof(header));
     if (reply.size() < sizeof(header) || header.magic != kTetgenMagic || reply.size() != expected_size(header)) {
         result.failure = end_of_tetgen(status) + reason_in(helper.output());
+        result.ran_out_of_time = ran_out_of_time(status);
         return result;
     }
     if (header.status != 0) {

@@ -7,7 +7,7 @@ namespace elastolab {
 
 /// What tetrahedralize() and the helper program elastolab-tetgen say to each other over a socket, in the byte order of
 /// the machine. Both are built together; `magic` catches a helper of another version.
-constexpr std::uint64_t kTetgenMagic = 0x656c61737465'0003;
+constexpr std::uint64_t kTetgenMagic = 0x656c61737465'0004;
 
 /// Followed by n_vertices x 3 doubles, n_triangles x 3 ints, n_holes x 3 doubles.
 struct TetgenRequestHeader {
@@ -18,6 +18,7 @@ struct TetgenRequestHeader {
     /// Bound on a tetrahedron's volume, in units of the regular one with the edge length that the SizeField of this
     /// growth gives; 0: none.
     double relative_volume = 0.0, growth = 0.0;
+    std::int32_t cpu_seconds = 0, unused = 0;  ///< of the processor, after which the helper is ended by SIGXCPU
 };
 
 /// Followed by n_vertices x 3 doubles and n_tetrahedra x 4 ints when status is 0.

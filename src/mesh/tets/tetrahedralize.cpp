@@ -131,6 +131,7 @@ TetMesh tetrahedralize(const SurfaceMesh& solid, const std::string& name, const 
             if (result.failure.empty()) return mesh;
         }
         if (finding.empty()) finding = result.failure;
+        if (result.ran_out_of_time) break;
     }
     control.checkpoint();
     throw MeshError(message(name, reason(solid, finding, control)));

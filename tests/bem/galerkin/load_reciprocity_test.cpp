@@ -84,6 +84,15 @@ TEST(GalerkinLoads, AreReciprocalWithMotionsInTheEquations) {
     EXPECT_NEAR(problem.work_of_reactions(), -work, 1e-9 * std::abs(work));
 }
 
+TEST(GalerkinLoads, AreIntegratedOnce) {
+    LoadAndMotion problem(100);
+    Control no_time;
+    no_time.cancel();  // any integration would be given up
+    EXPECT_EQ(problem.system.given_nodal_forces(problem.load, no_time),
+              problem.system.given_nodal_forces(problem.load, problem.control));
+    EXPECT_THROW(problem.system.given_nodal_forces(std::vector{body_force_along(0)}, no_time), Cancelled);
+}
+
 /// H v = G s is asked on constrained triangles only; elsewhere it holds to the error of the discretisation.
 TEST(GalerkinLoads, WorkOnTheSurfaceIsThatOfTheEquationsButForTheDiscretisation) {
     const auto off = [](int n_vertices) {

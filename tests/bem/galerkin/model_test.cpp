@@ -126,6 +126,7 @@ TEST(GalerkinBem, SaysWhenABodyIsNotHeld) {
     Control control;
     Deformer direct(precomputed(make_body(mesh), kDirect)), reduced(precomputed(make_body(mesh), kReduced));
     EXPECT_THROW(direct.constrain({{}, {0}}, control), NotHeldError);
+    EXPECT_STREQ(control.stage(), "") << "nothing is integrated for it";
     reduced.constrain({{}, {0}}, control);
     EXPECT_FALSE(reduced.quality().held);
     EXPECT_LT((reduced.displace(Eigen::Vector3d(1.0, 2.0, 3.0)).segment<3>(0) - Eigen::Vector3d(1, 2, 3)).norm(), 1e-9);
