@@ -45,7 +45,8 @@ void add_options(CLI::App& parser, Options& options) {
     parser.add_option("--seed", options.seed, "of the mutations");
     parser.add_option("--first", options.first, "number of the first input");
     parser.add_option("--jobs", options.jobs, "programs at a time")->check(CLI::Range(1, 1024));
-    parser.add_option("--slowness", options.slowness, "factor on the time limit, for sanitizers");
+    parser.add_option("--slowness", options.slowness,
+                      "factor on the time limit, for slow machines (from 10 on: sanitizers)");
 }
 
 /// What happened so far; all threads write into it.

@@ -17,6 +17,8 @@ namespace {
 constexpr int kMostVertices = 300;  ///< for solve: every method takes well below a second
 /// Of the processor. Finer rims make up to five times as many vertices.
 constexpr double kMostSeconds = 10.0, kMostSecondsWithFinerRims = 30.0;
+/// A program so much slower has sanitizers; a machine is not.
+constexpr double kSlownessOfSanitizers = 10.0;
 
 /// Ways to solve.
 const std::vector<std::vector<std::string>>& variants() {
@@ -90,7 +92,7 @@ Outcome Subject::execute(std::vector<std::string> arguments) {
     command.arguments = std::move(arguments);
     command.folder = folder_;
     command.cpu_seconds = (finer_rims ? kMostSecondsWithFinerRims : kMostSeconds) * slowness_;
-    if (slowness_ > 1.0) command.memory = std::size_t{1} << 62U;  // sanitizers reserve terabytes
+    if (slowness_ >= kSlownessOfSanitizers) command.memory = std::size_t{1} << 62U;  // sanitizers reserve terabytes
     Run run = fuzz::run(command);
     out_ = std::move(run.out);
     run.out = out_;

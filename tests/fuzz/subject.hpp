@@ -23,7 +23,7 @@ public:
     /// program   the elastolab binary
     /// seeds     folder whose files lie beside each input: meshes that scenes name
     /// folder    of its own, empty
-    /// slowness  factor on the time limit (a program with sanitizers)
+    /// slowness  factor on the time limit (a slow machine; from 10 on a program with sanitizers)
     Subject(std::filesystem::path program, const std::filesystem::path& seeds, std::filesystem::path folder,
             double slowness);
 
