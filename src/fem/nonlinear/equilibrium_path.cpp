@@ -91,8 +91,9 @@ NewtonState NonlinearSolver::followed(const NonlinearState& from, const MotionPa
         const double wanted = next < 1.0 ? std::max(kPassing, tolerance) : tolerance;
         const bool stable = at.stable;
         keep(nullptr);  // a factor less at the same time; where the step fails, it is made again
-        NewtonState reached = newton_.run(u, next_factors, wanted, next < 1.0 ? kMostPassing : kMostIterations, work,
-                                          control, std::exchange(at.factor, nullptr));
+        const int most = std::min(next < 1.0 ? kMostPassing : kMostIterations, std::max(1, most_steps - iterations));
+        NewtonState reached =
+            newton_.run(u, next_factors, wanted, most, work, control, std::exchange(at.factor, nullptr));
         if (reached.iterations == 0) reached.stable = stable;
         if (reached.converged) reached = stabilised(std::move(reached), wanted, work, control);
         iterations += reached.iterations;
@@ -153,8 +154,9 @@ NewtonState NonlinearSolver::stabilised(NewtonState state, double tolerance, New
         const Eigen::VectorXd u = newton_.pushed(state, work, control);
         if (u == state.u) break;
         NewtonState left = newton_.run(u, state.factors, tolerance, 2 * kMostIterations, work, control);
+        state.iterations += left.iterations;  // in vain or not
         if (!left.converged || !(newton_.rise(state, left.u, left.energy) < 0.0)) break;
-        left.iterations += state.iterations;
+        left.iterations = state.iterations;
         state = std::move(left);
     }
     return state;
