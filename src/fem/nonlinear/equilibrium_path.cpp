@@ -62,7 +62,7 @@ Eigen::VectorXd NonlinearSolver::predicted(NewtonState& at, const Eigen::VectorX
         tangent.free_rows(newton_.force_change(at.u, at.factors, velocities, factors - at.factors, work, control));
     const Eigen::VectorXd change = velocities - tangent.all_rows(tangent_answer(at, load, iterations, work, control));
     const Eigen::VectorXd goal = of_all_nodes(prescribed);
-    const Eigen::VectorXd warped = rest(work, control)->warped(at.u, change, goal, work, control);
+    Eigen::VectorXd warped = rest(work, control)->warped(at.u, change, goal, work, control);
     if (std::isfinite(newton_.energy(warped, work, control).energy)) return warped;
     return goal + tangent.all_rows(tangent.free_rows(at.u + change));
 }
