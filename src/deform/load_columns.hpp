@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <Eigen/Core>
 #include <functional>
 #include <span>
@@ -9,6 +10,9 @@
 #include "deform/unit_load.hpp"
 
 namespace elastolab {
+
+/// Bytes that a cache of columns of loads alone may keep: two hundred loads of a surface of 14 000 vertices.
+inline constexpr std::uint64_t kLoadColumnBytes = 64ull << 20;
 
 /// One column for each of these loads, of n_rows rows, from a cache: those that it lacks are computed together, a
 /// column each. Waits and throws as ColumnCache::get.

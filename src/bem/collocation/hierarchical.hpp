@@ -11,8 +11,8 @@
 #include "bem/collocation/hierarchical_loads.hpp"
 #include "bem/collocation/traction_space.hpp"
 #include "bem/hierarchical/recycled_solutions.hpp"
-#include "deform/columns.hpp"
 #include "deform/linear_operator.hpp"
+#include "deform/load_columns.hpp"
 #include "deform/node_solver.hpp"
 #include "deform/unit_load.hpp"
 
@@ -54,7 +54,7 @@ private:
     ClusteredElements elements_;
     HierarchicalDoubleLayer H_;
     mutable LivingLayers<CollocationLoads> living_;
-    mutable ColumnCache given_{64ull << 20};
+    mutable ColumnCache given_{kLoadColumnBytes};
 };
 
 /// The equations of one constrained set (MixedProblem in bem/collocation/mixed_solver.hpp), with hierarchical matrices.

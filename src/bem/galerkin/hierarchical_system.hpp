@@ -13,7 +13,7 @@
 #include "bem/hierarchical/hierarchical_matrix.hpp"
 #include "bem/hierarchical/recycled_solutions.hpp"
 #include "bem/hierarchical/schwarz.hpp"
-#include "deform/columns.hpp"
+#include "deform/load_columns.hpp"
 #include "deform/method.hpp"
 #include "deform/node_solver.hpp"
 #include "deform/unit_load.hpp"
@@ -57,7 +57,7 @@ private:
     Eigen::MatrixXd surface_modes_, body_modes_;
     std::unique_ptr<const HierarchicalMatrix> D_;
     mutable LivingLayers<TriangleLayers> living_;
-    mutable ColumnCache given_{64ull << 20};
+    mutable ColumnCache given_{kLoadColumnBytes};
 };
 
 /// Displacements and tractions of one constrained set by elimination of the tractions: the free block of

@@ -9,7 +9,7 @@
 #include "base/timer.hpp"
 #include "bem/galerkin/hypersingular.hpp"
 #include "bem/galerkin/tractions.hpp"
-#include "deform/columns.hpp"
+#include "deform/load_columns.hpp"
 #include "deform/method.hpp"
 #include "deform/unit_load.hpp"
 #include "mesh/refine.hpp"
@@ -86,7 +86,7 @@ private:
     CholeskyFactorization factor_;
     std::shared_ptr<const DenseHypersingular> dense_;
     std::unique_ptr<ColumnCache> cache_;
-    mutable ColumnCache given_{64ull << 20};
+    mutable ColumnCache given_{kLoadColumnBytes};
 };
 
 /// Bytes of half compliance columns for a constrained set, and of the capacitance system made from them.

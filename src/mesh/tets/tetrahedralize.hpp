@@ -30,7 +30,7 @@ double default_growth(int n_vertices);
 /// as they are; no vertex is added on the surface. The tetrahedra do not depend on the numbering, nor on mirrors, turns
 /// by right angles, size or place but for what rounding moves (CanonicalFrame). TetGen runs in a process of its own, so
 /// that an abort or crash of it (self-intersecting input) is an error here and nothing worse. Throws MeshError, naming
-/// `name`, when TetGen finds the surface unusable, crashes or runs out of memory; Cancelled.
+/// `name`, when TetGen finds the surface unusable, crashes, runs out of memory or comes to no end; Cancelled.
 TetMesh tetrahedralize(const SurfaceMesh& solid, const std::string& name, const TetOptions& options, Control& control);
 
 }  // namespace elastolab

@@ -86,10 +86,10 @@ TEST(GalerkinLoads, AreReciprocalWithMotionsInTheEquations) {
 
 TEST(GalerkinLoads, AreIntegratedOnce) {
     LoadAndMotion problem(100);
+    const Eigen::MatrixXd first = problem.system.given_nodal_forces(problem.load, problem.control);
     Control no_time;
     no_time.cancel();  // any integration would be given up
-    EXPECT_EQ(problem.system.given_nodal_forces(problem.load, no_time),
-              problem.system.given_nodal_forces(problem.load, problem.control));
+    EXPECT_TRUE(problem.system.given_nodal_forces(problem.load, no_time) == first);
     EXPECT_THROW(problem.system.given_nodal_forces(std::vector{body_force_along(0)}, no_time), Cancelled);
 }
 
