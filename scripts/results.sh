@@ -4,7 +4,8 @@
 # prints, between "<!--=NAME-->" and "<!--/-->" within a line what value_NAME prints. What stands around it is written
 # by hand and kept.
 #   --check  changes nothing and fails when a document is not what would be written
-#   --run    runs all studies before (hours), and the benchmarks that are built beside PROGRAM (build/release/bin/elastolab)
+#   --run    runs all studies before (hours), and the benchmarks that are built (TARGETS=benchmarks scripts/build.sh
+#            release) beside PROGRAM (build/release/bin/elastolab)
 # All reports must be of one version and one machine; otherwise it fails, unless it only checks.
 # shellcheck disable=SC2016  # the backticks are Markdown
 set -euo pipefail

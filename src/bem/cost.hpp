@@ -8,15 +8,32 @@ namespace elastolab {
 /// is cheaper.
 bool is_hierarchical(const SurfaceMesh& surface, const Method& method);
 
-/// Arithmetic per pair of point and triangle, in flops at the speed of the matrix product: about 0.1 us on a core.
-constexpr double kFlopsPerPair = 3000.0;
+/// The arithmetic of a prediction.
+struct Work {
+    double flops = 0.0;      ///< of matrix products
+    double integrals = 0.0;  ///< as many evaluations of a triangle's potential take as long
+
+    double seconds() const;
+};
+
+/// The constrained set that predictions reckon with: a tenth of the vertices, in two patches.
+struct UsualSet {
+    double vertices, triangles;  ///< triangles: those with a constrained corner
+
+    explicit UsualSet(const SurfaceMesh& surface);
+};
+
 /// Bytes that every boundary method needs besides its matrices.
 constexpr std::uint64_t kLeastMemory = 12u << 20;
 
 /// Levels of clusters of hierarchical matrices.
 double cluster_levels(std::int64_t n_vertices);
-/// Of a method with hierarchical matrices. bytes: per vertex and level of clusters; flops: beside the power 4/3 of the
-/// number of vertices, with which time was measured to grow.
-Cost predict_hierarchical(const SurfaceMesh& surface, double bytes, double flops);
+/// Of a method with hierarchical matrices. bytes: per vertex and level of clusters; the others: integrals beside the
+/// power 4/3 of the number of vertices, with which time was measured to grow, for the precomputation and a set, and
+/// beside that of the set's triangles.
+struct HierarchicalPrices {
+    double bytes, precomputation, set, set_triangles;
+};
+Cost predict_hierarchical(const SurfaceMesh& surface, const HierarchicalPrices& prices);
 
 }  // namespace elastolab

@@ -56,7 +56,7 @@ Cost predict_sparse(const FactorEstimate& factor, double unknowns, double elemen
     // columns; what the allocator keeps.
     cost.memory_bytes =
         static_cast<std::uint64_t>(10.5 * factor.entries + 4.0 * 13.0 * factor.nonzeros + 200.0 * unknowns + 8e6);
-    cost.seconds = kStart + factor.seconds() + elements_work / product_speed();
+    cost.seconds = kStart + factor.seconds() + elements_work / scalar_speed();
     return cost;
 }
 

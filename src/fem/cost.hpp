@@ -20,9 +20,9 @@ struct FactorEstimate {
     double seconds() const;
 };
 
-/// TetGen, assembly and ordering, for a node [flops of a matrix product].
-constexpr double kNodeWork = 5e6;
-/// On demand, first set included. elements_work: what is done for nodes and tetrahedra, in flops of a product.
+/// TetGen, assembly and ordering, for a node: as long as so many integrals at scalar_speed().
+constexpr double kNodeWork = 440.0;
+/// On demand, first set included. elements_work: what is done for nodes and tetrahedra, in the unit of kNodeWork.
 Cost predict_sparse(const FactorEstimate& factor, double unknowns, double elements_work);
 
 }  // namespace elastolab

@@ -9,6 +9,7 @@
 #include "bem/galerkin/method.hpp"
 #include "fem/method.hpp"
 #include "fem/quadratic/method.hpp"
+#include "findings/cost.hpp"
 #include "mesh/primitives.hpp"
 #include "methods/problem.hpp"
 
@@ -57,6 +58,26 @@ TEST(Registry, ConstantElementsHaveNoStiffnessAtPoissonsRatioOneHalf) {
     Method reduced = by_K;
     reduced.update = Update::reduced;
     EXPECT_THAT(refusal(reduced, 0.5), IsEmpty());
+}
+
+/// Seconds are compared with the clock by `bench scale`. Here: what is more work is said to take longer.
+TEST(Predictions, GrowWithTheBodyTheModeAndFinerRims) {
+    const auto seconds = [](int cells, const Method& method) { return predict_cost(make_box(cells), method).seconds; };
+    for (const MethodKind kind : elastolab::all_methods()) {
+        Method method{.kind = kind};
+        const double small = seconds(4, method);
+        EXPECT_GT(small, 0.0) << kind->name;
+        for (const int cells : {8, 16, 32}) {
+            EXPECT_GT(seconds(cells, method), 2.0 * seconds(cells / 2, method)) << kind->name << " " << cells;
+        }
+        if (has(kind, Mode::full)) {
+            EXPECT_GT(seconds(8, {.kind = kind, .mode = Mode::full}), seconds(8, method)) << kind->name;
+        }
+        for (int rims = 1; kind->chooses_rims && rims <= kMostRims; ++rims) {
+            method.rims = rims;
+            EXPECT_GT(seconds(8, method), seconds(8, {.kind = kind, .rims = rims - 1})) << rims;
+        }
+    }
 }
 
 }  // namespace

@@ -8,37 +8,67 @@ namespace elastolab {
 
 namespace {
 
-/// Flops per triangle for its pairs that touch or are close, which are a few.
-constexpr double kCloseFlops = 2e6;
-/// With hierarchical matrices: bytes per vertex and level, per traction of a constrained set and level, and per
-/// equation; flops as predict_hierarchical takes them.
-constexpr double kCollocationBytes = 12.2e3, kCollocationFlops = 6.05e6;
+/// With hierarchical matrices: bytes per traction of a constrained set and level, and per equation.
 constexpr double kCollocationBytesOfATraction = 15.5e3, kCollocationBytesOfAnEquation = 28e3;
+constexpr HierarchicalPrices kHierarchical{
+    .bytes = 12.2e3, .precomputation = 5400.0, .set = 720.0, .set_triangles = 6000.0};
 
-Cost predict(const SurfaceMesh& mesh, const Method& method, double nodes) {
-    const double n = 3.0 * nodes;
-    const double integrals = kFlopsPerPair * nodes * mesh.n_triangles() + kCloseFlops * mesh.n_triangles();
+/// What a dense method takes, fitted to cubes, bars and organic bodies of 56 to 1500 vertices. Integrals: beside pairs
+/// of a node and a triangle, for the matrix of displacements alone and for all of that of tractions; beside the
+/// triangles; beside pairs of a node and a triangle of the constrained set, and beside these triangles. Flops: beside
+/// the cube of the equations for K and its inverse; beside their square and the set's values, where the factor is used
+/// for these.
+struct DensePrices {
+    double pairs, traction_pairs, triangles, set_pairs, set_triangles, inverse, columns;
+    bool inverse_serves_sets;  ///< the mode full: what a set takes is nothing beside it
+};
+
+Cost predict(const SurfaceMesh& mesh, const Method& method, double nodes, double set_values,
+             const DensePrices& prices) {
+    const double n = 3.0 * nodes, triangles = mesh.n_triangles();
+    const double set = UsualSet(mesh).triangles;
     Cost cost{static_cast<std::int64_t>(n), kLeastMemory, 0.0};
     if (!factorises_ahead(method)) return cost;
     cost.memory_bytes += square_bytes(n + 6.0);
-    double flops = 2.0 / 3.0 * n * n * n + integrals;
+    Work work{0.72 * n * n * n, prices.pairs * nodes * triangles + prices.triangles * triangles};
     if (method.mode != Mode::on_demand) {
         cost.memory_bytes += 5 * square_bytes(n + 6.0);
-        flops += (2.0 / 3.0 + 2.0 + 2.0) * n * n * n + integrals;
+        work.flops += prices.inverse * n * n * n;
+        work.integrals += prices.traction_pairs * nodes * triangles;
     }
-    cost.seconds = flops / product_speed();
+    if (method.mode == Mode::on_demand || !prices.inverse_serves_sets) {
+        work.flops += prices.columns * n * n * set_values + 60.0 * set * set * set;
+        work.integrals += prices.set_pairs * nodes * set + prices.set_triangles * set;
+    }
+    cost.seconds = work.seconds();
     return cost;
 }
 
 }  // namespace
 
 Cost predict_constant_bem(const SurfaceMesh& mesh, const Method& method) {
-    return predict(mesh, method, mesh.n_triangles());
+    return predict(mesh, method, mesh.n_triangles(), 3.0 * UsualSet(mesh).vertices,
+                   {.pairs = 11.3,
+                    .traction_pairs = 19.0,
+                    .triangles = 340.0,
+                    .set_pairs = 5.9,
+                    .set_triangles = 710.0,
+                    .inverse = 9.6,
+                    .columns = 4.4,
+                    .inverse_serves_sets = true});
 }
 
 Cost predict_linear_bem(const SurfaceMesh& mesh, const Method& method) {
-    if (is_hierarchical(mesh, method)) return predict_hierarchical(mesh, kCollocationBytes, kCollocationFlops);
-    return predict(mesh, method, mesh.n_vertices());
+    if (is_hierarchical(mesh, method)) return predict_hierarchical(mesh, kHierarchical);
+    return predict(mesh, method, mesh.n_vertices(), 9.0 * UsualSet(mesh).triangles,
+                   {.pairs = 6.6,
+                    .traction_pairs = 27.0,
+                    .triangles = 290.0,
+                    .set_pairs = 57.0,
+                    .set_triangles = 0.0,
+                    .inverse = 5.2,
+                    .columns = 1.0,
+                    .inverse_serves_sets = false});
 }
 
 std::uint64_t collocation_set_memory(std::int64_t n_vertices, std::int64_t n_points, std::int64_t n_slots) {

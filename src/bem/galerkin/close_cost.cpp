@@ -15,8 +15,8 @@ namespace {
 
 /// Triangles whose pairs are counted, and pairs whose points are.
 constexpr int kTrianglesLookedAt = 48, kPairsLookedAt = 48;
-/// Arithmetic per point: 0.16 us; of slivers, in extended precision, so many times as much.
-constexpr double kFlopsPerOuterPoint = 5000.0, kTimesOfSlivers = 12.0;
+/// Integrals per point; of slivers, in extended precision, so many times as much.
+constexpr double kIntegralsPerOuterPoint = 3.6, kTimesOfSlivers = 12.0;
 /// Points of a pair that the other constants of the prediction contain, and those of a pair with common corners.
 constexpr double kUsualOuterPoints = 200.0, kTouchingPoints = 150.0;
 constexpr double kPricedTolerance = 1e-8;
@@ -81,7 +81,7 @@ private:
 
 }  // namespace
 
-double costly_pair_flops(const SurfaceMesh& surface) {
+double costly_pair_integrals(const SurfaceMesh& surface) {
     const SampledSurface triangles(surface);
     const int n_sample = std::min(triangles.size(), kTrianglesLookedAt);
     std::vector<std::pair<int, int>> pairs;
@@ -99,7 +99,7 @@ double costly_pair_flops(const SurfaceMesh& surface) {
     }
     // Each pair is integrated once.
     const double per_triangle = static_cast<double>(pairs.size()) / n_sample / 2.0;
-    return kFlopsPerOuterPoint * points / static_cast<double>(n_pairs) * per_triangle * triangles.size();
+    return kIntegralsPerOuterPoint * points / static_cast<double>(n_pairs) * per_triangle * triangles.size();
 }
 
 }  // namespace elastolab

@@ -14,15 +14,15 @@ namespace elastolab {
 namespace {
 
 constexpr int kSampleVertices = 128, kSampleTriangles = 64;
-/// Where slivers or thin walls make rows take more flops than this together, fewer are looked at, but some always.
-constexpr double kMostCloseFlops = 1e10, kLeastShare = 0.125;
+/// Where slivers or thin walls make rows take more integrals than this together, fewer are looked at, but some always.
+constexpr double kMostCloseIntegrals = 7e6, kLeastShare = 0.125;
 
 /// Of the sample that is looked at.
 double affordable_share(const SurfaceMesh& mesh) {
     constexpr double kTrianglesAround = 6.0, kTimesOfAPair = 2.0;  // integrated once for all rows, and for either of it
-    const double of_a_row = kTrianglesAround * kTimesOfAPair * costly_pair_flops(mesh) / mesh.n_triangles();
+    const double of_a_row = kTrianglesAround * kTimesOfAPair * costly_pair_integrals(mesh) / mesh.n_triangles();
     const double rows = std::min<double>(kSampleVertices, mesh.n_vertices());
-    return of_a_row > 0.0 ? std::clamp(kMostCloseFlops / (rows * of_a_row), kLeastShare, 1.0) : 1.0;
+    return of_a_row > 0.0 ? std::clamp(kMostCloseIntegrals / (rows * of_a_row), kLeastShare, 1.0) : 1.0;
 }
 
 /// What is off in some equations, and the size of their terms.

@@ -1,20 +1,21 @@
 #include "fem/nonlinear/cost.hpp"
 
+#include "deform/machine_speed.hpp"
 #include "fem/cost.hpp"
 #include "fem/quadratic/cost.hpp"
 #include "mesh/tets/node_estimate.hpp"
 
 namespace elastolab {
 
+/// Until the body at rest can be pulled.
 Cost predict_nonlinear_fem(const SurfaceMesh& mesh, const Method& method) {
-    constexpr double kFactorisations = 3.0;  // from rest to a motion of some 60 degrees, with the solves between
-    constexpr double kFactors = 2.0;         // at rest, and of the last equilibrium or the next one
+    constexpr double kFactors = 2.0;        // at rest, and of the last equilibrium or the next one
+    constexpr double kTangentWork = 250.0;  // for a node, in the unit of kNodeWork
     const bool quadratic = method.elements == ElementDegree::quadratic;
-    const double vertices = estimated_tet_nodes(mesh);
-    const FactorEstimate factor(mesh, vertices, quadratic);
+    const FactorEstimate factor(mesh, estimated_tet_nodes(mesh), quadratic);
     Cost cost = quadratic ? predict_quadratic_fem(mesh, method) : predict_linear_fem(mesh, method);
     cost.memory_bytes += static_cast<std::uint64_t>(10.5 * (kFactors - 1.0) * factor.entries);
-    cost.seconds += kFactorisations * factor.seconds();
+    cost.seconds += kTangentWork * static_cast<double>(cost.degrees_of_freedom) / 3.0 / scalar_speed();
     return cost;
 }
 

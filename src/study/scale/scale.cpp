@@ -36,7 +36,7 @@ std::vector<Growth> growths(bool quick) {
     const auto cells = [quick](int largest) {
         std::vector<int> all;
         for (const int n : {3, 4, 5, 6, 8, 10, 13, 16, 20, 24, 30, 36, 45, 58, 82})
-            if (n <= (quick ? std::min(largest, 6) : largest)) all.push_back(n);
+            if (n <= (quick ? std::min(largest, 5) : largest)) all.push_back(n);
         return all;
     };
     return {{method(kGalerkinBem, Mode::on_demand), cells(82)},  {method(kGalerkinBem, Mode::full), cells(16)},

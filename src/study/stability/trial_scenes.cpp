@@ -1,3 +1,6 @@
+#include <set>
+#include <string>
+
 #include "study/error/finite_problems.hpp"
 #include "study/error/loaded_problems.hpp"
 #include "study/stability/trial_bodies.hpp"
@@ -142,12 +145,13 @@ const std::vector<TrialGroup>& trial_groups(bool quick) {
     static const std::vector<TrialGroup> all = all_groups();
     static const std::vector<TrialGroup> few = [] {
         std::vector<TrialGroup> groups = all_groups();
-        for (TrialGroup& group : groups) {  // the middle and the last level
+        const std::set<std::string> slow_at_last = {"graded", "plate", "slivers", "cantilever", "long-bar"},
+                                    slow = {"irregular", "pressed-wall", "two-bodies", "pressure", "weight", "share"};
+        for (TrialGroup& group : groups) {  // the middle and the last level, or one of them
             const std::vector<double> levels = group.levels;
-            const bool costly = group.name == "graded" || group.name == "plate" || group.name == "slivers" ||
-                                group.name == "cantilever";
-            group.levels = {levels[levels.size() / 2]};
-            if (!costly) group.levels.push_back(levels.back());
+            group.levels.clear();
+            if (!slow.contains(group.name)) group.levels.push_back(levels[levels.size() / 2]);
+            if (!slow_at_last.contains(group.name)) group.levels.push_back(levels.back());
         }
         return groups;
     }();
