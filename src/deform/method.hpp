@@ -110,9 +110,9 @@ struct Method {
     Tractions tractions = Tractions::discontinuous;
     Update update = Update::reduced;
     ElementDegree elements = ElementDegree::quadratic;  ///< nonlinear FEM: ten nodes or four
-    /// Galerkin BEM: rows of thin triangles that are added along the rims of the constrained patches, at most
-    /// kMostRims; with any, triangles at re-entrant edges are halved. Every set is then solved afresh, whatever the
-    /// update.
+    /// Galerkin BEM: rows of thin triangles that are added along the rims of the constrained patches and along
+    /// re-entrant edges, at most kMostRims. With any, every constrained set is then solved afresh, whatever the update
+    /// is.
     int rims = 0;
     /// BEM: relative error allowed to a boundary integral; decides which rule is used where. 0: that of the method
     /// (MethodTraits::integral_tolerance).

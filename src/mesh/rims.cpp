@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <Eigen/Geometry>
 #include <map>
+#include <set>
 #include <utility>
+
+#include "mesh/topology.hpp"
 
 namespace elastolab {
 
@@ -14,21 +18,48 @@ namespace {
 /// than with 2, and some tenth less again with 3, by thinner triangles.
 constexpr double kGrading = 2.5;
 
-/// The rim between a region of coarse triangles and the others.
+using Edge = std::pair<int, int>;
+
+/// Edges at which faces turn into the body by more than an angle [rad].
+std::set<Edge> reentrant_edges(const SurfaceMesh& surface, double least_turn) {
+    const auto corner = [&](int t, int k) -> Eigen::Vector3d {
+        return surface.vertices.col(surface.triangles(k % 3, t));
+    };
+    const auto normal = [&](int t) -> Eigen::Vector3d {
+        return (corner(t, 1) - corner(t, 0)).cross(corner(t, 2) - corner(t, 0)).normalized();
+    };
+    const EdgeTable edges(surface);
+    std::set<Edge> found;
+    for (int e = 0; e < edges.size(); ++e) {
+        const auto halves = edges.half_edges(e);
+        if (halves.size() != 2) continue;
+        const int t = halves[0] / 3, s = halves[1] / 3;
+        const Eigen::Vector3d along = corner(t, halves[0] % 3 + 1) - corner(t, halves[0] % 3);
+        const double turn = std::atan2(normal(t).cross(normal(s)).dot(along.normalized()), normal(t).dot(normal(s)));
+        if (turn < -least_turn) found.emplace(edges[e].a, edges[e].b);  // convex edges turn by a positive angle
+    }
+    return found;
+}
+
+/// The rim between a region of coarse triangles and the others, and what else counts as such.
 class Rim {
 public:
-    Rim(const RefinedSurface& surface, const std::vector<char>& in_region) : surface_(surface) {
+    Rim(const RefinedSurface& surface, const std::vector<char>& in_region, std::set<Edge> others = {})
+        : surface_(surface),
+          others_(std::move(others)),
+          on_others_(static_cast<std::size_t>(surface.mesh.n_vertices()), 0) {
+        for (const auto& [a, b] : others_) on_others_[at(a)] = on_others_[at(b)] = 1;
         for (auto& seen : sees_) seen.resize(static_cast<std::size_t>(surface.mesh.n_vertices()), 0);
         const auto inside = [&](int t) {
             return in_region[static_cast<std::size_t>(surface.coarse_triangle[static_cast<std::size_t>(t)])] != 0;
         };
         for (int t = 0; t < surface.mesh.n_triangles(); ++t)
-            for (int i = 0; i < 3; ++i) sees_[inside(t)][static_cast<std::size_t>(corner(t, i))] = 1;
+            for (int i = 0; i < 3; ++i) sees_[inside(t)][at(corner(t, i))] = 1;
         for (int t = 0; t < surface.mesh.n_triangles(); ++t)
             for (int i = 0; i < 3 && touches(t); ++i) beside_[edge(t, i)][inside(t)] = true;
     }
     /// A vertex at the rim has triangles of both kinds around it.
-    bool has(int v) const { return sees_[0][static_cast<std::size_t>(v)] && sees_[1][static_cast<std::size_t>(v)]; }
+    bool has(int v) const { return (sees_[0][at(v)] && sees_[1][at(v)]) || on_others_[at(v)]; }
     bool touches(int t) const { return has(corner(t, 0)) || has(corner(t, 1)) || has(corner(t, 2)); }
     bool has_all_edges(int t) const { return has_edge(edge(t, 0)) && has_edge(edge(t, 1)) && has_edge(edge(t, 2)); }
 
@@ -46,11 +77,10 @@ public:
     }
 
 private:
-    using Edge = std::pair<int, int>;
-
+    static std::size_t at(int v) { return static_cast<std::size_t>(v); }
     int corner(int t, int i) const { return surface_.mesh.triangles(i % 3, t); }
     Edge edge(int t, int i) const { return std::minmax({corner(t, i), corner(t, i + 1)}); }
-    bool has_edge(const Edge& e) const { return beside_.at(e)[0] && beside_.at(e)[1]; }
+    bool has_edge(const Edge& e) const { return (beside_.at(e)[0] && beside_.at(e)[1]) || others_.contains(e); }
 
     template <class Chosen>
     std::vector<EdgeCut> cuts(const MayBeCut& may_be_cut, double share, const Chosen& is_chosen) const {
@@ -66,6 +96,8 @@ private:
     }
 
     const RefinedSurface& surface_;
+    std::set<Edge> others_;
+    std::vector<char> on_others_;                 ///< by vertex
     std::array<std::vector<char>, 2> sees_;       ///< by vertex: has a triangle outside, inside
     std::map<Edge, std::array<bool, 2>> beside_;  ///< by edge of a triangle that touches it: the same
 };
@@ -80,12 +112,15 @@ std::vector<char> around_rim(const RefinedSurface& surface, const std::vector<ch
 }
 
 RefinedSurface add_rows_along_rim(const RefinedSurface& given, const std::vector<char>& in_region, int rows,
-                                  const MayBeCut& may_be_cut) {
-    RefinedSurface surface = cut_edges(given, Rim(given, in_region).halves_of_triangles_in_it(may_be_cut));
-    surface = cut_edges(surface, Rim(surface, in_region).halves_of_chords(may_be_cut));
+                                  const MayBeCut& may_be_cut, std::optional<double> reentrant) {
+    const auto rim_on = [&](const RefinedSurface& surface) {
+        return Rim(surface, in_region, reentrant ? reentrant_edges(surface.mesh, *reentrant) : std::set<Edge>{});
+    };
+    RefinedSurface surface = cut_edges(given, rim_on(given).halves_of_triangles_in_it(may_be_cut));
+    surface = cut_edges(surface, rim_on(surface).halves_of_chords(may_be_cut));
     for (int row = rows; row > 0; --row) {
         const double share = std::pow(row / (row + 1.0), kGrading);
-        surface = cut_edges(surface, Rim(surface, in_region).cuts_near_it(may_be_cut, share));
+        surface = cut_edges(surface, rim_on(surface).cuts_near_it(may_be_cut, share));
     }
     return surface;
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "mesh/meshes.hpp"
 #include "mesh/primitives.hpp"
 #include "mesh/topology.hpp"
 
@@ -90,6 +91,26 @@ TEST(RowsAlongRim, LeaveWhatMayNotBeCut) {
     const RefinedSurface finer = add_rows_along_rim(unrefined(box), inside, 1, not_inside);
     for (int v = box.n_vertices(); v < finer.mesh.n_vertices(); ++v)
         EXPECT_GT(finer.mesh.vertices(0, v), box.vertices.row(0).minCoeff() + 1e-9) << "cut from outside only";
+    EXPECT_TRUE(is_closed(finer.mesh));
+}
+
+/// Seen from inside, all edges of a box are re-entrant.
+TEST(RowsAlongRim, LieAlongReentrantEdgesToo) {
+    const SurfaceMesh box = make_box(4), cavity = inside_out(box);
+    const std::vector<char> nothing(static_cast<std::size_t>(box.n_triangles()), 0);
+    const Eigen::Vector3d low = box.vertices.rowwise().minCoeff(), high = box.vertices.rowwise().maxCoeff();
+    const double cell = (high[0] - low[0]) / 4.0, share = std::pow(0.5, 2.5);
+    EXPECT_EQ(add_rows_along_rim(unrefined(box), nothing, 1, always, 0.8).mesh.triangles, box.triangles);
+    EXPECT_EQ(add_rows_along_rim(unrefined(cavity), nothing, 1, always).mesh.triangles, cavity.triangles);
+    const RefinedSurface finer = add_rows_along_rim(unrefined(cavity), nothing, 1, always, 0.8);
+    std::set<long> found;  // distances from the nearest edge of the box in millionths of a cell
+    for (int v = cavity.n_vertices(); v < finer.mesh.n_vertices(); ++v) {
+        Eigen::Array3d from_face = (finer.mesh.vertices.col(v) - low).cwiseMin(high - finer.mesh.vertices.col(v));
+        std::sort(from_face.begin(), from_face.end());  // on a face, so that the second is that from an edge
+        EXPECT_LT(from_face[0], 1e-9);
+        found.insert(std::lround(1e6 * from_face[1] / cell));
+    }
+    EXPECT_EQ(found, std::set<long>{std::lround(1e6 * share)}) << "and none on an edge";
     EXPECT_TRUE(is_closed(finer.mesh));
 }
 

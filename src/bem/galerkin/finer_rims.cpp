@@ -1,13 +1,10 @@
 #include "bem/galerkin/finer_rims.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <Eigen/Geometry>
 
 #include "elasticity/triangle_geometry.hpp"
 #include "mesh/measures.hpp"
 #include "mesh/rims.hpp"
-#include "mesh/topology.hpp"
 
 namespace elastolab {
 
@@ -39,27 +36,6 @@ void mark_around(const SurfaceMesh& surface, const std::vector<char>& vertices, 
             if (vertices[static_cast<std::size_t>(v)]) marked[static_cast<std::size_t>(t)] = 1;
 }
 
-void mark_around_reentrant_edges(const SurfaceMesh& surface, std::vector<char>& marked) {
-    const auto corner = [&](int t, int k) -> Eigen::Vector3d {
-        return surface.vertices.col(surface.triangles(k % 3, t));
-    };
-    const auto normal = [&](int t) -> Eigen::Vector3d {
-        return (corner(t, 1) - corner(t, 0)).cross(corner(t, 2) - corner(t, 0)).normalized();
-    };
-    const EdgeTable edges(surface);
-    std::vector<char> at_edge(static_cast<std::size_t>(surface.n_vertices()), 0);
-    for (int e = 0; e < edges.size(); ++e) {
-        const auto halves = edges.half_edges(e);
-        if (halves.size() != 2) continue;
-        const int t = halves[0] / 3, s = halves[1] / 3;
-        const Eigen::Vector3d along = corner(t, halves[0] % 3 + 1) - corner(t, halves[0] % 3);
-        const double turn = std::atan2(normal(t).cross(normal(s)).dot(along.normalized()), normal(t).dot(normal(s)));
-        if (turn > -kReentrant) continue;  // convex edges turn by a positive angle
-        at_edge[static_cast<std::size_t>(edges[e].a)] = at_edge[static_cast<std::size_t>(edges[e].b)] = 1;
-    }
-    mark_around(surface, at_edge, marked);
-}
-
 /// Cut, a sliver becomes slivers: its integrals cost far more, and its error stays.
 bool may_be_cut(const SurfaceMesh& surface, int t, double share) {
     const TrianglePoints p = triangle_points(surface, t);
@@ -68,10 +44,9 @@ bool may_be_cut(const SurfaceMesh& surface, int t, double share) {
     return !has_sliver_potential(cut);
 }
 
-/// Triangles at re-entrant edges and around these vertices in four.
-RefinedSurface halved_off_rims(const SurfaceMesh& body, const std::vector<char>& around) {
+/// Triangles around these vertices in four.
+RefinedSurface halved_around(const SurfaceMesh& body, const std::vector<char>& around) {
     std::vector<char> marked(static_cast<std::size_t>(body.n_triangles()), 0);
-    mark_around_reentrant_edges(body, marked);
     mark_around(body, around, marked);
     for (int t = 0; t < body.n_triangles(); ++t)
         if (!may_be_cut(body, t, 1.0)) marked[static_cast<std::size_t>(t)] = 0;
@@ -119,7 +94,7 @@ FinerRims::FinerRims(const SurfaceMesh& body, std::span<const int> constrained, 
     if (rows > 0) {
         std::vector<char> around(of_body.size(), 0);
         if (lone == LoneVertices::refined) around = lone_vertices(body, of_body, inside);
-        surface = add_rows_along_rim(halved_off_rims(body, around), inside, rows, may_be_cut);
+        surface = add_rows_along_rim(halved_around(body, around), inside, rows, may_be_cut, kReentrant);
     }
     is_finer = surface.mesh.n_triangles() > body.n_triangles();
     loads = on_finer_triangles(surface, unit_loads);
