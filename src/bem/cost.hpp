@@ -28,11 +28,12 @@ constexpr std::uint64_t kLeastMemory = 12u << 20;
 
 /// Levels of clusters of hierarchical matrices.
 double cluster_levels(std::int64_t n_vertices);
-/// Of a method with hierarchical matrices. bytes: per vertex and level of clusters; the others: integrals beside the
-/// power 4/3 of the number of vertices, with which time was measured to grow, for the precomputation and a set, and
-/// beside that of the set's triangles.
+/// What a method with hierarchical matrices takes. Time was measured to grow with the power 4/3 of sizes.
 struct HierarchicalPrices {
-    double bytes, precomputation, set, set_triangles;
+    double bytes;           ///< for a vertex and level of clusters
+    double precomputation;  ///< integrals over that power of the vertices
+    double set;             ///< the same for a constrained set
+    double set_triangles;   ///< and over that power of the set's triangles
 };
 Cost predict_hierarchical(const SurfaceMesh& surface, const HierarchicalPrices& prices);
 

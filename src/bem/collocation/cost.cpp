@@ -13,14 +13,17 @@ constexpr double kCollocationBytesOfATraction = 15.5e3, kCollocationBytesOfAnEqu
 constexpr HierarchicalPrices kHierarchical{
     .bytes = 12.2e3, .precomputation = 5400.0, .set = 720.0, .set_triangles = 6000.0};
 
-/// What a dense method takes, fitted to cubes, bars and organic bodies of 56 to 1500 vertices. Integrals: beside pairs
-/// of a node and a triangle, for the matrix of displacements alone and for all of that of tractions; beside the
-/// triangles; beside pairs of a node and a triangle of the constrained set, and beside these triangles. Flops: beside
-/// the cube of the equations for K and its inverse; beside their square and the set's values, where the factor is used
-/// for these.
+/// What a dense method takes, fitted to cubes, bars and organic bodies of 56 to 1500 vertices.
 struct DensePrices {
-    double pairs, traction_pairs, triangles, set_pairs, set_triangles, inverse, columns;
-    bool inverse_serves_sets;  ///< the mode full: what a set takes is nothing beside it
+    double pairs;           ///< integrals for a pair of node and triangle
+    double traction_pairs;  ///< the same in the mode full, where the matrix of all tractions is made
+    double triangles;       ///< integrals for a triangle
+    double set_pairs;       ///< integrals for a pair of a node and a triangle of the constrained set
+    double set_triangles;   ///< integrals for such a triangle
+    double inverse;         ///< flops of K and its inverse, over the cube of the equations
+    double columns;         ///< flops for a value of the set, over the square of the equations
+    /// Whether sets take next to nothing in the mode full.
+    bool inverse_serves_sets;
 };
 
 Cost predict(const SurfaceMesh& mesh, const Method& method, double nodes, double set_values,

@@ -18,9 +18,13 @@ namespace elastolab {
 /// does. Solved afresh each time, large surfaces by hierarchical matrices. A body that is not held is pinned
 /// (deform/pinned_body.hpp). Collocation is judged where there is nothing to refine, too, on the same triangles.
 /// Nothing where it would take too much memory, more than ten times as long as the answer (and a fifth of a second), or
-/// cannot be solved. answer    the method that is judged vertices  constrained, all different loads     given ones, on
-/// triangles of the surface values    the vertices' displacements, 3*vertices.size(), then a factor for each load first
-/// what that method answered: displacements [L] that begin with those of the surface's vertices Throws Cancelled.
+/// cannot be solved.
+/// answer    the method that is judged
+/// vertices  constrained, all different
+/// loads     given ones, on triangles of the surface
+/// values    the vertices' displacements, 3*vertices.size(), then a factor for each load
+/// first     what that method answered: displacements [L] that begin with those of the surface's vertices
+/// Throws Cancelled.
 std::optional<ReferenceAnswer> galerkin_reference(const SurfaceMesh& surface, const Method& answer,
                                                   double poisson_ratio, std::span<const int> vertices,
                                                   std::span<const UnitLoad> loads, const Eigen::VectorXd& values,
