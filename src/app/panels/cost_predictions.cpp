@@ -1,6 +1,7 @@
 #include "app/panels/cost_predictions.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/memory.hpp"
 
@@ -10,21 +11,31 @@ void CostPredictions::measure_program() {
     if (program_bytes_ == 0) program_bytes_ = resident_memory_bytes();
 }
 
-const Cost& CostPredictions::of(const ViewerState& state, const Method& method) {
+Cost CostPredictions::of(const ViewerState& state, const Method& method) {
     const SurfaceMesh* surface = state.simulation.simulated_surface(method.kind, state.scene());
     if (scene_number_ != state.scene_number()) {
         costs_.clear();
         completed_bytes_.clear();
     }
     scene_number_ = state.scene_number();
-    if (surface == nullptr) {
-        static const Cost kUnknown;
-        return kUnknown;
-    }
+    if (surface == nullptr) return {};
+    measure_others();
     const auto [place, is_new] = costs_.try_emplace(
         {method.kind, method.mode, method.update, method.rims, surface->n_vertices(), surface->n_triangles()});
     if (is_new) place->second = predict_cost(*surface, method);
-    return place->second;
+    Cost cost = place->second;
+    cost.seconds *= slowdown_;
+    return cost;
+}
+
+void CostPredictions::measure_others() {
+    constexpr double kInterval = 1.0;  // [s]
+    if (processors_ && since_.seconds() < kInterval) return;
+    const std::optional<ProcessorUse> now = processor_use();
+    // In steps: what is told does not flicker.
+    if (processors_ && now) slowdown_ = 0.5 * std::round(2.0 * slowdown_by_others(*processors_, *now));
+    processors_ = now;
+    since_ = Stopwatch();
 }
 
 std::uint64_t CostPredictions::memory_with_completion(const ViewerState& state, MethodKind kind) {

@@ -183,7 +183,7 @@ void MethodPanel::draw_sooner(const PanelContext& context) {
 void MethodPanel::draw(const PanelContext& context) {
     ViewerState& state = context.state;
     const Palette& palette = context.palette;
-    const auto cost_of = [&](MethodKind kind) -> const Cost& { return costs_.of(state, state.choices.of(kind)); };
+    const auto cost_of = [&](MethodKind kind) { return costs_.of(state, state.choices.of(kind)); };
     draw_buttons(context, cost_of, [&](MethodKind kind) { return costs_.memory_with_completion(state, kind); });
     MethodRunner& runner = state.simulation.runner(state.method);
     const Colour& colour = state.simulation.previewing(state.method) ? palette.good : state_colour(runner, palette);
