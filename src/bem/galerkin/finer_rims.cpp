@@ -13,6 +13,9 @@ namespace {
 /// Faces turn into the body at a re-entrant edge by more than this angle, in radians: at less, curved surfaces in flat
 /// triangles have such edges everywhere.
 constexpr double kReentrant = 0.8;
+/// A row adds one to three times as many triangles as coarse bodies with a few such edges have. Where it would add more
+/// than this, nearly every edge is one, as of a bar that is twisted through itself.
+constexpr int kMostAdded = 6;
 
 bool all_corners(const Eigen::Vector3i& triangle, const std::vector<char>& marked) {
     return std::all_of(triangle.begin(), triangle.end(), [&](int v) { return marked[static_cast<std::size_t>(v)]; });
@@ -94,7 +97,10 @@ FinerRims::FinerRims(const SurfaceMesh& body, std::span<const int> constrained, 
     if (rows > 0) {
         std::vector<char> around(of_body.size(), 0);
         if (lone == LoneVertices::refined) around = lone_vertices(body, of_body, inside);
-        surface = add_rows_along_rim(halved_around(body, around), inside, rows, may_be_cut, kReentrant);
+        const RefinedSurface halved = halved_around(body, around);
+        surface = add_rows_along_rim(halved, inside, rows, may_be_cut, kReentrant);
+        if (surface.mesh.n_triangles() > (1 + kMostAdded * rows) * halved.mesh.n_triangles())
+            surface = add_rows_along_rim(halved, inside, rows, may_be_cut);
     }
     is_finer = surface.mesh.n_triangles() > body.n_triangles();
     loads = on_finer_triangles(surface, unit_loads);

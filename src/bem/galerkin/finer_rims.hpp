@@ -32,8 +32,8 @@ enum class LoneVertices { kept, refined };
 
 /// The same set on a surface with rows of thin triangles along the rims of the constrained patches
 /// (add_rows_along_rim), where tractions are singular, and along re-entrant edges of the body, where stresses are
-/// singular too (docs/formulation.md section 7). The polyhedron is the same; the body's vertices come
-/// first. What is prescribed is linear on each of the body's triangles. What would become a sliver
+/// singular too, unless nearly every edge is one (docs/formulation.md section 7). The polyhedron is the same; the
+/// body's vertices come first. What is prescribed is linear on each of the body's triangles. What would become a sliver
 /// (kSliverAltitudeOfPotential) is cut by its neighbours' new vertices only.
 struct FinerRims : SurfaceSet {
     RefinedSurface surface;
