@@ -8,10 +8,10 @@ namespace elastolab {
 /// is cheaper.
 bool is_hierarchical(const SurfaceMesh& surface, const Method& method);
 
-/// The arithmetic of a prediction.
-struct Work {
-    double flops = 0.0;      ///< of matrix products
-    double integrals = 0.0;  ///< as many evaluations of a triangle's potential take as long
+/// The arithmetic that is predicted, and how long it takes on this machine (deform/machine_speed.hpp) [s].
+struct PredictedWork {
+    double flops = 0.0;      ///< of matrix products: product_speed()
+    double integrals = 0.0;  ///< in evaluations of the potential of a triangle: integral_speed()
 
     double seconds() const;
 };

@@ -40,9 +40,9 @@ inline constexpr std::array kAllTractions = {Tractions::discontinuous, Tractions
 inline constexpr std::array kAllUpdates = {Update::direct, Update::eqn9, Update::reduced};
 inline constexpr std::array kAllElements = {ElementDegree::quadratic, ElementDegree::linear};
 
-/// What a precomputation would take, before it is begun. Seconds, of a first constrained set of a tenth of the vertices
-/// too, are an estimate from the arithmetic and this machine's speeds (machine_speed.hpp); memory is what the model's
-/// arrays add up to. What a constrained set takes beyond this: Deformer::predict_memory.
+/// What a precomputation would take, before it is begun. Seconds include a first constrained set of a tenth of the
+/// vertices; they are estimated from the arithmetic and the speeds of this machine (machine_speed.hpp). Memory is what
+/// the model's arrays add up to; what a constrained set takes beyond: Deformer::predict_memory.
 struct Cost {
     std::int64_t degrees_of_freedom = 0;
     std::uint64_t memory_bytes = 0;  ///< at its peak, beyond what the program holds already

@@ -41,14 +41,14 @@ std::set<Edge> reentrant_edges(const SurfaceMesh& surface, double least_turn) {
     return found;
 }
 
-/// The rim between a region of coarse triangles and the others, and what else counts as such.
+/// The rim between a region of coarse triangles and the others; re-entrant edges count as parts of it.
 class Rim {
 public:
-    Rim(const RefinedSurface& surface, const std::vector<char>& in_region, std::set<Edge> others = {})
+    Rim(const RefinedSurface& surface, const std::vector<char>& in_region, std::set<Edge> reentrant = {})
         : surface_(surface),
-          others_(std::move(others)),
-          on_others_(static_cast<std::size_t>(surface.mesh.n_vertices()), 0) {
-        for (const auto& [a, b] : others_) on_others_[at(a)] = on_others_[at(b)] = 1;
+          reentrant_(std::move(reentrant)),
+          at_reentrant_(static_cast<std::size_t>(surface.mesh.n_vertices()), 0) {
+        for (const auto& [a, b] : reentrant_) at_reentrant_[at(a)] = at_reentrant_[at(b)] = 1;
         for (auto& seen : sees_) seen.resize(static_cast<std::size_t>(surface.mesh.n_vertices()), 0);
         const auto inside = [&](int t) {
             return in_region[static_cast<std::size_t>(surface.coarse_triangle[static_cast<std::size_t>(t)])] != 0;
@@ -58,8 +58,8 @@ public:
         for (int t = 0; t < surface.mesh.n_triangles(); ++t)
             for (int i = 0; i < 3 && touches(t); ++i) beside_[edge(t, i)][inside(t)] = true;
     }
-    /// A vertex at the rim has triangles of both kinds around it.
-    bool has(int v) const { return (sees_[0][at(v)] && sees_[1][at(v)]) || on_others_[at(v)]; }
+    /// A vertex at the rim has triangles of both kinds around it, or ends a re-entrant edge.
+    bool has(int v) const { return (sees_[0][at(v)] && sees_[1][at(v)]) || at_reentrant_[at(v)]; }
     bool touches(int t) const { return has(corner(t, 0)) || has(corner(t, 1)) || has(corner(t, 2)); }
     bool has_all_edges(int t) const { return has_edge(edge(t, 0)) && has_edge(edge(t, 1)) && has_edge(edge(t, 2)); }
 
@@ -80,7 +80,7 @@ private:
     static std::size_t at(int v) { return static_cast<std::size_t>(v); }
     int corner(int t, int i) const { return surface_.mesh.triangles(i % 3, t); }
     Edge edge(int t, int i) const { return std::minmax({corner(t, i), corner(t, i + 1)}); }
-    bool has_edge(const Edge& e) const { return (beside_.at(e)[0] && beside_.at(e)[1]) || others_.contains(e); }
+    bool has_edge(const Edge& e) const { return (beside_.at(e)[0] && beside_.at(e)[1]) || reentrant_.contains(e); }
 
     template <class Chosen>
     std::vector<EdgeCut> cuts(const MayBeCut& may_be_cut, double share, const Chosen& is_chosen) const {
@@ -96,8 +96,8 @@ private:
     }
 
     const RefinedSurface& surface_;
-    std::set<Edge> others_;
-    std::vector<char> on_others_;                 ///< by vertex
+    std::set<Edge> reentrant_;
+    std::vector<char> at_reentrant_;              ///< by vertex
     std::array<std::vector<char>, 2> sees_;       ///< by vertex: has a triangle outside, inside
     std::map<Edge, std::array<bool, 2>> beside_;  ///< by edge of a triangle that touches it: the same
 };

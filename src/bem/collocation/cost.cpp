@@ -33,7 +33,7 @@ Cost predict(const SurfaceMesh& mesh, const Method& method, double nodes, double
     Cost cost{static_cast<std::int64_t>(n), kLeastMemory, 0.0};
     if (!factorises_ahead(method)) return cost;
     cost.memory_bytes += square_bytes(n + 6.0);
-    Work work{0.72 * n * n * n, prices.pairs * nodes * triangles + prices.triangles * triangles};
+    PredictedWork work{0.72 * n * n * n, prices.pairs * nodes * triangles + prices.triangles * triangles};
     if (method.mode != Mode::on_demand) {
         cost.memory_bytes += 5 * square_bytes(n + 6.0);
         work.flops += prices.inverse * n * n * n;

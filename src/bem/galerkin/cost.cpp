@@ -27,16 +27,16 @@ constexpr HierarchicalPrices kHierarchical{
 constexpr double kIntegralsOfARim = 1.7e5, kIntegralsAcrossRims = 130.0, kIntegralsBetweenRims = 1700.0;
 
 /// The single layer is factorised and eliminated from all rows.
-Work work_of_set(const SurfaceMesh& mesh) {
+PredictedWork work_of_set(const SurfaceMesh& mesh) {
     const double n = 3.0 * mesh.n_vertices(), set = UsualSet(mesh).triangles, tractions = 3.0 * set;
     return {1.7 * tractions * tractions * tractions + 4.2 * n * tractions * tractions + 330.0 * n * n,
             kIntegralsOfASet * mesh.n_triangles() * set + kIntegralsWithinASet * set * set};
 }
 
-Work work_of_finer_rims(const SurfaceMesh& mesh, int rows) {
+PredictedWork work_of_finer_rims(const SurfaceMesh& mesh, int rows) {
     const double n = 3.0 * mesh.n_vertices();
     const double thin = 5.0 * std::sqrt(UsualSet(mesh).vertices) * (std::exp2(rows) - 1.0);
-    const Work as_given = work_of_set(mesh);
+    const PredictedWork as_given = work_of_set(mesh);
     return {5.0 * as_given.flops + 2.3 * n * n * n,
             5.0 * as_given.integrals +
                 thin * (kIntegralsOfARim + kIntegralsAcrossRims * mesh.n_triangles() + kIntegralsBetweenRims * thin)};
@@ -64,7 +64,7 @@ Cost predict_galerkin_bem(const SurfaceMesh& mesh, const Method& method) {
     Cost cost{static_cast<std::int64_t>(n), kLeastMemory + static_cast<std::uint64_t>(waiting), 0.0};
     const bool factorises = factorises_ahead(method), keeps_integrals = method.rims > 0;
     if (!factorises && !keeps_integrals) return cost;
-    Work work = method.rims > 0 ? work_of_finer_rims(mesh, method.rims) : work_of_set(mesh);
+    PredictedWork work = method.rims > 0 ? work_of_finer_rims(mesh, method.rims) : work_of_set(mesh);
     work.integrals +=
         kIntegralsOfAPair * triangles * triangles + kIntegralsOfATriangle * triangles + costly_pair_integrals(mesh);
     if (keeps_integrals) cost.memory_bytes += square_bytes(n);

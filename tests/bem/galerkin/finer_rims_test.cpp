@@ -119,6 +119,7 @@ TEST(FinerRims, AnswerTheSameByHierarchicalMatrices) {
     EXPECT_LT(hierarchical.residual.value(), 1e-6);
 }
 
+/// Two rows, which take longest, at one of the ratios.
 TEST(FinerRims, AreExactForAStretchedBox) {
     for (const double nu : {0.0, 0.3, 0.5})
         for (const int rows : {1, 2, 3}) {
