@@ -62,9 +62,7 @@ void ViewerSession::draw_frame() {
 DrawingDetail ViewerSession::detail_at(double now, double pixel_ratio) {
     if (nobody_watches()) return {};
     if (std::exchange(detailed_scene_, state_.scene_number()) != state_.scene_number()) detail_.forget();
-    // Somebody waits for the first answer: software OpenGL would take the cores that compute it.
-    const bool hurries = state_.simulation.preparing_preview();
-    return detail_.choose(hurries || renderer_.has_moved(state_, palette(), pixel_ratio), now);
+    return detail_.choose(hurries() || renderer_.has_moved(state_, palette(), pixel_ratio), now);
 }
 
 void ViewerSession::arrange(const Layout& layout) {

@@ -11,9 +11,11 @@ namespace {
 constexpr double kProgressSeconds = 1.0 / 15.0;  ///< between frames while a progress bar moves
 /// Between frames that settle while workers compute, who may want the cores that draw: software OpenGL takes them all.
 constexpr double kSettlingSeconds = kProgressSeconds;
-constexpr double kWaitingSeconds = 0.01;         ///< between looks at what the next frame of a film shows
-constexpr double kCheckSeconds = 0.25;           ///< between looks at a check that goes on in the background
-constexpr double kCaretSeconds = 0.4;            ///< between frames while a text cursor blinks
+/// Between frames while the first answer is waited for: times as long as the frame before took, and at most [s].
+constexpr double kRestForWorkers = 4.0, kLongestRest = 0.1;
+constexpr double kWaitingSeconds = 0.01;  ///< between looks at what the next frame of a film shows
+constexpr double kCheckSeconds = 0.25;    ///< between looks at a check that goes on in the background
+constexpr double kCaretSeconds = 0.4;     ///< between frames while a text cursor blinks
 
 }  // namespace
 
@@ -21,6 +23,20 @@ bool ViewerSession::held_back() const {
     const bool late_frames =
         options_.n_frames > 0 && 2 * (state_.measurements.frame + 1) > options_.n_frames && !replay_;
     return late_frames && workers_compute();
+}
+
+bool ViewerSession::hurries() const {
+    return state_.simulation.preparing_preview() || state_.simulation.proxies().running();
+}
+
+double ViewerSession::rest_for_workers() const {
+    if (!hurries() || options_.n_frames > 0 || replaying()) return 0.0;
+    const bool follows_only = std::all_of(
+        queue_.begin(), queue_.end(), [](const InputEvent& event) { return event.kind == InputEvent::Kind::cursor; });
+    if (!follows_only) return 0.0;
+    const double took = 1e-3 * state_.measurements.last_frame.frame_ms;
+    const double rest = std::min(kRestForWorkers * took, kLongestRest);
+    return std::max(0.0, last_frame_seconds_ + took + rest - Window::seconds());
 }
 
 double ViewerSession::timeout() const {
@@ -31,6 +47,7 @@ double ViewerSession::timeout() const {
 double ViewerSession::timeout_of_work() const {
     if (pictures_.filming()) return pictures_.waiting() ? kWaitingSeconds : 0.0;
     if (held_back()) return kProgressSeconds;
+    if (const double rest = rest_for_workers(); rest > 0.0) return rest;
     if (options_.n_frames > 0 || !queue_.empty()) return 0.0;
     if (pending_frames_ > 0) return workers_compute() ? kSettlingSeconds : 0.0;
     if (replay_ && !replay_->done() && !state_.simulation.busy()) return 0.0;
@@ -72,6 +89,7 @@ bool ViewerSession::must_draw() {
         state_.update_picture();
         return false;
     }
+    if (rest_for_workers() > 0.0 && !state_.update_displacements()) return false;
     if (options_.n_frames == 0 && pending_frames_ == 0 && !replaying()) {
         const bool checking = state_.simulation.checking();
         const bool changed = state_.update_displacements();

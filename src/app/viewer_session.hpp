@@ -57,6 +57,11 @@ private:
     /// The later half of a given number of frames waits until the scene is ready and the model will not be replaced any
     /// more: the set of a completed one is prepared anew.
     bool held_back() const;
+    /// Somebody waits for the first answer, and software OpenGL would take the cores that compute it.
+    bool hurries() const;
+    /// While it is waited for, frames that only follow the cursor come with a rest in between: how much of that is left
+    /// [s]; 0: the next frame may be drawn.
+    double rest_for_workers() const;
     double timeout() const;
     double timeout_of_work() const;
 

@@ -19,8 +19,10 @@ namespace {
 
 using State = MethodRunner::State;
 
-/// What a person wants to know first: does the body answer, is that the method's own answer, and when will it be.
-std::string state_words(const ViewerState& state, const Cost& cost) {
+/// What a person wants to know first: does the body answer, is that the method's own answer, and when will it be. What
+/// that costs is predicted when something answers: predictions take some of the time until then.
+template <class CostOf>
+std::string state_words(const ViewerState& state, const CostOf& cost_of) {
     const Simulation& simulation = state.simulation;
     const MethodRunner& runner = simulation.runner(state.method);
     const bool previewing = simulation.previewing(state.method);
@@ -33,8 +35,9 @@ std::string state_words(const ViewerState& state, const Cost& cost) {
             if (simulation.preparing_preview()) return "preparing the preview";
             return runner.has_answer() ? "stopped; the last answer is shown" : "not computed";
         case State::precomputing: {
-            const JobStatus status = runner.status();
-            const std::string when = "in about " + readable_seconds(std::max(cost.seconds - status.seconds, 1.0));
+            if (!previewing && simulation.preparing_preview()) return "preparing the preview";
+            const double left = cost_of(state.method).seconds - runner.status().seconds;
+            const std::string when = "in about " + readable_seconds(std::max(left, 1.0));
             return previewing ? "preview; exact " + when : "ready " + when;
         }
         case State::preparing:
@@ -150,6 +153,7 @@ void draw_progress(const PanelContext& context, MethodRunner& runner) {
 MethodKind MethodPanel::sooner_method(const ViewerState& state) {
     constexpr double kLong = 4.0, kFarSooner = 3.0;  // seconds; times
     if (state.simulation.runner(state.method).state() != State::precomputing) return nullptr;
+    if (state.simulation.preparing_preview()) return nullptr;  // as in state_words
     const double own = costs_.of(state, state.choices.of(state.method)).seconds;
     if (own < kLong) return nullptr;
     for (const MethodKind kind : all_methods())
@@ -187,7 +191,7 @@ void MethodPanel::draw(const PanelContext& context) {
     draw_buttons(context, cost_of, [&](MethodKind kind) { return costs_.memory_with_completion(state, kind); });
     MethodRunner& runner = state.simulation.runner(state.method);
     const Colour& colour = state.simulation.previewing(state.method) ? palette.good : state_colour(runner, palette);
-    ImGui::TextColored(imgui_colour(colour), "%s", state_words(state, cost_of(state.method)).c_str());
+    ImGui::TextColored(imgui_colour(colour), "%s", state_words(state, cost_of).c_str());
     draw_sooner(context);
     draw_progress(context, runner);
     draw_computation(context, costs_);

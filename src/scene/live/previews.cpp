@@ -10,24 +10,27 @@ namespace {
 constexpr int kFewestToPreview = 300;
 /// A sound surface with no more vertices than this needs no coarser one: with quick_method() it answers sooner than a
 /// proxy of it is made.
-constexpr int kMostToPreviewThemselves = 3000;
+constexpr int kMostToPreviewThemselves = 2000;
 /// The same for preview_method(), which takes longer, and bends rubber as well as steel.
 constexpr int kMostToPreviewRubber = 900;
 /// From this Poisson's ratio on quick_method() is too stiff to show what will come.
 constexpr double kRubber = 0.45;
-/// The preview's elements cannot take 1/2 itself.
-constexpr double kPreviewPoissonRatio = 0.49;
+/// For finite elements that cannot take 1/2 itself.
+constexpr double kNearlyIncompressible = 0.49;
+/// Equilibria of a surface with no more vertices than this follow a drag.
+constexpr int kMostQuickAtEquilibria = 900;
 
 /// The method that the preview simulates the scene's own surface by; null where it is made on a proxy.
 MethodKind preview_on_itself(const LiveScene& scene) {
     const bool is_rubber = scene.document().material.poisson_ratio > kRubber;
-    const MethodKind kind = is_rubber ? preview_method() : quick_method();
     const int most = is_rubber ? kMostToPreviewRubber : kMostToPreviewThemselves;
-    return scene.needs_proxy(kind) || scene.mesh().n_vertices() > most ? nullptr : kind;
+    if (scene.mesh().n_vertices() > most) return nullptr;
+    const MethodKind kind = is_rubber ? preview_method(scene.mesh()) : quick_method();
+    return scene.needs_proxy(kind) ? nullptr : kind;
 }
 
 /// Gives a preview the body that it simulates: the scene's own surface by `on_itself`, or, where that is null, the
-/// proxy by `on_proxy`; false when it has none.
+/// proxy by `on_proxy` (null: what suits the proxy); false when it has none.
 bool give_body(EmbeddedRunner& preview, MethodKind on_itself, MethodKind on_proxy, bool wanted, const LiveScene& scene,
                const ProxyKeeper& proxies) {
     const std::shared_ptr<const Proxy>& proxy = proxies.preview();
@@ -39,11 +42,13 @@ bool give_body(EmbeddedRunner& preview, MethodKind on_itself, MethodKind on_prox
         preview.clear();
         return false;
     }
+    const MethodKind kind = on_itself ? on_itself : on_proxy ? on_proxy : preview_method(*proxy->surface);
     Body body{.name = scene.name(),
               .surface = on_itself ? scene.surface() : proxy->surface,
               .material = scene.document().material};
-    body.material.poisson_ratio = std::min(body.material.poisson_ratio, kPreviewPoissonRatio);
-    preview.set_body(body, {.kind = on_itself ? on_itself : on_proxy}, on_itself ? nullptr : proxy);
+    if (!kind->takes_incompressible)
+        body.material.poisson_ratio = std::min(body.material.poisson_ratio, kNearlyIncompressible);
+    preview.set_body(body, {.kind = kind}, on_itself ? nullptr : proxy);
     return true;
 }
 
@@ -52,7 +57,7 @@ bool give_body(EmbeddedRunner& preview, MethodKind on_itself, MethodKind on_prox
 bool is_worth_a_preview(const LiveScene& scene) { return scene.mesh().n_vertices() > kFewestToPreview; }
 
 bool is_quick_at_equilibria(const LiveScene& scene) {
-    return !scene.needs_proxy(preview_method()) && scene.mesh().n_vertices() <= kMostToPreviewRubber;
+    return !scene.needs_proxy(large_deformation_method()) && scene.mesh().n_vertices() <= kMostQuickAtEquilibria;
 }
 
 void Previews::choose(const LiveScene& scene, const std::vector<MethodKind>& shown, bool wanted) {
@@ -67,8 +72,7 @@ void Previews::choose(const LiveScene& scene, const std::vector<MethodKind>& sho
 
 bool Previews::update_linear(const LiveScene& scene, const ProxyKeeper& proxies, FrameRule rule) {
     const std::uint64_t before = linear_.version();
-    if (!give_body(linear_, on_itself_, preview_method(), has_linear_, scene, proxies))
-        return linear_.version() != before;
+    if (!give_body(linear_, on_itself_, nullptr, has_linear_, scene, proxies)) return linear_.version() != before;
     linear_.runner().set_frame_rule(rule);
     linear_.set_constraints(scene.constraints());
     linear_.poll();
