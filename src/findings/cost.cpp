@@ -1,5 +1,6 @@
 #include "findings/cost.hpp"
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 
@@ -10,6 +11,12 @@
 namespace elastolab {
 
 Cost predict_cost(const SurfaceMesh& surface, const Method& method) { return method.kind->predict(surface, method); }
+
+std::string readable_prediction(double seconds) {
+    if (!(seconds > 0.0)) return readable_seconds(0.0);
+    const double second_digit = std::pow(10.0, std::floor(std::log10(seconds)) - 1.0);
+    return readable_seconds(std::round(seconds / second_digit) * second_digit);
+}
 
 void require_memory(const Cost& cost, const Method& method) {
     const std::uint64_t available = available_memory_bytes();

@@ -6,10 +6,12 @@
 #include <set>
 #include <tuple>
 
+#include "base/text.hpp"
 #include "bem/collocation/method.hpp"
 #include "bem/galerkin/method.hpp"
 #include "elasticity/exact_fields.hpp"
 #include "fem/method.hpp"
+#include "findings/cost.hpp"
 #include "findings/solution.hpp"
 #include "findings/words.hpp"
 #include "mesh/meshes.hpp"
@@ -189,6 +191,16 @@ TEST(Findings, WritePercentagesOut) {
     EXPECT_THAT(told(0.0374), HasSubstr("about 3.7 %"));
     EXPECT_THAT(told(0.996), HasSubstr("about 100 %"));
     EXPECT_THAT(told(3.74), HasSubstr("about 370 %"));
+}
+
+/// They hold within a factor of two.
+TEST(Predictions, AreToldInTwoDigits) {
+    EXPECT_EQ(readable_prediction(2.344), "2.3 s");
+    EXPECT_EQ(readable_prediction(0.02345), "23 ms");
+    EXPECT_EQ(readable_prediction(99.7), "100 s");
+    EXPECT_EQ(readable_prediction(1.0), "1 s");
+    EXPECT_EQ(readable_prediction(444.0), "7.3 min");
+    EXPECT_EQ(readable_prediction(0.0), readable_seconds(0.0));
 }
 
 TEST(Findings, CountHolesInWholeNumbers) {

@@ -41,8 +41,8 @@ std::string begin_with_what_is_soon(LiveScene& scene) {
         }
     if (soonest == usual) return "";
     scene.start_with(soonest, scene.document().settings);
-    return title(soonest) + " comes first: exact in about " + readable_seconds(seconds) + ". " + title(usual) +
-           " would take about " + readable_seconds(own.seconds) + " and " +
+    return title(soonest) + " comes first: exact in about " + readable_prediction(seconds) + ". " + title(usual) +
+           " would take about " + readable_prediction(own.seconds) + " and " +
            readable_bytes(static_cast<double>(own.memory_bytes)) + "; choose it in the panel.";
 }
 

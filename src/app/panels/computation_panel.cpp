@@ -2,9 +2,12 @@
 
 #include <imgui.h>
 
+#include <algorithm>
 #include <array>
 #include <memory>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "app/panels/cost_predictions.hpp"
 #include "app/panels/panel_context.hpp"
@@ -42,8 +45,7 @@ constexpr std::array<Choice<int>, 3> kRims = {
     {{0, "as given", "The triangles of the body."},
      {1, "one thin row",
       "A row of thin triangles along the rims of the constrained patches, where most of the error comes from: a "
-      "quarter "
-      "of the error, and three to five times the time until a new handle is ready. Of Galerkin BEM."},
+      "quarter of the error, and three to five times the time until a new handle is ready. Of Galerkin BEM."},
      {2, "two thin rows",
       "Two of them, thinner towards the rim: a fifth of the error, ten times the time. Of Galerkin BEM."}}};
 constexpr std::array<Choice<Tractions>, 3> kTractions = {
@@ -58,6 +60,16 @@ const char* update_label(Update update) {
     for (const Choice<Update>& choice : kUpdates)
         if (choice.value == update) return choice.label;
     return "";
+}
+
+/// A row that is grey where no shown method has such a choice.
+template <class Value>
+void draw_choice(const PanelContext& context, const char* label, Value& value, std::span<const Choice<Value>> choices,
+                 bool has_choice) {
+    set_item_width(context.gui.scale());
+    ImGui::BeginDisabled(!has_choice);
+    choose<Value>(label, value, choices);
+    ImGui::EndDisabled();
 }
 
 /// What is there of the model, in rows that are there before it is.
@@ -87,7 +99,7 @@ void draw_mode(const PanelContext& context, CostPredictions& costs) {
             method.mode = choice.value;
             const Cost& price = costs.of(state, method);
             const bool fits = price.memory_bytes < available_memory_bytes();
-            const std::string label = std::string(choice.label) + "   " + readable_seconds(price.seconds) + ", " +
+            const std::string label = std::string(choice.label) + "   " + readable_prediction(price.seconds) + ", " +
                                       readable_bytes(static_cast<double>(price.memory_bytes)) +
                                       (fits ? "" : " (does not fit)");
             ImGui::BeginDisabled(!fits);
@@ -111,17 +123,16 @@ void draw_computation(const PanelContext& context, CostPredictions& costs) {
     if (!ImGui::TreeNode("How it computes")) return;
     draw_model(context, state.simulation.runner(state.method));
     draw_mode(context, costs);
-    const float scale = context.gui.scale();
-    set_item_width(scale);
-    choose<Update>("update", state.choices.update, kUpdates);
-    set_item_width(scale);
-    choose<FrameRule>("each frame", state.choices.frame_rule, kFrameRules);
-    set_item_width(scale);
-    choose<Tractions>("tractions", state.choices.tractions, kTractions);
-    set_item_width(scale);
-    choose<ElementDegree>("elements", state.choices.elements, kElements);
-    set_item_width(scale);
-    choose<int>("rims", state.choices.rims, kRims);
+    const std::vector<MethodKind> shown = state.shown_kinds();
+    const auto any = [&](bool MethodTraits::*has) {
+        return std::any_of(shown.begin(), shown.end(), [&](MethodKind kind) { return kind->*has; });
+    };
+    MethodChoices& choices = state.choices;
+    draw_choice<Update>(context, "update", choices.update, kUpdates, true);
+    draw_choice<FrameRule>(context, "each frame", choices.frame_rule, kFrameRules, any(&MethodTraits::linear));
+    draw_choice<Tractions>(context, "tractions", choices.tractions, kTractions, any(&MethodTraits::chooses_tractions));
+    draw_choice<ElementDegree>(context, "elements", choices.elements, kElements, any(&MethodTraits::chooses_elements));
+    draw_choice<int>(context, "rims", choices.rims, kRims, any(&MethodTraits::chooses_rims));
     ImGui::TreePop();
 }
 

@@ -37,7 +37,7 @@ std::string state_words(const ViewerState& state, const CostOf& cost_of) {
         case State::precomputing: {
             if (!previewing && simulation.preparing_preview()) return "preparing the preview";
             const double left = cost_of(state.method).seconds - runner.status().seconds;
-            const std::string when = "in about " + readable_seconds(std::max(left, 1.0));
+            const std::string when = "in about " + readable_prediction(std::max(left, 1.0));
             return previewing ? "preview; exact " + when : "ready " + when;
         }
         case State::preparing:
@@ -69,7 +69,7 @@ std::string button_words(const ViewerState& state, MethodKind kind, const Cost& 
     const MethodRunner& runner = state.simulation.runner(kind);
     if (runner.state() == State::ready) return "ready";
     if (cost.seconds <= 0.0) return "not begun";
-    std::string price = readable_seconds(cost.seconds) + ", " + readable_bytes(static_cast<double>(cost.memory_bytes));
+    std::string price = readable_prediction(cost.seconds) + ", " + readable_bytes(static_cast<double>(cost.memory_bytes));
     if (completed_bytes > cost.memory_bytes)
         price += ", with K and its inverse later " + readable_bytes(static_cast<double>(completed_bytes));
     if (cost.memory_bytes > available_memory_bytes()) return "takes " + price + ": does not fit into memory";
@@ -175,7 +175,7 @@ void MethodPanel::draw_sooner(const PanelContext& context) {
     if (sooner == nullptr) return;
     const bool ready = state.simulation.runner(sooner).model() != nullptr;
     const std::string when =
-        ready ? "ready" : "in about " + readable_seconds(costs_.of(state, state.choices.of(sooner)).seconds);
+        ready ? "ready" : "in about " + readable_prediction(costs_.of(state, state.choices.of(sooner)).seconds);
     const std::string label = title(sooner) + ": " + when;
     const float width = ImGui::CalcTextSize(label.c_str()).x + 2.0f * ImGui::GetStyle().FramePadding.x;
     ImGui::SameLine();
