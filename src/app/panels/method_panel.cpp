@@ -69,7 +69,8 @@ std::string button_words(const ViewerState& state, MethodKind kind, const Cost& 
     const MethodRunner& runner = state.simulation.runner(kind);
     if (runner.state() == State::ready) return "ready";
     if (cost.seconds <= 0.0) return "not begun";
-    std::string price = readable_prediction(cost.seconds) + ", " + readable_bytes(static_cast<double>(cost.memory_bytes));
+    std::string price =
+        readable_prediction(cost.seconds) + ", " + readable_bytes(static_cast<double>(cost.memory_bytes));
     if (completed_bytes > cost.memory_bytes)
         price += ", with K and its inverse later " + readable_bytes(static_cast<double>(completed_bytes));
     if (cost.memory_bytes > available_memory_bytes()) return "takes " + price + ": does not fit into memory";
