@@ -30,16 +30,19 @@ start() {
   rm -rf "$csv" "$XDG_STATE_HOME"  # what a viewer that was killed had kept would be offered first
   "$program" view --timeline "$csv" --size 1280x800 "${@:2}" > "$folder/$1.log" 2>&1 &
   local viewer=$! window
+  local -i end=$((SECONDS + patience))
   # Not `search --sync`, which looks twice a second only.
-  window=
-  while [[ -z $window ]] && kill -0 "$viewer"; do
-    window=$(xdotool search --onlyvisible --pid "$viewer" 2> /dev/null | tail -1 || true)
+  until window=$(xdotool search --onlyvisible --pid "$viewer" 2> /dev/null | tail -1 | grep .); do
+    if ((SECONDS >= end)) || ! kill -0 "$viewer" 2> /dev/null; then
+      echo "$1: no window. What the viewer said: $(cat "$folder/$1.log")" >&2
+      exit 1
+    fi
   done
   xdotool mousemove --window "$window" 860 400 mousedown 1
   local early=
   [[ -n $(at loaded "$csv") ]] || early=yes
   local -i step=0
-  local -i end=$((SECONDS + patience))
+  end=$((SECONDS + patience))
   while [[ -z $(at exact "$csv") ]] && ((SECONDS < end)); do
     # A press before there was anything to press on is repeated, as a person would: when the body is seen, and later
     # twice a second.

@@ -19,8 +19,8 @@ namespace {
 
 using State = MethodRunner::State;
 
-/// What a person wants to know first: does the body answer, is that the method's own answer, and when will it be. What
-/// that costs is predicted when something answers: predictions take some of the time until then.
+/// What a person wants to know first: does the body answer, is that the method's own answer, and when will it be. That
+/// is predicted only once something answers, as a prediction takes processors that the first answer wants.
 template <class CostOf>
 std::string state_words(const ViewerState& state, const CostOf& cost_of) {
     const Simulation& simulation = state.simulation;
@@ -154,7 +154,7 @@ void draw_progress(const PanelContext& context, MethodRunner& runner) {
 MethodKind MethodPanel::sooner_method(const ViewerState& state) {
     constexpr double kLong = 4.0, kFarSooner = 3.0;  // seconds; times
     if (state.simulation.runner(state.method).state() != State::precomputing) return nullptr;
-    if (state.simulation.preparing_preview()) return nullptr;  // as in state_words
+    if (state.simulation.preparing_preview()) return nullptr;  // no prediction before the first answer
     const double own = costs_.of(state, state.choices.of(state.method)).seconds;
     if (own < kLong) return nullptr;
     for (const MethodKind kind : all_methods())

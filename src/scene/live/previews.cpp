@@ -9,13 +9,13 @@ namespace {
 /// A body with no more vertices than this is ready before a person has looked at it.
 constexpr int kFewestToPreview = 300;
 /// A sound surface with no more vertices than this needs no coarser one: with quick_method() it answers sooner than a
-/// proxy of it is made.
+/// proxy of it (docs/results.md).
 constexpr int kMostToPreviewThemselves = 2000;
 /// The same for preview_method(), which takes longer, and bends rubber as well as steel.
 constexpr int kMostToPreviewRubber = 900;
 /// From this Poisson's ratio on quick_method() is too stiff to show what will come.
 constexpr double kRubber = 0.45;
-/// For finite elements that cannot take 1/2 itself.
+/// Poisson's ratio in place of 1/2 for finite elements, which cannot take that.
 constexpr double kNearlyIncompressible = 0.49;
 /// Equilibria of a surface with no more vertices than this follow a drag.
 constexpr int kMostQuickAtEquilibria = 900;
