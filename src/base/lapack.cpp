@@ -144,4 +144,21 @@ SingularValues singular_values(Eigen::MatrixXd A) {
     return {std::move(U), std::move(sigma), Vt.transpose()};
 }
 
+SymmetricEigen symmetric_eigen(Eigen::MatrixXd A) {
+    assert(A.rows() == A.cols());
+    const int n = as_int(A.rows());
+    Eigen::VectorXd values(n);
+    if (n == 0) return {std::move(values), std::move(A)};
+    if (!A.allFinite()) throw SolveError("eigenvalues: of a matrix with entries that are not finite.");
+    double answer = 0.0;
+    int integers = 0;
+    LAPACKE_dsyevd_work(LAPACK_COL_MAJOR, 'V', 'L', n, A.data(), n, values.data(), &answer, -1, &integers, -1);
+    std::vector<double> work = work_array(answer);
+    std::vector<int> iwork(static_cast<std::size_t>(std::max(1, integers)));
+    if (LAPACKE_dsyevd_work(LAPACK_COL_MAJOR, 'V', 'L', n, A.data(), n, values.data(), work.data(),
+                            as_int(std::ssize(work)), iwork.data(), as_int(std::ssize(iwork))) != 0)
+        throw SolveError("eigenvalues: the iteration does not converge.");
+    return {std::move(values), std::move(A)};
+}
+
 }  // namespace elastolab

@@ -43,7 +43,7 @@ struct MinimumNormSolution {
     Eigen::MatrixXd X;
     int rank = 0;
 };
-MinimumNormSolution solve_minimum_norm(Eigen::MatrixXd A, Eigen::MatrixXd B, double rank_tolerance);
+MinimumNormSolution solve_minimum_norm(Eigen::MatrixXd A, Eigen::MatrixXd B, double rank_tolerance = 1e-12);
 
 /// A = Q R by Householder reflections (dgeqrf): Q has min(rows, columns) orthonormal columns. Immutable.
 class QrFactorization {
@@ -67,5 +67,14 @@ struct SingularValues {
 };
 /// By dgesdd. Throws SolveError when the iteration does not converge or A has entries that are not finite.
 SingularValues singular_values(Eigen::MatrixXd A);
+
+/// Symmetric A = vectors diag(values) vectors^T.
+struct SymmetricEigen {
+    Eigen::VectorXd values;   ///< ascending
+    Eigen::MatrixXd vectors;  ///< orthonormal columns
+};
+/// By dsyevd; reads the lower triangle only. Throws SolveError when the iteration does not converge or A has entries
+/// that are not finite.
+SymmetricEigen symmetric_eigen(Eigen::MatrixXd A);
 
 }  // namespace elastolab

@@ -2,9 +2,9 @@
 
 #include <cassert>
 #include <Eigen/Geometry>
-#include <Eigen/QR>
 
 #include "base/error.hpp"
+#include "base/lapack.hpp"
 
 namespace elastolab {
 
@@ -101,10 +101,7 @@ Eigen::VectorXd GripStiffness::motions(const Eigen::VectorXd& forces, const Eige
     for (Eigen::Index g = 0; g < springs.size(); ++g) held.diagonal().segment<3>(6 * g).array() += springs[g];
     const Eigen::MatrixXd scaled = unit.asDiagonal() * held * unit.asDiagonal();
     const Eigen::VectorXd wanted = unit.asDiagonal() * (forces - rest_);
-    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
-    decomposition.setThreshold(kNoStiffness);
-    decomposition.compute(scaled);
-    const Eigen::VectorXd motion = decomposition.solve(wanted);
+    const Eigen::VectorXd motion = solve_minimum_norm(scaled, wanted, kNoStiffness).X;
     if (!((scaled * motion - wanted).norm() <= kUnanswered * (wanted.norm() + (unit.asDiagonal() * forces).norm())))
         throw SolveError(kUnbalancedGrips);
     return unit.asDiagonal() * motion;

@@ -1,10 +1,10 @@
 #include "deform/grip_tangent.hpp"
 
 #include <algorithm>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <limits>
+#include <utility>
 
+#include "base/lapack.hpp"
 #include "deform/grip.hpp"
 #include "elasticity/rotation.hpp"
 
@@ -40,9 +40,9 @@ GripTangent::GripTangent(const Eigen::MatrixXd& stiffness, double length, double
     : stiffness_(stiffness), length_(length), young_modulus_(young_modulus), held_(held) {
     scaled_ = units().asDiagonal() * stiffness * units().asDiagonal();
     if (stiffness.rows() == 0) return;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(0.5 * (scaled_ + scaled_.transpose()));
-    values_ = modes.eigenvalues();
-    modes_ = modes.eigenvectors();
+    SymmetricEigen modes = symmetric_eigen(0.5 * (scaled_ + scaled_.transpose()));
+    values_ = std::move(modes.values);
+    modes_ = std::move(modes.vectors);
     const double largest = values_.cwiseAbs().maxCoeff();
     const bool nothing = largest < kNothingHolds * young_modulus * length;
     none_ = nothing ? 2.0 * largest : (held ? kNoneIfHeld : kNoneIfFree) * largest;
@@ -70,7 +70,10 @@ Eigen::VectorXd GripTangent::answered(const Eigen::VectorXd& forces) const {
 
 Eigen::VectorXd GripTangent::step(const Eigen::VectorXd& answered) const {
     if (values_.size() == 0) return {};
-    if (values_[0] > none_) return units().asDiagonal() * scaled_.partialPivLu().solve(answered);
+    if (values_[0] > none_) {
+        const LuFactorization factored(Eigen::MatrixXd(scaled_), "stiffness of grips");
+        return units().asDiagonal() * factored.solve(answered);
+    }
     const Eigen::VectorXd shares = modes_.transpose() * answered, sizes = values_.cwiseAbs();
     return units().asDiagonal() * (modes_ * (sizes.array() > none_).select(shares.cwiseQuotient(sizes), 0.0));
 }

@@ -1,6 +1,6 @@
 #include "deform/holds.hpp"
 
-#include <Eigen/Eigenvalues>
+#include "base/lapack.hpp"
 
 namespace elastolab {
 
@@ -15,9 +15,7 @@ bool holds(const Positions& positions, std::span<const int> nodes) {
     // Not on one line means spread in a second direction. Its square is accurate to 1e-16 of the largest; the least
     // that counts is 1e-12 of the body's.
     const Eigen::Matrix3d squared = points * points.transpose();
-    const Eigen::Vector3d ascending =
-        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(squared, Eigen::EigenvaluesOnly).eigenvalues();
-    return ascending[1] > kLeastSpread * kLeastSpread * body * body;
+    return symmetric_eigen(squared).values[1] > kLeastSpread * kLeastSpread * body * body;
 }
 
 }  // namespace elastolab

@@ -1,8 +1,8 @@
 #include "deform/pinned_body.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
+#include "base/lapack.hpp"
 #include "deform/holds.hpp"
 
 namespace elastolab {
@@ -80,7 +80,7 @@ ReferenceAnswer PinnedBody::released(ReferenceAnswer second) const {
                 motions.col(m).head<3>() +
                 Vector3d(motions.col(m).tail<3>()).cross(Vector3d(positions_.col(v) - centre)) / size;
     const Eigen::VectorXd difference = second.displacements - first_;
-    second.displacements -= moved * (moved.transpose() * moved).ldlt().solve(moved.transpose() * difference);
+    second.displacements -= moved * solve_minimum_norm(moved, difference).X;
     return second;
 }
 

@@ -3,9 +3,9 @@
 #include <array>
 #include <bit>
 #include <cassert>
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
+#include "base/lapack.hpp"
 #include "mesh/measures.hpp"
 
 namespace elastolab {
@@ -103,9 +103,9 @@ Eigen::MatrixXd free_rigid_motions(const Positions& positions, std::span<const i
             Eigen::Vector3d::UnitZ().cross(r);
         squared += seen.transpose() * seen;
     }
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> motions(squared);
-    const auto n_free = (motions.eigenvalues().array() <= kNoSpread * std::max(squared.trace(), 1e-300)).count();
-    return motions.eigenvectors().leftCols(n_free);  // ascending
+    const SymmetricEigen motions = symmetric_eigen(squared);
+    const auto n_free = (motions.values.array() <= kNoSpread * std::max(squared.trace(), 1e-300)).count();
+    return motions.vectors.leftCols(n_free);
 }
 
 FreeWork::FreeWork(const SurfaceMesh& surface, std::span<const int> constrained, std::span<const UnitLoad> loads) {

@@ -1,6 +1,9 @@
 #include "elasticity/rigid_motion.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
+#include <utility>
+
+#include "base/lapack.hpp"
 
 namespace elastolab {
 
@@ -21,7 +24,7 @@ Eigen::MatrixXd rigid_modes(const Eigen::Matrix3Xd& points) {
         modes.col(axis) = rigid_motion(centred, unit, Eigen::Vector3d::Zero());
         modes.col(3 + axis) = rigid_motion(scale * centred, Eigen::Vector3d::Zero(), unit);
     }
-    return Eigen::HouseholderQR<Eigen::MatrixXd>(modes).householderQ() * Eigen::MatrixXd::Identity(points.size(), 6);
+    return QrFactorization(std::move(modes)).times_Q(Eigen::MatrixXd::Identity(6, 6));
 }
 
 }  // namespace elastolab

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <Eigen/Geometry>
+#include <Eigen/SVD>
 #include <numbers>
 
 namespace elastolab {
@@ -22,6 +23,13 @@ Eigen::Matrix3d rotation_by(const Eigen::Vector3d& turn) {
     const double angle = turn.stableNorm();
     if (angle < 1e-300) return Eigen::Matrix3d::Identity();
     return Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix();
+}
+
+Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& map) {
+    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(map, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    Eigen::Matrix3d U = svd.matrixU();
+    if ((U * svd.matrixV().transpose()).determinant() < 0.0) U.col(2) *= -1.0;  // that of the smallest stretch
+    return U * svd.matrixV().transpose();
 }
 
 Eigen::Vector3d rotation_vector(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& guess) {

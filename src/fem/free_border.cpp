@@ -1,8 +1,8 @@
 #include "fem/free_border.hpp"
 
-#include <Eigen/QR>
 #include <utility>
 
+#include "base/lapack.hpp"
 #include "elasticity/rigid_motion.hpp"
 
 namespace elastolab {
@@ -11,7 +11,7 @@ FreeBorder::FreeBorder(const Positions& positions, Eigen::MatrixXd R)
     : on_surface_(std::move(R)), motions_(positions.size(), on_surface_.cols()) {
     if (on_surface_.cols() == 0) return;
     const Eigen::MatrixXd all = rigid_modes(positions);
-    motions_ = all * all.topRows(on_surface_.rows()).householderQr().solve(on_surface_);
+    motions_ = all * solve_minimum_norm(all.topRows(on_surface_.rows()), on_surface_).X;
     motions_.topRows(on_surface_.rows()) = on_surface_;
 }
 

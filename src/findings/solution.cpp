@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <limits>
 #include <span>
+
+#include "base/lapack.hpp"
 
 namespace elastolab {
 
@@ -44,11 +45,11 @@ Findings findings_of_hold(const SurfaceMesh& surface, std::span<const int> solid
         const Vector3d d = surface.vertices.col(v) - centre;
         spread += d * d.transpose() / n;
     }
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
-    const Vector3d line = axes.eigenvectors().col(2);
+    const SymmetricEigen axes = symmetric_eigen(spread);
+    const Vector3d line = axes.vectors.col(2);
     double reach = 0.0;
     for (const int v : solid) reach = std::max(reach, (surface.vertices.col(v) - centre).cross(line).norm());
-    const double off_line = std::sqrt(std::max(axes.eigenvalues()[0] + axes.eigenvalues()[1], 0.0));
+    const double off_line = std::sqrt(std::max(axes.values[0] + axes.values[1], 0.0));
     if (off_line * kWeakLever > reach || off_line < 1e-12 * reach) return {};  // the latter is not held at all
     return {{.kind = FindingKind::weak_hold, .value = reach / off_line, .place = centre}};
 }

@@ -1,8 +1,8 @@
 #include "scene/balance.hpp"
 
 #include <cmath>
-#include <Eigen/QR>
 
+#include "base/lapack.hpp"
 #include "deform/constraint_map.hpp"
 #include "deform/load_parts.hpp"
 #include "elasticity/rotation.hpp"
@@ -117,7 +117,7 @@ bool moves_rigidly(const Constraints& constraints, const SurfaceMesh& surface) {
     Eigen::MatrixXd motions(values.size(), 6);
     for (Eigen::Index i = 0; i < places.cols(); ++i)
         motions.middleRows<3>(3 * i) << Eigen::Matrix3d::Identity(), cross_matrix(places.col(i) / length);
-    const Eigen::VectorXd fit = motions.completeOrthogonalDecomposition().solve(values);
+    const Eigen::VectorXd fit = solve_minimum_norm(motions, values).X;
     return (motions * fit - values).stableNorm() <= kRoundedMotion * values.stableNorm();
 }
 

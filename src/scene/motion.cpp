@@ -3,7 +3,6 @@
 #include <cassert>
 #include <cmath>
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
 #include <limits>
 #include <numbers>
 
@@ -44,8 +43,7 @@ struct Polar {
 /// A mirroring map has no rotation that leads to it: all of it is the stretch.
 Polar polar(const Matrix3d& map) {
     if (!(map.determinant() > 0.0)) return {Matrix3d::Identity(), map};
-    const Eigen::JacobiSVD<Matrix3d> svd(map, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    const Matrix3d rotation = svd.matrixU() * svd.matrixV().transpose();
+    const Matrix3d rotation = nearest_rotation(map);
     return {rotation, rotation.transpose() * map};
 }
 

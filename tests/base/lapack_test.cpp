@@ -58,5 +58,25 @@ TEST(SingularValues, RefuseEntriesThatAreNotFinite) {
     EXPECT_THROW(singular_values(A), SolveError);
 }
 
+TEST(SymmetricEigen, GivesTheMatrixBackFromItsLowerTriangle) {
+    for (const MatrixXd& B : matrices()) {
+        MatrixXd A = B.transpose() * B;
+        const MatrixXd whole = A;
+        A.triangularView<Eigen::StrictlyUpper>().setConstant(std::numeric_limits<double>::max());
+        const SymmetricEigen eigen = symmetric_eigen(A);
+        EXPECT_TRUE(is_orthonormal(eigen.vectors));
+        EXPECT_LT((eigen.vectors * eigen.values.asDiagonal() * eigen.vectors.transpose() - whole).norm(),
+                  1e-13 * (1.0 + whole.norm()));
+        for (Eigen::Index i = 1; i < eigen.values.size(); ++i) EXPECT_GE(eigen.values[i], eigen.values[i - 1]);
+    }
+    EXPECT_EQ(symmetric_eigen(MatrixXd(0, 0)).values.size(), 0);
+}
+
+TEST(SymmetricEigen, RefusesEntriesThatAreNotFinite) {
+    MatrixXd A = MatrixXd::Identity(3, 3);
+    A(2, 1) = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THROW(symmetric_eigen(A), SolveError);
+}
+
 }  // namespace
 }  // namespace elastolab

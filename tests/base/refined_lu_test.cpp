@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <Eigen/Dense>
 #include <random>
 
 #include "base/error.hpp"
+#include "base/lapack.hpp"
 
 namespace elastolab {
 namespace {
@@ -14,7 +14,7 @@ namespace {
 /// A random orthogonal matrix of this size.
 Eigen::MatrixXd orthogonal(Eigen::Index n, unsigned seed) {
     std::srand(seed);
-    return Eigen::HouseholderQR<Eigen::MatrixXd>(Eigen::MatrixXd::Random(n, n)).householderQ();
+    return QrFactorization(Eigen::MatrixXd::Random(n, n)).times_Q(Eigen::MatrixXd::Identity(n, n));
 }
 
 /// A matrix with this condition number (2-norm), singular values evenly spread over the decades.

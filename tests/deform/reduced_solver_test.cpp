@@ -4,9 +4,8 @@
 
 #include <gmock/gmock.h>
 
-#include <Eigen/QR>
-
 #include "base/error.hpp"
+#include "base/lapack.hpp"
 
 namespace elastolab {
 namespace {
@@ -36,7 +35,8 @@ Eigen::MatrixXd translations(Eigen::Index n) { return for_each_axis(Eigen::Matri
 /// that repeat its first.
 ReducedSystem chain(const std::vector<int>& constrained, int extra = 0) {
     const Eigen::Index n_loads = 3 * std::ssize(constrained), n_border = 3 + extra;
-    const Eigen::MatrixXd K_inverse = stiffness().completeOrthogonalDecomposition().pseudoInverse();
+    const Eigen::MatrixXd K_inverse =
+        solve_minimum_norm(stiffness(), Eigen::MatrixXd::Identity(3 * kNodes, 3 * kNodes)).X;
     Eigen::MatrixXd rigid = Eigen::MatrixXd::Zero(3 * kNodes + n_border, n_border);
     rigid.topLeftCorner(3 * kNodes, 3) = translations(kNodes);
     for (int i = 0; i < extra; ++i) rigid.col(3 + i) = rigid.col(0);

@@ -2,10 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <numbers>
 #include <random>
 
+#include "base/lapack.hpp"
 #include "elasticity/kelvin.hpp"
 
 namespace elastolab {
@@ -90,13 +91,13 @@ Eigen::Matrix3d integrate_over_sphere(const Eigen::Vector3d& centre, double radi
     // Nodes of Gauss's rule are the eigenvalues of the Jacobi matrix of the Legendre polynomials (Golub and Welsch).
     Eigen::MatrixXd jacobi = Eigen::MatrixXd::Zero(kGauss, kGauss);
     for (int i = 1; i < kGauss; ++i) jacobi(i, i - 1) = i / std::sqrt(4.0 * i * i - 1.0);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> rule(jacobi);
+    const SymmetricEigen rule = symmetric_eigen(jacobi);
     Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
     for (int i = 0; i < kGauss; ++i)
         for (int k = 0; k < kAround; ++k) {
-            const double z = rule.eigenvalues()[i], s = std::sqrt(1.0 - z * z);
+            const double z = rule.values[i], s = std::sqrt(1.0 - z * z);
             const double phi = 2.0 * std::numbers::pi * k / kAround;
-            const double weight = 2.0 * std::pow(rule.eigenvectors()(0, i), 2) * 2.0 * std::numbers::pi / kAround;
+            const double weight = 2.0 * std::pow(rule.vectors(0, i), 2) * 2.0 * std::numbers::pi / kAround;
             const Eigen::Vector3d n(s * std::cos(phi), s * std::sin(phi), z);
             sum += radius * radius * weight * f(centre + radius * n, n);
         }

@@ -2,10 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
 #include <numeric>
+#include <utility>
 
 #include "base/blas.hpp"
+#include "base/lapack.hpp"
 #include "deform/holds.hpp"
 #include "elasticity/rigid_motion.hpp"
 #include "fem/fem_body.hpp"
@@ -31,7 +32,7 @@ Eigen::MatrixXd bordered_inverse(const FemBody& body) {
     const Eigen::MatrixXd R = rigid_modes(body.mesh.vertices.leftCols(body.n_surface()));
     Eigen::MatrixXd bordered = Eigen::MatrixXd::Zero(S.rows() + 6, S.cols() + 6);
     bordered << S, R, R.transpose(), Eigen::MatrixXd::Zero(6, 6);
-    return bordered.partialPivLu().inverse().topLeftCorner(S.rows(), S.cols());
+    return LuFactorization(std::move(bordered), "bordered stiffness").inverse().topLeftCorner(S.rows(), S.cols());
 }
 
 TEST(SurfaceCompliance, OfAFreeBodyIsTheBorderedInverse) {
@@ -49,9 +50,9 @@ TEST(SurfaceCompliance, OfAFreeBodyIsTheMoorePenroseInverseOfTheCondensedStiffne
     const FemBody body({3, 3, 3});
     Control control;
     const SurfaceCompliance compliance(body.K, body.analysis, body.mesh.vertices, body.n_surface(), {}, control);
-    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
-    decomposition.setThreshold(1e-10);
-    const Eigen::MatrixXd pseudo_inverse = decomposition.compute(test::dense_condensed(body)).pseudoInverse();
+    const Eigen::MatrixXd S = test::dense_condensed(body);
+    const Eigen::MatrixXd pseudo_inverse =
+        solve_minimum_norm(S, Eigen::MatrixXd::Identity(S.rows(), S.cols()), 1e-10).X;
     EXPECT_LT(relative_error(compliance.columns(all_surface(body), control), pseudo_inverse), kRounding);
 }
 
@@ -80,7 +81,7 @@ TEST(SurfaceCompliance, WithABaseIsTheInverseOfTheFreeBlock) {
         K_ff.middleCols<3>(3 * v).setZero();
         K_ff.block<3, 3>(3 * v, 3 * v).setIdentity();
     }
-    Eigen::MatrixXd expected = K_ff.ldlt().solve(Eigen::MatrixXd::Identity(K_ff.rows(), 3 * body.n_surface()));
+    Eigen::MatrixXd expected = spd_inverse(K_ff, "free part").leftCols(3 * body.n_surface());
     expected.conservativeResize(3 * body.n_surface(), Eigen::NoChange);
     for (int v : fixed) expected.block<3, 3>(3 * v, 3 * v).setZero();
     const Eigen::MatrixXd D = compliance.columns(all_surface(body), control);

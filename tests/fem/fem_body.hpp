@@ -1,7 +1,6 @@
 #pragma once
 
-#include <Eigen/Cholesky>
-
+#include "base/lapack.hpp"
 #include "fem/assembly.hpp"
 #include "fem/sparse_cholesky.hpp"
 #include "support/tet_box.hpp"
@@ -41,7 +40,7 @@ inline Eigen::MatrixXd dense_condensed(const FemBody& body) {
     const Eigen::Index n = 3 * body.n_surface(), m = K.rows() - n;
     if (m == 0) return K;
     return K.topLeftCorner(n, n) -
-           K.topRightCorner(n, m) * K.bottomRightCorner(m, m).ldlt().solve(K.bottomLeftCorner(m, n));
+           K.topRightCorner(n, m) * (spd_inverse(K.bottomRightCorner(m, m), "inner part") * K.bottomLeftCorner(m, n));
 }
 
 }  // namespace elastolab::test

@@ -3,11 +3,11 @@
 
 #include <array>
 #include <cmath>
-#include <Eigen/LU>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "base/lapack.hpp"
 #include "bem/collocation/method.hpp"
 #include "deform/volume.hpp"
 #include "elasticity/rigid_motion.hpp"
@@ -187,7 +187,7 @@ TEST_P(FullMode, ExportsTheInverseOfTheBorderedStiffness) {
     Eigen::MatrixXd bordered = Eigen::MatrixXd::Zero(n + 6, n + 6);
     bordered.topLeftCorner(n, n) = K;
     bordered.topRightCorner(n, 6) = C_;
-    if (of_tractions) bordered.topRightCorner(n, 6) = found_.at("G").partialPivLu().solve(C_);
+    if (of_tractions) bordered.topRightCorner(n, 6) = LuFactorization(Eigen::MatrixXd(found_.at("G")), "G").solve(C_);
     bordered.bottomLeftCorner(6, n) = C_.transpose();
     Eigen::MatrixXd product = bordered * found_.at("Khatinv") - Eigen::MatrixXd::Identity(n + 6, n + 6);
     product.topRightCorner(n, 6) /= stiffness;

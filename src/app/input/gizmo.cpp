@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
 #include <numbers>
 
 #include "app/picture/section_shape.hpp"
+#include "elasticity/rotation.hpp"
 #include "render/drawing/legend.hpp"
 
 namespace elastolab {
@@ -63,9 +63,7 @@ Eigen::Matrix3d axes_on(const Eigen::Vector3d& normal) {
 Eigen::Matrix3d own_axes(const Motion& motion) {
     const auto* affine = std::get_if<AffineMotion>(&motion);
     if (affine == nullptr) return Eigen::Matrix3d::Identity();
-    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(Eigen::Matrix3d::Identity() + map_of(*affine).matrix,
-                                                Eigen::ComputeFullU | Eigen::ComputeFullV);
-    return svd.matrixU() * svd.matrixV().transpose();
+    return nearest_rotation(Eigen::Matrix3d::Identity() + map_of(*affine).matrix);
 }
 
 /// Where the ray meets the plane of a ring, from its centre.

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cassert>
-#include <Eigen/QR>
 #include <numeric>
 #include <random>
 #include <utility>
 
+#include "base/lapack.hpp"
 #include "base/timer.hpp"
 
 namespace elastolab {
@@ -20,6 +20,7 @@ constexpr double kShowAfter = 0.2;
 constexpr int kManyUnknowns = 60000;
 /// Part of a motion that columns need not span.
 constexpr double kNegligible = 1e-6;
+constexpr double kRounding = 1e-12;
 
 /// Points in an order in which any first few are spread over all.
 std::vector<Eigen::Index> scattered(Eigen::Index n) {
@@ -89,8 +90,8 @@ std::shared_ptr<const SectionRunner::Basis> SectionRunner::make_basis(const Embe
         const Eigen::MatrixXd all =
             size > 0.0 ? Eigen::MatrixXd(shapes.array().rowwise() / Eigen::RowVector4d(1, size, size, size).array())
                        : Eigen::MatrixXd(shapes.col(0));
-        const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(all);
-        const Eigen::MatrixXd independent = qr.householderQ() * Eigen::MatrixXd::Identity(n, qr.rank());
+        const SingularValues span = singular_values(all);
+        const Eigen::MatrixXd independent = span.U.leftCols((span.sigma.array() > kRounding * span.sigma[0]).count());
         motions = Eigen::MatrixXd::Zero(values.size(), 3 * independent.cols());
         for (Eigen::Index s = 0; s < independent.cols(); ++s)
             for (Eigen::Index axis = 0; axis < 3; ++axis)

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <Eigen/Eigenvalues>
 #include <iterator>
 
 #include "base/blas.hpp"
 #include "base/error.hpp"
+#include "base/lapack.hpp"
 #include "base/parallel.hpp"
 #include "bem/hierarchical/free_modes.hpp"
 #include "bem/hierarchical/item_rows.hpp"
@@ -143,10 +143,10 @@ void regularise(Eigen::MatrixXd& D, const std::vector<int>& patch, const std::ve
 /// Combinations of motions of unit energy, of those with more than rounding leaves.
 Eigen::MatrixXd of_unit_energy(const Eigen::MatrixXd& motions, const Eigen::MatrixXd& energies, double rounding) {
     if (motions.cols() == 0) return motions;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 * (energies + energies.transpose()));
-    const Eigen::Index n_with = (eigen.eigenvalues().array() > rounding).count();
-    return motions * eigen.eigenvectors().rightCols(n_with) *
-           eigen.eigenvalues().tail(n_with).cwiseSqrt().cwiseInverse().asDiagonal();
+    const SymmetricEigen eigen = symmetric_eigen(0.5 * (energies + energies.transpose()));
+    const Eigen::Index n_with = (eigen.values.array() > rounding).count();
+    return motions * eigen.vectors.rightCols(n_with) *
+           eigen.values.tail(n_with).cwiseSqrt().cwiseInverse().asDiagonal();
 }
 
 }  // namespace

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <numeric>
 
+#include "base/lapack.hpp"
 #include "elasticity/rotation.hpp"
 
 namespace elastolab {
@@ -14,12 +16,9 @@ namespace {
 /// The rotation that fits best, target ~ R source, columns about their means; the identity for points on one line.
 Eigen::Matrix3d best_rotation(const Eigen::Matrix3Xd& source, const Eigen::Matrix3Xd& target) {
     const Eigen::Matrix3d spread = source * source.transpose();
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread, Eigen::EigenvaluesOnly);
-    if (!(axes.eigenvalues()[1] > 1e-8 * axes.eigenvalues()[2])) return Eigen::Matrix3d::Identity();
-    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(target * source.transpose(), Eigen::ComputeFullU | Eigen::ComputeFullV);
-    Eigen::Vector3d signs = Eigen::Vector3d::Ones();
-    signs[2] = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
-    return svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
+    const Eigen::Vector3d squares = symmetric_eigen(spread).values;
+    if (!(squares[1] > 1e-8 * squares[2])) return Eigen::Matrix3d::Identity();
+    return nearest_rotation(target * source.transpose());
 }
 
 /// V in exp([w, v]) = [exp(w), V v].
@@ -68,7 +67,7 @@ MotionPath::Screw MotionPath::fit(const std::vector<int>& nodes) const {
     const Eigen::AngleAxisd rotation(R);
     Screw screw;
     screw.turn = rotation.angle() * rotation.axis();
-    screw.shift = screw_shift(screw.turn).partialPivLu().solve(to - R * from);
+    screw.shift = screw_shift(screw.turn).inverse() * (to - R * from);
     return screw;
 }
 

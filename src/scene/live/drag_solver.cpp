@@ -1,7 +1,8 @@
 #include "scene/live/drag_solver.hpp"
 
-#include <Eigen/QR>
 #include <limits>
+
+#include "base/lapack.hpp"
 
 namespace elastolab {
 
@@ -131,7 +132,7 @@ void DragSolver::grab(const Eigen::VectorXd& values, int handle, bool affine, do
                 basis(3 * (begin_of(handle) + i) + axis, 3 * s + axis) = shapes(s, i);
     response_ = deformer_->drag_response(values, basis, control, tolerance, approach);
     start_values_ = values;
-    fit_ = shapes.completeOrthogonalDecomposition().pseudoInverse();
+    fit_ = solve_minimum_norm(shapes, Eigen::MatrixXd::Identity(shapes.rows(), shapes.rows())).X;
     shapes_ = std::move(shapes);
     tolerance_ = tolerance;
     handle_ = handle;
