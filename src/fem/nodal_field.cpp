@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <limits>
 #include <numeric>
@@ -76,9 +77,11 @@ private:
     static Eigen::Vector4d first_row_of_inverse(const Eigen::Matrix4d& sum) {
         const Eigen::Vector4d scale = sum.diagonal().cwiseSqrt().cwiseMax(1e-300);
         const Eigen::Matrix4d unit = scale.cwiseInverse().asDiagonal() * sum * scale.cwiseInverse().asDiagonal();
-        const Eigen::Matrix4d inverse = unit.inverse();
-        if (!(kTellsSlope * inverse.norm() < 1.0)) return Eigen::Vector4d::UnitX() / std::max(sum(0, 0), 1e-300);
-        return inverse.col(0).cwiseQuotient(scale) / scale[0];
+        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> solver(unit);
+        if (!(solver.eigenvalues()[0] > kTellsSlope)) return Eigen::Vector4d::UnitX() / std::max(sum(0, 0), 1e-300);
+        const Eigen::Vector4d column = solver.eigenvectors() * solver.eigenvalues().cwiseInverse().asDiagonal() *
+                                       solver.eigenvectors().row(0).transpose();
+        return column.cwiseQuotient(scale) / scale[0];
     }
 
     const TetMesh& tets_;

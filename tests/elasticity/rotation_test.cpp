@@ -33,5 +33,22 @@ TEST(Rotation, ItsVectorIsTheNearestToAGuess) {
     EXPECT_TRUE(rotation_vector(Eigen::Matrix3d::Identity(), kToRadians * aside).isZero(0.0));
 }
 
+TEST(Rotation, ThatIsNearestToAMapIsItsPolarFactor) {
+    const Eigen::Matrix3d R = rotation_by({0.4, -1.1, 0.7});
+    Eigen::Matrix3d stretch;
+    stretch << 2.0, 0.3, -0.2, 0.3, 1.0, 0.1, -0.2, 0.1, 0.5;
+    EXPECT_LT((nearest_rotation(R * stretch) - R).norm(), 1e-14);
+    EXPECT_LT((nearest_rotation(1e-200 * R) - R).norm(), 1e-14);
+}
+
+TEST(Rotation, ThatIsNearestToAMirroringMapIsNoMirror) {
+    Eigen::Matrix3d map;
+    map << 1.0, 0.2, 0.0, -0.1, -2.0, 0.3, 0.4, 0.0, 3.0;
+    const Eigen::Matrix3d R = nearest_rotation(map);
+    EXPECT_NEAR(R.determinant(), 1.0, 1e-14);
+    for (const Vector3d& turn : {Vector3d(0.1, 0, 0), Vector3d(0, -0.1, 0), Vector3d(0, 0, 0.1), Vector3d(1, -2, 0.5)})
+        EXPECT_GT((rotation_by(turn) * R - map).norm(), (R - map).norm());
+}
+
 }  // namespace
 }  // namespace elastolab

@@ -20,7 +20,7 @@ const Material kMaterial{.young_modulus = 2.0, .poisson_ratio = 0.3};
 Eigen::MatrixXd textbook_stiffness(const TetMesh& mesh, const Material& material) {
     const double nu = material.poisson_ratio;
     const double factor = material.young_modulus / ((1.0 + nu) * (1.0 - 2.0 * nu));
-    Eigen::Matrix<double, 6, 6> C = Eigen::Matrix<double, 6, 6>::Zero();
+    Eigen::MatrixXd C = Eigen::MatrixXd::Zero(6, 6);
     C.topLeftCorner<3, 3>().setConstant(factor * nu);
     C.topLeftCorner<3, 3>().diagonal().setConstant(factor * (1.0 - nu));
     C.bottomRightCorner<3, 3>().diagonal().setConstant(factor * (1.0 - 2.0 * nu) / 2.0);
@@ -29,12 +29,12 @@ Eigen::MatrixXd textbook_stiffness(const TetMesh& mesh, const Material& material
         Eigen::Matrix4d corners;
         for (int a = 0; a < 4; ++a) corners.row(a) << 1.0, mesh.vertices.col(tet[a]).transpose();
         const Eigen::Matrix4d coefficients = corners.inverse();  // column a: N_a = c0 + c1 x + c2 y + c3 z
-        Eigen::Matrix<double, 6, 12> B = Eigen::Matrix<double, 6, 12>::Zero();
+        Eigen::MatrixXd B = Eigen::MatrixXd::Zero(6, 12);
         for (int a = 0; a < 4; ++a) {
             const double x = coefficients(1, a), y = coefficients(2, a), z = coefficients(3, a);
             B.middleCols<3>(3 * a) << x, 0, 0, 0, y, 0, 0, 0, z, y, x, 0, 0, z, y, z, 0, x;
         }
-        const Eigen::Matrix<double, 12, 12> k = B.transpose() * C * B * (corners.determinant() / 6.0);
+        const Eigen::MatrixXd stress = C * B, k = corners.determinant() / 6.0 * (B.transpose() * stress);
         for (int a = 0; a < 4; ++a)
             for (int b = 0; b < 4; ++b) K.block<3, 3>(3 * tet[a], 3 * tet[b]) += k.block<3, 3>(3 * a, 3 * b);
     }
