@@ -120,8 +120,13 @@ TEST(KilledBench, KeepsEveryFinishedCase) {
     for (int i = 0; i < 2 * kKills; ++i) {
         {
             RunningProgram program(arguments, folder.path());
-            // Half of them at its start, when it takes over the journal.
-            std::this_thread::sleep_for(Seconds(random.unit() * (i % 2 == 0 ? 0.05 : 0.6)));
+            // Half of them at its start, when it takes over the journal, others when it has finished a further case.
+            const auto end = std::chrono::steady_clock::now() + Seconds(60.0);
+            while (i % 2 == 1 && finished_cases(journal).size() <= finished.size() && !program.ended()) {
+                std::this_thread::sleep_for(Seconds(0.01));
+                ASSERT_LT(std::chrono::steady_clock::now(), end);
+            }
+            std::this_thread::sleep_for(Seconds(random.unit() * (i % 2 == 0 ? 0.05 : 0.3)));
             if (program.ended()) break;
         }
         if (fs::exists(table)) break;  // it was done, and only about to end
