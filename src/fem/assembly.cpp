@@ -4,7 +4,7 @@
 #include <array>
 #include <cassert>
 #include <cstdint>
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <limits>
 #include <string>
 #include <vector>

@@ -1,7 +1,6 @@
 #include "fem/constraints.hpp"
 
 #include <cassert>
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <vector>
 

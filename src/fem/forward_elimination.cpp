@@ -1,7 +1,7 @@
 #include "fem/forward_elimination.hpp"
 
 #include <algorithm>
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <iterator>
 #include <vector>
 

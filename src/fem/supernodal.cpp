@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cassert>
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <numeric>
 #include <vector>
 

@@ -37,6 +37,10 @@ wrapped=(
   'spnav\.h|^app/window/six_axis_mouse\.cpp$'
   'X11/|^app/window/touch_screen\.cpp$'
   'imgui|^app/[a-z_/]*\.(cpp|hpp)$'
+  # Each of Eigen's factorisations takes seconds to compile in every unit: only those of three or four rows, many times.
+  'Eigen/(Dense|QR|Householder)|^$'
+  'Eigen/Eigenvalues|^(elasticity/(neo_hookean|stress)|fem/nodal_field)\.cpp$'
+  'Eigen/SVD|^(elasticity/(neo_hookean|rotation)|bem/hierarchical/low_rank)\.cpp$'
   '(cblas|lapacke|openblas_config)\.h|^(base|elasticity|fem|bem|deform)/[a-z_/]*\.cpp$'
 )
 

@@ -30,6 +30,8 @@ try scene/document.hpp '#include <nlohmann/json_fwd.hpp>' 'includes nlohmann'
 try scene/a.cpp '#include <CLI/CLI.hpp>' 'includes CLI'
 try fem/a.hpp '#include <suitesparse/cholmod.h>' 'includes (.*/)?cholmod'
 try fem/b.cpp '#include <GL/gl.h>' 'includes'
+try scene/a.cpp '#include <Eigen/QR>' 'includes Eigen'
+try mesh/a.cpp '#include <Eigen/SVD>' 'includes Eigen'
 mkdir -p "$tree"/fem/{linear,nonlinear,dense}
 echo '#include "fem/linear/a.hpp"' > "$tree/fem/nonlinear/a.hpp"
 echo '#include "fem/nonlinear/a.hpp"' > "$tree/fem/dense/a.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <limits>
 #include <string>
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <map>
 #include <set>
 #include <utility>
