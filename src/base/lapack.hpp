@@ -38,7 +38,7 @@ private:
 Eigen::MatrixXd spd_inverse(Eigen::MatrixXd A, const std::string& name);
 
 /// Minimum-norm least-squares solution of A X = B by complete orthogonal factorisation (dgelsy), with the numerical
-/// rank of A at the relative tolerance `rank_tolerance`.
+/// rank of A at the relative tolerance `rank_tolerance`: by default, what only rounding makes independent is not.
 struct MinimumNormSolution {
     Eigen::MatrixXd X;
     int rank = 0;

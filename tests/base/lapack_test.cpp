@@ -58,6 +58,21 @@ TEST(SingularValues, RefuseEntriesThatAreNotFinite) {
     EXPECT_THROW(singular_values(A), SolveError);
 }
 
+TEST(MinimumNorm, IsTheShortestOfTheLeastSquaresSolutions) {
+    for (const MatrixXd& A : matrices()) {
+        const MatrixXd B = MatrixXd::Random(A.rows(), 3);
+        const MinimumNormSolution found = solve_minimum_norm(A, B);
+        ASSERT_EQ(found.X.rows(), A.cols());
+        EXPECT_LT((A.transpose() * (A * found.X - B)).norm(), 1e-12 * (1.0 + A.squaredNorm()));
+        const SingularValues svd = singular_values(A);
+        const Eigen::Index rank = (svd.sigma.array() > 1e-12).count();
+        EXPECT_EQ(found.rank, rank);
+        const MatrixXd rows = svd.V.leftCols(rank);  // nothing beside the space of the rows
+        EXPECT_LT((found.X - rows * (rows.transpose() * found.X)).norm(), 1e-12 * (1.0 + found.X.norm()));
+    }
+    EXPECT_EQ(solve_minimum_norm(MatrixXd(4, 0), MatrixXd::Ones(4, 2)).X.size(), 0);
+}
+
 TEST(SymmetricEigen, GivesTheMatrixBackFromItsLowerTriangle) {
     for (const MatrixXd& B : matrices()) {
         MatrixXd A = B.transpose() * B;

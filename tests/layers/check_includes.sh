@@ -37,7 +37,7 @@ wrapped=(
   'spnav\.h|^app/window/six_axis_mouse\.cpp$'
   'X11/|^app/window/touch_screen\.cpp$'
   'imgui|^app/[a-z_/]*\.(cpp|hpp)$'
-  # Each of Eigen's factorisations takes seconds to compile in every unit: only those of three or four rows, many times.
+  # Eigen's factorisations take seconds to compile, in every unit: these files need them, for few rows and many times.
   'Eigen/(Dense|QR|Householder)|^$'
   'Eigen/Eigenvalues|^(elasticity/(neo_hookean|stress)|fem/nodal_field)\.cpp$'
   'Eigen/SVD|^(elasticity/(neo_hookean|rotation)|bem/hierarchical/low_rank)\.cpp$'

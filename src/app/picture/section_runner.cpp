@@ -20,6 +20,7 @@ constexpr double kShowAfter = 0.2;
 constexpr int kManyUnknowns = 60000;
 /// Part of a motion that columns need not span.
 constexpr double kNegligible = 1e-6;
+/// Singular value over the largest, up to which a direction is there by rounding only.
 constexpr double kRounding = 1e-12;
 
 /// Points in an order in which any first few are spread over all.
