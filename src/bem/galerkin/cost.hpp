@@ -6,6 +6,10 @@ namespace elastolab {
 
 Cost predict_galerkin_bem(const SurfaceMesh& surface, const Method& method);
 
+/// Seconds that one answer takes with dense matrices, D and all, for a set of so many constrained triangles and loads on
+/// so many triangles: predictions of the method do not know them.
+double predict_galerkin_answer(const SurfaceMesh& surface, std::int64_t n_constrained, std::int64_t n_loaded);
+
 /// With hierarchical matrices: number of scalar tractions of a constrained set up to which the single layer is
 /// factorised: 0.3 GB.
 constexpr std::int64_t kMostFactorisedTractions = 6000;

@@ -1,5 +1,6 @@
 #include "bem/galerkin/error_estimate.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -37,18 +38,38 @@ Method reference_method() {
     return {.kind = kGalerkinBem, .update = Update::direct, .integral_tolerance = kReferenceTolerance};
 }
 
+std::int64_t count_triangles(const SurfaceMesh& surface, std::span<const UnitLoad> loads) {
+    std::int64_t n = 0;
+    for (const UnitLoad& load : loads) {
+        if (load.is_body_force()) return surface.n_triangles();
+        n += std::ssize(load.triangles);
+    }
+    return std::min<std::int64_t>(n, surface.n_triangles());
+}
+
+/// Seconds of one answer on a surface, all that is computed for it. Of Galerkin BEM with dense matrices the set and the
+/// loads are known; what the other methods take depends on them less.
+double predicted_seconds(const SurfaceMesh& surface, Method method, std::int64_t n_constrained,
+                         std::span<const UnitLoad> loads) {
+    method.update = Update::reduced;  // which factorises what the others do for each set
+    if (method.kind == kGalerkinBem && !is_hierarchical(surface, method))
+        return predict_galerkin_answer(surface, n_constrained, count_triangles(surface, loads));
+    return method.kind->predict(surface, method).seconds;
+}
+
 /// Whether it takes at most ten times as long as the answer, or a fifth of a second.
-bool is_quick(const SurfaceMesh& surface, const SurfaceMesh& fine, Method answer) {
-    Method reference = reference_method();
+bool is_quick(const SurfaceMesh& surface, Method answer, const FinerRims& rims, std::span<const UnitLoad> loads) {
     answer.mode = Mode::on_demand;
     answer.rims = 0;
-    answer.update = reference.update = Update::reduced;  // which factorises what the others do for each set
-    const double seconds = reference.kind->predict(fine, reference).seconds;
-    return seconds <= kAlwaysSeconds || seconds <= kMostTimes * answer.kind->predict(surface, answer).seconds;
+    const double seconds =
+        predicted_seconds(rims.surface.mesh, reference_method(), rims.n_constrained_triangles, rims.loads);
+    return seconds <= kAlwaysSeconds ||
+           seconds <= kMostTimes * predicted_seconds(surface, answer, rims.n_constrained_of_body, loads);
 }
 
 /// Nothing where it would take too long or more memory than there is, or where it would be the same answer.
-std::uint64_t affordable_memory(const SurfaceMesh& surface, const Method& answer, const FinerRims& rims) {
+std::uint64_t affordable_memory(const SurfaceMesh& surface, const Method& answer, const FinerRims& rims,
+                                std::span<const UnitLoad> loads) {
     const SurfaceMesh& fine = rims.surface.mesh;
     const std::int64_t n_tractions = 3 * rims.n_constrained_triangles;
     const std::uint64_t bytes =
@@ -58,7 +79,7 @@ std::uint64_t affordable_memory(const SurfaceMesh& surface, const Method& answer
             : galerkin_direct_memory(3 * fine.n_vertices(), n_tractions);
     const bool fits = fine.n_vertices() <= kMostVertices && bytes < available_memory_bytes();
     const bool differs = rims.is_finer || answer.kind != kGalerkinBem;
-    return differs && fits && is_quick(surface, fine, answer) ? bytes : 0;
+    return differs && fits && is_quick(surface, answer, rims, loads) ? bytes : 0;
 }
 
 /// values: at the nodes of the set, then the loads' factors. Throws NotHeldError, SolveError, Cancelled.
@@ -118,7 +139,7 @@ std::optional<ReferenceAnswer> galerkin_reference(const SurfaceMesh& surface, co
                                                   const Eigen::VectorXd& first, Control& control) {
     const PinnedBody body(surface.vertices, vertices, values, first);
     const FinerRims rims = reference_rims(surface, body.vertices(), loads, body.is_pinned());
-    if (affordable_memory(surface, answer, rims) == 0) return {};
+    if (affordable_memory(surface, answer, rims, loads) == 0) return {};
     std::optional<ReferenceAnswer> reference =
         reference_on(rims.surface.mesh, rims, surface.n_vertices(), poisson_ratio, body.values(), control);
     if (reference) reference = body.released(*std::move(reference));
@@ -127,8 +148,8 @@ std::optional<ReferenceAnswer> galerkin_reference(const SurfaceMesh& surface, co
 
 std::uint64_t galerkin_reference_memory(const SurfaceMesh& surface, const Method& answer,
                                         std::span<const int> vertices) {
-    return affordable_memory(surface, answer,
-                             reference_rims(surface, vertices, {}, !holds(surface.vertices, vertices)));
+    return affordable_memory(surface, answer, reference_rims(surface, vertices, {}, !holds(surface.vertices, vertices)),
+                             {});
 }
 
 std::optional<ReferenceAnswer> galerkin_self_reference(const SurfaceMesh& surface, const Method& answer,

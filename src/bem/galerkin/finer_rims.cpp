@@ -102,6 +102,7 @@ FinerRims::FinerRims(const SurfaceMesh& body, std::span<const int> constrained, 
         if (surface.mesh.n_triangles() > (1 + kMostAdded * rows) * halved.mesh.n_triangles())
             surface = add_rows_along_rim(halved, inside, rows, may_be_cut);
     }
+    n_constrained_of_body = std::count(inside.begin(), inside.end(), 1);
     is_finer = surface.mesh.n_triangles() > body.n_triangles();
     loads = on_finer_triangles(surface, unit_loads);
 

@@ -38,6 +38,7 @@ enum class LoneVertices { kept, refined };
 struct FinerRims : SurfaceSet {
     RefinedSurface surface;
     std::int64_t n_constrained_triangles = 0;
+    std::int64_t n_constrained_of_body = 0;  ///< triangles of the body that these are parts of
     bool is_finer = false;  ///< false where there is no rim, nor re-entrant edge, or only slivers are there
 
     /// rows: along the rims, on each side

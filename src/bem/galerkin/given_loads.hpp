@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <memory>
 #include <span>
 
 #include "base/control.hpp"
@@ -12,14 +11,14 @@
 
 namespace elastolab {
 
-/// (B - K)^T g, what the loads' tractions add to the nodes' equations: 3*n_vertices x loads.size(),
-/// node-major. Their resultant is exact. In K^T g the tractions of a body force are those at the triangles' centroids.
-/// Throws Cancelled.
-Eigen::MatrixXd given_nodal_forces(const std::shared_ptr<const BoundaryPairs>& pairs, const Material& material,
-                                   std::span<const UnitLoad> loads, Control& control);
-/// V g on the tractions of a constrained set: tractions.size() x loads.size(). Throws Cancelled.
-Eigen::MatrixXd given_single_layer(const std::shared_ptr<const BoundaryPairs>& pairs, const ClosedSurfaces& surfaces,
-                                   const GalerkinTractions& tractions, const Material& material,
-                                   std::span<const UnitLoad> loads, Control& control);
+/// What the tractions g of given loads add to the equations, a column for each load: (B - K)^T g at every vertex, and
+/// below it V g on every triangle, (3*n_vertices + 3*n_triangles) x loads.size(), node-major. The resultant of the
+/// former is exact. In K^T g and V g the tractions of a body force are those at the triangles' centroids. The result
+/// does not depend on the number of threads. Throws Cancelled.
+Eigen::MatrixXd given_layers(const BoundaryPairs& pairs, const Material& material, std::span<const UnitLoad> loads,
+                             Control& control);
+/// V g on the tractions of a constrained set, from these columns: tractions.size() x n_loads.
+Eigen::MatrixXd given_single_layer(const Eigen::MatrixXd& layers, const Boundary& boundary,
+                                   const ClosedSurfaces& surfaces, const GalerkinTractions& tractions);
 
 }  // namespace elastolab

@@ -5,7 +5,6 @@
 #include "bem/galerkin/cost.hpp"
 #include "bem/galerkin/error_estimate.hpp"
 #include "bem/galerkin/field.hpp"
-#include "bem/galerkin/given_loads.hpp"
 #include "bem/galerkin/residual.hpp"
 #include "bem/given_loads.hpp"
 
@@ -55,12 +54,9 @@ std::unique_ptr<ConstrainedSolid> HierarchicalGalerkinModel::constrain(std::shar
         const GalerkinEquations equations{system->pairs(), system->tree(), system->surfaces(), system->material()};
         GivenTerms given;
         if (!loads.empty())
-            given.nodal_forces = to_item_order(*system->tree(), system->given_nodal_forces(loads, its_control)) *
-                                 solution.factors.col(0);
+            given.nodal_forces = system->given_nodal_forces(loads, its_control) * solution.factors.col(0);
         if (!loads.empty() && tractions.size() > 0)
-            given.single_layer = given_single_layer(system->pairs(), system->surfaces(), tractions, system->material(),
-                                                    loads, its_control) *
-                                 solution.factors.col(0);
+            given.single_layer = system->given_single_layer(tractions, loads, its_control) * solution.factors.col(0);
         return galerkin_residual(equations, vertices, tractions, given, solution, its_control);
     };
     const auto reference = [surface = surface_, method = method_, nu = poisson_ratio_, vertices = of_body.vertices,

@@ -1,4 +1,3 @@
-#include "bem/galerkin/given_loads.hpp"
 #include "bem/galerkin/hierarchical_system.hpp"
 #include "bem/hierarchical/free_modes.hpp"
 #include "bem/hierarchical/item_rows.hpp"
@@ -80,9 +79,8 @@ HierarchicalSolver::HierarchicalSolver(std::shared_ptr<const HierarchicalSystem>
     layers_ = std::make_unique<const TractionLayers>(*system_, tractions, control);
     if (!loads.empty()) {
         control.begin_stage("integrate loads");
-        given_forces_ = system_->given_nodal_forces(loads, control);
-        given_layer_ =
-            given_single_layer(system_->pairs(), system_->surfaces(), tractions, system_->material(), loads, control);
+        given_forces_ = to_tree_order(*system_->tree(), system_->given_nodal_forces(loads, control));
+        given_layer_ = system_->given_single_layer(tractions, loads, control);
     }
     control.begin_stage("precondition");
     const Eigen::MatrixXd loose = loose_modes(system_->surface_modes(), positions_);

@@ -41,11 +41,21 @@ Eigen::MatrixXd HierarchicalSystem::hypersingular(const Eigen::MatrixXd& X) cons
     return Y;
 }
 
-Eigen::MatrixXd HierarchicalSystem::given_nodal_forces(std::span<const UnitLoad> loads, Control& control) const {
+Eigen::MatrixXd HierarchicalSystem::given_layers(std::span<const UnitLoad> loads, Control& control) const {
     const auto compute = [&](std::span<const UnitLoad> missing) {
-        return to_tree_order(*tree_, elastolab::given_nodal_forces(pairs_, material_, missing, control));
+        return elastolab::given_layers(*pairs_, material_, missing, control);
     };
-    return load_columns(given_, loads, size(), compute, control).middle(0, std::ssize(loads));
+    return load_columns(given_, loads, size() + 3 * boundary().n_triangles(), compute, control)
+        .middle(0, std::ssize(loads));
+}
+
+Eigen::MatrixXd HierarchicalSystem::given_nodal_forces(std::span<const UnitLoad> loads, Control& control) const {
+    return given_layers(loads, control).topRows(size());
+}
+
+Eigen::MatrixXd HierarchicalSystem::given_single_layer(const GalerkinTractions& tractions,
+                                                       std::span<const UnitLoad> loads, Control& control) const {
+    return elastolab::given_single_layer(given_layers(loads, control), boundary(), surfaces_, tractions);
 }
 
 std::shared_ptr<const TriangleLayers> HierarchicalSystem::layers_of(const std::vector<int>& triangles,

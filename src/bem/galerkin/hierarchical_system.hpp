@@ -37,8 +37,11 @@ public:
     const HierarchicalOptions& options() const { return options_; }
     Eigen::Index size() const { return 3 * tree_->size(); }
     std::uint64_t memory_bytes() const { return D_->memory_bytes(); }
-    /// (B - K)^T g of given loads, rows in the order of the tree; kept. Throws Cancelled.
+    /// (B - K)^T g of given loads at all vertices, node-major, and V g on the tractions of a set: integrated together
+    /// once, and kept. Throws Cancelled.
     Eigen::MatrixXd given_nodal_forces(std::span<const UnitLoad> loads, Control& control) const;
+    Eigen::MatrixXd given_single_layer(const GalerkinTractions& tractions, std::span<const UnitLoad> loads,
+                                       Control& control) const;
 
     /// Rigid motions, orthonormal, rows in the order of the tree: of each closed surface, and of the whole body.
     const Eigen::MatrixXd& surface_modes() const { return surface_modes_; }
@@ -49,6 +52,8 @@ public:
     std::shared_ptr<const TriangleLayers> layers_of(const std::vector<int>& triangles, Control& control) const;
 
 private:
+    Eigen::MatrixXd given_layers(std::span<const UnitLoad> loads, Control& control) const;
+
     std::shared_ptr<const BoundaryPairs> pairs_;
     std::shared_ptr<const ClusterTree> tree_;
     ClosedSurfaces surfaces_;

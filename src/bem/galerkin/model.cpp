@@ -5,7 +5,6 @@
 #include "base/memory.hpp"
 #include "bem/galerkin/error_estimate.hpp"
 #include "bem/galerkin/field.hpp"
-#include "bem/galerkin/given_loads.hpp"
 #include "bem/galerkin/residual.hpp"
 #include "bem/galerkin/solvers.hpp"
 #include "bem/given_loads.hpp"

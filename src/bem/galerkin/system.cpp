@@ -232,18 +232,21 @@ Columns GalerkinSystem::half_load_columns(std::span<const UnitLoad> loads, Contr
     return load_columns(*cache_, loads, n + n_border, compute, control);
 }
 
-Eigen::MatrixXd GalerkinSystem::given_nodal_forces(std::span<const UnitLoad> loads, Control& control) const {
-    const auto pairs = std::make_shared<const BoundaryPairs>(boundary_, tolerance_);
+Eigen::MatrixXd GalerkinSystem::given_layers(std::span<const UnitLoad> loads, Control& control) const {
     const auto compute = [&](std::span<const UnitLoad> missing) {
-        return elastolab::given_nodal_forces(pairs, material_, missing, control);
+        return elastolab::given_layers(BoundaryPairs(boundary_, tolerance_), material_, missing, control);
     };
-    return load_columns(given_, loads, size(), compute, control).middle(0, std::ssize(loads));
+    return load_columns(given_, loads, size() + 3 * boundary_->n_triangles(), compute, control)
+        .middle(0, std::ssize(loads));
+}
+
+Eigen::MatrixXd GalerkinSystem::given_nodal_forces(std::span<const UnitLoad> loads, Control& control) const {
+    return given_layers(loads, control).topRows(size());
 }
 
 Eigen::MatrixXd GalerkinSystem::given_single_layer(const GalerkinTractions& tractions, std::span<const UnitLoad> loads,
                                                    Control& control) const {
-    const auto pairs = std::make_shared<const BoundaryPairs>(boundary_, tolerance_);
-    return elastolab::given_single_layer(pairs, surfaces_, tractions, material_, loads, control);
+    return elastolab::given_single_layer(given_layers(loads, control), *boundary_, surfaces_, tractions);
 }
 
 std::vector<Columns::Block> GalerkinSystem::compute(const std::vector<ColumnKey>& missing, Control& control) const {

@@ -56,7 +56,7 @@ public:
     Columns half_columns(std::span<const int> vertices, const GalerkinTractions& tractions, Control& control) const;
     /// The same for given loads: Z = (B - K)^T g, a column each.
     Columns half_load_columns(std::span<const UnitLoad> loads, Control& control) const;
-    /// (B - K)^T g of given loads at all nodes, kept; and V g on the tractions of a set.
+    /// (B - K)^T g of given loads at all nodes, and V g on the tractions of a set: integrated together once, and kept.
     Eigen::MatrixXd given_nodal_forces(std::span<const UnitLoad> loads, Control& control) const;
     Eigen::MatrixXd given_single_layer(const GalerkinTractions& tractions, std::span<const UnitLoad> loads,
                                        Control& control) const;
@@ -74,6 +74,7 @@ private:
     void complete(Eigen::MatrixXd D, StageTimes& stages, Control& control);
     std::vector<Columns::Block> compute(const std::vector<ColumnKey>& missing, Control& control) const;
     void free_of_rigid_motions(Eigen::MatrixXd& K) const;
+    Eigen::MatrixXd given_layers(std::span<const UnitLoad> loads, Control& control) const;
 
     std::shared_ptr<const Boundary> boundary_;
     Material material_;

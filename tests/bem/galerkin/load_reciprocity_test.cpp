@@ -90,7 +90,35 @@ TEST(GalerkinLoads, AreIntegratedOnce) {
     Control no_time;
     no_time.cancel();  // any integration would be given up
     EXPECT_TRUE(problem.system.given_nodal_forces(problem.load, no_time) == first);
+    EXPECT_GT(problem.system.given_single_layer(problem.tractions, problem.load, no_time).norm(), 0.0);
     EXPECT_THROW(problem.system.given_nodal_forces(std::vector{body_force_along(0)}, no_time), Cancelled);
+}
+
+/// K^T g and V g of loads on some triangles and inside, against the products with the assembled layers of all
+/// triangles.
+TEST(GalerkinLoads, AreTheProductsOfTheAssembledLayers) {
+    LoadAndMotion problem(100);
+    const SurfaceMesh& surface = problem.body.surface;
+    GalerkinTractions all;
+    for (int t = 0; t < surface.n_triangles(); ++t) all.triangles.push_back(t);
+    const GalerkinOperators operators = problem.system.operators(all, problem.control);
+    const std::vector<UnitLoad> loads = {problem.load[0], unit_pressure(surface, {3, 40})};
+    const Eigen::MatrixXd forces = problem.system.given_nodal_forces(loads, problem.control);
+    const Eigen::MatrixXd single = problem.system.given_single_layer(all, loads, problem.control);
+    for (std::size_t l = 0; l < loads.size(); ++l) {
+        Eigen::VectorXd g = Eigen::VectorXd::Zero(all.size()), on_vertices = Eigen::VectorXd::Zero(forces.rows());
+        for (std::size_t k = 0; k < loads[l].triangles.size(); ++k) {
+            const int t = loads[l].triangles[k];
+            g.segment<3>(3 * t) = loads[l].tractions.col(static_cast<Eigen::Index>(k));
+            const double third = area_vector(triangle_points(surface, t)).norm() / 6.0;
+            for (const int v : surface.triangles.col(t)) on_vertices.segment<3>(3 * v) += third * g.segment<3>(3 * t);
+        }
+        const auto column = static_cast<Eigen::Index>(l);
+        on_vertices -= operators.double_layer.transpose() * g;
+        EXPECT_LT((forces.col(column) - on_vertices).norm(), 1e-8 * on_vertices.norm());
+        const Eigen::VectorXd on_triangles = operators.single_layer * g;
+        EXPECT_LT((single.col(column) - on_triangles).norm(), 1e-8 * on_triangles.norm());
+    }
 }
 
 /// H v = G s is asked on constrained triangles only; elsewhere it holds to the error of the discretisation.
