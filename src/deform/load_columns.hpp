@@ -11,7 +11,8 @@
 
 namespace elastolab {
 
-/// Bytes that a cache of columns of loads alone may keep: two hundred loads of a surface of 14 000 vertices.
+/// Bytes that a cache of columns of loads alone may keep: two hundred loads of a surface of 14 000 vertices, or of 4700
+/// where there are rows of triangles too.
 inline constexpr std::uint64_t kLoadColumnBytes = 64ull << 20;
 
 /// One column for each of these loads, of n_rows rows, from a cache: those that it lacks are computed together, a

@@ -82,9 +82,12 @@ public:
     Eigen::MatrixXd sum(Control& control) const {
         const int n_loaded = static_cast<int>(order_.size());
         Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(3 * (n_vertices_ + n_triangles_), given_.values.cols());
-        std::vector<Eigen::MatrixXd> parts(kTasksAtOnce);
-        for (int first = 0; first < n_loaded; first += kTasksAtOnce * kTrianglesOfATask) {
-            const int count = std::min(n_loaded - first, kTasksAtOnce * kTrianglesOfATask);
+        const auto bytes = static_cast<std::size_t>(sums.size()) * sizeof(double);
+        std::vector<Eigen::MatrixXd> parts(
+            bytes > 0 ? std::clamp(kPartBytes / bytes, kLeastTasksAtOnce, kMostTasksAtOnce) : 1);
+        const int at_once = static_cast<int>(parts.size()) * kTrianglesOfATask;
+        for (int first = 0; first < n_loaded; first += at_once) {
+            const int count = std::min(n_loaded - first, at_once);
             parallel_blocks(count, kTrianglesOfATask, control, [&](int begin, int end) {
                 Eigen::MatrixXd& part = parts[static_cast<std::size_t>(begin / kTrianglesOfATask)];
                 part.setZero(sums.rows(), sums.cols());
@@ -96,8 +99,9 @@ public:
     }
 
 private:
-    /// More are no faster: what several tasks sum waits to be added.
-    static constexpr int kTrianglesOfATask = 32, kTasksAtOnce = 16;
+    static constexpr int kTrianglesOfATask = 32;
+    /// What tasks sum waits to be added in their order.
+    static constexpr std::size_t kPartBytes = 32u << 20, kLeastTasksAtOnce = 4, kMostTasksAtOnce = 16;
 
     auto traction(int triangle, Eigen::Index load) const {
         return given_.values.block<3, 1>(3 * column_of_[static_cast<std::size_t>(triangle)], load);

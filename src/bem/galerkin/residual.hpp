@@ -31,7 +31,7 @@ struct GivenTerms {
 
 /// The larger of | D u + K^T t - R - given | and | K u - V t - given |, each over the same of absolute values,
 /// Euclidean, over evenly spread equations: at most 128 vertices and 64 triangles, fewer where slivers or thin walls
-/// make them expensive, with integrals computed afresh.
+/// make them expensive, with integrals computed afresh, but for those of given loads.
 /// Rigid motions are taken out of u first, as D and K annihilate them but for the tolerance of their integrals.
 /// vertices: constrained; solution: one column, loads as those of GalerkinDirectSolver. Throws Cancelled.
 double galerkin_residual(const GalerkinEquations& equations, const std::vector<int>& vertices,

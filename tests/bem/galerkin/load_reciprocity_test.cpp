@@ -7,6 +7,7 @@
 
 #include "bem/galerkin/method.hpp"
 #include "bem/galerkin/solvers.hpp"
+#include "bem/given_loads.hpp"
 #include "mesh/measures.hpp"
 #include "methods/problem.hpp"
 #include "study/error/organic_body.hpp"
@@ -94,7 +95,7 @@ TEST(GalerkinLoads, AreIntegratedOnce) {
     EXPECT_THROW(problem.system.given_nodal_forces(std::vector{body_force_along(0)}, no_time), Cancelled);
 }
 
-/// K^T g and V g of loads on some triangles and inside, against the products with the assembled layers of all
+/// K^T g and V g of loads on some triangles and of a body force, against products with the assembled layers of all
 /// triangles.
 TEST(GalerkinLoads, AreTheProductsOfTheAssembledLayers) {
     LoadAndMotion problem(100);
@@ -102,9 +103,10 @@ TEST(GalerkinLoads, AreTheProductsOfTheAssembledLayers) {
     GalerkinTractions all;
     for (int t = 0; t < surface.n_triangles(); ++t) all.triangles.push_back(t);
     const GalerkinOperators operators = problem.system.operators(all, problem.control);
-    const std::vector<UnitLoad> loads = {problem.load[0], unit_pressure(surface, {3, 40})};
+    const std::vector<UnitLoad> loads = {problem.load[0], unit_pressure(surface, {3, 40}), body_force_along(2)};
     const Eigen::MatrixXd forces = problem.system.given_nodal_forces(loads, problem.control);
     const Eigen::MatrixXd single = problem.system.given_single_layer(all, loads, problem.control);
+    const BodyForceField weight(surface, 0.3);
     for (std::size_t l = 0; l < loads.size(); ++l) {
         Eigen::VectorXd g = Eigen::VectorXd::Zero(all.size()), on_vertices = Eigen::VectorXd::Zero(forces.rows());
         for (std::size_t k = 0; k < loads[l].triangles.size(); ++k) {
@@ -112,6 +114,16 @@ TEST(GalerkinLoads, AreTheProductsOfTheAssembledLayers) {
             g.segment<3>(3 * t) = loads[l].tractions.col(static_cast<Eigen::Index>(k));
             const double third = area_vector(triangle_points(surface, t)).norm() / 6.0;
             for (const int v : surface.triangles.col(t)) on_vertices.segment<3>(3 * v) += third * g.segment<3>(3 * t);
+        }
+        for (int t = 0; loads[l].is_body_force() && t < surface.n_triangles(); ++t) {
+            const Eigen::Vector3d vector_area = area_vector(triangle_points(surface, t)) / 2.0;
+            const auto potential = [&](const Eigen::Vector3d& at) { return weight.potential(at, loads[l].body_force); };
+            const Eigen::Matrix3d corners = surface.vertices(Eigen::all, surface.triangles.col(t));
+            const double mean = potential(corners.rowwise().mean());
+            g.segment<3>(3 * t) = mean * vector_area.normalized();
+            for (int a = 0; a < 3; ++a)  // int phi_a (b . x) n: a quarter of its corner's value, three of the mean
+                on_vertices.segment<3>(3 * surface.triangles(a, t)) +=
+                    (potential(corners.col(a)) / 12.0 + mean / 4.0) * vector_area;
         }
         const auto column = static_cast<Eigen::Index>(l);
         on_vertices -= operators.double_layer.transpose() * g;
