@@ -234,7 +234,8 @@ Columns GalerkinSystem::half_load_columns(std::span<const UnitLoad> loads, Contr
 
 Eigen::MatrixXd GalerkinSystem::given_layers(std::span<const UnitLoad> loads, Control& control) const {
     const auto compute = [&](std::span<const UnitLoad> missing) {
-        return elastolab::given_layers(BoundaryPairs(boundary_, tolerance_), material_, missing, control);
+        const BoundaryPairs pairs(boundary_, tolerance_);
+        return elastolab::given_layers(pairs, material_, missing, {pairs.integrals(), tolerance_}, control);
     };
     return load_columns(given_, loads, size() + 3 * boundary_->n_triangles(), compute, control)
         .middle(0, std::ssize(loads));
