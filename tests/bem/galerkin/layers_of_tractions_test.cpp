@@ -29,6 +29,17 @@ SurfaceMesh bent_bar() {
     return bar;
 }
 
+/// A straight one whose triangles grow from one end to the other, three hundred times as long.
+SurfaceMesh graded_bar() {
+    SurfaceMesh bar = make_box(2, {24.0, 1.0, 1.0});
+    for (int v = 0; v < bar.n_vertices(); ++v) {
+        const double along = bar.vertices(0, v) / 24.0;
+        bar.vertices(0, v) = 24.0 * along * along * (0.05 + 0.95 * along);
+        bar.vertices.col(v).tail<2>() *= 0.1 + along;
+    }
+    return bar;
+}
+
 struct LoadedBar {
     SurfaceMesh mesh = bent_bar();
     BoundaryPairs pairs{std::make_shared<const Boundary>(mesh), kTolerance};
@@ -75,6 +86,20 @@ TEST(LayersOfTractions, AreThoseOfTheAssembledMatricesToTheirTolerance) {
                 EXPECT_GT(off(layers, truth), 1e-8) << "nothing is far, " << every;
             }
         }
+    }
+}
+
+TEST(LayersOfTractions, KeepTheirToleranceWithLargeTrianglesAmongSmallOnes) {
+    const LoadedBar bar{graded_bar()};
+    Control control;
+    const PiecewiseTractions given = bar.tractions(1);
+    const Eigen::MatrixXd truth = bar.truth(given, control);
+    for (const double tolerance : {1e-2, 1e-4, 1e-6}) {
+        const Eigen::MatrixXd layers =
+            layers_of_tractions(bar.pairs, kMaterial, given, {bar.pairs.integrals(), tolerance}, control);
+        const Eigen::Index n = 3 * bar.mesh.n_vertices(), n_tests = 3 * bar.mesh.n_triangles();
+        EXPECT_LT(off(layers.topRows(n), truth.topRows(n)), tolerance);
+        EXPECT_LT(off(layers.bottomRows(n_tests), truth.bottomRows(n_tests)), tolerance);
     }
 }
 
