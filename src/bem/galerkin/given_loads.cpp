@@ -58,9 +58,9 @@ Eigen::MatrixXd tested_with_hats(const Boundary& boundary, std::span<const UnitL
 }  // namespace
 
 Eigen::MatrixXd given_layers(const BoundaryPairs& pairs, const Material& material, std::span<const UnitLoad> loads,
-                             const LayerAccuracy& accuracy, Control& control) {
+                             const LayerOptions& options, Control& control) {
     const Boundary& boundary = pairs.boundary();
-    Eigen::MatrixXd sums = layers_of_tractions(pairs, material, mean_tractions(boundary, loads), accuracy, control);
+    Eigen::MatrixXd sums = layers_of_tractions(pairs, material, mean_tractions(boundary, loads), options, control);
     // K is freed of the rigid motions of the body, as in the equations.
     auto layer = sums.topRows(boundary.mesh().vertices.size());
     const Eigen::MatrixXd modes = rigid_modes(boundary.mesh().vertices);

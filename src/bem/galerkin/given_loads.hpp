@@ -17,7 +17,7 @@ namespace elastolab {
 /// former is exact. In K^T g and V g the tractions of a body force are those at the triangles' centroids. The result
 /// does not depend on the number of threads. Throws Cancelled.
 Eigen::MatrixXd given_layers(const BoundaryPairs& pairs, const Material& material, std::span<const UnitLoad> loads,
-                             const LayerAccuracy& accuracy, Control& control);
+                             const LayerOptions& options, Control& control);
 /// V g on the tractions of a constrained set, from these columns: tractions.size() x n_loads.
 Eigen::MatrixXd given_single_layer(const Eigen::MatrixXd& layers, const Boundary& boundary,
                                    const ClosedSurfaces& surfaces, const GalerkinTractions& tractions);

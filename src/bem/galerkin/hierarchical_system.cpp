@@ -43,7 +43,7 @@ Eigen::MatrixXd HierarchicalSystem::hypersingular(const Eigen::MatrixXd& X) cons
 
 Eigen::MatrixXd HierarchicalSystem::given_layers(std::span<const UnitLoad> loads, Control& control) const {
     const auto compute = [&](std::span<const UnitLoad> missing) {
-        const LayerAccuracy as_far_blocks{pairs_->far_integrals(), options_.tolerance};
+        const LayerOptions as_far_blocks{pairs_->far_integrals(), options_.tolerance};
         return elastolab::given_layers(*pairs_, material_, missing, as_far_blocks, control);
     };
     return load_columns(given_, loads, size() + 3 * boundary().n_triangles(), compute, control)

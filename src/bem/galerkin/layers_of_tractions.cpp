@@ -101,31 +101,39 @@ Eigen::MatrixXd hat_moments(const BoundaryPairs& pairs, const InterpolationNodes
 
 class LayersOfTractions {
 public:
-    LayersOfTractions(const BoundaryPairs& pairs, const PiecewiseTractions& given, const LayerAccuracy& accuracy)
+    /// loaded: the triangles that carry tractions.
+    LayersOfTractions(const BoundaryPairs& pairs, const std::vector<int>& loaded, const LayerOptions& options)
         : pairs_(pairs),
-          integrals_(accuracy.near),
-          given_(given),
-          n_loads_(given.values.cols()),
-          sources_(pairs, given.triangles, accuracy.far_tolerance),
-          fields_(pairs, all_triangles(pairs.boundary()), accuracy.far_tolerance),
+          integrals_(options.near),
+          sources_(pairs, loaded, options.far_tolerance),
+          fields_(pairs, all_triangles(pairs.boundary()), options.far_tolerance),
           lists_(*fields_.tree, *sources_.tree,
-                 [&, gap = std::pow(kRuleFactor / accuracy.far_tolerance, 1.0 / kRuleExponent)](int field, int source) {
+                 [&, gap = std::pow(kRuleFactor / options.far_tolerance, 1.0 / kRuleExponent)](int field, int source) {
                      return judge(fields_, sources_, gap, field, source);
                  }),
           row_of_(static_cast<std::size_t>(pairs.boundary().n_triangles()), -1) {
-        for (std::size_t i = 0; i < given.triangles.size(); ++i)
-            row_of_[static_cast<std::size_t>(given.triangles[i])] = 3 * static_cast<Eigen::Index>(i);
+        for (std::size_t i = 0; i < loaded.size(); ++i)
+            row_of_[static_cast<std::size_t>(loaded[i])] = 3 * static_cast<Eigen::Index>(i);
     }
 
-    /// The numbers of each triangle: kNumbers*n_triangles x n_loads.
-    Eigen::MatrixXd numbers(Control& control) const {
+    /// Bytes that each load takes on the way.
+    std::size_t bytes_of_a_load() const {
+        std::size_t n_nodes = 0;
+        for (std::size_t c = 0; c < lists_.far.size(); ++c)
+            if (!lists_.far[c].empty()) n_nodes += static_cast<std::size_t>(fields_.nodes[c].size());
+        return sizeof(double) * kNumbers * n_nodes;
+    }
+
+    /// The numbers of each triangle: kNumbers*n_triangles x n_loads. tractions: three rows for each loaded triangle.
+    Eigen::MatrixXd numbers(const Eigen::MatrixXd& tractions, Control& control) const {
         const SerialBlas serial;
-        const std::vector<Eigen::MatrixXd> potentials = far_potentials(far_strengths(control), control);
-        Eigen::MatrixXd numbers = Eigen::MatrixXd::Zero(kNumbers * pairs_.boundary().n_triangles(), n_loads_);
+        const std::vector<Eigen::MatrixXd> potentials = far_potentials(far_strengths(tractions, control), control);
+        Eigen::MatrixXd numbers = Eigen::MatrixXd::Zero(kNumbers * pairs_.boundary().n_triangles(), tractions.cols());
         const std::vector<int>& leaves = fields_.tree->leaves();
         parallel_blocks(static_cast<int>(leaves.size()), 1, control, [&](int i, int) {
             const int leaf = leaves[static_cast<std::size_t>(i)];
-            for (const int source : lists_.near[static_cast<std::size_t>(leaf)]) add_near(leaf, source, numbers);
+            for (const int source : lists_.near[static_cast<std::size_t>(leaf)])
+                add_near(leaf, source, tractions, numbers);
             for (int c = leaf; c >= 0; c = fields_.parent[static_cast<std::size_t>(c)])
                 if (const Eigen::MatrixXd& far = potentials[static_cast<std::size_t>(c)]; far.size() > 0)
                     add_far(leaf, fields_.nodes_of(c), far, numbers);
@@ -140,13 +148,14 @@ private:
         return all;
     }
 
-    auto traction(int triangle, Eigen::Index load) const {
-        return given_.values.block<3, 1>(row_of_[static_cast<std::size_t>(triangle)], load);
+    auto traction_of(int triangle, Eigen::Index load, const Eigen::MatrixXd& tractions) const {
+        return tractions.block<3, 1>(row_of_[static_cast<std::size_t>(triangle)], load);
     }
 
     /// Forces at the nodes of each source that is far from some cluster, which act there as its tractions do: n_nodes x
     /// 3*n_loads.
-    std::vector<Eigen::MatrixXd> far_strengths(Control& control) const {
+    std::vector<Eigen::MatrixXd> far_strengths(const Eigen::MatrixXd& tractions, Control& control) const {
+        const Eigen::Index n_loads = tractions.cols();
         std::vector<char> used(sources_.tree->clusters().size(), 0);
         for (const std::vector<int>& list : lists_.far)
             for (const int source : list) used[static_cast<std::size_t>(source)] = 1;
@@ -155,16 +164,17 @@ private:
             if (!used[static_cast<std::size_t>(source)]) return;
             const InterpolationNodes& nodes = sources_.nodes_of(source);
             Eigen::MatrixXd& sum = strengths[static_cast<std::size_t>(source)];
-            sum.setZero(nodes.size(), 3 * n_loads_);
+            sum.setZero(nodes.size(), 3 * n_loads);
             std::span<const int> rest = sources_.triangles_of(source);
             while (!rest.empty()) {
                 const std::span<const int> some = rest.first(std::min<std::size_t>(rest.size(), kTrianglesOfACluster));
                 rest = rest.subspan(some.size());
                 const Eigen::MatrixXd moments = hat_moments(pairs_, nodes, some);
-                Eigen::MatrixXd g(moments.cols(), 3 * n_loads_);  // the same for each hat: they add up to one
+                Eigen::MatrixXd g(moments.cols(), 3 * n_loads);  // the same for each hat: they add up to one
                 for (Eigen::Index i = 0; i < g.rows(); ++i)
-                    for (Eigen::Index load = 0; load < n_loads_; ++load)
-                        g.block<1, 3>(i, 3 * load) = traction(some[static_cast<std::size_t>(i / 3)], load).transpose();
+                    for (Eigen::Index load = 0; load < n_loads; ++load)
+                        g.block<1, 3>(i, 3 * load) =
+                            traction_of(some[static_cast<std::size_t>(i / 3)], load, tractions).transpose();
                 sum.noalias() += moments * g;
             }
         });
@@ -179,7 +189,7 @@ private:
             if (list.empty()) return;
             const InterpolationNodes& nodes = fields_.nodes_of(field);
             Eigen::MatrixXd& sum = potentials[static_cast<std::size_t>(field)];
-            sum.setZero(nodes.size(), kNumbers * n_loads_);
+            sum.setZero(nodes.size(), kNumbers / 3 * strengths[static_cast<std::size_t>(list.front())].cols());
             for (const int source : list)
                 add_potentials(nodes, sources_.nodes_of(source), strengths[static_cast<std::size_t>(source)], sum);
         });
@@ -200,9 +210,10 @@ private:
                                  .rsqrt()
                                  .transpose();
         const Eigen::MatrixXd cube = inverse.array().cube();
+        const Eigen::Index n_loads = strengths.cols() / 3;
         constexpr int kMoments = 15;  // g, y_i g (i = 0, 1, 2), (y . g) y
-        Eigen::MatrixXd moments(y.cols(), kMoments * n_loads_);
-        for (Eigen::Index load = 0; load < n_loads_; ++load) {
+        Eigen::MatrixXd moments(y.cols(), kMoments * n_loads);
+        for (Eigen::Index load = 0; load < n_loads; ++load) {
             const auto g = strengths.middleCols(3 * load, 3);
             auto own = moments.middleCols(kMoments * load, kMoments);
             own.leftCols<3>() = g;
@@ -211,7 +222,7 @@ private:
             own.rightCols<3>() = along.asDiagonal() * y.transpose();
         }
         const Eigen::MatrixXd of_cube = cube * moments, of_inverse = inverse * strengths;
-        for (Eigen::Index load = 0; load < n_loads_; ++load) {
+        for (Eigen::Index load = 0; load < n_loads; ++load) {
             auto own = sum.middleCols(kNumbers * load, kNumbers);
             own.middleCols<3>(kTrace) += of_inverse.middleCols(3 * load, 3);
             const auto B = of_cube.middleCols(kMoments * load, kMoments);
@@ -234,7 +245,7 @@ private:
         const Eigen::MatrixXd of_hats = hat_moments(pairs_, nodes, triangles).transpose() * potentials;
         for (std::size_t i = 0; i < triangles.size(); ++i) {
             const double(&normal)[3] = pairs_.triangle(triangles[i]).n;
-            for (Eigen::Index load = 0; load < n_loads_; ++load) {
+            for (Eigen::Index load = 0; load < numbers.cols(); ++load) {
                 auto own = numbers.col(load).segment<kNumbers>(kNumbers * triangles[i]);
                 for (int k = 0; k < 3; ++k) {
                     const auto values =
@@ -247,7 +258,7 @@ private:
         }
     }
 
-    void add_near(int leaf, int source, Eigen::MatrixXd& numbers) const {
+    void add_near(int leaf, int source, const Eigen::MatrixXd& tractions, Eigen::MatrixXd& numbers) const {
         const auto lanes = static_cast<std::size_t>(integrals_.lanes());
         std::span<const int> rest = sources_.triangles_of(source);
         while (!rest.empty()) {
@@ -257,18 +268,18 @@ private:
             for (const int field : fields_.triangles_of(leaf)) {
                 double values[kPairNumbers * kMaxLanes];
                 integrals_.integrate(pack, field, true, values);
-                for (Eigen::Index load = 0; load < n_loads_; ++load)
-                    add_pairs(tests, values, load, numbers.col(load).segment<kNumbers>(kNumbers * field));
+                for (Eigen::Index load = 0; load < numbers.cols(); ++load)
+                    add_pairs(tests, values, load, tractions, numbers.col(load).segment<kNumbers>(kNumbers * field));
             }
         }
     }
 
     void add_pairs(std::span<const int> tests, const double* values, Eigen::Index load,
-                   Eigen::Ref<Eigen::VectorXd> numbers) const {
+                   const Eigen::MatrixXd& tractions, Eigen::Ref<Eigen::VectorXd> numbers) const {
         const auto lanes = static_cast<std::size_t>(integrals_.lanes());
         for (std::size_t lane = 0; lane < tests.size(); ++lane) {
             const auto q = [&](std::size_t k) { return values[k * lanes + lane]; };
-            const Eigen::Vector3d g = traction(tests[lane], load);
+            const Eigen::Vector3d g = traction_of(tests[lane], load, tractions);
             numbers.segment<3>(kTrace) += (q(0) + q(1) + q(2)) * g;
             numbers.segment<3>(kTensor) +=
                 Eigen::Vector3d(q(0) * g[0] + q(3) * g[1] + q(4) * g[2], q(3) * g[0] + q(1) * g[1] + q(5) * g[2],
@@ -280,8 +291,6 @@ private:
 
     const BoundaryPairs& pairs_;
     const PairIntegrals& integrals_;
-    const PiecewiseTractions& given_;
-    Eigen::Index n_loads_;
     Clusters sources_, fields_;
     InteractionLists lists_;
     std::vector<Eigen::Index> row_of_;  ///< first row of each triangle's tractions
@@ -317,12 +326,19 @@ Eigen::MatrixXd layers_from(const Eigen::MatrixXd& numbers, const BoundaryPairs&
 }  // namespace
 
 Eigen::MatrixXd layers_of_tractions(const BoundaryPairs& pairs, const Material& material,
-                                    const PiecewiseTractions& given, const LayerAccuracy& accuracy, Control& control) {
+                                    const PiecewiseTractions& given, const LayerOptions& options, Control& control) {
     if (given.triangles.empty())
         return Eigen::MatrixXd::Zero(3 * (pairs.boundary().mesh().n_vertices() + pairs.boundary().n_triangles()),
                                      given.values.cols());
-    const LayersOfTractions layers(pairs, given, accuracy);
-    return layers_from(layers.numbers(control), pairs, material, given);
+    const LayersOfTractions layers(pairs, given.triangles, options);
+    Eigen::MatrixXd numbers(kNumbers * pairs.boundary().n_triangles(), given.values.cols());
+    const auto at_once =
+        static_cast<Eigen::Index>(std::max<std::size_t>(1, options.most_bytes / (1 + layers.bytes_of_a_load())));
+    for (Eigen::Index first = 0; first < numbers.cols(); first += at_once) {
+        const Eigen::Index n = std::min(at_once, numbers.cols() - first);
+        numbers.middleCols(first, n) = layers.numbers(given.values.middleCols(first, n), control);
+    }
+    return layers_from(numbers, pairs, material, given);
 }
 
 }  // namespace elastolab

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <Eigen/Core>
 #include <vector>
 
@@ -15,10 +16,11 @@ struct PiecewiseTractions {
     Eigen::MatrixXd values;      ///< 3*triangles.size() x n_loads
 };
 
-/// How exactly layers are computed.
-struct LayerAccuracy {
-    const PairIntegrals& near;  ///< of the triangles of the boundary; must outlive the call
-    double far_tolerance;       ///< of what distant triangles do, relative
+/// How layers are computed.
+struct LayerOptions {
+    const PairIntegrals& near;            ///< of the triangles of the boundary; must outlive the call
+    double far_tolerance;                 ///< of what distant triangles do, relative
+    std::size_t most_bytes = 512u << 20;  ///< of what distant triangles do to clusters; other loads wait for their turn
 };
 
 /// K^T g at every vertex and, below it, V g on every triangle (bem/galerkin/traction_rows.hpp), (3*n_vertices +
@@ -27,6 +29,6 @@ struct LayerAccuracy {
 /// number of threads. Throws Cancelled. Source: W. Fong and E. Darve, J. Comput. Phys. 228 (2009), without the transfer
 /// from cluster to cluster; K by Guenter's derivatives of the same two potentials.
 Eigen::MatrixXd layers_of_tractions(const BoundaryPairs& pairs, const Material& material,
-                                    const PiecewiseTractions& given, const LayerAccuracy& accuracy, Control& control);
+                                    const PiecewiseTractions& given, const LayerOptions& options, Control& control);
 
 }  // namespace elastolab

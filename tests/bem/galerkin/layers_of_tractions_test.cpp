@@ -103,6 +103,16 @@ TEST(LayersOfTractions, KeepTheirToleranceWithLargeTrianglesAmongSmallOnes) {
     }
 }
 
+TEST(LayersOfTractions, AreTheSameWhereLoadsWaitForMemory) {
+    const LoadedBar bar;
+    Control control;
+    const PiecewiseTractions given = bar.tractions(1);
+    const auto layers = [&](std::size_t most_bytes) {
+        return layers_of_tractions(bar.pairs, kMaterial, given, {bar.pairs.integrals(), 1e-4, most_bytes}, control);
+    };
+    EXPECT_LT(off(layers(1), layers(1u << 30)), 1e-13);
+}
+
 TEST(LayersOfTractions, AreZeroWithoutTractions) {
     const LoadedBar bar;
     Control control;
