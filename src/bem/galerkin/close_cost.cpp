@@ -18,7 +18,8 @@ constexpr int kTrianglesLookedAt = 48, kPairsLookedAt = 48;
 /// Integrals per point; of slivers, in extended precision, so many times as much.
 constexpr double kIntegralsPerOuterPoint = 3.6, kTimesOfSlivers = 12.0;
 /// Points around a triangle that the other constants of the prediction contain: a ball, a bracket and organic bodies
-/// have 4 to 120, cubes and bars with thin triangles along rims up to 2200. And those of a pair with common corners.
+/// have 4 to 120, cubes, bars and a plate with thin triangles along rims up to 2200. And those of a pair with common
+/// corners.
 constexpr double kUsualPoints = 2500.0, kTouchingPoints = 150.0;
 constexpr double kPricedTolerance = 1e-8;
 /// Distance of the centroids, in units of the sum of both radii, from which rules for pairs of points take over.

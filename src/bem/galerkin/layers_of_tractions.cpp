@@ -11,6 +11,7 @@
 #include "base/parallel.hpp"
 #include "bem/hierarchical/interaction_lists.hpp"
 #include "bem/hierarchical/interpolation_nodes.hpp"
+#include "bem/hierarchical/node_potentials.hpp"
 #include "elasticity/triangle_rules.hpp"
 
 namespace elastolab {
@@ -24,13 +25,13 @@ constexpr double kMostRadius = 0.5;
 /// random shape at each distance of their centroids from 1.5 to 5), the distance in units of the sum of both radii.
 constexpr int kRule = 5;
 constexpr double kRuleFactor = 1.2e-2, kRuleExponent = 10.0;
-/// Time of a pair of nodes over that of a pair of triangles that is integrated. Of 0.02 to 0.12 this was fastest for
-/// surfaces of 6726 and 16 386 vertices under a body force.
+/// Time of a pair of nodes over that of a pair of triangles that is integrated. The fastest of 0.04, 0.08 and 0.12 for
+/// a surface of 16 386 vertices under a body force, and of the first two for 6726.
 constexpr double kNodePrice = 0.08;
 
 /// What tractions do to one triangle: sum of tr Q g, of Q g, and of q_k g for each corner k, with Q and q the tensor
-/// and normal numbers of elasticity/close_pairs.hpp.
-constexpr int kTrace = 0, kTensor = 3, kNormal = 6, kNumbers = 15;
+/// and normal numbers of elasticity/close_pairs.hpp. As many as the potentials that the far part of them comes from.
+constexpr int kTrace = 0, kTensor = 3, kNormal = 6, kNumbers = kNodePotentials;
 
 /// Triangles in clusters, with what is needed to tell which are far from each other.
 struct Clusters {
@@ -191,51 +192,9 @@ private:
             Eigen::MatrixXd& sum = potentials[static_cast<std::size_t>(field)];
             sum.setZero(nodes.size(), kNumbers / 3 * strengths[static_cast<std::size_t>(list.front())].cols());
             for (const int source : list)
-                add_potentials(nodes, sources_.nodes_of(source), strengths[static_cast<std::size_t>(source)], sum);
+                add_node_potentials(nodes, sources_.nodes_of(source), strengths[static_cast<std::size_t>(source)], sum);
         });
         return potentials;
-    }
-
-    /// With r = x - y from a node y of the source to a node x of the field, g the force at y: adds sum g / r,
-    /// sum r (r . g) / |r|^3, and row by row sum r g^T / |r|^3. The powers of y are summed as forces are, so that all
-    /// but 1 / r and its cube are products of matrices.
-    void add_potentials(const InterpolationNodes& field, const InterpolationNodes& source,
-                        const Eigen::MatrixXd& strengths, Eigen::MatrixXd& sum) const {
-        const Eigen::Matrix3Xd x = field.offsets().colwise() + (field.middle() - source.middle());
-        const Eigen::Matrix3Xd& y = source.offsets();
-        Eigen::MatrixXd inverse(x.cols(), y.cols());
-        for (Eigen::Index j = 0; j < y.cols(); ++j)
-            inverse.col(j) = ((x.row(0).array() - y(0, j)).square() + (x.row(1).array() - y(1, j)).square() +
-                              (x.row(2).array() - y(2, j)).square())
-                                 .rsqrt()
-                                 .transpose();
-        const Eigen::MatrixXd cube = inverse.array().cube();
-        const Eigen::Index n_loads = strengths.cols() / 3;
-        constexpr int kMoments = 15;  // g, y_i g (i = 0, 1, 2), (y . g) y
-        Eigen::MatrixXd moments(y.cols(), kMoments * n_loads);
-        for (Eigen::Index load = 0; load < n_loads; ++load) {
-            const auto g = strengths.middleCols(3 * load, 3);
-            auto own = moments.middleCols(kMoments * load, kMoments);
-            own.leftCols<3>() = g;
-            for (int i = 0; i < 3; ++i) own.middleCols(3 + 3 * i, 3) = y.row(i).transpose().asDiagonal() * g;
-            const Eigen::VectorXd along = (y.transpose().array() * g.array()).rowwise().sum();
-            own.rightCols<3>() = along.asDiagonal() * y.transpose();
-        }
-        const Eigen::MatrixXd of_cube = cube * moments, of_inverse = inverse * strengths;
-        for (Eigen::Index load = 0; load < n_loads; ++load) {
-            auto own = sum.middleCols(kNumbers * load, kNumbers);
-            own.middleCols<3>(kTrace) += of_inverse.middleCols(3 * load, 3);
-            const auto B = of_cube.middleCols(kMoments * load, kMoments);
-            for (Eigen::Index p = 0; p < x.cols(); ++p) {
-                const Eigen::Vector3d at = x.col(p), g = B.row(p).head<3>().transpose();
-                Eigen::Matrix3d y_g;  // row i: sum y_i g
-                for (int i = 0; i < 3; ++i) y_g.row(i) = B.row(p).segment<3>(3 + 3 * i);
-                const Eigen::Matrix3d r_g = at * g.transpose() - y_g;
-                own.row(p).segment<3>(kTensor) +=
-                    (at * (at.dot(g) - y_g.trace()) - y_g * at + B.row(p).tail<3>().transpose()).transpose();
-                for (int i = 0; i < 3; ++i) own.row(p).segment<3>(kNormal + 3 * i) += r_g.row(i);
-            }
-        }
     }
 
     /// From the potentials at nodes around a leaf to its triangles.

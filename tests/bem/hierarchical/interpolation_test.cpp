@@ -8,6 +8,7 @@
 #include "bem/galerkin/boundary_entries.hpp"
 #include "bem/hierarchical/interaction_lists.hpp"
 #include "bem/hierarchical/interpolation_nodes.hpp"
+#include "bem/hierarchical/node_potentials.hpp"
 #include "mesh/primitives.hpp"
 
 namespace elastolab {
@@ -21,7 +22,8 @@ Eigen::AlignedBox3d box_of(const Eigen::Vector3d& size) {
 TEST(InterpolationNodes, KeepTheToleranceForAllDistancesFromTheLeast) {
     for (const Eigen::Vector3d& size : {Eigen::Vector3d(1.0, 1.0, 1.0), Eigen::Vector3d(2.0, 1.0, 0.1),
                                         Eigen::Vector3d(1.0, 3.0, 0.0), Eigen::Vector3d(1e-5, 0.0, 1e-5)})
-        for (const double tolerance : {1e-2, 1e-4, 1e-8}) {
+        for (const double tolerance : {1e-2, 1e-4, 1e-8, 1e-12}) {
+            const double times_tolerance = tolerance < 1e-8 ? 100.0 : 30.0;
             const Eigen::AlignedBox3d box = box_of(size);
             const double least = size.norm();  // twice the radius
             const InterpolationNodes nodes(box, least, tolerance);
@@ -40,7 +42,8 @@ TEST(InterpolationNodes, KeepTheToleranceForAllDistancesFromTheLeast) {
                     Eigen::VectorXd values(nodes.size());
                     for (int i = 0; i < nodes.size(); ++i) values[i] = inverse(nodes.middle() + nodes.offsets().col(i));
                     for (Eigen::Index p = 0; p < places.cols(); ++p)
-                        EXPECT_NEAR(values.dot(polynomials.col(p)) / inverse(places.col(p)), 1.0, 30.0 * tolerance)
+                        EXPECT_NEAR(values.dot(polynomials.col(p)) / inverse(places.col(p)), 1.0,
+                                    times_tolerance * tolerance)
                             << size.transpose() << " at " << from.transpose();
                 }
         }
@@ -51,6 +54,27 @@ TEST(InterpolationNodes, HavePolynomialsThatAreOneAtTheirOwnNode) {
     const Eigen::MatrixXd values = nodes.polynomials(nodes.offsets().colwise() + nodes.middle());
     EXPECT_LT((values - Eigen::MatrixXd::Identity(nodes.size(), nodes.size())).cwiseAbs().maxCoeff(), 1e-12);
     EXPECT_LT(nodes.size(), 16 * 16 * 16);
+}
+
+TEST(NodePotentials, AreTheSumsOverTheForces) {
+    const InterpolationNodes source(box_of({1.0, 0.5, 0.2}), 2.0, 1e-2),
+        field({Eigen::Vector3d(5.0, 2.0, -1.0), Eigen::Vector3d(5.3, 3.0, 0.0)}, 2.0, 1e-2);
+    const Eigen::MatrixXd forces = Eigen::MatrixXd::Random(source.size(), 6);  // of two loads
+    Eigen::MatrixXd potentials = Eigen::MatrixXd::Ones(field.size(), 2 * kNodePotentials), truth = potentials;
+    add_node_potentials(field, source, forces, potentials);
+    for (int p = 0; p < field.size(); ++p)
+        for (int q = 0; q < source.size(); ++q)
+            for (int load = 0; load < 2; ++load) {
+                const Eigen::RowVector3d g = forces.row(q).segment<3>(3 * load);
+                const Eigen::RowVector3d r =
+                    (field.middle() + field.offsets().col(p) - source.middle() - source.offsets().col(q)).transpose();
+                const double cube = std::pow(r.norm(), 3);
+                auto own = truth.row(p).segment<kNodePotentials>(kNodePotentials * load);
+                own.head<3>() += g / r.norm();
+                own.segment<3>(3) += r * (r.dot(g) / cube);
+                for (int i = 0; i < 3; ++i) own.segment<3>(6 + 3 * i) += r[i] * g / cube;
+            }
+    EXPECT_LT((potentials - truth).cwiseAbs().maxCoeff(), 1e-11 * truth.cwiseAbs().maxCoeff());
 }
 
 TEST(InteractionLists, HoldEveryPairOnce) {
