@@ -74,7 +74,7 @@ FemModel::FemModel(const SurfaceMesh& surface, const std::string& name, double p
     TetMesh tets;
     {
         const Stage stage("tetrahedralize", control, facts_.stages);
-        tets = tetrahedralize(surface, name, TetOptions{}, control);
+        tets = tetrahedralize(surface, name, {.growth = method.growth}, control);
     }
     auto mesh = std::make_shared<FemMesh>();
     {

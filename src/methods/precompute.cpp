@@ -68,7 +68,7 @@ bool same_findings(MethodKind a, MethodKind b) {
 /// Whether a model takes over all that takes memory from the one before.
 bool takes_over(const Model& before, const Method& method, const Material& material) {
     const Method& its = before.method();
-    return method.kind == its.kind && method.mode == its.mode &&
+    return method.kind == its.kind && method.mode == its.mode && method.growth == its.growth &&
            integral_tolerance(method) == integral_tolerance(its) &&
            material.poisson_ratio == before.body().material.poisson_ratio;
 }
@@ -79,9 +79,10 @@ std::shared_ptr<const Model> precompute(const Body& body, const Method& method, 
     if (before == nullptr || !takes_over(*before, method, body.material))
         require_memory(predict_cost(*body.surface, method), method);
     const std::vector<Solid> solids = split_solids(*body.surface);
+    const bool same_inside = before != nullptr && before->method().growth == method.growth;
     std::vector<Model::Part> parts;
     for (std::size_t i = 0; i < solids.size(); ++i) {
-        const SolidModel* old = before != nullptr ? before->parts()[i].solid.get() : nullptr;
+        const SolidModel* old = same_inside ? before->parts()[i].solid.get() : nullptr;
         SurfaceMesh local = solids[i].surface;
         const Eigen::Vector3d origin = computing_origin(local);
         const double scale = computing_scale(local);

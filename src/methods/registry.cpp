@@ -1,15 +1,12 @@
 #include "methods/registry.hpp"
 
 #include <array>
-#include <cmath>
-#include <numbers>
 
 #include "bem/collocation/method.hpp"
 #include "bem/galerkin/method.hpp"
 #include "fem/method.hpp"
 #include "fem/nonlinear/method.hpp"
 #include "fem/quadratic/method.hpp"
-#include "mesh/measures.hpp"
 
 namespace elastolab {
 
@@ -34,14 +31,7 @@ MethodKind default_method() { return kLinearBem; }
 MethodKind first_method() { return kGalerkinBem; }
 MethodKind quick_method() { return kFem; }
 
-MethodKind preview_method(const SurfaceMesh& coarse) {
-    // Volume over area, in edges of equilateral triangles. On proxies of 500 vertices quadratic FEM takes as long as
-    // Galerkin BEM at 1.0, 0.35 times as long at 0 and 2.3 times at 1.4.
-    constexpr double kThick = 1.0;
-    const double area = surface_area(coarse), edge = std::sqrt(4.0 / std::numbers::sqrt3 * area / coarse.n_triangles());
-    return enclosed_volume(coarse) > kThick * area * edge ? kGalerkinBem : kQuadraticFem;
-}
-
+MethodKind preview_method() { return kQuadraticFem; }
 MethodKind large_deformation_method() { return kNonlinearFem; }
 std::span<const MethodKind> compared_methods() { return kCompared; }
 

@@ -22,10 +22,9 @@ MethodKind default_method();
 MethodKind first_method();
 /// The one that is ready soonest on a surface as it is, for the first moments.
 MethodKind quick_method();
-/// The one that answers on this coarse surface while others compute: soonest of those that are accurate on few
-/// triangles of any shape. Where a body is thick beside its triangles, most tetrahedra would lie inside, and it is one
-/// that needs none.
-MethodKind preview_method(const SurfaceMesh& coarse);
+/// The one that answers on coarse surfaces while others compute: the one that is ready soonest of those that are
+/// accurate on few triangles of any shape.
+MethodKind preview_method();
 /// The one that holds for large deformations, by which linear theory is judged.
 MethodKind large_deformation_method();
 /// Those that are compared when nobody chooses: the ones of the paper, and the reference.

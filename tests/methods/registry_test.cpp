@@ -50,19 +50,6 @@ TEST(Registry, WhatIsNotPossibleIsRefusedWithTheReasonAndAWayForward) {
                  SolveError);
 }
 
-/// Where tetrahedra are many inside, elements of the boundary are quicker, and where it is thin those of the volume.
-TEST(Registry, PreviewsAreByTheMethodThatSuitsTheShape) {
-    for (const int n : {2, 6, 10}) {
-        SurfaceMesh plate = make_box(n);
-        plate.vertices.row(2) *= 0.1;
-        EXPECT_EQ(preview_method(plate), kQuadraticFem) << n;
-    }
-    EXPECT_EQ(preview_method(make_box(12)), kGalerkinBem);
-    EXPECT_EQ(preview_method(make_sphere(10)), kGalerkinBem);
-    EXPECT_EQ(preview_method(make_box(2)), kQuadraticFem) << "its few tetrahedra are all at the surface";
-    EXPECT_NE(preview_method({}), nullptr);
-}
-
 /// G of constant elements is singular at Poisson's ratio 1/2, so K = G^-1 H carries no digit there.
 TEST(Registry, ConstantElementsHaveNoStiffnessAtPoissonsRatioOneHalf) {
     const Method by_K{.kind = kConstantBem, .mode = Mode::full, .update = Update::eqn9};

@@ -101,6 +101,24 @@ TEST(PrecomputeAgain, WithOtherTractionsOrUpdatesKeepsTheSystem) {
     EXPECT_LT((displaced(again, pull.set, pull.values) - expected).norm(), 1e-13 * expected.norm());
 }
 
+/// Tetrahedra that grow away from the surface, as in previews, are fewer, and serve no method that did not ask for
+/// them.
+TEST(PrecomputeAgain, KeepsNoTetrahedraThatGrowOtherwise) {
+    for (const MethodKind kind : all_methods()) {
+        if (!kind->has_inside) continue;
+        Control control;
+        const Body body = make_body(make_box(8), {1.0, 0.3});
+        const Method usual = make_method(kind);
+        Method coarse = usual;
+        coarse.growth = 1.0;
+        const auto fresh = precompute(body, usual, control);
+        const auto grown = precompute(body, coarse, control);
+        EXPECT_LT(grown->facts().n_tetrahedra, 0.7 * fresh->facts().n_tetrahedra) << kind->name;
+        const auto again = precompute_again(*grown, {1.0, 0.3}, usual, control);
+        EXPECT_EQ(again->facts().n_tetrahedra, fresh->facts().n_tetrahedra) << kind->name;
+    }
+}
+
 TEST(Precompute, GivesTheSameResultForEveryNumberOfThreads) {
     const Pull pull;
     const int threads = thread_count();

@@ -156,7 +156,7 @@ NonlinearModel::NonlinearModel(const SurfaceMesh& surface, const std::string& na
     TetMesh tets;
     {
         const Stage stage("tetrahedralize", control, facts_.stages);
-        tets = tetrahedralize(surface, name, TetOptions{}, control);
+        tets = tetrahedralize(surface, name, {.growth = method.growth}, control);
     }
     facts_.n_vertices = tets.n_surface_vertices;
     facts_.n_triangles = surface.n_triangles();

@@ -17,6 +17,9 @@ constexpr int kMostToPreviewRubber = 900;
 constexpr double kRubber = 0.45;
 /// Poisson's ratio in place of 1/2 for finite elements, which cannot take that.
 constexpr double kNearlyIncompressible = 0.49;
+/// Method::growth: linear FEM of the surface itself and quadratic FEM on a proxy take about half the time, and are
+/// hardly less accurate (docs/results.md).
+constexpr double kGrowth = 0.6;
 /// Equilibria of a surface with no more vertices than this follow a drag.
 constexpr int kMostQuickAtEquilibria = 900;
 
@@ -25,12 +28,12 @@ MethodKind preview_on_itself(const LiveScene& scene) {
     const bool is_rubber = scene.document().material.poisson_ratio > kRubber;
     const int most = is_rubber ? kMostToPreviewRubber : kMostToPreviewThemselves;
     if (scene.mesh().n_vertices() > most) return nullptr;
-    const MethodKind kind = is_rubber ? preview_method(scene.mesh()) : quick_method();
+    const MethodKind kind = is_rubber ? preview_method() : quick_method();
     return scene.needs_proxy(kind) ? nullptr : kind;
 }
 
 /// Gives a preview the body that it simulates: the scene's own surface by `on_itself`, or, where that is null, the
-/// proxy by `on_proxy` (null: what suits the proxy); false when it has none.
+/// proxy by `on_proxy` (null: preview_method()); false when it has none.
 bool give_body(EmbeddedRunner& preview, MethodKind on_itself, MethodKind on_proxy, bool wanted, const LiveScene& scene,
                const ProxyKeeper& proxies) {
     const std::shared_ptr<const Proxy>& proxy = proxies.preview();
@@ -42,13 +45,13 @@ bool give_body(EmbeddedRunner& preview, MethodKind on_itself, MethodKind on_prox
         preview.clear();
         return false;
     }
-    const MethodKind kind = on_itself ? on_itself : on_proxy ? on_proxy : preview_method(*proxy->surface);
+    const MethodKind kind = on_itself ? on_itself : on_proxy ? on_proxy : preview_method();
     Body body{.name = scene.name(),
               .surface = on_itself ? scene.surface() : proxy->surface,
               .material = scene.document().material};
     if (!kind->takes_incompressible)
         body.material.poisson_ratio = std::min(body.material.poisson_ratio, kNearlyIncompressible);
-    preview.set_body(body, {.kind = kind}, on_itself ? nullptr : proxy);
+    preview.set_body(body, {.kind = kind, .growth = kGrowth}, on_itself ? nullptr : proxy);
     return true;
 }
 
