@@ -84,6 +84,9 @@ std::string odd_word_in_csv(const std::string& text) {
     std::string line;
     std::getline(stream, line);
     while (std::getline(stream, line)) {
+        // A quoted name may have line breaks (RFC 4180).
+        for (std::string rest; std::count(line.begin(), line.end(), '"') % 2 != 0 && std::getline(stream, rest);)
+            line += '\n' + rest;
         const bool quoted = line.starts_with('"');
         const std::size_t first = line.find(',', quoted ? line.rfind('"') : 0);
         if (first == std::string::npos) return "a row without numbers";

@@ -61,6 +61,8 @@ std::string odd_number_of(const std::string& name, const std::string& text) {
 
 TEST(Oracle, FindsNumbersThatAreNone) {
     EXPECT_THAT(odd_number_of("a.csv", "name,x,y\ninf,1,2\n\"n,nan\",3,4e-300\n"), IsEmpty());
+    EXPECT_THAT(odd_number_of("a.csv", "name,x,y\n\"two\ninf\",1,2\nb,3,4\n"), IsEmpty());
+    EXPECT_THAT(odd_number_of("a.csv", "name,x,y\n\"two\nlines\",1,inf\n"), HasSubstr("inf"));
     EXPECT_THAT(odd_number_of("a.csv", "name,x,y\na,1,-nan\n"), HasSubstr("nan"));
     EXPECT_THAT(odd_number_of("a.csv", "name,x,y\na,inf,1\n"), HasSubstr("inf"));
     EXPECT_THAT(odd_number_of("a.obj", "v 1 2 3\nf 1 2 3\n"), IsEmpty());
