@@ -110,7 +110,7 @@ struct Method {
     Tractions tractions = Tractions::discontinuous;
     Update update = Update::reduced;
     ElementDegree elements = ElementDegree::quadratic;  ///< nonlinear FEM: ten nodes or four
-    /// FEM: by how much tetrahedra grow away from the surface (TetOptions::growth). Nothing: what keeps the error.
+    /// FEM: by how much tetrahedra grow away from the surface (TetOptions::growth). Nothing: by their default_growth().
     std::optional<double> growth = {};
     /// Galerkin BEM: rows of thin triangles that are added along the rims of the constrained patches and along
     /// re-entrant edges, at most kMostRims. With any, every constrained set is then solved afresh, whatever the update
