@@ -18,7 +18,11 @@ constexpr int kHierarchicalFrom = 3000;
 }  // namespace
 
 bool is_hierarchical(const SurfaceMesh& surface, const Method& method) {
-    return method.mode == Mode::on_demand && surface.n_vertices() >= kHierarchicalFrom &&
+    return is_hierarchical(surface.n_vertices(), method);
+}
+
+bool is_hierarchical(std::int64_t n_vertices, const Method& method) {
+    return method.mode == Mode::on_demand && n_vertices >= kHierarchicalFrom &&
            method.update != Update::eqn9;  // which acts on inverses of the whole matrix
 }
 

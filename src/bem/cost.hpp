@@ -7,6 +7,7 @@ namespace elastolab {
 /// Whether Galerkin and linear BEM keep their operators as hierarchical matrices: on demand, on surfaces for which that
 /// is cheaper.
 bool is_hierarchical(const SurfaceMesh& surface, const Method& method);
+bool is_hierarchical(std::int64_t n_vertices, const Method& method);
 
 /// The arithmetic that is predicted, and how long it takes on this machine (deform/machine_speed.hpp) [s].
 struct PredictedWork {

@@ -17,7 +17,7 @@ namespace elastolab {
 /// is left comes from where tractions and stresses are singular: refining there gains nearly what refining everywhere
 /// does. Solved afresh each time, large surfaces by hierarchical matrices. A body that is not held is pinned
 /// (deform/pinned_body.hpp). Collocation is judged where there is nothing to refine, too, on the same triangles.
-/// Nothing where it would take too much memory, more than ten times as long as the answer (and half a second), or
+/// Nothing where it would take too much memory, more than ten times as long as the answer (and two seconds), or
 /// cannot be solved.
 /// answer    the method that is judged
 /// vertices  constrained, all different

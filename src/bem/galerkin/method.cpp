@@ -11,7 +11,7 @@ namespace {
 
 std::shared_ptr<const SolidModel> precompute(const SurfaceMesh& surface, const std::string&, double poisson_ratio,
                                              const Method& method, const SolidModel* before, Control& control) {
-    if (is_hierarchical(surface, method))
+    if (has_hierarchical_model(surface, method))
         return std::make_shared<HierarchicalGalerkinModel>(
             surface, poisson_ratio, method, dynamic_cast<const HierarchicalGalerkinModel*>(before), control);
     return std::make_shared<GalerkinModel>(surface, poisson_ratio, method, dynamic_cast<const GalerkinModel*>(before),

@@ -93,9 +93,15 @@ std::unique_ptr<ConstrainedSolid> GalerkinModel::constrain(std::span<const int> 
     return constrain(system, std::nullopt, given, given, control);
 }
 
+HierarchicalGalerkinModel GalerkinModel::for_large_sets() const {
+    Control control;
+    return {system_->boundary().mesh(), poisson_ratio_, method_, nullptr, control};
+}
+
 std::unique_ptr<ConstrainedSolid> GalerkinModel::constrain_with_finer_rims(const SurfaceSet& given,
                                                                            Control& control) const {
     const FinerRims rims(system_->boundary().mesh(), given.vertices, given.loads, method_.rims, LoneVertices::kept);
+    if (is_large(rims)) return for_large_sets().constrain(given.vertices, {}, given.loads, control);
     const Method direct{
         .kind = method_.kind, .update = Update::direct, .integral_tolerance = method_.integral_tolerance};
     StageTimes stages;
@@ -150,6 +156,7 @@ std::uint64_t GalerkinModel::constrain_memory(std::span<const int> fixed, std::s
     const SurfaceMesh& mesh = system_->boundary().mesh();
     if (method_.rims > 0) {
         const FinerRims rims(mesh, vertices, {}, method_.rims, LoneVertices::kept);
+        if (is_large(rims)) return for_large_sets().constrain_memory(fixed, handles);
         return galerkin_direct_memory(3 * std::int64_t{rims.surface.mesh.n_vertices()},
                                       3 * rims.n_constrained_triangles);
     }

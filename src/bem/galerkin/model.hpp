@@ -3,7 +3,9 @@
 #include <memory>
 #include <optional>
 
+#include "bem/cost.hpp"
 #include "bem/galerkin/finer_rims.hpp"
+#include "bem/galerkin/hierarchical_model.hpp"
 #include "bem/galerkin/system.hpp"
 #include "deform/solid_model.hpp"
 
@@ -11,7 +13,7 @@ namespace elastolab {
 
 /// A solid by symmetric Galerkin boundary elements: displacements linear on triangles, tractions constant on
 /// constrained ones. A constrained vertex without a constrained triangle has a reaction and no traction. With finer
-/// rims (Method::rims) each set is solved on a surface of its own.
+/// rims (Method::rims) each set is solved on a surface of its own, by hierarchical matrices where that is large.
 class GalerkinModel : public SolidModel {
 public:
     /// before: a model of the same surface, from which all that still serves is taken over, or null. Throws SolveError,
@@ -33,6 +35,9 @@ private:
                                                 const SurfaceSet& of_body, Control& control) const;
     /// Throws NotHeldError when the set does not hold the body.
     std::unique_ptr<ConstrainedSolid> constrain_with_finer_rims(const SurfaceSet& given, Control& control) const;
+    /// Of the same body, for sets whose own surface is large.
+    bool is_large(const FinerRims& rims) const { return is_hierarchical(rims.surface.mesh, method_); }
+    HierarchicalGalerkinModel for_large_sets() const;
 
     Method method_;
     double poisson_ratio_;

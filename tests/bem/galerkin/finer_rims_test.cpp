@@ -6,11 +6,13 @@
 #include <Eigen/Geometry>
 
 #include "bem/galerkin/always_hierarchical.hpp"
+#include "bem/galerkin/cost.hpp"
 #include "bem/galerkin/error_estimate.hpp"
 #include "bem/galerkin/hypersingular.hpp"
 #include "bem/galerkin/method.hpp"
 #include "bem/galerkin/refined_hypersingular.hpp"
 #include "bem/galerkin/slender_bar.hpp"
+#include "bem/galerkin/solvers.hpp"
 #include "bem/hierarchical/cases.hpp"
 #include "elasticity/rigid_motion.hpp"
 #include "mesh/meshes.hpp"
@@ -207,6 +209,44 @@ TEST(FinerRims, TakeTheMemoryThatIsPredictedForThem) {
     const auto n = static_cast<std::uint64_t>(3 * rims.surface.mesh.n_vertices());
     EXPECT_GT(deformer.predict_memory(rabbit.set), 8 * 2 * n * n);
     EXPECT_GT(model->facts().memory_bytes, 0u) << "D is kept";
+}
+
+/// Rows along the rims of many patches make a large surface of a small body.
+TEST(FinerRims, OfManyPatchesAreAnsweredByHierarchicalMatrices) {
+    const SurfaceMesh mesh = make_box(9);
+    std::vector<char> marked(static_cast<std::size_t>(mesh.n_vertices()), 0);
+    for (int t = 0; t < mesh.n_triangles(); t += 17)
+        for (const int v : mesh.triangles.col(t)) marked[static_cast<std::size_t>(v)] = 1;
+    std::vector<int> patches;
+    for (int v = 0; v < mesh.n_vertices(); ++v)
+        if (marked[static_cast<std::size_t>(v)] || mesh.vertices(0, v) < kEdge || mesh.vertices(0, v) > 1.0 - kEdge)
+            patches.push_back(v);
+    const Method method = with_rims(3);
+    ASSERT_FALSE(has_hierarchical_model(mesh, method));
+    const FinerRims rims(mesh, patches, {}, 3, LoneVertices::kept);
+    const std::uint64_t dense =
+        galerkin_direct_memory(3 * std::int64_t{rims.surface.mesh.n_vertices()}, 3 * rims.n_constrained_triangles);
+
+    Eigen::VectorXd stretched(3 * mesh.n_vertices());
+    for (int v = 0; v < mesh.n_vertices(); ++v)
+        stretched.segment<3>(3 * v) = mesh.vertices.col(v).cwiseProduct(Eigen::Vector3d(1.0, -0.3, -0.3));
+    Control control;
+    Deformer deformer(precomputed(make_body(mesh, {1.0, 0.3}), method));
+    EXPECT_LT(deformer.predict_memory({{}, patches}), dense / 2);
+    deformer.constrain({{}, patches}, control);
+    const Deformer::Answer answer = deformer.answer(at(stretched, patches), {.residual = true}, control);
+    EXPECT_LT((answer.displacements - stretched).cwiseAbs().maxCoeff(), 1e-6);
+    EXPECT_LT(answer.residual.value(), 1e-6);
+}
+
+/// Rows along re-entrant edges do so, whatever is constrained.
+TEST(FinerRims, AlongReentrantEdgesAreKnownBeforeAnythingIsConstrained) {
+    const SurfaceMesh box = make_box(12);
+    EXPECT_FALSE(has_hierarchical_model(box, with_rims(3)));
+    EXPECT_TRUE(has_hierarchical_model(inside_out(box), with_rims(3)));
+    const Cost convex = predict_galerkin_bem(make_box(8), with_rims(2)),
+               reentrant = predict_galerkin_bem(inside_out(make_box(8)), with_rims(2));
+    EXPECT_GT(reentrant.seconds, 2.0 * convex.seconds);
 }
 
 std::vector<int> lower_end(const SurfaceMesh& bar) {
