@@ -52,19 +52,24 @@ double flops_of_factor(double n) { return 0.2 * n * n * n; }
 
 /// Triangles that finer rims add.
 struct ThinTriangles {
-    double along_rim;    ///< of a usual set
-    double along_edges;  ///< re-entrant ones, which the body alone has
+    double along_rim = 0.0;    ///< of a usual set
+    double along_edges = 0.0;  ///< re-entrant ones, which the body alone has
 
-    ThinTriangles(const SurfaceMesh& mesh, int rows)
-        : along_rim(5.0 * std::sqrt(UsualSet(mesh).vertices) * (std::exp2(rows) - 1.0)),
-          along_edges(FinerRims(mesh, {}, {}, rows, LoneVertices::kept).surface.mesh.n_triangles() -
-                      mesh.n_triangles()) {}
-    double new_vertices() const { return 0.5 * (along_rim + along_edges); }
+    ThinTriangles(const SurfaceMesh& mesh, int rows) {
+        if (rows == 0) return;
+        along_rim = 5.0 * std::sqrt(UsualSet(mesh).vertices) * (std::exp2(rows) - 1.0);
+        along_edges = FinerRims(mesh, {}, {}, rows, LoneVertices::kept).surface.mesh.n_triangles() - mesh.n_triangles();
+    }
+    /// Of the surface with them.
+    double n_vertices(const SurfaceMesh& mesh) const { return mesh.n_vertices() + 0.5 * (along_rim + along_edges); }
 };
 
-PredictedWork work_of_finer_rims(const SurfaceMesh& mesh, int rows) {
-    const ThinTriangles thin(mesh, rows);
-    const double n = 3.0 * (mesh.n_vertices() + thin.new_vertices()), triangles = mesh.n_triangles();
+bool is_hierarchical_with(const ThinTriangles& thin, const SurfaceMesh& mesh, const Method& method) {
+    return is_hierarchical(static_cast<std::int64_t>(thin.n_vertices(mesh)), method);
+}
+
+PredictedWork work_of_finer_rims(const SurfaceMesh& mesh, const ThinTriangles& thin) {
+    const double n = 3.0 * thin.n_vertices(mesh), triangles = mesh.n_triangles();
     const double rim = thin.along_rim, edges = thin.along_edges;
     const PredictedWork as_given = work_of_set(mesh, UsualSet(mesh).triangles);
     return {5.0 * as_given.flops + 2.3 * n * n * n,
@@ -86,20 +91,17 @@ std::uint64_t hierarchical_set_memory(std::int64_t n_vertices, std::int64_t n_lo
 }
 
 bool has_hierarchical_model(const SurfaceMesh& mesh, const Method& method) {
-    if (is_hierarchical(mesh, method) || method.rims == 0) return is_hierarchical(mesh, method);
-    const double n = mesh.n_vertices() + ThinTriangles(mesh, method.rims).new_vertices();
-    return is_hierarchical(static_cast<std::int64_t>(n), method);
+    return is_hierarchical_with(ThinTriangles(mesh, method.rims), mesh, method);
 }
 
 Cost predict_galerkin_bem(const SurfaceMesh& mesh, const Method& method) {
-    if (has_hierarchical_model(mesh, method)) {
+    const ThinTriangles thin(mesh, method.rims);
+    if (is_hierarchical_with(thin, mesh, method)) {
         Cost cost = predict_hierarchical(mesh, kHierarchical);
         cost.seconds += costly_pair_integrals(mesh) / integral_speed();
-        if (method.rims > 0) {
-            const double finer = 1.0 + ThinTriangles(mesh, method.rims).new_vertices() / mesh.n_vertices();
-            cost.memory_bytes = static_cast<std::uint64_t>(finer * static_cast<double>(cost.memory_bytes));
-            cost.seconds *= finer * std::cbrt(finer);
-        }
+        const double finer = thin.n_vertices(mesh) / mesh.n_vertices();
+        cost.memory_bytes = static_cast<std::uint64_t>(finer * static_cast<double>(cost.memory_bytes));
+        cost.seconds *= finer * std::cbrt(finer);
         return cost;
     }
     const double vertices = mesh.n_vertices(), n = 3.0 * vertices;
@@ -108,8 +110,7 @@ Cost predict_galerkin_bem(const SurfaceMesh& mesh, const Method& method) {
     Cost cost{static_cast<std::int64_t>(n), kLeastMemory + static_cast<std::uint64_t>(waiting), 0.0};
     const bool factorises = factorises_ahead(method), keeps_integrals = method.rims > 0;
     if (!factorises && !keeps_integrals) return cost;
-    PredictedWork work =
-        method.rims > 0 ? work_of_finer_rims(mesh, method.rims) : work_of_set(mesh, UsualSet(mesh).triangles);
+    PredictedWork work = method.rims > 0 ? work_of_finer_rims(mesh, thin) : work_of_set(mesh, UsualSet(mesh).triangles);
     work.integrals += integrals_of_hypersingular(mesh);
     if (keeps_integrals) cost.memory_bytes += square_bytes(n);
     if (factorises) {
@@ -124,12 +125,11 @@ Cost predict_galerkin_bem(const SurfaceMesh& mesh, const Method& method) {
     return cost;
 }
 
-std::uint64_t galerkin_answer_memory(const SurfaceMesh& mesh, std::int64_t n_constrained) {
+std::uint64_t galerkin_answer_memory(const SurfaceMesh& mesh, std::int64_t n_loaded, std::int64_t n_tractions) {
     const Method method{.update = Update::direct};
     return is_hierarchical(mesh, method)
-               ? hierarchical_memory(mesh) +
-                     hierarchical_set_memory(mesh.n_vertices(), n_constrained, 3 * n_constrained)
-               : galerkin_direct_memory(3 * std::int64_t{mesh.n_vertices()}, 3 * n_constrained);
+               ? hierarchical_memory(mesh) + hierarchical_set_memory(mesh.n_vertices(), n_loaded, n_tractions)
+               : galerkin_direct_memory(3 * std::int64_t{mesh.n_vertices()}, n_tractions);
 }
 
 double predict_galerkin_answer(const SurfaceMesh& mesh, std::int64_t n_constrained, std::int64_t n_loaded) {

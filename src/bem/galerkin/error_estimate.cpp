@@ -72,7 +72,8 @@ bool is_quick(const SurfaceMesh& surface, Method answer, const FinerRims& rims, 
 std::uint64_t affordable_memory(const SurfaceMesh& surface, const Method& answer, const FinerRims& rims,
                                 std::span<const UnitLoad> loads) {
     const SurfaceMesh& fine = rims.surface.mesh;
-    const std::uint64_t bytes = galerkin_answer_memory(fine, rims.n_constrained_triangles);
+    const std::uint64_t bytes =
+        galerkin_answer_memory(fine, rims.n_constrained_triangles, 3 * rims.n_constrained_triangles);
     const bool fits = fine.n_vertices() <= kMostVertices && bytes < available_memory_bytes();
     const bool differs = rims.is_finer || answer.kind != kGalerkinBem;
     return differs && fits && is_quick(surface, answer, rims, loads) ? bytes : 0;

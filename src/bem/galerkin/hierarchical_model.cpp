@@ -81,9 +81,8 @@ std::uint64_t HierarchicalGalerkinModel::constrain_memory(std::span<const int> f
     if (method_.rims > 0) {
         const FinerRims rims(*surface_, vertices, {}, method_.rims, LoneVertices::kept);
         const SurfaceMesh& fine = rims.surface.mesh;
-        return hierarchical_memory(fine) +
-               hierarchical_set_memory(fine.n_vertices(), rims.n_constrained_triangles,
-                                       3 * rims.n_constrained_triangles);
+        return hierarchical_memory(fine) + hierarchical_set_memory(fine.n_vertices(), rims.n_constrained_triangles,
+                                                                   3 * rims.n_constrained_triangles);
     }
     const GalerkinTractions tractions(*surface_, system_->surfaces(), vertices);
     return hierarchical_set_memory(facts_.n_vertices, tractions.n_loaded(system_->surfaces()), tractions.size());
@@ -98,7 +97,7 @@ std::uint64_t HierarchicalGalerkinModel::check_memory(std::span<const int> fixed
         return std::max(galerkin_reference_memory(*surface_, method_, vertices),
                         galerkin_residual_memory(*surface_, n_loaded));
     const FinerRims rims(*surface_, vertices, {}, method_.rims, LoneVertices::kept);
-    return std::max(galerkin_answer_memory(*surface_, rims.n_constrained_of_body),
+    return std::max(galerkin_answer_memory(*surface_, n_loaded, tractions.size()),
                     galerkin_residual_memory(rims.surface.mesh, n_loaded + rims.n_constrained_triangles));
 }
 
