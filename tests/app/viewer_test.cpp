@@ -165,6 +165,34 @@ TEST_F(ViewerTest, AReplayedDragEndsAtTheSameHandleForEveryMethod) {
     EXPECT_GT(std::get<AffineMotion>(handles[0].motion).translate.norm(), 0.01);
 }
 
+/// The view belongs to what is below the fingers when they come down, although a slow frame sees only where they end.
+TEST_F(ViewerTest, FingersKeepTheViewWhenTheyLeaveIt) {
+    const Eigen::Vector2d from(400, 240), beyond(400, 474);  // on the status bar
+    options.scene_out = folder.path() / "out.json";
+    std::vector<ViewPoint> views;
+    for (const bool at_once : {false, true}) {
+        std::vector<InputEvent> events = {{.kind = InputEvent::Kind::cursor, .cursor = from}};
+        for (int i = 0; i < 10; ++i)
+            events.push_back({.kind = InputEvent::Kind::fingers,
+                              .cursor = from + 0.1 * (i + 1) * (beyond - from),
+                              .from = from + 0.1 * i * (beyond - from),
+                              .code = 3});
+        options.replay = folder.path() / "fingers.log";
+        InteractionRecorder recorder(options.replay, {640, 480});
+        double seconds = 0.0;
+        if (at_once) recorder.add({.seconds = 0.25, .events = events});
+        for (std::size_t i = 0; !at_once && i < events.size(); ++i)
+            recorder.add({.seconds = seconds += 0.25, .events = {events[i]}});
+        recorder.finish();
+        run_viewer(options);
+        const Document left = load_scene(options.scene_out);
+        ASSERT_TRUE(left.camera);
+        views.push_back(*left.camera);
+    }
+    EXPECT_GT((views[0].eye - views[0].target).normalized().z(), 0.9) << "seen from above";
+    EXPECT_LT((views[0].eye - views[1].eye).norm(), 1e-9);
+}
+
 TEST_F(ViewerTest, AReplayIsRecordedAgainAsItWas) {
     record_drag();
     options.record = folder.path() / "again.log";

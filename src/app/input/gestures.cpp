@@ -24,6 +24,7 @@ void Gestures::handle(const InputEvent& event, GestureContext& context) {
     switch (event.kind) {
         case InputEvent::Kind::cursor:
             cursor_ = event.cursor;
+            fingers_target_ = -1;
             move(context);
             break;
         case InputEvent::Kind::button:

@@ -192,6 +192,7 @@ private:
     void move_view(GestureContext& context, const Eigen::Vector2d& before);
     void scroll(const InputEvent& event, GestureContext& context);
     void zoom(double factor, GestureContext& context, const PointingTarget& target);
+    const PointingTarget* target_of_fingers(const GestureContext& context);
     void move_by_fingers(const InputEvent& event, GestureContext& context);
     void keep_drags_in_view(GestureContext& context);
 
@@ -235,7 +236,8 @@ private:
 
     Action action_ = Action::none;
     int button_ = -1;
-    std::size_t target_ = 0;  ///< the one that the action goes on in
+    std::size_t target_ = 0;              ///< the one that the action goes on in
+    std::ptrdiff_t fingers_target_ = -1;  ///< the one that fingers came down in; negative: none so far
     Eigen::Vector2d cursor_ = Eigen::Vector2d::Zero(), last_cursor_ = cursor_, press_cursor_ = cursor_;
     bool dragged_ = false;
     Hold hold_ = Hold::fix;  ///< what brush and box do

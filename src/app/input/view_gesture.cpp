@@ -67,10 +67,20 @@ void Gestures::scroll(const InputEvent& event, GestureContext& context) {
     keep_drags_in_view(context);
 }
 
+/// What they came down in keeps them until they are lifted.
+const PointingTarget* Gestures::target_of_fingers(const GestureContext& context) {
+    if (fingers_target_ < 0) {
+        const PointingTarget* below = target_at(context);
+        if (below == nullptr) return nullptr;
+        fingers_target_ = below - context.targets.data();
+    }
+    return fingers_target_ < std::ssize(context.targets) ? context.targets.data() + fingers_target_ : nullptr;
+}
+
 /// Two move and zoom, three turn.
 void Gestures::move_by_fingers(const InputEvent& event, GestureContext& context) {
     cursor_ = event.from;
-    const PointingTarget* target = target_at(context);
+    const PointingTarget* target = target_of_fingers(context);
     const Eigen::Vector2d d = event.cursor - event.from;
     if (target != nullptr && event.code > 2) context.camera.orbit(d.x(), d.y(), target->viewport);
     if (target != nullptr && event.code == 2) {

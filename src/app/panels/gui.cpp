@@ -79,6 +79,8 @@ std::size_t Gui::n_for_one_frame(std::span<const InputEvent> events) {
         const auto is_button = [](const auto& of) { return of.first == InputEvent::Kind::button; };
         if (event.kind == InputEvent::Kind::cursor && std::any_of(changed.begin(), changed.end(), is_button))
             return i;  // the button counts where the cursor was
+        if (event.kind == InputEvent::Kind::cursor && i > 0 && events[i - 1].kind == InputEvent::Kind::fingers)
+            return i;  // so do fingers
         if (event.kind != InputEvent::Kind::button && event.kind != InputEvent::Kind::key) continue;
         const std::pair key(event.kind, event.code);
         if (std::find(changed.begin(), changed.end(), key) != changed.end()) return i;
@@ -101,8 +103,7 @@ void Gui::feed(const InputEvent& event) {
             io.MouseWheelH += static_cast<float>(event.cursor.x());
             io.MouseWheel += static_cast<float>(event.cursor.y());
             break;
-        case InputEvent::Kind::fingers:
-            io.MousePos = {static_cast<float>(event.cursor.x()), static_cast<float>(event.cursor.y())};
+        case InputEvent::Kind::fingers:  // the cursor stays where they came down: what is there keeps them
             io.MouseWheel += static_cast<float>(event.cursor.y() - event.from.y()) / (kNotchPixels * fonts_.scale());
             break;
         case InputEvent::Kind::key:

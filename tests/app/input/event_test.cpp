@@ -24,6 +24,12 @@ TEST(EventsOfAFrame, AButtonCountsWhereTheCursorWas) {
     EXPECT_EQ(n_of({button(false), kMove}), 1u);
 }
 
+TEST(EventsOfAFrame, FingersCountWhereTheyCameDown) {
+    const InputEvent fingers{.kind = Kind::fingers};
+    EXPECT_EQ(n_of({kMove, fingers, fingers, kMove}), 3u);
+    EXPECT_EQ(n_of({fingers, kMove}), 1u);
+}
+
 TEST(EventsOfAFrame, DifferentKeysAndButtonsDoNotDisturbEachOther) {
     EXPECT_EQ(n_of({key(true, 65), button(true), key(true, 66), button(true, 1)}), 4u);
     EXPECT_EQ(n_of({key(true, 0), button(true, 0)}), 2u);
