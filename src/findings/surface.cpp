@@ -43,12 +43,14 @@ void add_thin_triangle(const SurfaceMesh& surface, Findings& findings) {
     findings.push_back({.kind = FindingKind::thin_triangle, .value = thinnest, .place = place});
 }
 
-/// Length over thickness, 4 volume / area: that of a bar, twice that of a plate.
-void add_slenderness(const SurfaceMesh& surface, Findings& findings) {
-    const double length = (surface.vertices.rowwise().maxCoeff() - surface.vertices.rowwise().minCoeff()).norm();
+/// Length over thickness, 4 volume / area: that of a bar, twice that of a plate. A plate is as long as its box, what is
+/// wound as the way along it.
+void add_slenderness(const SurfaceMesh& surface, MethodKind method, Findings& findings) {
+    const double straight = (surface.vertices.rowwise().maxCoeff() - surface.vertices.rowwise().minCoeff()).norm();
+    const double length = std::max(straight, length_along_surface(surface));
     const double thickness = 4.0 * enclosed_volume(surface) / surface_area(surface);
     if (length >= kSlender * thickness)
-        findings.push_back({.kind = FindingKind::slender_body, .value = length / thickness});
+        findings.push_back({.kind = FindingKind::slender_body, .value = length / thickness, .method = method});
 }
 
 }  // namespace
@@ -57,7 +59,7 @@ Findings findings_of_surface(const SurfaceMesh& surface, MethodKind method, Cont
     Findings findings;
     if (!method->integrates_boundary) return findings;
     add_thin_triangle(surface, findings);
-    add_slenderness(surface, findings);
+    if (!method->balances_forces) add_slenderness(surface, method, findings);
     control.checkpoint();
     const FacingApproach wall = closest_facing_approach(surface, control);
     if (wall.ratio < (method->shows_averages ? kThinWallOfConstant : kThinWall))

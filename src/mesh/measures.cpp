@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <Eigen/Geometry>
+#include <functional>
+#include <limits>
 #include <numbers>
 #include <numeric>
+#include <queue>
+#include <utility>
 #include <vector>
 
 #include "mesh/topology.hpp"
@@ -39,6 +43,65 @@ double surface_area(const SurfaceMesh& mesh) {
     double area = 0.0;
     for (int t = 0; t < mesh.n_triangles(); ++t) area += 0.5 * area_vector(triangle_points(mesh, t)).norm();
     return area;
+}
+
+namespace {
+
+/// Shortest ways along edges from one vertex (E. W. Dijkstra 1959).
+class WaysAlongEdges {
+public:
+    explicit WaysAlongEdges(const SurfaceMesh& mesh)
+        : mesh_(mesh), triangles_(mesh), way_(static_cast<std::size_t>(mesh.n_vertices()), kNone) {}
+
+    bool reached(int vertex) const { return way_[static_cast<std::size_t>(vertex)] < kNone; }
+    /// The vertex that is farthest from this one, and how far.
+    std::pair<int, double> farthest(int from) {
+        for (const int v : std::exchange(done_, {})) way_[static_cast<std::size_t>(v)] = kNone;
+        std::priority_queue<Place, std::vector<Place>, std::greater<>> next;
+        std::pair<int, double> last{from, 0.0};
+        const auto go = [&](int v, double length) {
+            double& best = way_[static_cast<std::size_t>(v)];
+            if (length < best) next.emplace(best = length, v);
+        };
+        for (go(from, 0.0); !next.empty();) {
+            const auto [length, v] = next.top();
+            next.pop();
+            if (length > way_[static_cast<std::size_t>(v)]) continue;
+            done_.push_back(v);
+            last = {v, length};
+            for (const int t : triangles_[v])
+                for (const int w : mesh_.triangles.col(t))
+                    go(w, length + (mesh_.vertices.col(w) - mesh_.vertices.col(v)).norm());
+        }
+        return last;
+    }
+    void next_surface() { done_.clear(); }
+
+private:
+    using Place = std::pair<double, int>;
+    static constexpr double kNone = std::numeric_limits<double>::infinity();
+    const SurfaceMesh& mesh_;
+    VertexTriangles triangles_;
+    std::vector<double> way_;
+    std::vector<int> done_;  ///< since next_surface()
+};
+
+}  // namespace
+
+double length_along_surface(const SurfaceMesh& mesh) {
+    constexpr int kTimes = 3;
+    WaysAlongEdges ways(mesh);
+    double longest = 0.0;
+    for (int v = 0; v < mesh.n_vertices(); ++v) {
+        if (ways.reached(v)) continue;
+        ways.next_surface();
+        std::pair<int, double> end{v, 0.0};
+        for (int i = 0; i < kTimes; ++i) {
+            end = ways.farthest(end.first);
+            longest = std::max(longest, end.second);
+        }
+    }
+    return longest;
 }
 
 double enclosed_volume(const SurfaceMesh& mesh, std::span<const int> triangles) {

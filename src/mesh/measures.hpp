@@ -22,6 +22,11 @@ double mean_edge(const SurfaceMesh& mesh);
 /// Area of the surface [L^2].
 double surface_area(const SurfaceMesh& mesh);
 
+/// How long the way along the edges is between the two vertices of one connected surface that are farthest apart by it
+/// [L], within some percent: the length of a body that is curved or wound. Found by going three times to the vertex
+/// that is farthest away.
+double length_along_surface(const SurfaceMesh& mesh);
+
 /// Signed volume that these triangles enclose [L^3]: positive when they face outward. Right only for closed surfaces.
 double enclosed_volume(const SurfaceMesh& mesh, std::span<const int> triangles);
 double enclosed_volume(const SurfaceMesh& mesh);
