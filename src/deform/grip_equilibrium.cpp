@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <optional>
 
 #include "base/error.hpp"
 #include "deform/moved_grips.hpp"
+#include "mesh/measures.hpp"
 
 namespace elastolab {
 
@@ -20,6 +22,12 @@ constexpr double kLeastGain = 1e-9, kFalls = 0.9;
 constexpr int kWholeSteps = 4;
 constexpr double kShortestStep = 1e-3;
 constexpr int kMostSolves = 120, kMostPushes = 3;
+/// Forces that stretch the body more than this are none that a material bears: a mistake in the units. Linear theory
+/// tells those that are far beyond, with room for what bends first.
+constexpr double kMostStretch = 100.0, kMostLinearStrain = 1000.0;
+constexpr const char* kUnbearable =
+    "handles under a force: they would stretch the body more than 100 times, which no material bears. Make the forces "
+    "smaller, or check the units of forces, lengths and Young's modulus.";
 /// Length of a push out of a state that is not stable, over that of the longest step.
 constexpr double kPush = 0.1;
 
@@ -62,8 +70,10 @@ public:
     }
 
     State run(State state) {
+        const double most_stretch = kMostStretch * state.answer.facts->largest_stretch;
         int pushes = 0;
         while (solves_ < kMostSolves) {
+            if (state.answer.facts->largest_stretch > most_stretch) throw SolveError(kUnbearable);
             const GripTangent stiffness = tangent(state);
             if (balanced(state, stiffness, kForcesBalance)) {
                 if (stiffness.stable() || pushes++ == kMostPushes) return state;
@@ -86,6 +96,15 @@ public:
         const VectorXd all = units_.asDiagonal() * state.missing;
         if ((all - tangent(state).answered(state.missing)).norm() > kUnansweredForces * size_of(state))
             throw SolveError(kUnbalancedGrips);
+    }
+    /// Throws where by linear theory the forces strain the body beyond all measure.
+    void require_bearable(const State& state) const {
+        const GripTangent stiffness = tangent(state);
+        const VectorXd forces = stiffness.answered(state.missing);
+        const double energy = 0.5 * (units_.cwiseInverse().asDiagonal() * forces).dot(stiffness.step(forces));
+        const Body& body = deformer_.model().body();
+        const double strain = std::sqrt(2.0 * energy / (body.material.young_modulus * enclosed_volume(*body.surface)));
+        if (!(strain < kMostLinearStrain)) throw SolveError(kUnbearable);
     }
     int solves() const { return solves_; }
     int iterations() const { return iterations_; }
@@ -185,7 +204,10 @@ GripEquilibrium find_grip_equilibrium(const Deformer& deformer, const VectorXd& 
     const bool known = before != nullptr && before->grips == grips;
     State first = search.at(known ? before->places : std::vector<GripPlace>(grips.size()), values,
                             known ? Approach{before->equilibrium, {}} : approach);
-    if (!known) search.require_answer(first);
+    if (!known) {
+        search.require_answer(first);
+        search.require_bearable(first);
+    }
     State state = search.run(std::move(first));
     GripTangent tangent = search.tangent(state);
     return {.grips = grips,

@@ -184,6 +184,24 @@ TEST(GripEquilibrium, OfABodyThatNothingElseHolds) {
     }
 }
 
+/// Forces in the wrong unit: a bar stretched to 100 times its length, and what is beyond all measure.
+TEST(GripEquilibrium, NoMaterialBearsForcesOfAHundredTimesItsStiffness) {
+    const GrippedBar bar;
+    const auto problem = [&](const Vector3d& force) -> std::string {
+        try {
+            bar.find({{force, {0, 0, 0}}});
+        } catch (const SolveError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_EQ(problem({10, 0, 0}), "");
+    for (const double size : {400.0, 1e4, 1e10, 1e80})
+        for (const Vector3d& direction : {Vector3d(1, 0, 0), Vector3d(-0.5, 0, 1)})
+            EXPECT_NE(problem(size * direction).find("check the units"), std::string::npos)
+                << size * direction.transpose();
+}
+
 /// On a ball with one or two grips of any size, from a soft touch to forces that tear at it. ELASTOLAB_FUZZ: how many.
 TEST(GripEquilibrium, RandomForcesEndInAnAnswerOrAClearWord) {
     std::mt19937 random(5);
