@@ -85,11 +85,9 @@ std::string weak_hold(const Finding& finding) {
 }
 
 std::string coarse_mesh(const Finding& finding) {
-    const std::string begin = std::string(finding.method->name) + ": ";
-    const std::string off = percent(finding.value) + " of the largest", place = place_of(finding);
     const std::string advice(finding.second == 0 ? "Refine the mesh." : finding.method->against_coarseness);
-    return begin + "the mesh is too coarse near " + place + ": displacements there are off by about " + off + ". " +
-           advice;
+    return std::string(finding.method->name) + ": displacements are off by about " + percent(finding.value) +
+           " of the largest near " + place_of(finding) + ": the mesh is too coarse there. " + advice;
 }
 
 std::string proxy(const Finding& finding) {
@@ -122,8 +120,8 @@ std::string thin_sheets(const Finding& finding) {
 }
 
 std::string coarse_forces(const Finding& finding) {
-    return std::string(finding.method->name) + ": the mesh is too coarse for forces: those of fixed sets and " +
-           "handles are off by about " + percent(finding.value) + " of the largest. " +
+    return std::string(finding.method->name) + ": forces are off by about " + percent(finding.value) +
+           " of the largest at fixed sets and handles: the mesh is too coarse for them. " +
            std::string(finding.method->against_coarseness);
 }
 

@@ -136,7 +136,7 @@ void draw_progress(const PanelContext& context, MethodRunner& runner) {
     if (!works) {
         const std::optional<double> error = context.state.simulation.preview_error(context.state.method);
         const std::string text =
-            error ? "the preview was " + formatted("%.*f", *error < 0.1 ? 1 : 0, 100.0 * *error) + " % off" : "";
+            error ? "the preview differed by " + formatted("%.*f", *error < 0.1 ? 1 : 0, 100.0 * *error) + " %" : "";
         ImGui::AlignTextToFramePadding();
         return ImGui::TextColored(imgui_colour(context.palette.text_dim), "%s", text.c_str());
     }

@@ -72,8 +72,6 @@ std::string first_line(const std::string& text, float width) {
 
 }  // namespace
 
-/// What has failed, that changes are not kept, then the warnings of the present answer, with the body's file in place
-/// of its whole path, and methods called as on their buttons.
 std::vector<WarningsPanel::Warning> WarningsPanel::present(const ViewerState& state) {
     std::vector<Warning> warnings;
     for (const std::string& problem :
@@ -82,10 +80,17 @@ std::vector<WarningsPanel::Warning> WarningsPanel::present(const ViewerState& st
         if (!problem.empty()) warnings.push_back({problem, true});
     if (!state.files.copy_failure().empty())
         warnings.push_back({"Changes would be lost if the viewer were killed: " + state.files.copy_failure(), true});
-    for (const std::string& text : words(state.simulation.embedded(state.method).findings()))
-        warnings.push_back({text, false});
-    if (const std::string theory = theory_words(state); !theory.empty() && state.method->linear)
-        warnings.insert(warnings.begin(), {theory, false, large_deformation_method()});
+    const std::ptrdiff_t n_problems = std::ssize(warnings);
+    Findings findings = state.simulation.embedded(state.method).findings();
+    const auto of_mesh = std::stable_partition(findings.begin(), findings.end(),
+                                               [](const Finding& one) { return one.kind == FindingKind::coarse_mesh; });
+    for (const std::string& text : words(findings)) warnings.push_back({text, false});
+    if (const std::string theory = theory_words(state); !theory.empty() && state.method->linear) {
+        const bool mesh_is_worse = !state.simulation.theory_error()->crushed && of_mesh != findings.begin() &&
+                                   findings.front().value > state.simulation.theory_error()->relative;
+        warnings.insert(warnings.begin() + n_problems + (mesh_is_worse ? of_mesh - findings.begin() : 0),
+                        {theory, false, large_deformation_method()});
+    }
     const std::string& name = state.scene().name();
     for (Warning& warning : warnings)
         if (warning.text.starts_with(name))
