@@ -23,7 +23,7 @@ constexpr int kWholeSteps = 4;
 constexpr double kShortestStep = 1e-3;
 constexpr int kMostSolves = 120, kMostPushes = 3;
 /// Forces that stretch the body more than this are none that a material bears: a mistake in the units. Linear theory
-/// tells those that are far beyond, with room for what bends first.
+/// tells those that are far beyond, by a mean strain that leaves room for what bends first.
 constexpr double kMostStretch = 100.0, kMostLinearStrain = 1000.0;
 constexpr const char* kUnbearable =
     "handles under a force: they would stretch the body more than 100 times, which no material bears. Make the forces "
@@ -101,10 +101,10 @@ public:
     void require_bearable(const State& state) const {
         const GripTangent stiffness = tangent(state);
         const VectorXd forces = stiffness.answered(state.missing);
-        const double energy = 0.5 * (units_.cwiseInverse().asDiagonal() * forces).dot(stiffness.step(forces));
+        const double work = (units_.cwiseInverse().asDiagonal() * forces).dot(stiffness.step(forces));
         const Body& body = deformer_.model().body();
-        const double strain = std::sqrt(2.0 * energy / (body.material.young_modulus * enclosed_volume(*body.surface)));
-        if (!(strain < kMostLinearStrain)) throw SolveError(kUnbearable);
+        const double mean_strain = std::sqrt(work / (body.material.young_modulus * enclosed_volume(*body.surface)));
+        if (!(mean_strain < kMostLinearStrain)) throw SolveError(kUnbearable);
     }
     int solves() const { return solves_; }
     int iterations() const { return iterations_; }

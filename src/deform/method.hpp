@@ -84,8 +84,8 @@ struct MethodTraits {
     bool K_takes_incompressible = true;  ///< so do K and the updates that need it (direct and eqn9 in the mode full)
     bool locks = false;                  ///< errors grow without bound as Poisson's ratio nears 1/2
     double integral_tolerance = 0.0;     ///< Method::integral_tolerance where it is not chosen
-    bool balances_forces = true;         ///< reactions of a free body add up to zero, but for rounding
-    bool integrates_boundary = false;    ///< slivers, thin walls and slender bodies cost accuracy (src/findings)
+    bool balances_forces = true;         ///< reactions add up to zero; false: collocation, bad for slender bodies
+    bool integrates_boundary = false;    ///< slivers and thin walls cost accuracy (src/findings)
     /// Estimated relative error of the worst vertex above which the user should know (of reactions, twice that); none
     /// where there is no estimate.
     std::optional<double> reported_error = {};

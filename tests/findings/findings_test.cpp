@@ -122,7 +122,7 @@ TEST(Findings, TellOfSlenderBodies) {
     EXPECT_THAT(warnings_of(bar, Method{.kind = kGalerkinBem}), IsEmpty());
 }
 
-/// A bar of 1 x 1 x 24 along a helix of one turn and a half, in a box of 9 x 9 x 5: as slender as a straight one.
+/// A bar of 1 x 1 x 24 along a helix of one turn and a half, in a box of 6 x 6 x 4: as slender as a straight one.
 TEST(Findings, TellOfSlenderBodiesThatAreWound) {
     SurfaceMesh coil = make_box(2, {24.0, 1.0, 1.0});
     const double radius = 2.5, turn = 1.0 / radius, rise = 2.0 / (2.0 * std::numbers::pi);

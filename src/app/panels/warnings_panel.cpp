@@ -86,8 +86,9 @@ std::vector<WarningsPanel::Warning> WarningsPanel::present(const ViewerState& st
                                                [](const Finding& one) { return one.kind == FindingKind::coarse_mesh; });
     for (const std::string& text : words(findings)) warnings.push_back({text, false});
     if (const std::string theory = theory_words(state); !theory.empty() && state.method->linear) {
-        const bool mesh_is_worse = !state.simulation.theory_error()->crushed && of_mesh != findings.begin() &&
-                                   findings.front().value > state.simulation.theory_error()->relative;
+        const TheoryError& error = *state.simulation.theory_error();
+        const bool mesh_is_worse =
+            of_mesh != findings.begin() && !error.crushed && findings.front().value > error.relative;
         warnings.insert(warnings.begin() + n_problems + (mesh_is_worse ? of_mesh - findings.begin() : 0),
                         {theory, false, large_deformation_method()});
     }
