@@ -57,10 +57,13 @@ std::string slender_body(const Finding& finding) {
 }
 
 std::string thin_wall(const Finding& finding) {
+    const std::string_view errors =
+        finding.method->shows_averages    ? "of 35 to 45 %. Refine there, or choose linear-bem."
+        : finding.method->balances_forces ? "of up to 2 %. Refine there, or compare with fem."
+                                          : "of 1 to 10 %. Refine there, or choose galerkin-bem.";
     return "boundary elements: the surface near " + place_of(finding) + " is only " + readable_number(finding.value) +
            " of a triangle's edge away from its other side. Walls and gaps that thin have bending errors " +
-           (finding.method->shows_averages ? "of 35 to 45 %. Refine there, or choose linear-bem."
-                                           : "of 1 to 10 %. Refine there, or compare with fem.");
+           std::string(errors);
 }
 
 std::string contact(const Finding& finding) {
