@@ -8,21 +8,12 @@
 
 namespace elastolab {
 
-namespace {
-
-/// Number of vertices from which hierarchical matrices are used. By linear BEM a cube of 3458 vertices with a fixed
-/// face and a patch took 29 s with a dense factor, one of 5402 takes 13 s with them; only a further handle of a few
-/// vertices, whose columns are few, is cheaper with the factor.
-constexpr int kHierarchicalFrom = 3000;
-
-}  // namespace
-
 bool is_hierarchical(const SurfaceMesh& surface, const Method& method) {
     return is_hierarchical(surface.n_vertices(), method);
 }
 
 bool is_hierarchical(std::int64_t n_vertices, const Method& method) {
-    return method.mode == Mode::on_demand && n_vertices >= kHierarchicalFrom &&
+    return method.mode == Mode::on_demand && n_vertices >= method.hierarchical_from &&
            method.update != Update::eqn9;  // which acts on inverses of the whole matrix
 }
 

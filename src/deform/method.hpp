@@ -116,6 +116,10 @@ struct Method {
     /// re-entrant edges, at most kMostRims. With any, every constrained set is then solved afresh, whatever the update
     /// is.
     int rims = 0;
+    /// BEM: number of vertices from which matrices are hierarchical, on demand. By linear BEM a cube of 3458 vertices
+    /// with a fixed face and a patch took 29 s with a dense factor, one of 5402 takes 13 s with them; only a further
+    /// handle of a few vertices, whose columns are few, is cheaper with the factor.
+    int hierarchical_from = 3000;
     /// BEM: relative error allowed to a boundary integral; decides which rule is used where. 0: that of the method
     /// (MethodTraits::integral_tolerance).
     double integral_tolerance = 0.0;

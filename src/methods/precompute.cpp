@@ -69,7 +69,7 @@ bool same_findings(MethodKind a, MethodKind b) {
 bool takes_over(const Model& before, const Method& method, const Material& material) {
     const Method& its = before.method();
     return method.kind == its.kind && method.mode == its.mode && method.growth == its.growth &&
-           integral_tolerance(method) == integral_tolerance(its) &&
+           method.hierarchical_from == its.hierarchical_from && integral_tolerance(method) == integral_tolerance(its) &&
            material.poisson_ratio == before.body().material.poisson_ratio;
 }
 

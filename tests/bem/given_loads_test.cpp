@@ -65,7 +65,7 @@ ConstrainedSet loaded_set(const OrganicBody& body) {
 }
 
 TEST(HierarchicalLoads, AreAnsweredAsByDenseMatrices) {
-    const OrganicBody body = make_rabbit(500);
+    const OrganicBody body = make_rabbit(300);
     const ConstrainedSet set = loaded_set(body);
     Eigen::VectorXd values(set.n_values());
     values << Eigen::Vector3d(0.1, -0.05, 0.1).replicate(std::ssize(set.handles), 1), 0.2, -0.4, 0.1, 0.3;
@@ -87,7 +87,7 @@ TEST(HierarchicalLoads, AreAnsweredAsByDenseMatrices) {
 
 /// A load's column of a drag is the difference that its factor makes.
 TEST(HierarchicalLoads, HaveColumnsOfTheirOwn) {
-    const OrganicBody body = make_rabbit(500);
+    const OrganicBody body = make_rabbit(350);
     const ConstrainedSet set = loaded_set(body);
     const auto n_loads = std::ssize(set.loads);
     for (const Pair& pair : pairs()) {

@@ -125,8 +125,8 @@ Cost predict_galerkin_bem(const SurfaceMesh& mesh, const Method& method) {
     return cost;
 }
 
-std::uint64_t galerkin_answer_memory(const SurfaceMesh& mesh, std::int64_t n_loaded, std::int64_t n_tractions) {
-    const Method method{.update = Update::direct};
+std::uint64_t galerkin_answer_memory(const SurfaceMesh& mesh, const Method& method, std::int64_t n_loaded,
+                                     std::int64_t n_tractions) {
     return is_hierarchical(mesh, method)
                ? hierarchical_memory(mesh) + hierarchical_set_memory(mesh.n_vertices(), n_loaded, n_tractions)
                : galerkin_direct_memory(3 * std::int64_t{mesh.n_vertices()}, n_tractions);

@@ -14,7 +14,8 @@ Cost predict_galerkin_bem(const SurfaceMesh& surface, const Method& method);
 double predict_galerkin_answer(const SurfaceMesh& surface, std::int64_t n_constrained, std::int64_t n_loaded);
 /// Bytes of one answer on a surface as it is, all that is computed for it. n_loaded, n_tractions: as in
 /// hierarchical_set_memory.
-std::uint64_t galerkin_answer_memory(const SurfaceMesh& surface, std::int64_t n_loaded, std::int64_t n_tractions);
+std::uint64_t galerkin_answer_memory(const SurfaceMesh& surface, const Method& method, std::int64_t n_loaded,
+                                     std::int64_t n_tractions);
 
 /// Bytes of hierarchical matrices on a surface as it is.
 std::uint64_t hierarchical_memory(const SurfaceMesh& surface);

@@ -35,8 +35,12 @@ constexpr double kShareOfRims = 1.3;
 /// these rows cannot show: rather too much is told. tests/methods/discretisation_test.cpp measures it.
 constexpr std::array<double, kMostRims> kShareLeft = {0.55, 0.45, 0.40};
 
-Method reference_method() {
-    return {.kind = kGalerkinBem, .update = Update::direct, .integral_tolerance = kReferenceTolerance};
+/// Of which the second answer is, beside an answer by that method.
+Method reference_method(const Method& answer) {
+    return {.kind = kGalerkinBem,
+            .update = Update::direct,
+            .hierarchical_from = answer.hierarchical_from,
+            .integral_tolerance = kReferenceTolerance};
 }
 
 std::int64_t count_triangles(const SurfaceMesh& surface, std::span<const UnitLoad> loads) {
@@ -63,7 +67,7 @@ bool is_quick(const SurfaceMesh& surface, Method answer, const FinerRims& rims, 
     answer.mode = Mode::on_demand;
     answer.rims = 0;
     const double seconds =
-        predicted_seconds(rims.surface.mesh, reference_method(), rims.n_constrained_triangles, rims.loads);
+        predicted_seconds(rims.surface.mesh, reference_method(answer), rims.n_constrained_triangles, rims.loads);
     return seconds <= kAlwaysSeconds ||
            seconds <= kMostTimes * predicted_seconds(surface, answer, rims.n_constrained_of_body, loads);
 }
@@ -73,15 +77,15 @@ std::uint64_t affordable_memory(const SurfaceMesh& surface, const Method& answer
                                 std::span<const UnitLoad> loads) {
     const SurfaceMesh& fine = rims.surface.mesh;
     const std::uint64_t bytes =
-        galerkin_answer_memory(fine, rims.n_constrained_triangles, 3 * rims.n_constrained_triangles);
+        galerkin_answer_memory(fine, reference_method(answer), rims.n_constrained_triangles, 3 * rims.n_constrained_triangles);
     const bool fits = fine.n_vertices() <= kMostVertices && bytes < available_memory_bytes();
     const bool differs = rims.is_finer || answer.kind != kGalerkinBem;
     return differs && fits && is_quick(surface, answer, rims, loads) ? bytes : 0;
 }
 
 /// values: at the nodes of the set, then the loads' factors. Throws NotHeldError, SolveError, Cancelled.
-NodeSolution solve_by_galerkin(const SurfaceMesh& surface, const SurfaceSet& set, double poisson_ratio,
-                               Eigen::VectorXd values, Control& control) {
+NodeSolution solve_by_galerkin(const SurfaceMesh& surface, const Method& method, const SurfaceSet& set,
+                               double poisson_ratio, Eigen::VectorXd values, Control& control) {
     const ParticularField particular =
         particular_field(surface, poisson_ratio, surface.vertices(Eigen::all, set.vertices), set.loads);
     const Eigen::VectorXd factors = values.tail(std::ssize(set.loads));
@@ -91,15 +95,14 @@ NodeSolution solve_by_galerkin(const SurfaceMesh& surface, const SurfaceSet& set
         return solution;
     };
     StageTimes stages;
-    if (is_hierarchical(surface, reference_method())) {
+    if (is_hierarchical(surface, method)) {
         const auto system =
-            std::make_shared<const HierarchicalSystem>(surface, poisson_ratio, reference_method(), stages, control);
+            std::make_shared<const HierarchicalSystem>(surface, poisson_ratio, method, stages, control);
         const GalerkinTractions tractions(surface, system->surfaces(), set.vertices);
         return whole(HierarchicalSolver(system, set.vertices, tractions, set.loads, true, control)
                          .solve_watched(values, true, kSolveTolerance, control));
     }
-    const GalerkinSystem system(std::make_shared<const Boundary>(surface), poisson_ratio, reference_method(), nullptr,
-                                stages, control);
+    const GalerkinSystem system(std::make_shared<const Boundary>(surface), poisson_ratio, method, nullptr, stages, control);
     const GalerkinTractions tractions(surface, system.surfaces(), set.vertices);
     return whole(
         GalerkinDirectSolver(system, system.hypersingular(control), set.vertices, tractions, set.loads, control)
@@ -107,13 +110,14 @@ NodeSolution solve_by_galerkin(const SurfaceMesh& surface, const SurfaceSet& set
 }
 
 /// The body's part of such a solution. values: at the body's constrained vertices, then the loads' factors.
-std::optional<ReferenceAnswer> reference_on(const SurfaceMesh& surface, const SurfaceSet& set, int n_vertices,
-                                            double poisson_ratio, const Eigen::VectorXd& values, Control& control) {
+std::optional<ReferenceAnswer> reference_on(const SurfaceMesh& surface, const Method& method, const SurfaceSet& set,
+                                            int n_vertices, double poisson_ratio, const Eigen::VectorXd& values,
+                                            Control& control) {
     const Eigen::Index n_loads = std::ssize(set.loads), n_prescribed = values.size() - n_loads;
     Eigen::VectorXd of_nodes(set.nodes.prescribe.rows() + n_loads);
     of_nodes << set.nodes.prescribe * values.head(n_prescribed), values.tail(n_loads);
     try {
-        const NodeSolution solution = solve_by_galerkin(surface, set, poisson_ratio, std::move(of_nodes), control);
+        const NodeSolution solution = solve_by_galerkin(surface, method, set, poisson_ratio, std::move(of_nodes), control);
         return ReferenceAnswer{
             solution.displacements.col(0).head(3 * n_vertices),
             gathered_reactions(set.shares, static_cast<int>(n_prescribed / 3), solution.loads.col(0))};
@@ -138,7 +142,7 @@ std::optional<ReferenceAnswer> galerkin_reference(const SurfaceMesh& surface, co
     const FinerRims rims = reference_rims(surface, body.vertices(), loads, body.is_pinned());
     if (affordable_memory(surface, answer, rims, loads) == 0) return {};
     std::optional<ReferenceAnswer> reference =
-        reference_on(rims.surface.mesh, rims, surface.n_vertices(), poisson_ratio, body.values(), control);
+        reference_on(rims.surface.mesh, reference_method(answer), rims, surface.n_vertices(), poisson_ratio, body.values(), control);
     if (reference) reference = body.released(*std::move(reference));
     return reference;
 }
@@ -162,7 +166,7 @@ std::optional<ReferenceAnswer> galerkin_self_reference(const SurfaceMesh& surfac
     if (!FinerRims(surface, vertices, loads, answer.rims, LoneVertices::kept).is_finer) return {};
     const PinnedBody body(surface.vertices, vertices, values, first);
     const SurfaceSet given(surface, body.vertices(), loads);
-    reference = reference_on(surface, given, surface.n_vertices(), poisson_ratio, body.values(), control);
+    reference = reference_on(surface, reference_method(answer), given, surface.n_vertices(), poisson_ratio, body.values(), control);
     if (!reference) return {};
     reference = body.released(*std::move(reference));
     reference->share = -kShareLeft[static_cast<std::size_t>(answer.rims) - 1];

@@ -97,7 +97,7 @@ std::uint64_t HierarchicalGalerkinModel::check_memory(std::span<const int> fixed
         return std::max(galerkin_reference_memory(*surface_, method_, vertices),
                         galerkin_residual_memory(*surface_, n_loaded));
     const FinerRims rims(*surface_, vertices, {}, method_.rims, LoneVertices::kept);
-    return std::max(galerkin_answer_memory(*surface_, n_loaded, tractions.size()),
+    return std::max(galerkin_answer_memory(*surface_, method_, n_loaded, tractions.size()),
                     galerkin_residual_memory(rims.surface.mesh, n_loaded + rims.n_constrained_triangles));
 }
 

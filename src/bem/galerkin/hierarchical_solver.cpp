@@ -65,7 +65,7 @@ private:
 
 HierarchicalSolver::HierarchicalSolver(std::shared_ptr<const HierarchicalSystem> system, std::vector<int> vertices,
                                        const GalerkinTractions& tractions, std::span<const UnitLoad> loads,
-                                       bool must_hold, Control& control)
+                                       bool must_hold, Control& control, std::int64_t most_factorised)
     : system_(std::move(system)), vertices_(std::move(vertices)) {
     std::vector<char> is_free(static_cast<std::size_t>(system_->tree()->size()), 1);
     for (const int v : vertices_) {
@@ -76,7 +76,7 @@ HierarchicalSolver::HierarchicalSolver(std::shared_ptr<const HierarchicalSystem>
     held_ = free_modes_.cols() == 0;
     if (!held_ && must_hold) throw NotHeldError();
     control.begin_stage("integrate tractions");
-    layers_ = std::make_unique<const TractionLayers>(*system_, tractions, control);
+    layers_ = std::make_unique<const TractionLayers>(*system_, tractions, most_factorised, control);
     if (!loads.empty()) {
         control.begin_stage("integrate loads");
         given_forces_ = to_tree_order(*system_->tree(), system_->given_nodal_forces(loads, control));

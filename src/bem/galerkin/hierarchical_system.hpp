@@ -7,6 +7,7 @@
 
 #include "base/timer.hpp"
 #include "bem/galerkin/boundary_entries.hpp"
+#include "bem/galerkin/cost.hpp"
 #include "bem/galerkin/surfaces.hpp"
 #include "bem/galerkin/traction_layers.hpp"
 #include "bem/galerkin/tractions.hpp"
@@ -71,10 +72,11 @@ private:
 class HierarchicalSolver : public NodeSolver {
 public:
     /// Where the constraints leave a rigid motion free, the solution that moves least is taken; with `must_hold`
-    /// NotHeldError is thrown. Throws SolveError, Cancelled.
+    /// NotHeldError is thrown. The single layer is factorised up to `most_factorised` tractions. Throws SolveError,
+    /// Cancelled.
     HierarchicalSolver(std::shared_ptr<const HierarchicalSystem> system, std::vector<int> vertices,
                        const GalerkinTractions& tractions, std::span<const UnitLoad> loads, bool must_hold,
-                       Control& control);
+                       Control& control, std::int64_t most_factorised = kMostFactorisedTractions);
 
     /// loads: reactions at the vertices, then tractions.
     NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const override;

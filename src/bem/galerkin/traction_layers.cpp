@@ -6,7 +6,6 @@
 #include "base/blas.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
-#include "bem/galerkin/cost.hpp"
 #include "bem/galerkin/hierarchical_system.hpp"
 #include "deform/conjugate_gradients.hpp"
 
@@ -111,7 +110,8 @@ private:
     Eigen::VectorXd rigid_scale_;
 };
 
-TractionLayers::TractionLayers(const HierarchicalSystem& system, const GalerkinTractions& tractions, Control& control)
+TractionLayers::TractionLayers(const HierarchicalSystem& system, const GalerkinTractions& tractions,
+                               std::int64_t most_factorised, Control& control)
     : size_(tractions.size()), n_single_(3 * std::ssize(tractions.triangles)) {
     if (size_ == 0) return;
     std::vector<int> triangles = tractions.triangles;
@@ -121,7 +121,7 @@ TractionLayers::TractionLayers(const HierarchicalSystem& system, const GalerkinT
         triangles.insert(triangles.end(), all.begin(), all.end());
     }
     layers_ = system.layers_of(triangles, control);
-    if (size_ <= kMostFactorisedTractions) {
+    if (size_ <= most_factorised) {
         factor_ = CholeskyFactorization(dense_single_layer(), "single-layer matrix", &control);
     } else {
         operator_ = std::make_unique<const SingleLayer>(*this);

@@ -17,8 +17,9 @@ class HierarchicalSystem;
 /// of GalerkinTractions, displacements in that of the vertices' cluster tree.
 class TractionLayers {
 public:
-    /// Throws SolveError, Cancelled.
-    TractionLayers(const HierarchicalSystem& system, const GalerkinTractions& tractions, Control& control);
+    /// V is factorised up to `most_factorised` tractions. Throws SolveError, Cancelled.
+    TractionLayers(const HierarchicalSystem& system, const GalerkinTractions& tractions, std::int64_t most_factorised,
+                   Control& control);
     ~TractionLayers();
 
     Eigen::Index size() const { return size_; }

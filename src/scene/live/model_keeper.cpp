@@ -15,7 +15,7 @@ bool same(const Material& a, const Material& b) {
 bool same(const Method& a, const Method& b) {
     return a.kind == b.kind && a.mode == b.mode && a.tractions == b.tractions && a.update == b.update &&
            a.elements == b.elements && a.growth == b.growth && a.rims == b.rims &&
-           a.integral_tolerance == b.integral_tolerance;
+           a.hierarchical_from == b.hierarchical_from && a.integral_tolerance == b.integral_tolerance;
 }
 
 void drop(ModelJob& job) {

@@ -116,16 +116,16 @@ void add_refinements(CaseList& cases, bool quick) {
 void add_reproduced(CaseList& cases, bool quick) {
     for (const ProblemFamily& family : problem_families())
         for (const Variant& variant : main_variants(quick))
-            if (family.reproduced && !family.finite) cases.add("reproduced", family.name, variant, 0.3, quick ? 3 : 6);
+            if (family.reproduced && !family.finite) cases.add("reproduced", family.name, variant, 0.3, quick ? 2 : 6);
 }
 
 /// All Poisson's ratios at one size, on flat and on curved surfaces.
 void add_ratios(CaseList& cases, bool quick) {
     const std::vector<double> ratios =
-        quick ? std::vector{-0.5, 0.3, 0.49, 0.4999, 0.5} : std::vector{-0.5, 0.0, 0.3, 0.45, 0.49, 0.499, 0.4999, 0.5};
+        quick ? std::vector{-0.5, 0.4999, 0.5} : std::vector{-0.5, 0.0, 0.3, 0.45, 0.49, 0.499, 0.4999, 0.5};
     std::vector<std::pair<std::string, int>> problems = {
         {"bending", 6}, {"torsion", 4}, {"hollow-sphere", 4}, {"hanging-bar", 6}, {"pressed-bar", 4}};
-    if (quick) problems = {{"bending", 3}, {"pressed-bar", 2}};
+    if (quick) problems = {{"bending", 2}, {"pressed-bar", 2}};
     for (const auto& [problem, size] : problems)
         for (const double nu : ratios)
             for (const Variant& variant : main_variants(quick))
@@ -154,7 +154,7 @@ void add_choices(CaseList& cases, bool quick) {
             method.integral_tolerance = tolerance;
             cases.add("choices", "bending",
                       {text(kind) + " tolerance " + Row().set("t", tolerance).text("t"), method, {}}, 0.3,
-                      quick ? 3 : 6);
+                      quick ? 2 : 6);
         }
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 /// A cube on its bottom face, with patches on its top to pull.
 struct HeldCube {
-    SurfaceMesh mesh = make_box(11);
+    SurfaceMesh mesh = make_box(8);
     std::shared_ptr<const Boundary> boundary = std::make_shared<const Boundary>(mesh);
     Control control;
     std::shared_ptr<const HierarchicalCollocation> matrices =

@@ -80,7 +80,7 @@ struct LoadAndMotion {
 };
 
 TEST(GalerkinLoads, AreReciprocalWithMotionsInTheEquations) {
-    LoadAndMotion problem(300);
+    LoadAndMotion problem(200);
     const double work = problem.work_in_equations();
     EXPECT_NEAR(problem.work_of_reactions(), -work, 1e-9 * std::abs(work));
 }
@@ -139,7 +139,7 @@ TEST(GalerkinLoads, WorkOnTheSurfaceIsThatOfTheEquationsButForTheDiscretisation)
         LoadAndMotion problem(n_vertices);
         return std::abs(problem.work_on_surface() / problem.work_in_equations() - 1.0);
     };
-    const double coarse = off(300), fine = off(1200);
+    const double coarse = off(200), fine = off(800);
     EXPECT_LT(coarse, 1e-2);
     EXPECT_LT(fine, 0.5 * coarse);
 }

@@ -31,7 +31,7 @@ Eigen::VectorXd stretched(const SurfaceMesh& mesh, double nu) {
 }
 
 TEST(GalerkinBem, IsExactForAStretchedBoxByEveryUpdateAndMode) {
-    const SurfaceMesh mesh = make_box(3, {2.0, 1.0, 1.0});
+    const SurfaceMesh mesh = make_box(2, {2.0, 1.0, 1.0});
     for (const double nu : {0.0, 0.3, 0.49, 0.5})
         for (const Method& method : {kDirect, kReduced, kFull}) {
             const Eigen::VectorXd exact = stretched(mesh, nu);

@@ -14,7 +14,7 @@ namespace elastolab::test {
 namespace {
 
 struct Rabbit {
-    SurfaceMesh mesh = make_rabbit(700).surface;
+    SurfaceMesh mesh = make_rabbit(450).surface;
     StageTimes stages;
     Control control;
     HierarchicalSystem system{mesh, 0.3, Method{.kind = kGalerkinBem}, stages, control};

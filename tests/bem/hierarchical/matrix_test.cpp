@@ -34,7 +34,7 @@ Eigen::MatrixXd reordered(const Eigen::MatrixXd& A, const ClusterTree& rows, con
 
 /// A rabbit with its dense operators in the order of the trees.
 struct Problem {
-    std::shared_ptr<const Boundary> boundary = std::make_shared<const Boundary>(make_rabbit(700).surface);
+    std::shared_ptr<const Boundary> boundary = std::make_shared<const Boundary>(make_rabbit(500).surface);
     std::shared_ptr<const BoundaryPairs> pairs = std::make_shared<const BoundaryPairs>(boundary, kIntegrals);
     std::shared_ptr<const ClusterTree> tree = pairs->cluster_vertices(20), triangle_tree;
     std::vector<int> triangles;
