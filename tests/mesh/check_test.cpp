@@ -185,6 +185,21 @@ TEST(Check, FindsCrossingAndTouchingParts) {
     EXPECT_EQ(crossings({0, 0, 1.1}), 0);
 }
 
+/// Thousands of copies of a triangle would touch the neighbours of each other as often.
+TEST(Check, TrianglesThatRepeatOthersCrossNothing) {
+    const SurfaceMesh cube = make_box(1);
+    const SurfaceMesh crossing = joined(cube, moved(cube, {0.3, 0.4, 0.55}));
+    SurfaceMesh often = crossing;
+    often.triangles = crossing.triangles.replicate(1, 5000);
+    const auto text_of = [](const SurfaceMesh& mesh) {
+        const MeshReport report = check_and_repair(mesh).report;
+        const auto found = std::ranges::find(report.defects, Kind::self_intersections, &Defect::kind);
+        return found == report.defects.end() ? std::string() : found->text;
+    };
+    EXPECT_THAT(text_of(crossing), testing::HasSubstr("cross or touch"));
+    EXPECT_EQ(text_of(often), text_of(crossing));
+}
+
 TEST(Check, FindsACornerPushedThroughTheOppositeFace) {
     SurfaceMesh cube = make_box(4);
     for (auto p : cube.vertices.colwise())

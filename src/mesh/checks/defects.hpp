@@ -46,6 +46,8 @@ void report_unreferenced(const SurfaceMesh& mesh, MeshReport& report);
 void report_collapsed(const SurfaceMesh& mesh, MeshReport& report);
 void report_edges(const SurfaceMesh& mesh, const EdgeTable& edges, MeshReport& report);
 void report_hinges(const SurfaceMesh& mesh, MeshReport& report);
+/// Whether a triangle has the vertices of an earlier one, by triangle.
+std::vector<char> repeats_of_triangles(const SurfaceMesh& mesh);
 void report_duplicates(const SurfaceMesh& mesh, MeshReport& report);
 /// Triangles without area, and slivers.
 void report_shapes(const SurfaceMesh& mesh, MeshReport& report);
@@ -53,7 +55,8 @@ void report_shapes(const SurfaceMesh& mesh, MeshReport& report);
 /// Turns triangles so that all of a component face the same side; reports what was turned, or a one-sided surface.
 void repair_orientation(SurfaceMesh& mesh, const EdgeTable& edges, const Components& components, MeshReport& report);
 
-/// Pairs of triangles that cross or touch, as far as they were looked for. Every triangle has some area.
+/// Pairs of triangles that cross or touch, as far as they were looked for. Every triangle has some area and repeats no
+/// other.
 struct CrossingPairs {
     std::vector<std::pair<int, int>> pairs;
     bool complete = true;

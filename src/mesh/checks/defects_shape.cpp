@@ -77,10 +77,11 @@ CrossingPairs find_crossing_pairs(const SurfaceMesh& mesh, CrossingSearch search
     // The exact predicates need numbers far from over- and underflow; scaling by a power of two changes no digit.
     const double size = std::max(mesh.vertices.cwiseAbs().maxCoeff(), 1e-300);
     const SurfaceMesh unit{mesh.vertices * std::ldexp(1.0, -std::ilogb(size)), mesh.triangles};
+    const std::vector<char> repeats = repeats_of_triangles(mesh);
     std::vector<int> sound;
     for (int t = 0; t < unit.n_triangles(); ++t) {
         const TrianglePoints p = triangle_points(unit, t);
-        if (!is_degenerate(p.a, p.b, p.c)) sound.push_back(t);
+        if (!repeats[static_cast<std::size_t>(t)] && !is_degenerate(p.a, p.b, p.c)) sound.push_back(t);
     }
     // Triangles of a good surface have some fifteen others near them each.
     const std::int64_t most_tests = search == CrossingSearch::all ? std::numeric_limits<std::int64_t>::max()

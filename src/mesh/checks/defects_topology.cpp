@@ -119,7 +119,7 @@ void report_hinges(const SurfaceMesh& mesh, MeshReport& report) {
                        ", a hinge and not a solid. Separate the parts or join them along an edge or a face.");
 }
 
-void report_duplicates(const SurfaceMesh& mesh, MeshReport& report) {
+std::vector<char> repeats_of_triangles(const SurfaceMesh& mesh) {
     std::vector<std::pair<std::array<int, 3>, int>> sorted;
     for (int t = 0; t < mesh.n_triangles(); ++t) {
         std::array<int, 3> v{mesh.triangles(0, t), mesh.triangles(1, t), mesh.triangles(2, t)};
@@ -127,9 +127,17 @@ void report_duplicates(const SurfaceMesh& mesh, MeshReport& report) {
         sorted.emplace_back(v, t);
     }
     std::sort(sorted.begin(), sorted.end());
-    DefectCount found;
+    std::vector<char> repeats(sorted.size(), 0);
     for (std::size_t i = 1; i < sorted.size(); ++i)
-        if (sorted[i].first == sorted[i - 1].first) found.add(centroid(mesh, sorted[i].second));
+        repeats[static_cast<std::size_t>(sorted[i].second)] = sorted[i].first == sorted[i - 1].first;
+    return repeats;
+}
+
+void report_duplicates(const SurfaceMesh& mesh, MeshReport& report) {
+    const std::vector<char> repeats = repeats_of_triangles(mesh);
+    DefectCount found;
+    for (int t = 0; t < mesh.n_triangles(); ++t)
+        if (repeats[static_cast<std::size_t>(t)]) found.add(centroid(mesh, t));
     found.report_fatal(report, Defect::Kind::duplicate_triangles, "triangle repeats another", "triangles repeat others",
                        ". Remove duplicate faces and reload.");
 }
