@@ -115,21 +115,28 @@ TEST(GalerkinAccuracy, IsTheBestOnOrganicBodies) {
         const double nu = named.second;
         const std::vector<Eigen::Matrix3Xd> motions = {body.pulled(), body.turned()};
         const std::vector<KnownAnswer> truths = refined_answers(body, motions, nu, 1);
+        const auto deformer_of = [&](MethodKind kind) {
+            Control control;
+            Deformer deformer(precomputed(make_body(body.surface, {1.0, nu}), once(kind)));
+            deformer.constrain(body.set, control);
+            return deformer;
+        };
+        const Deformer galerkin = deformer_of(kGalerkinBem);
+        std::vector<Deformer> by_others;
+        for (const MethodKind kind : others) by_others.push_back(deformer_of(kind));
         for (std::size_t m = 0; m < motions.size(); ++m) {
-            const auto errors = [&](MethodKind kind) {
+            const auto errors = [&](const Deformer& deformer) {
                 Control control;
-                Deformer deformer(precomputed(make_body(body.surface, {1.0, nu}), once(kind)));
-                deformer.constrain(body.set, control);
                 const Deformer::Answer answer = deformer.answer(body.values(motions[m]), {}, control);
                 const double rms =
                     (answer.displacements - truths[m].displacements).norm() / truths[m].displacements.norm();
                 return Errors{rms, 0.0, reaction_error(body, answer.reactions, truths[m].reactions)};
             };
-            const Errors own = errors(kGalerkinBem);
+            const Errors own = errors(galerkin);
             std::printf("[ measured ] %s %s nu %g: galerkin-bem rms %.4f force %.4f", body.name.c_str(),
                         m == 0 ? "pulled" : "turned", nu, own.rms, own.force);
             for (std::size_t i = 0; i < others.size(); ++i) {
-                const Errors other = errors(others[i]);
+                const Errors other = errors(by_others[i]);
                 std::printf(", %s %.4f %.4f", std::string(name(others[i])).c_str(), other.rms, other.force);
                 gain[i] += std::log(other.rms / own.rms);
                 force_gain[i] += std::log(other.force / own.force);

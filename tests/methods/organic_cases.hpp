@@ -12,6 +12,7 @@
 #include "mesh/primitives.hpp"
 #include "mesh/rims.hpp"
 #include "methods/problem.hpp"
+#include "methods/stored_rows.hpp"
 #include "study/error/organic_body.hpp"
 
 namespace elastolab::test {
@@ -107,8 +108,8 @@ struct KnownAnswer {
 
 /// Answers to several motions by Galerkin BEM on the same polyhedron, all triangles halved, with so many rows of thin
 /// ones along the rims.
-inline std::vector<KnownAnswer> refined_answers(const OrganicCase& body, const std::vector<Eigen::Matrix3Xd>& motions,
-                                                double poisson_ratio, int rows) {
+inline std::vector<KnownAnswer> computed_answers(const OrganicCase& body, const std::vector<Eigen::Matrix3Xd>& motions,
+                                                 double poisson_ratio, int rows) {
     const auto marks = [&](const std::vector<int>& vertices, const RefinedSurface& fine, std::vector<char>& inside) {
         std::vector<char> chosen(static_cast<std::size_t>(body.surface.n_vertices()), 0);
         for (const int v : vertices) chosen[static_cast<std::size_t>(v)] = 1;
@@ -156,6 +157,40 @@ inline std::vector<KnownAnswer> refined_answers(const OrganicCase& body, const s
         moments(Eigen::all, all) = answer.reactions.moments;
         answers.push_back({answer.displacements.head(3 * body.surface.n_vertices()),
                            {fine.gather(forces)(Eigen::all, coarse), fine.gather(moments)(Eigen::all, coarse)}});
+    }
+    return answers;
+}
+
+/// computed_answers, stored.
+inline std::vector<KnownAnswer> refined_answers(const OrganicCase& body, const std::vector<Eigen::Matrix3Xd>& motions,
+                                                double poisson_ratio, int rows) {
+    std::vector<int> constrained = body.set.fixed;
+    constrained.insert(constrained.end(), body.set.handles.begin(), body.set.handles.end());
+    const Eigen::Index n = body.surface.n_vertices();
+    // Displacements, forces and moments, for each motion.
+    const auto compute = [&] {
+        Eigen::MatrixXd stored = Eigen::MatrixXd::Zero(n, 9 * std::ssize(motions));
+        Eigen::Index column = 0;
+        for (const KnownAnswer& answer : computed_answers(body, motions, poisson_ratio, rows)) {
+            stored.middleCols(column, 3) = answer.displacements.reshaped(3, n).transpose();
+            stored(constrained, Eigen::seqN(column + 3, 3)) = answer.reactions.forces.transpose();
+            stored(constrained, Eigen::seqN(column + 6, 3)) = answer.reactions.moments.transpose();
+            column += 9;
+        }
+        return stored;
+    };
+    std::string file = body.name + " of " + std::to_string(static_cast<int>(std::lround(100.0 * poisson_ratio))) +
+                       " hundredths with " + std::to_string(rows) + " rows.csv";
+    std::replace(file.begin(), file.end(), ' ', '_');
+    const Eigen::MatrixXd stored = stored_rows(file, body.surface.vertices, 9 * std::ssize(motions), compute);
+    std::vector<KnownAnswer> answers;
+    for (std::size_t m = 0; m < motions.size(); ++m) {
+        const Eigen::Matrix3Xd own = stored.middleCols(9 * static_cast<Eigen::Index>(m), 9).transpose().topRows(3);
+        const auto part = [&](int first) -> Eigen::Matrix3Xd {
+            return stored(constrained, Eigen::seqN(9 * static_cast<Eigen::Index>(m) + first, 3)).transpose();
+        };
+        EXPECT_LT((own - motions[m])(Eigen::all, constrained).norm(), 1e-5 * motions[m].norm()) << file;
+        answers.push_back({own.reshaped(), {part(3), part(6)}});
     }
     return answers;
 }
