@@ -209,15 +209,20 @@ TEST(DiscretisationCheck, IsWithinAFactorOfThreeOnOrganicBodiesInNineOfTenCasesA
 /// With finer rims the second answer is the worse one, which shows what the rims contributed; of forces, that can be
 /// far more than what is left.
 TEST(DiscretisationCheck, IsWithinAFactorOfThreeWhereTheRimsAreFinerButForForcesThatAreBetter) {
-    const std::vector<std::pair<OrganicCase, double>> bodies = {
-        {organic_case(make_cactus(220)), 0.3},
-        {held_below("bent tube", make_bent_tube(2, 0.35, 4.0, 3.0), {0.1, 0.3, 1.0}, 0.15, 0.6), 0.0},
-        {held_below("torus", make_torus(4), {1.0, 0.0, 0.2}, 0.15, 0.7), 0.49}};
-    for (const auto& [body, nu] : bodies) {
+    struct Case {
+        OrganicCase body;
+        double nu;
+        int most_rims;
+    };
+    const std::vector<Case> cases = {
+        {organic_case(make_cactus(220)), 0.3, 2},
+        {held_below("bent tube", make_bent_tube(2, 0.35, 4.0, 3.0), {0.1, 0.3, 1.0}, 0.15, 0.6), 0.0, 1},
+        {held_below("torus", make_torus(4), {1.0, 0.0, 0.2}, 0.15, 0.7), 0.49, 1}};
+    for (const auto& [body, nu, most_rims] : cases) {
         const std::vector<Eigen::Matrix3Xd> motions = {body.pulled(), body.turned()};
         const std::vector<KnownAnswer> truths = refined_answers(body, motions, nu, 2);
         std::vector<double> as_given(2, 0.0);
-        for (const int rims : {0, 1, 2}) {
+        for (int rims = 0; rims <= most_rims; ++rims) {
             Control control;
             Deformer deformer(precomputed(make_body(body.surface, {1.0, nu}), {.kind = kGalerkinBem, .rims = rims}));
             deformer.constrain(body.set, control);

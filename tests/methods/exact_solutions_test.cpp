@@ -137,10 +137,15 @@ Study inflate(const Method& method, double nu, const std::vector<int>& sizes) {
     return study;
 }
 
-const Method kRestricted = make_method(kLinearBem, Tractions::restricted);
-const Method kDiscontinuous = make_method(kLinearBem, Tractions::discontinuous);
-const Method kConstant = make_method(kConstantBem);
-const Method kLinearTets = make_method(kFem);
+/// One set each: the system of that set alone is solved.
+Method for_one_set(MethodKind kind, Tractions tractions = Tractions::discontinuous) {
+    return make_method(kind, tractions, Mode::on_demand, Update::direct);
+}
+
+const Method kRestricted = for_one_set(kLinearBem, Tractions::restricted);
+const Method kDiscontinuous = for_one_set(kLinearBem);
+const Method kConstant = for_one_set(kConstantBem);
+const Method kLinearTets = for_one_set(kFem);
 
 TEST(PureBending, ConvergesWithTheOrderOfEachMethod) {
     for (const auto& [method, order] : {std::pair{kLinearTets, 1.8}, {kConstant, 0.9}}) {
@@ -175,7 +180,7 @@ TEST(Torsion, ConvergesWithTheOrderOfEachMethod) {
 TEST(HollowSphere, ConvergesWithTheOrderOfEachMethod) {
     for (const auto& [method, order] :
          {std::pair{kRestricted, 1.8}, {kDiscontinuous, 1.8}, {kLinearTets, 1.8}, {kConstant, 0.9}}) {
-        const Study study = inflate(method, 0.3, {5, 10});
+        const Study study = inflate(method, 0.3, {4, 8});
         study.print("hollow sphere", method, 2.0);
         EXPECT_GT(study.order(2.0), order) << describe(method) << ": " << study;
     }
