@@ -12,6 +12,9 @@
 namespace elastolab::test {
 namespace {
 
+/// With tetrahedra that grow away from the surface: a sixth of the time, and as near to the reference.
+Method roomy(MethodKind kind) { return {.kind = kind, .update = Update::direct, .growth = 1.0}; }
+
 class TurnedEar : public testing::Test {
 protected:
     /// The difference to the reference at the vertices of the file, rms, over that of the reference.
@@ -47,7 +50,7 @@ TEST_F(TurnedEar, HasTheVerticesOfTheReference) {
 }
 
 TEST_F(TurnedEar, OfTenNodesIsThatOfOtherCode) {
-    const double rms = off_reference(make_method(kNonlinearFem));
+    const double rms = off_reference(roomy(kNonlinearFem));
     print_measured("ear turned by 60 degrees, ten nodes, relative rms difference to FEniCSx", rms);
     EXPECT_LT(rms, 3.5e-3);  // the reference itself is known to some 2e-3
 }
@@ -61,7 +64,7 @@ TEST_F(TurnedEar, OfFourNodesIsTwoPerCentOff) {
 }
 
 TEST_F(TurnedEar, ByLinearTheoryIsTensOfPerCentOff) {
-    const double rms = off_reference(make_method(kQuadraticFem));
+    const double rms = off_reference(roomy(kQuadraticFem));
     print_measured("ear turned by 60 degrees, linear theory, relative rms difference to FEniCSx", rms);
     EXPECT_GT(rms, 0.5);
 }
