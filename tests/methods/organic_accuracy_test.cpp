@@ -1,8 +1,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "bem/collocation/method.hpp"
 #include "bem/galerkin/method.hpp"
@@ -64,31 +67,43 @@ TEST(OrganicBody, IsDisplacedNoWorseByTheDefaultTractionsThanByFem) {
     }
 }
 
+/// A potato whose small patch is pulled, then turned.
+struct PulledAndTurned {
+    OrganicBody organic = make_potato(200);
+    std::vector<int> constrained = organic.constrained();
+    std::vector<Positions> values = {organic.values(0.2), organic.turned_values(0.35)};
+    std::vector<KnownTruth> truths = {truth_of_200(organic, false), truth_of_200(organic, true)};
+
+    double error(std::size_t motion, const Eigen::VectorXd& u) const {
+        return free_error(organic.surface, constrained, u, truths[motion].displacements);
+    }
+    static std::string name(std::size_t motion) { return motion == 0 ? ", pulled" : ", turned"; }
+};
+
 /// Small patches, whose rims are most of the error of all triangles.
 TEST(OrganicBody, IsDisplacedThreeTimesAsAccuratelyWithARowOfThinTrianglesAlongTheRims) {
-    const OrganicBody organic = make_potato(200);
-    const std::vector<int> constrained = organic.constrained();
-    for (const bool turned : {false, true}) {
-        const Positions values = turned ? organic.turned_values(0.35) : organic.values(0.2);
-        const KnownTruth truth = truth_of_200(organic, turned);
-        const auto answer = [&](int rows) {
-            const Method method{.kind = kGalerkinBem, .rims = rows};
-            Deformer deformer(precomputed(make_body(organic.surface, {1.0, 0.3}), method));
-            Control control;
-            deformer.constrain({{}, constrained}, control);
-            return deformer.answer(values.reshaped(), {.check = true}, control);
-        };
-        const double as_given = free_error(organic.surface, constrained, answer(0).displacements, truth.displacements);
-        for (const int rows : {1, 2, 3}) {
-            const Deformer::Answer finer = answer(rows);
-            const double left = free_error(organic.surface, constrained, finer.displacements, truth.displacements);
-            const Eigen::Matrix3Xd off =
-                finer.displacements.reshaped(3, truth.displacements.cols()) - truth.displacements;
-            const double estimate = finer.check.value().relative_error *
-                                    truth.displacements.colwise().norm().maxCoeff() / off.colwise().norm().maxCoeff();
-            print_measured(std::to_string(rows) + (turned ? " rows, turned" : " rows, pulled"), left);
+    const PulledAndTurned potato;
+    std::vector<double> as_given;
+    for (const int rows : {0, 1, 3}) {
+        Control control;
+        Deformer deformer(
+            precomputed(make_body(potato.organic.surface, {1.0, 0.3}), {.kind = kGalerkinBem, .rims = rows}));
+        deformer.constrain({{}, potato.constrained}, control);
+        for (const std::size_t motion : {0u, 1u}) {
+            const Deformer::Answer answer =
+                deformer.answer(potato.values[motion].reshaped(), {.check = rows > 0}, control);
+            const double left = potato.error(motion, answer.displacements);
+            if (rows == 0) {
+                as_given.push_back(left);
+                continue;
+            }
+            const Positions& truth = potato.truths[motion].displacements;
+            const Eigen::Matrix3Xd off = answer.displacements.reshaped(3, truth.cols()) - truth;
+            const double estimate = answer.check.value().relative_error * truth.colwise().norm().maxCoeff() /
+                                    off.colwise().norm().maxCoeff();
+            print_measured(std::to_string(rows) + " rows" + PulledAndTurned::name(motion), left);
             print_measured("the estimate over the largest error", estimate);
-            EXPECT_LT(left, (rows == 1 ? 0.33 : 0.25) * as_given) << rows;
+            EXPECT_LT(left, (rows == 1 ? 0.33 : 0.25) * as_given[motion]) << rows;
             EXPECT_GT(estimate, 1.0 / 2.5) << rows;
             EXPECT_LT(estimate, 2.5) << rows;
         }
@@ -98,37 +113,42 @@ TEST(OrganicBody, IsDisplacedThreeTimesAsAccuratelyWithARowOfThinTrianglesAlongT
 /// What the advice beside a coarse mesh says: the triangles along the rims of the constrained patches decide, for a
 /// patch that is turned as for one that is pulled, whatever carries the tractions.
 TEST(OrganicBody, HalvingTheTrianglesAlongTheRimsHalvesTheError) {
-    const OrganicBody organic = make_potato(200);
-    const std::vector<int> constrained = organic.constrained();
-    const SurfaceMesh& coarse = organic.surface;
+    const PulledAndTurned potato;
+    const SurfaceMesh& coarse = potato.organic.surface;
     std::vector<char> is_constrained(static_cast<std::size_t>(coarse.n_vertices()), 0), in_region;
-    for (const int v : constrained) is_constrained[static_cast<std::size_t>(v)] = 1;
+    for (const int v : potato.constrained) is_constrained[static_cast<std::size_t>(v)] = 1;
     for (const auto& triangle : coarse.triangles.colwise())
         in_region.push_back(std::all_of(triangle.begin(), triangle.end(),
                                         [&](int v) { return is_constrained[static_cast<std::size_t>(v)] != 0; }));
     const RefinedSurface whole = unrefined(coarse), halved = refine_marked(whole, around_rim(whole, in_region));
-    for (const bool turned : {false, true}) {
-        const Positions values = turned ? organic.turned_values(0.35) : organic.values(0.2);
-        const KnownTruth truth = truth_of_200(organic, turned);
-        Positions everywhere = Positions::Zero(3, coarse.n_vertices());
-        everywhere(Eigen::all, constrained) = values;
-        const auto error = [&](const RefinedSurface& surface, const Method& method) {
-            std::set<int> held;
-            for (int t = 0; t < surface.mesh.n_triangles(); ++t)
-                if (in_region[static_cast<std::size_t>(surface.coarse_triangle[static_cast<std::size_t>(t)])])
-                    for (const int v : surface.mesh.triangles.col(t)) held.insert(v);
-            const std::vector<int> set(held.begin(), held.end());
+    // Of both motions.
+    const auto errors = [&](const RefinedSurface& surface, const Method& method) {
+        std::set<int> held;
+        for (int t = 0; t < surface.mesh.n_triangles(); ++t)
+            if (in_region[static_cast<std::size_t>(surface.coarse_triangle[static_cast<std::size_t>(t)])])
+                for (const int v : surface.mesh.triangles.col(t)) held.insert(v);
+        const std::vector<int> set(held.begin(), held.end());
+        Control control;
+        Deformer deformer(precomputed(make_body(surface.mesh), method));
+        deformer.constrain({{}, set}, control);
+        std::array<double, 2> both{};
+        for (const std::size_t motion : {0u, 1u}) {
+            Positions everywhere = Positions::Zero(3, coarse.n_vertices());
+            everywhere(Eigen::all, potato.constrained) = potato.values[motion];
             const Positions all = surface.interpolate(everywhere);
-            const Eigen::VectorXd u =
-                displaced(precomputed(make_body(surface.mesh), method), {{}, set}, at(all.reshaped(), set));
-            return free_error(coarse, constrained, u.head(3 * coarse.n_vertices()), truth.displacements);
-        };
-        for (const Method& method : {make_method(kLinearBem), make_method(kLinearBem, Tractions::restricted),
-                                     make_method(kLinearBem, Tractions::continuous), make_method(kGalerkinBem)}) {
-            const double before = error(whole, method), after = error(halved, method);
-            print_measured(describe(method) + (turned ? ", turned" : ", pulled") + ", rims as they are", before);
-            print_measured(describe(method) + (turned ? ", turned" : ", pulled") + ", rims halved", after);
-            EXPECT_LT(after, 0.7 * before) << describe(method);
+            both[motion] =
+                potato.error(motion, deformer.displace(at(all.reshaped(), set)).head(3 * coarse.n_vertices()));
+        }
+        return both;
+    };
+    for (const Method& method : {make_method(kLinearBem), make_method(kLinearBem, Tractions::restricted),
+                                 make_method(kLinearBem, Tractions::continuous), make_method(kGalerkinBem)}) {
+        const std::array<double, 2> before = errors(whole, method), after = errors(halved, method);
+        for (const std::size_t motion : {0u, 1u}) {
+            const std::string what = describe(method) + PulledAndTurned::name(motion);
+            print_measured(what + ", rims as they are", before[motion]);
+            print_measured(what + ", rims halved", after[motion]);
+            EXPECT_LT(after[motion], 0.7 * before[motion]) << what;
         }
     }
 }

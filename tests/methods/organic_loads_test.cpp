@@ -45,8 +45,7 @@ struct LoadedBody {
     }
     Deformer::Answer answer(double nu, MethodKind kind, Deformer::Wanted wanted, int rims = 0) const {
         Control control;
-        Method method = make_method(kind);
-        method.rims = rims;
+        const Method method{.kind = kind, .update = Update::direct, .rims = rims};
         Deformer deformer(precomputed(make_body(body.surface, {1.0, nu}), method));
         deformer.constrain(set, control);
         return deformer.answer(factors, wanted, control);
@@ -92,11 +91,11 @@ void expect_galerkin_close(const LoadedBody& loaded, double nu, const std::vecto
 }
 
 TEST(OrganicLoads, MoveARabbitOfSixHundredVerticesWithinOnePercentByGalerkinWithFinerRims) {
-    expect_galerkin_close(LoadedBody(make_rabbit(600)), 0.3, {1, 2});
+    expect_galerkin_close(LoadedBody(make_rabbit(600)), 0.3, {1});
 }
 
 TEST(OrganicLoads, MoveANearlyIncompressiblePotatoOfSixHundredVerticesWithinOnePercentByGalerkinWithFinerRims) {
-    expect_galerkin_close(LoadedBody(make_potato(600)), 0.45, {1});
+    expect_galerkin_close(LoadedBody(make_potato(600)), 0.45, {2});
 }
 
 /// No finite elements here can take nu = 1/2: the answers go there smoothly, and forces balance.
