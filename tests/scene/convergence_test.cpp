@@ -16,7 +16,7 @@ double relative_difference(const Eigen::VectorXd& u, const Eigen::VectorXd& trut
 }
 
 struct Convergence : testing::Test {
-    LiveScene scene = pulled_cube(8);
+    LiveScene scene = pulled_cube(6);
     Eigen::VectorXd expected = truth(scene, {.kind = kLinearBem});  // by a factorisation
     MethodRunner runner{[] {}};
 

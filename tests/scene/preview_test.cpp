@@ -104,7 +104,7 @@ TEST(Preview, IsNotMadeBesideTheMethodThatItWouldBeMadeBy) {
 }
 
 TEST(ChangeOfMethod, ShowsWhatWasLookedAtUntilTheNewOneAnswers) {
-    LiveScene scene = pulled_cube(8);
+    LiveScene scene = pulled_cube(5);
     Bench bench({kFem});
     bench.choices.complete_up_to = 0;
     bench.settle(scene);
@@ -165,7 +165,7 @@ TEST(Preview, IsNotMadeForABodyThatIsReadyAtOnce) {
 }
 
 /// The cube without the lid at z = 1, in a file.
-LiveScene open_box(const std::filesystem::path& folder, int cells, ProxyUse use) {
+LiveScene open_box(const std::filesystem::path& folder, int cells, ProxyUse use, int n_vertices = 1500) {
     SurfaceMesh box = make_primitive("cube", cells, {});
     std::vector<int> kept;
     for (int t = 0; t < box.n_triangles(); ++t)
@@ -176,7 +176,7 @@ LiveScene open_box(const std::filesystem::path& folder, int cells, ProxyUse use)
     Document document;
     document.mesh = MeshFile{"box.obj"};
     document.fixed = {{.select = {PlaneSelector{{0, 0, 0}, {1, 0, 0}, 1e-9}}}};
-    document.proxy.use = use;
+    document.proxy = {.use = use, .n_vertices = n_vertices};
     return {document, folder / "scene.json"};
 }
 
@@ -214,7 +214,7 @@ TEST(Proxy, AnOpenSurfaceIsPulledByEveryMethod) {
 /// A bowl: around its triangles alone there is a shell, that bends far more than the filled half of a ball.
 TEST(Preview, OfASurfaceWhoseHolesAreFilledIsSolid) {
     const test::TemporaryFolder folder;
-    save_surface(folder.path() / "bowl.ply", with_hole(make_sphere(14), {0, 0, 1}, 0.3));
+    save_surface(folder.path() / "bowl.ply", with_hole(make_sphere(12), {0, 0, 1}, 0.3));
     Document document;
     document.mesh = MeshFile{"bowl.ply"};
     document.fixed = {{.select = {PlaneSelector{{-1, 0, 0}, {1, 0, 0}, 0.4}}}};
@@ -238,7 +238,7 @@ TEST(Proxy, WhereItIsForbiddenTheSurfaceIsRefused) {
 
 TEST(Proxy, CanBeStoppedAndTriedAgain) {
     const test::TemporaryFolder folder;
-    const LiveScene scene = open_box(folder.path(), 20, ProxyUse::automatic);
+    const LiveScene scene = open_box(folder.path(), 20, ProxyUse::automatic, 300);
     PreviewBench bench;
     bench.begin(scene);
     bench.simulation.cancel();

@@ -180,7 +180,7 @@ TEST(Simulation, AnotherMeshReplacesEverything) {
 }
 
 TEST(Simulation, AMethodThatWaitsForItsTurnForgetsABodyThatIsGone) {
-    LiveScene first = cube(2), second = cube(8);
+    LiveScene first = cube(2), second = cube(4);
     Bench bench({all_methods().begin(), all_methods().end()});
     bench.settle(first);
     bench.update(second);
