@@ -19,7 +19,9 @@ CsvWriter& CsvWriter::text(std::string_view text) {
     return *this;
 }
 
-CsvWriter& CsvWriter::number(double value, int digits) { return text(formatted("%.*g", digits, value)); }
+CsvWriter& CsvWriter::number(double value, int digits) {
+    return text(digits == 17 ? exact(value) : formatted("%.*g", digits, value));
+}
 
 CsvWriter& CsvWriter::nothing(int n_cells) {
     for (int i = 0; i < n_cells; ++i) text({});

@@ -42,6 +42,8 @@ TEST(Text, SecondsAreReadable) {
 TEST(Text, ExactNumbersAreReadBackExactly) {
     for (const double value : {0.1, -1.0 / 3.0, 1e-300, std::numeric_limits<double>::denorm_min(), 5e-324, 1.7e308})
         EXPECT_EQ(std::strtod(exact(value).c_str(), nullptr), value);
+    for (const double value : {0.1, -0.0, 25.0, 1e16, 1e17, 2.5e-5, -1.7e308, std::numeric_limits<double>::infinity()})
+        EXPECT_EQ(exact(value), formatted("%.17g", value));
 }
 
 TEST(Text, IsTurnedIntoLowerCaseWhereItIsAscii) {
