@@ -209,6 +209,7 @@ int SceneRenderer::draw(const ViewerState& state, const Palette& palette, double
         picture.framebuffer->resize(width, height);
         picture.framebuffer->bind();
         draw_viewport(state, viewport, palette, ratio, *picture.framebuffer, {.detail = detail});
+        picture.framebuffer->resolve();  // once, not in every frame that shows it
         ++n_drawn;
     }
     return n_drawn;

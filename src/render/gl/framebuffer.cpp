@@ -117,7 +117,6 @@ Image Framebuffer::read() const {
 }
 
 void Framebuffer::copy_to_window(int x, int y, int width, int height) const {
-    resolve();
     glBindFramebuffer(GL_READ_FRAMEBUFFER, resolved_.id());
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
     const bool same = width == width_ && height == height_;

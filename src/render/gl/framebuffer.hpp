@@ -35,7 +35,7 @@ public:
     Eigen::Vector2i place() const { return {whole_.x, whole_.y}; }
     /// resolve(), then a copy. Waits for the graphics card.
     Image read() const;
-    /// resolve(), then to the window at (x, y) from its bottom left corner, as so many of its pixels: one by one where
+    /// After resolve(): to the window at (x, y) from its bottom left corner, as so many of its pixels: one by one where
     /// that is this picture's size, else smoothed.
     void copy_to_window(int x, int y, int width, int height) const;
 
