@@ -2,7 +2,6 @@
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -21,9 +20,12 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr int kSleepingLooks = 6;  ///< in a row: a program that sleeps between frames works at one of them
-constexpr auto kLookEvery = 50ms;
-constexpr int kMaxLooks = 2400;  ///< a program that does not come to rest hangs
+/// In a row: a program that sleeps between frames, for 100 ms at most, works at one of them.
+constexpr int kSleepingLooks = 6;
+constexpr int kSleepingLooksOfAFrame = 2;
+constexpr auto kLookEvery = 25ms;
+constexpr int kMaxLooks = 4800;          ///< a program that does not come to rest hangs
+constexpr double kListenSeconds = 1e-3;  ///< that it works between two looks without drawing: it listens for fingers
 
 std::vector<std::string> with_command(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "view");
@@ -71,19 +73,17 @@ void RealWindow::drag(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
     move(from);
     press();
     if (from != to)
-        for (int i = 1; i <= 10; ++i) move(from + 0.1 * i * (to - from));
+        for (const double part : {0.2, 0.4, 0.6, 0.8, 1.0}) move(from + part * (to - from));
     release();
 }
 
 void RealWindow::key(const std::string& name) { tell("key " + name); }
 
 void RealWindow::stroke(const std::string& name) {
-    std::string keys = name;
-    std::replace(keys.begin(), keys.end(), '+', ' ');
-    for (const char* which : {"keydown ", "keyup "}) {
-        tell(which + keys);
-        std::this_thread::sleep_for(std::chrono::milliseconds(150));
-    }
+    const std::size_t plus = name.find('+');
+    const std::string held = name.substr(0, plus), struck = plus == std::string::npos ? name : name.substr(plus + 1);
+    tell(held == name ? "key " + struck : "keydown " + held + " key " + struck + " keyup " + held);
+    settle(kSleepingLooksOfAFrame);
 }
 
 void RealWindow::type(const std::string& text) {
@@ -105,21 +105,25 @@ void RealWindow::resize(int width, int height) {
 void RealWindow::close() { ask_to_close(std::stoul(id_)); }
 void RealWindow::drop(const std::filesystem::path& file) { drop_file(std::stoul(id_), file); }
 
-/// Whether every thread of it sleeps.
-bool RealWindow::sleeps() const {
+RealWindow::Activity RealWindow::activity() const {
+    Activity now;
     std::error_code gone;
     for (const auto& task :
          std::filesystem::directory_iterator("/proc/" + std::to_string(program_.id()) + "/task", gone)) {
         const std::vector<std::string> fields = stat_fields(task.path() / "stat");
-        if (!fields.empty() && fields[0] != "S") return false;
+        if (!fields.empty() && fields[0] != "S") now.sleeps = false;
+        if (!read_text(task.path() / "children").empty()) now.sleeps = false;  // a helper program works for it
+        now.seconds += 1e-9 * std::strtod(read_text(task.path() / "schedstat").c_str(), nullptr);
     }
-    return true;
+    return now;
 }
 
-void RealWindow::settle() {
+void RealWindow::settle() { settle(kSleepingLooks); }
+
+void RealWindow::settle(int sleeping_looks) {
     double before = -1.0;
     int n_sleeping = 0;
-    for (int look = 0; n_sleeping < kSleepingLooks; ++look) {
+    for (int look = 0; n_sleeping < sleeping_looks; ++look) {
         if (program_.ended()) {
             const ProgramRun run = program_.wait();
             throw std::runtime_error("the program has ended with code " + std::to_string(run.exit_code) + ": " +
@@ -127,9 +131,9 @@ void RealWindow::settle() {
         }
         if (look == kMaxLooks) throw std::runtime_error("the program does not come to rest");
         std::this_thread::sleep_for(kLookEvery);
-        const double now = processor_seconds();
-        n_sleeping = now == before && sleeps() ? n_sleeping + 1 : 0;
-        before = now;
+        const Activity now = activity();
+        n_sleeping = now.sleeps && std::abs(now.seconds - before) < kListenSeconds ? n_sleeping + 1 : 0;
+        before = now.seconds;
     }
 }
 

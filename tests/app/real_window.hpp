@@ -23,7 +23,8 @@ public:
     void click(const Eigen::Vector2d& at) { drag(at, at); }
     /// Keys as xdotool names them: "ctrl+q".
     void key(const std::string& name);
-    /// The same as slowly as a finger: a text field looks only once a frame which keys are down.
+    /// The same as fingers do: what is held is let go last, and the program has answered before the next stroke. Keys
+    /// are not held longer, as they would be repeated.
     void stroke(const std::string& name);
     /// Types a text and Enter.
     void type(const std::string& text);
@@ -46,8 +47,16 @@ public:
     pid_t process() const { return program_.id(); }
 
 private:
+    /// What it does at a moment.
+    struct Activity {
+        bool sleeps = true;    ///< all of its threads, and no other program works for it
+        double seconds = 0.0;  ///< of processor time that its threads have used
+    };
+
     void tell(const std::string& command) const;
-    bool sleeps() const;
+    Activity activity() const;
+    /// Returns when it has slept at so many looks in a row.
+    void settle(int sleeping_looks);
 
     RunningProgram program_;
     std::string id_;  ///< of the window

@@ -21,10 +21,10 @@ constexpr double kExamples = 83.0, kPicture = 194.0;  ///< heights of menu entri
 
 class FileMenu : public testing::Test {
 protected:
-    explicit FileMenu(const std::string& size = "1000x700") {
+    FileMenu() {
         save_scene(folder.path() / "cube.json", cube_document(2));
         window.emplace(
-            std::vector<std::string>{"cube.json", "--size", size, "--method", "fem", "--scene-out", "out.json"},
+            std::vector<std::string>{"cube.json", "--size", "800x600", "--method", "fem", "--scene-out", "out.json"},
             folder.path());
         window->settle();
     }
@@ -56,13 +56,8 @@ TEST_F(FileMenu, OpensAnExampleByItsPicture) {
     for (const Example& example : all) EXPECT_FALSE(example.picture.empty()) << example.name;
 }
 
-class FileMenuOfASmallWindow : public FileMenu {
-protected:
-    FileMenuOfASmallWindow() : FileMenu("800x600") {}
-};
-
 /// The pictures come up beside the cursor, not under it, where a click after they have come up would choose one.
-TEST_F(FileMenuOfASmallWindow, AClickOnTheEntryOfTheExamplesChoosesNone) {
+TEST_F(FileMenu, AClickOnTheEntryOfTheExamplesChoosesNone) {
     choose(kExamples);
     window->click({60, kExamples});
     window->settle();

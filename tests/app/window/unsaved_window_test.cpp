@@ -18,10 +18,9 @@ protected:
     UnsavedWindow() {
         save_scene(folder.path() / "cube.json", cube_document(4));
         save_scene(folder.path() / "other.json", cube_document(2));
-        window.emplace(std::vector<std::string>{"cube.json", "--size", "1000x700", "--timings", "t.csv"},
-                       folder.path());
+        window.emplace(std::vector<std::string>{"cube.json", "--size", "640x480", "--timings", "t.csv"}, folder.path());
         window->settle();
-        window->drag({640, 350}, {700, 300});  // the middle of the body
+        window->drag({430, 240}, {465, 210});  // the middle of the body
         window->settle();
     }
     void answer(const std::vector<std::string>& keys) {
@@ -97,11 +96,11 @@ TEST_F(UnsavedWindow, AFileFromTheDialogAsks) {
 TEST_F(UnsavedWindow, WhereThereIsNoFileSavingAsksForAName) {
     window.reset();
     save_surface(folder.path() / "box.obj", make_box(4));
-    window.emplace(std::vector<std::string>{"box.obj", "--size", "1000x700"}, folder.path());
+    window.emplace(std::vector<std::string>{"box.obj", "--method", "fem", "--size", "640x480"}, folder.path());
     window->settle();
     window->key("Escape");  // what the first viewer may have left is recovered later
     window->settle();
-    window->drag({640, 350}, {700, 300});
+    window->drag({430, 240}, {465, 210});
     window->settle();
     window->close();
     answer({"Return", "Escape"});  // a name is asked for, and not given

@@ -49,19 +49,19 @@ TEST_P(RealDrag, KeepsTheVertexUnderTheCursorAndTheBodyIsThatOfSolve) {
     Document document = cube_document(4);
     document.method = GetParam();
     save_scene(folder.path() / "cube.json", document);
-    const Screen screen(folder.path() / "cube.json");
-    RealWindow window({"cube.json", "--size", "1000x700", "--scene-out", "out.json", "--mesh-out", "out.obj"},
+    const Screen screen(folder.path() / "cube.json", {640, 480});
+    RealWindow window({"cube.json", "--size", "640x480", "--scene-out", "out.json", "--mesh-out", "out.obj"},
                       folder.path());
     window.settle();
 
     // Two handles, the second where the first has carried it.
     Positions shown = screen.mesh().vertices;
     const int first = vertex_near(screen.mesh(), {0.75, 0.5, 1}), second = vertex_near(screen.mesh(), {1, 0.25, 0.5});
-    const Eigen::Vector2d from = screen.pixel(shown.col(first)), to = from + Eigen::Vector2d(60, -50);
+    const Eigen::Vector2d from = screen.pixel(shown.col(first)), to = from + Eigen::Vector2d(40, -32);
     window.drag(from, to);
     window.settle();
     const Eigen::Vector2d there = screen.pixel(shown.col(second));
-    window.drag(there, there + Eigen::Vector2d(30, 40));
+    window.drag(there, there + Eigen::Vector2d(20, 26));
     window.settle();
     const ProgramRun run = window.quit();
     ASSERT_EQ(run.exit_code, 0) << run.err;
@@ -85,8 +85,8 @@ TEST_P(RealDrag, KeepsTheVertexUnderTheCursorAndTheBodyIsThatOfSolve) {
 TEST(RealGizmo, MovesAndTurnsTheChosenHandle) {
     const TemporaryFolder folder;
     save_scene(folder.path() / "cube.json", cube_document_with_handle(4));
-    const Screen screen(folder.path() / "cube.json");
-    RealWindow window({"cube.json", "--size", "1000x700", "--scene-out", "out.json"}, folder.path());
+    const Screen screen(folder.path() / "cube.json", {640, 480});
+    RealWindow window({"cube.json", "--size", "640x480", "--scene-out", "out.json"}, folder.path());
     window.settle();
     window.click(screen.pixel({1, 0.5, 0.5}));
     window.settle();
@@ -126,7 +126,7 @@ TEST(RealDragOfAScan, MovesWithTheMouseAtOnceAndIsWhatSolveComputes) {
         n_vertices += 3;
     }
     scan.close();
-    folder.write("scan.json", R"({"elastolab": 1, "mesh": {"file": "scan.obj"}, "proxy": {"vertices": 700}})");
+    folder.write("scan.json", R"({"elastolab": 1, "mesh": {"file": "scan.obj"}, "proxy": {"vertices": 300}})");
     RealWindow window({"scan.json", "--size", "1000x700", "--scene-out", "out.json", "--mesh-out", "out.obj"},
                       folder.path());
     const Screen screen(folder.path() / "scan.obj");

@@ -45,8 +45,8 @@ void expect_shown_as_solved(const std::filesystem::path& folder, const Positions
 struct RealLoads : testing::Test {
     const TemporaryFolder folder;
     const std::filesystem::path scene = saved_cube();
-    const Screen screen{scene};
-    RealWindow window{{"cube.json", "--size", "1000x700", "--scene-out", "out.json", "--mesh-out", "out.obj"},
+    const Screen screen{scene, {640, 480}};
+    RealWindow window{{"cube.json", "--size", "640x480", "--scene-out", "out.json", "--mesh-out", "out.obj"},
                       folder.path()};
 
     RealLoads() { window.settle(); }
@@ -69,7 +69,7 @@ TEST_F(RealLoads, AForceIsPressedAsSoonAsAMethodIsChosen) {
     window.key("4");  // Galerkin BEM
     window.key("l");
     const Eigen::Vector2d from = screen.pixel({0.75, 0.5, 1});
-    window.drag(from, from + Eigen::Vector2d(60, -50));
+    window.drag(from, from + Eigen::Vector2d(40, -32));
     window.settle();
     const Document left = document_left();
     EXPECT_EQ(left.method, kGalerkinBem);

@@ -17,16 +17,16 @@ namespace {
 TEST(RealProbe, AClickKeepsItAndItIsMarkedOnTheBody) {
     const TemporaryFolder folder;
     save_scene(folder.path() / "cube.json", cube_document(4));
-    const Screen screen(folder.path() / "cube.json", {1000, 700});
-    const Eigen::Vector2d place = screen.pixel({0.75, 0.5, 1}), beside(960, 660);
+    const Screen screen(folder.path() / "cube.json", {640, 480});
+    const Eigen::Vector2d place = screen.pixel({0.75, 0.5, 1}), beside(620, 440);
     const auto marked_pixels = [&](int n_clicks) {
-        RealWindow window({"cube.json", "--size", "1000x700", "--screenshot", "probe.png"}, folder.path());
+        RealWindow window({"cube.json", "--size", "640x480", "--screenshot", "probe.png"}, folder.path());
         window.settle();
         window.key("i");
         for (int i = 0; i < n_clicks; ++i) {
+            if (i > 0) std::this_thread::sleep_for(std::chrono::milliseconds(700));  // no double click
             window.click(place);
             window.settle();
-            std::this_thread::sleep_for(std::chrono::milliseconds(700));  // no double click
         }
         window.move(beside);
         window.settle();
