@@ -230,7 +230,7 @@ TEST(VerticesThatAreNotFinite, AreLeftOutWithTheirTriangles) {
 /// The same pull of a ball with two holes that are filled on request, and of the whole one.
 TEST(HolesOfAFile, AreFilledOnRequest) {
     const test::TemporaryFolder folder;
-    const SurfaceMesh ball = make_sphere(8);
+    const SurfaceMesh ball = make_sphere(6);
     const auto solved = [&](const SurfaceMesh& mesh, const char* proxy) {
         save_surface(folder.path() / "mesh.ply", mesh);
         folder.write("scene.json", pull(ball, "mesh.ply").scene);

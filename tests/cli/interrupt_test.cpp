@@ -106,8 +106,8 @@ std::vector<pid_t> children_of(pid_t process) {
 /// The program while its helper does not return: it is stopped.
 class DuringImport : public testing::Test {
 protected:
+    DuringImport() { save_surface(folder_.path() / "large.obj", make_box(120)); }  // read in some tenths of a second
     void start(const std::vector<std::string>& arguments) {
-        save_surface(folder_.path() / "large.obj", make_box(120));  // some tenths of a second
         program_.emplace(arguments, folder_.path());
         ASSERT_TRUE(test::wait_until([&] { return program_->ended() || !children_of(program_->id()).empty(); }));
         ASSERT_FALSE(program_->ended()) << program_->wait().err;
