@@ -214,7 +214,7 @@ def test_another_material_or_method_of_the_same_body():
 
 
 def test_rims_of_galerkin_bem_are_finer_for_each_set():
-    cube = el.Surface.primitive("cube", 5)
+    cube = el.Surface.primitive("cube", 3)
     given = el.precompute(cube, method="galerkin-bem")
     finer = given.again(rims=2)
     assert (given.rims, finer.rims, finer.again(el.Material(1.0, 0.2)).rims) == (0, 2, 2)
@@ -226,7 +226,7 @@ def test_rims_of_galerkin_bem_are_finer_for_each_set():
         body = model.constrain(fixed=low, handles=high)
         forces.append(body.reactions([[0.1, 0, 0]] * len(high)).forces[len(low):, 0].sum())
     # Finer rims let the sides contract closer to them: the force falls, less each time.
-    assert forces[0] > forces[2] > forces[1] > 0.97 * forces[0]
+    assert forces[0] > forces[2] > forces[1] > 0.99 * forces[0]
     with pytest.raises(ValueError, match="rims: must be 0 to 3"):
         el.precompute(cube, method="galerkin-bem", rims=4)
 
