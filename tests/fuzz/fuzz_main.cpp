@@ -29,6 +29,7 @@ struct Options {
     double seconds = 60.0, slowness = 1.0;
     std::uint64_t n_inputs = 0, seed = 1, first = 0;
     bool all_accepted = false, bodies = false;
+    std::uint64_t ways = Subject::n_variants();
     int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 };
 
@@ -37,6 +38,8 @@ void add_options(CLI::App& parser, Options& options) {
     parser.add_option("--seeds", options.seeds, "folder of sound files")->required()->check(CLI::ExistingDirectory);
     parser.add_option("--replay", options.replay, "folder of files to try as they are")->check(CLI::ExistingDirectory);
     parser.add_flag("--all-accepted", options.all_accepted, "of --replay: that a file is refused is a find");
+    parser.add_option("--ways", options.ways, "of --replay: in how many of the ways, others for each file")
+        ->check(CLI::Range(std::uint64_t{1}, options.ways));
     parser.add_option("--keep", options.keep, "folder for the finds");
     parser.add_option("--only", options.only, "seeds whose name has this part");
     parser.add_flag("--bodies", options.bodies, "bodies and scenes made at random in place of mutated files");
@@ -146,11 +149,10 @@ void fuzz(const Options& options, Tally& tally) {
 
 void replay(const Options& options, Tally& tally) {
     const std::vector<Seed> files = load_seeds(options.replay);
-    const std::size_t n_ways = Subject::n_variants();
     on_all_jobs(options, [&](Subject& subject, std::uint64_t number) {
-        if (number >= files.size() * n_ways) return false;
-        const Seed& file = files[number / n_ways];
-        const std::size_t variant = number % n_ways;
+        if (number >= files.size() * options.ways) return false;
+        const Seed& file = files[number / options.ways];
+        const std::size_t variant = number % options.ways == 0 ? 0 : number % Subject::n_variants();
         if (kind_of(file.name) == Kind::replay && variant > 0) return true;
         const Input input{"input" + fs::path(file.name).extension().string(), file.bytes};
         Outcome outcome = variant == 0 ? subject.try_input(input, variant) : subject.try_solve(input, variant);

@@ -125,7 +125,7 @@ Eigen::VectorXd CarriedConstraints::displacement(const Eigen::VectorXd& of_proxy
     Eigen::VectorXd u = places(of_proxy);
     for (const Follower& follower : followers_) {
         auto own = u.segment<3>(3 * Index{follower.vertex});
-        own += follower.share * (value_of(follower) - own);
+        own = (1.0 - follower.share) * own + follower.share * value_of(follower);  // exact where the share is 1
     }
     return u;
 }
