@@ -4,8 +4,6 @@
 #include <algorithm>
 
 #include "bem/collocation/method.hpp"
-#include "bem/collocation/model.hpp"
-#include "bem/galerkin/hierarchical_model.hpp"
 #include "bem/galerkin/method.hpp"
 #include "bem/hierarchical/cases.hpp"
 #include "mesh/measures.hpp"
@@ -14,36 +12,15 @@
 namespace elastolab::test {
 namespace {
 
-template <bool hierarchical>
-std::shared_ptr<const SolidModel> precompute_linear(const SurfaceMesh& surface, const std::string&,
-                                                    double poisson_ratio, const Method& method, const SolidModel*,
-                                                    Control& control) {
-    return std::make_shared<BemModel>(linear_element(), surface, poisson_ratio, method,
-                                      hierarchical ? BemSystem::Storage::hierarchical : BemSystem::Storage::dense,
-                                      nullptr, control);
-}
-
-std::shared_ptr<const SolidModel> precompute_galerkin(const SurfaceMesh& surface, const std::string&,
-                                                      double poisson_ratio, const Method& method, const SolidModel*,
-                                                      Control& control) {
-    return std::make_shared<HierarchicalGalerkinModel>(surface, poisson_ratio, method, nullptr, control);
-}
-
-MethodTraits with_precompute(MethodTraits traits, decltype(MethodTraits::precompute) precompute) {
-    traits.precompute = precompute;
-    return traits;
-}
-
-/// A method by dense matrices, and one that has hierarchical ones on surfaces of any size.
+/// A method by dense matrices, and by hierarchical ones.
 struct Pair {
     Method dense, hierarchical;
 };
 std::vector<Pair> pairs() {
-    static const MethodTraits galerkin = with_precompute(kGalerkinBemTraits, precompute_galerkin),
-                              by_dense = with_precompute(kLinearBemTraits, precompute_linear<false>),
-                              by_parts = with_precompute(kLinearBemTraits, precompute_linear<true>);
-    return {{{.kind = kGalerkinBem, .update = Update::direct}, {.kind = &galerkin}},
-            {{.kind = &by_dense, .update = Update::direct}, {.kind = &by_parts}}};
+    std::vector<Pair> all;
+    for (const MethodKind kind : {kGalerkinBem, kLinearBem})
+        all.push_back({{.kind = kind, .update = Update::direct}, {.kind = kind, .hierarchical_from = 0}});
+    return all;
 }
 
 /// All kinds of loads on a body that is held below and pulled above.

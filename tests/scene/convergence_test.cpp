@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 
 #include "bem/collocation/method.hpp"
-#include "iterating_method.hpp"
 #include "simulation_bench.hpp"
 
 namespace elastolab {
@@ -20,7 +19,7 @@ struct Convergence : testing::Test {
     Eigen::VectorXd expected = truth(scene, {.kind = kLinearBem});  // by a factorisation
     MethodRunner runner{[] {}};
 
-    Convergence() { runner.set_body(scene.body(kLinearBem), test::iterating_linear_bem()); }
+    Convergence() { runner.set_body(scene.body(kLinearBem), {.kind = kLinearBem, .hierarchical_from = 0}); }
     template <class Condition>
     void poll_until(const Condition& condition) {
         test::wait_for([&] {

@@ -6,7 +6,6 @@
 #include "app/picture/reaction_runner.hpp"
 #include "bem/collocation/method.hpp"
 #include "mesh/input/import.hpp"
-#include "scene/iterating_method.hpp"
 #include "scene/simulation_bench.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -22,7 +21,7 @@ struct FirstAnswer : testing::Test {
 
     FirstAnswer() {
         exact.constrain(scene.constraints().set, control);
-        embedded.set_body(scene.body(kLinearBem), iterating_linear_bem(), nullptr);
+        embedded.set_body(scene.body(kLinearBem), {.kind = kLinearBem, .hierarchical_from = 0}, nullptr);
         poll_until([&] { return embedded.runner().answers(); });
     }
     std::shared_ptr<const Model> precomputed_exactly() {

@@ -8,7 +8,6 @@
 
 #include "bem/collocation/hierarchical.hpp"
 #include "bem/collocation/method.hpp"
-#include "bem/collocation/model.hpp"
 #include "bem/cost.hpp"
 #include "bem/hierarchical/cases.hpp"
 #include "bem/hierarchical/recycled_solutions.hpp"
