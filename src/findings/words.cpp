@@ -1,6 +1,7 @@
 #include "findings/words.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -107,6 +108,11 @@ std::string proxy(const Finding& finding) {
 
 /// For a student who has heard of Hooke's law.
 std::string linear_theory(const Finding& finding) {
+    if (std::isinf(finding.value))
+        return std::string(finding.method->name) +
+               ": linear theory cannot be right for these motions and loads: nonlinear-fem, which follows large turns "
+               "and stretches, finds no equilibrium, as where a body is crushed. Make them smaller, or check the "
+               "units.";
     return std::string(finding.method->name) + ": linear theory is off by about " + percent(finding.value) +
            " of the largest displacement. It takes turns and stretches to be small, so that what turns swells. Choose "
            "nonlinear-fem, which follows them.";

@@ -1,6 +1,7 @@
 #include "scene/linear_theory.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "base/error.hpp"
 #include "methods/precompute.hpp"
@@ -53,7 +54,7 @@ std::optional<double> LinearTheoryGauge::error(const Eigen::VectorXd& values, Co
         if (!(size > 0.0)) return {};
         return largest(finite - rest.X.col(0)) / size;
     } catch (const NoEquilibriumError&) {
-        return {};
+        return std::numeric_limits<double>::infinity();
     }
 }
 

@@ -24,8 +24,8 @@ public:
     LinearTheoryGauge(Body body, ConstrainedSet set, Control& control);
 
     /// Largest difference of both answers at a vertex, over the largest displacement of the finite one. values: as
-    /// Deformer::displace takes them; approach: for turns of more than half a circle. Nothing where nothing moves or
-    /// where no equilibrium is found. Throws SolveError, Cancelled.
+    /// Deformer::displace takes them; approach: for turns of more than half a circle. Nothing where nothing moves,
+    /// infinite where no equilibrium is found: a real body would be crushed. Throws SolveError, Cancelled.
     std::optional<double> error(const Eigen::VectorXd& values, Control& control, const Approach& approach = {}) const;
 
 private:

@@ -243,14 +243,14 @@ void gauge(const SceneMesh& mesh, const Constraints& shown, const Constraints& s
             body.surface = coarse->surface;
         }
         const LinearTheoryGauge linear_theory(body, constraints->set, control);
-        solution.linear_theory_error =
+        const std::optional<double> error =
             linear_theory.error(constraints->values, control, approach_to(*constraints, *body.surface));
+        if (!error) return;
+        if (std::isfinite(*error)) solution.linear_theory_error = error;
+        append(solution.findings, findings_of_linear_theory(solution.model->method().kind, *error));
     } catch (const Error&) {
         return;
     }
-    if (solution.linear_theory_error)
-        append(solution.findings,
-               findings_of_linear_theory(solution.model->method().kind, *solution.linear_theory_error));
 }
 
 void carry_back(const CarriedConstraints& carried, Solution& solution) {

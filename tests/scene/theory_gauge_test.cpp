@@ -1,9 +1,11 @@
 // How far linear theory is off, of motions and of loads: in what `solve` reports, and while a person edits.
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include "bem/collocation/method.hpp"
+#include "bem/galerkin/method.hpp"
 #include "fem/nonlinear/method.hpp"
 #include "fem/quadratic/method.hpp"
+#include "findings/words.hpp"
 #include "methods/registry.hpp"
 #include "scene/live/live_scene.hpp"
 #include "scene/live/simulation.hpp"
@@ -58,6 +60,19 @@ TEST(TheoryGauge, OfALoadGoesByTheLoadOverTheStiffness) {
     EXPECT_GT(one, 0.05);
     EXPECT_NEAR(same, one, 1e-6);
     EXPECT_LT(weak, 0.1 * one);
+}
+
+/// No body has an equilibrium whose end is pressed to a point.
+TEST(TheoryGauge, TellsWhereABodyWouldBeCrushed) {
+    Document document = bar();
+    document.handles = {{.name = "end",
+                         .select = {PlaneSelector{{4, 0, 0}, {1, 0, 0}, 1e-9}},
+                         .motion = AffineMotion{.matrix = -Eigen::Matrix3d::Identity()}}};
+    const Solution crushed = ten_nodes(document, kGalerkinBem);
+    EXPECT_FALSE(crushed.linear_theory_error);
+    EXPECT_THAT(words(crushed.findings), testing::Contains(testing::HasSubstr("finds no equilibrium")));
+    EXPECT_THAT(words(ten_nodes(pushed_bar(1e-300), kGalerkinBem).findings),
+                testing::Not(testing::Contains(testing::HasSubstr("equilibrium"))));
 }
 
 struct LiveTheoryGauge : testing::Test {

@@ -1,6 +1,7 @@
 #include "scene/live/theory_gauge.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace elastolab {
@@ -27,12 +28,12 @@ TheoryGauge::Found TheoryGauge::find(std::shared_ptr<const Made> made, const Bod
             std::make_shared<const Made>(Made{body.surface, body.material, set, LinearTheoryGauge(body, set, control)});
     const Positions rest = body.surface->vertices(Eigen::all, set.handles);
     const Approach approach{nullptr, way_to(wish, nullptr, rest).path};
-    const bool moves = !wish.values.isZero(0.0) || approach.path.cols() > 0;
-    const std::optional<double> error = made->gauge.error(wish.values, control, approach);
+    const double error = made->gauge.error(wish.values, control, approach).value_or(0.0);
+    const bool crushed = std::isinf(error);
     const bool handles_move = !wish.values.head(wish.values.size() - std::ssize(set.loads)).isZero(0.0);
     return {std::move(made),
-            {.relative = error.value_or(0.0),
-             .crushed = !error && moves,
+            {.relative = crushed ? 0.0 : error,
+             .crushed = crushed,
              .turns = turns(wish),
              .loads = !handles_move && approach.path.cols() == 0}};
 }
