@@ -35,7 +35,7 @@ enum class FindingKind {
     chosen_proxy,          ///< the same of a mesh that could be simulated itself
     capped_holes,          ///< how many holes of the mesh `object` a proxy closes
     filled_holes,          ///< how many holes of the mesh `object` are filled, by `first` triangles
-    linear_theory,         ///< how far linear theory is off, over the largest displacement
+    linear_theory,         ///< how far linear theory is off, over the largest displacement; infinite: no equilibrium
     unstable_equilibrium,  ///< an equilibrium that the least push makes the body leave
     thin_sheets,           ///< sheets of the mesh `object`, with `first` openings, became walls; their thickness
     narrow_openings,       ///< how many openings of the mesh `object` a proxy closes though they were to stay open

@@ -190,6 +190,7 @@ Corners random_triangle(std::mt19937& random) {
 
 constexpr double kTolerance = 1e-12;
 
+/// n_trials: fewer where the quadrature takes seconds.
 void expect_closed_form(const std::function<Vector3d(const Corners&, std::mt19937&)>& place, int n_trials = 4) {
     std::mt19937 random(7);
     for (int trial = 0; trial < n_trials; ++trial) {

@@ -39,15 +39,14 @@ inline Eigen::VectorXd truth_of(const CoarseAndFine& example, const Method& judg
         }
         return rows;
     };
-    std::string file = example.name + " by " + std::string(name(judge.kind));
-    if (judge.rims > 0) file += " with " + std::to_string(judge.rims) + " rows";
-    std::replace(file.begin(), file.end(), ' ', '_');
-    const Eigen::MatrixXd rows = stored_rows(file + ".csv", example.coarse.vertices, 3, compute);
+    std::string what = example.name + " by " + std::string(name(judge.kind));
+    if (judge.rims > 0) what += " with " + std::to_string(judge.rims) + " rows";
+    const Eigen::MatrixXd rows = stored_rows(what, example.coarse.vertices, 3, compute);
     const Eigen::VectorXd u = rows.transpose().reshaped();
     ConstrainedSet set;
     const Eigen::VectorXd values = values_of(example, example.coarse, set);
-    EXPECT_LT((at(u, set.handles) - values).norm(), 1e-5 * values.norm()) << file;
-    EXPECT_EQ(at(u, set.fixed).norm(), 0.0) << file;
+    EXPECT_LT((at(u, set.handles) - values).norm(), 1e-5 * values.norm()) << what;
+    EXPECT_EQ(at(u, set.fixed).norm(), 0.0) << what;
     return u;
 }
 

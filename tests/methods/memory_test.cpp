@@ -165,7 +165,7 @@ TEST(Memory, OfFemIsPredictedFromTheSurfaceToTheFirstSetAndForLaterOnes) {
         const Body body = make_body(c.mesh);
         const ConstrainedSet set = two_ends(c.mesh, c.share);
         const auto predicted = static_cast<double>(predict_cost(c.mesh, make_method(c.kind)).memory_bytes);
-        constexpr double kSmall = 10e6;  // of the allocator, and of the threads
+        constexpr double kSmall = 8e6;  // of the allocator, and of the threads
         ASSERT_TRUE(reset_peak());
         double before = memory_of_process("VmRSS");
         Control control;

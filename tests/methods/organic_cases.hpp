@@ -179,17 +179,16 @@ inline std::vector<KnownAnswer> refined_answers(const OrganicCase& body, const s
         }
         return stored;
     };
-    std::string file = body.name + " of " + std::to_string(static_cast<int>(std::lround(100.0 * poisson_ratio))) +
-                       " hundredths with " + std::to_string(rows) + " rows.csv";
-    std::replace(file.begin(), file.end(), ' ', '_');
-    const Eigen::MatrixXd stored = stored_rows(file, body.surface.vertices, 9 * std::ssize(motions), compute);
+    const std::string what = body.name + " of " + std::to_string(static_cast<int>(std::lround(100.0 * poisson_ratio))) +
+                             " hundredths with " + std::to_string(rows) + " rows";
+    const Eigen::MatrixXd stored = stored_rows(what, body.surface.vertices, 9 * std::ssize(motions), compute);
     std::vector<KnownAnswer> answers;
     for (std::size_t m = 0; m < motions.size(); ++m) {
         const Eigen::Matrix3Xd own = stored.middleCols(9 * static_cast<Eigen::Index>(m), 9).transpose().topRows(3);
         const auto part = [&](int first) -> Eigen::Matrix3Xd {
             return stored(constrained, Eigen::seqN(9 * static_cast<Eigen::Index>(m) + first, 3)).transpose();
         };
-        EXPECT_LT((own - motions[m])(Eigen::all, constrained).norm(), 1e-5 * motions[m].norm()) << file;
+        EXPECT_LT((own - motions[m])(Eigen::all, constrained).norm(), 1e-5 * motions[m].norm()) << what;
         answers.push_back({own.reshaped(), {part(3), part(6)}});
     }
     return answers;

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -19,14 +21,15 @@ inline void write_rows(const std::string& file, const Positions& places, const E
         stream << places.col(v).transpose().format(comma) << "," << rows.row(v).format(comma) << "\n";
 }
 
-/// A truth that takes seconds to compute, from its file in tests/methods/references: a row for each vertex of a
-/// surface, in six digits. With the environment variable ELASTOLAB_COMPUTE_TRUTHS set, it is computed anew and written
-/// there.
-/// compute  returns the rows
+/// A truth that takes seconds to compute, from the file of its name in tests/methods/references: a row for each vertex
+/// of a surface, in six digits. With the environment variable ELASTOLAB_COMPUTE_TRUTHS set, it is computed anew and
+/// written there. compute  returns the rows
 template <class Compute>
 Eigen::MatrixXd stored_rows(const std::string& name, const Positions& places, Eigen::Index n_columns,
                             const Compute& compute) {
-    const std::string file = ELASTOLAB_REFERENCES "/" + name;
+    std::string file = name + ".csv";
+    std::ranges::replace(file, ' ', '_');
+    file = ELASTOLAB_REFERENCES "/" + file;
     if (std::getenv("ELASTOLAB_COMPUTE_TRUTHS") != nullptr) write_rows(file, places, compute());
     Eigen::MatrixXd rows = Eigen::MatrixXd::Constant(places.cols(), n_columns, std::nan(""));
     std::ifstream stream(file);

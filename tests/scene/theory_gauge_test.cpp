@@ -110,6 +110,14 @@ TEST_F(LiveTheoryGauge, FollowsALoadAndTheStiffness) {
     EXPECT_FALSE(found());
 }
 
+TEST_F(LiveTheoryGauge, TellsWhereABodyWouldBeCrushed) {
+    const int handle = scene.add_handle(end());
+    scene.set_motion(handle, AffineMotion{.matrix = -Eigen::Matrix3d::Identity()});
+    const std::optional<TheoryError> error = found();
+    ASSERT_TRUE(error);
+    EXPECT_TRUE(error->crushed);
+}
+
 /// What the handle does under its force is a motion as any other.
 TEST_F(LiveTheoryGauge, FollowsAHandleUnderAForce) {
     const int handle = scene.add_handle(end());

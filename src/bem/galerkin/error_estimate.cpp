@@ -76,8 +76,8 @@ bool is_quick(const SurfaceMesh& surface, Method answer, const FinerRims& rims, 
 std::uint64_t affordable_memory(const SurfaceMesh& surface, const Method& answer, const FinerRims& rims,
                                 std::span<const UnitLoad> loads) {
     const SurfaceMesh& fine = rims.surface.mesh;
-    const std::uint64_t bytes =
-        galerkin_answer_memory(fine, reference_method(answer), rims.n_constrained_triangles, 3 * rims.n_constrained_triangles);
+    const std::uint64_t bytes = galerkin_answer_memory(fine, reference_method(answer), rims.n_constrained_triangles,
+                                                       3 * rims.n_constrained_triangles);
     const bool fits = fine.n_vertices() <= kMostVertices && bytes < available_memory_bytes();
     const bool differs = rims.is_finer || answer.kind != kGalerkinBem;
     return differs && fits && is_quick(surface, answer, rims, loads) ? bytes : 0;
@@ -96,13 +96,13 @@ NodeSolution solve_by_galerkin(const SurfaceMesh& surface, const Method& method,
     };
     StageTimes stages;
     if (is_hierarchical(surface, method)) {
-        const auto system =
-            std::make_shared<const HierarchicalSystem>(surface, poisson_ratio, method, stages, control);
+        const auto system = std::make_shared<const HierarchicalSystem>(surface, poisson_ratio, method, stages, control);
         const GalerkinTractions tractions(surface, system->surfaces(), set.vertices);
         return whole(HierarchicalSolver(system, set.vertices, tractions, set.loads, true, control)
                          .solve_watched(values, true, kSolveTolerance, control));
     }
-    const GalerkinSystem system(std::make_shared<const Boundary>(surface), poisson_ratio, method, nullptr, stages, control);
+    const GalerkinSystem system(std::make_shared<const Boundary>(surface), poisson_ratio, method, nullptr, stages,
+                                control);
     const GalerkinTractions tractions(surface, system.surfaces(), set.vertices);
     return whole(
         GalerkinDirectSolver(system, system.hypersingular(control), set.vertices, tractions, set.loads, control)
@@ -117,7 +117,8 @@ std::optional<ReferenceAnswer> reference_on(const SurfaceMesh& surface, const Me
     Eigen::VectorXd of_nodes(set.nodes.prescribe.rows() + n_loads);
     of_nodes << set.nodes.prescribe * values.head(n_prescribed), values.tail(n_loads);
     try {
-        const NodeSolution solution = solve_by_galerkin(surface, method, set, poisson_ratio, std::move(of_nodes), control);
+        const NodeSolution solution =
+            solve_by_galerkin(surface, method, set, poisson_ratio, std::move(of_nodes), control);
         return ReferenceAnswer{
             solution.displacements.col(0).head(3 * n_vertices),
             gathered_reactions(set.shares, static_cast<int>(n_prescribed / 3), solution.loads.col(0))};
@@ -141,8 +142,8 @@ std::optional<ReferenceAnswer> galerkin_reference(const SurfaceMesh& surface, co
     const PinnedBody body(surface.vertices, vertices, values, first);
     const FinerRims rims = reference_rims(surface, body.vertices(), loads, body.is_pinned());
     if (affordable_memory(surface, answer, rims, loads) == 0) return {};
-    std::optional<ReferenceAnswer> reference =
-        reference_on(rims.surface.mesh, reference_method(answer), rims, surface.n_vertices(), poisson_ratio, body.values(), control);
+    std::optional<ReferenceAnswer> reference = reference_on(
+        rims.surface.mesh, reference_method(answer), rims, surface.n_vertices(), poisson_ratio, body.values(), control);
     if (reference) reference = body.released(*std::move(reference));
     return reference;
 }
@@ -166,7 +167,8 @@ std::optional<ReferenceAnswer> galerkin_self_reference(const SurfaceMesh& surfac
     if (!FinerRims(surface, vertices, loads, answer.rims, LoneVertices::kept).is_finer) return {};
     const PinnedBody body(surface.vertices, vertices, values, first);
     const SurfaceSet given(surface, body.vertices(), loads);
-    reference = reference_on(surface, reference_method(answer), given, surface.n_vertices(), poisson_ratio, body.values(), control);
+    reference = reference_on(surface, reference_method(answer), given, surface.n_vertices(), poisson_ratio,
+                             body.values(), control);
     if (!reference) return {};
     reference = body.released(*std::move(reference));
     reference->share = -kShareLeft[static_cast<std::size_t>(answer.rims) - 1];

@@ -89,7 +89,7 @@ TEST(RealPanel, WhereLinearTheoryIsOffAButtonSwitchesToNonlinearFem) {
         save_scene(folder.path() / "cube.json", document);
         RealWindow window({"cube.json", "--method", "fem", "--size", "1000x1000", "--scene-out", "out.json"},
                           folder.path());
-        for (int attempt = 0; attempt < 3; ++attempt) {  // what says so comes after the answer, from a worker
+        for (int attempt = 0; attempt < 5; ++attempt) {  // what says so comes after the answer, from a worker
             std::this_thread::sleep_for(std::chrono::milliseconds(500));
             window.settle();
             window.click(button);

@@ -17,7 +17,9 @@
 namespace elastolab::test {
 namespace {
 
-Method hierarchical(Update update = Update::reduced) { return {.kind = kGalerkinBem, .update = update, .hierarchical_from = 0}; }
+Method hierarchical(Update update = Update::reduced) {
+    return {.kind = kGalerkinBem, .update = update, .hierarchical_from = 0};
+}
 Method dense() { return {.kind = kGalerkinBem, .update = Update::direct}; }
 
 TEST(HierarchicalGalerkin, AgreesWithTheDenseMatrixOnAnOrganicBody) {
