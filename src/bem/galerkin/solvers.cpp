@@ -121,11 +121,17 @@ GalerkinDirectSolver::GalerkinDirectSolver(const GalerkinSystem& system, Eigen::
     single_layer_.solve_lower_in_place(Y_);
     if (given_.size() > 0) single_layer_.solve_lower_in_place(given_);
     D_constrained_ = D(partition_.constrained, Eigen::all);
-    Eigen::MatrixXd S = D(partition_.free, partition_.free);
-    const Eigen::MatrixXd Y_free = Y_(Eigen::all, partition_.free);
-    for_strips(S.cols(), [&](Eigen::Index first, Eigen::Index count) {  // what is below the diagonal is enough
-        const Eigen::Index n = S.rows() - first;
-        S.block(first, first, n, count).noalias() += Y_free.rightCols(n).transpose() * Y_free.middleCols(first, count);
+    const Eigen::Map<const Eigen::Vector<Eigen::Index, Eigen::Dynamic>> free(partition_.free.data(),
+                                                                             std::ssize(partition_.free));
+    Eigen::MatrixXd S(free.size(), free.size()), Y_free(Y_.rows(), free.size());
+    for_strips(free.size(), [&](Eigen::Index first, Eigen::Index count) {
+        Y_free.middleCols(first, count) = Y_(Eigen::all, free.segment(first, count));
+    });
+    for_strips(free.size(), [&](Eigen::Index first, Eigen::Index count) {  // what is below the diagonal is enough
+        const Eigen::Index n = free.size() - first;
+        auto below = S.block(first, first, n, count);
+        below = D(free.tail(n), free.segment(first, count));
+        below.noalias() += Y_free.rightCols(n).transpose() * Y_free.middleCols(first, count);
     });
     constexpr double kSingular = 1e-14;
     try {
