@@ -22,7 +22,7 @@ Method finite_method(const SurfaceMesh& surface) {
 
 /// Steps on the way from one of the values to the next, which are a quarter turn apart at most. A whole turn of a beam
 /// takes 35 altogether; where loads crush a body, steps would go on and on.
-constexpr int kMostSteps = 60;
+constexpr int kMostSteps = 40;
 
 double largest(const Eigen::VectorXd& u) {
     return u.size() == 0 ? 0.0 : u.reshaped(3, u.size() / 3).colwise().norm().maxCoeff();

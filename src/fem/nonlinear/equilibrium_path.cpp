@@ -24,12 +24,12 @@ constexpr int kPushes = 3;
 
 /// The best that warping leads to; not converged where it does not.
 NewtonState NonlinearSolver::warped(const MotionPath& path, const Eigen::VectorXd& factors, double tolerance,
-                                    NewtonWork& work, Control& control) const {
+                                    int most_steps, NewtonWork& work, Control& control) const {
     const Eigen::VectorXd u =
         rest(work, control)->displace(of_all_nodes(path.logarithm()), of_all_nodes(path.at(1.0)), work, control);
     if (!(newton_.energy(u, work, control).least_J > kCrushed)) return {};
     keep(nullptr);
-    return newton_.run(u, factors, tolerance, kMostIterations, work, control);
+    return newton_.run(u, factors, tolerance, kMostIterations, work, control, nullptr, most_steps);
 }
 
 /// Tangent answer to a load, roughly; where the factor there is does not do, `at` gets one of its own.
@@ -91,11 +91,12 @@ NewtonState NonlinearSolver::followed(const NonlinearState& from, const MotionPa
         const double wanted = next < 1.0 ? std::max(kPassing, tolerance) : tolerance;
         const bool stable = at.stable;
         keep(nullptr);  // a factor less at the same time; where the step fails, it is made again
-        const int most = std::min(next < 1.0 ? kMostPassing : kMostIterations, std::max(1, most_steps - iterations));
-        NewtonState reached =
-            newton_.run(u, next_factors, wanted, most, work, control, std::exchange(at.factor, nullptr));
+        const int left = std::max(1, most_steps - iterations);
+        NewtonState reached = newton_.run(u, next_factors, wanted, next < 1.0 ? kMostPassing : kMostIterations, work,
+                                          control, std::exchange(at.factor, nullptr), left);
         if (reached.iterations == 0) reached.stable = stable;
-        if (reached.converged) reached = stabilised(std::move(reached), wanted, work, control);
+        if (reached.converged)
+            reached = stabilised(std::move(reached), wanted, left - reached.iterations, work, control);
         iterations += reached.iterations;
         if (!reached.converged) {
             failed.crushed = reached.crushed;
@@ -133,7 +134,7 @@ NonlinearSolver::StatePtr NonlinearSolver::advance(const NonlinearState& from, c
     NewtonState state;
     int iterations = 0;
     if (far && path.largest_angle() > 0.5 * kStepAngle) {
-        state = warped(path, factors, tolerance, work, control);
+        state = warped(path, factors, tolerance, most_steps, work, control);
         iterations = state.iterations;
     }
     if (!state.converged) {
@@ -146,15 +147,18 @@ NonlinearSolver::StatePtr NonlinearSolver::advance(const NonlinearState& from, c
                                                             : "no equilibrium was found for these motions.",
                                  elements().positions()(Eigen::all, corners).rowwise().mean());
     }
-    return settled(std::move(state), tolerance, work, control);
+    return settled(std::move(state), tolerance, most_steps - state.iterations, work, control);
 }
 
-NewtonState NonlinearSolver::stabilised(NewtonState state, double tolerance, NewtonWork& work, Control& control) const {
-    for (int push = 0; push < kPushes && !state.stable && state.factor; ++push) {
+NewtonState NonlinearSolver::stabilised(NewtonState state, double tolerance, int most_steps, NewtonWork& work,
+                                        Control& control) const {
+    for (int push = 0; push < kPushes && !state.stable && state.factor && most_steps > 0; ++push) {
         const Eigen::VectorXd u = newton_.pushed(state, work, control);
         if (u == state.u) break;
-        NewtonState left = newton_.run(u, state.factors, tolerance, 2 * kMostIterations, work, control);
+        NewtonState left =
+            newton_.run(u, state.factors, tolerance, 2 * kMostIterations, work, control, nullptr, most_steps);
         state.iterations += left.iterations;  // in vain or not
+        most_steps -= left.iterations;
         if (!left.converged || !(newton_.rise(state, left.u, left.energy) < 0.0)) break;
         left.iterations = state.iterations;
         state = std::move(left);
@@ -167,9 +171,9 @@ void NonlinearSolver::keep(std::shared_ptr<const SparseCholesky> factor) const {
     kept_ = std::move(factor);
 }
 
-NonlinearSolver::StatePtr NonlinearSolver::settled(NewtonState state, double tolerance, NewtonWork& work,
-                                                   Control& control) const {
-    state = stabilised(std::move(state), tolerance, work, control);
+NonlinearSolver::StatePtr NonlinearSolver::settled(NewtonState state, double tolerance, int most_steps,
+                                                   NewtonWork& work, Control& control) const {
+    state = stabilised(std::move(state), tolerance, most_steps, work, control);
     keep(state.factor);
     const Eigen::VectorXd rest = Eigen::VectorXd::Zero(state.u.size());
     EquilibriumFacts facts{.iterations = state.iterations,

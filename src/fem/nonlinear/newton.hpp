@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "base/control.hpp"
+#include "deform/equilibrium.hpp"
 #include "elasticity/material.hpp"
 #include "fem/nonlinear/elements.hpp"
 #include "fem/nonlinear/free_tangent.hpp"
@@ -62,12 +63,13 @@ public:
 
     /// From u, which inverts no element, with loads of these factors, to this relative residual: of the forces at the
     /// free nodes over those of the loads and at the constrained ones. Not converged when there is no step that helps
-    /// or so many iterations with the true tangent, or four times as many with any, do not suffice; what was reached is
-    /// returned all the same. Throws SolveError, Cancelled.
+    /// or so many iterations with the true tangent, or four times as many with any but no more than most_steps, do not
+    /// suffice; what was reached is returned all the same. Throws SolveError, Cancelled.
     /// before: a factor of a tangent near by. It preconditions the steps, for as long as a few iterations do, down to
     /// where the solution is close; there one factor is made that serves the rest. It is let go of before that.
     NewtonState run(Eigen::VectorXd u, const Eigen::VectorXd& factors, double tolerance, int most_iterations,
-                    NewtonWork& work, Control& control, std::shared_ptr<const SparseCholesky> before = nullptr) const;
+                    NewtonWork& work, Control& control, std::shared_ptr<const SparseCholesky> before = nullptr,
+                    int most_steps = kMostEquilibriumSteps) const;
     /// A push along the most unstable direction that lowers the energy less the loads' work; u itself where there is
     /// none.
     Eigen::VectorXd pushed(const NewtonState& state, NewtonWork& work, Control& control) const;

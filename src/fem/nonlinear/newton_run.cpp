@@ -117,10 +117,10 @@ bool NewtonRun::go(const Eigen::VectorXd& reduced, const Eigen::VectorXd& gradie
     return true;
 }
 
-NewtonState NewtonRun::run(int most_iterations) {
+NewtonState NewtonRun::run(int most_iterations, int most_steps) {
     int unhindered = 0;
-    while (state_.residual > tolerance_ && unhindered < most_iterations &&
-           state_.iterations < kMoreWhereProjected * most_iterations) {
+    most_steps = std::min(most_steps, kMoreWhereProjected * most_iterations);
+    while (state_.residual > tolerance_ && unhindered < most_iterations && state_.iterations < most_steps) {
         control_.set_progress(progress());
         const Eigen::VectorXd gradient = free_rows(forces_);
         std::optional<Eigen::VectorXd> step = near_step(gradient);

@@ -14,7 +14,7 @@ class NewtonRun {
 public:
     NewtonRun(const Newton& newton, Eigen::VectorXd u, const Eigen::VectorXd& factors, double tolerance,
               NewtonWork& work, Control& control, std::shared_ptr<const SparseCholesky> before);
-    NewtonState run(int most_iterations);
+    NewtonState run(int most_iterations, int most_steps);
 
 private:
     Eigen::VectorXd free_rows(const Eigen::VectorXd& all) const { return newton_.tangent().free_rows(all); }

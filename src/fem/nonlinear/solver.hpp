@@ -79,8 +79,8 @@ private:
     StatePtr advance(const NonlinearState& from, const Eigen::VectorXd& values, bool far, double tolerance,
                      int most_steps, NewtonWork& work, Control& control) const;
     // The way from one equilibrium to the next (equilibrium_path.cpp).
-    NewtonState warped(const MotionPath& path, const Eigen::VectorXd& factors, double tolerance, NewtonWork& work,
-                       Control& control) const;
+    NewtonState warped(const MotionPath& path, const Eigen::VectorXd& factors, double tolerance, int most_steps,
+                       NewtonWork& work, Control& control) const;
     Eigen::VectorXd tangent_answer(NewtonState& at, const Eigen::VectorXd& load, int& iterations, NewtonWork& work,
                                    Control& control) const;
     Eigen::VectorXd predicted(NewtonState& at, const Eigen::VectorXd& prescribed, const Eigen::VectorXd& factors,
@@ -92,8 +92,9 @@ private:
         return values.head(3 * std::ssize(nodes_.nodes));
     }
     /// The state itself where it is stable, else the stable one that it is left for, where there is one.
-    NewtonState stabilised(NewtonState state, double tolerance, NewtonWork& work, Control& control) const;
-    StatePtr settled(NewtonState state, double tolerance, NewtonWork& work, Control& control) const;
+    NewtonState stabilised(NewtonState state, double tolerance, int most_steps, NewtonWork& work,
+                           Control& control) const;
+    StatePtr settled(NewtonState state, double tolerance, int most_steps, NewtonWork& work, Control& control) const;
     /// Keeps a factor, in place of the last one.
     void keep(std::shared_ptr<const SparseCholesky> factor) const;
     StatePtr at_rest(NewtonWork& work, Control& control) const;

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "elasticity/neo_hookean.hpp"
 #include "fem/nonlinear/bodies.hpp"
@@ -226,6 +227,23 @@ TEST(NonlinearSolver, ACompressedBarBucklesRatherThanStaysStraight) {
 }
 
 /// Half of the bar is prescribed as its mirror image.
+/// A compressed bar, whose tangent is projected: four times as many steps as with the true one, unless fewer are
+/// wanted.
+TEST(NonlinearSolver, NewtonTakesNoMoreStepsThanAreWanted) {
+    const HeldBar bar({8, 2, 2}, ElementDegree::quadratic);
+    const Newton& newton = bar.solver->newton();
+    NewtonWork work = newton.make_work();
+    Control control;
+    Eigen::VectorXd u = affine(*bar.elements, Vector3d(0.7, 1.0, 1.0).asDiagonal());
+    for (Eigen::Index i = 0; i < u.size() / 3; ++i)
+        u[3 * i + 1] += 0.02 * std::sin(std::numbers::pi * bar.elements->positions()(0, i) / 4.0);
+    const auto steps = [&](int most) {
+        return newton.run(u, Eigen::VectorXd(0), 1e-12, 2, work, control, nullptr, most).iterations;
+    };
+    EXPECT_GT(steps(kMostEquilibriumSteps), 3);
+    EXPECT_EQ(steps(3), 3);
+}
+
 TEST(NonlinearSolver, AHalfThatIsTurnedInsideOutHasNoEquilibriumAndSaysWhere) {
     const auto elements = elements_of_box({4, 2, 2}, {2, 1, 1}, ElementDegree::linear);
     std::vector<int> nodes = test::nodes_where(*elements, [](const auto& p) { return p[0] == 0.0; });
