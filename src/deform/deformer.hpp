@@ -65,6 +65,10 @@ struct DiscretisationCheck {
     /// Estimated error of the reactions of the worst patch, over the largest (deform/patch_reactions.hpp); not a number
     /// where constrained vertices leave the body free to move.
     double relative_force_error = 0.0;
+    /// The estimated errors themselves: 3*n_vertices [L], and of the reactions, which are empty where those are left
+    /// out.
+    Eigen::VectorXd displacement_error = {};
+    Reactions reaction_error = {};
 };
 
 struct NodeSolution;
@@ -214,7 +218,8 @@ private:
     void place_columns(std::size_t part, const Eigen::Matrix3Xd& own, Eigen::Matrix3Xd& all) const;
     /// The same of loads, 6 x those of the part.
     void add_loads_of(std::size_t part, const Eigen::MatrixXd& own, std::vector<Resultant>& sum) const;
-    std::optional<DiscretisationCheck> check_of(const Answer& answer, const SolutionError& error) const;
+    std::optional<DiscretisationCheck> check_of(const Answer& answer, const SolutionError& error,
+                                                const Eigen::VectorXd& values) const;
 
     std::shared_ptr<const Model> model_;
     ConstrainedSet set_;

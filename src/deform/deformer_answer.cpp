@@ -24,14 +24,18 @@ double largest_motion(const Eigen::VectorXd& u, Eigen::Index& vertex) {
 /// Binary exponent of a magnitude; 0 where that is zero, denormal or not finite.
 int exponent_of(double largest) { return std::isnormal(largest) ? std::clamp(std::ilogb(largest), -1000, 1000) : 0; }
 
-/// Near nu = -1 a body resists shear 1 / (1 + nu) times more than stretch. Where a part of the displacement error is
-/// spurious shear, forces are too large by that factor times that part, in the better answer too, so that the
-/// difference of both does not show it. The smallest such part that was measured (Galerkin BEM, bending).
-constexpr double kShearForces = 0.1;
-double shear_over_stretch(const Body& body) { return 1.0 / (1.0 + body.material.poisson_ratio); }
+/// Displacements below this fraction of what the loads could cause are none, and their errors what integrals leave: of
+/// an incompressible body under pressure all around.
+constexpr double kNoMotion = 1e-6;
 
-/// Forces below this fraction of Young's modulus times displacement times length are rounding.
-constexpr double kNoForce = 1e-9;
+/// Sizes of the forces of all loads with these factors, added up.
+double gross_force(const SurfaceMesh& surface, const std::vector<UnitLoad>& loads, const Eigen::VectorXd& factors) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < loads.size(); ++i)
+        if (const double factor = std::abs(factors[static_cast<Eigen::Index>(i)]); factor > 0.0)
+            sum += factor * gross_force(surface, loads[i]);
+    return sum;
+}
 
 double largest_of(const Eigen::Matrix3Xd& forces) { return forces.size() == 0 ? 0.0 : forces.cwiseAbs().maxCoeff(); }
 
@@ -117,29 +121,30 @@ std::shared_ptr<const InteriorField> Deformer::interior_field(const Eigen::Matri
                                              body.material.young_modulus, values.cols());
 }
 
-std::optional<DiscretisationCheck> Deformer::check_of(const Answer& answer, const SolutionError& error) const {
+std::optional<DiscretisationCheck> Deformer::check_of(const Answer& answer, const SolutionError& error,
+                                                      const Eigen::VectorXd& values) const {
     const SurfaceMesh& surface = *model_->body().surface;
+    const double resists = model_->body().material.young_modulus * size_of(surface);
     Eigen::Index moving_most = 0, worst = 0;
     // Relative to the better answer: one that moves too little would overstate its error.
-    const double size = largest_motion(answer.displacements + error.to_better * error.displacements, moving_most);
+    const double size =
+        std::max(largest_motion(answer.displacements + error.to_better * error.displacements, moving_most),
+                 kNoMotion * gross_force(surface, set_.loads, values.tail(std::ssize(set_.loads))) / resists);
     const double off = largest_motion(error.displacements, worst);
     if (!std::isfinite(off)) return {};
     const double u_error = size > 0.0 ? off / size : 0.0;
     const auto check = [&](double force_error) {
-        return DiscretisationCheck{u_error, static_cast<int>(worst), force_error};
+        return DiscretisationCheck{u_error, static_cast<int>(worst), force_error, error.displacements, {}};
     };
     if (answer.reactions.forces.cols() == 0) return check(0.0);
     // What pins bear is missing in the reactions of the second answer (deform/pinned_body.hpp).
     if (!quality_.held) return check(std::numeric_limits<double>::quiet_NaN());
-    const ConstrainedPatches patches = constrained_patches(surface, set_.fixed, set_.handles);
-    const double length = (surface.vertices.rowwise().maxCoeff() - surface.vertices.rowwise().minCoeff()).norm();
     const Reactions better{answer.reactions.forces + error.to_better * error.reactions.forces,
                            answer.reactions.moments + error.to_better * error.reactions.moments};
-    const double force = std::max(largest_patch_reaction(surface, patches, better),
-                                  kNoForce * model_->body().material.young_modulus * size * length);
-    const double force_off = largest_patch_reaction(surface, patches, error.reactions);
-    return check(
-        std::max(force > 0.0 ? force_off / force : 0.0, kShearForces * u_error * shear_over_stretch(model_->body())));
+    DiscretisationCheck found =
+        check(relative_reaction_error(model_->body(), set_, better, error.reactions, size, u_error));
+    found.reaction_error = error.reactions;
+    return found;
 }
 
 Deformer::Answer Deformer::answer(const Eigen::VectorXd& values, Wanted wanted, Control& control,
@@ -195,12 +200,17 @@ Deformer::Answer Deformer::answer(const Eigen::VectorXd& values, Wanted wanted, 
     }
     answer.displacements = u.col(0);
     error.displacements = off.col(0);
-    if (wanted.check) answer.check = check_of(answer, error);
+    if (wanted.check) answer.check = check_of(answer, error, unit_values);
     answer.displacements *= unit;
     if (const double force = largest_of(answer.reactions.forces); force > 0.0)
         require_normal(force * unit, model_->body().name);
     answer.reactions.forces *= unit;
     answer.reactions.moments *= unit;
+    if (answer.check) {
+        answer.check->displacement_error *= unit;
+        answer.check->reaction_error.forces *= unit;
+        answer.check->reaction_error.moments *= unit;
+    }
     if (!linear()) remember(std::move(found), answer);
     require_finite(answer.displacements);
     if (!answer.reactions.forces.allFinite() || !answer.reactions.moments.allFinite())

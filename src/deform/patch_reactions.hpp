@@ -20,4 +20,12 @@ ConstrainedPatches constrained_patches(const SurfaceMesh& surface, std::span<con
 double largest_patch_reaction(const SurfaceMesh& surface, const ConstrainedPatches& patches,
                               const Reactions& reactions);
 
+/// From corner to corner of the surface's box [L].
+double size_of(const SurfaceMesh& surface);
+
+/// The largest reaction of a patch in `error` over the largest in `reactions`, those of a body whose largest
+/// displacement is `motion` [L] and off by the relative `motion_error`.
+double relative_reaction_error(const Body& body, const ConstrainedSet& set, const Reactions& reactions,
+                               const Reactions& error, double motion, double motion_error);
+
 }  // namespace elastolab

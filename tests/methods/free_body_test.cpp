@@ -1,10 +1,14 @@
 #include <gtest/gtest.h>
 
+#include <memory>
+#include <numeric>
+
 #include "bem/collocation/method.hpp"
 #include "bem/galerkin/method.hpp"
 #include "fem/method.hpp"
 #include "fem/quadratic/method.hpp"
 #include "findings/solution.hpp"
+#include "mesh/primitives.hpp"
 #include "methods/precompute.hpp"
 #include "methods/problem.hpp"
 #include "study/error/loaded_problems.hpp"
@@ -44,13 +48,48 @@ TEST(FreeBody, ErrorsAreEstimatedWithinAFactorOfThree) {
     }
 }
 
+UnitLoad pressure_all_around(const SurfaceMesh& surface) {
+    std::vector<int> all(static_cast<std::size_t>(surface.n_triangles()));
+    std::iota(all.begin(), all.end(), 0);
+    return unit_pressure(surface, std::move(all));
+}
+
 /// There is no rim to refine: that its own error is not known is said.
 TEST(FreeBody, GalerkinWithoutARimSaysThatItsErrorIsNotEstimated) {
-    const FreeAnswer answer = free_answer(pressed_sphere(4, 0.3), kGalerkinBem);
-    EXPECT_LT(answer.error, 0.07);
+    const auto ball = std::make_shared<const SurfaceMesh>(make_sphere(5));
+    Control control;
+    Deformer deformer(
+        precompute({.name = "ball", .surface = ball, .material = {1.0, 0.3}}, {.kind = kGalerkinBem}, control));
+    deformer.constrain({{}, {}, {pressure_all_around(*ball)}}, control);
+    const Deformer::Answer answer = deformer.answer(Eigen::VectorXd::Ones(1), {.check = true}, control);
     EXPECT_FALSE(answer.check);
-    ASSERT_EQ(answer.findings.size(), 1U);
-    EXPECT_EQ(answer.findings[0].kind, FindingKind::no_estimate);
+    const Findings findings = findings_of_answer(deformer, answer);
+    ASSERT_EQ(findings.size(), 1U);
+    EXPECT_EQ(findings[0].kind, FindingKind::no_estimate);
+}
+
+/// A shell of few triangles across has all of them halved.
+TEST(FreeBody, GalerkinEstimatesTheErrorOfAShell) {
+    const FreeAnswer answer = free_answer(pressed_sphere(4, 0.3), kGalerkinBem);
+    ASSERT_TRUE(answer.check);
+    EXPECT_LT(answer.error, 0.07);
+    EXPECT_GT(answer.check->relative_error, answer.error / 3.0);
+    EXPECT_LT(answer.check->relative_error, answer.error * 3.0);
+}
+
+/// An incompressible body keeps its shape under pressure all around: what is left of displacements is rounding.
+TEST(FreeBody, RoundingIsNotSaidToBeOff) {
+    const auto ball = std::make_shared<const SurfaceMesh>(make_sphere(5));
+    for (const MethodKind kind : {kConstantBem, kLinearBem}) {
+        Control control;
+        Deformer deformer(
+            precompute({.name = "ball", .surface = ball, .material = {100.0, 0.5}}, {.kind = kind}, control));
+        deformer.constrain({{}, {}, {pressure_all_around(*ball)}}, control);
+        const Deformer::Answer answer = deformer.answer(Eigen::VectorXd::Constant(1, 3.0), {.check = true}, control);
+        ASSERT_TRUE(answer.check);
+        EXPECT_LT(answer.displacements.lpNorm<Eigen::Infinity>(), 1e-12);
+        EXPECT_LT(answer.check->relative_error, 0.02) << kind->name;
+    }
 }
 
 /// One vertex holds its place, and the body may still turn about it.

@@ -16,6 +16,7 @@
 #include "bem/given_loads.hpp"
 #include "deform/holds.hpp"
 #include "deform/pinned_body.hpp"
+#include "mesh/triangles_across.hpp"
 
 namespace elastolab {
 
@@ -34,6 +35,10 @@ constexpr double kShareOfRims = 1.3;
 /// Error of Galerkin BEM with 1, 2 or 3 rows along the rims over what these rows change. Most of it is elsewhere, which
 /// these rows cannot show: rather too much is told. tests/methods/discretisation_test.cpp measures it.
 constexpr std::array<double, kMostRims> kShareLeft = {0.55, 0.45, 0.40};
+
+/// Error of Galerkin BEM on a surface of few triangles across over what halving all of them changes: a row along the
+/// rims shows a fifth of it.
+constexpr double kShareOfHalving = 1.15;
 
 /// Of which the second answer is, beside an answer by that method.
 Method reference_method(const Method& answer) {
@@ -83,6 +88,22 @@ std::uint64_t affordable_memory(const SurfaceMesh& surface, const Method& answer
     return differs && fits && is_quick(surface, answer, rims, loads) ? bytes : 0;
 }
 
+/// The surface of the second answer. pinned: what holds the body bears nothing, so that nothing is singular there.
+FinerRims reference_rims(const SurfaceMesh& surface, std::span<const int> vertices, std::span<const UnitLoad> loads,
+                         bool pinned) {
+    return FinerRims(surface, vertices, loads, 1, pinned ? LoneVertices::kept : LoneVertices::refined);
+}
+
+/// That where a surface has few triangles across: all are halved. Nothing where it has more, or where that would take
+/// too long.
+std::optional<FinerRims> halved_surface(const SurfaceMesh& surface, const Method& answer, std::span<const int> vertices,
+                                        std::span<const UnitLoad> loads) {
+    if (answer.kind != kGalerkinBem || !(triangles_across(surface) < kFewTrianglesAcross)) return {};
+    FinerRims halved(surface, vertices, loads, std::max(answer.rims, 1), LoneVertices::kept, Halved::all);
+    if (affordable_memory(surface, answer, halved, loads) == 0) return {};
+    return halved;
+}
+
 /// values: at the nodes of the set, then the loads' factors. Throws NotHeldError, SolveError, Cancelled.
 NodeSolution solve_by_galerkin(const SurfaceMesh& surface, const Method& method, const SurfaceSet& set,
                                double poisson_ratio, Eigen::VectorXd values, Control& control) {
@@ -127,10 +148,13 @@ std::optional<ReferenceAnswer> reference_on(const SurfaceMesh& surface, const Me
     }
 }
 
-/// pinned: what holds the body bears nothing, so that nothing is singular there.
-FinerRims reference_rims(const SurfaceMesh& surface, std::span<const int> vertices, std::span<const UnitLoad> loads,
-                         bool pinned) {
-    return FinerRims(surface, vertices, loads, 1, pinned ? LoneVertices::kept : LoneVertices::refined);
+/// On finer rims, or on a surface that is finer everywhere.
+std::optional<ReferenceAnswer> reference_on(const FinerRims& fine, const SurfaceMesh& surface, const Method& answer,
+                                            const PinnedBody& body, double poisson_ratio, Control& control) {
+    std::optional<ReferenceAnswer> reference = reference_on(
+        fine.surface.mesh, reference_method(answer), fine, surface.n_vertices(), poisson_ratio, body.values(), control);
+    if (reference) reference = body.released(*std::move(reference));
+    return reference;
 }
 
 }  // namespace
@@ -142,16 +166,15 @@ std::optional<ReferenceAnswer> galerkin_reference(const SurfaceMesh& surface, co
     const PinnedBody body(surface.vertices, vertices, values, first);
     const FinerRims rims = reference_rims(surface, body.vertices(), loads, body.is_pinned());
     if (affordable_memory(surface, answer, rims, loads) == 0) return {};
-    std::optional<ReferenceAnswer> reference = reference_on(
-        rims.surface.mesh, reference_method(answer), rims, surface.n_vertices(), poisson_ratio, body.values(), control);
-    if (reference) reference = body.released(*std::move(reference));
-    return reference;
+    return reference_on(rims, surface, answer, body, poisson_ratio, control);
 }
 
 std::uint64_t galerkin_reference_memory(const SurfaceMesh& surface, const Method& answer,
                                         std::span<const int> vertices) {
-    return affordable_memory(surface, answer, reference_rims(surface, vertices, {}, !holds(surface.vertices, vertices)),
-                             {});
+    const std::optional<FinerRims> halved = halved_surface(surface, answer, vertices, {});
+    return std::max(halved ? affordable_memory(surface, answer, *halved, {}) : 0,
+                    affordable_memory(surface, answer,
+                                      reference_rims(surface, vertices, {}, !holds(surface.vertices, vertices)), {}));
 }
 
 std::optional<ReferenceAnswer> galerkin_self_reference(const SurfaceMesh& surface, const Method& answer,
@@ -159,13 +182,18 @@ std::optional<ReferenceAnswer> galerkin_self_reference(const SurfaceMesh& surfac
                                                        std::span<const UnitLoad> loads, const Eigen::VectorXd& values,
                                                        const Eigen::VectorXd& first, Control& control) {
     std::optional<ReferenceAnswer> reference;
+    const PinnedBody body(surface.vertices, vertices, values, first);
+    if (const std::optional<FinerRims> halved = halved_surface(surface, answer, body.vertices(), loads)) {
+        reference = reference_on(*halved, surface, answer, body, poisson_ratio, control);
+        if (reference) reference->share = kShareOfHalving;
+        return reference;
+    }
     if (answer.rims == 0) {
         reference = galerkin_reference(surface, answer, poisson_ratio, vertices, loads, values, first, control);
         if (reference) reference->share = kShareOfRims;
         return reference;
     }
     if (!FinerRims(surface, vertices, loads, answer.rims, LoneVertices::kept).is_finer) return {};
-    const PinnedBody body(surface.vertices, vertices, values, first);
     const SurfaceSet given(surface, body.vertices(), loads);
     reference = reference_on(surface, reference_method(answer), given, surface.n_vertices(), poisson_ratio,
                              body.values(), control);

@@ -30,6 +30,9 @@ protected:
 /// the triangles around it, and has no limit as they become smaller.
 enum class LoneVertices { kept, refined };
 
+/// Which of the body's triangles are halved, besides the rows along the rims.
+enum class Halved { none, all };
+
 /// The same set on a surface with rows of thin triangles along the rims of the constrained patches
 /// (add_rows_along_rim), where tractions are singular, and along re-entrant edges of the body, where stresses are
 /// singular too, unless nearly every edge is one (docs/formulation.md section 7). The polyhedron is the same; the
@@ -43,7 +46,7 @@ struct FinerRims : SurfaceSet {
 
     /// rows: along the rims, on each side
     FinerRims(const SurfaceMesh& body, std::span<const int> vertices, std::span<const UnitLoad> loads, int rows,
-              LoneVertices lone);
+              LoneVertices lone, Halved halved = Halved::none);
 };
 
 }  // namespace elastolab

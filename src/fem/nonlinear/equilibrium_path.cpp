@@ -152,6 +152,7 @@ NonlinearSolver::StatePtr NonlinearSolver::advance(const NonlinearState& from, c
 
 NewtonState NonlinearSolver::stabilised(NewtonState state, double tolerance, int most_steps, NewtonWork& work,
                                         Control& control) const {
+    judge_at_its_end(state, work, control);
     for (int push = 0; push < kPushes && !state.stable && state.factor && most_steps > 0; ++push) {
         const Eigen::VectorXd u = newton_.pushed(state, work, control);
         if (u == state.u) break;
@@ -162,8 +163,17 @@ NewtonState NonlinearSolver::stabilised(NewtonState state, double tolerance, int
         if (!left.converged || !(newton_.rise(state, left.u, left.energy) < 0.0)) break;
         left.iterations = state.iterations;
         state = std::move(left);
+        judge_at_its_end(state, work, control);
     }
     return state;
+}
+
+void NonlinearSolver::judge_at_its_end(NewtonState& state, NewtonWork& work, Control& control) const {
+    if (state.stable || !state.factor || state.factor_residual <= state.residual) return;
+    keep(nullptr);  // not two at once
+    state.factor.reset();
+    state.factor = newton_.factor_at(state.u, state.factors, work, state.stable, control);
+    state.factor_residual = state.residual;
 }
 
 void NonlinearSolver::keep(std::shared_ptr<const SparseCholesky> factor) const {

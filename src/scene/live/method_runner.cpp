@@ -182,7 +182,7 @@ std::shared_ptr<const Equilibrium> MethodRunner::equilibrium() const {
 
 void MethodRunner::check_at_rest() {
     check_.poll();
-    if (unchecked() && converged()) check_.begin_at_rest(deformer(), values_);
+    if (unchecked() && converged()) check_.begin_at_rest(deformer(), values_, sets_.wanted_grips(), grips());
 }
 
 Findings MethodRunner::findings() const {

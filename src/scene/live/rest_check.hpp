@@ -3,10 +3,12 @@
 #include <Eigen/Core>
 #include <functional>
 #include <memory>
+#include <vector>
 
 #include "base/timer.hpp"
 #include "deform/deformer.hpp"
 #include "deform/finding.hpp"
+#include "deform/grip.hpp"
 #include "scene/live/background_job.hpp"
 
 namespace elastolab {
@@ -24,7 +26,9 @@ public:
     void poll();
     /// Begins when the answer has rested long enough and was not checked yet. `values`: 3*n_handle_vertices [L], those
     /// of the answer, as Deformer::displace takes them.
-    void begin_at_rest(const std::shared_ptr<const Deformer>& deformer, const Eigen::VectorXd& values);
+    /// grips: its handles under a force; stiffness: of grips, of these or not, or null.
+    void begin_at_rest(const std::shared_ptr<const Deformer>& deformer, const Eigen::VectorXd& values,
+                       const std::vector<Grip>& grips, const std::shared_ptr<const GripStiffness>& stiffness);
     /// Whether nothing more will be found of this answer.
     bool done() const { return begun_ && !job_.running(); }
     /// What the person should know before believing the answer.

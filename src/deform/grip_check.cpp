@@ -1,0 +1,73 @@
+#include "deform/grip_check.hpp"
+
+#include <algorithm>
+#include <Eigen/Geometry>
+
+#include "deform/moved_grips.hpp"
+#include "deform/patch_reactions.hpp"
+
+namespace elastolab {
+
+namespace {
+
+/// Displacements and reactions, or changes of them.
+struct Change {
+    Eigen::VectorXd displacements;
+    Reactions reactions;
+};
+
+/// Along a change of the values: of a linear method the answer to it, else the derivative at the equilibrium.
+Change change_along(const Deformer& deformer, const Eigen::VectorXd& values, const Eigen::VectorXd& along,
+                    const Deformer::Answer& answer, Control& control) {
+    if (deformer.linear()) {
+        Deformer::Answer change = deformer.answer(along, {}, control);
+        return {std::move(change.displacements), std::move(change.reactions)};
+    }
+    const Approach here{.start = answer.equilibrium};
+    Change change{deformer.drag_response(values, along, control, kSolveTolerance, here).X.col(0), {}};
+    change.reactions.forces = deformer.answer(values, {.along = along}, control, here).force_changes.front();
+    change.reactions.moments = change.reactions.forces;
+    const Positions& rest = deformer.model().body().surface->vertices;
+    const std::vector<int> constrained = joined(deformer.set().fixed, deformer.set().handles);
+    for (Eigen::Index i = 0; i < change.reactions.moments.cols(); ++i) {
+        const Eigen::Vector3d at = rest.col(constrained[static_cast<std::size_t>(i)]);
+        change.reactions.moments.col(i) = at.cross(change.reactions.forces.col(i).eval());
+    }
+    return change;
+}
+
+/// The motion of the grips that takes back the error of their forces.
+Eigen::VectorXd motion_for(const Deformer& deformer, const GripsInPlace& grips, const Eigen::Matrix3Xd& force_error,
+                           Eigen::Index n_values) {
+    const std::vector<GripForce> none(grips.grips.size());
+    const MovedGrips moved(deformer, grips.grips, none);
+    const GripTangent tangent(grips.stiffness, moved.length(), deformer.model().body().material.young_modulus,
+                              moved.body_is_held());
+    const Eigen::VectorXd step = tangent.step(tangent.answered(-moved.resultants(grips.places, force_error)));
+    const double part = deformer.linear() ? 1.0 : std::min(1.0, longest_step(grips.places, moved.length(), step));
+    return moved.basis(grips.places, n_values) * (part * step);
+}
+
+}  // namespace
+
+void correct_check(const Deformer& deformer, const Eigen::VectorXd& values, const GripsInPlace& grips,
+                   Deformer::Answer& answer, Control& control) {
+    if (grips.grips.empty() || !answer.check || answer.check->reaction_error.forces.cols() == 0) return;
+    DiscretisationCheck& check = *answer.check;
+    const Eigen::VectorXd along = motion_for(deformer, grips, check.reaction_error.forces, values.size());
+    const Change change = change_along(deformer, values, along, answer, control);
+    check.displacement_error += change.displacements;
+    check.reaction_error.forces += change.reactions.forces;
+    check.reaction_error.moments += change.reactions.moments;
+    const double size = answer.displacements.reshaped(3, answer.displacements.size() / 3).colwise().norm().maxCoeff();
+    Eigen::Index worst = 0;
+    const double off =
+        check.displacement_error.reshaped(3, check.displacement_error.size() / 3).colwise().norm().maxCoeff(&worst);
+    if (!(size > 0.0)) return;
+    check.relative_error = off / size;
+    check.vertex = static_cast<int>(worst);
+    check.relative_force_error = relative_reaction_error(deformer.model().body(), deformer.set(), answer.reactions,
+                                                         check.reaction_error, size, check.relative_error);
+}
+
+}  // namespace elastolab

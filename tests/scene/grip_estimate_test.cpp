@@ -1,0 +1,109 @@
+// Estimates of the error where handles are under forces: of displacements, against the answer of finer elements.
+#include <gmock/gmock.h>
+
+#include <iostream>
+#include <string>
+
+#include "bem/collocation/method.hpp"
+#include "bem/galerkin/method.hpp"
+#include "fem/method.hpp"
+#include "fem/nonlinear/method.hpp"
+#include "fem/quadratic/method.hpp"
+#include "findings/words.hpp"
+#include "methods/registry.hpp"
+#include "scene/live/live_scene.hpp"
+#include "scene/live/simulation.hpp"
+#include "scene/solve.hpp"
+#include "support/wait_until.hpp"
+
+namespace elastolab {
+namespace {
+
+/// A bar of 4 x 1 x 1 along x, fixed at x = 0, whose other end is a handle under a force across.
+Document gripped_bar(int resolution, double force = 1.0) {
+    Document document;
+    document.mesh = Primitive{.name = "beam", .resolution = resolution, .size = {}};
+    document.material = {1e4, 0.3};
+    document.fixed = {{.name = "wall", .select = {PlaneSelector{{0, 0, 0}, {1, 0, 0}, 1e-9}}}};
+    document.handles = {{.name = "end", .select = {PlaneSelector{{4, 0, 0}, {1, 0, 0}, 1e-9}}}};
+    document.handles[0].force = GripForce{{0, 0, force}, {0, 0, 0}};
+    return document;
+}
+
+Solution result_by(const Document& document, MethodKind kind) {
+    Control control;
+    Method method{.kind = kind};
+    method.elements = ElementDegree::quadratic;
+    return solve({.scene_file = "scene.json", .document = document, .method = method}, control);
+}
+
+double reach_of(const Solution& solution) { return solution.displacement.colwise().norm().maxCoeff(); }
+
+struct GripEstimate : testing::Test {
+    static void SetUpTestSuite() { fine = reach_of(result_by(gripped_bar(6), kQuadraticFem)); }
+    /// The end moves most, and that is what is off most.
+    static double error(const Solution& solution) { return std::abs(reach_of(solution) - fine) / fine; }
+    static double fine;
+};
+double GripEstimate::fine = 0.0;
+
+TEST_F(GripEstimate, OfDisplacementsIsThatOfTheStiffness) {
+    for (const MethodKind kind : {kFem, kConstantBem, kLinearBem, kGalerkinBem, kQuadraticFem, kNonlinearFem}) {
+        const Solution solution = result_by(gripped_bar(3), kind);
+        ASSERT_TRUE(solution.error_estimate && solution.force_error_estimate) << name(kind);
+        const std::string found = std::string(name(kind)) + ": off by " + std::to_string(error(solution)) + ", told " +
+                                  std::to_string(*solution.error_estimate);
+        std::cout << found << '\n';
+        EXPECT_GT(*solution.error_estimate, error(solution) / 3.0) << found;
+        // Of ten nodes the estimate is a share of what four of them are off by, however smooth the answer is.
+        const bool ten_nodes = kind == kQuadraticFem || kind == kNonlinearFem;
+        EXPECT_LT(*solution.error_estimate, ten_nodes ? 0.2 : std::max(3.0 * error(solution), 0.015)) << found;
+    }
+}
+
+/// Too few triangles across make a bar too stiff all along, of which rims show little, and finer rims change little.
+TEST_F(GripEstimate, OfGalerkinSeesBarsOfFewTrianglesAcross) {
+    for (const int cells : {1, 2, 3}) {
+        const Solution solution = result_by(gripped_bar(cells), kGalerkinBem);
+        EXPECT_GT(*solution.error_estimate, error(solution) / 1.5) << cells;
+        EXPECT_LT(*solution.error_estimate, error(solution) * 1.5) << cells;
+        EXPECT_THAT(words(solution.findings), testing::Not(testing::Contains(testing::HasSubstr("finer rims"))));
+        EXPECT_EQ(testing::Matches(testing::Contains(testing::HasSubstr("Refine the mesh")))(words(solution.findings)),
+                  cells == 1);
+    }
+}
+
+/// Forces balance those that are given, however stiff the elements are.
+TEST_F(GripEstimate, OfForcesIsSmallWhereTheyBalance) {
+    for (const MethodKind kind : {kFem, kGalerkinBem, kQuadraticFem, kNonlinearFem}) {
+        const Solution solution = result_by(gripped_bar(2), kind);
+        EXPECT_LT(solution.force_error_estimate.value(), 0.05) << name(kind);
+    }
+    EXPECT_GT(result_by(gripped_bar(2), kFem).error_estimate.value(), 0.2);
+}
+
+/// What a person reads in the window, whether the handle was under a force from the beginning or came to be later.
+TEST_F(GripEstimate, IsToldInTheWindowToo) {
+    for (const bool later : {false, true}) {
+        LiveScene scene(gripped_bar(2), "scene.json");
+        if (later) scene.set_force(0, std::nullopt);
+        Simulation simulation([] {});
+        const auto rest = [&] {
+            test::wait_until([&] {
+                simulation.update(scene, {kFem}, {});
+                return !simulation.busy() && !simulation.checking();
+            });
+        };
+        rest();
+        if (later) {
+            scene.set_force(0, GripForce{{0, 0, 1.0}, {0, 0, 0}});
+            rest();
+        }
+        EXPECT_THAT(words(simulation.answer(kFem).findings()),
+                    testing::Contains(testing::HasSubstr("displacements are off")))
+            << later;
+    }
+}
+
+}  // namespace
+}  // namespace elastolab
