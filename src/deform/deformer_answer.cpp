@@ -28,15 +28,6 @@ int exponent_of(double largest) { return std::isnormal(largest) ? std::clamp(std
 /// an incompressible body under pressure all around.
 constexpr double kNoMotion = 1e-6;
 
-/// Sizes of the forces of all loads with these factors, added up.
-double gross_force(const SurfaceMesh& surface, const std::vector<UnitLoad>& loads, const Eigen::VectorXd& factors) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < loads.size(); ++i)
-        if (const double factor = std::abs(factors[static_cast<Eigen::Index>(i)]); factor > 0.0)
-            sum += factor * gross_force(surface, loads[i]);
-    return sum;
-}
-
 double largest_of(const Eigen::Matrix3Xd& forces) { return forces.size() == 0 ? 0.0 : forces.cwiseAbs().maxCoeff(); }
 
 /// Throws where a force that is not zero is next to it in double precision.

@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "base/lapack.hpp"
+#include "deform/unit_load.hpp"
 
 namespace elastolab {
 
@@ -27,6 +28,25 @@ GripArms::GripArms(const Deformer& deformer, const std::vector<Grip>& grips) {
         middles.emplace_back(arms.back().rowwise().mean());
         arms.back().colwise() -= middles.back();
     }
+    std::vector<Eigen::MatrixXd> of_grips;
+    Eigen::Index n_inert = 0;
+    for (std::size_t g = 0; g < grips.size(); ++g) {
+        const std::span<const int> patch(handles.begin() + grips[g].begin, handles.begin() + grips[g].end);
+        of_grips.push_back(free_rigid_motions(vertices, patch, middles[g], length));
+        n_inert += of_grips.back().cols();
+    }
+    inert = Eigen::MatrixXd::Zero(6 * std::ssize(grips), n_inert);
+    Eigen::Index column = 0;
+    for (Eigen::Index g = 0; g < std::ssize(grips); ++g) {
+        const Eigen::MatrixXd& own = of_grips[static_cast<std::size_t>(g)];
+        inert.block(6 * g, column, 6, own.cols()) = own;
+        column += own.cols();
+    }
+}
+
+Eigen::MatrixXd GripArms::working(const Eigen::MatrixXd& forces) const {
+    const Eigen::VectorXd unit = units();
+    return forces - unit.cwiseInverse().asDiagonal() * (inert * (inert.transpose() * (unit.asDiagonal() * forces)));
 }
 
 Eigen::VectorXd GripArms::units() const {
@@ -99,10 +119,12 @@ Eigen::VectorXd GripStiffness::motions(const Eigen::VectorXd& forces, const Eige
     const Eigen::VectorXd unit = arms_.units();
     Eigen::MatrixXd held = matrix_;
     for (Eigen::Index g = 0; g < springs.size(); ++g) held.diagonal().segment<3>(6 * g).array() += springs[g];
-    const Eigen::MatrixXd scaled = unit.asDiagonal() * held * unit.asDiagonal();
-    const Eigen::VectorXd wanted = unit.asDiagonal() * (forces - rest_);
+    const Eigen::MatrixXd scaled = unit.asDiagonal() * arms_.working(held) * unit.asDiagonal();
+    const Eigen::VectorXd wanted = unit.asDiagonal() * arms_.working(forces - rest_),
+                          asked = unit.asDiagonal() * forces;
+    if ((arms_.inert.transpose() * asked).norm() > kUnanswered * asked.norm()) throw SolveError(kUnbalancedGrips);
     const Eigen::VectorXd motion = solve_minimum_norm(scaled, wanted, kNoStiffness).X;
-    if (!((scaled * motion - wanted).norm() <= kUnanswered * (wanted.norm() + (unit.asDiagonal() * forces).norm())))
+    if (!((scaled * motion - wanted).norm() <= kUnanswered * (wanted.norm() + asked.norm())))
         throw SolveError(kUnbalancedGrips);
     return unit.asDiagonal() * motion;
 }

@@ -21,10 +21,14 @@ struct GripArms {
 
     /// Of each grip's motion or force, 6 k: in these units rotations and moments are lengths and forces.
     Eigen::VectorXd units() const;
+    /// Forces over moments (6 k rows) without what does no work, as the moment about the only vertex of a grip, or
+    /// about the line of its vertices. By collocation there is one, of the tractions around the vertices.
+    Eigen::MatrixXd working(const Eigen::MatrixXd& forces) const;
 
     std::vector<Eigen::Vector3d> middles;
     std::vector<Eigen::Matrix3Xd> arms;
-    double length = 1.0;  ///< of the body, from corner to corner of its box
+    double length = 1.0;    ///< of the body, from corner to corner of its box
+    Eigen::MatrixXd inert;  ///< motions in these units that move no vertex: orthonormal columns, 6 k rows
 };
 
 /// Said where forces would move handles without end.
@@ -66,7 +70,7 @@ public:
     Eigen::VectorXd forces(const Eigen::VectorXd& motions) const { return rest_ + matrix_ * motions; }
     /// The motions at which the grips exert these forces (6 k). Where the body is free to move with the grips, those
     /// without the motion that no force resists. Throws SolveError where no motion does: forces do not balance on a
-    /// body that nothing else holds, or a grip of one or two vertices is to carry a moment.
+    /// body that nothing else holds, or a grip of one vertex, or of some on a line, is to carry a moment.
     /// springs: one a grip [force / L], or none at all: a force is less by this times the shift of the grip's middle.
     Eigen::VectorXd motions(const Eigen::VectorXd& forces, const Eigen::VectorXd& springs = {}) const;
     /// Puts motions (6 k) into the grips' rows of a Deformer's values.

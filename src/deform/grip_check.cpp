@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <Eigen/Geometry>
 
+#include "base/error.hpp"
 #include "deform/moved_grips.hpp"
 #include "deform/patch_reactions.hpp"
 
@@ -41,19 +42,15 @@ Eigen::VectorXd motion_for(const Deformer& deformer, const GripsInPlace& grips, 
                            Eigen::Index n_values) {
     const std::vector<GripForce> none(grips.grips.size());
     const MovedGrips moved(deformer, grips.grips, none);
-    const GripTangent tangent(grips.stiffness, moved.length(), deformer.model().body().material.young_modulus,
-                              moved.body_is_held());
+    const GripTangent tangent(GripArms(deformer, grips.grips).working(grips.stiffness), moved.length(),
+                              deformer.model().body().material.young_modulus, moved.body_is_held());
     const Eigen::VectorXd step = tangent.step(tangent.answered(-moved.resultants(grips.places, force_error)));
     const double part = deformer.linear() ? 1.0 : std::min(1.0, longest_step(grips.places, moved.length(), step));
     return moved.basis(grips.places, n_values) * (part * step);
 }
 
-}  // namespace
-
-void correct_check(const Deformer& deformer, const Eigen::VectorXd& values, const GripsInPlace& grips,
-                   Deformer::Answer& answer, Control& control) {
-    if (grips.grips.empty() || !answer.check || answer.check->reaction_error.forces.cols() == 0) return;
-    DiscretisationCheck& check = *answer.check;
+void correct(DiscretisationCheck& check, const Deformer& deformer, const Eigen::VectorXd& values,
+             const GripsInPlace& grips, const Deformer::Answer& answer, Control& control) {
     const Eigen::VectorXd along = motion_for(deformer, grips, check.reaction_error.forces, values.size());
     const Change change = change_along(deformer, values, along, answer, control);
     check.displacement_error += change.displacements;
@@ -68,6 +65,18 @@ void correct_check(const Deformer& deformer, const Eigen::VectorXd& values, cons
     check.vertex = static_cast<int>(worst);
     check.relative_force_error = relative_reaction_error(deformer.model().body(), deformer.set(), answer.reactions,
                                                          check.reaction_error, size, check.relative_error);
+}
+
+}  // namespace
+
+void correct_check(const Deformer& deformer, const Eigen::VectorXd& values, const GripsInPlace& grips,
+                   Deformer::Answer& answer, Control& control) {
+    if (grips.grips.empty() || !answer.check || answer.check->reaction_error.forces.cols() == 0) return;
+    try {
+        correct(*answer.check, deformer, values, grips, answer, control);
+    } catch (const SolveError&) {
+        answer.check.reset();
+    }
 }
 
 }  // namespace elastolab

@@ -93,6 +93,14 @@ double gross_force(const SurfaceMesh& surface, const UnitLoad& load) {
     return sum;
 }
 
+double gross_force(const SurfaceMesh& surface, std::span<const UnitLoad> loads, const Eigen::VectorXd& factors) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < loads.size(); ++i)
+        if (const double factor = std::abs(factors[static_cast<Eigen::Index>(i)]); factor > 0.0)
+            sum += factor * gross_force(surface, loads[i]);
+    return sum;
+}
+
 Eigen::MatrixXd free_rigid_motions(const Positions& positions, std::span<const int> vertices,
                                    const Eigen::Vector3d& centre, double size) {
     Eigen::Matrix<double, 6, 6> squared = Eigen::Matrix<double, 6, 6>::Zero();

@@ -45,6 +45,8 @@ Resultant resultant(const SurfaceMesh& surface, const UnitLoad& load);
 
 /// Sizes of all forces of a load of size one, added up [force]: more than its resultant where they balance each other.
 double gross_force(const SurfaceMesh& surface, const UnitLoad& load);
+/// The same of all loads, of these sizes (one a load).
+double gross_force(const SurfaceMesh& surface, std::span<const UnitLoad> loads, const Eigen::VectorXd& factors);
 
 /// Rigid motions a + omega x (p - centre) that vanish at these vertices: a over omega * size, orthonormal columns, 6 x
 /// n. `size` makes both parts lengths; about a millionth of it counts as no distance. With no vertices: all six.

@@ -145,10 +145,8 @@ constexpr int kMostGaugedThemselves = 1200;
 double all_forces(const Constraints& constraints, const Reactions& reactions, const SurfaceMesh& surface) {
     double sum = 0.0;
     for (const auto& force : reactions.forces.colwise()) sum += force.stableNorm();
-    const Eigen::VectorXd factors = constraints.values.tail(std::ssize(constraints.set.loads));
-    for (std::size_t i = 0; i < constraints.set.loads.size(); ++i)
-        sum += std::abs(factors[static_cast<Eigen::Index>(i)]) * gross_force(surface, constraints.set.loads[i]);
-    return sum;
+    const std::vector<UnitLoad>& loads = constraints.set.loads;
+    return sum + gross_force(surface, loads, constraints.values.tail(std::ssize(loads)));
 }
 
 /// Share of the largest reaction above which an imbalance is reported.

@@ -119,6 +119,24 @@ TEST(SceneLoads, AHandleUnderAForceGivesWayByNonlinearFem) {
     }
 }
 
+/// One vertex, and two and three on a line: collocation has moments there that do no work and that nobody asks for.
+TEST(SceneLoads, AHandleOfAFewVerticesTakesAForceByAllMethods) {
+    Document document = loaded_cube();
+    document.loads.clear();
+    document.gravity.setZero();
+    for (const MethodKind kind : all_methods())
+        for (const double length : {0.1, 0.3, 0.6}) {
+            document.handles[0].select = {BoxSelector{{0.9, 0.9, -0.1}, {1.1, 1.1, length}}};
+            document.handles[0].force = GripForce{{0, 0.2, 0.1}, {0, 0, 0}};
+            const Solution pushed = solved(document, kind, false);
+            EXPECT_LT((named(pushed.reactions, "held").force - Eigen::Vector3d(0, 0.2, 0.1)).norm(), 1e-6)
+                << name(kind);
+            EXPECT_GT(pushed.displacement.row(1).maxCoeff(), 0.0) << name(kind);
+            document.handles[0].force->moment = {0, 0, 0.1};
+            EXPECT_THROW(solved(document, kind, false), SolveError) << name(kind) << " about the line";
+        }
+}
+
 TEST(SceneLoads, DoTheWorkThatTheBodyStores) {
     // By Clapeyron, loads and supports do twice the energy; doubling every load quadruples it.
     Document document = loaded_cube();
