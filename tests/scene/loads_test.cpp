@@ -123,7 +123,7 @@ TEST(SceneLoads, AHandleUnderAForceGivesWayByNonlinearFem) {
 TEST(SceneLoads, AHandleOfAFewVerticesTakesAForceByAllMethods) {
     Document document = loaded_cube();
     document.loads.clear();
-    document.gravity.setZero();
+    document.gravity.reset();
     for (const MethodKind kind : all_methods())
         for (const double length : {0.1, 0.3, 0.6}) {
             document.handles[0].select = {BoxSelector{{0.9, 0.9, -0.1}, {1.1, 1.1, length}}};

@@ -85,7 +85,7 @@ NewtonState NonlinearSolver::followed(const NonlinearState& from, const MotionPa
         const BodyEnergy energy = newton_.energy(u, work, control);
         if (!(energy.least_J > kCrushed * std::min(1.0, at.least_J))) {
             failed.crushed = energy.element;
-            length *= 0.5;
+            length = 0.5 * (next - part);
             continue;
         }
         const double wanted = next < 1.0 ? std::max(kPassing, tolerance) : tolerance;
@@ -100,7 +100,7 @@ NewtonState NonlinearSolver::followed(const NonlinearState& from, const MotionPa
         iterations += reached.iterations;
         if (!reached.converged) {
             failed.crushed = reached.crushed;
-            length *= 0.5;
+            length = 0.5 * (next - part);
             continue;
         }
         at = std::move(reached);
@@ -152,7 +152,6 @@ NonlinearSolver::StatePtr NonlinearSolver::advance(const NonlinearState& from, c
 
 NewtonState NonlinearSolver::stabilised(NewtonState state, double tolerance, int most_steps, NewtonWork& work,
                                         Control& control) const {
-    judge_at_its_end(state, work, control);
     for (int push = 0; push < kPushes && !state.stable && state.factor && most_steps > 0; ++push) {
         const Eigen::VectorXd u = newton_.pushed(state, work, control);
         if (u == state.u) break;
@@ -163,7 +162,6 @@ NewtonState NonlinearSolver::stabilised(NewtonState state, double tolerance, int
         if (!left.converged || !(newton_.rise(state, left.u, left.energy) < 0.0)) break;
         left.iterations = state.iterations;
         state = std::move(left);
-        judge_at_its_end(state, work, control);
     }
     return state;
 }
@@ -183,6 +181,7 @@ void NonlinearSolver::keep(std::shared_ptr<const SparseCholesky> factor) const {
 
 NonlinearSolver::StatePtr NonlinearSolver::settled(NewtonState state, double tolerance, int most_steps,
                                                    NewtonWork& work, Control& control) const {
+    judge_at_its_end(state, work, control);
     state = stabilised(std::move(state), tolerance, most_steps, work, control);
     keep(state.factor);
     const Eigen::VectorXd rest = Eigen::VectorXd::Zero(state.u.size());
