@@ -8,18 +8,12 @@
 #include "base/error.hpp"
 #include "deform/deformer.hpp"
 #include "deform/deformer_state.hpp"
+#include "deform/node_rows.hpp"
 #include "deform/patch_reactions.hpp"
 
 namespace elastolab {
 
 namespace {
-
-/// The vertex that moves most, and how far.
-double largest_motion(const Eigen::VectorXd& u, Eigen::Index& vertex) {
-    return u.size() == 0
-               ? 0.0
-               : Eigen::Map<const Eigen::Matrix3Xd>(u.data(), 3, u.size() / 3).colwise().norm().maxCoeff(&vertex);
-}
 
 /// Binary exponent of a magnitude; 0 where that is zero, denormal or not finite.
 int exponent_of(double largest) { return std::isnormal(largest) ? std::clamp(std::ilogb(largest), -1000, 1000) : 0; }

@@ -5,13 +5,13 @@
 
 #include "base/error.hpp"
 #include "deform/moved_grips.hpp"
+#include "deform/node_rows.hpp"
 #include "deform/patch_reactions.hpp"
 
 namespace elastolab {
 
 namespace {
 
-/// Displacements and reactions, or changes of them.
 struct Change {
     Eigen::VectorXd displacements;
     Reactions reactions;
@@ -27,12 +27,16 @@ Change change_along(const Deformer& deformer, const Eigen::VectorXd& values, con
     const Approach here{.start = answer.equilibrium};
     Change change{deformer.drag_response(values, along, control, kSolveTolerance, here).X.col(0), {}};
     change.reactions.forces = deformer.answer(values, {.along = along}, control, here).force_changes.front();
+    // Moments are of forces at present positions, which change as well.
     change.reactions.moments = change.reactions.forces;
     const Positions& rest = deformer.model().body().surface->vertices;
     const std::vector<int> constrained = joined(deformer.set().fixed, deformer.set().handles);
     for (Eigen::Index i = 0; i < change.reactions.moments.cols(); ++i) {
-        const Eigen::Vector3d at = rest.col(constrained[static_cast<std::size_t>(i)]);
-        change.reactions.moments.col(i) = at.cross(change.reactions.forces.col(i).eval());
+        const int v = constrained[static_cast<std::size_t>(i)];
+        const Eigen::Vector3d at = rest.col(v) + answer.displacements.segment<3>(3 * v),
+                              moves = change.displacements.segment<3>(3 * v), force = answer.reactions.forces.col(i),
+                              more = change.reactions.forces.col(i);
+        change.reactions.moments.col(i) = at.cross(more) + moves.cross(force);
     }
     return change;
 }
@@ -56,10 +60,9 @@ void correct(DiscretisationCheck& check, const Deformer& deformer, const Eigen::
     check.displacement_error += change.displacements;
     check.reaction_error.forces += change.reactions.forces;
     check.reaction_error.moments += change.reactions.moments;
-    const double size = answer.displacements.reshaped(3, answer.displacements.size() / 3).colwise().norm().maxCoeff();
-    Eigen::Index worst = 0;
-    const double off =
-        check.displacement_error.reshaped(3, check.displacement_error.size() / 3).colwise().norm().maxCoeff(&worst);
+    Eigen::Index moving_most = 0, worst = 0;
+    const double size = largest_motion(answer.displacements, moving_most),
+                 off = largest_motion(check.displacement_error, worst);
     if (!(size > 0.0)) return;
     check.relative_error = off / size;
     check.vertex = static_cast<int>(worst);
@@ -68,6 +71,14 @@ void correct(DiscretisationCheck& check, const Deformer& deformer, const Eigen::
 }
 
 }  // namespace
+
+GripsInPlace in_place(const GripStiffness& stiffness) {
+    return {stiffness.grips(), std::vector<GripPlace>(stiffness.grips().size()), stiffness.matrix()};
+}
+
+GripsInPlace in_place(const GripEquilibrium& equilibrium) {
+    return {equilibrium.grips, equilibrium.places, equilibrium.tangent.stiffness()};
+}
 
 void correct_check(const Deformer& deformer, const Eigen::VectorXd& values, const GripsInPlace& grips,
                    Deformer::Answer& answer, Control& control) {

@@ -6,6 +6,7 @@
 #include "base/control.hpp"
 #include "deform/deformer.hpp"
 #include "deform/grip.hpp"
+#include "deform/grip_equilibrium.hpp"
 #include "deform/grip_tangent.hpp"
 
 namespace elastolab {
@@ -16,6 +17,9 @@ struct GripsInPlace {
     std::vector<GripPlace> places;  ///< at rest by methods that are linear
     Eigen::MatrixXd stiffness;      ///< GripStiffness::matrix, or GripTangent::stiffness without springs
 };
+GripsInPlace in_place(const GripStiffness& stiffness);
+/// equilibrium: without springs
+GripsInPlace in_place(const GripEquilibrium& equilibrium);
 
 /// Corrects the check of an answer in which some grips are under forces. It compares with a better answer to the same
 /// motions, which takes other forces there; under the same forces the grips of the better answer are elsewhere: to

@@ -31,4 +31,11 @@ inline Eigen::MatrixXd unit_forces(std::span<const int> nodes, Eigen::Index n_no
     return forces;
 }
 
+/// The node that moves most, and how far; u: 3*n_nodes.
+inline double largest_motion(const Eigen::VectorXd& u, Eigen::Index& node) {
+    return u.size() == 0
+               ? 0.0
+               : Eigen::Map<const Eigen::Matrix3Xd>(u.data(), 3, u.size() / 3).colwise().norm().maxCoeff(&node);
+}
+
 }  // namespace elastolab

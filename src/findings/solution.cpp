@@ -163,16 +163,17 @@ Findings findings_of_answer(const Deformer& deformer, const Deformer::Answer& an
     if (has_limit && answer.check->relative_force_error > *method->reported_error)
         findings.push_back(
             {.kind = FindingKind::coarse_forces, .value = answer.check->relative_force_error, .method = method});
-    const SurfaceMesh& surface = *deformer.model().body().surface;
-    const auto n_constrained = static_cast<int>(deformer.set().fixed.size() + deformer.set().handles.size());
-    const bool more_rims_help = !method->chooses_rims || triangles_across(surface) >= kFewTrianglesAcross;
-    if (has_limit && answer.check->relative_error > *method->reported_error)
+    if (has_limit && answer.check->relative_error > *method->reported_error) {
+        const SurfaceMesh& surface = *deformer.model().body().surface;
+        const auto n_constrained = static_cast<int>(deformer.set().fixed.size() + deformer.set().handles.size());
+        const bool advice_helps = !method->chooses_rims || triangles_across(surface) >= kFewTrianglesAcross;
         findings.push_back({.kind = FindingKind::coarse_mesh,
                             .value = answer.check->relative_error,
                             .method = method,
                             .place = surface.vertices.col(answer.check->vertex),
                             .first = answer.check->vertex,
-                            .second = more_rims_help ? n_constrained : 0});
+                            .second = advice_helps ? n_constrained : 0});
+    }
     if (answer.residual && !(*answer.residual < kLargeResidual))
         findings.push_back(
             {.kind = FindingKind::large_residual, .value = *answer.residual, .object = deformer.model().body().name});

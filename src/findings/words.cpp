@@ -90,7 +90,7 @@ std::string weak_hold(const Finding& finding) {
 
 std::string coarse_mesh(const Finding& finding) {
     const std::string advice(finding.second == 0 ? "Refine the mesh." : finding.method->against_coarseness);
-    return std::string(finding.method->name) + ": displacements are off by about " + percent(finding.value) +
+    return std::string(finding.method->name) + ": displacements" + std::string(kAreOffBy) + percent(finding.value) +
            " of the largest near " + place_of(finding) + ": the mesh is too coarse there. " + advice;
 }
 
@@ -129,7 +129,7 @@ std::string thin_sheets(const Finding& finding) {
 }
 
 std::string coarse_forces(const Finding& finding) {
-    return std::string(finding.method->name) + ": forces are off by about " + percent(finding.value) +
+    return std::string(finding.method->name) + ": forces" + std::string(kAreOffBy) + percent(finding.value) +
            " of the largest at fixed sets and handles: the mesh is too coarse for them. " +
            std::string(finding.method->against_coarseness);
 }

@@ -67,7 +67,7 @@ Approach approach_to(const Constraints& constraints, const SurfaceMesh& surface)
 }
 
 /// Handles under a force in equilibrium: the way to the answer, what was iterated for it, and the handles as grips.
-struct Taken {
+struct PlacedHandles {
     Approach approach;
     int iterations = 0;
     GripsInPlace grips = {};
@@ -75,30 +75,27 @@ struct Taken {
 
 /// Moves the handles under a force to where they are in equilibrium: in the constraints of the simulated surface, and
 /// in those of the shown one, if that is another.
-Taken take_equilibrium(const Deformer& deformer, Constraints& constraints, Constraints* shown,
-                       const Positions& vertices, Control& control) {
+PlacedHandles take_equilibrium(const Deformer& deformer, Constraints& constraints, Constraints* shown,
+                               const Positions& vertices, Control& control) {
     const SurfaceMesh& surface = *deformer.model().body().surface;
-    Taken taken{.approach = approach_to(constraints, surface)};
-    if (!constraints.has_forces()) return taken;
-    taken.grips.grips = constraints.grips();
+    PlacedHandles placed{.approach = approach_to(constraints, surface)};
+    if (!constraints.has_forces()) return placed;
     std::vector<AffineMotion> motions;
     if (deformer.linear()) {
         const GripStiffness stiffness(deformer, constraints.values, constraints.grips(), control);
         motions = constraints.move_grips(stiffness, surface.vertices);
-        taken.grips.places.resize(taken.grips.grips.size());
-        taken.grips.stiffness = stiffness.matrix();
+        placed.grips = in_place(stiffness);
     } else {
         const GripEquilibrium found = find_grip_equilibrium(deformer, constraints.values, constraints.grips(),
-                                                            constraints.grip_forces(), control, taken.approach);
+                                                            constraints.grip_forces(), control, placed.approach);
         motions = constraints.move_grips(found.places, surface.vertices);
-        taken.approach = {found.equilibrium, {}};
-        taken.iterations = found.iterations;
-        taken.grips.places = found.places;
-        taken.grips.stiffness = found.tangent.stiffness();
+        placed.approach = {found.equilibrium, {}};
+        placed.iterations = found.iterations;
+        placed.grips = in_place(found);
     }
     const std::vector<std::size_t> handles = constraints.gripped();
     for (std::size_t g = 0; g < handles.size() && shown != nullptr; ++g) shown->move(handles[g], motions[g], vertices);
-    return taken;
+    return placed;
 }
 
 void append(Findings& all, const Findings& more) { all.insert(all.end(), more.begin(), more.end()); }
@@ -174,12 +171,12 @@ void apply(Constraints& constraints, Constraints* shown, bool with_checks, Solut
         const Stage stage("constrain", control, solution.stages);
         deformer.constrain(constraints.set, control);
     }
-    Taken taken;
+    PlacedHandles placed;
     {
         const Stage stage("displace", control, solution.stages);
-        taken = take_equilibrium(deformer, constraints, shown, solution.surface->vertices, control);
+        placed = take_equilibrium(deformer, constraints, shown, solution.surface->vertices, control);
         const Deformer::Answer answer =
-            deformer.answer(constraints.values, {.residual = with_checks}, control, taken.approach);
+            deformer.answer(constraints.values, {.residual = with_checks}, control, placed.approach);
         solution.displacement =
             Eigen::Map<const Eigen::Matrix3Xd>(answer.displacements.data(), 3, answer.displacements.size() / 3);
         solution.simulated_displacement = answer.displacements;
@@ -193,7 +190,7 @@ void apply(Constraints& constraints, Constraints* shown, bool with_checks, Solut
         solution.fixed_reactions = totals(fixed_sets, answer.reactions);
         solution.residual = answer.residual;
         solution.facts = answer.facts;
-        if (solution.facts) solution.facts->iterations += taken.iterations;
+        if (solution.facts) solution.facts->iterations += placed.iterations;
         if (answer.facts && !answer.facts->stable)
             solution.findings.push_back(
                 {.kind = FindingKind::unstable_equilibrium, .method = solution.model->method().kind});
@@ -214,7 +211,7 @@ void apply(Constraints& constraints, Constraints* shown, bool with_checks, Solut
         const Stage stage("check", control, solution.stages);
         solution.predicted.memory_bytes += deformer.predict_check_memory(constraints.set);
         Deformer::Answer answer = deformer.answer(constraints.values, {.check = true}, control);
-        correct_check(deformer, constraints.values, taken.grips, answer, control);
+        correct_check(deformer, constraints.values, placed.grips, answer, control);
         if (answer.check) {
             solution.error_estimate = answer.check->relative_error;
             if (std::isfinite(answer.check->relative_force_error))

@@ -11,6 +11,7 @@
 #include "fem/quadratic/method.hpp"
 #include "findings/words.hpp"
 #include "methods/registry.hpp"
+#include "scene/held_bar.hpp"
 #include "scene/live/live_scene.hpp"
 #include "scene/live/simulation.hpp"
 #include "scene/solve.hpp"
@@ -19,14 +20,13 @@
 namespace elastolab {
 namespace {
 
-/// A bar of 4 x 1 x 1 along x, fixed at x = 0, whose other end is a handle under a force across.
-Document gripped_bar(int resolution, double force = 1.0) {
-    Document document;
-    document.mesh = Primitive{.name = "beam", .resolution = resolution, .size = {}};
-    document.material = {1e4, 0.3};
-    document.fixed = {{.name = "wall", .select = {PlaneSelector{{0, 0, 0}, {1, 0, 0}, 1e-9}}}};
-    document.handles = {{.name = "end", .select = {PlaneSelector{{4, 0, 0}, {1, 0, 0}, 1e-9}}}};
-    document.handles[0].force = GripForce{{0, 0, force}, {0, 0, 0}};
+constexpr double kForce = 1.0;
+
+/// A bar whose end is a handle under a force across.
+Document gripped_bar(int cells) {
+    Document document = held_bar(1e4, cells);
+    document.handles = {{.name = "end", .select = end_of_bar()}};
+    document.handles[0].force = GripForce{{0, 0, kForce}, {0, 0, 0}};
     return document;
 }
 
@@ -96,7 +96,7 @@ TEST_F(GripEstimate, IsToldInTheWindowToo) {
         };
         rest();
         if (later) {
-            scene.set_force(0, GripForce{{0, 0, 1.0}, {0, 0, 0}});
+            scene.set_force(0, GripForce{{0, 0, kForce}, {0, 0, 0}});
             rest();
         }
         EXPECT_THAT(words(simulation.answer(kFem).findings()),

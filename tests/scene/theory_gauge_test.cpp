@@ -7,6 +7,7 @@
 #include "fem/quadratic/method.hpp"
 #include "findings/words.hpp"
 #include "methods/registry.hpp"
+#include "scene/held_bar.hpp"
 #include "scene/live/live_scene.hpp"
 #include "scene/live/simulation.hpp"
 #include "scene/solve.hpp"
@@ -15,20 +16,13 @@
 namespace elastolab {
 namespace {
 
-/// A bar of 4 x 1 x 1 along x, fixed at x = 0. Its shear modulus is about 0.77.
-Document bar(double young_modulus = 2.0) {
-    Document document;
-    document.mesh = Primitive{.name = "beam", .resolution = 2, .size = {}};
-    document.material = {young_modulus, 0.3};
-    document.fixed = {{.name = "wall", .select = {PlaneSelector{{0, 0, 0}, {1, 0, 0}, 1e-9}}}};
-    return document;
-}
+/// Its shear modulus is about 0.77.
+Document bar(double young_modulus = 2.0) { return held_bar(young_modulus, 2); }
 
 /// Its other end is pushed up by this force.
 Document pushed_bar(double force, double young_modulus = 2.0) {
     Document document = bar(young_modulus);
-    document.loads = {
-        {.name = "push", .select = {PlaneSelector{{4, 0, 0}, {1, 0, 0}, 1e-9}}, .value = ForceLoad{{0, 0, force}}}};
+    document.loads = {{.name = "push", .select = end_of_bar(), .value = ForceLoad{{0, 0, force}}}};
     return document;
 }
 
@@ -65,9 +59,8 @@ TEST(TheoryGauge, OfALoadGoesByTheLoadOverTheStiffness) {
 /// No body has an equilibrium whose end is pressed to a point.
 TEST(TheoryGauge, TellsWhereABodyWouldBeCrushed) {
     Document document = bar();
-    document.handles = {{.name = "end",
-                         .select = {PlaneSelector{{4, 0, 0}, {1, 0, 0}, 1e-9}},
-                         .motion = AffineMotion{.matrix = -Eigen::Matrix3d::Identity()}}};
+    document.handles = {
+        {.name = "end", .select = end_of_bar(), .motion = AffineMotion{.matrix = -Eigen::Matrix3d::Identity()}}};
     const Solution crushed = ten_nodes(document, kGalerkinBem);
     EXPECT_FALSE(crushed.linear_theory_error);
     EXPECT_THAT(words(crushed.findings), testing::Contains(testing::HasSubstr("finds no equilibrium")));

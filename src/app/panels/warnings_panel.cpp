@@ -6,7 +6,6 @@
 #include <cmath>
 #include <filesystem>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -62,9 +61,9 @@ bool fits_in_a_line(const std::string& text, float width) {
 
 /// As much of the text as a line of this window holds, and how far something is off before the end of that.
 std::string first_line(const std::string& text, float width) {
-    constexpr std::string_view kWordy = " are off by about ", kShort = " off by ";
     std::string line = kFolded + text.substr(0, text.find('\n'));
-    if (const std::size_t at = line.find(kWordy); at != std::string::npos) line.replace(at, kWordy.size(), kShort);
+    if (const std::size_t at = line.find(kAreOffBy); at != std::string::npos)
+        line.replace(at, kAreOffBy.size(), kOffBy);
     while (ImGui::CalcTextSize((line + " ...").c_str()).x > room_in(width)) {
         const std::size_t space = line.find_last_of(' ');
         if (space == std::string::npos || space < 3) break;

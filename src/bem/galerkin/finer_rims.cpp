@@ -91,12 +91,13 @@ SurfaceSet::SurfaceSet(const SurfaceMesh& surface, std::vector<int> constrained,
       shares(nodal_shares(surface.vertices, vertices)) {}
 
 FinerRims::FinerRims(const SurfaceMesh& body, std::span<const int> constrained, std::span<const UnitLoad> unit_loads,
-                     int rows, LoneVertices lone, Halved halve)
+                     int rows, LoneVertices lone, Halved halved_triangles)
     : surface(unrefined(body)) {
     const std::vector<char> of_body = marked_vertices(body, constrained), inside = constrained_triangles(body, of_body);
     if (rows > 0) {
-        std::vector<char> around(of_body.size(), halve == Halved::all ? 1 : 0);
-        if (halve == Halved::none && lone == LoneVertices::refined) around = lone_vertices(body, of_body, inside);
+        std::vector<char> around(of_body.size(), halved_triangles == Halved::all ? 1 : 0);
+        if (halved_triangles == Halved::none && lone == LoneVertices::refined)
+            around = lone_vertices(body, of_body, inside);
         const RefinedSurface halved = halved_around(body, around);
         surface = add_rows_along_rim(halved, inside, rows, may_be_cut, kReentrant);
         if (surface.mesh.n_triangles() > (1 + kMostAdded * rows) * halved.mesh.n_triangles())

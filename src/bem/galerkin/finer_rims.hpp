@@ -30,7 +30,7 @@ protected:
 /// the triangles around it, and has no limit as they become smaller.
 enum class LoneVertices { kept, refined };
 
-/// Which of the body's triangles are halved, besides the rows along the rims.
+/// Which of the body's triangles are halved (into four) before rows are added along the rims. Slivers never are.
 enum class Halved { none, all };
 
 /// The same set on a surface with rows of thin triangles along the rims of the constrained patches
@@ -46,7 +46,7 @@ struct FinerRims : SurfaceSet {
 
     /// rows: along the rims, on each side
     FinerRims(const SurfaceMesh& body, std::span<const int> vertices, std::span<const UnitLoad> loads, int rows,
-              LoneVertices lone, Halved halved = Halved::none);
+              LoneVertices lone, Halved halved_triangles = Halved::none);
 };
 
 }  // namespace elastolab

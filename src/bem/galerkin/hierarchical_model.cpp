@@ -93,12 +93,13 @@ std::uint64_t HierarchicalGalerkinModel::check_memory(std::span<const int> fixed
     const ClosedSurfaces surfaces(*surface_);
     const GalerkinTractions tractions(*surface_, surfaces, vertices);
     const std::int64_t n_loaded = tractions.n_loaded(surfaces);
+    const std::uint64_t halved = galerkin_halved_memory(*surface_, method_, vertices);
     if (method_.rims == 0)
-        return std::max(galerkin_reference_memory(*surface_, method_, vertices),
-                        galerkin_residual_memory(*surface_, n_loaded));
+        return std::max({halved, galerkin_reference_memory(*surface_, method_, vertices),
+                         galerkin_residual_memory(*surface_, n_loaded)});
     const FinerRims rims(*surface_, vertices, {}, method_.rims, LoneVertices::kept);
-    return std::max(galerkin_answer_memory(*surface_, method_, n_loaded, tractions.size()),
-                    galerkin_residual_memory(rims.surface.mesh, n_loaded + rims.n_constrained_triangles));
+    return std::max({halved, galerkin_answer_memory(*surface_, method_, n_loaded, tractions.size()),
+                     galerkin_residual_memory(rims.surface.mesh, n_loaded + rims.n_constrained_triangles)});
 }
 
 }  // namespace elastolab

@@ -171,11 +171,13 @@ std::uint64_t GalerkinModel::check_memory(std::span<const int> fixed, std::span<
     const SurfaceMesh& mesh = system_->boundary().mesh();
     const GalerkinTractions tractions(mesh, system_->surfaces(), vertices);
     const std::int64_t n_loaded = tractions.n_loaded(system_->surfaces());
+    const std::uint64_t halved = galerkin_halved_memory(mesh, method_, vertices);
     if (method_.rims == 0)
-        return std::max(galerkin_reference_memory(mesh, method_, vertices), galerkin_residual_memory(mesh, n_loaded));
+        return std::max(
+            {halved, galerkin_reference_memory(mesh, method_, vertices), galerkin_residual_memory(mesh, n_loaded)});
     const FinerRims rims(mesh, vertices, {}, method_.rims, LoneVertices::kept);
-    return std::max(galerkin_direct_memory(system_->size(), tractions.size()),
-                    galerkin_residual_memory(rims.surface.mesh, n_loaded + rims.n_constrained_triangles));
+    return std::max({halved, galerkin_direct_memory(system_->size(), tractions.size()),
+                     galerkin_residual_memory(rims.surface.mesh, n_loaded + rims.n_constrained_triangles)});
 }
 
 void GalerkinModel::visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const {

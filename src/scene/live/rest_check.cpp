@@ -14,11 +14,9 @@ constexpr double kRestSeconds = 0.7;
 void correct_for(const std::vector<Grip>& grips, const GripStiffness* made, const Deformer& deformer,
                  const Eigen::VectorXd& values, Deformer::Answer& answer, Control& control) {
     if (grips.empty() || !deformer.linear()) return;
-    const std::vector<GripPlace> at_rest(grips.size());
-    if (made != nullptr && made->grips() == grips)
-        return correct_check(deformer, values, {grips, at_rest, made->matrix()}, answer, control);
-    const GripStiffness stiffness(deformer, values, grips, control);
-    correct_check(deformer, values, {grips, at_rest, stiffness.matrix()}, answer, control);
+    const bool is_made = made != nullptr && made->grips() == grips;
+    correct_check(deformer, values, in_place(is_made ? *made : GripStiffness(deformer, values, grips, control)), answer,
+                  control);
 }
 
 }  // namespace

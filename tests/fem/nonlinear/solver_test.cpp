@@ -226,7 +226,6 @@ TEST(NonlinearSolver, ACompressedBarBucklesRatherThanStaysStraight) {
     EXPECT_GT(u.bottomRows(2).cwiseAbs().maxCoeff(), 0.5);
 }
 
-/// Half of the bar is prescribed as its mirror image.
 /// A compressed bar, whose tangent is projected: four times as many steps as with the true one, unless fewer are
 /// wanted.
 TEST(NonlinearSolver, NewtonTakesNoMoreStepsThanAreWanted) {
@@ -244,6 +243,7 @@ TEST(NonlinearSolver, NewtonTakesNoMoreStepsThanAreWanted) {
     EXPECT_EQ(steps(3), 3);
 }
 
+/// Half of the bar is prescribed as its mirror image.
 TEST(NonlinearSolver, AHalfThatIsTurnedInsideOutHasNoEquilibriumAndSaysWhere) {
     const auto elements = elements_of_box({4, 2, 2}, {2, 1, 1}, ElementDegree::linear);
     std::vector<int> nodes = test::nodes_where(*elements, [](const auto& p) { return p[0] == 0.0; });
