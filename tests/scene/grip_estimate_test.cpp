@@ -30,17 +30,10 @@ Document gripped_bar(int cells) {
     return document;
 }
 
-Solution result_by(const Document& document, MethodKind kind) {
-    Control control;
-    Method method{.kind = kind};
-    method.elements = ElementDegree::quadratic;
-    return solve({.scene_file = "scene.json", .document = document, .method = method}, control);
-}
-
 double reach_of(const Solution& solution) { return solution.displacement.colwise().norm().maxCoeff(); }
 
 struct GripEstimate : testing::Test {
-    static void SetUpTestSuite() { fine = reach_of(result_by(gripped_bar(6), kQuadraticFem)); }
+    static void SetUpTestSuite() { fine = reach_of(ten_nodes(gripped_bar(6), kQuadraticFem)); }
     /// The end moves most, and that is what is off most.
     static double error(const Solution& solution) { return std::abs(reach_of(solution) - fine) / fine; }
     static double fine;
@@ -49,7 +42,7 @@ double GripEstimate::fine = 0.0;
 
 TEST_F(GripEstimate, OfDisplacementsIsThatOfTheStiffness) {
     for (const MethodKind kind : {kFem, kConstantBem, kLinearBem, kGalerkinBem, kQuadraticFem, kNonlinearFem}) {
-        const Solution solution = result_by(gripped_bar(3), kind);
+        const Solution solution = ten_nodes(gripped_bar(3), kind);
         ASSERT_TRUE(solution.error_estimate && solution.force_error_estimate) << name(kind);
         const std::string found = std::string(name(kind)) + ": off by " + std::to_string(error(solution)) + ", told " +
                                   std::to_string(*solution.error_estimate);
@@ -64,7 +57,7 @@ TEST_F(GripEstimate, OfDisplacementsIsThatOfTheStiffness) {
 /// Too few triangles across make a bar too stiff all along, of which rims show little, and finer rims change little.
 TEST_F(GripEstimate, OfGalerkinSeesBarsOfFewTrianglesAcross) {
     for (const int cells : {1, 2, 3}) {
-        const Solution solution = result_by(gripped_bar(cells), kGalerkinBem);
+        const Solution solution = ten_nodes(gripped_bar(cells), kGalerkinBem);
         EXPECT_GT(*solution.error_estimate, error(solution) / 1.5) << cells;
         EXPECT_LT(*solution.error_estimate, error(solution) * 1.5) << cells;
         EXPECT_THAT(words(solution.findings), testing::Not(testing::Contains(testing::HasSubstr("finer rims"))));
@@ -76,10 +69,10 @@ TEST_F(GripEstimate, OfGalerkinSeesBarsOfFewTrianglesAcross) {
 /// Forces balance those that are given, however stiff the elements are.
 TEST_F(GripEstimate, OfForcesIsSmallWhereTheyBalance) {
     for (const MethodKind kind : {kFem, kGalerkinBem, kQuadraticFem, kNonlinearFem}) {
-        const Solution solution = result_by(gripped_bar(2), kind);
+        const Solution solution = ten_nodes(gripped_bar(2), kind);
         EXPECT_LT(solution.force_error_estimate.value(), 0.05) << name(kind);
     }
-    EXPECT_GT(result_by(gripped_bar(2), kFem).error_estimate.value(), 0.2);
+    EXPECT_GT(ten_nodes(gripped_bar(2), kFem).error_estimate.value(), 0.2);
 }
 
 /// What a person reads in the window, whether the handle was under a force from the beginning or came to be later.

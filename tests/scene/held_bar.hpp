@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scene/document.hpp"
+#include "scene/solve.hpp"
 
 namespace elastolab {
 
@@ -14,5 +15,13 @@ inline Document held_bar(double young_modulus, int cells) {
 }
 /// Its other end.
 inline Selector end_of_bar() { return {PlaneSelector{{4, 0, 0}, {1, 0, 0}, 1e-9}}; }
+
+/// Solved, by ten nodes where the method has a choice of elements.
+inline Solution ten_nodes(const Document& document, MethodKind kind) {
+    Control control;
+    Method method{.kind = kind};
+    method.elements = ElementDegree::quadratic;
+    return solve({.scene_file = "scene.json", .document = document, .method = method}, control);
+}
 
 }  // namespace elastolab

@@ -26,13 +26,6 @@ Document pushed_bar(double force, double young_modulus = 2.0) {
     return document;
 }
 
-Solution ten_nodes(const Document& document, MethodKind kind) {
-    Control control;
-    Method method{.kind = kind};
-    method.elements = ElementDegree::quadratic;
-    return solve({.scene_file = "scene.json", .document = document, .method = method}, control);
-}
-
 double largest(const Eigen::Matrix3Xd& u) { return u.colwise().norm().maxCoeff(); }
 
 /// The mesh is so coarse that it is gauged itself, with elements of the same kind: both answers are known.
