@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cstdlib>
 #include <mutex>
+#include <string>
 
 #include "base/instruction_set.hpp"
 #include "base/machine.hpp"
@@ -28,6 +29,10 @@ bool is_outdated(const std::string& kernels) {
     return std::any_of(kOld.begin(), kOld.end(), [&](const char* old) { return kernels.rfind(old, 0) == 0; });
 }
 
+/// glibc's heaps: huge pages, and no more heaps than cores (its choice is eight for each), as none gives its memory to
+/// another.
+std::string heaps() { return "glibc.malloc.hugetlb=1:glibc.malloc.arena_max=" + std::to_string(available_cores()); }
+
 /// The best kernels that this CPU can run; null where the library's own choice is to stay.
 const char* fitting_kernels() {
     const InstructionSet set = best_instruction_set();
@@ -46,7 +51,7 @@ void prepare_parallel_libraries(char** argv) {
     if (is_outdated(blas_kernels())) set_where_unset("OPENBLAS_CORETYPE", fitting_kernels());
     set_where_unset("OMP_WAIT_POLICY", "passive");
     set_where_unset("OPENBLAS_THREAD_TIMEOUT", "12");  // its threads look for more work for 2^12 cycles, not for 2^26
-    set_where_unset("GLIBC_TUNABLES", "glibc.malloc.hugetlb=1");
+    set_where_unset("GLIBC_TUNABLES", heaps().c_str());
     if (changed) restart(argv);  // on failure all is slower, and reports say which kernels run
     if (openblas_get_num_threads() > thread_count()) set_thread_count(thread_count());  // it knows of no quota
 }

@@ -13,7 +13,9 @@ namespace elastolab {
 ///                      10 times as long, in steps of the scheduler's 4 ms
 ///   OPENBLAS_THREAD_TIMEOUT  12: OpenBLAS's threads sleep as well, after some microseconds instead of 27 ms. Alone the
 ///                      program is as fast; beside others it takes up to 40 % less of the processors
-///   GLIBC_TUNABLES     huge pages for large matrices (glibc.malloc.hugetlb=1): a tenth less time at 1000 vertices
+///   GLIBC_TUNABLES     huge pages for large matrices (glibc.malloc.hugetlb=1): a tenth less time at 1000 vertices;
+///                      and no more heaps than cores (arena_max), where a viewer of a small body at rest held up to
+///                      100 MB that had been freed
 void prepare_parallel_libraries(char** argv);
 
 /// Name of the kernels that run, as OpenBLAS calls them (e.g. "Zen", "SkylakeX", "Haswell").

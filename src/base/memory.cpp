@@ -1,5 +1,6 @@
 #include "base/memory.hpp"
 
+#include <malloc.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -67,5 +68,7 @@ std::uint64_t resident_memory_bytes() {
 std::uint64_t available_memory_bytes() {
     return std::min({system_available(), own_groups_available(), address_space_available()});
 }
+
+void return_freed_memory() { malloc_trim(0); }
 
 }  // namespace elastolab

@@ -14,4 +14,8 @@ std::uint64_t resident_memory_bytes();
 /// group and the limits of the address space and of data in it allow).
 std::uint64_t available_memory_bytes();
 
+/// Gives the system back what this process has freed and the allocator has kept. Milliseconds; for after work that took
+/// much memory once.
+void return_freed_memory();
+
 }  // namespace elastolab

@@ -1,10 +1,10 @@
 #include "study/peak_memory.hpp"
 
-#include <malloc.h>
-
 #include <fstream>
 #include <limits>
 #include <string>
+
+#include "base/memory.hpp"
 
 namespace elastolab {
 
@@ -20,7 +20,7 @@ double status_bytes(const std::string& key) {
 }  // namespace
 
 PeakMemory::PeakMemory() {
-    malloc_trim(0);
+    return_freed_memory();
     std::ofstream("/proc/self/clear_refs") << "5";  // resets VmHWM (proc(5))
     before_ = status_bytes("VmRSS");
 }

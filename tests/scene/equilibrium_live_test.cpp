@@ -86,7 +86,7 @@ TEST_F(LiveEquilibrium, TheNewestWishIsServedWhateverWasWishedBefore) {
 
 /// A body whose equilibria take long enough.
 TEST_F(LiveEquilibrium, AFarMotionIsFollowedByStepsWhichAreShown) {
-    scene = bar(kEnd, 4);
+    scene = bar(kEnd, 5);
     bench.settle(scene);
     ask(twist(90));
     EXPECT_TRUE(runner().following());

@@ -1,5 +1,6 @@
 #include "scene/live/rest_check.hpp"
 
+#include "base/memory.hpp"
 #include "deform/grip_check.hpp"
 #include "findings/solution.hpp"
 
@@ -9,6 +10,11 @@ namespace {
 
 /// An answer that has rested this long is worth checking.
 constexpr double kRestSeconds = 0.7;
+
+/// The second answer of a check may take many times what is held.
+struct MemoryReturn {
+    ~MemoryReturn() { return_freed_memory(); }
+};
 
 /// By methods that are not linear handles under a force are judged as if they were moved.
 void correct_for(const std::vector<Grip>& grips, const GripStiffness* made, const Deformer& deformer,
@@ -37,6 +43,7 @@ void RestCheck::begin_at_rest(const std::shared_ptr<const Deformer>& deformer, c
     if (begun_ || job_.running() || rest_.seconds() < kRestSeconds) return;
     begun_ = true;
     job_.start([deformer, values, grips, stiffness](Control& control) {
+        const MemoryReturn when_done_or_cancelled;
         Deformer::Answer answer = deformer->answer(values, {.residual = true, .check = true}, control);
         correct_for(grips, stiffness.get(), *deformer, values, answer, control);
         return findings_of_answer(*deformer, answer);
