@@ -27,7 +27,7 @@ GripsInPlace in_place(const GripEquilibrium& equilibrium);
 /// of forces. (A stiffness that is off by a factor r: the correction over the answer is |1 - r|, as is the error over
 /// the better answer.)
 /// values, answer: of the deformer, grips included, `answer.check` asked for; without one nothing is done, and where
-/// that motion cannot be solved for, there is none afterwards Throws Cancelled.
+/// that motion cannot be solved for, there is none afterwards. Throws Cancelled.
 void correct_check(const Deformer& deformer, const Eigen::VectorXd& values, const GripsInPlace& grips,
                    Deformer::Answer& answer, Control& control);
 

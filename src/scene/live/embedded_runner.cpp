@@ -102,6 +102,12 @@ void EmbeddedRunner::prefetch(const Constraints& constraints) {
     runner_.prefetch(prefetched_->constraints().set);
 }
 
+/// Handles that nothing holds are where the scene has them, as if they were moved.
+void EmbeddedRunner::check_at_rest() {
+    if (placing_grips()) return;
+    runner_.check_at_rest([this] { return asked_ ? placer_.in_place() : GripsInPlace{}; });
+}
+
 const Eigen::VectorXd& EmbeddedRunner::displacement() const {
     const Eigen::VectorXd& own = runner_.displacement();
     if (!carried_ || own.size() == 0) return own;

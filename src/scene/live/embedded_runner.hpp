@@ -51,6 +51,9 @@ public:
     /// Findings of the body that is computed on, and of its proxy; point constraints are those of the shown surface.
     Findings findings() const override;
 
+    /// MethodRunner::check_at_rest, once handles under a force are placed.
+    void check_at_rest();
+
     /// Where handles under a force have come to, in the order of Constraints::gripped(); empty until that is known.
     const std::vector<AffineMotion>& grip_motions() const { return grip_motions_; }
     /// Why they stay where the scene has them though their set is there; else empty.

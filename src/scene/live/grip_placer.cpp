@@ -53,6 +53,12 @@ std::optional<std::vector<AffineMotion>> GripPlacer::place_by_equilibria(Constra
     return constraints.move_grips(exact ? last->places : last->places_under(forces), vertices);
 }
 
+GripsInPlace GripPlacer::in_place() const {
+    if (!failure_.empty()) return {};
+    if (made_.equilibrium) return elastolab::in_place(*made_.equilibrium);
+    return made_.stiffness ? elastolab::in_place(*made_.stiffness) : GripsInPlace{};
+}
+
 void GripPlacer::follow(const Constraints& constraints) {
     const std::vector<Grip> grips = constraints.grips();
     const std::vector<GripForce> forces = constraints.grip_forces();

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "deform/grip.hpp"
+#include "deform/grip_check.hpp"
 #include "deform/grip_equilibrium.hpp"
 #include "scene/constraints.hpp"
 #include "scene/live/background_job.hpp"
@@ -29,6 +30,8 @@ public:
     std::optional<std::vector<AffineMotion>> place(const std::shared_ptr<const Deformer>& deformer,
                                                    Constraints constraints,
                                                    const std::shared_ptr<const GripStiffness>& made);
+    /// The handles where place() has put them, when it is not placing(); none where it has none.
+    GripsInPlace in_place() const;
     /// Whether place() would say something new.
     bool poll();
     /// No handle is under a force any more.

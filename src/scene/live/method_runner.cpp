@@ -180,9 +180,9 @@ std::shared_ptr<const Equilibrium> MethodRunner::equilibrium() const {
     return drag && solved_ && !following_ ? drag->equilibrium() : nullptr;
 }
 
-void MethodRunner::check_at_rest() {
+void MethodRunner::check_at_rest(const std::function<GripsInPlace()>& grips) {
     check_.poll();
-    if (unchecked() && converged()) check_.begin_at_rest(deformer(), values_, sets_.wanted_grips(), grips());
+    if (unchecked() && converged() && check_.due()) check_.begin(deformer(), values_, equilibrium(), grips());
 }
 
 Findings MethodRunner::findings() const {

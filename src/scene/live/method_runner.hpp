@@ -51,7 +51,8 @@ public:
 
     /// Once the answer has rested for a while: estimates in the background how far it can be trusted (residual, and
     /// what the coarseness of the mesh does). What is found is among findings() until the answer changes.
-    void check_at_rest();
+    /// grips: its handles under a force, asked for when the estimate begins.
+    void check_at_rest(const std::function<GripsInPlace()>& grips);
     bool unchecked() const { return state() == State::ready && has_motion() && !check_.done(); }
     Findings findings() const override;
 

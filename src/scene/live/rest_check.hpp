@@ -3,12 +3,11 @@
 #include <Eigen/Core>
 #include <functional>
 #include <memory>
-#include <vector>
 
 #include "base/timer.hpp"
 #include "deform/deformer.hpp"
 #include "deform/finding.hpp"
-#include "deform/grip.hpp"
+#include "deform/grip_check.hpp"
 #include "scene/live/background_job.hpp"
 
 namespace elastolab {
@@ -24,11 +23,12 @@ public:
     void restart();
     /// Takes over what was found. Once per frame.
     void poll();
-    /// Begins when the answer has rested long enough and was not checked yet. `values`: 3*n_handle_vertices [L], those
-    /// of the answer, as Deformer::displace takes them.
-    /// grips: its handles under a force; stiffness: of grips, of these or not, or null.
-    void begin_at_rest(const std::shared_ptr<const Deformer>& deformer, const Eigen::VectorXd& values,
-                       const std::vector<Grip>& grips, const std::shared_ptr<const GripStiffness>& stiffness);
+    /// Whether the answer has rested long enough and was not checked yet.
+    bool due() const { return !begun_ && !job_.running() && rest_.seconds() >= kRestSeconds; }
+    /// `values`: 3*n_handle_vertices [L], those of the answer, as Deformer::displace takes them.
+    /// start: the equilibrium that the answer is, of a method that is not linear. grips: its handles under a force.
+    void begin(const std::shared_ptr<const Deformer>& deformer, const Eigen::VectorXd& values,
+               const std::shared_ptr<const Equilibrium>& start, GripsInPlace grips);
     /// Whether nothing more will be found of this answer.
     bool done() const { return begun_ && !job_.running(); }
     /// What the person should know before believing the answer.
@@ -38,6 +38,7 @@ public:
     bool working() const { return job_.working(); }
 
 private:
+    static constexpr double kRestSeconds = 0.7;
     Stopwatch rest_;  ///< since the answer changed
     bool begun_ = false;
     Findings findings_;

@@ -67,7 +67,6 @@ public:
     const ConstrainedSet& wanted_set() const { return wanted_set_; }
     const Wish& wanted() const { return wanted_; }
     const Eigen::VectorXd& wanted_values() const { return wanted_.values; }
-    const std::vector<Grip>& wanted_grips() const { return wanted_grips_; }
     const std::vector<int>& handle_ends() const { return wanted_.ends; }
     /// True when the rule has changed.
     bool set_frame_rule(FrameRule rule);

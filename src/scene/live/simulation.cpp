@@ -197,7 +197,7 @@ bool Simulation::update(const LiveScene& scene, const std::vector<MethodKind>& s
         changed = changed || (present.previewing && (kind->linear ? preview_changed : finite_changed));
         waiting = waiting || present.runner->runner().precomputing();
     }
-    for (const MethodKind kind : shown) runner(kind).check_at_rest();
+    for (const MethodKind kind : shown) own(kind).check_at_rest();
     gauge_theory(scene);
     complete_one(choices);
     return changed;
