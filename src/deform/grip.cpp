@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "base/lapack.hpp"
+#include "deform/loose_motions.hpp"
 #include "deform/unit_load.hpp"
 
 namespace elastolab {
@@ -15,6 +16,9 @@ namespace {
 constexpr double kNoStiffness = 1e-10;
 /// Forces that no motion answers, over the forces.
 constexpr double kUnanswered = 1e-6;
+/// What holds a body by collocation, added up, over what it would be if nothing balanced; a few hundredths on coarse
+/// meshes.
+constexpr double kCollocationImbalance = 0.2;
 
 }  // namespace
 
@@ -57,7 +61,10 @@ Eigen::VectorXd GripArms::units() const {
 
 GripStiffness::GripStiffness(const Deformer& deformer, const Eigen::VectorXd& values, std::vector<Grip> grips,
                              Control& control)
-    : grips_(std::move(grips)), arms_(deformer, grips_) {
+    : grips_(std::move(grips)),
+      arms_(deformer, grips_),
+      loose_(loose_motions(deformer, grips_, arms_)),
+      imbalance_(deformer.model().method().kind->balances_forces ? kUnanswered : kCollocationImbalance) {
     assert(deformer.model().method().kind->linear);
     const Eigen::Index n = 6 * std::ssize(grips_);
     set_others(deformer, values, control);
@@ -119,10 +126,16 @@ Eigen::VectorXd GripStiffness::motions(const Eigen::VectorXd& forces, const Eige
     const Eigen::VectorXd unit = arms_.units();
     Eigen::MatrixXd held = matrix_;
     for (Eigen::Index g = 0; g < springs.size(); ++g) held.diagonal().segment<3>(6 * g).array() += springs[g];
-    const Eigen::MatrixXd scaled = unit.asDiagonal() * arms_.working(held) * unit.asDiagonal();
-    const Eigen::VectorXd wanted = unit.asDiagonal() * arms_.working(forces - rest_),
-                          asked = unit.asDiagonal() * forces;
+    Eigen::MatrixXd scaled = unit.asDiagonal() * arms_.working(held) * unit.asDiagonal();
+    Eigen::VectorXd wanted = unit.asDiagonal() * arms_.working(forces - rest_);
+    const Eigen::VectorXd asked = unit.asDiagonal() * forces;
     if ((arms_.inert.transpose() * asked).norm() > kUnanswered * asked.norm()) throw SolveError(kUnbalancedGrips);
+    if (springs.isZero(0.0)) {
+        const double most = kUnanswered * (wanted.norm() + asked.norm()) + imbalance_ * (wanted - asked).norm();
+        if ((loose_.transpose() * wanted).norm() > most) throw SolveError(kUnbalancedGrips);
+        scaled -= loose_ * (loose_.transpose() * scaled);
+        wanted -= loose_ * (loose_.transpose() * wanted);
+    }
     const Eigen::VectorXd motion = solve_minimum_norm(scaled, wanted, kNoStiffness).X;
     if (!((scaled * motion - wanted).norm() <= kUnanswered * (wanted.norm() + asked.norm())))
         throw SolveError(kUnbalancedGrips);

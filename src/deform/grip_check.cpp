@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 
 #include "base/error.hpp"
+#include "deform/loose_motions.hpp"
 #include "deform/moved_grips.hpp"
 #include "deform/node_rows.hpp"
 #include "deform/patch_reactions.hpp"
@@ -41,13 +42,25 @@ Change change_along(const Deformer& deformer, const Eigen::VectorXd& values, con
     return change;
 }
 
+/// What of a stiffness at rest is of motions that deform the body: by collocation, whose forces do not balance, there
+/// is more.
+Eigen::MatrixXd deforming(const Deformer& deformer, const GripsInPlace& grips, const GripArms& arms) {
+    const Eigen::VectorXd unit = arms.units();
+    const Eigen::MatrixXd loose = loose_motions(deformer, grips.grips, arms);
+    Eigen::MatrixXd scaled = unit.asDiagonal() * arms.working(grips.stiffness) * unit.asDiagonal();
+    scaled -= loose * (loose.transpose() * scaled);
+    scaled -= (scaled * loose) * loose.transpose();
+    return unit.cwiseInverse().asDiagonal() * scaled * unit.cwiseInverse().asDiagonal();
+}
+
 /// The motion of the grips that takes back the error of their forces.
 Eigen::VectorXd motion_for(const Deformer& deformer, const GripsInPlace& grips, const Eigen::Matrix3Xd& force_error,
                            Eigen::Index n_values) {
     const std::vector<GripForce> none(grips.grips.size());
     const MovedGrips moved(deformer, grips.grips, none);
-    const GripTangent tangent(GripArms(deformer, grips.grips).working(grips.stiffness), moved.length(),
-                              deformer.model().body().material.young_modulus, moved.body_is_held());
+    const GripArms arms(deformer, grips.grips);
+    const GripTangent tangent(deformer.linear() ? deforming(deformer, grips, arms) : arms.working(grips.stiffness),
+                              moved.length(), deformer.model().body().material.young_modulus, moved.body_is_held());
     const Eigen::VectorXd step = tangent.step(tangent.answered(-moved.resultants(grips.places, force_error)));
     const double part = deformer.linear() ? 1.0 : std::min(1.0, longest_step(grips.places, moved.length(), step));
     return moved.basis(grips.places, n_values) * (part * step);

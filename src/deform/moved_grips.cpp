@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <Eigen/Geometry>
 
-#include "deform/holds.hpp"
+#include "deform/loose_motions.hpp"
 #include "elasticity/rotation.hpp"
 
 namespace elastolab {
@@ -80,25 +80,7 @@ Eigen::VectorXd MovedGrips::wanted(const std::vector<GripPlace>& places) const {
     return all;
 }
 
-bool MovedGrips::body_is_held() const {
-    const Positions& all = deformer_.model().body().surface->vertices;
-    std::vector<char> kind(static_cast<std::size_t>(all.cols()), 0);  // 1: held, 2: of a grip
-    const ConstrainedSet& set = deformer_.set();
-    for (const int v : joined(set.fixed, set.handles)) kind[static_cast<std::size_t>(v)] = 1;
-    for (const Grip& grip : grips_)
-        for (int i = grip.begin; i < grip.end; ++i)
-            kind[static_cast<std::size_t>(set.handles[static_cast<std::size_t>(i)])] = 2;
-    return std::all_of(deformer_.model().parts().begin(), deformer_.model().parts().end(), [&](const auto& part) {
-        std::vector<int> held;
-        bool gripped = false;
-        for (std::size_t i = 0; i < part.vertices.size(); ++i) {
-            const char its = kind[static_cast<std::size_t>(part.vertices[i])];
-            if (its == 1) held.push_back(static_cast<int>(i));
-            gripped = gripped || its == 2;
-        }
-        return !gripped || holds(all(Eigen::all, part.vertices), held);
-    });
-}
+bool MovedGrips::body_is_held() const { return loose_motions(deformer_, grips_, rest_).cols() == 0; }
 
 Eigen::Matrix3Xd MovedGrips::present(const std::vector<GripPlace>& places, std::size_t grip) const {
     return rotation_by(places[grip].turn) * rest_.arms[grip];

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <iostream>
 
 #include "base/error.hpp"
 #include "bem/collocation/method.hpp"
@@ -9,6 +10,8 @@
 #include "fem/method.hpp"
 #include "fem/nonlinear/method.hpp"
 #include "fem/quadratic/method.hpp"
+#include "mesh/measures.hpp"
+#include "mesh/primitives.hpp"
 #include "methods/registry.hpp"
 #include "scene/loaded_cube.hpp"
 #include "scene/selectors.hpp"
@@ -230,6 +233,42 @@ TEST(SceneLoads, TwoHandlesThatPullAtAFreeBodyAreHeldByEachOther) {
     };
     EXPECT_NEAR(face(1.0) - face(0.0), 0.05, 0.01);  // 50 / (E A) times the length, less the clamped ends
     EXPECT_NEAR(face(1.0) + face(0.0), 0.0, 1e-10);
+}
+
+/// By collocation they balance up to its error, on a body without symmetry between its handles.
+TEST(SceneLoads, HandlesThatAloneHoldABodyTakeBalancedForcesByAllMethods) {
+    Document document;
+    document.mesh = Primitive{.name = "sphere", .resolution = 8, .size = {}};
+    document.material = {1e4, 0.3};
+    document.density = 20.0;
+    const auto add = [&](const std::string& name, const BoxSelector& box, const GripForce& force) {
+        document.handles.push_back({.name = name, .select = {box}});
+        document.handles.back().force = force;
+    };
+    const Eigen::Vector3d moment(100, -60, 40);
+    add("top", {{-1, -1, 0.8}, {1, 1, 1}}, {{0, 0, 0}, moment});
+    add("side", {{0.6, -1, -1}, {1, 1, 1}}, {{0, 0, 0}, -moment});
+    const auto largest = [](const Eigen::Matrix3Xd& u) { return u.colwise().norm().maxCoeff(); };
+    const auto compare = [&](const char* what) {
+        const Eigen::Matrix3Xd fine = solved(document, kQuadraticFem, false).displacement;
+        for (const MethodKind kind : {kConstantBem, kLinearBem, kGalerkinBem}) {
+            const Solution solution = solved(document, kind);
+            const double off = largest(solution.displacement - fine) / largest(fine);
+            const double told = solution.error_estimate.value();
+            std::cout << what << ", " << name(kind) << ": off by " << off << ", told " << told << '\n';
+            EXPECT_LT(off, kind->balances_forces ? 0.15 : 0.6) << what << ", " << name(kind);
+            EXPECT_GT(told, 0.3 * off) << what << ", " << name(kind);
+            EXPECT_LT(told, 3.0 * off) << what << ", " << name(kind);
+        }
+    };
+    compare("moments");
+    const double weight = 9.81 * document.density * enclosed_volume(make_sphere(8));
+    document.gravity = Eigen::Vector3d(0, 0, -9.81);
+    document.handles[0].force = GripForce{{0, 0, weight}, {0, 0, 0}};
+    document.handles[1].force = GripForce{};
+    compare("weight");
+    document.handles[0].force->force = {0, 0, 0.5 * weight};
+    EXPECT_THAT(refusal_of(document), HasSubstr("balance"));
 }
 
 TEST(SceneLoads, AreCarriedToAFilledSurface) {
