@@ -16,8 +16,8 @@ namespace {
 constexpr double kNoStiffness = 1e-10;
 /// Forces that no motion answers, over the forces.
 constexpr double kUnanswered = 1e-6;
-/// What holds a body by collocation, added up, over what it would be if nothing balanced; a few hundredths on coarse
-/// meshes.
+/// Up to here what the reactions to loads add up to, over their sizes, is an error of collocation, and no lack of
+/// balance. Constant elements exceed it on a bar of one cell across.
 constexpr double kCollocationImbalance = 0.2;
 
 }  // namespace

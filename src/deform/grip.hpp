@@ -85,7 +85,7 @@ private:
     std::vector<Grip> grips_;
     GripArms arms_;
     Eigen::MatrixXd loose_;   ///< loose_motions
-    double imbalance_ = 0.0;  ///< of what loads do without motion, over it: more is no error of the method
+    double imbalance_ = 0.0;  ///< of rest_, over its size, up to which it is an error of the method
     Eigen::VectorXd others_;  ///< the last values, zero for the grips
     Eigen::VectorXd rest_;    ///< forces without motion
     Eigen::MatrixXd matrix_;

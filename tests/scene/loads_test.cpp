@@ -236,7 +236,7 @@ TEST(SceneLoads, TwoHandlesThatPullAtAFreeBodyAreHeldByEachOther) {
 }
 
 /// By collocation they balance up to its error, on a body without symmetry between its handles.
-TEST(SceneLoads, HandlesThatAloneHoldABodyTakeBalancedForcesByAllMethods) {
+TEST(SceneLoads, HandlesThatAloneHoldABodyTakeBalancedForcesByBoundaryElements) {
     Document document;
     document.mesh = Primitive{.name = "sphere", .resolution = 8, .size = {}};
     document.material = {1e4, 0.3};
