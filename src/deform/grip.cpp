@@ -16,9 +16,15 @@ namespace {
 constexpr double kNoStiffness = 1e-10;
 /// Forces that no motion answers, over the forces.
 constexpr double kUnanswered = 1e-6;
-/// Up to here what the reactions to loads add up to, over their sizes, is an error of collocation, and no lack of
-/// balance. Constant elements exceed it on a bar of one cell across.
-constexpr double kCollocationImbalance = 0.2;
+
+/// Of the loads of a set, of size one.
+Eigen::VectorXd gross_forces(const Deformer& deformer) {
+    const std::vector<UnitLoad>& loads = deformer.set().loads;
+    Eigen::VectorXd sizes(std::ssize(loads));
+    for (Eigen::Index i = 0; i < sizes.size(); ++i)
+        sizes[i] = gross_force(*deformer.model().body().surface, loads[static_cast<std::size_t>(i)]);
+    return sizes;
+}
 
 }  // namespace
 
@@ -61,11 +67,11 @@ Eigen::VectorXd GripArms::units() const {
 
 GripStiffness::GripStiffness(const Deformer& deformer, const Eigen::VectorXd& values, std::vector<Grip> grips,
                              Control& control)
-    : grips_(std::move(grips)),
-      arms_(deformer, grips_),
-      loose_(loose_motions(deformer, grips_, arms_)),
-      imbalance_(deformer.model().method().kind->balances_forces ? kUnanswered : kCollocationImbalance) {
+    : grips_(std::move(grips)), arms_(deformer, grips_), load_size_(gross_forces(deformer)) {
     assert(deformer.model().method().kind->linear);
+    LooseMotions loose = loose_motions(deformer, grips_, arms_);
+    loose_ = std::move(loose.motions);
+    load_work_ = std::move(loose.work);
     const Eigen::Index n = 6 * std::ssize(grips_);
     set_others(deformer, values, control);
     matrix_.resize(n, n);
@@ -131,8 +137,10 @@ Eigen::VectorXd GripStiffness::motions(const Eigen::VectorXd& forces, const Eige
     const Eigen::VectorXd asked = unit.asDiagonal() * forces;
     if ((arms_.inert.transpose() * asked).norm() > kUnanswered * asked.norm()) throw SolveError(kUnbalancedGrips);
     if (springs.isZero(0.0)) {
-        const double most = kUnanswered * (wanted.norm() + asked.norm()) + imbalance_ * (wanted - asked).norm();
-        if ((loose_.transpose() * wanted).norm() > most) throw SolveError(kUnbalancedGrips);
+        const auto loads = others_.tail(load_size_.size());
+        const double size = asked.norm() + load_size_.dot(loads.cwiseAbs());
+        if ((loose_.transpose() * asked + load_work_ * loads).norm() > kUnanswered * size)
+            throw SolveError(kUnbalancedGrips);
         scaled -= loose_ * (loose_.transpose() * scaled);
         wanted -= loose_ * (loose_.transpose() * wanted);
     }

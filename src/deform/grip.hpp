@@ -71,8 +71,8 @@ public:
     /// The motions at which the grips exert these forces (6 k). Where the body is free to move with the grips, those
     /// without the motion that no force resists. Throws SolveError where no motion does: forces do not balance on a
     /// body that nothing else holds, or a grip of one vertex, or of some on a line, is to carry a moment.
-    /// By collocation, whose forces do not balance by themselves, a body that nothing else holds answers them up to a
-    /// resultant, which is an error of the method.
+    /// Whether they balance is judged by the loads themselves. By collocation, whose reactions to these do not balance,
+    /// a body that nothing else holds answers them up to a resultant, which is an error of the method.
     /// springs: one a grip [force / L], or none at all: a force is less by this times the shift of the grip's middle.
     Eigen::VectorXd motions(const Eigen::VectorXd& forces, const Eigen::VectorXd& springs = {}) const;
     /// Puts motions (6 k) into the grips' rows of a Deformer's values.
@@ -84,10 +84,11 @@ private:
 
     std::vector<Grip> grips_;
     GripArms arms_;
-    Eigen::MatrixXd loose_;   ///< loose_motions
-    double imbalance_ = 0.0;  ///< of rest_, over its size, up to which it is an error of the method
-    Eigen::VectorXd others_;  ///< the last values, zero for the grips
-    Eigen::VectorXd rest_;    ///< forces without motion
+    Eigen::MatrixXd loose_;      ///< motions that nothing but the grips holds
+    Eigen::MatrixXd load_work_;  ///< of loads of size one in these
+    Eigen::VectorXd load_size_;  ///< gross forces of these loads
+    Eigen::VectorXd others_;     ///< the last values, zero for the grips
+    Eigen::VectorXd rest_;       ///< forces without motion
     Eigen::MatrixXd matrix_;
 };
 

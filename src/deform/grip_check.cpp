@@ -46,7 +46,7 @@ Change change_along(const Deformer& deformer, const Eigen::VectorXd& values, con
 /// is more.
 Eigen::MatrixXd deforming(const Deformer& deformer, const GripsInPlace& grips, const GripArms& arms) {
     const Eigen::VectorXd unit = arms.units();
-    const Eigen::MatrixXd loose = loose_motions(deformer, grips.grips, arms);
+    const Eigen::MatrixXd loose = loose_motions(deformer, grips.grips, arms).motions;
     Eigen::MatrixXd scaled = unit.asDiagonal() * arms.working(grips.stiffness) * unit.asDiagonal();
     scaled -= loose * (loose.transpose() * scaled);
     scaled -= (scaled * loose) * loose.transpose();

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "base/lapack.hpp"
+#include "deform/load_parts.hpp"
 #include "deform/unit_load.hpp"
 
 namespace elastolab {
@@ -61,37 +62,61 @@ Eigen::MatrixXd of_grips(const Eigen::MatrixXd& rigid, const Eigen::Vector3d& ce
     return motions;
 }
 
-/// Orthonormal columns, as many as there are independent ones.
-Eigen::MatrixXd span_of(const Eigen::MatrixXd& columns) {
+/// Combinations of columns that are orthonormal, as many as there are independent ones: columns x n.
+Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns) {
     constexpr double kIndependent = 1e-6;  // columns are of a size of one
-    if (columns.cols() == 0) return columns;
+    if (columns.cols() == 0) return {};
     const SymmetricEigen products = symmetric_eigen(columns.transpose() * columns);
     const auto n = (products.values.array() > kIndependent * kIndependent).count();
-    return columns * products.vectors.rightCols(n) * products.values.tail(n).cwiseSqrt().cwiseInverse().asDiagonal();
+    return products.vectors.rightCols(n) * products.values.tail(n).cwiseSqrt().cwiseInverse().asDiagonal();
+}
+
+/// Force over moment about the centre (over the length) of each load of size one on one solid: 6 x loads.
+Eigen::MatrixXd resultants(const SurfaceMesh& surface, const std::vector<UnitLoad>& loads,
+                           const std::vector<int>& solid_of, int solid, const Eigen::Vector3d& centre, double length) {
+    std::vector<int> numbers(static_cast<std::size_t>(surface.n_triangles()), -1), own;
+    for (int t = 0; t < surface.n_triangles(); ++t) {
+        if (solid_of[static_cast<std::size_t>(surface.triangles(0, t))] != solid) continue;
+        numbers[static_cast<std::size_t>(t)] = static_cast<int>(own.size());
+        own.push_back(t);
+    }
+    const SurfaceMesh part{surface.vertices, surface.triangles(Eigen::all, own)};
+    Eigen::MatrixXd sums(6, std::ssize(loads));
+    for (Eigen::Index i = 0; i < sums.cols(); ++i) {
+        const Resultant sum = resultant(part, on_triangles(loads[static_cast<std::size_t>(i)], numbers));
+        sums.col(i) << sum.force, (sum.moment - centre.cross(sum.force)) / length;
+    }
+    return sums;
 }
 
 }  // namespace
 
-Eigen::MatrixXd loose_motions(const Deformer& deformer, const std::vector<Grip>& grips, const GripArms& arms) {
-    const Positions& all = deformer.model().body().surface->vertices;
-    const Eigen::Vector3d centre = all.rowwise().mean();
-    const std::vector<int> solid_of = joined_solids(deformer, grips), others = held_by_others(deformer.set(), grips);
+LooseMotions loose_motions(const Deformer& deformer, const std::vector<Grip>& grips, const GripArms& arms) {
+    const SurfaceMesh& surface = *deformer.model().body().surface;
+    const Eigen::Vector3d centre = surface.vertices.rowwise().mean();
+    const ConstrainedSet& set = deformer.set();
+    const std::vector<int> solid_of = joined_solids(deformer, grips), others = held_by_others(set, grips);
     std::vector<int> solids;  // of the grips
     for (const Grip& grip : grips) {
-        const int v = deformer.set().handles[static_cast<std::size_t>(grip.begin)];
+        const int v = set.handles[static_cast<std::size_t>(grip.begin)];
         solids.push_back(solid_of[static_cast<std::size_t>(v)]);
     }
-    Eigen::MatrixXd loose(6 * std::ssize(grips), 0);
+    LooseMotions loose{Eigen::MatrixXd(6 * std::ssize(grips), 0), Eigen::MatrixXd(0, std::ssize(set.loads))};
     for (const int solid : std::set<int>(solids.begin(), solids.end())) {
         std::vector<int> held;
         std::copy_if(others.begin(), others.end(), std::back_inserter(held),
                      [&](int v) { return solid_of[static_cast<std::size_t>(v)] == solid; });
-        const Eigen::MatrixXd rigid = free_rigid_motions(all, held, centre, arms.length);
+        const Eigen::MatrixXd rigid = free_rigid_motions(surface.vertices, held, centre, arms.length);
         if (rigid.cols() == 0) continue;
-        loose.conservativeResize(Eigen::NoChange, loose.cols() + rigid.cols());
-        loose.rightCols(rigid.cols()) = of_grips(rigid, centre, arms, solids, solid);
+        loose.motions.conservativeResize(Eigen::NoChange, loose.motions.cols() + rigid.cols());
+        loose.motions.rightCols(rigid.cols()) = of_grips(rigid, centre, arms, solids, solid);
+        loose.work.conservativeResize(loose.motions.cols(), Eigen::NoChange);
+        loose.work.bottomRows(rigid.cols()) =
+            rigid.transpose() * resultants(surface, set.loads, solid_of, solid, centre, arms.length);
     }
-    return span_of(loose - arms.inert * (arms.inert.transpose() * loose));
+    loose.motions -= arms.inert * (arms.inert.transpose() * loose.motions);
+    const Eigen::MatrixXd combined = orthonormal(loose.motions);
+    return {loose.motions * combined, combined.transpose() * loose.work};
 }
 
 }  // namespace elastolab

@@ -8,9 +8,14 @@
 
 namespace elastolab {
 
-/// Rigid motions of the solids with grips that nothing but the grips holds, as motions of these (6 k rows, in
-/// GripArms::units) that move some of their vertices: orthonormal columns, up to six for all solids that grips join.
+/// Rigid motions of the solids with grips that nothing but the grips holds: up to six for all solids that grips join.
+struct LooseMotions {
+    /// As motions of the grips in GripArms::units (6 k rows) that move some of their vertices: orthonormal columns.
+    Eigen::MatrixXd motions;
+    /// What each load of size one of the constrained set does in each of them [force]: motions x loads.
+    Eigen::MatrixXd work;
+};
 /// arms: those of the grips.
-Eigen::MatrixXd loose_motions(const Deformer& deformer, const std::vector<Grip>& grips, const GripArms& arms);
+LooseMotions loose_motions(const Deformer& deformer, const std::vector<Grip>& grips, const GripArms& arms);
 
 }  // namespace elastolab

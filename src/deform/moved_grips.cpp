@@ -80,7 +80,7 @@ Eigen::VectorXd MovedGrips::wanted(const std::vector<GripPlace>& places) const {
     return all;
 }
 
-bool MovedGrips::body_is_held() const { return loose_motions(deformer_, grips_, rest_).cols() == 0; }
+bool MovedGrips::body_is_held() const { return loose_motions(deformer_, grips_, rest_).motions.cols() == 0; }
 
 Eigen::Matrix3Xd MovedGrips::present(const std::vector<GripPlace>& places, std::size_t grip) const {
     return rotation_by(places[grip].turn) * rest_.arms[grip];

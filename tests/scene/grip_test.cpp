@@ -7,6 +7,7 @@
 #include <numbers>
 #include <thread>
 
+#include "base/error.hpp"
 #include "bem/collocation/method.hpp"
 #include "bem/galerkin/method.hpp"
 #include "fem/method.hpp"
@@ -21,14 +22,13 @@
 namespace elastolab {
 namespace {
 
-/// The stiffness of the cube's held edge.
+/// A scene's body with its constraints; that of the cube with a held edge.
 struct Grasped {
     Control control;
     std::shared_ptr<Deformer> deformer;
     Eigen::VectorXd values;
 
-    explicit Grasped(MethodKind kind) {
-        const Document document = loaded_cube();
+    explicit Grasped(MethodKind kind, const Document& document = loaded_cube()) {
         const SceneMesh mesh = load_scene_mesh(document.mesh, "scene.json", control);
         const Constraints constraints = make_constraints(document, mesh.checked.mesh, "scene.json");
         const Body body{"cube", std::make_shared<const SurfaceMesh>(mesh.checked.mesh), document.material};
@@ -62,6 +62,36 @@ TEST(GripStiffness, IsSymmetricAndDoesNoWorkAroundAClosedPathByFemAndGalerkin) {
             size += std::abs(step);
         }
         EXPECT_LT(std::abs(work), 1e-9 * size) << name(kind);
+    }
+}
+
+/// A bar of one cell across that two handles hold against its weight. The reactions of constant elements to it add up
+/// to another weight by more than a fifth, which is no reason to refuse forces that balance, nor to take others.
+TEST(GripStiffness, JudgesTheBalanceByTheLoadsThemselves) {
+    Document document;
+    document.mesh = Primitive{.name = "beam", .resolution = 1, .size = {}};
+    document.material = {1e4, 0.3};
+    document.density = 20.0;
+    document.gravity = Eigen::Vector3d(0, 0, -10);
+    for (const double x : {0.0, 4.0}) {
+        document.handles.push_back({.name = x > 0.0 ? "right" : "left", .select = {BoxSelector{{x, 0, 0}, {x, 1, 1}}}});
+        document.handles.back().force = GripForce{};
+    }
+    Eigen::VectorXd halves = Eigen::VectorXd::Zero(12);  // of a weight of 800
+    halves[2] = halves[8] = 400.0;
+    for (const MethodKind kind : {kConstantBem, kLinearBem, kGalerkinBem, kFem}) {
+        const Grasped grasped(kind, document);
+        Control control;
+        GripStiffness stiffness(*grasped.deformer, grasped.values, {{0, 4}, {4, 8}}, control);
+        EXPECT_GT(stiffness.motions(halves).norm(), 0.0) << name(kind);
+        for (const int row : {1, 2, 3}) {  // across, along, and a moment about the bar
+            const Eigen::VectorXd more = halves + 8.0 * Eigen::VectorXd::Unit(12, row);
+            EXPECT_THROW(stiffness.motions(more), SolveError) << name(kind) << ", row " << row;
+        }
+        EXPECT_THROW(stiffness.motions(Eigen::VectorXd::Zero(12)), SolveError) << name(kind);
+        stiffness.set_others(*grasped.deformer, Eigen::VectorXd::Zero(grasped.values.size()), control);
+        EXPECT_THROW(stiffness.motions(halves), SolveError) << name(kind) << ", without weight";
+        EXPECT_LT(stiffness.motions(Eigen::VectorXd::Zero(12)).norm(), 1e-12) << name(kind);
     }
 }
 
