@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/lapack.hpp"
+#include "base/text.hpp"
 #include "deform/constraint_map.hpp"
 #include "deform/load_parts.hpp"
 #include "elasticity/rotation.hpp"
@@ -83,6 +84,21 @@ std::vector<int> holding(const Solid& solid, const Constraints& constraints, con
     return held;
 }
 
+/// A vector with the digits that are needed to balance it; parts that are rounding of numbers of this size are zero.
+std::string precise(const Eigen::Vector3d& x, double size) {
+    std::string text;
+    for (const double part : x)
+        text += (text.empty() ? "(" : ", ") + readable_number(std::abs(part) > 1e-9 * size ? part : 0.0, 8);
+    return text + ")";
+}
+
+std::string unbalanced(const Resultant& sum, const Eigen::Vector3d& centre, double size, double length) {
+    return "do not balance, and nothing holds the body against them: they add up to the force " +
+           precise(sum.force, size) + " and, about " + precise(centre, length) + ", the moment " +
+           precise(sum.moment - centre.cross(sum.force), size * length) +
+           ". Fix a part of the body, or add loads until forces and moments sum to zero.";
+}
+
 }  // namespace
 
 void require_balance(const Document& document, const Constraints& constraints, const SurfaceMesh& surface,
@@ -94,14 +110,11 @@ void require_balance(const Document& document, const Constraints& constraints, c
         const double length = (vertices.colwise() - centre).colwise().norm().maxCoeff();
         const Eigen::MatrixXd motions =
             free_rigid_motions(vertices, holding(solid, constraints, surface), centre, length);
-        if (motions.cols() == 0 || loads_on(solid, constraints, surface).balances(motions, centre, length)) continue;
-        fail_at(
-            scene_file,
-            !document.loads.empty() ? "/loads"
-            : document.gravity      ? "/gravity"
-                                    : "/handles",
-            "do not balance, and nothing holds the body against them. Fix a part of it, or add loads until forces and "
-            "moments sum to zero.");
+        if (motions.cols() == 0) continue;
+        const SumOfLoads sum = loads_on(solid, constraints, surface);
+        if (sum.balances(motions, centre, length)) continue;
+        const char* loads = !document.loads.empty() ? "/loads" : document.gravity ? "/gravity" : "/handles";
+        fail_at(scene_file, loads, unbalanced(sum.resultant, centre, sum.size, length));
     }
 }
 

@@ -122,6 +122,32 @@ TEST(CarriedConstraints, APartSmallerThanATriangleHoldsTheNearestOne) {
     EXPECT_THAT(carried.constraints().set.handles.size(), testing::AllOf(testing::Ge(1u), testing::Le(4u)));
 }
 
+TEST(CarriedConstraints, EveryPieceOfASetHoldsTheProxy) {
+    for (const int n_vertices : {30, 120, 500}) {
+        Document document = bar(AffineMotion{});
+        std::vector<int> spots;  // far from each other
+        for (const Eigen::Vector3d& at : {Eigen::Vector3d(0.1, 0.3, 0), {1.9, 1, 0.6}, {1.4, 0, 0.4}, {0.7, 0.4, 1}}) {
+            int nearest = 0;
+            (kBar.vertices.colwise() - at).colwise().norm().minCoeff(&nearest);
+            spots.push_back(nearest);
+        }
+        document.fixed = {{.select = {VertexSelector{spots}}}};
+        const Selector spot{BoxSelector{{2.6, 0.4, 0.9}, {2.8, 0.6, 9}}};
+        document.handles[0].select = {std::vector<Selector>{slab(3.8, 9), spot}};
+        CarriedConstraints carried(proxy_of(kBar, n_vertices));
+        carried.set(make_constraints(document, kBar, "s.json"));
+        const Positions& x = carried.proxy().surface->vertices;
+        const auto distance = [&](const std::vector<int>& held, const Eigen::Vector3d& from) {
+            return (x(Eigen::all, held).colwise() - from).colwise().norm().minCoeff();
+        };
+        const ConstrainedSet& set = carried.constraints().set;
+        for (const int v : spots)
+            EXPECT_LT(distance(set.fixed, kBar.vertices.col(v)), 1.6 * carried.proxy().edge) << n_vertices << ", " << v;
+        EXPECT_LT(distance(set.handles, {2.7, 0.5, 1}), 1.6 * carried.proxy().edge) << n_vertices;
+        EXPECT_LT(distance(set.handles, {4, 0.5, 0.5}), 1.6 * carried.proxy().edge) << n_vertices;
+    }
+}
+
 TEST(CarriedConstraints, EveryFixedSetHasItsPartOfTheProxy) {
     Document document = bar(AffineMotion{});
     const std::vector<int> spot = {kBar.triangles(0, kBar.n_triangles() / 2)};  // smaller than a triangle of the proxy
@@ -183,6 +209,26 @@ TEST(CarriedConstraints, OneDisplacementEachIsInterpolated) {
     ASSERT_EQ(one.constraints().set.handles, other.constraints().set.handles);
     EXPECT_LT((one.constraints().values - other.constraints().values).lpNorm<Eigen::Infinity>(),
               0.3 * proxy->edge);  // a vertex beyond the part takes its rim's
+}
+
+/// A force acts at the middle of the shown patch; another force on the same patch is carried, too.
+TEST(CarriedConstraints, AForceOnAHandleActsWhereItDoesOnTheShownSurface) {
+    Document document = bar(AffineMotion{});
+    document.handles[0].select = {BoxSelector{{3.4, -9, 0.7}, {9, 9, 9}}};
+    CarriedConstraints carried(proxy_of(kBar, 120));
+    for (const Eigen::Vector3d& force : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(3, -2, 1)}) {
+        document.handles[0].force = GripForce{force, {0.1, 0.2, 0.3}};
+        const Constraints shown = make_constraints(document, kBar, "s.json");
+        carried.set(shown);
+        const GripForce& own = carried.constraints().forces[0].value();
+        const Positions& x = carried.proxy().surface->vertices;
+        const Eigen::Vector3d at = x(Eigen::all, carried.constraints().set.handles).rowwise().mean(),
+                              wanted = kBar.vertices(Eigen::all, shown.set.handles).rowwise().mean();
+        EXPECT_GT((at - wanted).norm(), 1e-3);
+        EXPECT_EQ(own.force, force);
+        const Eigen::Vector3d moment = Eigen::Vector3d(0.1, 0.2, 0.3) + wanted.cross(force);
+        EXPECT_LT((own.moment + at.cross(force) - moment).norm(), 1e-12);
+    }
 }
 
 /// Bodies, none of which served to tune anything here: the coarse answer against the fine one of the same method.

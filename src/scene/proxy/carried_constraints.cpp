@@ -1,6 +1,8 @@
 #include "scene/proxy/carried_constraints.hpp"
 
 #include <algorithm>
+#include <numeric>
+#include <span>
 #include <utility>
 #include <variant>
 
@@ -27,6 +29,21 @@ bool same_set(const Constraints& a, const Constraints& b) {
                       [](const Motion& x, const Motion& y) { return x.index() == y.index(); });
 }
 
+/// Rest positions of a handle's vertices.
+Positions patch_of(const Constraints& constraints, std::size_t handle, const SurfaceMesh& surface) {
+    const auto [begin, end] = constraints.range_of(handle);
+    const std::vector<int>& all = constraints.set.handles;
+    return surface.vertices(Eigen::all, std::vector<int>(all.begin() + begin, all.begin() + end));
+}
+
+/// Whether no turn about the middle leaves all of them where they are.
+bool bears_moments(const Positions& patch, const Vector3d& middle) {
+    std::vector<int> all(static_cast<std::size_t>(patch.cols()));
+    std::iota(all.begin(), all.end(), 0);
+    const double size = (patch.colwise() - middle).colwise().norm().maxCoeff();
+    return size > 0.0 && free_rigid_motions(patch, all, middle, size).cols() == 0;
+}
+
 }  // namespace
 
 CarriedConstraints::CarriedConstraints(std::shared_ptr<const Proxy> proxy)
@@ -34,7 +51,8 @@ CarriedConstraints::CarriedConstraints(std::shared_ptr<const Proxy> proxy)
 
 void CarriedConstraints::set(const Constraints& shown) {
     const bool same = chosen_ && same_set(shown, shown_);
-    if (same && shown.values == shown_.values && shown.motions == shown_.motions) return;
+    if (same && shown.values == shown_.values && shown.motions == shown_.motions && shown.forces == shown_.forces)
+        return;
     shown_ = shown;
     if (!same) {
         choose_vertices();
@@ -76,7 +94,8 @@ void CarriedConstraints::choose_vertices() {
     }
     carried_.loads = carried_loads(*proxy_, shown_.loads, carried_.set);
     for (const AppliedLoad& load : carried_.loads) {
-        const std::vector<UnitLoad> units = unit_loads(load.kind, *proxy_->surface, load.triangles);
+        const std::vector<UnitLoad> units =
+            carried_units(*proxy_, load, std::span(shown_.set.loads).subspan(static_cast<std::size_t>(load.first)));
         carried_.set.loads.insert(carried_.set.loads.end(), units.begin(), units.end());
     }
 }
@@ -109,6 +128,18 @@ void CarriedConstraints::carry_values() {
             carried_.values.segment<3>(3 * Index{i}) = u;
         }
         if (!carried_motion.displacements.empty()) carried_.motions[h] = std::move(carried_motion);
+    }
+    carry_forces();
+}
+
+/// They act where they do on the shown surface: a force about another middle has a moment there.
+void CarriedConstraints::carry_forces() {
+    for (const std::size_t h : carried_.gripped()) {
+        const Positions shown = patch_of(shown_, h, *proxy_->shown), own = patch_of(carried_, h, *proxy_->surface);
+        const Vector3d middle = own.rowwise().mean(), arm = shown.rowwise().mean() - middle;
+        if (!bears_moments(own, middle)) continue;
+        GripForce& force = *carried_.forces[h];
+        force.moment += arm.cross(force.force);
     }
 }
 

@@ -16,6 +16,7 @@ namespace elastolab {
 /// A vertex of the proxy is constrained when it is within ProxyOwner::kReach mean edges of the constrained part of the
 /// shown surface: the triangles of which all corners are constrained, and single constrained vertices. It follows the
 /// same motion. A handle or fixed set that is smaller than the proxy's triangles holds the corners of the nearest one.
+/// A force on a handle acts where it does on the shown surface.
 /// Of the fixed part, a vertex of the proxy belongs to the set of the shown vertex that it is nearest to.
 ///
 /// Shown vertices follow their places on the proxy, but constrained ones go exactly where they were put; the difference
@@ -43,6 +44,7 @@ public:
 private:
     void choose_vertices();
     void carry_values();
+    void carry_forces();
     Eigen::Vector3d value_of(const Follower& follower) const;
 
     std::shared_ptr<const Proxy> proxy_;

@@ -1,5 +1,7 @@
 #include "scene/proxy/carried_loads.hpp"
 
+#include "base/lapack.hpp"
+#include "elasticity/rotation.hpp"
 #include "mesh/closest_point.hpp"
 #include "mesh/measures.hpp"
 
@@ -9,6 +11,8 @@ namespace {
 
 /// Edges of the proxy that a triangle of a filled surface may be from itself: rounding.
 constexpr double kSameTriangle = 1e-6;
+/// Of the tractions, up to which they are changed for the sake of their force and moment.
+constexpr double kSmallCorrection = 0.5;
 
 /// The shown triangle that the middle of each triangle of the proxy is nearest to; -1 where loads have no effect, and
 /// where the proxy fills a hole.
@@ -47,6 +51,39 @@ std::vector<int> carried_triangles(const Proxy& proxy, const std::vector<int>& s
     return triangles;
 }
 
+/// Adds tractions a + b x (x - c) to those of the load, so that its force and moment become these; nothing where they
+/// would have to be large, as where few triangles of the proxy carry it.
+void correct(UnitLoad& load, const Resultant& wanted, const SurfaceMesh& surface) {
+    const Eigen::Index n = std::ssize(load.triangles);
+    Eigen::Matrix3Xd arms(3, n);
+    Eigen::VectorXd areas(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const int t = load.triangles[static_cast<std::size_t>(i)];
+        arms.col(i) = centroid(surface, t);
+        areas[i] = 0.5 * area_vector(triangle_points(surface, t)).norm();
+    }
+    const Eigen::Vector3d middle = arms * areas / areas.sum();
+    arms.colwise() -= middle;
+    const double length = arms.colwise().norm().maxCoeff();
+    if (!(length > 0.0)) return;
+    // Rows and columns of moments and turns are divided by the length.
+    Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(6, 6);
+    for (Eigen::Index i = 0; i < n; ++i) {
+        Eigen::Matrix<double, 3, 6> field;
+        field << Eigen::Matrix3d::Identity(), -cross_matrix(arms.col(i) / length);
+        sums += areas[i] * field.transpose() * field;
+    }
+    const Resultant own = resultant(surface, load);
+    Eigen::VectorXd missing(6);
+    missing << wanted.force - own.force, (wanted.moment - own.moment - middle.cross(wanted.force - own.force)) / length;
+    const Eigen::VectorXd field = solve_minimum_norm(sums, missing).X;
+    Eigen::Matrix3Xd more(3, n);
+    for (Eigen::Index i = 0; i < n; ++i)
+        more.col(i) = field.head<3>() + field.tail<3>().cross((arms.col(i) / length).eval());
+    if (more.colwise().norm().maxCoeff() <= kSmallCorrection * load.tractions.colwise().norm().maxCoeff())
+        load.tractions += more;
+}
+
 }  // namespace
 
 std::vector<AppliedLoad> carried_loads(const Proxy& proxy, const std::vector<AppliedLoad>& shown,
@@ -57,6 +94,17 @@ std::vector<AppliedLoad> carried_loads(const Proxy& proxy, const std::vector<App
     for (AppliedLoad& load : carried)
         if (load.kind != AppliedLoad::Kind::gravity) load.triangles = carried_triangles(proxy, load.triangles, nearest);
     return carried;
+}
+
+std::vector<UnitLoad> carried_units(const Proxy& proxy, const AppliedLoad& carried, std::span<const UnitLoad> shown) {
+    const SurfaceMesh& surface = *proxy.surface;
+    std::vector<UnitLoad> units = unit_loads(carried.kind, surface, carried.triangles);
+    if (proxy.is_filled()) return units;
+    const bool has_total = carried.kind == AppliedLoad::Kind::force ||
+                           (carried.kind == AppliedLoad::Kind::traction && proxy.shown_is_sound);
+    for (std::size_t i = 0; i < units.size() && has_total; ++i)
+        correct(units[i], resultant(*proxy.shown, shown[i]), surface);
+    return units;
 }
 
 }  // namespace elastolab

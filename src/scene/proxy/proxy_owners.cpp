@@ -1,6 +1,7 @@
 #include "scene/proxy/proxy_owners.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace elastolab {
 
@@ -70,33 +71,120 @@ void divide_fixed(const SurfaceMesh& fixed, const std::vector<ConstraintGroup>& 
     }
 }
 
-/// The vertices of one fixed set, each by itself.
-SurfaceMesh fixed_part(const SurfaceMesh& shown, const std::vector<int>& fixed, const ConstraintGroup& set) {
-    SurfaceMesh part;
-    part.vertices = shown.vertices(Eigen::all, std::vector<int>(fixed.begin() + set.begin, fixed.begin() + set.end));
-    part.triangles = Eigen::RowVectorXi::LinSpaced(set.end - set.begin, 0, set.end - set.begin - 1).replicate<3, 1>();
-    return part;
+/// Vertices of one group and one fixed set that edges of the shown surface join: members of the group, ascending.
+struct Piece {
+    std::size_t group = 0, fixed_set = 0;
+    std::vector<int> members;
+};
+
+/// For each shown vertex the first one of its piece, or -1; sets: number of the group or fixed set of each, or -1.
+std::vector<int> joined_by_edges(const SurfaceMesh& shown, const std::vector<int>& sets) {
+    std::vector<int> first(sets.size());
+    std::iota(first.begin(), first.end(), 0);
+    const auto root = [&](int v) {
+        while (first[static_cast<std::size_t>(v)] != v) {
+            int& above = first[static_cast<std::size_t>(v)];
+            v = above = first[static_cast<std::size_t>(above)];
+        }
+        return v;
+    };
+    for (const auto& v : shown.triangles.colwise())
+        for (int k = 0; k < 3; ++k) {
+            const int a = v[k], b = v[(k + 1) % 3], set = sets[static_cast<std::size_t>(a)];
+            if (set >= 0 && sets[static_cast<std::size_t>(b)] == set)
+                first[static_cast<std::size_t>(std::max(root(a), root(b)))] = std::min(root(a), root(b));
+        }
+    for (std::size_t v = 0; v < sets.size(); ++v) first[v] = sets[v] < 0 ? -1 : root(static_cast<int>(v));
+    return first;
 }
 
-/// A part that is too small to have a vertex of the proxy gets the corners of the nearest triangle, or the nearest
-/// vertex if it is hardly more than a point itself.
-void hold_nearest(const SurfaceMesh& surface, const SurfaceMesh& part, const ProxyOwner& owner,
-                  std::vector<ProxyOwner>& nearest) {
-    const auto is_held = [&](const ProxyOwner& n) { return n.group == owner.group && n.fixed_set == owner.fixed_set; };
-    if (std::any_of(nearest.begin(), nearest.end(), is_held)) return;
-    const Vector3d middle = part.vertices.rowwise().mean();
-    const SurfacePoint place = ClosestPoint(surface)(middle);
-    std::vector<int> corners(3);
-    Eigen::Vector3i::Map(corners.data()) = surface.triangles.col(place.triangle);
-    const auto distance = [&](int v) { return (surface.vertices.col(v) - middle).norm(); };
-    std::sort(corners.begin(), corners.end(), [&](int a, int b) { return distance(a) < distance(b); });
-    if (part.n_vertices() < 3) corners.resize(1);
-    for (const int v : corners) {
-        ProxyOwner& present = nearest[static_cast<std::size_t>(v)];
-        if (present.group == ProxyOwner::kNobody)
-            present = {owner.group, ClosestPoint(part)(surface.vertices.col(v)), owner.fixed_set};
+std::vector<Piece> pieces_of(const SurfaceMesh& shown, const Constraints& constraints) {
+    struct Member {
+        std::size_t group, fixed_set;
+        int number;
+    };
+    std::vector<int> sets(static_cast<std::size_t>(shown.n_vertices()), -1), constrained;
+    std::vector<Member> members;
+    for (std::size_t g = 0, set = 0; g < constraints.groups.size(); ++g, ++set) {
+        const bool fixed = g == 0 && constraints.has_fixed();
+        const std::vector<int> vertices = vertices_of(constraints, g);
+        std::size_t fixed_set = 0;
+        for (int i = 0; i < std::ssize(vertices); ++i) {
+            while (fixed && constraints.fixed_sets[fixed_set].end <= i) ++fixed_set, ++set;
+            sets[static_cast<std::size_t>(vertices[static_cast<std::size_t>(i)])] = static_cast<int>(set);
+            constrained.push_back(vertices[static_cast<std::size_t>(i)]);
+            members.push_back({g, fixed_set, i});
+        }
     }
+    const std::vector<int> first = joined_by_edges(shown, sets);
+    std::vector<int> number(first.size(), -1);
+    std::vector<Piece> pieces;
+    for (std::size_t i = 0; i < constrained.size(); ++i) {
+        int& piece = number[static_cast<std::size_t>(first[static_cast<std::size_t>(constrained[i])])];
+        if (piece < 0) {
+            piece = static_cast<int>(pieces.size());
+            pieces.push_back({members[i].group, members[i].fixed_set, {}});
+        }
+        pieces[static_cast<std::size_t>(piece)].members.push_back(members[i].number);
+    }
+    return pieces;
 }
+
+/// Pieces that have no vertex of the proxy nearby, as they are smaller than its triangles, get the corners of the
+/// nearest triangle, or the nearest vertex if they are hardly more than a point.
+class NearestHolder {
+public:
+    NearestHolder(const SurfaceMesh& surface, const std::vector<SurfaceMesh>& parts, std::vector<ProxyOwner>& nearest)
+        : surface_(surface), parts_(parts), nearest_(nearest), closest_(surface) {
+        for (const SurfaceMesh& part : parts) {
+            of_parts_.emplace_back(part);
+            has_vertex_.emplace_back(static_cast<std::size_t>(part.n_vertices()), false);
+        }
+        for (const ProxyOwner& owner : nearest) note(owner);
+    }
+
+    void hold(const Piece& piece) {
+        const std::vector<bool>& has_vertex = has_vertex_[piece.group];
+        if (std::any_of(piece.members.begin(), piece.members.end(),
+                        [&](int member) { return has_vertex[static_cast<std::size_t>(member)]; }))
+            return;
+        const Positions places = parts_[piece.group].vertices(Eigen::all, piece.members);
+        const Vector3d middle = places.rowwise().mean();
+        std::vector<int> corners(3);
+        Eigen::Vector3i::Map(corners.data()) = surface_.triangles.col(closest_(middle).triangle);
+        if (std::any_of(corners.begin(), corners.end(), [&](int v) {
+                const ProxyOwner& owner = nearest_[static_cast<std::size_t>(v)];
+                return owner.group == piece.group && owner.fixed_set == piece.fixed_set;
+            }))
+            return;
+        const auto distance = [&](int v) { return (surface_.vertices.col(v) - middle).norm(); };
+        std::sort(corners.begin(), corners.end(), [&](int a, int b) { return distance(a) < distance(b); });
+        if (places.cols() < 3) corners.resize(1);
+        for (const int v : corners) {
+            ProxyOwner& present = nearest_[static_cast<std::size_t>(v)];
+            if (present.group != ProxyOwner::kNobody) continue;
+            present = {piece.group, of_parts_[piece.group](surface_.vertices.col(v)), piece.fixed_set};
+            note(present);
+        }
+    }
+
+private:
+    /// The member that a vertex of the proxy is nearest to has one.
+    void note(const ProxyOwner& owner) {
+        if (owner.group == ProxyOwner::kNobody) return;
+        Index corner = 0;
+        owner.point.weights.maxCoeff(&corner);
+        const int member = parts_[owner.group].triangles(corner, owner.point.triangle);
+        has_vertex_[owner.group][static_cast<std::size_t>(member)] = true;
+    }
+
+    const SurfaceMesh& surface_;
+    const std::vector<SurfaceMesh>& parts_;
+    std::vector<ProxyOwner>& nearest_;
+    ClosestPoint closest_;
+    std::vector<ClosestPoint> of_parts_;
+    std::vector<std::vector<bool>> has_vertex_;  ///< of each part's vertices
+};
 
 }  // namespace
 
@@ -145,11 +233,8 @@ std::vector<ProxyOwner> proxy_owners(const Proxy& proxy, const Constraints& show
     if (!fills) leave_out_lone_vertices(*proxy.surface, parts.size(), nearest);
     if (shown.has_fixed()) divide_fixed(parts.front(), shown.fixed_sets, nearest);
     if (fills) return nearest;
-    for (std::size_t s = 0; s < shown.fixed_sets.size(); ++s)
-        hold_nearest(*proxy.surface, fixed_part(*proxy.shown, shown.set.fixed, shown.fixed_sets[s]),
-                     {.group = 0, .fixed_set = s}, nearest);
-    for (std::size_t g = shown.has_fixed() ? 1 : 0; g < parts.size(); ++g)
-        hold_nearest(*proxy.surface, parts[g], {.group = g}, nearest);
+    NearestHolder holder(*proxy.surface, parts, nearest);
+    for (const Piece& piece : pieces_of(*proxy.shown, shown)) holder.hold(piece);
     return nearest;
 }
 

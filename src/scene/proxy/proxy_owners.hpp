@@ -29,8 +29,9 @@ struct ProxyOwner {
     std::size_t fixed_set = 0;  ///< where the group is the fixed part
 };
 
-/// The owner of every vertex of the proxy: the nearest part within ProxyOwner::kReach. A part that is smaller than the
-/// proxy's triangles gets the corners of the nearest one. Of the fixed part, a vertex belongs to the set of the shown
+/// The owner of every vertex of the proxy: the nearest part within ProxyOwner::kReach. Each connected piece of a part
+/// that is smaller than the proxy's triangles gets the corners of the nearest one, or, of less than three vertices, the
+/// nearest vertex. Of the fixed part, a vertex belongs to the set of the shown
 /// vertex that it is nearest to. Where the proxy is the shown surface with its holes filled, vertices belong to
 /// themselves. parts: constrained_parts() of these constraints.
 std::vector<ProxyOwner> proxy_owners(const Proxy& proxy, const Constraints& shown,
