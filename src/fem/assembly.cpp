@@ -4,13 +4,13 @@
 #include <array>
 #include <cassert>
 #include <cstdint>
-#include <Eigen/LU>
 #include <limits>
 #include <string>
 #include <vector>
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "fem/element.hpp"
 
 namespace elastolab {
 
@@ -51,25 +51,6 @@ double mean_product(const Derivative& p, const Derivative& q) {
            p.constant * q.constant;
 }
 
-/// Gradients of the barycentric coordinates (columns) and the volume.
-struct Element {
-    Eigen::Matrix<double, 3, 4> gradients;
-    double volume = 0.0;
-};
-
-Element make_element(const Eigen::Matrix<double, 3, 4>& corners, Eigen::Index t) {
-    const Eigen::Matrix3d edges = corners.rightCols<3>().colwise() - corners.col(0);
-    const double determinant = edges.determinant();
-    if (!(determinant > 0.0))
-        throw MeshError("tetrahedron " + std::to_string(t) +
-                        ": has no positive volume. Repair slivers of the surface and fill it again.");
-    Element element;
-    element.volume = determinant / 6.0;
-    element.gradients.rightCols<3>() = edges.inverse().transpose();
-    element.gradients.col(0) = -element.gradients.rightCols<3>().rowwise().sum();
-    return element;
-}
-
 /// Elements of n nodes, corners first.
 template <int n>
 struct Mesh {
@@ -81,8 +62,8 @@ struct Mesh {
 };
 
 template <int n>
-std::vector<Element> make_elements(const Mesh<n>& mesh, Control& control) {
-    std::vector<Element> elements(static_cast<std::size_t>(mesh.n_elements()));
+std::vector<TetElement> make_elements(const Mesh<n>& mesh, Control& control) {
+    std::vector<TetElement> elements(static_cast<std::size_t>(mesh.n_elements()));
     parallel_blocks(mesh.n_elements(), 1024, control, [&](int begin, int end) {
         for (int t = begin; t < end; ++t) {
             const Eigen::Vector4i corners = mesh.elements.col(t).template head<4>();
@@ -94,7 +75,7 @@ std::vector<Element> make_elements(const Mesh<n>& mesh, Control& control) {
 
 /// Mean over the element of grad N_a grad N_b^T, exactly the transpose of that of (b, a).
 template <int n>
-Eigen::Matrix3d mean_outer(const Element& element, const std::array<Shape, n>& shapes, int a, int b) {
+Eigen::Matrix3d mean_outer(const TetElement& element, const std::array<Shape, n>& shapes, int a, int b) {
     const Shape& first = shapes[static_cast<std::size_t>(std::min(a, b))];
     const Shape& second = shapes[static_cast<std::size_t>(std::max(a, b))];
     Eigen::Matrix3d outer = Eigen::Matrix3d::Zero();
@@ -171,7 +152,7 @@ SparseMatrix zero_blocks(const Lists& pattern) {
 
 template <int n>
 StiffnessParts assemble(const Mesh<n>& mesh, Control& control) {
-    const std::vector<Element> elements = make_elements(mesh, control);
+    const std::vector<TetElement> elements = make_elements(mesh, control);
     const std::array<Shape, n> shape_functions = shapes<n>();
     const Lists around = elements_around_nodes(mesh);
     const Lists pattern = neighbours(mesh, around);
@@ -185,7 +166,7 @@ StiffnessParts assemble(const Mesh<n>& mesh, Control& control) {
         Eigen::Map<Eigen::MatrixX3d> lambda(parts.lambda.valuePtr() + first, rows, 3);
         Eigen::Map<Eigen::MatrixX3d> mu(parts.mu.valuePtr() + first, rows, 3);
         for (const int* t = around.begin(v); t != around.end(v); ++t) {
-            const Element& element = elements[static_cast<std::size_t>(*t)];
+            const TetElement& element = elements[static_cast<std::size_t>(*t)];
             const Eigen::Vector<int, n> nodes = mesh.elements.col(*t);
             const int b = static_cast<int>(std::find(nodes.begin(), nodes.end(), v) - nodes.begin());
             for (int a = 0; a < n; ++a) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <Eigen/Core>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 
@@ -10,12 +11,16 @@
 #include "deform/solid_model.hpp"
 #include "fem/quadratic_mesh.hpp"
 #include "fem/solvers.hpp"
+#include "fem/sparse_cholesky.hpp"
 
 namespace elastolab {
 
 /// Error that quadratic elements leave, over how much they change the answer. Along the rim of a constrained patch
 /// errors fall like 1 / degree^2, elsewhere faster; measured in tests/methods/discretisation_test.cpp.
 inline constexpr double kLeftByQuadratic = 0.45;
+
+/// The same of halving their edges.
+inline constexpr double kLeftByHalving = 0.5;
 
 /// What the estimate of linear elements needs of the two stiffnesses, wherever these are kept.
 struct ReferenceOperators {
@@ -25,6 +30,8 @@ struct ReferenceOperators {
     std::function<Eigen::Matrix3d(int)> diagonal;  ///< block of a node on the diagonal of the quadratic one
 };
 
+using Factor = std::shared_ptr<const SparseCholesky>;
+
 /// The answer that linear tetrahedra are judged by: quadratic elements on the same tetrahedra, solved by conjugate
 /// gradients to a few per cent in energy. Two levels precondition them: the factorised linear stiffness on the corners,
 /// and the diagonal blocks of the midpoints; their number of steps does not depend on the size of the mesh. A body that
@@ -33,11 +40,12 @@ struct ReferenceOperators {
 /// loads     unit loads
 /// values    the vertices' displacements, 3*vertices.size(), then a factor for each load
 /// first     the answer that is judged: displacements [L] that begin with those of the surface's vertices
+/// held      factor of the stiffness with what these vertices prescribe eliminated, where it is at hand, else null
 /// Throws SolveError, Cancelled.
 std::optional<ReferenceAnswer> quadratic_reference(const FemSystem& linear, double poisson_ratio,
                                                    std::span<const int> vertices, std::span<const UnitLoad> loads,
                                                    const Eigen::VectorXd& values, const Eigen::VectorXd& first,
-                                                   Control& control);
+                                                   const Factor& held, Control& control);
 
 /// The same with these operators, for vertices that hold the body. mesh: the quadratic elements on the tetrahedra of
 /// the linear mesh.
@@ -45,14 +53,16 @@ ReferenceAnswer quadratic_reference(const QuadraticMesh& mesh, const FemMesh& li
                                     std::span<const int> vertices, std::span<const UnitLoad> loads,
                                     const Eigen::VectorXd& values, Control& control);
 
-/// Bytes that these references take.
+/// Bytes that these references take; has_factor: where it is at hand.
 std::uint64_t quadratic_reference_memory(const FemSystem& linear);
-std::uint64_t linear_reference_memory(const FemSystem& quadratic);
+std::uint64_t halved_reference_memory(const FemSystem& quadratic, bool has_factor);
 
-/// The answer that quadratic tetrahedra are judged by: linear ones, whose space is part of theirs. What the second
-/// degree changed indicates what a third would.
-std::optional<ReferenceAnswer> linear_reference(const FemSystem& quadratic, std::span<const int> vertices,
-                                                std::span<const UnitLoad> loads, const Eigen::VectorXd& values,
-                                                const Eigen::VectorXd& first, Control& control);
+/// The answer that quadratic tetrahedra are judged by: the same with all edges halved, by conjugate gradients in the
+/// same way. Two levels precondition them: the stiffness of the tetrahedra that are judged, factorised for this set,
+/// and the diagonal blocks of the new nodes.
+std::optional<ReferenceAnswer> halved_reference(const FemSystem& quadratic, double poisson_ratio,
+                                                std::span<const int> vertices, std::span<const UnitLoad> loads,
+                                                const Eigen::VectorXd& values, const Eigen::VectorXd& first,
+                                                const Factor& held, Control& control);
 
 }  // namespace elastolab

@@ -173,6 +173,10 @@ FemModel::Elimination FemModel::cheapest_elimination(const ConstrainedFemNodes& 
     return fixed_set_holds && with_fixed <= least ? Elimination::fixed : Elimination::nothing;
 }
 
+FemModel::Elimination FemModel::elimination_of(const ConstrainedFemNodes& nodes) const {
+    return method_.update == Update::reduced ? cheapest_elimination(nodes) : Elimination::all;
+}
+
 std::uint64_t FemModel::constrain_memory(std::span<const int> fixed, std::span<const int> handles) const {
     const ConstrainedFemNodes nodes = nodes_of(fixed, handles);
     const auto constrained = 3 * static_cast<std::uint64_t>(nodes.prescribed.nodes.size());
@@ -182,7 +186,7 @@ std::uint64_t FemModel::constrain_memory(std::span<const int> fixed, std::span<c
         return 8 * free * (method_.update == Update::eqn9 ? 2 * free + constrained : all);
     }
     if (operators_) return 8 * (6 + constrained) * (6 + constrained + surface);
-    const Elimination elimination = method_.update == Update::reduced ? cheapest_elimination(nodes) : Elimination::all;
+    const Elimination elimination = elimination_of(nodes);
     // Beside the factor: K with what is eliminated.
     const std::uint64_t factorisation =
         mesh_->analysis->factor_bytes() + 12 * static_cast<std::uint64_t>(system_->K.nonZeros());
@@ -196,8 +200,10 @@ std::uint64_t FemModel::constrain_memory(std::span<const int> fixed, std::span<c
                                                             : block_price(mesh_->analysis->view(), others).bytes);
 }
 
-std::uint64_t FemModel::check_memory(std::span<const int>, std::span<const int>) const {
-    return degree() == ElementDegree::linear ? quadratic_reference_memory(*system_) : linear_reference_memory(*system_);
+std::uint64_t FemModel::check_memory(std::span<const int> fixed, std::span<const int> handles) const {
+    if (degree() == ElementDegree::linear) return quadratic_reference_memory(*system_);
+    const bool has_factor = !operators_ && elimination_of(nodes_of(fixed, handles)) == Elimination::all;
+    return halved_reference_memory(*system_, has_factor);
 }
 
 ConstrainedFemNodes FemModel::nodes_of(std::span<const int> fixed, std::span<const int> handles) const {
@@ -215,7 +221,7 @@ std::unique_ptr<ConstrainedSolid> FemModel::constrain(std::span<const int> fixed
                                                       Loads loads, Control& control) const {
     if (operators_) return constrain_dense(nodes_of(fixed, handles), loads, control);
     ConstrainedFemNodes nodes = nodes_of(fixed, handles);
-    const Elimination elimination = method_.update == Update::reduced ? cheapest_elimination(nodes) : Elimination::all;
+    const Elimination elimination = elimination_of(nodes);
     if (elimination == Elimination::all) return constrain_direct(std::move(nodes), loads, control);
     const int n_eliminated = elimination == Elimination::fixed ? nodes.n_fixed : 0;
     return constrain_reduced(std::move(nodes), loads, n_eliminated, control);
@@ -229,7 +235,7 @@ std::unique_ptr<ConstrainedSolid> FemModel::constrain_direct(ConstrainedFemNodes
     const auto residual = [system = system_, nodes, given = std::move(given)](const NodeSolution& solution, Control&) {
         return stiffness_residual(system->K, solution.displacements, nodes, solution.loads, given * solution.factors);
     };
-    SolutionChecks checks{residual, reference_for(constrained, loads)};
+    SolutionChecks checks{residual, reference_for(constrained, loads, solver->factor())};
     checks.interior_field = [system = system_, nu = poisson_ratio_](NodeSolution&& solution, Control&) {
         return field_of(*system, nu, std::move(solution.displacements));
     };
@@ -305,13 +311,15 @@ std::unique_ptr<ConstrainedSolid> FemModel::constrain_reduced(ConstrainedFemNode
     return make_solid(std::move(constrained), std::move(solver), std::move(checks), loads);
 }
 
-decltype(SolutionChecks::reference) FemModel::reference_for(const ConstrainedFemNodes& nodes, Loads loads) const {
-    return [system = system_, degree = degree(), nu = poisson_ratio_, vertices = nodes.vertices,
+decltype(SolutionChecks::reference) FemModel::reference_for(const ConstrainedFemNodes& nodes, Loads loads,
+                                                            const std::shared_ptr<const SparseCholesky>& held) const {
+    return [system = system_, degree = degree(), nu = poisson_ratio_, vertices = nodes.vertices, held,
             loads = std::vector<UnitLoad>(loads.begin(), loads.end())](const Eigen::VectorXd& values,
                                                                        const NodeSolution& first, Control& control) {
         const Eigen::VectorXd u = first.displacements.col(0);
-        return degree == ElementDegree::linear ? quadratic_reference(*system, nu, vertices, loads, values, u, control)
-                                               : linear_reference(*system, vertices, loads, values, u, control);
+        return degree == ElementDegree::linear
+                   ? quadratic_reference(*system, nu, vertices, loads, values, u, held, control)
+                   : halved_reference(*system, nu, vertices, loads, values, u, held, control);
     };
 }
 

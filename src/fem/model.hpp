@@ -42,14 +42,18 @@ private:
 
     void precompute(double poisson_ratio, Control& control);
     Elimination cheapest_elimination(const ConstrainedFemNodes& nodes) const;
+    /// That of this model's update.
+    Elimination elimination_of(const ConstrainedFemNodes& nodes) const;
     std::shared_ptr<const FactorisedBody> at_hand(std::span<const int> fixed) const;
     using Loads = std::span<const UnitLoad>;
     std::unique_ptr<ConstrainedSolid> constrain_dense(ConstrainedFemNodes nodes, Loads loads, Control& control) const;
     std::unique_ptr<ConstrainedSolid> constrain_direct(ConstrainedFemNodes nodes, Loads loads, Control& control) const;
     std::unique_ptr<ConstrainedSolid> constrain_reduced(ConstrainedFemNodes nodes, Loads loads, int n_eliminated,
                                                         Control& control) const;
-    /// The second answer that a solution is judged by (fem/error_estimate.hpp).
-    decltype(SolutionChecks::reference) reference_for(const ConstrainedFemNodes& nodes, Loads loads) const;
+    /// The second answer that a solution is judged by (fem/error_estimate.hpp); held: the factor, where it is kept.
+    decltype(SolutionChecks::reference) reference_for(
+        const ConstrainedFemNodes& nodes, Loads loads,
+        const std::shared_ptr<const SparseCholesky>& held = nullptr) const;
     /// Nodal forces of unit loads at the nodes of the dense operators: those of inside nodes condensed.
     Eigen::MatrixXd dense_load_vectors(Loads loads, Control& control) const;
     ConstrainedFemNodes nodes_of(std::span<const int> fixed, std::span<const int> handles) const;

@@ -204,14 +204,15 @@ SparseDirectSolver::SparseDirectSolver(std::shared_ptr<const FemSystem> system, 
     : system_(std::move(system)),
       vertices_(std::move(vertices)),
       given_(std::move(given)),
-      factor_(*system_->mesh->analysis, eliminated_held(*system_, vertices_), "stiffness matrix", &control) {
+      factor_(std::make_shared<const SparseCholesky>(*system_->mesh->analysis, eliminated_held(*system_, vertices_),
+                                                     "stiffness matrix", &control)) {
     control.checkpoint();
-    condition_ = 1.0 / factor_.reciprocal_condition();
+    condition_ = 1.0 / factor_->reciprocal_condition();
 }
 
 NodeSolution SparseDirectSolver::solve(const Eigen::MatrixXd& prescribed, bool want_loads) const {
     const HeldStiffness K{[&](const Eigen::MatrixXd& u) -> Eigen::MatrixXd { return system_->K * u; },
-                          [&](const Eigen::MatrixXd& f) { return factor_.solve(f); }};
+                          [&](const Eigen::MatrixXd& f) { return factor_->solve(f); }};
     return solve_held(K, vertices_, given_, prescribed, want_loads);
 }
 

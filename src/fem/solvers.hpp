@@ -151,11 +151,14 @@ public:
     /// Displacements of all nodes.
     NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const override;
 
+    /// Of the stiffness with the vertices eliminated.
+    const std::shared_ptr<const SparseCholesky>& factor() const { return factor_; }
+
 private:
     std::shared_ptr<const FemSystem> system_;
     std::vector<int> vertices_;
     Eigen::MatrixXd given_;
-    SparseCholesky factor_;
+    std::shared_ptr<const SparseCholesky> factor_;
 };
 
 /// |K u - f| / | |K| |u| + |f| |, Euclidean, for displacements of all nodes and forces at `vertices` beside those given

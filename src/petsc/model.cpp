@@ -20,6 +20,8 @@ std::shared_ptr<PetscStiffness> distribute(const FemMesh& mesh, double poisson_r
 
 /// Bytes of the constrained matrix, of GAMG's coarse ones or MUMPS's front, for each node on average.
 constexpr double kBytesOfNode = 8000.0;
+/// Of the linear stiffness and its factor, by which quadratic elements are judged, for each of their nodes.
+constexpr std::uint64_t kBytesOfLinearPart = 3000;
 
 }  // namespace
 
@@ -66,8 +68,9 @@ std::uint64_t PetscFemModel::constrain_memory(std::span<const int> fixed, std::s
 
 std::uint64_t PetscFemModel::check_memory(std::span<const int>, std::span<const int>) const {
     const FemSystem system{std::shared_ptr<const FemMesh>(mesh_), {}};
-    const std::uint64_t all =
-        degree() == ElementDegree::linear ? quadratic_reference_memory(system) : linear_reference_memory(system);
+    const std::uint64_t all = degree() == ElementDegree::linear
+                                  ? quadratic_reference_memory(system)
+                                  : kBytesOfLinearPart * static_cast<std::uint64_t>(mesh_->tets.n_vertices());
     return static_cast<std::uint64_t>(static_cast<double>(all) * Session::current().part_on_this_machine());
 }
 
@@ -118,7 +121,8 @@ std::optional<ReferenceAnswer> PetscFemModel::better_answer(const std::vector<in
     return quadratic_reference(mesh, *mesh_, apply, vertices, loads, values, control);
 }
 
-/// As linear_reference, on linear elements of their own.
+/// Linear elements on the same tetrahedra, whose space is part of the quadratic ones': what the second degree changed
+/// indicates what a third would.
 std::optional<ReferenceAnswer> PetscFemModel::simpler_answer(const std::vector<int>& vertices,
                                                              std::span<const UnitLoad> loads, Values values,
                                                              Control& control) const {

@@ -4,6 +4,7 @@
 #include "base/memory.hpp"
 #include "deform/holds.hpp"
 #include "deform/ten_node_elements.hpp"
+#include "fem/error_estimate.hpp"
 #include "fem/nodal_field.hpp"
 #include "fem/quadratic_mesh.hpp"
 #include "mesh/tets/tetrahedralize.hpp"
@@ -12,9 +13,8 @@ namespace elastolab {
 
 namespace {
 
-/// Error that ten-node elements leave, over how much they change the answer of four-node ones; that of linear theory
-/// (fem/error_estimate.cpp).
-constexpr double kLeftByTenNodes = 0.45;
+/// Error that ten-node elements leave, over how much they change the answer of four-node ones: that of linear theory.
+constexpr double kLeftByTenNodes = kLeftByQuadratic;
 /// Factors that are held at once: at rest, and of the last equilibrium or the next one.
 constexpr std::uint64_t kHeldFactors = 2;
 constexpr int kCheckIterations = 30;
