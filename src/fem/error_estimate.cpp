@@ -1,20 +1,18 @@
 #include "fem/error_estimate.hpp"
 
-#include <array>
 #include <cmath>
 #include <cstdint>
-#include <Eigen/LU>
 #include <utility>
 #include <vector>
 
 #include "base/memory.hpp"
-#include "deform/conjugate_gradients.hpp"
 #include "deform/node_rows.hpp"
 #include "deform/pinned_body.hpp"
 #include "fem/constrained_nodes.hpp"
 #include "fem/constraints.hpp"
 #include "fem/load_vectors.hpp"
 #include "fem/stiffness_product.hpp"
+#include "fem/two_levels.hpp"
 
 namespace elastolab {
 
@@ -23,163 +21,9 @@ namespace {
 /// Of what the second answer changes, in energy: two digits are enough for an estimate where the first is the worse by
 /// far, less where it is the answer's own kind.
 constexpr double kEnoughOfLinear = 0.01, kEnoughOfHalved = 0.03;
-constexpr int kMostIterations = 150;
 /// Bytes of elements, their interpolation and vectors for each quadratic node; and for each node of quadratic elements
 /// that are halved, where there are eight in place of it.
 constexpr std::uint64_t kBytesOfQuadraticNode = 1500, kBytesOfHalvedNode = 14000;
-
-/// Expresses the nodes of quadratic elements by the corners of their tetrahedra: a corner is itself, a midpoint the
-/// mean of its ends.
-class CornerNodes {
-public:
-    /// elements: corners, then midpoints by kTetEdges.
-    CornerNodes(const Eigen::Matrix<int, 10, Eigen::Dynamic>& elements, int n_nodes)
-        : ends_(static_cast<std::size_t>(n_nodes), {-1, -1}), corner_(static_cast<std::size_t>(n_nodes), -1) {
-        for (const auto& element : elements.colwise())
-            for (int e = 0; e < 6; ++e)
-                ends_[static_cast<std::size_t>(element[4 + e])] = {element[kTetEdges[e][0]], element[kTetEdges[e][1]]};
-        for (int node = 0; node < n_nodes; ++node)
-            if (!is_midpoint(node)) corner_[static_cast<std::size_t>(node)] = n_corners_++;
-    }
-    int n_corners() const { return n_corners_; }
-    bool is_midpoint(int node) const { return ends_[static_cast<std::size_t>(node)][0] >= 0; }
-
-    /// 3*n_nodes x 3*n_corners; corners keep their order.
-    SparseMatrix prolongation() const {
-        std::vector<Eigen::Triplet<double>> entries;
-        for (int node = 0; node < static_cast<int>(ends_.size()); ++node)
-            for (int axis = 0; axis < 3; ++axis) {
-                const auto add = [&](int corner_node, double weight) {
-                    entries.emplace_back(3 * node + axis, 3 * corner_[static_cast<std::size_t>(corner_node)] + axis,
-                                         weight);
-                };
-                if (!is_midpoint(node)) add(node, 1.0);
-                for (const int end : ends_[static_cast<std::size_t>(node)])
-                    if (end >= 0) add(end, 0.5);
-            }
-        SparseMatrix P(3 * std::ssize(ends_), 3 * n_corners_);
-        P.setFromTriplets(entries.begin(), entries.end());
-        return P;
-    }
-
-private:
-    std::vector<std::array<int, 2>> ends_;
-    std::vector<int> corner_;
-    int n_corners_ = 0;
-};
-
-Eigen::VectorXd with_zeros(Eigen::VectorXd all, const std::vector<char>& is_prescribed) {
-    for (std::size_t node = 0; node < is_prescribed.size(); ++node)
-        if (is_prescribed[node]) all.segment<3>(3 * static_cast<Eigen::Index>(node)).setZero();
-    return all;
-}
-
-/// The quadratic stiffness between the nodes that are not prescribed; zero for the others.
-class FreeStiffness : public LinearOperator {
-public:
-    FreeStiffness(const ReferenceOperators::Product& K, const std::vector<char>& is_prescribed)
-        : K_(K), is_prescribed_(is_prescribed) {}
-    Eigen::Index size() const override { return 3 * std::ssize(is_prescribed_); }
-    Eigen::MatrixXd product(const Eigen::MatrixXd& X) const override {
-        Eigen::MatrixXd Y(X.rows(), X.cols());
-        for (Eigen::Index c = 0; c < X.cols(); ++c) Y.col(c) = with_zeros(K_(X.col(c)), is_prescribed_);
-        return Y;
-    }
-
-private:
-    const ReferenceOperators::Product& K_;
-    const std::vector<char>& is_prescribed_;
-};
-
-/// Corrects a vector of all nodes by both levels.
-class TwoLevelPreconditioner : public LinearOperator {
-public:
-    TwoLevelPreconditioner(const ReferenceOperators& apply, const CornerNodes& corners,
-                           const SparseMatrix& prolongation, const std::vector<char>& is_prescribed)
-        : apply_(apply), prolongation_(prolongation), is_prescribed_(is_prescribed) {
-        for (int node = 0; node < static_cast<int>(is_prescribed_.size()); ++node) {
-            Eigen::Matrix3d block = Eigen::Matrix3d::Zero();
-            if (corners.is_midpoint(node) && !is_prescribed_[static_cast<std::size_t>(node)])
-                block = apply_.diagonal(node).inverse();
-            of_midpoints_.push_back(block);
-        }
-    }
-    Eigen::Index size() const override { return 3 * std::ssize(is_prescribed_); }
-    Eigen::MatrixXd product(const Eigen::MatrixXd& R) const override {
-        Eigen::MatrixXd Z(R.rows(), R.cols());
-        for (Eigen::Index c = 0; c < R.cols(); ++c) Z.col(c) = corrected(R.col(c));
-        return Z;
-    }
-
-private:
-    Eigen::VectorXd corrected(const Eigen::VectorXd& residual) const {
-        const Eigen::VectorXd on_corners = prolongation_.transpose() * residual;
-        Eigen::VectorXd z = prolongation_ * apply_.solve_linear(on_corners);
-        for (std::size_t node = 0; node < of_midpoints_.size(); ++node)
-            z.segment<3>(3 * static_cast<Eigen::Index>(node)) +=
-                of_midpoints_[node] * residual.segment<3>(3 * static_cast<Eigen::Index>(node));
-        return with_zeros(std::move(z), is_prescribed_);
-    }
-
-    const ReferenceOperators& apply_;
-    const SparseMatrix& prolongation_;
-    const std::vector<char>& is_prescribed_;
-    std::vector<Eigen::Matrix3d> of_midpoints_;
-};
-
-/// Values of the coarse nodes at those of quadratic elements that halve them. elements: the coarse ones, 10 rows.
-SparseMatrix interpolation(const QuadraticMesh& halved, const Eigen::MatrixXi& elements) {
-    std::vector<Eigen::Triplet<double>> entries;
-    std::vector<char> seen(static_cast<std::size_t>(halved.n_nodes()), 0);
-    for (Eigen::Index t = 0; t < halved.elements.cols(); ++t)
-        for (int i = 0; i < 10; ++i) {
-            const int node = halved.elements(i, t);
-            if (std::exchange(seen[static_cast<std::size_t>(node)], 1) != 0) continue;
-            const Eigen::Vector4d at = in_whole(static_cast<int>(t % 8), node_coordinates(i));
-            const Eigen::Matrix<double, 10, 1> shapes = quadratic_shapes(at);
-            for (int k = 0; k < 10; ++k)
-                for (int axis = 0; axis < 3 && shapes[k] != 0.0; ++axis)
-                    entries.emplace_back(3 * node + axis, 3 * elements(k, t / 8) + axis, shapes[k]);
-        }
-    SparseMatrix P(3 * halved.n_nodes(), 3 * (elements.maxCoeff() + 1));
-    P.setFromTriplets(entries.begin(), entries.end());
-    return P;
-}
-
-/// Four triangles in place of each.
-Triangles quarters(const Triangles& triangles, const Triangles& midpoints) {
-    Triangles fine(3, 4 * triangles.cols());
-    for (Eigen::Index t = 0; t < triangles.cols(); ++t) {
-        const Eigen::Vector3i v = triangles.col(t), m = midpoints.col(t);
-        fine.middleCols<4>(4 * t) << v[0], m[0], m[2], m[0],  //
-            m[0], v[1], m[1], m[1],                           //
-            m[2], m[1], v[2], m[2];
-    }
-    return fine;
-}
-
-/// The same loads on these.
-std::vector<UnitLoad> on_quarters(std::span<const UnitLoad> loads) {
-    std::vector<UnitLoad> fine(loads.begin(), loads.end());
-    for (UnitLoad& load : fine) {
-        const std::vector<int> whole = std::exchange(load.triangles, {});
-        load.tractions = load.tractions.replicate<4, 1>().reshaped(3, 4 * std::ssize(whole)).eval();
-        for (const int t : whole)
-            for (int k = 0; k < 4; ++k) load.triangles.push_back(4 * t + k);
-    }
-    return fine;
-}
-
-/// Each vertex with its part of what the nodes around it carry, whose displacements follow its own.
-Reactions at_vertices(const Reactions& at_nodes, const ConstrainedFemNodes& nodes) {
-    const Eigen::Index n = std::ssize(nodes.vertices);
-    Reactions sums{Eigen::Matrix3Xd::Zero(3, n), Eigen::Matrix3Xd::Zero(3, n)};
-    for (const LoadShare& share : nodes.shares) {
-        sums.forces.col(share.constrained) += share.weight * at_nodes.forces.col(share.slot);
-        sums.moments.col(share.constrained) += share.weight * at_nodes.moments.col(share.slot);
-    }
-    return sums;
-}
 
 /// forces: of all nodes, the given ones among them.
 Reactions reactions_of(const Eigen::VectorXd& forces, const Eigen::VectorXd& given,
@@ -215,9 +59,7 @@ NodalAnswer answer_by_levels(const LevelsProblem& problem, const ReferenceOperat
     const QuadraticMesh& mesh = problem.mesh;
     const ConstrainedFemNodes constrained =
         constrain_nodes(mesh.positions, {mesh.triangles, mesh.midpoints}, {}, problem.vertices);
-    std::vector<char> is_prescribed(static_cast<std::size_t>(mesh.n_nodes()), 0);
-    for (const int node : constrained.prescribed.nodes) is_prescribed[static_cast<std::size_t>(node)] = 1;
-
+    const TwoLevels levels(mesh, problem.prolongation, constrained.prescribed.nodes);
     Eigen::VectorXd u = Eigen::VectorXd::Zero(problem.prolongation.cols());
     for (std::size_t i = 0; i < problem.vertices.size(); ++i)
         u.segment<3>(3 * problem.vertices[i]) = problem.values.segment<3>(3 * static_cast<Eigen::Index>(i));
@@ -226,12 +68,8 @@ NodalAnswer answer_by_levels(const LevelsProblem& problem, const ReferenceOperat
     control.checkpoint();
     u += apply.solve_linear(load);
     u = (problem.prolongation * u).eval();
-    u += conjugate_gradients(
-        FreeStiffness(apply.quadratic, is_prescribed),
-        TwoLevelPreconditioner(apply, CornerNodes(mesh.elements, mesh.n_nodes()), problem.prolongation, is_prescribed),
-        with_zeros(problem.given - apply.quadratic(u), is_prescribed),
-        {.energy_tolerance = problem.enough, .max_iterations = kMostIterations, .must_converge = false},
-        "stiffness matrix of quadratic elements", control);
+    u += levels.solve({apply.quadratic, apply.solve_linear, apply.diagonal}, problem.given - apply.quadratic(u),
+                      problem.enough, control);
     return {u, reactions_of(apply.quadratic(u), problem.given, constrained, problem.vertices.size())};
 }
 
@@ -276,15 +114,14 @@ ReferenceAnswer quadratic_reference(const QuadraticMesh& mesh, const FemMesh& li
                                     std::span<const int> vertices, std::span<const UnitLoad> loads,
                                     const Eigen::VectorXd& values, Control& control) {
     const Eigen::VectorXd factors = values.tail(std::ssize(loads));
-    const NodalAnswer fine =
-        answer_by_levels({.mesh = mesh,
-                          .prolongation = CornerNodes(mesh.elements, mesh.n_nodes()).prolongation(),
-                          .vertices = vertices,
-                          .values = values.head(3 * std::ssize(vertices)),
-                          .coarse_given = load_vectors(linear, loads) * factors,
-                          .given = load_vectors(mesh, linear, loads) * factors,
-                          .enough = kEnoughOfLinear},
-                         apply, control);
+    const NodalAnswer fine = answer_by_levels({.mesh = mesh,
+                                               .prolongation = from_corners(mesh),
+                                               .vertices = vertices,
+                                               .values = values.head(3 * std::ssize(vertices)),
+                                               .coarse_given = load_vectors(linear, loads) * factors,
+                                               .given = load_vectors(mesh, linear, loads) * factors,
+                                               .enough = kEnoughOfLinear},
+                                              apply, control);
     return ReferenceAnswer{fine.displacements.head(3 * linear.tets.n_surface_vertices), fine.reactions,
                            1.0 + kLeftByQuadratic};
 }
@@ -312,7 +149,7 @@ std::optional<ReferenceAnswer> halved_reference(const FemSystem& quadratic, doub
     const Eigen::VectorXd factors = values.tail(std::ssize(loads));
     const NodalAnswer fine = answer_by_levels(
         {.mesh = mesh,
-         .prolongation = interpolation(mesh, coarse.elements()),
+         .prolongation = from_whole(mesh, coarse.elements()),
          .vertices = nodes.prescribed.nodes,
          .values = nodes.prescribed.prescribe * body.values().head(3 * std::ssize(body.vertices())),
          .coarse_given = load_vectors(coarse, loads) * factors,

@@ -49,9 +49,7 @@ TEST_F(GripEstimate, OfDisplacementsIsThatOfTheStiffness) {
                                   std::to_string(*solution.error_estimate);
         std::cout << found << '\n';
         EXPECT_GT(*solution.error_estimate, error(solution) / 3.0) << found;
-        // Of ten nodes nonlinear FEM tells a share of what four are off by, however smooth the answer is.
-        const double most = kind == kNonlinearFem ? 0.2 : std::max(3.0 * error(solution), 0.015);
-        EXPECT_LT(*solution.error_estimate, most) << found;
+        EXPECT_LT(*solution.error_estimate, std::max(3.0 * error(solution), 0.015)) << found;
     }
 }
 
@@ -79,7 +77,10 @@ TEST_F(GripEstimate, OfForcesIsSmallWhereTheyBalance) {
 /// What a person reads in the window, whether the handle was under a force from the beginning or came to be later; far
 /// enough for theories to differ.
 struct GripEstimateInTheWindow : testing::TestWithParam<MethodKind> {
-    GripEstimateInTheWindow() { document.handles[0].force = force; }
+    GripEstimateInTheWindow() {
+        document.handles[0].force = force;
+        document.material.poisson_ratio = 0.45;  // so that ten nodes are off by more than what is left unsaid
+    }
 
     void rest() {
         test::wait_until([&] {
@@ -104,7 +105,7 @@ struct GripEstimateInTheWindow : testing::TestWithParam<MethodKind> {
     }
 
     const GripForce force{{0, 0, 20.0 * kForce}, {0, 0, 0}};
-    Document document = gripped_bar(2);
+    Document document = gripped_bar(1);
     Simulation simulation{[] {}};
 
 private:

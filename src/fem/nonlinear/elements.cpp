@@ -65,11 +65,11 @@ std::span<const ElementCorner> FiniteElements::around(int node) const {
     return std::span(around_).subspan(first, last - first);
 }
 
-ElementWork FiniteElements::make_work() const {
+ElementWork FiniteElements::make_work(bool with_stiffness) const {
     const std::size_t n = packs_.size() * kPack, nodes = static_cast<std::size_t>(nodes_per_element());
     ElementWork work;
     work.forces.resize(n * 3 * nodes);
-    work.stiffness.resize(n * 9 * static_cast<std::size_t>(block_count(nodes_per_element())));
+    if (with_stiffness) work.stiffness.resize(n * 9 * static_cast<std::size_t>(block_count(nodes_per_element())));
     work.energies.resize(n);
     work.least_J.resize(n);
     return work;

@@ -50,7 +50,8 @@ public:
     /// Typical length of an edge.
     double edge() const { return edge_; }
 
-    ElementWork make_work() const;
+    /// with_stiffness: for stiffness(), which takes far more than the rest.
+    ElementWork make_work(bool with_stiffness = true) const;
     BodyEnergy energy(const Eigen::VectorXd& u, const Material& material, ElementWork& work, Control& control) const;
     /// Gradient of the energy: the force on the body at every node that u takes. Needs J > 0.
     Eigen::VectorXd forces(const Eigen::VectorXd& u, const Material& material, ElementWork& work,

@@ -6,6 +6,7 @@
 #include "deform/ten_node_elements.hpp"
 #include "fem/error_estimate.hpp"
 #include "fem/nodal_field.hpp"
+#include "fem/nonlinear/halved_answer.hpp"
 #include "fem/quadratic_mesh.hpp"
 #include "mesh/tets/tetrahedralize.hpp"
 
@@ -195,12 +196,17 @@ std::unique_ptr<ConstrainedSolid> NonlinearModel::constrain(std::span<const int>
         return its->newton().residual(u.lpNorm<Eigen::Infinity>(), its->newton().forces(u, factors, work, its_control),
                                       u, factors);
     };
-    checks.reference = [mesh = mesh_, its = material(), vertices = nodes.vertices, n_fixed = fixed.size(),
-                        needed = check_memory(fixed, handles),
+    checks.reference = [mesh = mesh_, its = material(), newton = held ? &solver->newton() : nullptr,
+                        vertices = nodes.vertices, n_fixed = fixed.size(), needed = check_memory(fixed, handles),
                         given = std::vector<UnitLoad>(loads.begin(), loads.end())](
                            const Eigen::VectorXd&, const NodeSolution& solution, Control& its_control) {
+        const bool fits = needed <= available_memory_bytes();
+        if (mesh->linear && newton != nullptr && fits)
+            if (auto halved = halved_answer(*mesh, *newton, vertices, given, solution.displacements.col(0),
+                                            solution.factors.col(0), its_control))
+                return halved;
         if (mesh->linear) return linear_answer(*mesh, its, vertices, given, solution, its_control);
-        if (needed == 0 || needed > available_memory_bytes()) return std::optional<ReferenceAnswer>();
+        if (needed == 0 || !fits) return std::optional<ReferenceAnswer>();
         const auto first_handle = vertices.begin() + static_cast<std::ptrdiff_t>(n_fixed);
         return ten_node_answer(*mesh, its, {vertices.begin(), first_handle}, {first_handle, vertices.end()}, given,
                                solution, its_control);
@@ -219,7 +225,7 @@ std::uint64_t NonlinearModel::constrain_memory(std::span<const int>, std::span<c
 }
 
 std::uint64_t NonlinearModel::check_memory(std::span<const int>, std::span<const int>) const {
-    if (mesh_->linear) return factor_bytes_ / 4;
+    if (mesh_->linear) return factor_bytes_ + tangent_bytes_ + halved_answer_memory(*mesh_);
     return mesh_->tets.n_tetrahedra() <= kMostToCheck ? kTenNodeFactor * factor_bytes_ + 8 * tangent_bytes_ : 0;
 }
 

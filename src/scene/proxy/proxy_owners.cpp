@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 
 namespace elastolab {
 
@@ -134,12 +135,10 @@ std::vector<Piece> pieces_of(const SurfaceMesh& shown, const Constraints& constr
 /// nearest triangle, or the nearest vertex if they are hardly more than a point.
 class NearestHolder {
 public:
-    NearestHolder(const SurfaceMesh& surface, const std::vector<SurfaceMesh>& parts, std::vector<ProxyOwner>& nearest)
-        : surface_(surface), parts_(parts), nearest_(nearest), closest_(surface) {
-        for (const SurfaceMesh& part : parts) {
-            of_parts_.emplace_back(part);
+    NearestHolder(const Proxy& proxy, const std::vector<SurfaceMesh>& parts, std::vector<ProxyOwner>& nearest)
+        : surface_(*proxy.surface), edge_(proxy.edge), parts_(parts), nearest_(nearest), of_parts_(parts.size()) {
+        for (const SurfaceMesh& part : parts)
             has_vertex_.emplace_back(static_cast<std::size_t>(part.n_vertices()), false);
-        }
         for (const ProxyOwner& owner : nearest) note(owner);
     }
 
@@ -149,9 +148,9 @@ public:
                         [&](int member) { return has_vertex[static_cast<std::size_t>(member)]; }))
             return;
         const Positions places = parts_[piece.group].vertices(Eigen::all, piece.members);
-        const Vector3d middle = places.rowwise().mean();
+        const Vector3d middle = middle_of(places);
         std::vector<int> corners(3);
-        Eigen::Vector3i::Map(corners.data()) = surface_.triangles.col(closest_(middle).triangle);
+        Eigen::Vector3i::Map(corners.data()) = surface_.triangles.col(made(closest_, surface_)(middle).triangle);
         if (std::any_of(corners.begin(), corners.end(), [&](int v) {
                 const ProxyOwner& owner = nearest_[static_cast<std::size_t>(v)];
                 return owner.group == piece.group && owner.fixed_set == piece.fixed_set;
@@ -163,12 +162,25 @@ public:
         for (const int v : corners) {
             ProxyOwner& present = nearest_[static_cast<std::size_t>(v)];
             if (present.group != ProxyOwner::kNobody) continue;
-            present = {piece.group, of_parts_[piece.group](surface_.vertices.col(v)), piece.fixed_set};
+            const ClosestPoint& of_part = made(of_parts_[piece.group], parts_[piece.group]);
+            present = {piece.group, of_part(surface_.vertices.col(v)), piece.fixed_set};
             note(present);
         }
     }
 
 private:
+    /// Their mean, or the nearest of them where that is far from all, as from a ring.
+    Vector3d middle_of(const Positions& places) const {
+        const Vector3d mean = places.rowwise().mean();
+        Index nearest = 0;
+        if ((places.colwise() - mean).colwise().norm().minCoeff(&nearest) <= edge_) return mean;
+        return places.col(nearest);
+    }
+    /// Made when it is needed first, as it seldom is.
+    static const ClosestPoint& made(std::optional<ClosestPoint>& closest, const SurfaceMesh& mesh) {
+        if (!closest) closest.emplace(mesh);
+        return *closest;
+    }
     /// The member that a vertex of the proxy is nearest to has one.
     void note(const ProxyOwner& owner) {
         if (owner.group == ProxyOwner::kNobody) return;
@@ -179,10 +191,11 @@ private:
     }
 
     const SurfaceMesh& surface_;
+    double edge_;
     const std::vector<SurfaceMesh>& parts_;
     std::vector<ProxyOwner>& nearest_;
-    ClosestPoint closest_;
-    std::vector<ClosestPoint> of_parts_;
+    std::optional<ClosestPoint> closest_;  ///< of the surface
+    std::vector<std::optional<ClosestPoint>> of_parts_;
     std::vector<std::vector<bool>> has_vertex_;  ///< of each part's vertices
 };
 
@@ -233,7 +246,7 @@ std::vector<ProxyOwner> proxy_owners(const Proxy& proxy, const Constraints& show
     if (!fills) leave_out_lone_vertices(*proxy.surface, parts.size(), nearest);
     if (shown.has_fixed()) divide_fixed(parts.front(), shown.fixed_sets, nearest);
     if (fills) return nearest;
-    NearestHolder holder(*proxy.surface, parts, nearest);
+    NearestHolder holder(proxy, parts, nearest);
     for (const Piece& piece : pieces_of(*proxy.shown, shown)) holder.hold(piece);
     return nearest;
 }

@@ -1,0 +1,85 @@
+#include "fem/nonlinear/halved_answer.hpp"
+
+#include "deform/node_rows.hpp"
+#include "fem/error_estimate.hpp"
+#include "fem/load_vectors.hpp"
+#include "fem/stiffness_product.hpp"
+#include "fem/two_levels.hpp"
+
+namespace elastolab {
+
+namespace {
+
+/// IterationOptions::energy_tolerance of what halving changes.
+constexpr double kEnoughOfStep = 0.03;
+/// For each node of the elements that are halved: of the new elements, their interpolation and vectors.
+constexpr std::uint64_t kBytesOfTenNode = 20000;
+
+/// Elements with halved edges, and what acts on them.
+struct Halved {
+    QuadraticMesh mesh;
+    std::shared_ptr<const FiniteElements> elements;
+    NonlinearLoads loads;
+
+    Halved(const NonlinearMesh& whole, std::span<const UnitLoad> given)
+        : mesh(with_all_surface_nodes(whole)),
+          elements(std::make_shared<const FiniteElements>(mesh.positions, mesh.elements)) {
+        const Triangles surface = quarters(whole.surface, whole.surface_midpoints);
+        loads = {elements, surface, midpoints_of(surface, mesh), on_quarters(given)};
+    }
+
+    static TetMesh with_all_surface_nodes(const NonlinearMesh& whole) {
+        TetMesh tets = whole.tets;
+        tets.n_surface_vertices = whole.n_surface_nodes;
+        return tets;
+    }
+};
+
+}  // namespace
+
+std::optional<ReferenceAnswer> halved_answer(const NonlinearMesh& mesh, const Newton& newton,
+                                             const std::vector<int>& vertices, std::span<const UnitLoad> loads,
+                                             const Eigen::VectorXd& displacements, const Eigen::VectorXd& factors,
+                                             Control& control) {
+    const Halved fine(mesh, loads);
+    const ConstrainedFemNodes nodes = constrain_nodes(mesh.tets.vertices, mesh.midpoints, {}, vertices);
+    const ConstrainedFemNodes held =
+        constrain_nodes(fine.mesh.positions, {fine.mesh.triangles, fine.mesh.midpoints}, {}, nodes.prescribed.nodes);
+    const TwoLevels levels(fine.mesh, from_whole(fine.mesh, mesh.elements->elements()), held.prescribed.nodes);
+    const Eigen::VectorXd u = levels.prolongation() * displacements;
+    const Material& material = newton.material();
+    ElementWork work = fine.elements->make_work(false);
+    if (!(fine.elements->energy(u, material, work, control).least_J > 0.0)) return {};
+    std::shared_ptr<const SparseCholesky> factor;
+    {
+        NewtonWork of_tangent = newton.make_work();
+        bool stable = true;
+        factor = newton.factor_at(displacements, factors, of_tangent, stable, control);
+        if (!stable || !factor) return {};
+    }
+    const Eigen::Matrix3Xd diagonal = StiffnessProduct(fine.mesh, material).diagonal();
+    const TwoLevels::Operators apply{[&](const Eigen::VectorXd& v) -> Eigen::VectorXd {
+                                         return fine.elements->force_change(u, v, material, work, control) -
+                                                fine.loads.force_change(u, factors, v,
+                                                                        Eigen::VectorXd::Zero(factors.size()));
+                                     },
+                                     [&](const Eigen::VectorXd& f) -> Eigen::VectorXd {
+                                         return newton.tangent().all_rows(factor->solve(newton.tangent().free_rows(f)));
+                                     },
+                                     [&](int node) -> Eigen::Matrix3d { return diagonal.middleCols<3>(3 * node); }};
+    const Eigen::VectorXd forces = fine.elements->forces(u, material, work, control) - fine.loads.forces(u, factors);
+    IterationReport report;
+    const Eigen::VectorXd change = levels.solve(apply, -forces, kEnoughOfStep, control, &report);
+    if (report.indefinite) return {};  // the state is no longer near an equilibrium of the halved elements
+    const Reactions at_nodes =
+        present_reactions(held.shares, rows_of(displacements, nodes.prescribed.nodes).col(0),
+                          rows_of(forces + apply.stiffness(change), held.prescribed.nodes).col(0));
+    return ReferenceAnswer{(u + change).head(3 * mesh.n_vertices()), at_vertices(at_nodes, nodes),
+                           1.0 + kLeftByHalving};
+}
+
+std::uint64_t halved_answer_memory(const NonlinearMesh& mesh) {
+    return kBytesOfTenNode * static_cast<std::uint64_t>(mesh.elements->n_nodes());
+}
+
+}  // namespace elastolab

@@ -1,0 +1,162 @@
+#include "fem/two_levels.hpp"
+
+#include <array>
+#include <Eigen/LU>
+#include <utility>
+
+#include "deform/conjugate_gradients.hpp"
+
+namespace elastolab {
+
+namespace {
+
+constexpr int kMostProducts = 150;
+
+}  // namespace
+
+/// Between the nodes that are not prescribed; zero for the others.
+class TwoLevels::FreeStiffness : public LinearOperator {
+public:
+    FreeStiffness(const TwoLevels& levels, const Product& K) : levels_(levels), K_(K) {}
+    Eigen::Index size() const override { return 3 * std::ssize(levels_.is_prescribed_); }
+    Eigen::MatrixXd product(const Eigen::MatrixXd& X) const override {
+        Eigen::MatrixXd Y(X.rows(), X.cols());
+        for (Eigen::Index c = 0; c < X.cols(); ++c) Y.col(c) = levels_.free_part(K_(X.col(c)));
+        return Y;
+    }
+
+private:
+    const TwoLevels& levels_;
+    const Product& K_;
+};
+
+class TwoLevels::Preconditioner : public LinearOperator {
+public:
+    Preconditioner(const TwoLevels& levels, const Operators& apply) : levels_(levels), apply_(apply) {
+        for (std::size_t node = 0; node < levels.is_midpoint_.size(); ++node) {
+            Eigen::Matrix3d block = Eigen::Matrix3d::Zero();
+            if (levels.is_midpoint_[node] && !levels.is_prescribed_[node])
+                block = apply.diagonal(static_cast<int>(node)).inverse();
+            of_midpoints_.push_back(block);
+        }
+    }
+    Eigen::Index size() const override { return 3 * std::ssize(of_midpoints_); }
+    Eigen::MatrixXd product(const Eigen::MatrixXd& R) const override {
+        Eigen::MatrixXd Z(R.rows(), R.cols());
+        for (Eigen::Index c = 0; c < R.cols(); ++c) Z.col(c) = corrected(R.col(c));
+        return Z;
+    }
+
+private:
+    Eigen::VectorXd corrected(const Eigen::VectorXd& residual) const {
+        const Eigen::VectorXd on_coarse = levels_.prolongation_.transpose() * residual;
+        Eigen::VectorXd z = levels_.prolongation_ * apply_.solve_coarse(on_coarse);
+        for (std::size_t node = 0; node < of_midpoints_.size(); ++node)
+            z.segment<3>(3 * static_cast<Eigen::Index>(node)) +=
+                of_midpoints_[node] * residual.segment<3>(3 * static_cast<Eigen::Index>(node));
+        return levels_.free_part(std::move(z));
+    }
+
+    const TwoLevels& levels_;
+    const Operators& apply_;
+    std::vector<Eigen::Matrix3d> of_midpoints_;
+};
+
+TwoLevels::TwoLevels(const QuadraticMesh& mesh, SparseMatrix prolongation, std::span<const int> prescribed)
+    : prolongation_(std::move(prolongation)),
+      is_prescribed_(static_cast<std::size_t>(mesh.n_nodes()), 0),
+      is_midpoint_(is_prescribed_) {
+    for (const int node : prescribed) is_prescribed_[static_cast<std::size_t>(node)] = 1;
+    for (const int node : mesh.elements.bottomRows<6>().reshaped()) is_midpoint_[static_cast<std::size_t>(node)] = 1;
+}
+
+Eigen::VectorXd TwoLevels::free_part(Eigen::VectorXd all) const {
+    for (std::size_t node = 0; node < is_prescribed_.size(); ++node)
+        if (is_prescribed_[node]) all.segment<3>(3 * static_cast<Eigen::Index>(node)).setZero();
+    return all;
+}
+
+Eigen::VectorXd TwoLevels::solve(const Operators& apply, const Eigen::VectorXd& forces, double enough, Control& control,
+                                 IterationReport* report) const {
+    return conjugate_gradients(FreeStiffness(*this, apply.stiffness), Preconditioner(*this, apply), free_part(forces),
+                               {.energy_tolerance = enough, .max_iterations = kMostProducts, .must_converge = false},
+                               "stiffness matrix of quadratic elements", control, report)
+        .col(0);
+}
+
+SparseMatrix from_corners(const QuadraticMesh& mesh) {
+    std::vector<std::array<int, 2>> ends(static_cast<std::size_t>(mesh.n_nodes()), {-1, -1});
+    for (const auto& element : mesh.elements.colwise())
+        for (int e = 0; e < 6; ++e)
+            ends[static_cast<std::size_t>(element[4 + e])] = {element[kTetEdges[e][0]], element[kTetEdges[e][1]]};
+    std::vector<int> corner(ends.size(), -1);
+    int n_corners = 0;
+    for (std::size_t node = 0; node < ends.size(); ++node)
+        if (ends[node][0] < 0) corner[node] = n_corners++;
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int node = 0; node < mesh.n_nodes(); ++node)
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto add = [&](int corner_node, double weight) {
+                entries.emplace_back(3 * node + axis, 3 * corner[static_cast<std::size_t>(corner_node)] + axis, weight);
+            };
+            const std::array<int, 2> own = ends[static_cast<std::size_t>(node)];
+            if (own[0] < 0) add(node, 1.0);
+            for (const int end : own)
+                if (end >= 0) add(end, 0.5);
+        }
+    SparseMatrix P(3 * mesh.n_nodes(), 3 * n_corners);
+    P.setFromTriplets(entries.begin(), entries.end());
+    return P;
+}
+
+SparseMatrix from_whole(const QuadraticMesh& halved, const Eigen::MatrixXi& elements) {
+    std::vector<Eigen::Triplet<double>> entries;
+    std::vector<char> seen(static_cast<std::size_t>(halved.n_nodes()), 0);
+    for (Eigen::Index t = 0; t < halved.elements.cols(); ++t)
+        for (int i = 0; i < 10; ++i) {
+            const int node = halved.elements(i, t);
+            if (std::exchange(seen[static_cast<std::size_t>(node)], 1) != 0) continue;
+            const Eigen::Vector4d at = in_whole(static_cast<int>(t % 8), node_coordinates(i));
+            const Eigen::Matrix<double, 10, 1> shapes = quadratic_shapes(at);
+            for (int k = 0; k < 10; ++k)
+                for (int axis = 0; axis < 3 && shapes[k] != 0.0; ++axis)
+                    entries.emplace_back(3 * node + axis, 3 * elements(k, t / 8) + axis, shapes[k]);
+        }
+    SparseMatrix P(3 * halved.n_nodes(), 3 * (elements.maxCoeff() + 1));
+    P.setFromTriplets(entries.begin(), entries.end());
+    return P;
+}
+
+Triangles quarters(const Triangles& triangles, const Triangles& midpoints) {
+    Triangles fine(3, 4 * triangles.cols());
+    for (Eigen::Index t = 0; t < triangles.cols(); ++t) {
+        const Eigen::Vector3i v = triangles.col(t), m = midpoints.col(t);
+        fine.middleCols<4>(4 * t) << v[0], m[0], m[2], m[0],  //
+            m[0], v[1], m[1], m[1],                           //
+            m[2], m[1], v[2], m[2];
+    }
+    return fine;
+}
+
+std::vector<UnitLoad> on_quarters(std::span<const UnitLoad> loads) {
+    std::vector<UnitLoad> fine(loads.begin(), loads.end());
+    for (UnitLoad& load : fine) {
+        const std::vector<int> whole = std::exchange(load.triangles, {});
+        load.tractions = load.tractions.replicate<4, 1>().reshaped(3, 4 * std::ssize(whole)).eval();
+        for (const int t : whole)
+            for (int k = 0; k < 4; ++k) load.triangles.push_back(4 * t + k);
+    }
+    return fine;
+}
+
+Reactions at_vertices(const Reactions& at_nodes, const ConstrainedFemNodes& nodes) {
+    const Eigen::Index n = std::ssize(nodes.vertices);
+    Reactions sums{Eigen::Matrix3Xd::Zero(3, n), Eigen::Matrix3Xd::Zero(3, n)};
+    for (const LoadShare& share : nodes.shares) {
+        sums.forces.col(share.constrained) += share.weight * at_nodes.forces.col(share.slot);
+        sums.moments.col(share.constrained) += share.weight * at_nodes.moments.col(share.slot);
+    }
+    return sums;
+}
+
+}  // namespace elastolab

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "base/control.hpp"
+#include "deform/iteration.hpp"
+#include "deform/solid_model.hpp"
+#include "deform/unit_load.hpp"
+#include "fem/constrained_nodes.hpp"
+#include "fem/quadratic_mesh.hpp"
+#include "fem/sparse_matrix.hpp"
+
+namespace elastolab {
+
+/// Quadratic elements, and a space inside theirs whose nodes are the corners of their tetrahedra: what second answers
+/// of finite elements are computed by, without a factor or a matrix of all nodes.
+class TwoLevels {
+public:
+    /// mesh: kept. prolongation: from the coarse nodes, in the order of the corners, to all. prescribed: nodes of the
+    /// mesh.
+    TwoLevels(const QuadraticMesh& mesh, SparseMatrix prolongation, std::span<const int> prescribed);
+
+    const SparseMatrix& prolongation() const { return prolongation_; }
+    /// Zero at the prescribed nodes, else these values.
+    Eigen::VectorXd free_part(Eigen::VectorXd all) const;
+
+    using Product = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
+    struct Operators {
+        Product stiffness;                             ///< forces for displacements of all nodes
+        Product solve_coarse;                          ///< by the stiffness of the coarse nodes, prescribed ones zero
+        std::function<Eigen::Matrix3d(int)> diagonal;  ///< block of a node on the diagonal of the stiffness
+    };
+    /// Displacements at the free nodes that give these forces there, by conjugate gradients, which both levels
+    /// precondition: the coarse stiffness, and the diagonal blocks of the nodes that it does not have. They end when
+    /// the energy norm of the error has fallen to `enough` of what it was. Throws SolveError, Cancelled.
+    Eigen::VectorXd solve(const Operators& apply, const Eigen::VectorXd& forces, double enough, Control& control,
+                          IterationReport* report = nullptr) const;
+
+private:
+    class FreeStiffness;
+    class Preconditioner;
+
+    SparseMatrix prolongation_;
+    std::vector<char> is_prescribed_, is_midpoint_;
+};
+
+/// Linear elements inside quadratic ones on the same tetrahedra: a midpoint is the mean of its ends.
+SparseMatrix from_corners(const QuadraticMesh& mesh);
+
+/// Quadratic elements inside those that halve their edges: on QuadraticMesh::split of them, all nodes on their surface
+/// counted to it. elements: the coarse ones, 10 rows.
+SparseMatrix from_whole(const QuadraticMesh& halved, const Eigen::MatrixXi& elements);
+/// Four triangles in place of each, and the loads on them.
+Triangles quarters(const Triangles& triangles, const Triangles& midpoints);
+std::vector<UnitLoad> on_quarters(std::span<const UnitLoad> loads);
+/// Each vertex with its part of what the nodes around it carry, whose displacements follow its own.
+Reactions at_vertices(const Reactions& at_nodes, const ConstrainedFemNodes& nodes);
+
+}  // namespace elastolab
