@@ -40,6 +40,11 @@ Factor factor_for(const PinnedBody& body, const FemSystem& system, const std::ve
                                                   "stiffness matrix", &control);
 }
 
+/// Bytes of such a factor, and of the matrix that it is made of.
+std::uint64_t factor_memory(const FemSystem& system) {
+    return system.mesh->analysis->factor_bytes() + 12 * static_cast<std::uint64_t>(system.K.nonZeros());
+}
+
 /// What quadratic elements are asked for, and a coarser space inside theirs.
 struct LevelsProblem {
     const QuadraticMesh& mesh;
@@ -76,16 +81,15 @@ NodalAnswer answer_by_levels(const LevelsProblem& problem, const ReferenceOperat
 }  // namespace
 
 /// Nodes of quadratic elements by Euler's formula: vertices - edges + faces - tetrahedra = 1 for a ball.
-std::uint64_t quadratic_reference_memory(const FemSystem& linear) {
+std::uint64_t quadratic_reference_memory(const FemSystem& linear, bool has_factor) {
     const TetMesh& tets = linear.mesh->tets;
     const std::int64_t n_edges = tets.n_vertices() + tets.n_tetrahedra() + tets.n_surface_vertices;
-    return kBytesOfQuadraticNode * static_cast<std::uint64_t>(tets.n_vertices() + n_edges);
+    return (has_factor ? 0 : factor_memory(linear)) +
+           kBytesOfQuadraticNode * static_cast<std::uint64_t>(tets.n_vertices() + n_edges);
 }
 
 std::uint64_t halved_reference_memory(const FemSystem& quadratic, bool has_factor) {
-    const std::uint64_t factor =
-        quadratic.mesh->analysis->factor_bytes() + 12 * static_cast<std::uint64_t>(quadratic.K.nonZeros());
-    return (has_factor ? 0 : factor) +
+    return (has_factor ? 0 : factor_memory(quadratic)) +
            kBytesOfHalvedNode * static_cast<std::uint64_t>(quadratic.mesh->tets.n_vertices());
 }
 
@@ -97,7 +101,7 @@ std::optional<ReferenceAnswer> quadratic_reference(const FemSystem& linear, doub
     if (!body.is_held()) return {};
     control.checkpoint();
     const QuadraticMesh mesh(linear.mesh->tets);
-    if (quadratic_reference_memory(linear) > available_memory_bytes()) return {};
+    if (quadratic_reference_memory(linear, held && !body.is_pinned()) > available_memory_bytes()) return {};
     const StiffnessProduct stiffness(mesh, Material{1.0, poisson_ratio});
     const Eigen::Matrix3Xd diagonal = stiffness.diagonal();
     const Factor factor = factor_for(body, linear, body.vertices(), held, control);

@@ -54,7 +54,7 @@ ReferenceAnswer quadratic_reference(const QuadraticMesh& mesh, const FemMesh& li
                                     const Eigen::VectorXd& values, Control& control);
 
 /// Bytes that these references take; has_factor: where it is at hand.
-std::uint64_t quadratic_reference_memory(const FemSystem& linear);
+std::uint64_t quadratic_reference_memory(const FemSystem& linear, bool has_factor);
 std::uint64_t halved_reference_memory(const FemSystem& quadratic, bool has_factor);
 
 /// The answer that quadratic tetrahedra are judged by: the same with all edges halved, by conjugate gradients in the

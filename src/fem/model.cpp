@@ -201,9 +201,9 @@ std::uint64_t FemModel::constrain_memory(std::span<const int> fixed, std::span<c
 }
 
 std::uint64_t FemModel::check_memory(std::span<const int> fixed, std::span<const int> handles) const {
-    if (degree() == ElementDegree::linear) return quadratic_reference_memory(*system_);
     const bool has_factor = !operators_ && elimination_of(nodes_of(fixed, handles)) == Elimination::all;
-    return halved_reference_memory(*system_, has_factor);
+    return degree() == ElementDegree::linear ? quadratic_reference_memory(*system_, has_factor)
+                                             : halved_reference_memory(*system_, has_factor);
 }
 
 ConstrainedFemNodes FemModel::nodes_of(std::span<const int> fixed, std::span<const int> handles) const {

@@ -69,7 +69,7 @@ std::uint64_t PetscFemModel::constrain_memory(std::span<const int> fixed, std::s
 std::uint64_t PetscFemModel::check_memory(std::span<const int>, std::span<const int>) const {
     const FemSystem system{std::shared_ptr<const FemMesh>(mesh_), {}};
     const std::uint64_t all = degree() == ElementDegree::linear
-                                  ? quadratic_reference_memory(system)
+                                  ? quadratic_reference_memory(system, true)
                                   : kBytesOfLinearPart * static_cast<std::uint64_t>(mesh_->tets.n_vertices());
     return static_cast<std::uint64_t>(static_cast<double>(all) * Session::current().part_on_this_machine());
 }
