@@ -10,17 +10,16 @@
 #include "deform/pinned_body.hpp"
 #include "fem/constrained_nodes.hpp"
 #include "fem/constraints.hpp"
+#include "fem/halved_mesh.hpp"
 #include "fem/load_vectors.hpp"
 #include "fem/stiffness_product.hpp"
-#include "fem/two_levels.hpp"
 
 namespace elastolab {
 
 namespace {
 
-/// Of what the second answer changes, in energy: two digits are enough for an estimate where the first is the worse by
-/// far, less where it is the answer's own kind.
-constexpr double kEnoughOfLinear = 0.01, kEnoughOfHalved = 0.03;
+/// IterationOptions::energy_tolerance where the answer that is judged is the worse one by far.
+constexpr double kEnoughOfLinear = 0.01;
 /// Bytes of elements, their interpolation and vectors for each quadratic node; and for each node of quadratic elements
 /// that are halved, where there are eight in place of it.
 constexpr std::uint64_t kBytesOfQuadraticNode = 1500, kBytesOfHalvedNode = 14000;
@@ -68,14 +67,13 @@ NodalAnswer answer_by_levels(const LevelsProblem& problem, const ReferenceOperat
     Eigen::VectorXd u = Eigen::VectorXd::Zero(problem.prolongation.cols());
     for (std::size_t i = 0; i < problem.vertices.size(); ++i)
         u.segment<3>(3 * problem.vertices[i]) = problem.values.segment<3>(3 * static_cast<Eigen::Index>(i));
-    Eigen::VectorXd load = problem.coarse_given - apply.linear(u);
+    Eigen::VectorXd load = problem.coarse_given - apply.coarse(u);
     for (const int v : problem.vertices) load.segment<3>(3 * v).setZero();
     control.checkpoint();
-    u += apply.solve_linear(load);
+    u += apply.solve_coarse(load);
     u = (problem.prolongation * u).eval();
-    u += levels.solve({apply.quadratic, apply.solve_linear, apply.diagonal}, problem.given - apply.quadratic(u),
-                      problem.enough, control);
-    return {u, reactions_of(apply.quadratic(u), problem.given, constrained, problem.vertices.size())};
+    u += levels.solve(apply, problem.given - apply.stiffness(u), problem.enough, control);
+    return {u, reactions_of(apply.stiffness(u), problem.given, constrained, problem.vertices.size())};
 }
 
 }  // namespace
@@ -106,9 +104,9 @@ std::optional<ReferenceAnswer> quadratic_reference(const FemSystem& linear, doub
     const Eigen::Matrix3Xd diagonal = stiffness.diagonal();
     const Factor factor = factor_for(body, linear, body.vertices(), held, control);
     ReferenceOperators apply;
-    apply.linear = [&](const Eigen::VectorXd& u) -> Eigen::VectorXd { return linear.K * u; };
-    apply.quadratic = [&](const Eigen::VectorXd& u) -> Eigen::VectorXd { return stiffness(u); };
-    apply.solve_linear = [&](const Eigen::VectorXd& f) -> Eigen::VectorXd { return factor->solve(f).col(0); };
+    apply.coarse = [&](const Eigen::VectorXd& u) -> Eigen::VectorXd { return linear.K * u; };
+    apply.stiffness = [&](const Eigen::VectorXd& u) -> Eigen::VectorXd { return stiffness(u); };
+    apply.solve_coarse = [&](const Eigen::VectorXd& f) -> Eigen::VectorXd { return factor->solve(f).col(0); };
     apply.diagonal = [&](int node) -> Eigen::Matrix3d { return diagonal.middleCols<3>(3 * node); };
     return body.released(
         quadratic_reference(mesh, *linear.mesh, apply, body.vertices(), loads, body.values(), control));
@@ -138,17 +136,15 @@ std::optional<ReferenceAnswer> halved_reference(const FemSystem& quadratic, doub
     if (!body.is_held() || halved_reference_memory(quadratic, held && !body.is_pinned()) > available_memory_bytes())
         return {};
     const FemMesh& coarse = *quadratic.mesh;
-    TetMesh tets = coarse.tets;
-    tets.n_surface_vertices = coarse.n_surface_nodes;
-    const QuadraticMesh mesh(tets);
+    const QuadraticMesh mesh = halved_mesh(coarse.tets, coarse.n_surface_nodes);
     const StiffnessProduct stiffness(mesh, Material{1.0, poisson_ratio});
     const Eigen::Matrix3Xd diagonal = stiffness.diagonal();
     const ConstrainedFemNodes nodes = constrain_nodes(quadratic.positions(), coarse.midpoints, {}, body.vertices());
     const Factor factor = factor_for(body, quadratic, nodes.prescribed.nodes, held, control);
     ReferenceOperators apply;
-    apply.linear = [&](const Eigen::VectorXd& u) -> Eigen::VectorXd { return quadratic.K * u; };
-    apply.quadratic = [&](const Eigen::VectorXd& u) -> Eigen::VectorXd { return stiffness(u); };
-    apply.solve_linear = [&](const Eigen::VectorXd& f) -> Eigen::VectorXd { return factor->solve(f).col(0); };
+    apply.coarse = [&](const Eigen::VectorXd& u) -> Eigen::VectorXd { return quadratic.K * u; };
+    apply.stiffness = [&](const Eigen::VectorXd& u) -> Eigen::VectorXd { return stiffness(u); };
+    apply.solve_coarse = [&](const Eigen::VectorXd& f) -> Eigen::VectorXd { return factor->solve(f).col(0); };
     apply.diagonal = [&](int node) -> Eigen::Matrix3d { return diagonal.middleCols<3>(3 * node); };
     const Eigen::VectorXd factors = values.tail(std::ssize(loads));
     const NodalAnswer fine = answer_by_levels(

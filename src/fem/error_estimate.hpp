@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <Eigen/Core>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -12,6 +11,7 @@
 #include "fem/quadratic_mesh.hpp"
 #include "fem/solvers.hpp"
 #include "fem/sparse_cholesky.hpp"
+#include "fem/two_levels.hpp"
 
 namespace elastolab {
 
@@ -22,12 +22,12 @@ inline constexpr double kLeftByQuadratic = 0.45;
 /// The same of halving their edges.
 inline constexpr double kLeftByHalving = 0.5;
 
-/// What the estimate of linear elements needs of the two stiffnesses, wherever these are kept.
-struct ReferenceOperators {
-    using Product = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
-    Product linear, quadratic;                     ///< forces for displacements of all nodes
-    Product solve_linear;                          ///< by the linear one with the constrained vertices eliminated
-    std::function<Eigen::Matrix3d(int)> diagonal;  ///< block of a node on the diagonal of the quadratic one
+/// IterationOptions::energy_tolerance of the answer on halved edges.
+inline constexpr double kEnoughOfHalved = 0.03;
+
+/// What a second answer needs of the stiffness that is judged and of the finer one, wherever these are kept.
+struct ReferenceOperators : TwoLevels::Operators {
+    TwoLevels::Product coarse;  ///< forces for displacements of the nodes that are judged
 };
 
 using Factor = std::shared_ptr<const SparseCholesky>;

@@ -17,7 +17,7 @@ public:
     /// mesh: kept; poisson_ratio < 1/2. Throws MeshError where a tetrahedron has no positive volume.
     StiffnessProduct(const QuadraticMesh& mesh, const Material& material);
 
-    /// Forces for displacements of all nodes, the same for any number of threads.
+    /// Forces for displacements [L] of all nodes, 3*n_nodes, node-major; the same for any number of threads.
     Eigen::VectorXd operator()(const Eigen::VectorXd& u) const;
     /// The blocks on the diagonal, one node after the other: 3 x 3 n_nodes.
     Eigen::Matrix3Xd diagonal() const;

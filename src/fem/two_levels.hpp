@@ -7,9 +7,6 @@
 
 #include "base/control.hpp"
 #include "deform/iteration.hpp"
-#include "deform/solid_model.hpp"
-#include "deform/unit_load.hpp"
-#include "fem/constrained_nodes.hpp"
 #include "fem/quadratic_mesh.hpp"
 #include "fem/sparse_matrix.hpp"
 
@@ -49,14 +46,5 @@ private:
 
 /// Linear elements inside quadratic ones on the same tetrahedra: a midpoint is the mean of its ends.
 SparseMatrix from_corners(const QuadraticMesh& mesh);
-
-/// Quadratic elements inside those that halve their edges: on QuadraticMesh::split of them, all nodes on their surface
-/// counted to it. elements: the coarse ones, 10 rows.
-SparseMatrix from_whole(const QuadraticMesh& halved, const Eigen::MatrixXi& elements);
-/// Four triangles in place of each, and the loads on them.
-Triangles quarters(const Triangles& triangles, const Triangles& midpoints);
-std::vector<UnitLoad> on_quarters(std::span<const UnitLoad> loads);
-/// Each vertex with its part of what the nodes around it carry, whose displacements follow its own.
-Reactions at_vertices(const Reactions& at_nodes, const ConstrainedFemNodes& nodes);
 
 }  // namespace elastolab

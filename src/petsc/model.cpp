@@ -114,9 +114,9 @@ std::optional<ReferenceAnswer> PetscFemModel::better_answer(const std::vector<in
     const PetscStiffness quadratic(mesh.positions, mesh.elements, poisson_ratio_, control);
     const Eigen::Matrix3Xd diagonal = quadratic.diagonal(control);
     ReferenceOperators apply;
-    apply.linear = [&](Values u) -> Eigen::VectorXd { return stiffness_->multiply(u, control); };
-    apply.quadratic = [&](Values u) -> Eigen::VectorXd { return quadratic.multiply(u, control); };
-    apply.solve_linear = [&](Values f) -> Eigen::VectorXd { return stiffness_->solve(f, kPetscTolerance, control); };
+    apply.coarse = [&](Values u) -> Eigen::VectorXd { return stiffness_->multiply(u, control); };
+    apply.stiffness = [&](Values u) -> Eigen::VectorXd { return quadratic.multiply(u, control); };
+    apply.solve_coarse = [&](Values f) -> Eigen::VectorXd { return stiffness_->solve(f, kPetscTolerance, control); };
     apply.diagonal = [&](int node) -> Eigen::Matrix3d { return diagonal.middleCols<3>(3 * node); };
     return quadratic_reference(mesh, *mesh_, apply, vertices, loads, values, control);
 }

@@ -84,7 +84,7 @@ TEST(GripStiffness, JudgesTheBalanceByTheLoadsThemselves) {
         Control control;
         GripStiffness stiffness(*grasped.deformer, grasped.values, {{0, 4}, {4, 8}}, control);
         EXPECT_GT(stiffness.motions(halves).norm(), 0.0) << name(kind);
-        for (const int row : {1, 2, 3}) {  // across, along, and a moment about the bar
+        for (const int row : {1, 2, 3}) {  // across, against the weight, and a moment about the bar
             const Eigen::VectorXd more = halves + 8.0 * Eigen::VectorXd::Unit(12, row);
             EXPECT_THROW(stiffness.motions(more), SolveError) << name(kind) << ", row " << row;
         }

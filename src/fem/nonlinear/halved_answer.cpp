@@ -2,6 +2,7 @@
 
 #include "deform/node_rows.hpp"
 #include "fem/error_estimate.hpp"
+#include "fem/halved_mesh.hpp"
 #include "fem/load_vectors.hpp"
 #include "fem/stiffness_product.hpp"
 #include "fem/two_levels.hpp"
@@ -10,8 +11,6 @@ namespace elastolab {
 
 namespace {
 
-/// IterationOptions::energy_tolerance of what halving changes.
-constexpr double kEnoughOfStep = 0.03;
 /// For each node of the elements that are halved: of the new elements, their interpolation and vectors.
 constexpr std::uint64_t kBytesOfTenNode = 20000;
 
@@ -22,16 +21,10 @@ struct Halved {
     NonlinearLoads loads;
 
     Halved(const NonlinearMesh& whole, std::span<const UnitLoad> given)
-        : mesh(with_all_surface_nodes(whole)),
+        : mesh(halved_mesh(whole.tets, whole.n_surface_nodes)),
           elements(std::make_shared<const FiniteElements>(mesh.positions, mesh.elements)) {
         const Triangles surface = quarters(whole.surface, whole.surface_midpoints);
         loads = {elements, surface, midpoints_of(surface, mesh), on_quarters(given)};
-    }
-
-    static TetMesh with_all_surface_nodes(const NonlinearMesh& whole) {
-        TetMesh tets = whole.tets;
-        tets.n_surface_vertices = whole.n_surface_nodes;
-        return tets;
     }
 };
 
@@ -70,7 +63,7 @@ std::optional<ReferenceAnswer> halved_answer(const NonlinearMesh& mesh, const Ne
                                      [&](int node) -> Eigen::Matrix3d { return diagonal.middleCols<3>(3 * node); }};
     const Eigen::VectorXd forces = fine.elements->forces(u, material, work, control) - fine.loads.forces(u, factors);
     IterationReport report;
-    const Eigen::VectorXd change = levels.solve(apply, -forces, kEnoughOfStep, control, &report);
+    const Eigen::VectorXd change = levels.solve(apply, -forces, kEnoughOfHalved, control, &report);
     if (report.indefinite) return {};  // the state is no longer near an equilibrium of the halved elements
     const Reactions at_nodes =
         present_reactions(held.shares, rows_of(displacements, nodes.prescribed.nodes).col(0),
