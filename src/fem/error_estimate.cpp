@@ -135,29 +135,40 @@ std::optional<ReferenceAnswer> halved_reference(const FemSystem& quadratic, doub
     const PinnedBody body(quadratic.positions().leftCols(quadratic.n_vertices()), vertices, values, first);
     if (!body.is_held() || halved_reference_memory(quadratic, held && !body.is_pinned()) > available_memory_bytes())
         return {};
-    const FemMesh& coarse = *quadratic.mesh;
-    const QuadraticMesh mesh = halved_mesh(coarse.tets, coarse.n_surface_nodes);
-    const StiffnessProduct stiffness(mesh, Material{1.0, poisson_ratio});
-    const Eigen::Matrix3Xd diagonal = stiffness.diagonal();
-    const ConstrainedFemNodes nodes = constrain_nodes(quadratic.positions(), coarse.midpoints, {}, body.vertices());
+    const ConstrainedFemNodes nodes =
+        constrain_nodes(quadratic.positions(), quadratic.mesh->midpoints, {}, body.vertices());
     const Factor factor = factor_for(body, quadratic, nodes.prescribed.nodes, held, control);
+    return body.released(halved_reference(
+        *quadratic.mesh, poisson_ratio, [&](const Eigen::VectorXd& u) -> Eigen::VectorXd { return quadratic.K * u; },
+        [&](const Eigen::VectorXd& f) -> Eigen::VectorXd { return factor->solve(f).col(0); }, body.vertices(), loads,
+        body.values(), control));
+}
+
+ReferenceAnswer halved_reference(const FemMesh& quadratic, double poisson_ratio, const TwoLevels::Product& stiffness,
+                                 const TwoLevels::Product& solve, std::span<const int> vertices,
+                                 std::span<const UnitLoad> loads, const Eigen::VectorXd& values, Control& control) {
+    const QuadraticMesh mesh = halved_mesh(quadratic.tets, quadratic.n_surface_nodes);
+    const StiffnessProduct fine(mesh, Material{1.0, poisson_ratio});
+    const Eigen::Matrix3Xd diagonal = fine.diagonal();
+    const ConstrainedFemNodes nodes = constrain_nodes(quadratic.tets.vertices, quadratic.midpoints, {}, vertices);
     ReferenceOperators apply;
-    apply.coarse = [&](const Eigen::VectorXd& u) -> Eigen::VectorXd { return quadratic.K * u; };
-    apply.stiffness = [&](const Eigen::VectorXd& u) -> Eigen::VectorXd { return stiffness(u); };
-    apply.solve_coarse = [&](const Eigen::VectorXd& f) -> Eigen::VectorXd { return factor->solve(f).col(0); };
+    apply.coarse = stiffness;
+    apply.solve_coarse = solve;
+    apply.stiffness = [&](const Eigen::VectorXd& u) -> Eigen::VectorXd { return fine(u); };
     apply.diagonal = [&](int node) -> Eigen::Matrix3d { return diagonal.middleCols<3>(3 * node); };
     const Eigen::VectorXd factors = values.tail(std::ssize(loads));
-    const NodalAnswer fine = answer_by_levels(
-        {.mesh = mesh,
-         .prolongation = from_whole(mesh, coarse.elements()),
-         .vertices = nodes.prescribed.nodes,
-         .values = nodes.prescribed.prescribe * body.values().head(3 * std::ssize(body.vertices())),
-         .coarse_given = load_vectors(coarse, loads) * factors,
-         .given = load_vectors(mesh, quarters(coarse.surface, coarse.surface_midpoints), on_quarters(loads)) * factors,
-         .enough = kEnoughOfHalved},
-        apply, control);
-    return body.released({fine.displacements.head(3 * quadratic.n_vertices()), at_vertices(fine.reactions, nodes),
-                          1.0 + kLeftByHalving});
+    const Triangles surface = quarters(quadratic.surface, quadratic.surface_midpoints);
+    const NodalAnswer answer =
+        answer_by_levels({.mesh = mesh,
+                          .prolongation = from_whole(mesh, quadratic.elements()),
+                          .vertices = nodes.prescribed.nodes,
+                          .values = nodes.prescribed.prescribe * values.head(3 * std::ssize(vertices)),
+                          .coarse_given = load_vectors(quadratic, loads) * factors,
+                          .given = load_vectors(mesh, surface, on_quarters(loads)) * factors,
+                          .enough = kEnoughOfHalved},
+                         apply, control);
+    return {answer.displacements.head(3 * quadratic.tets.n_surface_vertices), at_vertices(answer.reactions, nodes),
+            1.0 + kLeftByHalving};
 }
 
 }  // namespace elastolab

@@ -65,4 +65,10 @@ std::optional<ReferenceAnswer> halved_reference(const FemSystem& quadratic, doub
                                                 const Eigen::VectorXd& values, const Eigen::VectorXd& first,
                                                 const Factor& held, Control& control);
 
+/// The same for vertices that hold the body, by the stiffness of the given elements: forces for displacements of all
+/// nodes, and the displacements for forces where what the vertices prescribe is zero.
+ReferenceAnswer halved_reference(const FemMesh& quadratic, double poisson_ratio, const TwoLevels::Product& stiffness,
+                                 const TwoLevels::Product& solve, std::span<const int> vertices,
+                                 std::span<const UnitLoad> loads, const Eigen::VectorXd& values, Control& control);
+
 }  // namespace elastolab

@@ -20,8 +20,8 @@ std::shared_ptr<PetscStiffness> distribute(const FemMesh& mesh, double poisson_r
 
 /// Bytes of the constrained matrix, of GAMG's coarse ones or MUMPS's front, for each node on average.
 constexpr double kBytesOfNode = 8000.0;
-/// Of the linear stiffness and its factor, by which quadratic elements are judged, for each of their nodes.
-constexpr std::uint64_t kBytesOfLinearPart = 3000;
+/// Of the elements with halved edges, by which quadratic ones are judged, for each node of these.
+constexpr std::uint64_t kBytesOfHalvedNode = 14000;
 
 }  // namespace
 
@@ -70,7 +70,7 @@ std::uint64_t PetscFemModel::check_memory(std::span<const int>, std::span<const 
     const FemSystem system{std::shared_ptr<const FemMesh>(mesh_), {}};
     const std::uint64_t all = degree() == ElementDegree::linear
                                   ? quadratic_reference_memory(system, true)
-                                  : kBytesOfLinearPart * static_cast<std::uint64_t>(mesh_->tets.n_vertices());
+                                  : kBytesOfHalvedNode * static_cast<std::uint64_t>(mesh_->tets.n_vertices());
     return static_cast<std::uint64_t>(static_cast<double>(all) * Session::current().part_on_this_machine());
 }
 
@@ -92,7 +92,7 @@ std::unique_ptr<ConstrainedSolid> PetscFemModel::constrain(std::span<const int> 
     checks.reference = [this, vertices = constrained.vertices, all = std::vector<UnitLoad>(loads.begin(), loads.end())](
                            Values values, const NodeSolution&, Control& its_control) {
         return degree() == ElementDegree::linear ? better_answer(vertices, all, values, its_control)
-                                                 : simpler_answer(vertices, all, values, its_control);
+                                                 : halved_answer(vertices, all, values, its_control);
     };
     checks.interior_field = [mesh = mesh_, nu = poisson_ratio_](NodeSolution&& solution, Control&) {
         return std::make_shared<const NodalField>(std::shared_ptr<const TetMesh>(mesh, &mesh->tets), mesh->degree(), nu,
@@ -121,21 +121,18 @@ std::optional<ReferenceAnswer> PetscFemModel::better_answer(const std::vector<in
     return quadratic_reference(mesh, *mesh_, apply, vertices, loads, values, control);
 }
 
-/// Linear elements on the same tetrahedra, whose space is part of the quadratic ones': what the second degree changed
-/// indicates what a third would.
-std::optional<ReferenceAnswer> PetscFemModel::simpler_answer(const std::vector<int>& vertices,
-                                                             std::span<const UnitLoad> loads, Values values,
-                                                             Control& control) const {
+/// As halved_reference, likewise.
+std::optional<ReferenceAnswer> PetscFemModel::halved_answer(const std::vector<int>& vertices,
+                                                            std::span<const UnitLoad> loads, Values values,
+                                                            Control& control) const {
     if (!holds(mesh_->tets.vertices, vertices)) return {};
-    const FemMesh mesh = elements_on(*tets_, mesh_->surface, ElementDegree::linear);
-    const Eigen::MatrixXd given = load_vectors(mesh, loads);
-    const PetscHeldSolver solver(distribute(mesh, poisson_ratio_, control), mesh.tets.vertices, vertices, given,
-                                 control);
-    const NodeSolution solution = solver.solve_watched(values, true, kPetscTolerance, control);
-    const std::vector<LoadShare> shares = nodal_shares(mesh.tets.vertices, vertices);
-    return ReferenceAnswer{solution.displacements.col(0).head(3 * mesh.tets.n_surface_vertices),
-                           gathered_reactions(shares, static_cast<int>(vertices.size()), solution.loads.col(0)),
-                           -kLeftByQuadratic};
+    if (check_memory({}, {}) > available_memory_bytes()) return {};
+    const ConstrainedFemNodes nodes = constrain_nodes(mesh_->tets.vertices, mesh_->midpoints, {}, vertices);
+    stiffness_->ensure_eliminated(nodes.prescribed.nodes, control);
+    return halved_reference(
+        *mesh_, poisson_ratio_, [&](Values u) -> Eigen::VectorXd { return stiffness_->multiply(u, control); },
+        [&](Values f) -> Eigen::VectorXd { return stiffness_->solve(f, kPetscTolerance, control); }, vertices, loads,
+        values, control);
 }
 
 const SparseStiffness* PetscFemModel::sparse_stiffness() const {

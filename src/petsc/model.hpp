@@ -40,8 +40,8 @@ private:
     using Values = const Eigen::VectorXd&;
     std::optional<ReferenceAnswer> better_answer(const std::vector<int>& vertices, std::span<const UnitLoad> loads,
                                                  Values values, Control& control) const;
-    std::optional<ReferenceAnswer> simpler_answer(const std::vector<int>& vertices, std::span<const UnitLoad> loads,
-                                                  Values values, Control& control) const;
+    std::optional<ReferenceAnswer> halved_answer(const std::vector<int>& vertices, std::span<const UnitLoad> loads,
+                                                 Values values, Control& control) const;
 
     double poisson_ratio_;
     Update update_;
