@@ -1,6 +1,7 @@
 // soak_program: random edits and drags in the real window, round after round, each undone at its end. Memory, open
 // files and threads must be level: what they are at rest in the last third of the rounds is what they were in the
-// second (the first warms up).
+// second (the first warms up). The allocator is told to return what is freed: what it keeps else differs by 50 MB from
+// one round to the next.
 //   soak_program [--seconds S] [--seed K]
 #include <algorithm>
 #include <chrono>
@@ -23,8 +24,10 @@ constexpr int kActsOfARound = 12;
 constexpr std::size_t kFewestRounds = 9;
 const Eigen::Vector2d kWindow(1000, 700);
 constexpr double kTop = 40.0;           ///< below the menu, in which one can quit
-constexpr double kMemoryGrowth = 32e6;  ///< bytes that memory may be above: heaps are never exactly level
+constexpr double kMemoryGrowth = 24e6;  ///< bytes that memory may be above: heaps are never exactly level
 constexpr int kDescriptorGrowth = 2, kThreadGrowth = 2;
+constexpr const char* kReturnsWhatIsFreed =
+    "glibc.malloc.arena_max=2:glibc.malloc.mmap_threshold=65536:glibc.malloc.trim_threshold=65536";
 
 /// What the program holds at rest.
 struct Level {
@@ -132,7 +135,9 @@ template <class Measure>
 bool is_level(const std::vector<Level>& levels, const char* name, double most, const Measure& measure) {
     const std::size_t n = levels.size();
     const double before = largest(levels, n / 3, 2 * n / 3, measure), after = largest(levels, 2 * n / 3, n, measure);
-    std::cout << "  " << name << ": " << before << ", later " << after << "\n";
+    std::cout << "  " << name << ": " << before << ", later " << after << " (";
+    for (const Level& level : levels) std::cout << " " << static_cast<double>(measure(level));
+    std::cout << " )\n";
     return after - before <= most;
 }
 
@@ -147,6 +152,7 @@ int soak(double seconds, std::uint64_t seed) {
     const TemporaryFolder folder;
     folder.write("cube.json", cube_scene("fem", 4));
     for (const char* name : {"HOME", "XDG_STATE_HOME"}) setenv(name, folder.path().c_str(), 1);
+    setenv("GLIBC_TUNABLES", kReturnsWhatIsFreed, 1);
     RealWindow window({"cube.json", "--size", "1000x700"}, folder.path());
     window.settle();
     std::vector<Level> levels;
