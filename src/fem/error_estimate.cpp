@@ -167,7 +167,8 @@ ReferenceAnswer halved_reference(const FemMesh& quadratic, double poisson_ratio,
                           .given = load_vectors(mesh, surface, on_quarters(loads)) * factors,
                           .enough = kEnoughOfHalved},
                          apply, control);
-    return {answer.displacements.head(3 * quadratic.tets.n_surface_vertices), at_vertices(answer.reactions, nodes),
+    return {answer.displacements.head(3 * quadratic.tets.n_surface_vertices),
+            gathered_reactions(nodes.shares, static_cast<int>(vertices.size()), answer.reactions.forces.reshaped()),
             1.0 + kLeftByHalving};
 }
 

@@ -49,14 +49,4 @@ std::vector<UnitLoad> on_quarters(std::span<const UnitLoad> loads) {
     return fine;
 }
 
-Reactions at_vertices(const Reactions& at_nodes, const ConstrainedFemNodes& nodes) {
-    const Eigen::Index n = std::ssize(nodes.vertices);
-    Reactions sums{Eigen::Matrix3Xd::Zero(3, n), Eigen::Matrix3Xd::Zero(3, n)};
-    for (const LoadShare& share : nodes.shares) {
-        sums.forces.col(share.constrained) += share.weight * at_nodes.forces.col(share.slot);
-        sums.moments.col(share.constrained) += share.weight * at_nodes.moments.col(share.slot);
-    }
-    return sums;
-}
-
 }  // namespace elastolab

@@ -4,9 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "deform/solid_model.hpp"
 #include "deform/unit_load.hpp"
-#include "fem/constrained_nodes.hpp"
 #include "fem/quadratic_mesh.hpp"
 #include "fem/sparse_matrix.hpp"
 
@@ -23,9 +21,5 @@ SparseMatrix from_whole(const QuadraticMesh& halved, const Eigen::MatrixXi& elem
 /// Four triangles of the surface in place of each, and the same tractions on them: triangle t becomes 4 t to 4 t + 3.
 Triangles quarters(const Triangles& triangles, const Triangles& midpoints);
 std::vector<UnitLoad> on_quarters(std::span<const UnitLoad> loads);
-
-/// Forces and moments at the constrained vertices of the given elements: each has its part of what the nodes around it
-/// carry, whose displacements follow its own. at_nodes: one column for each of nodes.prescribed.nodes.
-Reactions at_vertices(const Reactions& at_nodes, const ConstrainedFemNodes& nodes);
 
 }  // namespace elastolab

@@ -69,15 +69,18 @@ using FactorPtr = std::unique_ptr<cholmod_factor, CholmodFactorDeleter>;
 
 namespace {
 
-/// CHOLMOD's view of the lower triangle of a matrix; nothing is copied or written.
+/// CHOLMOD's view of the lower triangle of a matrix; nothing is copied or written. It takes no null pointers, which
+/// arrays of a matrix without entries are: a body all of whose nodes are prescribed.
 cholmod_sparse sparse_view(const SparseMatrix& A) {
+    static int no_row = 0;
+    static double no_value = 0.0;
     assert(A.isCompressed() && A.rows() == A.cols());
     cholmod_sparse view{};
     view.nrow = view.ncol = static_cast<std::size_t>(A.rows());
     view.nzmax = static_cast<std::size_t>(A.nonZeros());
     view.p = const_cast<int*>(A.outerIndexPtr());
-    view.i = const_cast<int*>(A.innerIndexPtr());
-    view.x = const_cast<double*>(A.valuePtr());
+    view.i = A.nonZeros() == 0 ? &no_row : const_cast<int*>(A.innerIndexPtr());
+    view.x = A.nonZeros() == 0 ? &no_value : const_cast<double*>(A.valuePtr());
     view.stype = -1;
     view.itype = CHOLMOD_INT;
     view.xtype = CHOLMOD_REAL;
@@ -124,7 +127,7 @@ std::vector<int> ordering(const SparseMatrix& pattern, int block) {
     const FactorPtr factor(cholmod_analyze(&view, common));
     common.check("stiffness matrix");
     std::vector<int> order;
-    order.reserve(static_cast<std::size_t>(pattern.rows()));
+    order.reserve(static_cast<std::size_t>(pattern.rows()) + 1);  // never null, see above
     for (Eigen::Index g = 0; g < groups.rows(); ++g)
         for (int i = 0; i < block; ++i) order.push_back(block * static_cast<int*>(factor->Perm)[g] + i);
     return order;

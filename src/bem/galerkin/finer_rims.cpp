@@ -127,7 +127,9 @@ FinerRims::FinerRims(const SurfaceMesh& body, std::span<const int> constrained, 
         for (SurfaceWeights::InnerIterator at(weights, v); at; ++at) {
             const int i = place[static_cast<std::size_t>(at.col())];
             prescribe.add(node, i, at.value());
-            shares.push_back({node, i, at.value(), at.value() * surface.mesh.vertices.col(v)});
+            // With the arm of the body's vertex, as forces on its own surface have: where two handles touch, the moment
+            // of each depends on it.
+            shares.push_back({node, i, at.value(), at.value() * body.vertices.col(at.col())});
         }
     }
     nodes = {vertices, prescribe.build(std::ssize(vertices), std::ssize(constrained))};

@@ -34,7 +34,6 @@ std::optional<ReferenceAnswer> halved_answer(const NonlinearMesh& mesh, const Ne
                                              const std::vector<int>& vertices, std::span<const UnitLoad> loads,
                                              const Eigen::VectorXd& displacements, const Eigen::VectorXd& factors,
                                              Control& control) {
-    if (newton.tangent().size() == 0) return {};
     const Halved fine(mesh, loads);
     const ConstrainedFemNodes nodes = constrain_nodes(mesh.tets.vertices, mesh.midpoints, {}, vertices);
     const ConstrainedFemNodes held =
@@ -66,10 +65,12 @@ std::optional<ReferenceAnswer> halved_answer(const NonlinearMesh& mesh, const Ne
     const Eigen::VectorXd change = levels.solve(apply, -forces, kEnoughOfHalved, control, &report);
     if (report.indefinite) return {};  // the state is no longer near an equilibrium of the halved elements
     const Reactions at_nodes =
-        present_reactions(held.shares, rows_of(displacements, nodes.prescribed.nodes).col(0),
-                          rows_of(forces + apply.stiffness(change), held.prescribed.nodes).col(0));
-    return ReferenceAnswer{(u + change).head(3 * mesh.n_vertices()), at_vertices(at_nodes, nodes),
-                           1.0 + kLeftByHalving};
+        gathered_reactions(held.shares, static_cast<int>(nodes.prescribed.nodes.size()),
+                           rows_of(forces + apply.stiffness(change), held.prescribed.nodes).col(0));
+    return ReferenceAnswer{
+        (u + change).head(3 * mesh.n_vertices()),
+        present_reactions(nodes.shares, rows_of(displacements, nodes.vertices).col(0), at_nodes.forces.reshaped()),
+        1.0 + kLeftByHalving};
 }
 
 std::uint64_t halved_answer_memory(const NonlinearMesh& mesh) {
