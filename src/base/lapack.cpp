@@ -161,4 +161,23 @@ SymmetricEigen symmetric_eigen(Eigen::MatrixXd A) {
     return {std::move(values), std::move(A)};
 }
 
+Eigen::VectorXd real_parts_of_eigenvalues(Eigen::MatrixXd A) {
+    assert(A.rows() == A.cols());
+    const int n = as_int(A.rows());
+    Eigen::VectorXd real(n), imaginary(n);
+    if (n == 0) return real;
+    if (!A.allFinite()) throw SolveError("eigenvalues: of a matrix with entries that are not finite.");
+    double answer = 0.0;
+    const auto run = [&](double* work, int size) {
+        return LAPACKE_dgeev_work(LAPACK_COL_MAJOR, 'N', 'N', n, A.data(), n, real.data(), imaginary.data(), nullptr, 1,
+                                  nullptr, 1, work, size);
+    };
+    run(&answer, -1);
+    std::vector<double> work = work_array(answer);
+    if (run(work.data(), as_int(std::ssize(work))) != 0)
+        throw SolveError("eigenvalues: the iteration does not converge.");
+    std::sort(real.begin(), real.end());
+    return real;
+}
+
 }  // namespace elastolab

@@ -77,4 +77,7 @@ struct SymmetricEigen {
 /// that are not finite.
 SymmetricEigen symmetric_eigen(Eigen::MatrixXd A);
 
+/// Real parts of the eigenvalues of a square matrix, ascending. By dgeev; throws as symmetric_eigen.
+Eigen::VectorXd real_parts_of_eigenvalues(Eigen::MatrixXd A);
+
 }  // namespace elastolab

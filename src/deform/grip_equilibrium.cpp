@@ -21,7 +21,7 @@ constexpr double kForcesBalance = 1e-8, kForcesNearlyBalance = 1e-6;
 constexpr double kLeastGain = 1e-9, kFalls = 0.9;
 constexpr int kWholeSteps = 4;
 constexpr double kShortestStep = 1e-3;
-constexpr int kMostSolves = 120, kMostPushes = 3;
+constexpr int kMostSolves = 120, kMostNewtonSolves = 25, kMostPushes = 3;
 /// Forces that stretch the body more than this are none that a material bears: a mistake in the units. Linear theory
 /// tells those that are far beyond, by a mean strain that leaves room for what bends first.
 constexpr double kMostStretch = 100.0, kMostLinearStrain = 1000.0;
@@ -53,7 +53,8 @@ public:
           grips_(deformer, grips, forces),
           forces_(forces),
           units_(grips_.units()),
-          held_(grips_.body_is_held()) {}
+          held_(grips_.body_is_held()),
+          moments_(std::ranges::any_of(forces, [](const GripForce& its) { return !its.moment.isZero(0.0); })) {}
 
     State at(std::vector<GripPlace> places, VectorXd values, const Approach& approach) {
         control_.checkpoint();
@@ -69,27 +70,14 @@ public:
         return state;
     }
 
-    State run(State state) {
-        const double most_stretch = kMostStretch * state.answer.facts->largest_stretch;
-        int pushes = 0;
-        while (solves_ < kMostSolves) {
-            if (state.answer.facts->largest_stretch > most_stretch) throw SolveError(kUnbearable);
-            const GripTangent stiffness = tangent(state);
-            if (balanced(state, stiffness, kForcesBalance)) {
-                if (stiffness.stable() || pushes++ == kMostPushes) return state;
-                state = pushed(state, stiffness);
-                continue;
-            }
-            std::optional<State> next = improved(state, stiffness);
-            // Close to the answer, forces fall until they are those that the body's own equilibrium leaves.
-            const bool falls = next && next->missing.norm() < 0.5 * state.missing.norm();
-            if (!falls && balanced(state, stiffness, kForcesNearlyBalance)) return state;
-            if (!next) break;
-            state = *std::move(next);
-        }
-        throw SolveError(
-            "handles under a force: no motion of theirs was found that balances it. Make the forces smaller, or let "
-            "them grow in steps.");
+    /// From such a state on. By Newton's method where moments act, which keep their direction, so that they have no
+    /// energy that would fall; where that fails or ends in a state that is not stable, downhill.
+    State run(const State& first) {
+        if (!moments_) return downhill(first);
+        by_newton_ = true;
+        std::optional<State> found = descended(first, kMostNewtonSolves);
+        by_newton_ = false;
+        return found && tangent(*found).stable() ? *std::move(found) : downhill(first);
     }
     /// Throws where something of the forces would move the grips without end.
     void require_answer(const State& state) const {
@@ -113,6 +101,36 @@ public:
     }
 
 private:
+    State downhill(State state) {
+        std::optional<State> found = descended(std::move(state), kMostSolves);
+        if (!found)
+            throw SolveError(
+                "handles under a force: no motion of theirs was found that balances it. Make the forces smaller, or "
+                "let them grow in steps.");
+        return *std::move(found);
+    }
+    /// The equilibrium that is found in so many solves.
+    std::optional<State> descended(State state, int most_solves) {
+        const double most_stretch = kMostStretch * state.answer.facts->largest_stretch;
+        const int last = solves_ + most_solves;
+        int pushes = 0;
+        while (solves_ < last) {
+            if (state.answer.facts->largest_stretch > most_stretch) throw SolveError(kUnbearable);
+            const GripTangent stiffness = tangent(state);
+            if (balanced(state, stiffness, kForcesBalance)) {
+                if (by_newton_ || stiffness.stable() || pushes++ == kMostPushes) return state;
+                state = pushed(state, stiffness);
+                continue;
+            }
+            std::optional<State> next = improved(state, stiffness, last);
+            // Close to the answer, forces fall until they are those that the body's own equilibrium leaves.
+            const bool falls = next && next->missing.norm() < 0.5 * state.missing.norm();
+            if (!falls && balanced(state, stiffness, kForcesNearlyBalance)) return state;
+            if (!next) break;
+            state = *std::move(next);
+        }
+        return std::nullopt;
+    }
     double size_of(const State& state) const {
         const VectorXd wanted = grips_.wanted(state.places);
         return std::max((units_.asDiagonal() * wanted).norm(), (units_.asDiagonal() * (wanted - state.missing)).norm());
@@ -146,19 +164,23 @@ private:
         return potential(next) < potential(state) - kLeastGain * std::abs(potential(state)) ||
                stiffness.answered(next.missing).norm() < kFalls * stiffness.answered(state.missing).norm();
     }
-    std::optional<State> stepped(const State& state, const GripTangent& stiffness, double part) {
-        const VectorXd step = stiffness.step(stiffness.answered(state.missing));
+    VectorXd step_from(const State& state, const GripTangent& stiffness) const {
+        const VectorXd missing = stiffness.answered(state.missing);
+        return by_newton_ && stiffness.leads_downhill() ? stiffness.newton_step(missing) : stiffness.step(missing);
+    }
+    std::optional<State> stepped(const State& state, const VectorXd& step, double part = 1.0) {
         return tried(state, part * std::min(1.0, longest_step(state.places, grips_.length(), step)) * step);
     }
     /// A better state after a few whole steps, since what resists much more than the rest (a slender bar its stretch)
-    /// is put right by the step after; else after one that is short enough.
-    std::optional<State> improved(const State& state, const GripTangent& stiffness) {
-        std::optional<State> next = stepped(state, stiffness, 1.0);
+    /// is put right by the step after; else after one that is short enough. last: no more solves than that.
+    std::optional<State> improved(const State& state, const GripTangent& stiffness, int last) {
+        const VectorXd step = step_from(state, stiffness);
+        std::optional<State> next = stepped(state, step);
         for (int i = 1; next && !better(*next, state, stiffness) && i < kWholeSteps; ++i)
-            next = stepped(*next, tangent(*next), 1.0);
+            next = stepped(*next, step_from(*next, tangent(*next)));
         for (double part = 0.5; (!next || !better(*next, state, stiffness)) && part > kShortestStep; part *= 0.5) {
-            if (solves_ >= kMostSolves) return std::nullopt;
-            next = stepped(state, stiffness, part);
+            if (solves_ >= last) return std::nullopt;
+            next = stepped(state, step, part);
         }
         return next && better(*next, state, stiffness) ? std::move(next) : std::nullopt;
     }
@@ -173,7 +195,7 @@ private:
     MovedGrips grips_;
     const std::vector<GripForce>& forces_;
     VectorXd units_;
-    bool held_;
+    bool held_, moments_, by_newton_ = false;
     int solves_ = 0, iterations_ = 0;
 };
 
@@ -208,7 +230,7 @@ GripEquilibrium find_grip_equilibrium(const Deformer& deformer, const VectorXd& 
         search.require_answer(first);
         search.require_bearable(first);
     }
-    State state = search.run(std::move(first));
+    State state = search.run(first);
     GripTangent tangent = search.tangent(state);
     return {.grips = grips,
             .forces = forces,

@@ -60,7 +60,15 @@ Eigen::VectorXd GripTangent::units() const {
     return unit;
 }
 
-bool GripTangent::stable() const { return !(values_.array() < -none_).any(); }
+bool GripTangent::leads_downhill() const { return (values_.array() < -none_).any(); }
+
+bool GripTangent::stable() const { return !leads_downhill() || real_parts_of_eigenvalues(scaled_)[0] >= -none_; }
+
+Eigen::VectorXd GripTangent::newton_step(const Eigen::VectorXd& answered) const {
+    const SingularValues all = singular_values(scaled_);
+    const Eigen::VectorXd shares = all.U.transpose() * answered;
+    return units().asDiagonal() * (all.V * (all.sigma.array() > none_).select(shares.cwiseQuotient(all.sigma), 0.0));
+}
 
 Eigen::VectorXd GripTangent::answered(const Eigen::VectorXd& forces) const {
     if (values_.size() == 0) return {};

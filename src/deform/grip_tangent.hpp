@@ -30,10 +30,15 @@ public:
 
     double length() const { return length_; }
     const Eigen::MatrixXd& stiffness() const { return stiffness_; }
-    /// False: there are motions along which the energy falls.
+    /// False: there is a motion along which the forces drive it on.
     bool stable() const;
     /// Those of the forces that some motion answers.
     Eigen::VectorXd answered(const Eigen::VectorXd& forces) const;
+    /// Whether the energy falls along some motions: `step` goes downhill and `newton_step` need not. Moments that keep
+    /// their direction have no energy; with them a state can be stable nevertheless.
+    bool leads_downhill() const;
+    /// The shortest motion that answers them by this tangent, downhill or not.
+    Eigen::VectorXd newton_step(const Eigen::VectorXd& answered) const;
     /// The motion that answers them; where it would lead uphill, the signs of the stiffness along the motions that are
     /// not stable are changed.
     Eigen::VectorXd step(const Eigen::VectorXd& answered) const;

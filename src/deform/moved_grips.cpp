@@ -1,6 +1,7 @@
 #include "deform/moved_grips.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <Eigen/Geometry>
 
 #include "deform/loose_motions.hpp"
@@ -9,6 +10,9 @@
 namespace elastolab {
 
 namespace {
+
+/// Up to rounding.
+constexpr double kSame = 1e-9;
 
 Eigen::Vector3d moment_of(const Eigen::Matrix3Xd& arms, const Eigen::Matrix3Xd& forces) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -23,7 +27,18 @@ MovedGrips::MovedGrips(const Deformer& deformer, const std::vector<Grip>& grips,
       grips_(grips),
       wanted_(forces),
       n_fixed_(std::ssize(deformer.set().fixed)),
-      rest_(deformer, grips) {}
+      rest_(deformer, grips) {
+    const Eigen::MatrixXd loose = loose_motions(deformer, grips, rest_).motions;
+    body_is_held_ = loose.cols() == 0;
+    const Eigen::MatrixXd translations =
+        Eigen::MatrixXd::Identity(6, 3).replicate(std::ssize(grips), 1) / std::sqrt(std::ssize(grips));
+    free_translations_.resize(n(), 0);
+    for (const auto& t : translations.colwise())
+        if ((loose * (loose.transpose() * t)).isApprox(t, kSame)) {
+            free_translations_.conservativeResize(Eigen::NoChange, free_translations_.cols() + 1);
+            free_translations_.rightCols<1>() = t;
+        }
+}
 
 void MovedGrips::put(const std::vector<GripPlace>& places, Eigen::VectorXd& values) const {
     for (std::size_t g = 0; g < grips_.size(); ++g) {
@@ -67,8 +82,11 @@ Eigen::MatrixXd MovedGrips::stiffness(const std::vector<GripPlace>& places, cons
         const Eigen::Index first = 6 * static_cast<Eigen::Index>(g);
         for (Eigen::Index i = 0; i < arms.cols(); ++i)
             matrix.block<3, 3>(first + 3, first + 3) += cross_matrix(forces.col(i)) * cross_matrix(arms.col(i));
-        matrix.diagonal().segment<3>(first).array() += wanted_[g].spring;
     }
+    matrix -= matrix * free_translations_ * free_translations_.transpose();
+    matrix -= free_translations_ * (free_translations_.transpose() * matrix);
+    for (std::size_t g = 0; g < grips_.size(); ++g)
+        matrix.diagonal().segment<3>(6 * static_cast<Eigen::Index>(g)).array() += wanted_[g].spring;
     return matrix;
 }
 
@@ -79,8 +97,6 @@ Eigen::VectorXd MovedGrips::wanted(const std::vector<GripPlace>& places) const {
             wanted_[g].moment;
     return all;
 }
-
-bool MovedGrips::body_is_held() const { return loose_motions(deformer_, grips_, rest_).motions.cols() == 0; }
 
 Eigen::Matrix3Xd MovedGrips::present(const std::vector<GripPlace>& places, std::size_t grip) const {
     return rotation_by(places[grip].turn) * rest_.arms[grip];

@@ -33,7 +33,7 @@ public:
     /// Force over moment of each grip that is prescribed at these places.
     Eigen::VectorXd wanted(const std::vector<GripPlace>& places) const;
     /// Whether what else is constrained holds every solid that has a grip.
-    bool body_is_held() const;
+    bool body_is_held() const { return body_is_held_; }
 
 private:
     Eigen::Matrix3Xd present(const std::vector<GripPlace>& places, std::size_t grip) const;
@@ -44,6 +44,10 @@ private:
     const std::vector<GripForce>& wanted_;
     Eigen::Index n_fixed_;
     GripArms rest_;
+    bool body_is_held_ = true;
+    /// Translations of all grips together that nothing resists: 6 k orthonormal rows. Iterated columns resist a little,
+    /// by as much as a free body under small forces resists being turned.
+    Eigen::MatrixXd free_translations_;
 };
 
 }  // namespace elastolab

@@ -87,6 +87,18 @@ TEST(SymmetricEigen, GivesTheMatrixBackFromItsLowerTriangle) {
     EXPECT_EQ(symmetric_eigen(MatrixXd(0, 0)).values.size(), 0);
 }
 
+TEST(RealPartsOfEigenvalues, AreThoseOfTrianglesAndTurns) {
+    MatrixXd A(4, 4);  // of -3, of 5 and of a block whose eigenvalues are 1 +- 2i
+    A << 1, -2, 7, 1,  //
+        2, 1, 0, 4,    //
+        0, 0, 5, 9,    //
+        0, 0, 0, -3;
+    EXPECT_LT((real_parts_of_eigenvalues(A) - Eigen::Vector4d(-3, 1, 1, 5)).norm(), 1e-12);
+    EXPECT_EQ(real_parts_of_eigenvalues(MatrixXd(0, 0)).size(), 0);
+    A(2, 1) = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THROW(real_parts_of_eigenvalues(A), SolveError);
+}
+
 TEST(SymmetricEigen, RefusesEntriesThatAreNotFinite) {
     MatrixXd A = MatrixXd::Identity(3, 3);
     A(2, 1) = std::numeric_limits<double>::quiet_NaN();

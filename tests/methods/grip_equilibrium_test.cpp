@@ -184,6 +184,38 @@ TEST(GripEquilibrium, OfABodyThatNothingElseHolds) {
     }
 }
 
+/// Forces beside each other's line, whose moment another one balances at rest: the bar bends and turns until it is
+/// balanced again. Seen from its left end it is a bar that is held there.
+TEST(GripEquilibrium, MomentsTurnABodyThatNothingElseHolds) {
+    const Vector3d size(4, 1, 1);
+    const GrippedBar held(size), free(size, 2, {2.0, 0.3}, false);
+    for (const Vector3d& force : {Vector3d(0.06, -0.008, 0), Vector3d(0.02, 0.02, 0.01), Vector3d(0.2, 0.04, 0)}) {
+        SCOPED_TRACE(force.transpose());
+        const Vector3d moment = -Vector3d(size[0], 0, 0).cross(force);
+        const GripEquilibrium found = free.find({{force, {0, 0, 0}}, {-force, moment}});
+        EXPECT_TRUE(found.tangent.stable());
+        EXPECT_LT(found.solves, 25);
+        const GripPlace &right = found.places[0], &left = found.places[1];
+        EXPECT_LT(right.turn.norm() + left.turn.norm(), 1.5) << "the bar is not turned for nothing";
+        const Eigen::Matrix3d back = rotation_by(left.turn).transpose();
+        const Vector3d seen =
+            back * (right.shift - left.shift) + (back - Eigen::Matrix3d::Identity()) * Vector3d(size[0], 0, 0);
+        const Vector3d truth = held.find({{back * force, {0, 0, 0}}}).places[0].shift;
+        EXPECT_LT((seen - truth).norm(), 1e-6 * truth.norm()) << seen.transpose() << "; " << truth.transpose();
+        test::print_measured("equilibria on the way", found.solves);
+    }
+}
+
+/// A soft body turns by rounding and a residual as easily as by such forces: it must not wander.
+TEST(GripEquilibrium, SmallForcesMoveABodyThatNothingElseHoldsByLittle) {
+    const GrippedBar free({4, 1, 1}, 2, {2.0, 0.3}, false);
+    for (double size = 1e-6; size < 0.1; size *= 3.0) {
+        const Vector3d force = size * Vector3d(1, 0.3, 0.1), moment = -Vector3d(4, 0, 0).cross(force);
+        const GripEquilibrium found = free.find({{force, {0, 0, 0}}, {-force, moment}});
+        for (const GripPlace& place : found.places) EXPECT_LT(place.shift.norm(), 20.0 * size) << size;
+    }
+}
+
 /// Forces in the wrong unit: a bar stretched to 100 times its length, and what is beyond all measure.
 TEST(GripEquilibrium, NoMaterialBearsForcesOfAHundredTimesItsStiffness) {
     const GrippedBar bar;
