@@ -92,7 +92,7 @@ Reactions present_reactions(const std::vector<LoadShare>& shares, const Eigen::V
 
 Reactions ConstrainedSolid::reactions(const NodeSolution& solution) const {
     if (solver_->linear()) return gathered_reactions(shares_, n_constrained_, solution.loads.col(0));
-    return present_reactions(shares_, solution.prescribed.col(0), solution.loads.col(0));
+    return present_reactions(shares_, solution.prescribed.col(0).head(3 * n_constrained_), solution.loads.col(0));
 }
 
 Eigen::Matrix3Xd ConstrainedSolid::forces(const NodeSolution& solution, Eigen::Index column) const {

@@ -1,11 +1,13 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <memory>
 #include <numeric>
 
 #include "bem/collocation/method.hpp"
 #include "bem/galerkin/method.hpp"
 #include "fem/method.hpp"
+#include "fem/nonlinear/method.hpp"
 #include "fem/quadratic/method.hpp"
 #include "findings/solution.hpp"
 #include "mesh/primitives.hpp"
@@ -104,6 +106,60 @@ TEST(FreeBody, ErrorsAreEstimatedWhereTheBodyMayStillTurn) {
         EXPECT_GT(answer.check->relative_error, answer.error / 3.0) << kind->name;
         EXPECT_LT(answer.check->relative_error, answer.error * 3.0) << kind->name;
         EXPECT_TRUE(std::isnan(answer.check->relative_force_error)) << "pins bear a part";
+    }
+}
+
+/// A bar of edges 2, 1, 1 in flight: the upper halves of its ends are pulled apart.
+struct PulledBar {
+    SurfaceMesh mesh;
+    Deformer deformer;
+    Deformer::Answer answer;
+
+    PulledBar(int cells, ElementDegree elements)
+        : mesh(make_box(cells, {2, 1, 1})),
+          deformer(precomputed(make_body(mesh, {1.0, 0.3}), {.kind = kNonlinearFem, .elements = elements})) {
+        Control control;
+        deformer.constrain({{}, {}, {pull(0.0), pull(2.0)}}, control);
+        answer = deformer.answer(Eigen::Vector2d(-0.15, 0.15), {.check = true}, control);
+    }
+    UnitLoad pull(double x) const {
+        std::vector<int> upper;
+        for (int t = 0; t < mesh.n_triangles(); ++t) {
+            const Positions corners = mesh.vertices(Eigen::all, mesh.triangles.col(t));
+            const bool at_end = (corners.row(0).array() - x).abs().maxCoeff() < 1e-9;
+            if (at_end && corners.row(2).minCoeff() > 0.5 - 1e-9) upper.push_back(t);
+        }
+        return unit_force(mesh, std::move(upper), {1, 0, 0});
+    }
+    Positions present() const { return mesh.vertices + answer.displacements.reshaped(3, mesh.n_vertices()); }
+    /// Farthest distance from where another such bar has the same vertices, turned and shifted to there, over the
+    /// largest displacement.
+    double error_by(const PulledBar& truth) const {
+        std::vector<int> same;
+        for (const auto& x : mesh.vertices.colwise()) {
+            Eigen::Index at = 0;
+            EXPECT_LT((truth.mesh.vertices.colwise() - x).colwise().norm().minCoeff(&at), 1e-9);
+            same.push_back(static_cast<int>(at));
+        }
+        const Positions here = present(), there = truth.present()(Eigen::all, same);
+        const Eigen::Matrix4d onto = Eigen::umeyama(here, there, false);
+        const Positions moved = (onto.topLeftCorner<3, 3>() * here).colwise() + onto.topRightCorner<3, 1>();
+        return (moved - there).colwise().norm().maxCoeff() /
+               answer.displacements.reshaped(3, mesh.n_vertices()).colwise().norm().maxCoeff();
+    }
+};
+
+TEST(FreeBody, ErrorsAreEstimatedUnderLargeDeformations) {
+    const PulledBar truth(6, ElementDegree::quadratic);
+    for (const ElementDegree elements : {ElementDegree::quadratic, ElementDegree::linear}) {
+        const PulledBar bar(2, elements);
+        ASSERT_TRUE(bar.answer.check);
+        const double error = bar.error_by(truth), estimate = bar.answer.check->relative_error;
+        print_measured("largest error", error);
+        print_measured("estimate", estimate);
+        EXPECT_GT(estimate, error / 2.0);
+        EXPECT_LT(estimate, error * 2.0);
+        EXPECT_EQ(bar.answer.check->relative_force_error, 0.0);
     }
 }
 

@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "base/memory.hpp"
 #include "deform/holds.hpp"
+#include "deform/pinned_body.hpp"
 #include "deform/ten_node_elements.hpp"
 #include "fem/error_estimate.hpp"
 #include "fem/nodal_field.hpp"
@@ -95,7 +96,6 @@ private:
 std::optional<ReferenceAnswer> linear_answer(const NonlinearMesh& mesh, const Material& material,
                                              const std::vector<int>& vertices, std::span<const UnitLoad> loads,
                                              const NodeSolution& solution, Control& control) {
-    if (!mesh.linear || !holds(mesh.tets.vertices, vertices)) return {};
     const Newton newton(std::make_shared<const FreeTangent>(mesh.linear, vertices, control), material, 0.0,
                         {mesh.linear, mesh.surface, {}, loads});
     const Eigen::VectorXd factors = solution.factors.col(0);
@@ -120,14 +120,12 @@ std::optional<ReferenceAnswer> linear_answer(const NonlinearMesh& mesh, const Ma
 
 /// Ten nodes an element on the same tetrahedra, from what four of them have found.
 std::optional<ReferenceAnswer> ten_node_answer(const NonlinearMesh& mesh, const Material& material,
-                                               const std::vector<int>& fixed, const std::vector<int>& handles,
-                                               std::span<const UnitLoad> loads, const NodeSolution& solution,
-                                               Control& control) {
+                                               const PinnedBody& body, std::span<const UnitLoad> loads,
+                                               const NodeSolution& solution, Control& control) {
     const std::shared_ptr<const NonlinearMesh> ten =
         make_nonlinear_mesh(mesh.tets, mesh.surface, ElementDegree::quadratic);
     const Eigen::MatrixXi& elements = ten->elements->elements();
-    const ConstrainedFemNodes nodes = constrain_nodes(ten->elements->positions(), ten->midpoints, fixed, handles);
-    if (!holds(ten->elements->positions(), nodes.vertices)) return {};
+    const ConstrainedFemNodes nodes = constrain_nodes(ten->elements->positions(), ten->midpoints, {}, body.vertices());
     Positions u = Positions::Zero(3, ten->elements->n_nodes());
     u(Eigen::all, ten->corner_nodes) = solution.displacements.col(0).reshaped(3, mesh.tets.n_vertices());
     for (const auto& element : elements.colwise())
@@ -142,9 +140,39 @@ std::optional<ReferenceAnswer> ten_node_answer(const NonlinearMesh& mesh, const 
     const Eigen::VectorXd forces = newton.forces(state.u, factors, work, control);
     const Eigen::VectorXd at_nodes =
         forces.reshaped(3, ten->elements->n_nodes())(Eigen::all, nodes.prescribed.nodes).reshaped();
-    return ReferenceAnswer{state.u.head(3 * mesh.n_vertices()),
-                           present_reactions(nodes.shares, solution.prescribed.col(0), at_nodes),
-                           1.0 + kLeftByTenNodes};
+    return ReferenceAnswer{
+        state.u.head(3 * mesh.n_vertices()),
+        present_reactions(nodes.shares, body.values().head(3 * std::ssize(body.vertices())), at_nodes),
+        1.0 + kLeftByTenNodes};
+}
+
+/// A second, better answer than this one; solver: that found it. Nothing where there is none.
+/// values: as those of PinnedBody.
+std::optional<ReferenceAnswer> second_answer(const NonlinearMesh& mesh, const Material& material,
+                                             const NonlinearSolver& solver, const std::vector<int>& vertices,
+                                             const Eigen::VectorXd& values, std::span<const UnitLoad> loads,
+                                             const NodeSolution& solution, std::uint64_t memory, Control& control) {
+    const Eigen::VectorXd u = solution.displacements.col(0);
+    const Eigen::Index n = mesh.n_vertices();
+    const PinnedBody body(mesh.tets.vertices.leftCols(n) + u.head(3 * n).reshaped(3, n), vertices, values, u);
+    if (!body.is_held()) return {};
+    const bool fits = memory <= available_memory_bytes();
+    std::optional<ReferenceAnswer> second;
+    if (!mesh.linear) {
+        if (memory > 0 && fits) second = ten_node_answer(mesh, material, body, loads, solution, control);
+    } else {
+        const ConstrainedFemNodes nodes = constrain_nodes(mesh.tets.vertices, mesh.midpoints, {}, body.vertices());
+        std::optional<Newton> pinned;
+        if (fits && body.is_pinned())
+            pinned.emplace(std::make_shared<const FreeTangent>(mesh.elements, nodes.prescribed.nodes, control),
+                           material, 0.0, solver.newton().loads());
+        if (fits)
+            second = halved_answer(mesh, pinned ? *pinned : solver.newton(), body.vertices(), loads, u,
+                                   solution.factors.col(0), control);
+        if (!second) second = linear_answer(mesh, material, body.vertices(), loads, solution, control);
+    }
+    if (second) second = body.released(*std::move(second));
+    return second;
 }
 
 }  // namespace
@@ -194,20 +222,11 @@ std::unique_ptr<ConstrainedSolid> NonlinearModel::constrain(std::span<const int>
         return its->newton().residual(u.lpNorm<Eigen::Infinity>(), its->newton().forces(u, factors, work, its_control),
                                       u, factors);
     };
-    checks.reference = [mesh = mesh_, its = material(), newton = held ? &solver->newton() : nullptr,
-                        vertices = nodes.vertices, n_fixed = fixed.size(), needed = check_memory(fixed, handles),
+    checks.reference = [mesh = mesh_, its = material(), its_solver = solver.get(), vertices = nodes.vertices,
+                        needed = check_memory(fixed, handles),
                         given = std::vector<UnitLoad>(loads.begin(), loads.end())](
-                           const Eigen::VectorXd&, const NodeSolution& solution, Control& its_control) {
-        const bool fits = needed <= available_memory_bytes();
-        if (mesh->linear && newton != nullptr && fits)
-            if (auto halved = halved_answer(*mesh, *newton, vertices, given, solution.displacements.col(0),
-                                            solution.factors.col(0), its_control))
-                return halved;
-        if (mesh->linear) return linear_answer(*mesh, its, vertices, given, solution, its_control);
-        if (needed == 0 || !fits) return std::optional<ReferenceAnswer>();
-        const auto first_handle = vertices.begin() + static_cast<std::ptrdiff_t>(n_fixed);
-        return ten_node_answer(*mesh, its, {vertices.begin(), first_handle}, {first_handle, vertices.end()}, given,
-                               solution, its_control);
+                           const Eigen::VectorXd& values, const NodeSolution& solution, Control& its_control) {
+        return second_answer(*mesh, its, *its_solver, vertices, values, given, solution, needed, its_control);
     };
     checks.interior_field = [mesh = mesh_, nu = poisson_ratio_](NodeSolution&& solution, Control&) {
         return std::make_shared<const NodalField>(tets_of(mesh), mesh->elements->degree(), nu,
