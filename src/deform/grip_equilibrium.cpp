@@ -115,7 +115,10 @@ private:
         const int last = solves_ + most_solves;
         int pushes = 0;
         while (solves_ < last) {
-            if (state.answer.facts->largest_stretch > most_stretch) throw SolveError(kUnbearable);
+            if (state.answer.facts->largest_stretch > most_stretch) {
+                if (by_newton_) break;  // it may lead anywhere
+                throw SolveError(kUnbearable);
+            }
             const GripTangent stiffness = tangent(state);
             if (balanced(state, stiffness, kForcesBalance)) {
                 if (by_newton_ || stiffness.stable() || pushes++ == kMostPushes) return state;
@@ -166,7 +169,7 @@ private:
     }
     VectorXd step_from(const State& state, const GripTangent& stiffness) const {
         const VectorXd missing = stiffness.answered(state.missing);
-        return by_newton_ && stiffness.leads_downhill() ? stiffness.newton_step(missing) : stiffness.step(missing);
+        return by_newton_ && stiffness.has_falling_motion() ? stiffness.newton_step(missing) : stiffness.step(missing);
     }
     std::optional<State> stepped(const State& state, const VectorXd& step, double part = 1.0) {
         return tried(state, part * std::min(1.0, longest_step(state.places, grips_.length(), step)) * step);

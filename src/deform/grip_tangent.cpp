@@ -60,9 +60,9 @@ Eigen::VectorXd GripTangent::units() const {
     return unit;
 }
 
-bool GripTangent::leads_downhill() const { return (values_.array() < -none_).any(); }
+bool GripTangent::has_falling_motion() const { return (values_.array() < -none_).any(); }
 
-bool GripTangent::stable() const { return !leads_downhill() || real_parts_of_eigenvalues(scaled_)[0] >= -none_; }
+bool GripTangent::stable() const { return !has_falling_motion() || real_parts_of_eigenvalues(scaled_)[0] >= -none_; }
 
 Eigen::VectorXd GripTangent::newton_step(const Eigen::VectorXd& answered) const {
     const SingularValues all = singular_values(scaled_);

@@ -34,9 +34,9 @@ public:
     bool stable() const;
     /// Those of the forces that some motion answers.
     Eigen::VectorXd answered(const Eigen::VectorXd& forces) const;
-    /// Whether the energy falls along some motions: `step` goes downhill and `newton_step` need not. Moments that keep
-    /// their direction have no energy; with them a state can be stable nevertheless.
-    bool leads_downhill() const;
+    /// Whether the energy falls along some motion: `step` goes downhill then and `newton_step` need not. Moments that
+    /// keep their direction have no energy; with them a state can be stable nevertheless.
+    bool has_falling_motion() const;
     /// The shortest motion that answers them by this tangent, downhill or not.
     Eigen::VectorXd newton_step(const Eigen::VectorXd& answered) const;
     /// The motion that answers them; where it would lead uphill, the signs of the stiffness along the motions that are

@@ -3,11 +3,10 @@
 #include "base/error.hpp"
 #include "base/memory.hpp"
 #include "deform/holds.hpp"
-#include "deform/pinned_body.hpp"
 #include "deform/ten_node_elements.hpp"
-#include "fem/error_estimate.hpp"
 #include "fem/nodal_field.hpp"
 #include "fem/nonlinear/halved_answer.hpp"
+#include "fem/nonlinear/second_answer.hpp"
 #include "fem/quadratic_mesh.hpp"
 #include "mesh/tets/tetrahedralize.hpp"
 
@@ -15,15 +14,10 @@ namespace elastolab {
 
 namespace {
 
-/// Error that ten-node elements leave, over how much they change the answer of four-node ones: that of linear theory.
-constexpr double kLeftByTenNodes = kLeftByQuadratic;
 /// Factors that are held at once: at rest, and of the last equilibrium or the next one.
 constexpr std::uint64_t kHeldFactors = 2;
-constexpr int kCheckIterations = 30;
-/// Ten nodes as a second answer to four: to this residual, on meshes of at most so many tetrahedra, where it takes ten
-/// times as long as the answer (cubes of 3142, 6266 tetrahedra: 7 and 10 times); and their factor, over that of four
-/// nodes.
-constexpr double kCheckTolerance = 1e-3;
+/// Ten nodes as a second answer to four: on meshes of at most so many tetrahedra, where it takes ten times as long as
+/// the answer (cubes of 3142, 6266 tetrahedra: 7 and 10 times); and their factor, over that of four nodes.
 constexpr int kMostToCheck = 6000;
 constexpr std::uint64_t kTenNodeFactor = 16;
 
@@ -92,89 +86,6 @@ private:
     std::shared_ptr<FoundStates> found_;
 };
 
-/// Four nodes an element on the same tetrahedra, from where the ten nodes' corners are.
-std::optional<ReferenceAnswer> linear_answer(const NonlinearMesh& mesh, const Material& material,
-                                             const std::vector<int>& vertices, std::span<const UnitLoad> loads,
-                                             const NodeSolution& solution, Control& control) {
-    const Newton newton(std::make_shared<const FreeTangent>(mesh.linear, vertices, control), material, 0.0,
-                        {mesh.linear, mesh.surface, {}, loads});
-    const Eigen::VectorXd factors = solution.factors.col(0);
-    NewtonWork work = newton.make_work();
-    Eigen::VectorXd u(3 * mesh.linear->n_nodes());
-    for (int v = 0; v < mesh.linear->n_nodes(); ++v)
-        u.segment<3>(3 * v) =
-            solution.displacements.col(0).segment<3>(3 * mesh.corner_nodes[static_cast<std::size_t>(v)]);
-    if (!(newton.energy(u, work, control).least_J > 0.0)) return {};
-    const NewtonState state = newton.run(std::move(u), factors, kSolveTolerance, kCheckIterations, work, control);
-    if (!state.converged) return {};
-    const Eigen::VectorXd forces = newton.forces(state.u, factors, work, control);
-    const Positions present = mesh.linear->positions() + state.u.reshaped(3, mesh.linear->n_nodes());
-    Eigen::VectorXd at_vertices(3 * std::ssize(vertices));
-    for (std::size_t i = 0; i < vertices.size(); ++i)
-        at_vertices.segment<3>(3 * static_cast<Eigen::Index>(i)) = forces.segment<3>(3 * vertices[i]);
-    return ReferenceAnswer{
-        state.u.head(3 * mesh.n_vertices()),
-        gathered_reactions(nodal_shares(present, vertices), static_cast<int>(vertices.size()), at_vertices),
-        -kLeftByTenNodes};
-}
-
-/// Ten nodes an element on the same tetrahedra, from what four of them have found.
-std::optional<ReferenceAnswer> ten_node_answer(const NonlinearMesh& mesh, const Material& material,
-                                               const PinnedBody& body, std::span<const UnitLoad> loads,
-                                               const NodeSolution& solution, Control& control) {
-    const std::shared_ptr<const NonlinearMesh> ten =
-        make_nonlinear_mesh(mesh.tets, mesh.surface, ElementDegree::quadratic);
-    const Eigen::MatrixXi& elements = ten->elements->elements();
-    const ConstrainedFemNodes nodes = constrain_nodes(ten->elements->positions(), ten->midpoints, {}, body.vertices());
-    Positions u = Positions::Zero(3, ten->elements->n_nodes());
-    u(Eigen::all, ten->corner_nodes) = solution.displacements.col(0).reshaped(3, mesh.tets.n_vertices());
-    for (const auto& element : elements.colwise())
-        for (int e = 0; e < 6; ++e)
-            u.col(element[4 + e]) = 0.5 * (u.col(element[kTetEdges[e][0]]) + u.col(element[kTetEdges[e][1]]));
-    const Newton newton(std::make_shared<const FreeTangent>(ten->elements, nodes.prescribed.nodes, control), material,
-                        0.0, {ten->elements, ten->surface, ten->surface_midpoints, loads});
-    NewtonWork work = newton.make_work();
-    const Eigen::VectorXd factors = solution.factors.col(0);
-    const NewtonState state = newton.run(u.reshaped(), factors, kCheckTolerance, kCheckIterations, work, control);
-    if (!state.converged) return {};
-    const Eigen::VectorXd forces = newton.forces(state.u, factors, work, control);
-    const Eigen::VectorXd at_nodes =
-        forces.reshaped(3, ten->elements->n_nodes())(Eigen::all, nodes.prescribed.nodes).reshaped();
-    return ReferenceAnswer{
-        state.u.head(3 * mesh.n_vertices()),
-        present_reactions(nodes.shares, body.values().head(3 * std::ssize(body.vertices())), at_nodes),
-        1.0 + kLeftByTenNodes};
-}
-
-/// A second, better answer than this one; solver: that found it. Nothing where there is none.
-/// values: as those of PinnedBody.
-std::optional<ReferenceAnswer> second_answer(const NonlinearMesh& mesh, const Material& material,
-                                             const NonlinearSolver& solver, const std::vector<int>& vertices,
-                                             const Eigen::VectorXd& values, std::span<const UnitLoad> loads,
-                                             const NodeSolution& solution, std::uint64_t memory, Control& control) {
-    const Eigen::VectorXd u = solution.displacements.col(0);
-    const Eigen::Index n = mesh.n_vertices();
-    const PinnedBody body(mesh.tets.vertices.leftCols(n) + u.head(3 * n).reshaped(3, n), vertices, values, u);
-    if (!body.is_held()) return {};
-    const bool fits = memory <= available_memory_bytes();
-    std::optional<ReferenceAnswer> second;
-    if (!mesh.linear) {
-        if (memory > 0 && fits) second = ten_node_answer(mesh, material, body, loads, solution, control);
-    } else {
-        const ConstrainedFemNodes nodes = constrain_nodes(mesh.tets.vertices, mesh.midpoints, {}, body.vertices());
-        std::optional<Newton> pinned;
-        if (fits && body.is_pinned())
-            pinned.emplace(std::make_shared<const FreeTangent>(mesh.elements, nodes.prescribed.nodes, control),
-                           material, 0.0, solver.newton().loads());
-        if (fits)
-            second = halved_answer(mesh, pinned ? *pinned : solver.newton(), body.vertices(), loads, u,
-                                   solution.factors.col(0), control);
-        if (!second) second = linear_answer(mesh, material, body.vertices(), loads, solution, control);
-    }
-    if (second) second = body.released(*std::move(second));
-    return second;
-}
-
 }  // namespace
 
 NonlinearModel::NonlinearModel(const SurfaceMesh& surface, const std::string& name, double poisson_ratio,
@@ -222,11 +133,12 @@ std::unique_ptr<ConstrainedSolid> NonlinearModel::constrain(std::span<const int>
         return its->newton().residual(u.lpNorm<Eigen::Infinity>(), its->newton().forces(u, factors, work, its_control),
                                       u, factors);
     };
-    checks.reference = [mesh = mesh_, its = material(), its_solver = solver.get(), vertices = nodes.vertices,
+    checks.reference = [mesh = mesh_, its = solver.get(), vertices = nodes.vertices,
                         needed = check_memory(fixed, handles),
                         given = std::vector<UnitLoad>(loads.begin(), loads.end())](
                            const Eigen::VectorXd& values, const NodeSolution& solution, Control& its_control) {
-        return second_answer(*mesh, its, *its_solver, vertices, values, given, solution, needed, its_control);
+        const bool fits = needed > 0 && needed <= available_memory_bytes();
+        return second_answer({*mesh, its->newton(), vertices, values, given, solution, fits}, its_control);
     };
     checks.interior_field = [mesh = mesh_, nu = poisson_ratio_](NodeSolution&& solution, Control&) {
         return std::make_shared<const NodalField>(tets_of(mesh), mesh->elements->degree(), nu,
