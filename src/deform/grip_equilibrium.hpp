@@ -28,8 +28,9 @@ struct GripEquilibrium {
 };
 
 /// Finds it by Newton's method on the motions of the grips: each step is an equilibrium of the body with the grips
-/// prescribed, and 6 k columns of its tangent. Steps go downhill where the grips are not stable, and are shortened
-/// where they overshoot or the body finds no equilibrium; a state that is not stable is left along its softest motion.
+/// prescribed, and 6 k columns of its tangent. Steps go downhill where the grips are not stable (with moments, which
+/// have no energy, only where the method's own steps find nothing stable), and are shortened where they overshoot or
+/// the body finds no equilibrium; a state that is not stable is left along its softest motion.
 /// deformer  of a method that is not linear
 /// values    as Deformer::displace takes them; those of the grips are left out
 /// approach  to the body's equilibrium with the grips at rest, where the search begins

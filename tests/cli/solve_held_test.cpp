@@ -21,6 +21,7 @@ TEST_F(SolveTest, ABodyThatIsPrescribedAllOverBySetsThatTouchIsToldToBeExact) {
     folder_.write("tet.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
     const std::string material = R"("elastolab": 1, "material": {"young_modulus": 2.6, "poisson_ratio": 0.3})";
     const std::vector<std::pair<std::string, double>> scenes = {
+        // and the force at the fixed set over the stress
         {"{" + material + R"(, "mesh": {"file": "tet.obj"}, "fixed": {"vertices": [0, 1, 2]},
             "handles": [{"select": {"vertices": [3]}, "translate": [0.1, 0.1, 0]}]})",
          1.0 / 6.0},
@@ -28,7 +29,7 @@ TEST_F(SolveTest, ABodyThatIsPrescribedAllOverBySetsThatTouchIsToldToBeExact) {
             "fixed": {"box": {"min": [-1, -1, -1], "max": [2, 2, 0.1]}},
             "handles": [{"select": {"box": {"min": [-1, -1, 0.9], "max": [2, 2, 2]}}, "translate": [0.1, 0.1, 0]}]})",
          1.0}};
-    for (const auto& [scene, area_of_force] : scenes)
+    for (const auto& [scene, force_of_stress] : scenes)
         for (const std::string method :
              {"fem", "quadratic-fem", "nonlinear-fem --elements linear", "nonlinear-fem", "galerkin-bem"}) {
             SCOPED_TRACE(method + " of " + scene);
@@ -37,7 +38,7 @@ TEST_F(SolveTest, ABodyThatIsPrescribedAllOverBySetsThatTouchIsToldToBeExact) {
             for (std::string word; words >> word;) options.push_back(word);
             solve(scene, options);
             const auto report = json("r.json");
-            const double force = 0.1 * area_of_force;
+            const double force = 0.1 * force_of_stress;
             EXPECT_NEAR(report["fixed_sets"][0]["force"][0], -force, 1e-6 * force);
             EXPECT_NEAR(report["fixed_sets"][0]["force"][1], -force, 1e-6 * force);
             EXPECT_NEAR(report["fixed_sets"][0]["force"][2], 0.0, 1e-6 * force);
