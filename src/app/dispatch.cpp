@@ -1,5 +1,7 @@
 #include "app/dispatch.hpp"
 
+#include <utility>
+
 #include "app/panels/gui.hpp"
 #include "app/panels/panels.hpp"
 #include "app/shortcuts.hpp"
@@ -27,7 +29,10 @@ bool dispatch(const std::vector<InputEvent>& events, double now, const Gui& gui,
             state.show_help = !state.show_help;
         if (event.kind == InputEvent::Kind::key && keys_are_free && !state.gestures.dragging() && !state.blank() &&
             run_shortcut(event, state, panels)) {
-            context.targets = state.gesture_context().targets;
+            GestureContext changed = state.gesture_context();
+            context.targets = std::move(changed.targets);
+            context.gizmos = std::move(changed.gizmos);
+            context.load_arrows = std::move(changed.load_arrows);
             continue;
         }
         if (is_for_panels(event, gui, state.gestures))

@@ -203,8 +203,9 @@ bool ViewerState::update_displacements() {
     if (blank()) return has_exported;  // the default scene would be computed for nothing
     simulated_ = true;
     const bool changed = simulation.update(*scene_, needed_kinds(), choices) || has_exported;
-    const std::vector<AffineMotion>& motions = simulation.answer(method).grip_motions();
-    const std::vector<std::size_t> gripped = scene_->constraints().gripped();
+    const EmbeddedRunner& answer = simulation.answer(method);
+    const std::vector<AffineMotion>& motions = answer.grip_motions();
+    const std::vector<std::size_t> gripped = answer.gripped();
     for (std::size_t g = 0; g < gripped.size() && motions.size() == gripped.size(); ++g)
         scene_->set_equilibrium(static_cast<int>(gripped[g]), motions[g]);
     for (const MethodKind kind : simulation.take_dropped())

@@ -45,7 +45,13 @@ bool is_control(std::string_view character) {
 }  // namespace
 
 std::string shortened(std::string_view text, std::size_t longest) {
-    return text.size() <= longest ? std::string(text) : std::string(text.substr(0, longest)) + "...";
+    if (text.size() <= longest) return std::string(text);
+    const auto is_inside_character = [&](std::size_t i) {
+        return (static_cast<unsigned char>(text[i]) & 0xc0) == 0x80;
+    };
+    std::size_t size = longest;
+    while (size > 0 && longest - size < 3 && is_inside_character(size)) --size;
+    return std::string(text.substr(0, size)) + "...";
 }
 
 std::string one_line(std::string_view text) {

@@ -14,7 +14,8 @@ namespace elastolab {
 /// `text` on one line, for messages that quote a user's data: control characters become spaces, broken UTF-8 a '?'.
 std::string one_line(std::string_view text);
 
-/// At most `longest` bytes of `text`, and "..." where some are left out: for messages that quote a user's data.
+/// At most `longest` bytes of `text`, whole characters of UTF-8, and "..." where some are left out: for messages that
+/// quote a user's data.
 std::string shortened(std::string_view text, std::size_t longest);
 
 /// ASCII letters in lower case, the rest as it is.

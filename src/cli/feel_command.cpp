@@ -94,6 +94,15 @@ std::size_t find_handle(const Constraints& constraints, const std::string& wante
     throw Error(scene + ": has no handle \"" + wanted + "\". Name one of its handles.");
 }
 
+/// Only the one that is felt gives way.
+void require_no_other_force(const Constraints& constraints, std::size_t felt, const std::string& scene) {
+    for (const std::size_t h : constraints.gripped())
+        if (h != felt)
+            throw Error(scene + ": its handle \"" +
+                        shortened(constraints.groups[h + (constraints.has_fixed() ? 1 : 0)].name, 60) +
+                        "\" moves by a force, which is not followed at haptic rate. Give it a motion, or fix it.");
+}
+
 void write_felt(std::ostream& out, const std::vector<std::pair<double, FeltForce>>& forces) {
     out << "time_s,fx,fy,fz,mx,my,mz\n";
     for (const auto& [seconds, felt] : forces) {
@@ -110,7 +119,10 @@ void run_feel(const FeelOptions& options) {
     if (!document.method->linear)
         throw Error(options.scene +
                     ": forces at haptic rate need a method that is linear. Choose another with --method.");
-    if (!(options.seconds > 0.0)) throw UsageError("--seconds: must be positive.");
+    constexpr double kMostSeconds = 86400.0;
+    if (!(options.seconds > 0.0 && options.seconds <= kMostSeconds))
+        throw UsageError("--seconds: must be positive and at most a day, " + exact(kMostSeconds) + ".");
+    if (!options.forces.empty()) AtomicFile::require_writable(options.forces);
     Control control;
     const InterruptGuard interrupt(control);
     std::unique_ptr<GripStiffness> stiffness;
@@ -123,7 +135,9 @@ void run_feel(const FeelOptions& options) {
         const auto surface = std::make_shared<const SurfaceMesh>(mesh.checked.mesh);
         const Constraints constraints = make_constraints(document, *surface, options.scene);
         require_balance(document, constraints, *surface, options.scene);
-        const auto [begin, end] = constraints.range_of(find_handle(constraints, options.handle, options.scene));
+        const std::size_t felt = find_handle(constraints, options.handle, options.scene);
+        require_no_other_force(constraints, felt, options.scene);
+        const auto [begin, end] = constraints.range_of(felt);
         size = (surface->vertices.rowwise().maxCoeff() - surface->vertices.rowwise().minCoeff()).maxCoeff();
         Deformer deformer(precompute({mesh.name, surface, document.material}, {.kind = document.method}, control));
         deformer.constrain(constraints.set, control);
@@ -132,7 +146,7 @@ void run_feel(const FeelOptions& options) {
     }
     const std::vector<PathPoint> path = options.path.empty() ? figure_of_eight(size) : read_path(options.path);
     std::vector<std::pair<double, FeltForce>> forces;
-    forces.reserve(static_cast<std::size_t>(1000.0 * options.seconds) + 1000);
+    if (!options.forces.empty()) forces.reserve(static_cast<std::size_t>(1000.0 * options.seconds) + 1000);
     HapticTimings timings;
     {
         HapticLoop loop(

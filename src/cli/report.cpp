@@ -63,8 +63,7 @@ void print_heading(std::ostream& out, const SolveRequest& request, const Method&
     out << request.scene_file.string() << ": " << name(method.kind) << ", " << name(method.mode) << ", ";
     if (method.kind->chooses_tractions) out << name(method.tractions) << " tractions, ";
     if (method.kind->chooses_elements) out << name(method.elements) << " elements, ";
-    if (method.rims > 0)
-        out << method.rims << (method.rims == 1 ? " thin row" : " thin rows") << " along rims, ";
+    if (method.rims > 0) out << method.rims << (method.rims == 1 ? " thin row" : " thin rows") << " along rims, ";
     out << name(method.update) << " update\n";
 }
 
@@ -112,13 +111,13 @@ void print_displacement(std::ostream& out, const Eigen::Matrix3Xd& displacement)
     out << "  displacement  at most " << readable_number(largest, 4) << ", at vertex " << vertex << "\n";
 }
 
-/// The sum over all fixed sets, what each of several has of it, and each handle.
 /// A name as the summary has it: names come from scene files and may have any length.
 std::string label_of(const GroupReaction& reaction) {
     constexpr std::size_t kLongest = 60;
     return shortened(one_line(reaction.name), kLongest);
 }
 
+/// The sum over all fixed sets, what each of several has of it, each handle and each load.
 void print_reactions(std::ostream& out, const Solution& solution) {
     std::vector<std::pair<std::string, const GroupReaction*>> lines;
     for (const GroupReaction& reaction : solution.reactions) {
@@ -126,7 +125,7 @@ void print_reactions(std::ostream& out, const Solution& solution) {
         if (lines.size() > 1 || solution.fixed_reactions.size() < 2) continue;
         for (const GroupReaction& part : solution.fixed_reactions) lines.emplace_back("  of " + label_of(part), &part);
     }
-    for (const GroupReaction& load : solution.loads) lines.emplace_back(one_line(load.name), &load);
+    for (const GroupReaction& load : solution.loads) lines.emplace_back(label_of(load), &load);
     std::size_t width = 12;
     for (const auto& line : lines) width = std::max(width, line.first.size());
     for (auto& [label, reaction] : lines) {

@@ -60,9 +60,8 @@ void add_options(CLI::App& parser, SolveOptions& options) {
     parser.add_option("--elements", options.elements, "of nonlinear FEM: ten nodes or four (default quadratic)")
         ->check(CLI::IsMember({"quadratic", "linear"}));
     parser
-        .add_option(
-            "--rims", options.rims,
-            "of Galerkin BEM: rows of thin triangles to add along the rims of constrained patches (default 0)")
+        .add_option("--rims", options.rims,
+                    "of Galerkin BEM: rows of thin triangles to add along the rims of constrained patches (default 0)")
         ->check(CLI::Range(0, kMostRims));
     parser
         .add_option("--update", options.update,
@@ -162,6 +161,7 @@ void run_solve(const SolveOptions& options, const SolveVariant& variant) {
     request.with_checks = !options.quiet || !options.report.empty();
     require_writable(options.outputs(), input_files(request));
     require_inside(request.method.kind, options.mesh_out);
+    require_pulls(request.method.kind, request.document.handles.size(), options.outputs());
 
     Solution solution = solve_with_progress(request, control, !options.quiet);
     add_choices_left_aside(options, request.method.kind, solution.findings);

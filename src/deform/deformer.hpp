@@ -162,9 +162,9 @@ public:
     Answer answer(const Eigen::VectorXd& values, Wanted wanted, Control& control, const Approach& approach = {}) const;
 
     /// How far displacements and reactions for these values may be off because the mesh is coarse: the difference to a
-    /// second, better answer. Boundary elements: symmetric Galerkin, the triangles along the rims of the constrained
-    /// patches refined once. FEM: quadratic elements on the same tetrahedra (quadratic FEM: linear ones, which shows
-    /// what one degree gains). Measured against converged answers in tests/methods/discretisation_test.cpp. Takes up to
+    /// second, better answer. Boundary elements: symmetric Galerkin with a row of thin triangles along the rims of the
+    /// constrained patches, or with halved ones. FEM: quadratic elements on the same tetrahedra (quadratic FEM: on
+    /// halved ones). Measured against converged answers in tests/methods/discretisation_test.cpp. Takes up to
     /// three times a single solve: not for every frame. Nothing where the memory left does not suffice.
     std::optional<DiscretisationCheck> discretisation_check(const Eigen::VectorXd& values, Control& control) const;
 

@@ -171,9 +171,9 @@ Deformer::Answer Deformer::answer(const Eigen::VectorXd& values, Wanted wanted, 
                           answer.force_changes[k]);
         if (!linear()) add_loads_of(s, solution.resultants, answer.loads);
         if (wanted.residual) answer.residual = std::max(*answer.residual, solid->residual(solution, control));
-        if (wanted.check) {
-            std::optional<SolutionError> own =
-                solid->error(unit_of(s) * solids_[s].values(unit_values), solution, control);
+        const Eigen::MatrixXd prescribed = solids_[s].values(unit_values);
+        if (wanted.check && !prescribed.isZero(0.0)) {  // else the solid rests, which is exact
+            std::optional<SolutionError> own = solid->error(unit_of(s) * prescribed, solution, control);
             wanted.check = own.has_value();
             if (own) {
                 error.to_better = own->to_better;

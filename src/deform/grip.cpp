@@ -68,6 +68,7 @@ Eigen::VectorXd GripArms::units() const {
 GripStiffness::GripStiffness(const Deformer& deformer, const Eigen::VectorXd& values, std::vector<Grip> grips,
                              Control& control)
     : grips_(std::move(grips)), arms_(deformer, grips_), load_size_(gross_forces(deformer)) {
+    if (deformer.model().method().kind->shows_averages) unbalanced_ = kUnbalancedTriangles;
     assert(deformer.model().method().kind->linear);
     LooseMotions loose = loose_motions(deformer, grips_, arms_);
     loose_ = std::move(loose.motions);
@@ -129,24 +130,25 @@ void GripStiffness::move(const Eigen::VectorXd& motions, Eigen::VectorXd& values
 }
 
 Eigen::VectorXd GripStiffness::motions(const Eigen::VectorXd& forces, const Eigen::VectorXd& springs) const {
+    if (grips_.empty()) return {};  // BLAS complains of matrices without rows
     const Eigen::VectorXd unit = arms_.units();
     Eigen::MatrixXd held = matrix_;
     for (Eigen::Index g = 0; g < springs.size(); ++g) held.diagonal().segment<3>(6 * g).array() += springs[g];
     Eigen::MatrixXd scaled = unit.asDiagonal() * arms_.working(held) * unit.asDiagonal();
     Eigen::VectorXd wanted = unit.asDiagonal() * arms_.working(forces - rest_);
     const Eigen::VectorXd asked = unit.asDiagonal() * forces;
-    if ((arms_.inert.transpose() * asked).norm() > kUnanswered * asked.norm()) throw SolveError(kUnbalancedGrips);
+    if ((arms_.inert.transpose() * asked).norm() > kUnanswered * asked.norm()) throw SolveError(unbalanced_);
     if (springs.isZero(0.0)) {
         const auto loads = others_.tail(load_size_.size());
         const double size = asked.norm() + load_size_.dot(loads.cwiseAbs());
         if ((loose_.transpose() * asked + load_work_ * loads).norm() > kUnanswered * size)
-            throw SolveError(kUnbalancedGrips);
+            throw SolveError(unbalanced_);
         scaled -= loose_ * (loose_.transpose() * scaled);
         wanted -= loose_ * (loose_.transpose() * wanted);
     }
     const Eigen::VectorXd motion = solve_minimum_norm(scaled, wanted, kNoStiffness).X;
     if (!((scaled * motion - wanted).norm() <= kUnanswered * (wanted.norm() + asked.norm())))
-        throw SolveError(kUnbalancedGrips);
+        throw SolveError(unbalanced_);
     return unit.asDiagonal() * motion;
 }
 

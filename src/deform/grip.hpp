@@ -35,6 +35,11 @@ struct GripArms {
 inline constexpr const char* kUnbalancedGrips =
     "handles under a force: no motion of theirs balances it. Fix a part of the body, give a handle with a moment three "
     "vertices that are not on one line, or let forces and moments sum to zero.";
+/// The same by constant elements, whose nodes are triangles.
+inline constexpr const char* kUnbalancedTriangles =
+    "handles under a force: no motion of theirs balances it. By constant elements a handle is its triangles: give it "
+    "three or more whose middles are not on one line, fix a part of the body, let forces and moments sum to zero, or "
+    "choose another method.";
 /// Below this part of Young's modulus times the size of the body all stiffness of grips is rounding, and what the
 /// integrals leave of a rigid motion: nothing but the grips holds the body. A thread of 1 : 1000 resists a pull by 1e-6
 /// of it.
@@ -84,11 +89,12 @@ private:
 
     std::vector<Grip> grips_;
     GripArms arms_;
-    Eigen::MatrixXd loose_;      ///< motions that nothing but the grips holds
-    Eigen::MatrixXd load_work_;  ///< of loads of size one in these
-    Eigen::VectorXd load_size_;  ///< gross forces of these loads
-    Eigen::VectorXd others_;     ///< the last values, zero for the grips
-    Eigen::VectorXd rest_;       ///< forces without motion
+    Eigen::MatrixXd loose_;                      ///< motions that nothing but the grips holds
+    Eigen::MatrixXd load_work_;                  ///< of loads of size one in these
+    Eigen::VectorXd load_size_;                  ///< gross forces of these loads
+    Eigen::VectorXd others_;                     ///< the last values, zero for the grips
+    Eigen::VectorXd rest_;                       ///< forces without motion
+    const char* unbalanced_ = kUnbalancedGrips;  ///< what is said where no motion answers
     Eigen::MatrixXd matrix_;
 };
 

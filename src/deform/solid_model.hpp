@@ -134,8 +134,8 @@ public:
     virtual void visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const = 0;
     /// The sparse stiffness of all nodes, or null.
     virtual const SparseStiffness* sparse_stiffness() const { return nullptr; }
-    /// The inside, or null where the method has none. Throws SolveError, Cancelled.
-    virtual std::shared_ptr<const Interior> interior(Control&) const { return nullptr; }
+    /// Nothing where the method has none.
+    virtual std::optional<Interior> interior() const { return std::nullopt; }
 
     const ModelFacts& facts() const { return facts_; }
 

@@ -24,11 +24,8 @@ SparseCholesky factorised(const SparseMatrix& K_ii, Control& control) {
 
 }  // namespace
 
-FemInterior::FemInterior(std::shared_ptr<const TetMesh> tets, const SparseMatrix& K, int n_given, Control& control)
-    : tets_(std::move(tets)),
-      n_all_(K.rows()),
-      n_surface_(3 * n_given),
-      to_surface_(block(K, 0, n_surface_, n_surface_)) {
+FemInterior::FemInterior(const SparseMatrix& K, int n_given, Control& control)
+    : n_all_(K.rows()), n_surface_(3 * n_given), to_surface_(block(K, 0, n_surface_, n_surface_)) {
     if (n_all_ > n_surface_) factor_ = factorised(block(K, n_surface_, n_all_ - n_surface_, n_surface_), control);
 }
 
@@ -38,7 +35,7 @@ Eigen::MatrixXd FemInterior::condensed(const Eigen::MatrixXd& loads) const {
     return f;
 }
 
-Eigen::MatrixXd FemInterior::extend_all(const Eigen::MatrixXd& surface, const Eigen::MatrixXd& loads) const {
+Eigen::MatrixXd FemInterior::extend(const Eigen::MatrixXd& surface, const Eigen::MatrixXd& loads) const {
     assert(surface.rows() == n_surface_);
     Eigen::MatrixXd all(n_all_, surface.cols());
     all.topRows(n_surface_) = surface;

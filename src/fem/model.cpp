@@ -14,7 +14,6 @@
 #include "fem/interior.hpp"
 #include "fem/load_vectors.hpp"
 #include "fem/nodal_field.hpp"
-#include "fem/quadratic/interior.hpp"
 #include "mesh/tets/tetrahedralize.hpp"
 
 namespace elastolab {
@@ -246,8 +245,7 @@ Eigen::MatrixXd FemModel::dense_load_vectors(Loads loads, Control& control) cons
     const Eigen::MatrixXd f = load_vectors(*mesh_, loads);
     const Eigen::Index n = operators_->K.rows();
     if (f.rows() == n || f.bottomRows(f.rows() - n).isZero(0.0)) return f.topRows(n);
-    const std::shared_ptr<const TetMesh> tets(mesh_, &mesh_->tets);
-    return FemInterior(tets, system_->K, system_->n_surface(), control).condensed(f);
+    return FemInterior(system_->K, system_->n_surface(), control).condensed(f);
 }
 
 std::unique_ptr<ConstrainedSolid> FemModel::constrain_dense(ConstrainedFemNodes constrained, Loads loads,
@@ -278,10 +276,8 @@ std::unique_ptr<ConstrainedSolid> FemModel::constrain_dense(ConstrainedFemNodes 
     checks.interior_field = [system = system_, nu = poisson_ratio_, all = load_vectors(*mesh_, loads)](
                                 NodeSolution&& solution, Control& its_control) {
         Eigen::MatrixXd& u = solution.displacements;
-        if (u.rows() < system->K.rows()) {
-            const std::shared_ptr<const TetMesh> tets(system->mesh, &system->mesh->tets);
-            u = FemInterior(tets, system->K, system->n_surface(), its_control).extend_all(u, all * solution.factors);
-        }
+        if (u.rows() < system->K.rows())
+            u = FemInterior(system->K, system->n_surface(), its_control).extend(u, all * solution.factors);
         return field_of(*system, nu, std::move(u));
     };
     return make_solid(std::move(constrained), std::move(solver), std::move(checks), loads);
@@ -323,12 +319,8 @@ decltype(SolutionChecks::reference) FemModel::reference_for(const ConstrainedFem
     };
 }
 
-std::shared_ptr<const Interior> FemModel::interior(Control& control) const {
-    control.checkpoint();
-    const std::shared_ptr<const TetMesh> tets(mesh_, &mesh_->tets);
-    if (degree() == ElementDegree::quadratic)
-        return std::make_shared<const QuadraticFemInterior>(tets, system_->K, control);
-    return std::make_shared<const FemInterior>(tets, system_->K, control);
+std::optional<Interior> FemModel::interior() const {
+    return Interior{std::shared_ptr<const TetMesh>(mesh_, &mesh_->tets), mesh_->elements()};
 }
 
 void FemModel::visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const {

@@ -28,7 +28,7 @@ public:
     std::uint64_t check_memory(std::span<const int> fixed, std::span<const int> handles) const override;
     void visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const override;
     const SparseStiffness* sparse_stiffness() const override { return &system_->K; }
-    std::shared_ptr<const Interior> interior(Control& control) const override;
+    std::optional<Interior> interior() const override;
 
     ElementDegree degree() const { return mesh_->degree(); }
 

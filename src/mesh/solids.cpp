@@ -11,17 +11,13 @@
 
 namespace elastolab {
 
-namespace {
-
-Solid extract(const SurfaceMesh& mesh, std::vector<int> triangles) {
+Solid with_triangles(const SurfaceMesh& mesh, std::vector<int> triangles) {
     std::sort(triangles.begin(), triangles.end());
     Triangles own = mesh.triangles(Eigen::all, triangles);
     const std::vector<int> vertices = used_vertices(own);
     renumber(own, vertices);
     return {{mesh.vertices(Eigen::all, vertices), std::move(own)}, vertices, std::move(triangles)};
 }
-
-}  // namespace
 
 std::vector<Solid> split_solids(const SurfaceMesh& mesh) {
     const std::vector<std::vector<int>> components = connected_components(mesh, EdgeTable(mesh)).triangles();
@@ -47,7 +43,7 @@ std::vector<Solid> split_solids(const SurfaceMesh& mesh) {
     }
     std::vector<Solid> solids;
     for (auto& triangles : parts)
-        if (!triangles.empty()) solids.push_back(extract(mesh, std::move(triangles)));
+        if (!triangles.empty()) solids.push_back(with_triangles(mesh, std::move(triangles)));
     return solids;
 }
 

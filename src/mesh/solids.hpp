@@ -17,6 +17,9 @@ struct Solid {
 /// outward begins one, every component that faces inward is a cavity of the innermost outward one around it.
 std::vector<Solid> split_solids(const SurfaceMesh& mesh);
 
+/// The part of a mesh with these triangles, as one.
+Solid with_triangles(const SurfaceMesh& mesh, std::vector<int> triangles);
+
 /// The point around which a solid with this surface is to be computed: the middle of its box, when that is farther from
 /// the origin than four times the box's diagonal and its coordinates would cost digits; else the origin, so that
 /// nothing is rounded.

@@ -3,10 +3,8 @@
 #include "base/memory.hpp"
 #include "deform/holds.hpp"
 #include "fem/error_estimate.hpp"
-#include "fem/interior.hpp"
 #include "fem/load_vectors.hpp"
 #include "fem/nodal_field.hpp"
-#include "fem/quadratic/interior.hpp"
 #include "mesh/tets/tetrahedralize.hpp"
 #include "petsc/session.hpp"
 
@@ -144,12 +142,8 @@ const SparseStiffness* PetscFemModel::sparse_stiffness() const {
     return &assembled_;
 }
 
-std::shared_ptr<const Interior> PetscFemModel::interior(Control& control) const {
-    control.checkpoint();
-    const std::shared_ptr<const TetMesh> tets(mesh_, &mesh_->tets);
-    if (degree() == ElementDegree::quadratic)
-        return std::make_shared<const QuadraticFemInterior>(tets, *sparse_stiffness(), control);
-    return std::make_shared<const FemInterior>(tets, *sparse_stiffness(), control);
+std::optional<Interior> PetscFemModel::interior() const {
+    return Interior{std::shared_ptr<const TetMesh>(mesh_, &mesh_->tets), mesh_->elements()};
 }
 
 }  // namespace elastolab

@@ -30,7 +30,7 @@ public:
     void visit_matrices(const std::function<void(const NamedMatrix&)>&) const override {}
     /// Assembled on this process when it is asked for.
     const SparseStiffness* sparse_stiffness() const override;
-    std::shared_ptr<const Interior> interior(Control& control) const override;
+    std::optional<Interior> interior() const override;
 
     const SolverFacts& solver_facts() const { return stiffness_->facts(); }
     ElementDegree degree() const { return mesh_->degree(); }

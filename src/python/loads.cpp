@@ -66,7 +66,8 @@ void bind_loads(py::module_& module) {
         module, "Load",
         R"(What acts on a body besides the handles; made by the functions below, taken by Model.constrain.
 
-Loads keep their size and direction while the body moves. Methods that are not linear take none.)")
+Of linear methods loads keep their size and direction while the body moves. Under large deformations a pressure
+follows the surface; forces, and forces per area at rest, keep theirs.)")
         .def_static("body_force", &body_force, py::arg("force"),
                     "Everywhere inside: (3,) [force / length^3], such as density times gravity.")
         .def_static("force", &total_force, py::arg("surface"), py::arg("triangles"), py::arg("force"),

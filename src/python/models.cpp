@@ -240,9 +240,10 @@ Method method_of(const std::string& method, const std::string& mode, const std::
 }
 
 void require_material(const Material& material) {
-    if (!(material.young_modulus > 0.0) || !std::isfinite(material.young_modulus))
+    if (!(material.young_modulus > 0.0) || !std::isnormal(material.young_modulus))
         throw py::value_error(
-            "young_modulus: must be positive and finite. Give a force per length squared, such as 1e5.");
+            "young_modulus: must be positive and finite, and not below 2.3e-308. Give a force per length squared, such "
+            "as 1e5.");
     if (!(material.poisson_ratio > -1.0 && material.poisson_ratio <= 0.5))
         throw py::value_error("poisson_ratio: must lie above -1 and not above 0.5. Give a number such as 0.3.");
 }

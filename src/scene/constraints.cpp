@@ -98,6 +98,8 @@ private:
             fail_at(scene_file_, path + "/select",
                     "selects no triangle: of none are all three vertices selected. Select more vertices.");
         const std::string name = load.name.empty() ? default_load_name(i) : load.name;
+        if (name == "gravity")
+            fail_at(scene_file_, path + "/name", "\"gravity\" is what the weight is called. Choose another name.");
         for (const AppliedLoad& other : result_.loads)
             if (other.name == name) fail_named_twice("/loads", name);
         if (triangles.empty()) return;

@@ -77,8 +77,8 @@ enum class ConstrainedTriangles { error, left_out };
 
 /// Throws SceneError naming the JSON path when a selector selects nothing or a vertex that is not there, when a vertex
 /// is constrained twice, when a load acts on no triangle or on one whose vertices are all constrained, when a handle is
-/// called "fixed", when two sets or handles have the same name, or when its displacements are not one for each of its
-/// vertices or not finite. The constraints of a document on its mesh.
+/// called "fixed" or a load "gravity", when two sets or handles have the same name, or when its displacements are not
+/// one for each of its vertices or not finite. The constraints of a document on its mesh.
 Constraints make_constraints(const Document& document, const SurfaceMesh& mesh, const std::filesystem::path& scene_file,
                              ConstrainedTriangles loaded = ConstrainedTriangles::error);
 

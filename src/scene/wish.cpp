@@ -43,10 +43,7 @@ std::optional<Eigen::VectorXd> values_between(const Wish& to, const Wish* from, 
 
 Wish wish_of(const Constraints& constraints) {
     Wish wish{.values = constraints.values, .motions = constraints.motions};
-    const auto n_fixed = static_cast<int>(constraints.set.fixed.size());
-    for (const ConstraintGroup& group : constraints.groups)
-        if (group.end > n_fixed) wish.ends.push_back(group.end - n_fixed);
-    if (wish.ends.size() != wish.motions.size()) wish.motions.clear();  // a handle without vertices
+    for (std::size_t h = 0; h < wish.motions.size(); ++h) wish.ends.push_back(constraints.range_of(h).second);
     return wish;
 }
 

@@ -59,12 +59,6 @@ double largest_error(const Eigen::VectorXd& u, const Eigen::VectorXd& truth) {
            truth.reshaped(3, u.size() / 3).colwise().stableNorm().maxCoeff();
 }
 
-double precompute_seconds(const Model& model) {
-    double sum = 0.0;
-    for (const StageTime& stage : model.facts().stages) sum += stage.seconds;
-    return sum;
-}
-
 std::vector<MethodKind> paper_methods() { return {kFem, kConstantBem, kLinearBem}; }
 
 std::string text(MethodKind kind) { return std::string(name(kind)); }

@@ -42,9 +42,6 @@ double relative_error(const Eigen::VectorXd& u, const Eigen::VectorXd& truth);
 /// Largest |u - truth| of a vertex, relative to the largest |truth| of one.
 double largest_error(const Eigen::VectorXd& u, const Eigen::VectorXd& truth);
 
-/// Seconds of all stages of a precomputation.
-double precompute_seconds(const Model& model);
-
 /// The three methods in the order of the paper.
 std::vector<MethodKind> paper_methods();
 /// "fem", "constant-bem", "linear-bem".

@@ -25,6 +25,14 @@ TEST(Text, KeepsLettersButNoBytesThatTerminalsObey) {
     EXPECT_EQ(one_line("\xc3("), "?(");
 }
 
+TEST(Text, IsShortenedByWholeCharacters) {
+    EXPECT_EQ(shortened("abcd", 4), "abcd");
+    EXPECT_EQ(shortened("abcde", 4), "abcd...");
+    EXPECT_EQ(shortened("ab\u20acd", 5), "ab\u20ac...");
+    for (const std::size_t longest : {2u, 3u, 4u}) EXPECT_EQ(shortened("ab\u20acd", longest), "ab...");
+    EXPECT_EQ(shortened("\x80\x80\x80\x80\x80\x80", 5).size(), 2 + 3u) << "no characters at all";
+}
+
 TEST(Text, BytesAreReadable) {
     EXPECT_EQ(readable_bytes(812), "812 bytes");
     EXPECT_EQ(readable_bytes(3.4e6), "3.40 MB");

@@ -1,6 +1,7 @@
 // solve of bodies that are held all over, by parts or not at all.
 #include <gmock/gmock.h>
 
+#include <map>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -60,6 +61,26 @@ TEST_F(SolveTest, TreatsTheSolidsOfASceneByThemselves) {
         ASSERT_EQ(table.rows.size(), 8U);
         for (std::size_t v = 4; v < 8; ++v) EXPECT_EQ(table.rows[v][5], 0.0) << "nothing holds or moves this solid";
         EXPECT_THAT(folder_.listing(), testing::IsSupersetOf({"m/K-solid1.npy", "m/K-solid2.npy"}));
+    }
+}
+
+/// A solid that is held all over, or that nothing moves, rests, and takes no other's estimate away.
+TEST_F(SolveTest, EstimatesTheErrorBesideASolidThatRests) {
+    folder_.write("two.obj",
+                  "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 5 0 0\nv 6 0 0\nv 5 1 0\nv 5 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n"
+                  "f 2 3 4\nf 5 7 6\nf 5 6 8\nf 5 8 7\nf 6 7 8\n");
+    std::map<std::string, double> estimates;
+    for (const std::string fixed : {"0, 1", "0, 1, 4, 5, 6, 7"}) {
+        const std::string scene = R"({"elastolab": 1, "mesh": {"file": "two.obj"}, "fixed": {"vertices": [)" + fixed +
+                                  R"(]}, "handles": [{"select": {"vertices": [3]}, "translate": [0, 0, 0.1]}]})";
+        for (const std::string method : {"fem", "quadratic-fem", "nonlinear-fem", "linear-bem", "galerkin-bem"}) {
+            SCOPED_TRACE(method + " " + fixed);
+            solve(scene, {"--method", method, "--report", "r.json", "--quiet"});
+            const auto estimate = json("r.json").at("error_estimate");
+            ASSERT_TRUE(estimate.is_object() && estimate.at("displacement").is_number()) << estimate.dump();
+            const auto [first, is_first] = estimates.try_emplace(method, estimate.at("displacement"));
+            EXPECT_NEAR(estimate.at("displacement"), first->second, 1e-6 * first->second);
+        }
     }
 }
 

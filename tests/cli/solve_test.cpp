@@ -1,7 +1,10 @@
 #include <gmock/gmock.h>
 
+#include <array>
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "cli/solve_case.hpp"
 
@@ -348,6 +351,46 @@ TEST_F(SolveTest, EndsWithoutOutputsWhenItIsInterrupted) {
         EXPECT_EQ(test::read_text(file("u.csv")), "before");
         EXPECT_THAT(folder_.listing(), ElementsAre("scene.json", "u.csv"));
     }
+}
+
+/// Whoever asks for one learns so at once, and not after minutes that leave nothing.
+TEST_F(SolveTest, FiguresThatCannotBeMadeAreRefusedBeforeAnythingIsComputed) {
+    const std::string begin = R"({"elastolab": 1, "mesh": {"primitive": "cube", "resolution": 2},
+        "fixed": {"box": {"min": [-1, -1, -1], "max": [2, 2, 0.1]}})";
+    const std::string handle = R"(, "handles": [{"select": {"vertices": [26]}, "translate": [0.1, 0, 0]}]})";
+    folder_.write("pulled.json", begin + handle);
+    folder_.write("hung.json", begin + R"(, "gravity": [0, 0, -1]})");
+    const std::vector<std::array<std::string, 3>> cases = {{"pulled.json", "nonlinear-fem", "Choose a linear method."},
+                                                           {"hung.json", "fem", "Add a handle"}};
+    for (const std::string option : {"--figure f.html", "--mesh-out f.glb", "--mesh-out F.GLB"})
+        for (const auto& [scene, method, why] : cases) {
+            const std::size_t space = option.find(' ');
+            const ProgramRun run = run_program({"solve", scene, "--method", method, option.substr(0, space),
+                                                option.substr(space + 1), "--displacements", "u.csv", "--quiet"},
+                                               folder_.path());
+            EXPECT_EQ(run.exit_code, 2) << option << ' ' << method;
+            EXPECT_THAT(run.err, testing::HasSubstr(why));
+            EXPECT_THAT(folder_.listing(), testing::UnorderedElementsAre("pulled.json", "hung.json"));
+        }
+}
+
+/// At haptic rate only the handle that is felt gives way.
+TEST_F(SolveTest, FeelRefusesWhatItCannotFollowOrWrite) {
+    folder_.write("two.json", R"({"elastolab": 1, "mesh": {"primitive": "cube", "resolution": 2},
+        "fixed": {"box": {"min": [-1, -1, -1], "max": [2, 2, 0.1]}},
+        "handles": [{"name": "felt", "select": {"box": {"min": [0.9, -1, 0.9], "max": [2, 0.1, 2]}}, "force": [0, 0, 1]},
+                    {"name": "pushed", "select": {"box": {"min": [0.9, 0.9, 0.9], "max": [2, 2, 2]}}, "force": [0, 0, 1]}]})");
+    const auto refused = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words = {"feel", "two.json", "--method", "fem", "--seconds", "0.1"};
+        words.insert(words.end(), more.begin(), more.end());
+        const ProgramRun run = run_program(words, folder_.path());
+        EXPECT_NE(run.exit_code, 0);
+        return run.err;
+    };
+    EXPECT_THAT(refused({}), testing::HasSubstr("\"pushed\" moves by a force"));
+    EXPECT_THAT(refused({"--handle", "pushed"}), testing::HasSubstr("\"felt\" moves by a force"));
+    EXPECT_THAT(refused({"--forces", "missing/f.csv"}), testing::HasSubstr("missing"));
+    EXPECT_THAT(refused({"--seconds", "1e12"}), testing::HasSubstr("--seconds"));
 }
 
 }  // namespace

@@ -9,10 +9,16 @@
 #include <set>
 
 #include "deform/deformer.hpp"
+#include "fem/method.hpp"
+#include "fem/nonlinear/method.hpp"
 #include "fem/quadratic/method.hpp"
 #include "mesh/primitives.hpp"
 #include "methods/precompute.hpp"
 #include "methods/registry.hpp"
+#include "scene/live/drag_solver.hpp"
+#include "scene/live/embedded_runner.hpp"
+#include "scene/wish.hpp"
+#include "support/wait_until.hpp"
 
 namespace elastolab {
 namespace {
@@ -228,6 +234,83 @@ TEST(CarriedConstraints, AForceOnAHandleActsWhereItDoesOnTheShownSurface) {
         EXPECT_EQ(own.force, force);
         const Eigen::Vector3d moment = Eigen::Vector3d(0.1, 0.2, 0.3) + wanted.cross(force);
         EXPECT_LT((own.moment + at.cross(force) - moment).norm(), 1e-12);
+    }
+}
+
+/// Two neighbours on the shown surface, of which a coarse proxy has a vertex for one only; and an end that is turned.
+struct CrowdedBar {
+    std::shared_ptr<const Proxy> proxy = proxy_of(kBar, 40);
+    Document document = bar(AffineMotion{.rotate = {.axis = {1, 0, 0}, .degrees = 360, .center = {4, 0.5, 0.5}}});
+
+    explicit CrowdedBar(bool swapped) {
+        int at = 0;
+        (kBar.vertices.colwise() - Eigen::Vector3d(2.0, 0.5, 1.0)).colwise().norm().minCoeff(&at);
+        int beside = at;
+        for (const auto& triangle : kBar.triangles.colwise())
+            if ((triangle.array() == at).any() && beside == at) beside = triangle[triangle[0] == at ? 1 : 0];
+        if (swapped) std::swap(at, beside);
+        document.handles.push_back(
+            {.name = "one", .select = {VertexSelector{{at}}}, .motion = AffineMotion{.translate = {0, 0, 0.02}}});
+        document.handles.push_back(
+            {.name = "other", .select = {VertexSelector{{beside}}}, .motion = VertexMotion{{{0, 0, 0.01}}}});
+    }
+    Constraints constraints() const { return make_constraints(document, kBar, "s.json"); }
+};
+
+TEST(CarriedConstraints, AHandleWithoutVerticesThereLeavesTheOthersTheirMotions) {
+    for (const bool swapped : {false, true}) {
+        const CrowdedBar crowded(swapped);
+        CarriedConstraints carried(crowded.proxy);
+        carried.set(crowded.constraints());
+        const Constraints& own = carried.constraints();
+        const Wish wish = wish_of(own);
+        ASSERT_EQ(wish.motions.size(), 3u);
+        ASSERT_EQ(wish.ends.size(), 3u);
+        EXPECT_EQ(wish.ends[2], std::ssize(own.set.handles));
+        EXPECT_TRUE(wish.ends[1] == wish.ends[0] || wish.ends[2] == wish.ends[1]) << "both have a vertex";
+        const Positions rest = crowded.proxy->surface->vertices(Eigen::all, own.set.handles);
+        EXPECT_EQ(way_to(wish, nullptr, rest).path.cols(), 3) << "the full turn was lost";
+        Control control;
+        for (const MethodKind kind : {kNonlinearFem, kFem}) {
+            const Body body{.name = "body", .surface = crowded.proxy->surface, .material = {1.0, 0.3}};
+            const auto deformer = std::make_shared<Deformer>(
+                precompute(body, Method{.kind = kind, .elements = ElementDegree::linear}, control));
+            deformer->constrain(own.set, control);
+            DragSolver drag(deformer, wish.ends);
+            const Eigen::VectorXd values = 0.1 * own.values;
+            drag.prepare(values, kSolveTolerance, control);
+            Eigen::VectorXd u;
+            drag.displace(values, u);
+            EXPECT_LT((u - deformer->displace(values)).norm(), 1e-9 * u.norm()) << name(kind);
+        }
+    }
+}
+
+TEST(EmbeddedRunner, MovesTheHandleThatAForceActsOnAndNoneThatIsNotOnTheProxy) {
+    for (const bool swapped : {false, true}) {
+        CrowdedBar crowded(swapped);
+        const Eigen::Vector3d forces[] = {{0, 1e-4, 0}, {0, 0, 1e-4}};
+        for (std::size_t h : {1u, 2u}) {
+            crowded.document.handles[h].motion = AffineMotion{};
+            crowded.document.handles[h].force = GripForce{forces[h - 1]};
+        }
+        crowded.document.handles[0].motion = AffineMotion{};
+        EmbeddedRunner runner([] {});
+        const Body body{.name = "body", .surface = crowded.proxy->surface, .material = {1.0, 0.3}};
+        runner.set_body(body, Method{.kind = kFem, .update = Update::direct}, crowded.proxy);
+        test::wait_for([&] {
+            runner.set_constraints(crowded.constraints());
+            runner.poll();
+            return runner.ready() && !runner.grip_motions().empty();
+        });
+        ASSERT_EQ(runner.gripped().size(), 1u);
+        ASSERT_EQ(runner.grip_motions().size(), 1u);
+        const std::size_t there = runner.gripped()[0], missing = 3 - there;
+        const auto moved = [&](std::size_t h) {
+            return std::get<AffineMotion>(runner.shown_constraints().motions[h]).translate;
+        };
+        EXPECT_GT(moved(there).normalized().dot(forces[there - 1].normalized()), 0.7);
+        EXPECT_EQ(moved(missing), Eigen::Vector3d(0, 0, 0));
     }
 }
 

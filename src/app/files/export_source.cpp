@@ -1,6 +1,7 @@
 #include "app/files/export_source.hpp"
 
 #include "base/error.hpp"
+#include "base/text.hpp"
 #include "mesh/input/export.hpp"
 #include "scene/field_export.hpp"
 #include "scene/figure/gltf.hpp"
@@ -71,7 +72,7 @@ void write_export(const fs::path& file, const ExportSource& source, Control& con
     if (source.deformer && (is_figure_file(file) || is_glb_file(file)))
         return save_figure(file, make_figure(*source.deformer, source.values, source.groups, control));
     if (source.deformer && is_field_file(file)) return save_field_file(file, solved_body(source, control), control);
-    if (takes_solves(file) && !(file.extension() == ".ply"))
+    if (takes_solves(file) && lower_case(file.extension().string()) != ".ply")
         throw Error(file.string() + ": there is no answer to write yet. Wait until the method is ready.");
     write_moved_mesh(file, source);
 }

@@ -159,6 +159,7 @@ private:
         Motion motion;
         double spring = 0.0;                                ///< that it is pulled through; 0: none
         Eigen::Vector3d tension = Eigen::Vector3d::Zero();  ///< of the spring, were the patch at rest [force]
+        Eigen::Vector3d moment = Eigen::Vector3d::Zero();   ///< that acts on the handle besides [force * L]
     };
     struct Spring {
         int handle = -1;

@@ -10,6 +10,7 @@ namespace elastolab {
 
 bool Gestures::press_gizmo(GestureContext& context, const PointingTarget& target) {
     for (const Gizmo& gizmo : context.gizmos) {
+        if (gizmo.handle >= context.scene.n_handles()) continue;  // removed in this frame
         const std::optional<GizmoPart> part = part_at(gizmo, context.camera, target.viewport, cursor_);
         if (!part) continue;
         if (gizmo.handle == Gizmo::kPlane) {
@@ -64,6 +65,7 @@ void Gestures::move_plane(GestureContext& context) {
     if (gizmo_drag_->part.kind == GizmoPart::Kind::arrow) {
         const Eigen::RowVectorXd along = gizmo_drag_->gizmo.axes.col(0).transpose() * context.scene.mesh().vertices;
         const double extent = along.maxCoeff() - along.minCoeff();
+        if (!(extent > 0.0)) return;  // a flat sheet
         display.section_place = std::clamp(plane_before_.section_place + amount / extent, 0.0, 1.0);
         return;
     }

@@ -72,7 +72,7 @@ std::optional<int> Gestures::arrow_at(const GestureContext& context, const Point
 
 bool Gestures::press_arrow(GestureContext& context, const PointingTarget& target) {
     const std::optional<int> load = arrow_at(context, target);
-    if (!load) return false;
+    if (!load || *load >= context.scene.n_loads()) return false;
     for (const LoadArrow& arrow : context.load_arrows)
         if (arrow.load == *load) begin_load(context, arrow, false);
     return true;

@@ -42,8 +42,9 @@ void Gestures::begin_pull(GestureContext& context, int handle, Grabbed grabbed, 
     if (hit.triangle >= 0) pull_.normal = triangle_normal(context.targets[target_], hit.triangle);
     pull_.motion = context.scene.document().handles[static_cast<std::size_t>(handle)].motion;
     pull_.place = context.targets[target_].positions->col(hit.vertex);
-    const bool gives_way = grabbed == Grabbed::new_handle ||
-                           context.scene.document().handles[static_cast<std::size_t>(handle)].force.has_value();
+    const std::optional<GripForce>& force = context.scene.document().handles[static_cast<std::size_t>(handle)].force;
+    const bool gives_way = grabbed == Grabbed::new_handle || force.has_value();
+    if (force) pull_.moment = force->moment;
     if (context.tools.pull_mode == PullMode::spring && gives_way) pull_.spring = context.tools.spring;
     set_baseline(context);
 }
@@ -122,8 +123,9 @@ void Gestures::pull(GestureContext& context) {
 /// The far end of the spring follows the cursor; where the patch goes, the equilibrium says.
 void Gestures::pull_by_spring(GestureContext& context) {
     const Eigen::Vector3d shift = pull_shift(context) / context.display.deformation_scale;
-    context.scene.set_force(pull_.handle,
-                            GripForce{.force = pull_.tension + pull_.spring * shift, .spring = pull_.spring});
+    context.scene.set_force(
+        pull_.handle,
+        GripForce{.force = pull_.tension + pull_.spring * shift, .moment = pull_.moment, .spring = pull_.spring});
 }
 
 std::optional<Gestures::SpringPull> Gestures::spring_pull(const LiveScene& scene) const {
@@ -158,7 +160,8 @@ void Gestures::end_pull(GestureContext& context) {
             Spring{pull_.handle, context.scene.document().handles[static_cast<std::size_t>(pull_.handle)].motion});
         selected_ = -1;
     } else {
-        if (sprung) context.scene.set_force(pull_.handle, GripForce{.force = sprung->force});  // it stays where it is
+        if (sprung)  // it stays where it is
+            context.scene.set_force(pull_.handle, GripForce{.force = sprung->force, .moment = pull_.moment});
         context.scene.commit();
     }
 }

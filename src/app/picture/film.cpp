@@ -96,7 +96,8 @@ bool Film::pose(SceneRenderer& renderer, ViewerState& state, const Palette& pale
         pose_ = Pose{.handles = {}, .revision = scene.revision(), .range = state.shown.field_range(state.display)};
         for (int h = 0; h < scene.n_handles(); ++h) {
             const Motion& motion = scene.constraints().motions[static_cast<std::size_t>(h)];
-            pose_->handles.push_back({scene.handle_name(h), motion, motion});
+            pose_->handles.push_back(
+                {scene.handle_name(h), motion, motion, scene.document().handles[static_cast<std::size_t>(h)].force});
         }
     }
     if (scene.revision() != pose_->revision)
@@ -124,8 +125,10 @@ void Film::put_back(ViewerState& state) {
     for (int h = 0; h < scene.n_handles(); ++h)
         for (const Pose::Handle& handle : pose_->handles)
             if (handle.name == scene.handle_name(h) &&
-                handle.part == scene.constraints().motions[static_cast<std::size_t>(h)])
+                handle.part == scene.constraints().motions[static_cast<std::size_t>(h)]) {
                 scene.set_motion(h, handle.whole);
+                if (handle.force) scene.set_force(h, handle.force);
+            }
     pose_.reset();
 }
 

@@ -48,7 +48,6 @@ public:
     void stop(ViewerState& state);
     /// Takes over what the worker finished. Whether there is something new to see.
     bool poll(ViewerState& state);
-    bool making_video() const { return video_.running(); }
     bool working() const { return video_.working(); }
 
 private:
@@ -57,6 +56,7 @@ private:
         struct Handle {
             std::string name;
             Motion whole, part;
+            std::optional<GripForce> force;  ///< that moved it there; on its way it is led
         };
         std::vector<Handle> handles;
         std::uint64_t revision = 0;       ///< of the scene, as it was put last

@@ -76,7 +76,7 @@ std::shared_ptr<const SectionRunner::Basis> SectionRunner::make_basis(const Embe
     Eigen::MatrixXd motions(values.size(), 0);
     const bool linear = deformer.linear();
     const bool fits = linear && group < groups.size() && groups[group].begin >= n_fixed &&
-                      3 * (groups[group].end - n_fixed) <= values.size() &&
+                      groups[group].end > groups[group].begin && 3 * (groups[group].end - n_fixed) <= values.size() &&
                       deformer.model().facts().n_degrees_of_freedom <= kManyUnknowns;
     if (fits) {
         const Eigen::Index first = groups[group].begin - n_fixed, n = groups[group].end - groups[group].begin;
@@ -203,7 +203,7 @@ void SectionRunner::update(const EmbeddedRunner& answer, const std::shared_ptr<c
     }
     const bool same = deformer_.lock() == deformer && shape_.lock() == shape;
     // What runs for another cut or set is of no use; for another motion of this one it is, as far as it goes.
-    if (same && (job_.running() || !failure_.empty())) return;
+    if (same && (job_.running() || (!failure_.empty() && asked_ == values))) return;
     const bool spanned = latest_ && spans(*latest_->basis, values);
     if (same && spanned && latest_->n_known == shape->n_inside()) return;
     if (runner.converging()) return;  // by the iteration that these need too, which keeps its solutions
@@ -222,10 +222,11 @@ void SectionRunner::update(const EmbeddedRunner& answer, const std::shared_ptr<c
 }
 
 void SectionRunner::start(Columns next, const Eigen::VectorXd& values) {
+    // What failed for another motion is said until it is known whether this one fails, too.
+    if (deformer_.lock() != next.deformer || shape_.lock() != next.shape) failure_.clear();
     deformer_ = next.deformer;
     shape_ = next.shape;
     asked_ = values;
-    failure_.clear();
     job_.start([next = std::move(next)](Control& control) { return evaluate(next, control); });
 }
 

@@ -111,6 +111,7 @@ NewtonState NonlinearSolver::followed(const NonlinearState& from, const MotionPa
     }
     at.iterations = iterations;
     if (part < 1.0) {
+        if (failed.crushed < 0) failed.crushed = at.crushed;  // the steps were used up
         failed.iterations = iterations;
         failed.u = at.u;
         return failed;

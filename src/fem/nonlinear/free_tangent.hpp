@@ -22,7 +22,6 @@ public:
     FreeTangent(std::shared_ptr<const FiniteElements> elements, std::span<const int> constrained, Control& control);
 
     const FiniteElements& elements() const { return *elements_; }
-    const std::shared_ptr<const FiniteElements>& shared_elements() const { return elements_; }
     /// Free nodes, ascending.
     const std::vector<int>& nodes() const { return free_; }
     int size() const { return 3 * static_cast<int>(free_.size()); }

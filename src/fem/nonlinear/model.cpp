@@ -3,7 +3,6 @@
 #include "base/error.hpp"
 #include "base/memory.hpp"
 #include "deform/holds.hpp"
-#include "deform/ten_node_elements.hpp"
 #include "fem/nodal_field.hpp"
 #include "fem/nonlinear/halved_answer.hpp"
 #include "fem/nonlinear/second_answer.hpp"
@@ -37,54 +36,6 @@ std::uint64_t bytes_of_tangent(const FiniteElements& elements, Eigen::Index entr
 }
 
 std::shared_ptr<const TetMesh> tets_of(const std::shared_ptr<const NonlinearMesh>& mesh) { return {mesh, &mesh->tets}; }
-
-/// The inside from the surface: an equilibrium that was found with this surface, or else the one with all vertices of
-/// the surface prescribed.
-class NonlinearInterior : public Interior {
-public:
-    NonlinearInterior(std::shared_ptr<const NonlinearMesh> mesh, const Material& material,
-                      std::shared_ptr<const FoundStates> found)
-        : mesh_(std::move(mesh)), material_(material), found_(std::move(found)) {}
-    const TetMesh& tetrahedra() const override { return mesh_->tets; }
-    Eigen::VectorXd extend(const Eigen::VectorXd& surface) const override {
-        if (std::optional<Eigen::VectorXd> known = found_->with_surface(surface)) return *std::move(known);
-        std::vector<int> vertices(static_cast<std::size_t>(mesh_->n_vertices()));
-        for (std::size_t v = 0; v < vertices.size(); ++v) vertices[v] = static_cast<int>(v);
-        const ConstrainedFemNodes nodes = constrain_nodes(mesh_->tets.vertices, mesh_->midpoints, {}, vertices);
-        Control control;
-        const NonlinearSolver solver(mesh_->elements, material_, {nodes.prescribed.nodes, 0, true}, control);
-        return solver.solve(nodes.prescribed.prescribe * surface, false).displacements;
-    }
-
-private:
-    std::shared_ptr<const NonlinearMesh> mesh_;
-    Material material_;
-    std::shared_ptr<const FoundStates> found_;
-};
-
-class TenNodeNonlinearInterior : public NonlinearInterior, public TenNodeElements {
-public:
-    using NonlinearInterior::NonlinearInterior;
-    Eigen::MatrixXi ten_node_elements() const override { return rejoined(tetrahedra()); }
-};
-
-/// A solver that tells a model what it found.
-class RememberingSolver : public NonlinearSolver {
-public:
-    RememberingSolver(const NonlinearMesh& mesh, const Material& material, PrescribedNodes nodes,
-                      std::span<const UnitLoad> loads, std::shared_ptr<FoundStates> found, Control& control)
-        : NonlinearSolver(mesh.elements, material, std::move(nodes), control,
-                          {mesh.elements, mesh.surface, mesh.surface_midpoints, loads}),
-          found_(std::move(found)) {}
-    NodeSolution solve_task(const NodeTask& task, double tolerance, Control& control) const override {
-        NodeSolution solution = NonlinearSolver::solve_task(task, tolerance, control);
-        if (task.prescribed.cols() == 1) found_->add(solution.displacements.col(0));
-        return solution;
-    }
-
-private:
-    std::shared_ptr<FoundStates> found_;
-};
 
 }  // namespace
 
@@ -123,11 +74,12 @@ std::unique_ptr<ConstrainedSolid> NonlinearModel::constrain(std::span<const int>
                                                             std::span<const UnitLoad> loads, Control& control) const {
     ConstrainedFemNodes nodes = constrain_nodes(mesh_->tets.vertices, mesh_->midpoints, fixed, handles);
     const bool held = holds(mesh_->tets.vertices, nodes.vertices);
-    auto solver = std::make_unique<RememberingSolver>(
-        *mesh_, material(), PrescribedNodes{nodes.prescribed.nodes, nodes.n_fixed, held}, loads, found_, control);
+    auto solver = std::make_unique<NonlinearSolver>(
+        mesh_->elements, material(), PrescribedNodes{nodes.prescribed.nodes, nodes.n_fixed, held}, control,
+        NonlinearLoads{mesh_->elements, mesh_->surface, mesh_->surface_midpoints, loads});
     SolutionChecks checks;
     checks.residual = [its = solver.get()](const NodeSolution& solution, Control& its_control) {
-        ElementWork work = its->elements().make_work();
+        ElementWork work = its->elements().make_work(false);
         const Eigen::VectorXd u = solution.displacements.col(0);
         const Eigen::VectorXd factors = solution.factors.col(0);
         return its->newton().residual(u.lpNorm<Eigen::Infinity>(), its->newton().forces(u, factors, work, its_control),
@@ -171,10 +123,10 @@ const SparseStiffness* NonlinearModel::sparse_stiffness() const {
     return rest_.get();
 }
 
-std::shared_ptr<const Interior> NonlinearModel::interior(Control&) const {
-    if (degree() == ElementDegree::quadratic)
-        return std::make_shared<const TenNodeNonlinearInterior>(mesh_, material(), found_);
-    return std::make_shared<const NonlinearInterior>(mesh_, material(), found_);
+std::optional<Interior> NonlinearModel::interior() const {
+    Interior inside{tets_of(mesh_), mesh_->tets.tetrahedra};
+    if (degree() == ElementDegree::quadratic) inside.elements = rejoined(mesh_->tets);
+    return inside;
 }
 
 std::shared_ptr<const SolidModel> precompute_nonlinear(const SurfaceMesh& surface, const std::string& name,

@@ -6,7 +6,6 @@
 
 #include "deform/solid_model.hpp"
 #include "fem/constrained_nodes.hpp"
-#include "fem/nonlinear/found_states.hpp"
 #include "fem/nonlinear/mesh.hpp"
 #include "fem/nonlinear/solver.hpp"
 
@@ -29,7 +28,7 @@ public:
     void visit_matrices(const std::function<void(const NamedMatrix&)>&) const override {}
     /// The tangent at rest.
     const SparseStiffness* sparse_stiffness() const override;
-    std::shared_ptr<const Interior> interior(Control& control) const override;
+    std::optional<Interior> interior() const override;
 
     ElementDegree degree() const { return mesh_->elements->degree(); }
 
@@ -41,7 +40,6 @@ private:
     std::uint64_t factor_bytes_ = 0, tangent_bytes_ = 0;  ///< of the free body
     mutable std::mutex rest_mutex_;
     mutable std::unique_ptr<const SparseStiffness> rest_;  ///< made when it is asked for
-    std::shared_ptr<FoundStates> found_ = std::make_shared<FoundStates>();
 };
 
 /// MethodTraits::precompute: takes over the tetrahedra of a model of the same degree.

@@ -32,7 +32,8 @@ Eigen::Matrix3d screw_shift(const Eigen::Vector3d& turn) {
 }
 
 int root_of(std::vector<int>& parent, int i) {
-    while (parent[static_cast<std::size_t>(i)] != i) i = parent[static_cast<std::size_t>(i)];
+    const auto at = [&](int k) -> int& { return parent[static_cast<std::size_t>(k)]; };
+    while (at(i) != i) i = at(i) = at(at(i));  // halves the way for the next one
     return i;
 }
 

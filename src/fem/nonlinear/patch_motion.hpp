@@ -39,7 +39,7 @@ private:
 };
 
 /// Patches of constrained nodes: numbers of those that edges of elements connect, among the nodes from n_fixed on; -1
-/// for the fixed set and for nodes that are connected to it.
+/// for the fixed set.
 std::vector<int> patches_of_nodes(const Eigen::MatrixXi& elements, int n_nodes, const std::vector<int>& constrained,
                                   int n_fixed);
 

@@ -89,9 +89,6 @@ Figure make_figure(const Deformer& deformer, const Eigen::VectorXd& values, cons
                   .stress = Eigen::VectorXd(6 * x.cols()),
                   .handles = {}};
     solve_for(deformer, values, constrained, figure.displacement, figure.stress, control);
-    // Answers for values of zero: what loads do, which the columns must not have.
-    Eigen::VectorXd u0(3 * x.cols()), s0(6 * x.cols());
-    solve_for(deformer, Eigen::VectorXd::Zero(values.size()), constrained, u0, s0, control);
     for (const ConstraintGroup& group : handles) {
         FigureHandle handle{.name = group.name,
                             .vertices = {constrained.begin() + group.begin, constrained.begin() + group.end},
@@ -100,14 +97,12 @@ Figure make_figure(const Deformer& deformer, const Eigen::VectorXd& values, cons
                             .stress = Eigen::MatrixXd(6 * x.cols(), 6)};
         handle.centre = x(Eigen::all, handle.vertices).rowwise().mean();
         for (int kind = 0; kind < 6; ++kind) {
-            Eigen::VectorXd motion = Eigen::VectorXd::Zero(values.size());
+            Eigen::VectorXd motion = Eigen::VectorXd::Zero(values.size());  // without loads
             for (std::size_t i = 0; i < handle.vertices.size(); ++i)
                 motion.segment<3>(3 * (group.begin - n_fixed + static_cast<Eigen::Index>(i))) =
                     unit_motion(kind, x.col(handle.vertices[i]) - handle.centre);
             solve_for(deformer, motion, constrained, handle.displacement.col(kind), handle.stress.col(kind), control);
         }
-        handle.displacement.colwise() -= u0;
-        handle.stress.colwise() -= s0;
         figure.handles.push_back(std::move(handle));
         control.set_progress(static_cast<double>(figure.handles.size()) / static_cast<double>(handles.size()));
     }

@@ -41,7 +41,7 @@ void DragSolver::prepare(const Eigen::VectorXd& values, double tolerance, Contro
             affine = (moved.colwise() - moved.col(0)).cwiseAbs().maxCoeff() > tolerance_of(handle, moved);
         }
     }
-    if (handle < 0) handle = turns && handle_ >= 0 ? handle_ : static_cast<int>(handle_ends_.size()) - 1;
+    if (handle < 0) handle = turns && handle_ >= 0 ? handle_ : last_handle();
     if (handle < 0 && n_loads() > 0) handle = loads();
     if (handle < 0) return start(values, tolerance, control, approach);
     if (handle == loads()) return grab_loads(values, tolerance, control, approach);
@@ -91,6 +91,12 @@ void DragSolver::displace(const Eigen::VectorXd& values, Eigen::VectorXd& u) {
 
 bool DragSolver::has_start(const Eigen::VectorXd& values) const {
     return start_values_.size() == values.size() && response_.rest.size() > 0;
+}
+
+int DragSolver::last_handle() const {
+    int handle = loads() - 1;
+    while (handle >= 0 && size_of(handle) == 0) --handle;
+    return handle;
 }
 
 /// The one handle whose values differ from those at the start.

@@ -18,7 +18,8 @@ namespace elastolab {
 /// displace() gives for other values is right to second order in the change, and is not to be asked for without has().
 class DragSolver {
 public:
-    /// handle_ends[i]: where the vertices of handle i end in the list of all handles' vertices (deformer->set()).
+    /// handle_ends[i]: where the vertices of handle i, which may have none on a proxy, end in the list of all handles'
+    /// vertices (deformer->set()).
     DragSolver(std::shared_ptr<const Deformer> deformer, std::vector<int> handle_ends);
 
     /// Solves ahead for these values, and for further motion of the kind that led to them from the start (translations
@@ -49,6 +50,8 @@ private:
 
     bool has_start(const Eigen::VectorXd& values) const;
     int changed_handle(const Eigen::VectorXd& change) const;
+    /// With vertices; negative: there is none.
+    int last_handle() const;
     Eigen::Matrix3Xd part_of(int handle, const Eigen::VectorXd& change) const;
     /// The number that changed_handle() has for the loads, which stand behind the handles.
     int loads() const { return static_cast<int>(handle_ends_.size()); }

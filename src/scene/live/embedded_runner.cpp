@@ -88,7 +88,7 @@ void EmbeddedRunner::place_grips() {
     grip_motions_ = std::move(*motions);
     Constraints moved = *asked_;
     placed_ = gripped_vertices(moved);
-    const std::vector<std::size_t> handles = moved.gripped();
+    const std::vector<std::size_t> handles = gripped();
     const Positions& shown = carried_ ? carried_->proxy().shown->vertices : surface()->vertices;
     for (std::size_t g = 0; g < handles.size() && g < grip_motions_.size(); ++g)
         moved.move(handles[g], grip_motions_[g], shown);

@@ -54,7 +54,9 @@ public:
     /// MethodRunner::check_at_rest, once handles under a force are placed.
     void check_at_rest();
 
-    /// Where handles under a force have come to, in the order of Constraints::gripped(); empty until that is known.
+    /// Handles under a force, but those that have no vertex on the proxy.
+    std::vector<std::size_t> gripped() const { return constraints().gripped(); }
+    /// Where these have come to; empty until that is known.
     const std::vector<AffineMotion>& grip_motions() const { return grip_motions_; }
     /// Why they stay where the scene has them though their set is there; else empty.
     const std::string& grip_failure() const { return placer_.failure(); }

@@ -190,11 +190,11 @@ void SetKeeper::prepare_prefetched(const ConstrainedSet& set) {
     while (!wish.ends.empty() && wish.ends.back() >= n) wish.ends.pop_back();
     if (n > 0) wish.ends.push_back(n);
     if (!wish.motions.empty()) wish.motions.resize(wish.ends.size());
-    const auto n_loads = static_cast<Eigen::Index>(set.loads.size());
-    const Eigen::Index n_before = std::max(wanted_.values.size() - n_loads, Eigen::Index{0});
-    const Eigen::Index n_known = std::min(wish.values.size() - n_loads, n_before);
+    const Eigen::Index n_loads = std::ssize(set.loads), n_loads_before = std::ssize(wanted_set_.loads);
+    const Eigen::Index n_known = std::min(wish.values.size() - n_loads, wanted_.values.size() - n_loads_before);
     wish.values.head(n_known) = wanted_.values.head(n_known);
-    if (wanted_.values.size() >= n_loads) wish.values.tail(n_loads) = wanted_.values.tail(n_loads);
+    // A handle may cover a load, which then acts no more.
+    if (n_loads == n_loads_before) wish.values.tail(n_loads) = wanted_.values.tail(n_loads);
     prepare(set, std::move(wish));
 }
 
@@ -237,14 +237,12 @@ bool SetKeeper::is_exact() const {
 
 /// Whether it is time to solve for what is wanted now.
 bool SetKeeper::may_solve_now() {
-    holding_off_ = false;
     if (is_linear()) return !solving();
     if (failed_ && same(*failed_, wanted_)) return false;
     if (solving() && same(solving_, wanted_)) return false;
     if (may_hold_off_ && is_slow()) {
         if (solving()) job_.cancel();
-        holding_off_ = rest_.seconds() < kPauseSeconds;
-        return !holding_off_;
+        return rest_.seconds() >= kPauseSeconds;
     }
     return !solving() || job_.status().seconds > kPatienceSeconds;
 }

@@ -64,7 +64,6 @@ public:
     explicit SetKeeper(std::function<void()> wake) : job_(std::move(wake)) {}
 
     void want(const Constraints& constraints);
-    const ConstrainedSet& wanted_set() const { return wanted_set_; }
     const Wish& wanted() const { return wanted_; }
     const Eigen::VectorXd& wanted_values() const { return wanted_.values; }
     const std::vector<int>& handle_ends() const { return wanted_.ends; }
@@ -115,8 +114,6 @@ public:
     bool solving() const { return job_.running() && !converging_ && is_current() && same_as_wanted(preparing_set_); }
     /// Of a method that is not linear: how what is wanted is reached from the equilibrium at hand; for another thread.
     Approach approach() const { return is_current() ? approach_to(wanted_) : Approach{}; }
-    /// A motion will be solved for once it rests.
-    bool holding_off() const { return holding_off_; }
     /// Whether the worker iterates on what current() answers with.
     bool converging() const { return job_.running() && converging_; }
 
@@ -165,7 +162,7 @@ private:
     bool converging_ = false, may_converge_ = true;
     Wish solving_;                ///< what the worker solves for within the present set
     std::optional<Wish> failed_;  ///< that has no equilibrium
-    bool may_hold_off_ = false, holding_off_ = false;
+    bool may_hold_off_ = false;
     std::string failure_, motion_failure_;
     BackgroundJob<PreparedSet> job_;  // last: its thread ends before what it wakes is destroyed
 };

@@ -127,7 +127,7 @@ void CarriedConstraints::carry_values() {
             }
             carried_.values.segment<3>(3 * Index{i}) = u;
         }
-        if (!carried_motion.displacements.empty()) carried_.motions[h] = std::move(carried_motion);
+        if (affine == nullptr) carried_.motions[h] = std::move(carried_motion);
     }
     carry_forces();
 }

@@ -31,7 +31,7 @@ std::vector<Follower> find_followers(const Proxy& proxy, const VertexTriangles& 
             for (const int t : around[vertex])
                 for (const int w : mesh.triangles.col(t)) {
                     const auto known = source_of.find(w);
-                    if (known != source_of.end() && known->second < n_constrained && !distances.contains(w)) continue;
+                    if (known != source_of.end() && !distances.contains(w)) continue;
                     const double d = (mesh.vertices.col(w) - mesh.vertices.col(followers[source].vertex)).norm();
                     const auto before = distances.find(w);
                     if (d >= reach || (before != distances.end() && before->second <= d)) continue;

@@ -273,6 +273,22 @@ TEST(Pull, FollowsTheCursorInAnExaggeratedView) {
     EXPECT_LT((stage.pixel(v) - before - kDrag).norm(), kPixels);
 }
 
+TEST(Pull, ThroughASpringKeepsTheMomentOfAHandle) {
+    Stage stage;
+    stage.settle();
+    const int v = top_vertex(stage);
+    stage.drag(stage.pixel(v), stage.pixel(v) + kDrag);
+    stage.scene().set_force(0, GripForce{{0, 0, 0.01}, {0.001, 0, 0.002}});
+    stage.settle();
+    stage.state.tools.pull_mode = PullMode::spring;
+    stage.state.tools.spring = 1.0;
+    stage.drag(stage.pixel(v), stage.pixel(v) + kDrag);
+    const std::optional<GripForce> force = stage.scene().document().handles[0].force;
+    ASSERT_TRUE(force);
+    EXPECT_NE(force->force, Eigen::Vector3d(0, 0, 0.01));
+    EXPECT_EQ(force->moment, Eigen::Vector3d(0.001, 0, 0.002));
+}
+
 TEST(Pull, WorksInEveryViewOfAComparison) {
     Stage stage;
     stage.state.compare.mode = CompareMode::side_by_side;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "app/stage.hpp"
@@ -81,6 +82,23 @@ TEST_F(CutOpen, IsColouredInsideByWhatIsKnownThere) {
                 body.section()->values.begin() + stage.scene().mesh().n_vertices(), body.section()->values.end());
             EXPECT_GT(largest_inside, 0.02 * body.largest_magnitude()) << name(kind);
         }
+}
+
+/// On a coarse proxy neighbours have one vertex together, which one of two handles is left without.
+TEST_F(CutOpen, AHandleWithoutVerticesOnTheProxyDoesNoHarm) {
+    for (const bool swapped : {false, true}) {
+        Document document = stage.scene().document();
+        document.mesh = Primitive{.name = "cube", .resolution = 12, .size = {}};
+        document.proxy = {.use = ProxyUse::always, .n_vertices = 60};
+        stage.open(document);
+        const int one = stage.vertex_near({0.25, 0.5, 1}), other = stage.vertex_near({0.25, 0.5 + 1.0 / 12, 1});
+        for (const int v : swapped ? std::array{one, other} : std::array{other, one})
+            stage.scene().add_handle(std::vector<int>{v});
+        stage.scene().set_motion(1, AffineMotion{.translate = {0, 0, 0.01}});
+        stage.scene().set_motion(0, AffineMotion{.translate = {0, 0, 0.01}});
+        stage.settle();
+        EXPECT_TRUE(stage.state.shown.body(kFem)->section());
+    }
 }
 
 TEST_F(CutOpen, ABoxFixesWhatIsLeft) {

@@ -174,6 +174,10 @@ TEST_F(RealProgram, FilmsThePullFromRestAndBack) {
 TEST_F(RealProgram, FilmsAFullTurnThroughAllItsAngles) {
     Document document = cube_document_with_handle(3);
     document.handles[0].motion = AffineMotion{.rotate = {.axis = {1, 0, 0}, .degrees = 360, .center = {1, 0.5, 0.5}}};
+    document.handles.push_back({.name = "pressed",
+                                .select = {BoxSelector{{0.3, 0.3, 0.9}, {0.7, 0.7, 1.1}}},
+                                .motion = AffineMotion{},
+                                .force = GripForce{{0, 0, -1e-3}}});
     save_scene(folder.path() / "turned.json", document);
     const ProgramRun run = run_program({"view", "turned.json", "--hidden", "--frames", "2", "--picture", "film.png",
                                         "--picture-size", "160x120", "--pull-film", "8", "--scene-out", "out.json"},
@@ -187,7 +191,9 @@ TEST_F(RealProgram, FilmsAFullTurnThroughAllItsAngles) {
     EXPECT_NE(frame(1), frame(3)) << "half of it";
     EXPECT_NE(frame(2), frame(3));
     EXPECT_EQ(frame(3), frame(7));
-    EXPECT_EQ(load_scene(folder.path() / "out.json"), document) << "the handle was not put back";
+    const Document out = load_scene(folder.path() / "out.json");
+    EXPECT_EQ(out.handles[0], document.handles[0]) << "the handle was not put back";
+    EXPECT_EQ(out.handles[1].force, document.handles[1].force) << "the force was lost";
 }
 
 TEST_F(RealProgram, CutsTheBodyOpenFromTheStart) {
