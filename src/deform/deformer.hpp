@@ -161,6 +161,9 @@ public:
     };
     Answer answer(const Eigen::VectorXd& values, Wanted wanted, Control& control, const Approach& approach = {}) const;
 
+    /// Throws SolveError where the loads at these values do not balance on a solid that nothing holds against them.
+    void require_balance(const Eigen::MatrixXd& values) const;
+
     /// How far displacements and reactions for these values may be off because the mesh is coarse: the difference to a
     /// second, better answer. Boundary elements: symmetric Galerkin with a row of thin triangles along the rims of the
     /// constrained patches, or with halved ones. FEM: quadratic elements on the same tetrahedra (quadratic FEM: on
@@ -206,7 +209,6 @@ private:
     void add_loads(const ConstrainedSet& set, const Model::Part& part, const std::vector<int>& local,
                    SolidState& state) const;
     void require_memory(const ConstrainedSet& set) const;
-    void require_balance(const Eigen::MatrixXd& values) const;
     /// Rows of all vertices <- those of a part.
     void place(std::size_t part, Eigen::MatrixXd&& own, Eigen::MatrixXd& all) const;
     void require_finite(const Eigen::MatrixXd& u) const;

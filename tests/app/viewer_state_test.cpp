@@ -177,6 +177,8 @@ TEST(ViewerState, ARangeByHandIsKept) {
     stage.state.display.range_low = 2.0;
     stage.state.display.range_high = 3.0;
     EXPECT_EQ(stage.state.shown.field_range(stage.state.display), std::pair(2.0, 3.0));
+    std::swap(stage.state.display.range_low, stage.state.display.range_high);
+    EXPECT_EQ(stage.state.shown.field_range(stage.state.display), std::pair(2.0, 3.0)) << "typed the other way round";
 }
 
 /// A range that is held is one that was seen: a body at rest has none.

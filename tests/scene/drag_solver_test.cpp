@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/error.hpp"
 #include "bem/collocation/method.hpp"
 #include "bem/galerkin/method.hpp"
 #include "fem/method.hpp"
@@ -52,6 +53,26 @@ TEST(DragSolver, ServesChangesOfLoadsFromTheColumnsAtHand) {
             drag.displace(values, u);
             EXPECT_LT((u - deformer->displace(values)).norm(), 1e-10 * u.norm()) << name(kind);
         }
+    }
+}
+
+/// The columns of loads would answer to any, and with nonsense where nothing holds the body.
+TEST(DragSolver, RefusesLoadsThatDoNotBalance) {
+    DraggedCube cube;
+    cube.document.fixed.clear();
+    cube.document.handles.clear();
+    cube.document.gravity.reset();
+    cube.document.loads.resize(1);
+    cube.constraints = make_constraints(cube.document, cube.mesh.checked.mesh, "scene.json");
+    for (const MethodKind kind : {kFem, kLinearBem, kGalerkinBem}) {
+        const auto deformer = cube.deformer(kind);
+        DragSolver drag(deformer, {});
+        Eigen::VectorXd values = Eigen::VectorXd::Zero(cube.constraints.values.size()), u;
+        drag.prepare(values, kSolveTolerance, cube.control);
+        drag.displace(values, u);
+        EXPECT_TRUE(u.isZero(0.0)) << name(kind);
+        values.setOnes();
+        EXPECT_THROW(drag.displace(values, u), SolveError) << name(kind);
     }
 }
 

@@ -122,6 +122,25 @@ TEST(ChangeOfMethod, ShowsWhatWasLookedAtUntilTheNewOneAnswers) {
     EXPECT_EQ(&bench.simulation.answer(kNonlinearFem), &bench.simulation.embedded(kNonlinearFem));
 }
 
+/// In a comparison, too: a body at rest would pass for its answer.
+TEST(ChangeOfMethod, ShowsWhatIsThereOfOthersBesideIt) {
+    const LiveScene scene = pulled_cube(6);
+    Bench bench({kFem});
+    bench.choices.complete_up_to = 0;
+    bench.settle(scene);
+    bench.shown = {kFem, kGalerkinBem, kConstantBem};
+    bench.update(scene);
+    for (const MethodKind kind : {kGalerkinBem, kConstantBem}) {
+        ASSERT_EQ(bench.simulation.stand_in(kind), kFem) << name(kind);
+        EXPECT_TRUE(bench.simulation.previewing(kind));
+        expect_near(bench.simulation.answer(kind).displacement(), truth(scene, bench.choices.of(kFem)));
+    }
+    EXPECT_EQ(bench.simulation.stand_in(kFem), nullptr);
+    bench.settle(scene);
+    for (const MethodKind kind : {kGalerkinBem, kConstantBem})
+        expect_near(bench.simulation.answer(kind).displacement(), truth(scene, bench.choices.of(kind)));
+}
+
 TEST(ChangeOfMethod, ShowsNothingInPlaceOfOneThatCannotTakeTheBody) {
     LiveScene scene = pulled_cube(3);
     scene.set_material({.young_modulus = 1.0, .poisson_ratio = 0.5});

@@ -118,10 +118,14 @@ void SceneFiles::answer(UnsavedAnswer answer) {
 
 void SceneFiles::recover() {
     if (recoverable.empty()) return;
-    recovering_ = std::move(recoverable.front());
+    const auto left = std::make_shared<AutosavedScene>(std::move(recoverable.front()));
     recoverable.erase(recoverable.begin());
-    load(recovering_->origin, [file = recovering_->file, origin = recovering_->origin](Control& control) {
-        return load_autosaved(file, origin, control);
+    // Where the answer is that the present scene stays, this copy is offered again at the next start.
+    unsaved.guard(edited_.scene().modified(), [this, left] {
+        recovering_ = std::move(*left);
+        load(recovering_->origin, [file = recovering_->file, origin = recovering_->origin](Control& control) {
+            return load_autosaved(file, origin, control);
+        });
     });
 }
 

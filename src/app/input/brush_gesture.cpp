@@ -8,8 +8,11 @@ namespace elastolab {
 void Gestures::paint(GestureContext& context) {
     if (target_ >= context.targets.size()) return;
     const PointingTarget& target = context.targets[target_];
-    std::vector<int> vertices = vertices_in_brush(context.camera, target.viewport, cursor_, context.tools.brush_pixels,
-                                                  *target.positions, *target.triangles, Reach::visible);
+    // The mouse jumps from frame to frame: all between belongs to the stroke.
+    std::vector<int> vertices =
+        vertices_in_brush(context.camera, target.viewport, painted_to_, cursor_, context.tools.brush_pixels,
+                          *target.positions, *target.triangles, Reach::visible);
+    painted_to_ = cursor_;
     if (context.tools.tool == Tool::pressure)
         paint_pressure(context, std::move(vertices));
     else

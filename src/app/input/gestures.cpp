@@ -114,6 +114,7 @@ void Gestures::press_body(GestureContext& context, const PickHit& hit) {
     if (context.tools.tool == Tool::brush || context.tools.tool == Tool::pressure) {
         action_ = Action::paint;
         painted_.clear();
+        painted_to_ = press_cursor_;
         return;
     }
     if (context.tools.tool == Tool::force) return press_force(context, hit);

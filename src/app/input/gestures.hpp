@@ -249,8 +249,9 @@ private:
     std::optional<Spring> spring_;
     std::optional<GizmoDrag> gizmo_drag_;
     std::optional<LoadDrag> load_drag_;
-    std::vector<int> painted_;      ///< by the present stroke of a pressure: they may have no triangle yet
-    DisplaySettings plane_before_;  ///< as it was taken hold of
+    Eigen::Vector2d painted_to_ = cursor_;  ///< where the present stroke has come to
+    std::vector<int> painted_;              ///< by the present stroke of a pressure: they may have no triangle yet
+    DisplaySettings plane_before_;          ///< as it was taken hold of
     int selected_ = -1, selected_fixed_ = -1;
     std::optional<int> selected_load_;
     bool fixed_is_latest_ = false, load_is_latest_ = false;

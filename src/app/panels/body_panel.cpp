@@ -78,8 +78,8 @@ void BodyPanel::draw_young_modulus(ViewerState& state, float scale) {
     if (ImGui::InputDouble("Young's modulus", &value, 0.0, 0.0, "%.4g")) typed_modulus_ = value;
     const bool left = ImGui::IsItemDeactivatedAfterEdit(), active = ImGui::IsItemActive();
     tooltip(
-        "Stiffness: the force per area that would stretch the body by its own length. Forces depend on it, "
-        "displacements do not.");
+        "Stiffness: the force per area that would stretch the body by its own length. The forces that a "
+        "motion takes grow with it, and the motions that loads and forces cause shrink.");
     if (left && typed_modulus_) state.set_young_modulus(*typed_modulus_);
     if (!active) typed_modulus_.reset();
 }

@@ -41,13 +41,14 @@ constexpr std::array<Choice<ElementDegree>, 2> kElements = {
     {{ElementDegree::quadratic, "ten-node", "Ten nodes a tetrahedron: accurate. Of nonlinear FEM."},
      {ElementDegree::linear, "four-node",
       "Four nodes a tetrahedron: an eighth of the unknowns, too stiff in bending."}}};
-constexpr std::array<Choice<int>, 3> kRims = {
+constexpr std::array<Choice<int>, 4> kRims = {
     {{0, "as given", "The triangles of the body."},
      {1, "one thin row",
       "A row of thin triangles along the rims of the constrained patches, where most of the error comes from: a "
       "quarter of the error, and three to five times the time until a new handle is ready. Of Galerkin BEM."},
      {2, "two thin rows",
-      "Two of them, thinner towards the rim: a fifth of the error, ten times the time. Of Galerkin BEM."}}};
+      "Two of them, thinner towards the rim: a fifth of the error, ten times the time. Of Galerkin BEM."},
+     {3, "three thin rows", "Three of them: little more accurate than two, as the rest of the error is elsewhere."}}};
 constexpr std::array<Choice<Tractions>, 3> kTractions = {
     {{Tractions::discontinuous, "discontinuous",
       "Tractions may jump at the rim of a constrained patch, where they are "
@@ -78,7 +79,11 @@ void draw_model(const PanelContext& context, const MethodRunner& runner) {
     const std::shared_ptr<const Model>& model = runner.model();
     const auto told = [&](const auto& of) { return model ? of(model->facts()) : std::string("\u2013"); };
     fact("degrees of freedom", told([](const ModelFacts& f) { return count_text(f.n_degrees_of_freedom); }), dim);
-    fact("memory", told([](const ModelFacts& f) { return readable_bytes(static_cast<double>(f.memory_bytes)); }), dim);
+    fact("memory", told([&](const ModelFacts& f) {
+             return readable_bytes(static_cast<double>(f.memory_bytes + runner.set_memory()));
+         }),
+         dim);
+    tooltip("Of the model and of the present constrained set, the estimate of its error included.");
     if (context.state.method->has_inside)
         fact("tetrahedra", told([](const ModelFacts& f) { return count_text(f.n_tetrahedra); }), dim);
     fact("K and its inverse", runner.completing() ? "being completed" : runner.has_inverse() ? "ready" : "\u2013", dim);
@@ -110,7 +115,9 @@ void draw_mode(const PanelContext& context, CostPredictions& costs) {
         end_choice();
     }
     if (state.choices.mode != Mode::on_demand) return;
+    ImGui::BeginDisabled(!has(state.method, Mode::full));
     slider("complete up to", state.choices.complete_up_to, 0, 5000, "%d vertices", context.gui.scale());
+    ImGui::EndDisabled();
     tooltip(
         "On bodies of up to this many vertices, K and its inverse are computed in the background once the body can be "
         "pulled. After that a new handle is ready sooner.");

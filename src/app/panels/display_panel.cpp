@@ -67,7 +67,7 @@ void draw_range_rule(ViewerState& state) {
 void draw_end_of_range(const char* label, double& end, float scale) {
     ImGui::SetNextItemWidth(80.0f * scale);
     double typed = end;
-    if (ImGui::InputDouble(label, &typed, 0.0, 0.0, "%.3g") && std::isfinite(typed)) end = typed;
+    if (ImGui::InputDouble(label, &typed, 0.0, 0.0, "%.5g") && std::isfinite(typed)) end = typed;
 }
 
 void draw_range(ViewerState& state, float scale) {

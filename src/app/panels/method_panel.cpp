@@ -191,7 +191,8 @@ void MethodPanel::draw(const PanelContext& context) {
     const auto cost_of = [&](MethodKind kind) { return costs_.of(state, state.choices.of(kind)); };
     draw_buttons(context, cost_of, [&](MethodKind kind) { return costs_.memory_with_completion(state, kind); });
     MethodRunner& runner = state.simulation.runner(state.method);
-    const Colour& colour = state.simulation.previewing(state.method) ? palette.good : state_colour(runner, palette);
+    const bool previews = state.simulation.previewing(state.method) && runner.state() != State::failed;
+    const Colour& colour = previews ? palette.good : state_colour(runner, palette);
     ImGui::TextColored(imgui_colour(colour), "%s", state_words(state, cost_of).c_str());
     draw_sooner(context);
     draw_progress(context, runner);

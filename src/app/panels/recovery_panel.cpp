@@ -32,7 +32,7 @@ double seconds_since(std::filesystem::file_time_type time) {
 /// What a viewer that was killed has left.
 void RecoveryQuestion::draw(const PanelContext& context) {
     SceneFiles& files = context.state.files;
-    if (files.recoverable.empty()) return;
+    if (files.recoverable.empty() || files.loading() || files.unsaved.asking()) return;
     if (!ImGui::IsPopupOpen(kRecoveryTitle)) choice_ = 0;
     if (!begin_question(kRecoveryTitle)) return;
     const AutosavedScene& left = files.recoverable.front();

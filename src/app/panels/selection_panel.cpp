@@ -16,8 +16,18 @@ namespace {
 /// Of the body's size, of a full turn and of a force: less is rounding.
 constexpr double kRoundingPart = 1e-9;
 
+/// What moves a handle as it is moved now, as far as forces are shown; else none.
+GripForce present_force(const ViewerState& state, int handle) {
+    if (const ShownBody* shown = state.shown.body(state.method))
+        for (const ShownReaction& reaction : shown->reactions())
+            if (!reaction.fixed && reaction.name == state.scene().handle_name(handle))
+                return {.force = reaction.force, .moment = reaction.moment_about_middle()};
+    return {};
+}
+
 /// The force on a handle that moves by it; true when the typing has ended.
-bool draw_grip_force(LiveScene& scene, std::optional<int> handle, float scale) {
+bool draw_grip_force(ViewerState& state, std::optional<int> handle, float scale) {
+    LiveScene& scene = state.scene();
     GripForce typed;
     bool by_force = false, ended = false;
     if (handle) {
@@ -30,7 +40,7 @@ bool draw_grip_force(LiveScene& scene, std::optional<int> handle, float scale) {
     const bool was_by_force = by_force;
     ImGui::BeginDisabled(!handle);
     if (ImGui::Checkbox("moved by a force", &by_force)) {
-        scene.set_force(*handle, by_force ? std::optional(GripForce{}) : std::nullopt);
+        scene.set_force(*handle, by_force ? std::optional(present_force(state, *handle)) : std::nullopt);
         ended = true;
     }
     tooltip("The patch stays rigid and goes where this force holds it. Without: it is where it was put.");
@@ -81,7 +91,7 @@ void draw_placement(ViewerState& state, std::optional<int> handle, float scale) 
     ended = ended || ImGui::IsItemDeactivatedAfterEdit();
     tooltip("Scale about the middle of the handle.");
     ImGui::EndDisabled();
-    ended = draw_grip_force(scene, handle, scale) || ended;
+    ended = draw_grip_force(state, handle, scale) || ended;
     if (ended) scene.commit();
 }
 

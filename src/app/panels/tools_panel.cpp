@@ -77,8 +77,12 @@ void draw_pull_settings(ViewerState& state, float scale) {
     draw_patch(state, scale);
 }
 
-void draw_brush_settings(ViewerState& state, const Colour& dim, float scale) {
+void draw_brush_size(ViewerState& state, float scale) {
     slider("brush", state.tools.brush_pixels, 4.0, 120.0, "%.0f pixels", scale);
+}
+
+void draw_brush_settings(ViewerState& state, const Colour& dim, float scale) {
+    draw_brush_size(state, scale);
     paragraph("Paints fixed vertices; with Shift it frees them. A click takes one vertex.", dim);
 }
 
@@ -119,7 +123,10 @@ void PullPanel::draw_tool_settings(const PanelContext& context) {
                           ? "Drag on the body: a force on the patch under the cursor (see Loads)."
                           : "Paint where a pressure acts; with Shift take the paint off (see Loads).",
                       context.palette.text_dim);
-            if (state.tools.tool == Tool::force) draw_patch(state, scale);
+            if (state.tools.tool == Tool::force)
+                draw_patch(state, scale);
+            else
+                draw_brush_size(state, scale);
             break;
         case Tool::probe:
             paragraph("Point at a vertex: a card shows its values. A click keeps it (see Probes).",

@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "base/text.hpp"
 
 namespace elastolab {
 
 namespace {
+
+float width_of_text(const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; }
 
 constexpr float kLabelRoom = 112.0f, kLeastItem = 84.0f, kMostItem = 220.0f;  ///< widths: beside an item, and of it
 
@@ -77,11 +80,31 @@ unsigned imgui_packed(const Colour& colour, float opacity) {
     return ImGui::ColorConvertFloat4ToU32(imgui_colour(colour, opacity));
 }
 
+std::string broken_at_spaces(const std::string& text, float width,
+                             const std::function<float(const std::string&)>& width_of) {
+    std::string broken, line;
+    for (std::size_t begin = 0; begin < text.size();) {
+        const std::size_t end = std::min(text.find_first_of(" \n", begin), text.size());
+        const std::string word = text.substr(begin, end - begin);
+        if (!line.empty() && width_of(line + ' ' + word) > width) {
+            broken += line + '\n';
+            line.clear();
+        } else if (!line.empty()) {
+            line += ' ';
+        }
+        line += word;
+        if (end < text.size() && text[end] == '\n') broken += std::exchange(line, {}) + '\n';
+        begin = end + 1;
+    }
+    return broken + line;
+}
+
 void tooltip(const char* text) {
     if (text == nullptr || *text == '\0' || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
     ImGui::BeginTooltip();
-    ImGui::PushTextWrapPos(ImGui::GetFontSize() * 22.0f);
-    ImGui::TextUnformatted(text);
+    const float width = ImGui::GetFontSize() * 22.0f;
+    ImGui::PushTextWrapPos(width);
+    ImGui::TextUnformatted(broken_at_spaces(text, width, width_of_text).c_str());
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();
 }
@@ -89,7 +112,7 @@ void tooltip(const char* text) {
 void paragraph(const std::string& text, const Colour& colour) {
     ImGui::PushStyleColor(ImGuiCol_Text, imgui_colour(colour));
     ImGui::PushTextWrapPos(0.0f);
-    ImGui::TextUnformatted(text.c_str());
+    ImGui::TextUnformatted(broken_at_spaces(text, ImGui::GetContentRegionAvail().x, width_of_text).c_str());
     ImGui::PopTextWrapPos();
     ImGui::PopStyleColor();
 }
@@ -190,7 +213,9 @@ bool draw_numbers(const char* label, double* values, int n, const char* unit, fl
     bool typed = false;
     draw_fields(label, n, [&](int i, float room) {
         double shown = std::abs(values[i]) <= noise ? 0.0 : values[i];
-        if (!ImGui::InputDouble("", &shown, 0.0, 0.0, format_for(shown, unit, room).c_str())) return;
+        const bool is_typed = ImGui::InputDouble("", &shown, 0.0, 0.0, format_for(shown, unit, room).c_str());
+        if (!reads_as_whole(shown)) tooltip((readable_number(shown, 6) + unit).c_str());
+        if (!is_typed) return;
         values[i] = shown;
         typed = true;
     });

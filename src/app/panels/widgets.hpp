@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <Eigen/Core>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -21,6 +22,10 @@ std::string vector_text(const Eigen::Vector3d& v);
 ImVec4 imgui_colour(const Colour& colour, float opacity = 1.0f);
 unsigned imgui_packed(const Colour& colour, float opacity = 1.0f);
 
+/// With line breaks at spaces, so that no line is wider than this [pixels]; but for words that are. Dear ImGui by
+/// itself breaks behind the point of a number, too.
+std::string broken_at_spaces(const std::string& text, float width,
+                             const std::function<float(const std::string&)>& width_of);
 /// An explanation that appears when the mouse rests on the item before.
 void tooltip(const char* text);
 /// A paragraph in this colour.

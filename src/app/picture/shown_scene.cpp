@@ -37,7 +37,7 @@ const std::string& ShownScene::reaction_failure(MethodKind kind) const {
 }
 
 std::pair<double, double> ShownScene::field_range(const DisplaySettings& display) const {
-    if (!display.auto_range) return {display.range_low, display.range_high};
+    if (!display.auto_range) return std::minmax({display.range_low, display.range_high});
     double high = held_range_ ? *held_range_ : largest_magnitude(display);
     if (high == 0.0) high = 1.0;
     return {is_signed(display.field) ? -high : 0.0, high};

@@ -89,11 +89,15 @@ std::vector<int> vertices_in_rectangle(const Camera& camera, const Viewport& vie
                     [&box](const Eigen::Vector2d& pixel) { return box.contains(pixel); });
 }
 
-std::vector<int> vertices_in_brush(const Camera& camera, const Viewport& viewport, const Eigen::Vector2d& cursor,
-                                   double radius, const PositionsView& positions, const TrianglesView& triangles,
-                                   Reach reach) {
-    return selected(camera, viewport, positions, triangles, reach,
-                    [&](const Eigen::Vector2d& pixel) { return (pixel - cursor).norm() <= radius; });
+std::vector<int> vertices_in_brush(const Camera& camera, const Viewport& viewport, const Eigen::Vector2d& from,
+                                   const Eigen::Vector2d& to, double radius, const PositionsView& positions,
+                                   const TrianglesView& triangles, Reach reach) {
+    const Eigen::Vector2d way = to - from;
+    const double square = way.squaredNorm();
+    return selected(camera, viewport, positions, triangles, reach, [&](const Eigen::Vector2d& pixel) {
+        const double part = square > 0.0 ? std::clamp((pixel - from).dot(way) / square, 0.0, 1.0) : 0.0;
+        return (pixel - from - part * way).norm() <= radius;
+    });
 }
 
 }  // namespace elastolab

@@ -33,9 +33,9 @@ std::vector<int> vertices_in_rectangle(const Camera& camera, const Viewport& vie
                                        const Eigen::Vector2d& opposite, const PositionsView& positions,
                                        const TrianglesView& triangles, Reach reach);
 
-/// The same for a disc: vertices within `radius` pixels of the cursor.
-std::vector<int> vertices_in_brush(const Camera& camera, const Viewport& viewport, const Eigen::Vector2d& cursor,
-                                   double radius, const PositionsView& positions, const TrianglesView& triangles,
-                                   Reach reach);
+/// The same for a disc that is drawn from one place to another: vertices within `radius` pixels of the line between.
+std::vector<int> vertices_in_brush(const Camera& camera, const Viewport& viewport, const Eigen::Vector2d& from,
+                                   const Eigen::Vector2d& to, double radius, const PositionsView& positions,
+                                   const TrianglesView& triangles, Reach reach);
 
 }  // namespace elastolab

@@ -69,6 +69,7 @@ bool DragSolver::has(const Eigen::VectorXd& values) const {
 
 void DragSolver::displace(const Eigen::VectorXd& values, Eigen::VectorXd& u) {
     Control control;
+    deformer_->require_balance(values);  // columns of loads would answer to any values
     if (!has_start(values)) start(values, kSolveTolerance, control);
     const Eigen::VectorXd change = values - start_values_;
     const int handle = changed_handle(change);

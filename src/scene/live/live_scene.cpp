@@ -46,6 +46,9 @@ LiveScene::LiveScene(Document document, std::filesystem::path scene_file, Contro
 }
 
 Body LiveScene::body(MethodKind kind, const Proxy* proxy) const {
+    // Named by itself, and not by its place in a file: it may have been chosen just now.
+    if (const std::string why = refusal({.kind = kind}, document_.material.poisson_ratio); !why.empty())
+        throw SceneError(why);
     require_material(document_.material, kind, file_);
     if (proxy == nullptr) require_usable(mesh_, kind);
     return {.name = mesh_.name, .surface = proxy ? proxy->surface : surface_, .material = document_.material};

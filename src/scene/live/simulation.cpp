@@ -57,7 +57,7 @@ bool Simulation::is_shown(MethodKind kind) const {
 
 MethodKind Simulation::stand_in(MethodKind kind) const {
     const Entry& entry = entries_[place(kind)];
-    if (entry.before == nullptr || is_shown(entry.before) || entry.previewing || entry.runner->has_answer())
+    if (entry.before == nullptr || entry.before == kind || entry.previewing || entry.runner->has_answer())
         return nullptr;
     return problem(kind).empty() && embedded(entry.before).has_answer() ? entry.before : nullptr;
 }
@@ -172,7 +172,7 @@ void Simulation::show(const std::vector<MethodKind>& shown) {
 /// It follows the scene like one that is looked at. Returns whether its displacements changed.
 bool Simulation::update_stand_in(const Entry& entry, const LiveScene& scene) {
     const MethodKind kind = stand_in(entry.kind);
-    if (kind == nullptr) return false;
+    if (kind == nullptr || is_shown(kind)) return false;  // one that is shown is brought up to date anyway
     const std::uint64_t before = own(kind).version();
     own(kind).set_constraints(scene.constraints());
     own(kind).poll();

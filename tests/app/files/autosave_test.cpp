@@ -188,6 +188,32 @@ TEST(Autosave, IsRecoveredUnsavedAndKeptFromThenOn) {
     EXPECT_THAT(files(), IsEmpty());
 }
 
+/// Each in its turn, and none at the cost of another.
+TEST(Autosave, OfSeveralViewersAreRecoveredWithoutLosingOne) {
+    {
+        Keeper one, other;
+        one.update(1, true, 0.0);
+        other.update(1, true, 0.0, 4);
+        for (int i = 0; i < 2000 && files().size() < 4; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    Stage stage(3);
+    SceneFiles& scenes = stage.state.files;
+    scenes.recoverable = find_autosaved();
+    ASSERT_THAT(scenes.recoverable, SizeIs(2));
+    scenes.recover();
+    stage.settle();
+    scenes.keep_copy(0.0);
+    ASSERT_THAT(files(), SizeIs(4));
+    scenes.recover();
+    stage.settle();
+    ASSERT_TRUE(scenes.unsaved.asking()) << "the first one is not saved";
+    scenes.answer(UnsavedAnswer::cancel);
+    stage.settle();
+    scenes.keep_copy(1.0);
+    EXPECT_THAT(files(), SizeIs(4));
+    EXPECT_THAT(find_autosaved(), SizeIs(1)) << "the second is offered again, the first is in use";
+}
+
 TEST(Autosave, ThatCannotBeReadStays) {
     ASSERT_NO_FATAL_FAILURE(leave_a_copy());
     Stage stage(3);

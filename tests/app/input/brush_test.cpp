@@ -33,6 +33,15 @@ TEST_F(Brush, AStrokeFixesWhatItCrossesAndIsOneStep) {
     EXPECT_FALSE(stage.scene().can_undo());
 }
 
+TEST_F(Brush, AStrokeOfOneJumpFixesAllBetween) {
+    const int middle = stage.vertex_near({0.5, 0.5, 1});
+    stage.move(stage.pixel(left));
+    stage.press();
+    stage.move(stage.pixel(right));
+    stage.release();
+    for (const int v : {left, middle, right}) EXPECT_TRUE(is_fixed(v)) << v;
+}
+
 TEST_F(Brush, WithShiftItFrees) {
     stroke();
     stage.modifiers = GLFW_MOD_SHIFT;

@@ -20,6 +20,16 @@ TEST(NumberText, HasThreeDigitsAndAnExponentOnlyWhereItIsShorter) {
     EXPECT_EQ(number_text(std::numeric_limits<double>::infinity()), "inf");
 }
 
+TEST(LineBreaks, StandAtSpacesAndNotInNumbers) {
+    const auto n_characters = [](const std::string& text) { return static_cast<float>(text.size()); };
+    const auto broken = [&](const std::string& text) { return broken_at_spaces(text, 10.0f, n_characters); };
+    EXPECT_EQ(broken("takes 0.5 or 12,345.75 of it."), "takes 0.5\nor\n12,345.75\nof it.");
+    EXPECT_EQ(broken("short"), "short");
+    EXPECT_EQ(broken("a\nb c"), "a\nb c");
+    EXPECT_EQ(broken("/a/very/long/name is long"), "/a/very/long/name\nis long") << "is left to Dear ImGui";
+    EXPECT_EQ(broken(""), "");
+}
+
 TEST(VectorText, ShowsRoundingAsZero) {
     EXPECT_EQ(vector_text({0.5, -2.249e-17, 1.0}), "(0.5, 0, 1)");
     EXPECT_EQ(vector_text({0.5, -2.249e-7, 1.0}), "(0.5, -2.25e-07, 1)");

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <Eigen/Geometry>
 #include <random>
+#include <set>
 #include <vector>
 
 #include "mesh/input/merge.hpp"
@@ -132,14 +133,17 @@ TEST(Picking, VerticesOfNoTriangleAreNotThere) {
     const auto hit = pick(camera, kView, there, more, mesh.triangles, 2000.0);
     ASSERT_TRUE(hit);
     EXPECT_LT(hit->vertex, mesh.n_vertices());
-    EXPECT_TRUE(vertices_in_brush(camera, kView, there, 1.0, more, mesh.triangles, Reach::visible).empty());
+    EXPECT_TRUE(vertices_in_brush(camera, kView, there, there, 1.0, more, mesh.triangles, Reach::visible).empty());
 }
 
 TEST(Picking, PaintsWithARoundBrush) {
     const SurfaceMesh mesh = make_sphere(12);
     const Camera camera = camera_at({}, kView);
     const Eigen::Vector2d cursor(540, 380);
-    const auto painted = vertices_in_brush(camera, kView, cursor, 90.0, mesh.vertices, mesh.triangles, Reach::visible);
+    const auto paint = [&](const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+        return vertices_in_brush(camera, kView, from, to, 90.0, mesh.vertices, mesh.triangles, Reach::visible);
+    };
+    const auto painted = paint(cursor, cursor);
     std::vector<int> expected;
     for (int vertex = 0; vertex < mesh.n_vertices(); ++vertex) {
         const bool near = (camera.project(mesh.vertices.col(vertex), kView).pixel - cursor).norm() <= 90.0;
@@ -147,6 +151,14 @@ TEST(Picking, PaintsWithARoundBrush) {
     }
     EXPECT_EQ(painted, expected);
     EXPECT_GT(painted.size(), 3u);
+    // A stroke has all that is painted in many small steps.
+    const Eigen::Vector2d way(-300, 40);
+    std::set<int> in_steps;
+    for (int i = 0; i <= 1000; ++i)
+        for (const int v : paint(cursor + 0.001 * i * way, cursor + 0.001 * i * way)) in_steps.insert(v);
+    const auto stroke = paint(cursor, cursor + way);
+    EXPECT_EQ(stroke, std::vector<int>(in_steps.begin(), in_steps.end()));
+    EXPECT_GT(stroke.size(), 2 * painted.size());
 }
 
 TEST(Picking, CopesWithTrianglesThatReachBehindTheEye) {
