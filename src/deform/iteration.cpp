@@ -3,12 +3,13 @@
 #include <string>
 
 #include "base/error.hpp"
+#include "base/text.hpp"
 
 namespace elastolab {
 
 void give_up_iteration(const char* name, double residual) {
     throw SolveError(std::string(name) + ": the iteration does not converge (relative residual " +
-                     std::to_string(residual) + "). Check the mesh for slivers and thin walls, or choose fem.");
+                     readable_number(residual) + "). Check the mesh for slivers and thin walls, or choose fem.");
 }
 
 Eigen::MatrixXd scaled_start(const Eigen::MatrixXd& start, Eigen::Index n_rows, const Eigen::RowVectorXd& size) {

@@ -158,21 +158,27 @@ Findings findings_of_answer(const Deformer& deformer, const Deformer::Answer& an
     const MethodKind method = deformer.model().method().kind;
     Findings findings = findings_of_volume(deformer, answer.displacements);
     const bool has_limit = answer.check && method->reported_error;
+    // Finer rims do not help where there are few triangles across, nor beyond the finest.
+    const bool has_advice = has_limit && (!method->chooses_rims ||
+                                          (deformer.model().method().rims < kMostRims &&
+                                           triangles_across(*deformer.model().body().surface) >= kFewTrianglesAcross));
+    const int n_advised =
+        has_advice ? static_cast<int>(deformer.set().fixed.size() + deformer.set().handles.size()) : 0;
     if (!answer.check && method->reported_error)
         findings.push_back({.kind = FindingKind::no_estimate, .severity = Severity::note, .method = method});
     if (has_limit && answer.check->relative_force_error > *method->reported_error)
-        findings.push_back(
-            {.kind = FindingKind::coarse_forces, .value = answer.check->relative_force_error, .method = method});
+        findings.push_back({.kind = FindingKind::coarse_forces,
+                            .value = answer.check->relative_force_error,
+                            .method = method,
+                            .second = n_advised});
     if (has_limit && answer.check->relative_error > *method->reported_error) {
         const SurfaceMesh& surface = *deformer.model().body().surface;
-        const auto n_constrained = static_cast<int>(deformer.set().fixed.size() + deformer.set().handles.size());
-        const bool advice_helps = !method->chooses_rims || triangles_across(surface) >= kFewTrianglesAcross;
         findings.push_back({.kind = FindingKind::coarse_mesh,
                             .value = answer.check->relative_error,
                             .method = method,
                             .place = surface.vertices.col(answer.check->vertex),
                             .first = answer.check->vertex,
-                            .second = advice_helps ? n_constrained : 0});
+                            .second = n_advised});
     }
     if (answer.residual && !(*answer.residual < kLargeResidual))
         findings.push_back(

@@ -88,10 +88,15 @@ std::string weak_hold(const Finding& finding) {
            readable_number(finding.value) + " times. Constrain a vertex farther from the line.";
 }
 
+/// What helps against a coarse mesh, as far as there are patches whose rims could be refined and that is the way.
+std::string against_coarseness(const Finding& finding) {
+    return std::string(finding.second == 0 ? "Refine the mesh." : finding.method->against_coarseness);
+}
+
 std::string coarse_mesh(const Finding& finding) {
-    const std::string advice(finding.second == 0 ? "Refine the mesh." : finding.method->against_coarseness);
     return std::string(finding.method->name) + ": displacements" + std::string(kAreOffBy) + percent(finding.value) +
-           " of the largest near " + place_of(finding) + ": the mesh is too coarse there. " + advice;
+           " of the largest near " + place_of(finding) + ": the mesh is too coarse there. " +
+           against_coarseness(finding);
 }
 
 std::string proxy(const Finding& finding) {
@@ -130,8 +135,7 @@ std::string thin_sheets(const Finding& finding) {
 
 std::string coarse_forces(const Finding& finding) {
     return std::string(finding.method->name) + ": forces" + std::string(kAreOffBy) + percent(finding.value) +
-           " of the largest at fixed sets and handles: the mesh is too coarse for them. " +
-           std::string(finding.method->against_coarseness);
+           " of the largest at fixed sets and handles: the mesh is too coarse for them. " + against_coarseness(finding);
 }
 
 std::string imbalance(const Finding& finding, const char* what) {

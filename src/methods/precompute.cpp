@@ -65,11 +65,13 @@ bool same_findings(MethodKind a, MethodKind b) {
     return a->integrates_boundary == b->integrates_boundary && a->shows_averages == b->shows_averages;
 }
 
-/// Whether a model takes over all that takes memory from the one before.
+/// Whether a model takes over all that takes memory from the one before, which has it.
 bool takes_over(const Model& before, const Method& method, const Material& material) {
     const Method& its = before.method();
     return method.kind == its.kind && method.mode == its.mode && method.growth == its.growth &&
-           method.hierarchical_from == its.hierarchical_from && integral_tolerance(method) == integral_tolerance(its) &&
+           method.elements == its.elements && method.rims == its.rims &&
+           (factorises_ahead(its) || !factorises_ahead(method)) && method.hierarchical_from == its.hierarchical_from &&
+           integral_tolerance(method) == integral_tolerance(its) &&
            material.poisson_ratio == before.body().material.poisson_ratio;
 }
 

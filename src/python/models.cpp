@@ -162,6 +162,8 @@ py::list all_described() {
 
 py::dict predicted(const Surface& surface, const std::string& method, const std::string& mode) {
     const Method chosen = method_of(method, mode, "", "", "", 0);
+    constexpr double kAnyMaterial = 0.3;  // costs do not depend on it
+    if (const std::string why = refusal(chosen, kAnyMaterial); !why.empty()) throw py::value_error(why);
     require_usable(surface.report, surface.name, chosen.kind->has_inside);
     const Cost cost = predict_cost(*surface.mesh, chosen);
     py::dict row;

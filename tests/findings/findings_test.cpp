@@ -288,7 +288,7 @@ TEST(Findings, NeverAdviseTheMethodInUse) {
         std::vector<std::string> texts = {"Choose " + std::string(kind->cheaper) + "."};
         for (const FindingKind finding : {FindingKind::coarse_mesh, FindingKind::coarse_forces,
                                           FindingKind::force_imbalance, FindingKind::moment_imbalance})
-            texts.push_back(words({.kind = finding, .value = 0.1, .method = kind}));
+            texts.push_back(words({.kind = finding, .value = 0.1, .method = kind, .second = 1}));
         if (kind->locks) texts.push_back(words({.kind = FindingKind::locking, .value = 0.49, .method = kind}));
         if (kind->integrates_boundary)
             for (const FindingKind finding : {FindingKind::thin_triangle, FindingKind::thin_wall})

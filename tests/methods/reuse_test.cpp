@@ -74,6 +74,22 @@ TEST(PrecomputeAgain, WithAnotherPoissonsRatioIsRefusedWhereMemoryDoesNotSuffice
     }
 }
 
+TEST(PrecomputeAgain, WithAnUpdateOrRowsThatTakeMoreIsRefusedWhereMemoryDoesNotSuffice) {
+    static std::uint64_t needed = 0;
+    MethodTraits traits = *kGalerkinBem;
+    traits.predict = [](const SurfaceMesh&, const Method&) { return Cost{.memory_bytes = needed}; };
+    Control control;
+    needed = 0;
+    const Method direct{.kind = &traits, .update = Update::direct}, reduced{.kind = &traits, .update = Update::reduced},
+        finer{.kind = &traits, .update = Update::direct, .rims = 1};
+    const auto first = precompute(make_body(make_box(2), {1.0, 0.3}), direct, control);
+    const auto second = precompute_again(*first, {1.0, 0.3}, reduced, control);
+    needed = std::uint64_t{1} << 60;
+    EXPECT_THROW(precompute_again(*first, {1.0, 0.3}, reduced, control), SolveError) << "a factor of all vertices";
+    EXPECT_THROW(precompute_again(*first, {1.0, 0.3}, finer, control), SolveError);
+    EXPECT_NO_THROW(precompute_again(*second, {1.0, 0.3}, direct, control)) << "which is there";
+}
+
 TEST(PrecomputeAgain, WithAnotherYoungsModulusComputesNothingAndScalesTheForces) {
     const Pull pull;
     for (const Method& method : method_variants()) {

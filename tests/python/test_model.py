@@ -290,3 +290,12 @@ def test_what_is_freed_by_name_lives_as_long_as_it_is_used():
     vertices = cube.vertices
     del body, cube
     assert np.isfinite(response.displace([0.1])).all() and vertices.max() == 1.0
+
+
+def test_costs_of_what_is_refused_are_refused():
+    cube = el.Surface.primitive("cube", 3)
+    assert el.predict(cube, "galerkin-bem")["memory_bytes"] > 0
+    with pytest.raises(ValueError, match="mode full"):
+        el.predict(cube, "quadratic-fem", mode="full")
+    with pytest.raises(ValueError, match="young_modulus"):
+        el.Material(1e-310, 0.3)

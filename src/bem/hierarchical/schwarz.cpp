@@ -179,7 +179,11 @@ SchwarzPreconditioner::SchwarzPreconditioner(const HierarchicalMatrix& D, const 
     coarse_ = coarse_motions(boundary.mesh(), tree, cores, neighbours, is_free_);
     Eigen::MatrixXd E = D.galerkin_product(coarse_, control);
     // Motions of patches that are constrained as a whole are zero, loose ones cost no energy.
-    const double largest = E.diagonal().maxCoeff();
+    const double largest = E.cols() > 0 ? E.diagonal().maxCoeff() : 0.0;
+    if (!(largest > 0.0)) {  // all is constrained: nothing moves
+        coarse_.resize(coarse_.rows(), 0);
+        return;
+    }
     E.diagonal().array() += kCoarseShift * largest;
     loose_ = of_unit_energy(loose, loose_energies, kNoEnergy * largest);
     if (loose.cols() > 0) {
@@ -193,7 +197,8 @@ SchwarzPreconditioner::SchwarzPreconditioner(const HierarchicalMatrix& D, const 
 
 Eigen::MatrixXd SchwarzPreconditioner::product(const Eigen::MatrixXd& X) const {
     const SerialBlas serial;
-    Eigen::MatrixXd Y = coarse_ * coarse_factor_.solve(coarse_.transpose() * X);
+    Eigen::MatrixXd Y = Eigen::MatrixXd::Zero(X.rows(), X.cols());
+    if (coarse_.cols() > 0) Y = coarse_ * coarse_factor_.solve(coarse_.transpose() * X);
     if (loose_.cols() > 0) Y.noalias() += loose_ * (loose_.transpose() * X).eval();
     std::vector<Eigen::MatrixXf> answers(patches_.size());
     Control control;

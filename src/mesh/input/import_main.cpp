@@ -40,9 +40,10 @@ Reader reader_for(const std::string& extension) {
     return nullptr;
 }
 
-std::string text_or_bytes(const fs::path& file) {
+std::string text_or_bytes(const fs::path& file, bool is_stl) {
     std::optional<std::string> bytes = read_regular_file(file);
     if (!bytes) throw Refusal("is not a regular file, or cannot be read. Copy the mesh into one.");
+    if (is_stl && is_binary_stl(*bytes)) return std::move(*bytes);  // which may begin with any bytes
     if (bytes->starts_with("\xff\xfe") || bytes->starts_with("\xfe\xff"))
         throw Refusal("is UTF-16 text. Save it as UTF-8.");
     if (bytes->starts_with("\xef\xbb\xbf")) bytes->erase(0, 3);  // the mark of UTF-8
@@ -52,7 +53,7 @@ std::string text_or_bytes(const fs::path& file) {
 Imported read(const fs::path& file) {
     Imported result;
     if (const Reader reader = reader_for(lower_case(file.extension().string()))) {
-        result.mesh = reader(text_or_bytes(file));
+        result.mesh = reader(text_or_bytes(file, reader == read_stl));
     } else {
         result.mesh = read_scene(file);
         result.is_single_precision = true;

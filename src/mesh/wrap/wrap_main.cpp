@@ -143,6 +143,7 @@ Result wrap_to_size(const Oracle& oracle, const WrapRequestHeader& request) {
         if (attempt + 1 >= kAttempts && best_ratio < request.within) break;
         search.tell(alpha, n_vertices);
     }
+    if (best_ratio == 0.0 && best.mesh.is_empty()) throw std::runtime_error("every wrap became far too fine");
     return best;
 }
 

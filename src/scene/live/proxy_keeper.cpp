@@ -69,8 +69,10 @@ void ProxyKeeper::begin_filling(bool needs_preview) {
         }
         if (!needs_preview) return made;
         try {
-            made.preview = solid ? make_coarser_proxy(name, *solid, n_preview, control)
-                                 : make_proxies(name, surface, report, std::span(&n_preview, 1), control).front();
+            made.preview =
+                solid
+                    ? make_coarser_proxy(name, *solid, n_preview, control)
+                    : make_proxies(name, surface, report, std::span(&n_preview, 1), control, choice.taken_for).front();
         } catch (const MeshError&) {  // there is no preview then
         }
         return made;

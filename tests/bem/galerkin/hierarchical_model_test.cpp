@@ -88,6 +88,26 @@ TEST(HierarchicalGalerkin, AgreesWithTheDenseMatrixWhereTractionsAreIteratedToo)
     EXPECT_LT(off(solution.loads.topRows(prescribed.size()), truth.reactions.forces.reshaped()), 1e-4);
 }
 
+/// Nothing is left to move.
+TEST(HierarchicalGalerkin, SolvesABodyWhoseVerticesAreAllPrescribed) {
+    const SurfaceMesh mesh = make_box(6);
+    const auto all = vertices_where(mesh, [](const auto&) { return true; });
+    const Positions stretched = Eigen::Vector3d(1.0, -0.3, -0.3).asDiagonal() * mesh.vertices;
+    const Eigen::VectorXd values = stretched.reshaped();
+    Control control;
+    for (const Update update : {Update::direct, Update::reduced}) {
+        Deformer deformer(precompute(make_body(mesh), hierarchical(update), control));
+        deformer.constrain({{}, all}, control);
+        const Deformer::Answer answer = deformer.answer(values, {.residual = true, .check = true}, control);
+        EXPECT_EQ(answer.displacements, values);
+        EXPECT_LT(*answer.residual, 1e-4);
+        double pull = 0.0;
+        for (int v = 0; v < mesh.n_vertices(); ++v)
+            if (mesh.vertices(0, v) > 1.0 - 1e-9) pull += answer.reactions.forces(0, v);
+        EXPECT_NEAR(pull, 1.0, 1e-4) << "a unit stretch of a unit square";
+    }
+}
+
 /// On a surface that is above the size of dense matrices.
 TEST(HierarchicalGalerkin, GivesTheSecondAnswerThatEstimatesAreMadeOf) {
     const SurfaceMesh mesh = make_box(8);

@@ -40,6 +40,8 @@ SurfaceMesh read_off(std::string_view bytes);
 
 /// Text or binary, told apart by the size of the file.
 SurfaceMesh read_stl(std::string_view bytes);
+/// Whether the size of the file is that which its 80 bytes of anything and its number of facets demand.
+bool is_binary_stl(std::string_view bytes);
 
 /// All other formats, by assimp: all meshes of the scene in world coordinates. Coordinates are single precision.
 SurfaceMesh read_scene(const std::filesystem::path& file);

@@ -29,10 +29,6 @@ std::size_t binary_count(std::string_view bytes) {
     return bytes.size() < kHeaderSize ? 0 : value_at<std::uint32_t>(bytes, kHeaderSize - 4);
 }
 
-bool is_binary(std::string_view bytes) {
-    return bytes.size() >= kHeaderSize && bytes.size() == kHeaderSize + kFacetSize * binary_count(bytes);
-}
-
 /// A binary file may begin with the word "solid", too, but it goes on with other bytes than a text does.
 bool is_text(std::string_view bytes) {
     Words words(bytes, false);
@@ -125,8 +121,12 @@ private:
 
 }  // namespace
 
+bool is_binary_stl(std::string_view bytes) {
+    return bytes.size() >= kHeaderSize && bytes.size() == kHeaderSize + kFacetSize * binary_count(bytes);
+}
+
 SurfaceMesh read_stl(std::string_view bytes) {
-    if (is_binary(bytes)) return triangulated(read_binary(bytes));
+    if (is_binary_stl(bytes)) return triangulated(read_binary(bytes));
     if (is_text(bytes)) return triangulated(StlTextReader(bytes).read());
     if (bytes.size() < kHeaderSize) refuse_damaged("is too short for an STL file.");
     refuse_damaged("counts " + std::to_string(binary_count(bytes)) +
