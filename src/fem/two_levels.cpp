@@ -62,8 +62,8 @@ private:
     std::vector<Eigen::Matrix3d> of_midpoints_;
 };
 
-TwoLevels::TwoLevels(const QuadraticMesh& mesh, SparseMatrix prolongation, std::span<const int> prescribed)
-    : prolongation_(std::move(prolongation)),
+TwoLevels::TwoLevels(const QuadraticMesh& mesh, const SparseMatrix& prolongation, std::span<const int> prescribed)
+    : prolongation_(prolongation),
       is_prescribed_(static_cast<std::size_t>(mesh.n_nodes()), 0),
       is_midpoint_(is_prescribed_) {
     for (const int node : prescribed) is_prescribed_[static_cast<std::size_t>(node)] = 1;

@@ -18,7 +18,7 @@ class TwoLevels {
 public:
     /// mesh: kept. prolongation: from the coarse nodes, in the order of the corners, to all. prescribed: nodes of the
     /// mesh.
-    TwoLevels(const QuadraticMesh& mesh, SparseMatrix prolongation, std::span<const int> prescribed);
+    TwoLevels(const QuadraticMesh& mesh, const SparseMatrix& prolongation, std::span<const int> prescribed);
 
     const SparseMatrix& prolongation() const { return prolongation_; }
     /// Zero at the prescribed nodes, else these values.

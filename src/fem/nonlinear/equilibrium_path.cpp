@@ -95,8 +95,8 @@ NewtonState NonlinearSolver::followed(const NonlinearState& from, const MotionPa
         NewtonState reached = newton_.run(u, next_factors, wanted, next < 1.0 ? kMostPassing : kMostIterations, work,
                                           control, std::exchange(at.factor, nullptr), left);
         if (reached.iterations == 0) reached.stable = stable;
-        if (reached.converged)
-            reached = stabilised(std::move(reached), wanted, left - reached.iterations, work, control);
+        const int still_left = left - reached.iterations;
+        if (reached.converged) reached = stabilised(std::move(reached), wanted, still_left, work, control);
         iterations += reached.iterations;
         if (!reached.converged) {
             failed.crushed = reached.crushed;
@@ -148,7 +148,8 @@ NonlinearSolver::StatePtr NonlinearSolver::advance(const NonlinearState& from, c
                                                             : "no equilibrium was found for these motions.",
                                  elements().positions()(Eigen::all, corners).rowwise().mean());
     }
-    return settled(std::move(state), tolerance, most_steps - state.iterations, work, control);
+    const int left = most_steps - state.iterations;
+    return settled(std::move(state), tolerance, left, work, control);
 }
 
 NewtonState NonlinearSolver::stabilised(NewtonState state, double tolerance, int most_steps, NewtonWork& work,

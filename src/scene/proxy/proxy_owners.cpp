@@ -171,7 +171,7 @@ public:
 private:
     /// Their mean, or the nearest of them where that is far from all, as from a ring.
     Vector3d middle_of(const Positions& places) const {
-        const Vector3d mean = places.rowwise().mean();
+        Vector3d mean = places.rowwise().mean();
         Index nearest = 0;
         if ((places.colwise() - mean).colwise().norm().minCoeff(&nearest) <= edge_) return mean;
         return places.col(nearest);
