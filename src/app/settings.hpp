@@ -1,9 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "app/input/navigation.hpp"
@@ -89,11 +91,11 @@ bool is_signed(Field field);
 struct DisplaySettings {
     Field field = Field::none;
     std::string colour_map = "lagoon", signed_colour_map = "balance";  ///< the second where is_signed(field)
-    bool auto_range = true;
     double range_part = 1.0;   ///< of the data in the automatic range; what is more extreme has the colour of its end
     bool hold_range = false;   ///< while something is pulled
     bool logarithmic = false;  ///< colours, where !is_signed(field)
-    double range_low = 0.0, range_high = 1.0;  ///< when not automatic, in the unit of the field
+    /// Lowest and highest value, in the unit of the field; of a field that is not among them the range is automatic.
+    std::map<Field, std::pair<double, double>> typed_ranges;
     bool bands = false;
     bool extremes = false;  ///< marks where the field is largest and, of either sign, smallest
     bool flat = false;

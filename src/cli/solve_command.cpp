@@ -161,7 +161,7 @@ void run_solve(const SolveOptions& options, const SolveVariant& variant) {
     request.with_checks = !options.quiet || !options.report.empty();
     require_writable(options.outputs(), input_files(request));
     require_inside(request.method.kind, options.mesh_out);
-    require_pulls(request.method.kind, request.document.handles.size(), options.outputs());
+    require_figure(request.method.kind, request.document.handles.size(), options.outputs());
 
     Solution solution = solve_with_progress(request, control, !options.quiet);
     add_choices_left_aside(options, request.method.kind, solution.findings);

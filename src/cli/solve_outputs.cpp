@@ -143,14 +143,11 @@ void require_inside(MethodKind method, const fs::path& mesh) {
                          " has no tetrahedra inside. Choose .vtp, or a finite-element method.");
 }
 
-void require_pulls(MethodKind method, std::size_t n_handles, const OutputPaths& paths) {
+void require_figure(MethodKind method, std::size_t n_handles, const OutputPaths& paths) {
     const fs::path& figure = is_glb_file(paths.mesh) ? paths.mesh : paths.figure;
     if (figure.empty()) return;
-    if (!method->linear)
-        throw UsageError(figure.string() + ": it adds up answers, which those of " + std::string(name(method)) +
-                         " do not. Choose a linear method.");
-    if (n_handles == 0)
-        throw UsageError(figure.string() + ": the scene has no handle to pull in it. Add a handle, or choose .vtp.");
+    if (const std::string why = figure_refusal(method, n_handles); !why.empty())
+        throw UsageError(figure.string() + ": " + why);
 }
 
 void require_writable(const OutputPaths& paths, const std::vector<fs::path>& inputs) {

@@ -33,9 +33,8 @@ void require_mesh_extension(const std::filesystem::path& mesh);
 /// Throws UsageError when this is a file of tetrahedra (.vtu) and the method has none.
 void require_inside(MethodKind method, const std::filesystem::path& mesh);
 
-/// Throws UsageError where figures are among the outputs (.html, .glb), which add up answers to pulls: of a method that
-/// is not linear, or without a handle.
-void require_pulls(MethodKind method, std::size_t n_handles, const OutputPaths& paths);
+/// Throws UsageError where a figure is among the outputs (.html, .glb) that cannot be made (figure_refusal).
+void require_figure(MethodKind method, std::size_t n_handles, const OutputPaths& paths);
 
 /// Writes all outputs, then puts them in their places together: when one fails, none is there. Solves for what figures
 /// and fields need besides. Throws Error, Cancelled.

@@ -161,7 +161,8 @@ public:
     };
     Answer answer(const Eigen::VectorXd& values, Wanted wanted, Control& control, const Approach& approach = {}) const;
 
-    /// Throws SolveError where the loads at these values do not balance on a solid that nothing holds against them.
+    /// Throws SolveError where the loads do not balance on a solid that nothing holds against them. values: as
+    /// displace() takes them, n_values x m, each column by itself.
     void require_balance(const Eigen::MatrixXd& values) const;
 
     /// How far displacements and reactions for these values may be off because the mesh is coarse: the difference to a
@@ -220,8 +221,9 @@ private:
     void place_columns(std::size_t part, const Eigen::Matrix3Xd& own, Eigen::Matrix3Xd& all) const;
     /// The same of loads, 6 x those of the part.
     void add_loads_of(std::size_t part, const Eigen::MatrixXd& own, std::vector<Resultant>& sum) const;
+    /// to_better: what makes the answer the better one, solid by solid (SolutionError::to_better).
     std::optional<DiscretisationCheck> check_of(const Answer& answer, const SolutionError& error,
-                                                const Eigen::VectorXd& values) const;
+                                                const SolutionError& to_better, const Eigen::VectorXd& values) const;
 
     std::shared_ptr<const Model> model_;
     ConstrainedSet set_;

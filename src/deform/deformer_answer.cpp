@@ -107,13 +107,14 @@ std::shared_ptr<const InteriorField> Deformer::interior_field(const Eigen::Matri
 }
 
 std::optional<DiscretisationCheck> Deformer::check_of(const Answer& answer, const SolutionError& error,
+                                                      const SolutionError& to_better,
                                                       const Eigen::VectorXd& values) const {
     const SurfaceMesh& surface = *model_->body().surface;
     const double resists = model_->body().material.young_modulus * size_of(surface);
     Eigen::Index moving_most = 0, worst = 0;
     // Relative to the better answer: one that moves too little would overstate its error.
     const double size =
-        std::max(largest_motion(answer.displacements + error.to_better * error.displacements, moving_most),
+        std::max(largest_motion(answer.displacements + to_better.displacements, moving_most),
                  kNoMotion * gross_force(surface, set_.loads, values.tail(std::ssize(set_.loads))) / resists);
     const double off = largest_motion(error.displacements, worst);
     if (!std::isfinite(off)) return {};
@@ -124,8 +125,8 @@ std::optional<DiscretisationCheck> Deformer::check_of(const Answer& answer, cons
     if (answer.reactions.forces.cols() == 0) return check(0.0);
     // What pins bear is missing in the reactions of the second answer (deform/pinned_body.hpp).
     if (!quality_.held) return check(std::numeric_limits<double>::quiet_NaN());
-    const Reactions better{answer.reactions.forces + error.to_better * error.reactions.forces,
-                           answer.reactions.moments + error.to_better * error.reactions.moments};
+    const Reactions better{answer.reactions.forces + to_better.reactions.forces,
+                           answer.reactions.moments + to_better.reactions.moments};
     DiscretisationCheck found =
         check(relative_reaction_error(model_->body(), set_, better, error.reactions, size, u_error));
     found.reaction_error = error.reactions;
@@ -148,10 +149,10 @@ Deformer::Answer Deformer::answer(const Eigen::VectorXd& values, Wanted wanted, 
     const Approach from = remembered(values, approach);
     const Eigen::Index n = 3 * model_->facts().n_vertices;
     const Eigen::Index n_constrained = std::ssize(set_.fixed) + std::ssize(set_.handles);
-    Eigen::MatrixXd u = Eigen::MatrixXd::Zero(n, 1), off = u;
+    Eigen::MatrixXd u = Eigen::MatrixXd::Zero(n, 1), off = u, better = u;
     Answer answer;
     answer.reactions = no_reactions(n_constrained);
-    SolutionError error{{}, answer.reactions};
+    SolutionError error{{}, answer.reactions}, to_better{{}, answer.reactions};
     auto found = std::make_shared<Equilibrium>();
     found->values = values;
     if (!linear()) answer.loads.resize(set_.loads.size());
@@ -176,8 +177,10 @@ Deformer::Answer Deformer::answer(const Eigen::VectorXd& values, Wanted wanted, 
             std::optional<SolutionError> own = solid->error(unit_of(s) * prescribed, solution, control);
             wanted.check = own.has_value();
             if (own) {
-                error.to_better = own->to_better;
                 place(s, own->displacements / unit_of(s), off);
+                place(s, own->to_better / unit_of(s) * own->displacements, better);
+                add_reactions(s, {own->to_better * own->reactions.forces, own->to_better * own->reactions.moments},
+                              to_better.reactions);
                 add_reactions(s, std::move(own->reactions), error.reactions);
             }
         }
@@ -185,7 +188,8 @@ Deformer::Answer Deformer::answer(const Eigen::VectorXd& values, Wanted wanted, 
     }
     answer.displacements = u.col(0);
     error.displacements = off.col(0);
-    if (wanted.check) answer.check = check_of(answer, error, unit_values);
+    to_better.displacements = better.col(0);
+    if (wanted.check) answer.check = check_of(answer, error, to_better, unit_values);
     answer.displacements *= unit;
     if (const double force = largest_of(answer.reactions.forces); force > 0.0)
         require_normal(force * unit, model_->body().name);

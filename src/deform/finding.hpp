@@ -54,7 +54,8 @@ struct Finding {
     double value = 0.0;
     MethodKind method = nullptr;                ///< of which it is said, where that matters
     std::optional<Eigen::Vector3d> place = {};  ///< [L]
-    int first = -1, second = -1;  ///< vertex or solids, by kind; coarse_mesh: vertex, constrained ones (0: refine)
+    int first = -1, second = -1;  ///< vertex or solids, by kind; coarse_mesh: vertex, constrained ones (0: refine);
+                                  ///< linear_theory: 1 where nonlinear FEM does not take the Poisson's ratio
     std::string object = {};      ///< what it is said of, where the kind does not tell
 };
 

@@ -14,27 +14,14 @@ namespace elastolab {
 
 namespace {
 
-/// For each vertex the number of its solid; solids that a grip joins have one number.
-std::vector<int> joined_solids(const Deformer& deformer, const std::vector<Grip>& grips) {
-    const std::vector<int>& handles = deformer.set().handles;
-    std::vector<int> solid_of(static_cast<std::size_t>(deformer.model().body().surface->n_vertices()));
+/// For each vertex the number of its solid.
+std::vector<int> solids_of_vertices(const Model& model) {
+    std::vector<int> solid_of(static_cast<std::size_t>(model.body().surface->n_vertices()));
     int n = 0;
-    for (const Model::Part& part : deformer.model().parts()) {
+    for (const Model::Part& part : model.parts()) {
         for (const int v : part.vertices) solid_of[static_cast<std::size_t>(v)] = n;
         ++n;
     }
-    std::vector<int> number(static_cast<std::size_t>(n));
-    std::iota(number.begin(), number.end(), 0);
-    for (const Grip& grip : grips) {
-        const auto solid = [&](int i) {
-            const int v = handles[static_cast<std::size_t>(i)];
-            return number[static_cast<std::size_t>(solid_of[static_cast<std::size_t>(v)])];
-        };
-        for (int i = grip.begin; i < grip.end; ++i)
-            if (const int own = solid(i), first = solid(grip.begin); own != first)
-                std::replace(number.begin(), number.end(), own, first);
-    }
-    for (int& solid : solid_of) solid = number[static_cast<std::size_t>(solid)];
     return solid_of;
 }
 
@@ -91,11 +78,29 @@ Eigen::MatrixXd resultants(const SurfaceMesh& surface, const std::vector<UnitLoa
 
 }  // namespace
 
+std::vector<int> joined_by_grips(std::vector<int> solid_of, const std::vector<int>& handles,
+                                 const std::vector<Grip>& grips) {
+    const int n = solid_of.empty() ? 0 : 1 + *std::max_element(solid_of.begin(), solid_of.end());
+    std::vector<int> number(static_cast<std::size_t>(n));
+    std::iota(number.begin(), number.end(), 0);
+    for (const Grip& grip : grips) {
+        const auto number_at = [&](int i) {
+            const int v = handles[static_cast<std::size_t>(i)];
+            return number[static_cast<std::size_t>(solid_of[static_cast<std::size_t>(v)])];
+        };
+        for (int i = grip.begin; i < grip.end; ++i)
+            std::replace(number.begin(), number.end(), number_at(i), number_at(grip.begin));
+    }
+    for (int& solid : solid_of) solid = number[static_cast<std::size_t>(solid)];
+    return solid_of;
+}
+
 LooseMotions loose_motions(const Deformer& deformer, const std::vector<Grip>& grips, const GripArms& arms) {
     const SurfaceMesh& surface = *deformer.model().body().surface;
     const Eigen::Vector3d centre = surface.vertices.rowwise().mean();
     const ConstrainedSet& set = deformer.set();
-    const std::vector<int> solid_of = joined_solids(deformer, grips), others = held_by_others(set, grips);
+    const std::vector<int> solid_of = joined_by_grips(solids_of_vertices(deformer.model()), set.handles, grips),
+                           others = held_by_others(set, grips);
     std::vector<int> solids;  // of the grips
     for (const Grip& grip : grips) {
         const int v = set.handles[static_cast<std::size_t>(grip.begin)];

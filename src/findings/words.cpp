@@ -120,7 +120,8 @@ std::string linear_theory(const Finding& finding) {
                "units.";
     return std::string(finding.method->name) + ": linear theory is off by about " + percent(finding.value) +
            " of the largest displacement. It takes turns and stretches to be small, so that what turns swells. Choose "
-           "nonlinear-fem, which follows them.";
+           "nonlinear-fem, which follows them" +
+           (finding.first == 1 ? ", with a Poisson's ratio that is farther from 1/2." : ".");
 }
 
 std::string thin_sheets(const Finding& finding) {

@@ -18,8 +18,6 @@ std::shared_ptr<PetscStiffness> distribute(const FemMesh& mesh, double poisson_r
 
 /// Bytes of the constrained matrix, of GAMG's coarse ones or MUMPS's front, for each node on average.
 constexpr double kBytesOfNode = 8000.0;
-/// Of the elements with halved edges, by which quadratic ones are judged, for each node of these.
-constexpr std::uint64_t kBytesOfHalvedNode = 14000;
 
 }  // namespace
 
@@ -66,9 +64,8 @@ std::uint64_t PetscFemModel::constrain_memory(std::span<const int> fixed, std::s
 
 std::uint64_t PetscFemModel::check_memory(std::span<const int>, std::span<const int>) const {
     const FemSystem system{std::shared_ptr<const FemMesh>(mesh_), {}};
-    const std::uint64_t all = degree() == ElementDegree::linear
-                                  ? quadratic_reference_memory(system, true)
-                                  : kBytesOfHalvedNode * static_cast<std::uint64_t>(mesh_->tets.n_vertices());
+    const std::uint64_t all = degree() == ElementDegree::linear ? quadratic_reference_memory(system, true)
+                                                                : halved_reference_memory(system, true);
     return static_cast<std::uint64_t>(static_cast<double>(all) * Session::current().part_on_this_machine());
 }
 

@@ -1,14 +1,14 @@
 #include "scene/balance.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
+#include <utility>
 
 #include "base/lapack.hpp"
 #include "base/text.hpp"
 #include "deform/constraint_map.hpp"
 #include "deform/load_parts.hpp"
+#include "deform/loose_motions.hpp"
 #include "elasticity/rotation.hpp"
 #include "mesh/measures.hpp"
 #include "mesh/solids.hpp"
@@ -58,25 +58,14 @@ std::vector<int> solids_of_vertices(const std::vector<Solid>& solids, int n_vert
 /// Solids that a handle under a force holds together count as one.
 std::vector<Solid> joined_solids(const Constraints& constraints, const SurfaceMesh& surface) {
     std::vector<Solid> solids = split_solids(surface);
-    const std::vector<int> solid_of = solids_of_vertices(solids, surface.n_vertices());
-    std::vector<int> number(solids.size());
-    std::iota(number.begin(), number.end(), 0);
-    for (const Grip& grip : constraints.grips()) {
-        const auto number_at = [&](int i) {
-            const int v = constraints.set.handles[static_cast<std::size_t>(i)];
-            return number[static_cast<std::size_t>(solid_of[static_cast<std::size_t>(v)])];
-        };
-        for (int i = grip.begin; i < grip.end; ++i)
-            std::replace(number.begin(), number.end(), number_at(i), number_at(grip.begin));
-    }
+    const std::vector<int> solid_of =
+        joined_by_grips(solids_of_vertices(solids, surface.n_vertices()), constraints.set.handles, constraints.grips());
     std::map<int, std::vector<int>> triangles;
-    for (std::size_t s = 0; s < solids.size(); ++s) {
-        std::vector<int>& all = triangles[number[s]];
-        all.insert(all.end(), solids[s].triangles.begin(), solids[s].triangles.end());
-    }
+    for (int t = 0; t < surface.n_triangles(); ++t)
+        triangles[solid_of[static_cast<std::size_t>(surface.triangles(0, t))]].push_back(t);
     if (triangles.size() == solids.size()) return solids;
     solids.clear();
-    for (auto& [at, all] : triangles) solids.push_back(with_triangles(surface, std::move(all)));
+    for (auto& [solid, own] : triangles) solids.push_back(with_triangles(surface, std::move(own)));
     return solids;
 }
 

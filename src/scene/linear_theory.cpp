@@ -58,9 +58,16 @@ std::optional<double> LinearTheoryGauge::error(const Eigen::VectorXd& values, Co
     }
 }
 
-Findings findings_of_linear_theory(MethodKind method, double error) {
+bool is_too_incompressible_for_turns(double poisson_ratio) {
+    return poisson_ratio > large_deformation_method()->largest_poisson_ratio;
+}
+
+Findings findings_of_linear_theory(MethodKind method, double error, double poisson_ratio) {
     if (!(error >= kSilentLinearTheory)) return {};
-    return {{.kind = FindingKind::linear_theory, .value = error, .method = method}};
+    return {{.kind = FindingKind::linear_theory,
+             .value = error,
+             .method = method,
+             .first = is_too_incompressible_for_turns(poisson_ratio) ? 1 : 0}};
 }
 
 }  // namespace elastolab

@@ -35,7 +35,10 @@ private:
 /// Vertices that are enough to tell.
 inline constexpr int kGaugeVertices = 500;
 
+/// Whether the method that is right beyond linear theory takes no Poisson's ratio as large as this.
+bool is_too_incompressible_for_turns(double poisson_ratio);
+
 /// The finding, for a method whose answer it is said of; nothing below kSilentLinearTheory.
-Findings findings_of_linear_theory(MethodKind method, double error);
+Findings findings_of_linear_theory(MethodKind method, double error, double poisson_ratio);
 
 }  // namespace elastolab

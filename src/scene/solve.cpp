@@ -254,7 +254,8 @@ void gauge(const SceneMesh& mesh, const Constraints& shown, const Constraints& s
             linear_theory.error(constraints->values, control, approach_to(*constraints, *body.surface));
         if (!error) return;
         if (std::isfinite(*error)) solution.linear_theory_error = error;
-        append(solution.findings, findings_of_linear_theory(solution.model->method().kind, *error));
+        append(solution.findings,
+               findings_of_linear_theory(solution.model->method().kind, *error, body.material.poisson_ratio));
     } catch (const Error&) {
         return;
     }

@@ -172,13 +172,18 @@ TEST(ViewerState, CancelledWorkersStop) {
 
 TEST(ViewerState, ARangeByHandIsKept) {
     Stage stage(2);
-    EXPECT_EQ(stage.state.shown.field_range(stage.state.display), std::pair(0.0, 1.0));  // never empty
-    stage.state.display.auto_range = false;
-    stage.state.display.range_low = 2.0;
-    stage.state.display.range_high = 3.0;
-    EXPECT_EQ(stage.state.shown.field_range(stage.state.display), std::pair(2.0, 3.0));
-    std::swap(stage.state.display.range_low, stage.state.display.range_high);
-    EXPECT_EQ(stage.state.shown.field_range(stage.state.display), std::pair(2.0, 3.0)) << "typed the other way round";
+    DisplaySettings& display = stage.state.display;
+    display.field = Field::displacement;
+    const auto range = [&] { return stage.state.shown.field_range(display); };
+    EXPECT_EQ(range(), std::pair(0.0, 1.0));  // never empty
+    display.typed_ranges[Field::displacement] = {2.0, 3.0};
+    EXPECT_EQ(range(), std::pair(2.0, 3.0));
+    display.typed_ranges[Field::displacement] = {3.0, 2.0};
+    EXPECT_EQ(range(), std::pair(2.0, 3.0)) << "typed the other way round";
+    display.field = Field::stress_xx;
+    EXPECT_EQ(range(), std::pair(-1.0, 1.0)) << "lengths say nothing of stresses";
+    display.field = Field::displacement;
+    EXPECT_EQ(range(), std::pair(2.0, 3.0)) << "remembered";
 }
 
 /// A range that is held is one that was seen: a body at rest has none.

@@ -374,6 +374,26 @@ TEST_F(SolveTest, FiguresThatCannotBeMadeAreRefusedBeforeAnythingIsComputed) {
         }
 }
 
+/// Not on a bar of one cell across, which is too stiff all over, nor beyond the finest.
+TEST_F(SolveTest, FinerRimsAreAdvisedWhereTheyHelp) {
+    const std::string beam = R"({"elastolab": 1, "mesh": {"primitive": "beam", "resolution": 1},
+        "fixed": {"box": {"min": [-1, -1, -1], "max": [0.01, 2, 2]}},
+        "handles": [{"select": {"box": {"min": [3.9, -1, -1], "max": [5, 2, 2]}}, "translate": [0, 0, 0.1]}]})";
+    const std::string sphere = R"({"elastolab": 1, "mesh": {"primitive": "sphere", "resolution": 4},
+        "fixed": {"box": {"min": [-2, -2, -2], "max": [2, 2, -0.85]}}, "handles": [{"select":
+        {"box": {"min": [-2, -2, 0.85], "max": [2, 2, 2]}}, "rotate": {"axis": [1, 0, 0], "degrees": 5}}]})";
+    const auto advice = [&](const std::string& scene, const std::string& rims) {
+        solve(scene, {"--method", "galerkin-bem", "--rims", rims, "--report", "r.json", "--quiet"});
+        const nlohmann::json report = json("r.json");
+        for (const std::string warning : report.at("warnings"))
+            if (warning.find("forces are off by") != std::string::npos) return warning;
+        return std::string("none");
+    };
+    EXPECT_THAT(advice(beam, "0"), testing::EndsWith("Refine the mesh."));
+    EXPECT_THAT(advice(sphere, "0"), HasSubstr("Choose finer rims"));
+    EXPECT_THAT(advice(sphere, "3"), testing::EndsWith("Refine the mesh."));
+}
+
 /// At haptic rate only the handle that is felt gives way.
 TEST_F(SolveTest, FeelRefusesWhatItCannotFollowOrWrite) {
     folder_.write("two.json", R"({"elastolab": 1, "mesh": {"primitive": "cube", "resolution": 2},

@@ -13,6 +13,7 @@
 #include "fem/quadratic/method.hpp"
 #include "findings/solution.hpp"
 #include "findings/words.hpp"
+#include "mesh/meshes.hpp"
 #include "mesh/primitives.hpp"
 #include "methods/finer_mesh.hpp"
 #include "methods/organic_cases.hpp"
@@ -123,6 +124,31 @@ TEST(DiscretisationCheck, FindsNothingInARotation) {
         EXPECT_LT(check->relative_error, 1e-4) << describe(method);  // integrals to five digits
         EXPECT_LT(check->relative_force_error, 1e-4) << describe(method);
     }
+}
+
+/// A bar of one cell across, which is judged by halving all of it, beside a cube, which is judged by finer rims.
+TEST(DiscretisationCheck, OfTwoSolidsIsThatOfEach) {
+    const SurfaceMesh bar = make_box(1, {4, 1, 1});
+    SurfaceMesh cube = make_box(5);
+    cube.vertices.row(2).array() += 3.0;
+    const auto check = [](const SurfaceMesh& mesh) {
+        const auto held = vertices_where(mesh, [](const auto& x) { return x[0] < 1e-9; });
+        // The end of the bar, and the far face of the cube, which moves a tenth as far.
+        const auto pulled =
+            vertices_where(mesh, [](const auto& x) { return x[0] > 4.0 - 1e-9 || (x[2] > 2.0 && x[0] > 1.0 - 1e-9); });
+        Eigen::VectorXd values = Eigen::VectorXd::Zero(3 * std::ssize(pulled));
+        for (std::size_t i = 0; i < pulled.size(); ++i)
+            values[3 * static_cast<Eigen::Index>(i) + 2] = mesh.vertices(0, pulled[i]) > 2.0 ? 0.4 : 0.04;
+        Control control;
+        Deformer deformer(precomputed(make_body(mesh), {.kind = kGalerkinBem}));
+        deformer.constrain({held, pulled}, control);
+        return deformer.discretisation_check(values, control).value();
+    };
+    const DiscretisationCheck both = check(joined(bar, cube)), first = check(bar), second = check(cube);
+    Eigen::VectorXd errors(first.displacement_error.size() + second.displacement_error.size());
+    errors << first.displacement_error, second.displacement_error;
+    EXPECT_LT((both.displacement_error - errors).norm(), 1e-9 * errors.norm());
+    EXPECT_NEAR(both.relative_error, first.relative_error, 1e-9 * first.relative_error);
 }
 
 /// A plate on which Galerkin BEM integrates far longer than linear BEM is not judged by it, and the user is told.

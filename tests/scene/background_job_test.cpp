@@ -1,8 +1,10 @@
 #include "scene/live/model_keeper.hpp"
 
 #include <gmock/gmock.h>
+#include <sys/resource.h>
 
 #include <atomic>
+#include <cstdlib>
 #include <filesystem>
 #include <thread>
 
@@ -196,6 +198,25 @@ TEST(ModelJob, ShutsDownWhileItRuns) {
         job.start(giving("never seen"));
     }
     EXPECT_TRUE(ended);
+}
+
+/// In a process of its own, which may take no memory for the stack of a thread.
+TEST(ModelJob, FailsWhereNoThreadCanBeStarted) {
+    const auto start_without_memory = [] {
+        rlimit none{};
+        getrlimit(RLIMIT_AS, &none);
+        none.rlim_cur = 1;
+        setrlimit(RLIMIT_AS, &none);
+        ModelJob job;
+        job.start(giving("never made"));
+        const bool failed = job.poll() == JobEvent::failed && job.failure().find("no thread") != std::string::npos;
+        none.rlim_cur = none.rlim_max;
+        setrlimit(RLIMIT_AS, &none);
+        job.start(giving("made later"));
+        std::_Exit(failed && wait_for_event(job) == JobEvent::finished ? 0 : 1);
+    };
+    GTEST_FLAG_SET(death_test_style, "threadsafe");  // no stacks are left of the threads of other tests
+    EXPECT_EXIT(start_without_memory(), ::testing::ExitedWithCode(0), "");
 }
 
 TEST(ModelJob, CannotBeCancelledWhenItIsIdle) {

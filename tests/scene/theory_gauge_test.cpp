@@ -49,6 +49,18 @@ TEST(TheoryGauge, OfALoadGoesByTheLoadOverTheStiffness) {
     EXPECT_LT(weak, 0.1 * one);
 }
 
+/// Nonlinear FEM takes Poisson's ratios up to 0.499.
+TEST(TheoryGauge, AdvisesNonlinearFemWithARatioThatItTakes) {
+    using testing::AllOf, testing::Contains, testing::EndsWith, testing::HasSubstr;
+    Document document = pushed_bar(0.02);
+    const auto advice = [&](double poisson_ratio) {
+        document.material.poisson_ratio = poisson_ratio;
+        return words(ten_nodes(document, kLinearBem).findings);
+    };
+    EXPECT_THAT(advice(0.499), Contains(EndsWith("Choose nonlinear-fem, which follows them.")));
+    EXPECT_THAT(advice(0.4999), Contains(AllOf(HasSubstr("Choose nonlinear-fem"), HasSubstr("farther from 1/2"))));
+}
+
 /// No body has an equilibrium whose end is pressed to a point.
 TEST(TheoryGauge, TellsWhereABodyWouldBeCrushed) {
     Document document = bar();

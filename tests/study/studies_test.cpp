@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 
+#include "bem/collocation/method.hpp"
 #include "bem/galerkin/method.hpp"
+#include "deform/node_solver.hpp"
 #include "deform/patch_reactions.hpp"
 #include "fem/method.hpp"
 #include "mesh/primitives.hpp"
@@ -8,6 +10,7 @@
 #include "methods/registry.hpp"
 #include "study/error/error_frontier.hpp"
 #include "study/error/problems.hpp"
+#include "study/measure.hpp"
 #include "study/paper/paper_procedure.hpp"
 #include "study/runner.hpp"
 #include "study/setups.hpp"
@@ -157,6 +160,17 @@ TEST(Problems, KnowTheForcesOfTheirFields) {
     larger.forces *= 1.01;
     larger.moments *= 1.01;
     EXPECT_NEAR(bar.force_error(larger).value(), 0.01, 1e-12);
+}
+
+/// The direct update finds the system of constant elements singular there, and `solve` takes another, too.
+TEST(Problems, AreMeasuredWhereTheDirectUpdateIsRefused) {
+    const Problem problem = problem_family("hollow-sphere").make(4, 0.5);
+    Control control;
+    Deformer direct(precompute(problem.body, {.kind = kConstantBem, .update = Update::direct}, control));
+    ASSERT_THROW(direct.constrain(problem.set(), control), NotHeldError);
+    const Row row = measure(problem, {.kind = kConstantBem}, {.budget_seconds = 0.0, .most = 1}, control);
+    EXPECT_GT(row.number("once_s"), 0.0);
+    EXPECT_GT(row.number("error"), 0.0);
 }
 
 /// The two kinds of truth, finite and boundary elements, know the forces of an organic body alike.

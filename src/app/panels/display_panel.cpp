@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <string>
-#include <tuple>
 
 #include "app/panels/panel_context.hpp"
 #include "app/panels/widgets.hpp"
@@ -48,19 +47,22 @@ constexpr std::array<Choice<RangeRule>, 3> kRangeRules = {
     {{RangeRule::data, "of all data", "From the smallest to the largest value that is seen."},
      {RangeRule::most, "of 98 % of the data",
       "Leaves out the two per cent that are most extreme, such as at sharp rims."},
-     {RangeRule::typed, "typed", "Stays as it is typed."}}};
+     {RangeRule::typed, "typed", "Stays as it is typed, for this field."}}};
 constexpr double kMostOfData = 0.98;
 
 void draw_range_rule(ViewerState& state) {
     DisplaySettings& display = state.display;
-    RangeRule rule = !display.auto_range        ? RangeRule::typed
-                     : display.range_part < 1.0 ? RangeRule::most
-                                                : RangeRule::data;
+    RangeRule rule = display.typed_ranges.contains(display.field) ? RangeRule::typed
+                     : display.range_part < 1.0                   ? RangeRule::most
+                                                                  : RangeRule::data;
     const auto range = state.shown.field_range(display);
     if (!choose<RangeRule>("range", rule, kRangeRules)) return;
-    display.auto_range = rule != RangeRule::typed;
+    if (rule == RangeRule::typed) {
+        display.typed_ranges[display.field] = range;
+        return;
+    }
+    display.typed_ranges.erase(display.field);
     display.range_part = rule == RangeRule::most ? kMostOfData : 1.0;
-    if (!display.auto_range) std::tie(display.range_low, display.range_high) = range;
 }
 
 /// What is no finite number is not taken.
@@ -80,10 +82,11 @@ void draw_range(ViewerState& state, float scale) {
         end_choice();
     }
     draw_range_rule(state);
-    if (!display.auto_range) {
-        draw_end_of_range("##low", display.range_low, scale);
+    if (const auto typed = display.typed_ranges.find(display.field); typed != display.typed_ranges.end()) {
+        auto& [low, high] = typed->second;
+        draw_end_of_range("##low", low, scale);
         ImGui::SameLine();
-        draw_end_of_range("from, to", display.range_high, scale);
+        draw_end_of_range("from, to", high, scale);
     }
     ImGui::Checkbox("hold while pulling", &display.hold_range);
     tooltip("The range stays as it was when the pull began, so that colours can be compared.");

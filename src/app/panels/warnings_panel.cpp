@@ -15,6 +15,7 @@
 #include "base/text.hpp"
 #include "findings/words.hpp"
 #include "methods/registry.hpp"
+#include "scene/linear_theory.hpp"
 #include "scene/live/theory_gauge.hpp"
 
 namespace elastolab {
@@ -29,6 +30,10 @@ std::string name_of_motion(const TheoryError& error) {
     return error.turns ? "this turn" : "this pull";
 }
 
+bool too_incompressible_for_turns(const ViewerState& state) {
+    return is_too_incompressible_for_turns(state.scene().document().material.poisson_ratio);
+}
+
 /// How far linear theory is off for what is shown, in the words of a student; empty where it is hardly off.
 std::string theory_words(const ViewerState& state) {
     const std::optional<TheoryError>& error = state.simulation.theory_error();
@@ -38,7 +43,8 @@ std::string theory_words(const ViewerState& state) {
         return "Linear theory cannot be right for " + motion + ": " + better +
                " finds no equilibrium, a rubber body would be crushed.";
     return "Linear theory: " + formatted("%.0f", 100.0 * error->relative) + " % off for " + motion + ". " + better +
-           " shows what a rubber body does.";
+           " shows what a rubber body does" +
+           (too_incompressible_for_turns(state) ? ", with a Poisson's ratio farther from 1/2." : ".");
 }
 
 /// The same for a warning whose numbers change from frame to frame.
@@ -92,7 +98,7 @@ std::vector<WarningsPanel::Warning> WarningsPanel::present(const ViewerState& st
         const bool mesh_is_worse =
             of_mesh != findings.begin() && !error.crushed && findings.front().value > error.relative;
         warnings.insert(warnings.begin() + n_problems + (mesh_is_worse ? of_mesh - findings.begin() : 0),
-                        {theory, false, large_deformation_method()});
+                        {theory, false, too_incompressible_for_turns(state) ? nullptr : large_deformation_method()});
     }
     const std::string& name = state.scene().name();
     for (Warning& warning : warnings)

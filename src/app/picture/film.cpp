@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 #include <system_error>
-#include <tuple>
 #include <utility>
 
 #include "app/job_notes.hpp"
@@ -147,17 +146,14 @@ void Film::draw(SceneRenderer& renderer, ViewerState& state, const Palette& pale
         if (request_.kind == FilmKind::turn) {
             state.camera.set_pose(turned(state.camera, pose, static_cast<double>(frame - 1) / request_.n_frames));
         } else if (pose_) {
-            state.display.auto_range = false;
-            std::tie(state.display.range_low, state.display.range_high) = pose_->range;
+            state.display.typed_ranges[display.field] = pose_->range;
             state.update_picture();
             renderer.upload(state, palette);
         } else {
             const double part = std::max(kNearRest, pulled_part(frame, request_.n_frames));
             const auto [low, high] = state.shown.field_range(display);
             state.display.deformation_scale *= part;
-            state.display.auto_range = false;
-            state.display.range_low = low / part;
-            state.display.range_high = high / part;
+            state.display.typed_ranges[display.field] = {low / part, high / part};
             state.update_picture();
             renderer.upload(state, palette);
         }

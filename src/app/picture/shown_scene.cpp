@@ -37,7 +37,8 @@ const std::string& ShownScene::reaction_failure(MethodKind kind) const {
 }
 
 std::pair<double, double> ShownScene::field_range(const DisplaySettings& display) const {
-    if (!display.auto_range) return std::minmax({display.range_low, display.range_high});
+    if (const auto typed = display.typed_ranges.find(display.field); typed != display.typed_ranges.end())
+        return std::minmax({typed->second.first, typed->second.second});
     double high = held_range_ ? *held_range_ : largest_magnitude(display);
     if (high == 0.0) high = 1.0;
     return {is_signed(display.field) ? -high : 0.0, high};

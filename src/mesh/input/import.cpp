@@ -18,6 +18,7 @@
 #include "mesh/input/formats.hpp"
 #include "mesh/input/import_protocol.hpp"
 #include "mesh/input/merge.hpp"
+#include "mesh/input/messages.hpp"
 
 namespace elastolab {
 
@@ -75,28 +76,6 @@ std::string meaning_of_end(int status) {
            "). Is it damaged? Export it again as OBJ, PLY or STL.";
 }
 
-/// Takes the arrays of a reply one after another.
-class ReplyReader {
-public:
-    explicit ReplyReader(const std::vector<char>& bytes) : bytes_(bytes) {}
-    /// False when the reply is not that long.
-    bool take(void* to, std::size_t size) {
-        if (left() < size) return false;
-        if (size > 0) std::memcpy(to, bytes_.data() + at_, size);
-        at_ += size;
-        return true;
-    }
-    template <class Matrix>
-    void take(Matrix& matrix) {
-        take(matrix.data(), sizeof(*matrix.data()) * static_cast<std::size_t>(matrix.size()));
-    }
-    std::size_t left() const { return bytes_.size() - at_; }
-
-private:
-    const std::vector<char>& bytes_;
-    std::size_t at_ = 0;
-};
-
 /// Whether what follows the header is as long as it says: checked before any memory is asked for.
 bool agrees(const ImportReplyHeader& header, std::size_t size_of_rest) {
     if (header.magic != kImportMagic || header.n_vertices < 0 || header.n_triangles < 0 || header.text_size < 0)
@@ -136,14 +115,16 @@ ImportedSurface import(const fs::path& file, Control& control) {
                                                     static_cast<std::size_t>(header_for(file).memory_bytes));
     const int status = helper.wait(control);
 
-    ReplyReader reply(bytes);
     ImportReplyHeader header;
-    if (!reply.take(&header, sizeof(header)) || !agrees(header, reply.left())) fail(file, meaning_of_end(status));
+    ReplyReader reply(bytes);
+    if (bytes.size() < sizeof(header)) fail(file, meaning_of_end(status));
+    reply.read(&header, 1);
+    if (!agrees(header, bytes.size() - sizeof(header))) fail(file, meaning_of_end(status));
     SurfaceMesh mesh{Positions(3, header.n_vertices), Triangles(3, header.n_triangles)};
     std::string problem(static_cast<std::size_t>(header.text_size), '\0');
-    reply.take(mesh.vertices);
-    reply.take(mesh.triangles);
-    reply.take(problem);
+    reply.read(mesh.vertices.data(), static_cast<std::size_t>(mesh.vertices.size()));
+    reply.read(mesh.triangles.data(), static_cast<std::size_t>(mesh.triangles.size()));
+    reply.read(problem.data(), problem.size());
     if (!problem.empty()) fail(file, shortened(problem, kLongestText));
     if (mesh.n_triangles() == 0 || !within(mesh.triangles, mesh.n_vertices())) fail(file, meaning_of_end(status));
     ImportedSurface result{merged(mesh), {}};

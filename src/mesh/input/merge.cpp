@@ -6,6 +6,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "mesh/numbering.hpp"
+
 namespace elastolab {
 
 namespace {
@@ -43,30 +45,17 @@ private:
     std::vector<Eigen::Vector3d> places_;
 };
 
-SurfaceMesh without_unused(const std::vector<Eigen::Vector3d>& places, Triangles triangles) {
-    std::vector<int> number(places.size(), -1);
-    for (const int v : triangles.reshaped()) number[static_cast<std::size_t>(v)] = 0;
-    std::vector<Eigen::Vector3d> used;
-    for (std::size_t i = 0; i < places.size(); ++i)
-        if (number[i] == 0) {
-            number[i] = static_cast<int>(used.size());
-            used.push_back(places[i]);
-        }
-    SurfaceMesh mesh{Positions(3, static_cast<Eigen::Index>(used.size())), std::move(triangles)};
-    for (std::size_t i = 0; i < used.size(); ++i) mesh.vertices.col(static_cast<Eigen::Index>(i)) = used[i];
-    for (int& v : mesh.triangles.reshaped()) v = number[static_cast<std::size_t>(v)];
-    return mesh;
-}
-
 }  // namespace
 
 SurfaceMesh merged(const SurfaceMesh& mesh) {
     PlaceNumbers numbers;
     std::vector<int> number;
     for (const auto& p : mesh.vertices.colwise()) number.push_back(numbers[p]);
-    Triangles triangles = mesh.triangles;
-    for (int& v : triangles.reshaped()) v = number[static_cast<std::size_t>(v)];
-    return without_unused(numbers.places(), std::move(triangles));
+    const std::vector<Eigen::Vector3d>& places = numbers.places();
+    SurfaceMesh joined{Positions(3, std::ssize(places)), mesh.triangles};
+    for (std::size_t i = 0; i < places.size(); ++i) joined.vertices.col(static_cast<Eigen::Index>(i)) = places[i];
+    for (int& v : joined.triangles.reshaped()) v = number[static_cast<std::size_t>(v)];
+    return without_unused(joined);
 }
 
 }  // namespace elastolab

@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "mesh/checks/check.hpp"
+#include "mesh/numbering.hpp"
 #include "mesh/wrap/unit_frame.hpp"
 #include "mesh/wrap/wrap_process.hpp"
 
@@ -21,19 +22,12 @@ std::string first_defect(const MeshReport& report) {
     return "";
 }
 
-/// The surface without the vertices that no triangle uses.
-SurfaceMesh without_unused(const SurfaceMesh& open, std::vector<int>& own) {
-    own.assign(static_cast<std::size_t>(open.n_vertices()), -1);
-    for (const int v : open.triangles.reshaped()) own[static_cast<std::size_t>(v)] = 0;
-    std::vector<int> used;
-    for (int v = 0; v < open.n_vertices(); ++v)
-        if (int& number = own[static_cast<std::size_t>(v)]; number == 0) {
-            number = static_cast<int>(used.size());
-            used.push_back(v);
-        }
-    SurfaceMesh mesh{open.vertices(Eigen::all, used), open.triangles};
-    for (int& v : mesh.triangles.reshaped()) v = own[static_cast<std::size_t>(v)];
-    return mesh;
+/// Where the vertices of `shown` are among those that triangles use; -1 for the others.
+std::vector<int> places_of_used(const SurfaceMesh& shown) {
+    std::vector<int> own(static_cast<std::size_t>(shown.n_vertices()), -1);
+    int n = 0;
+    for (const int v : used_vertices(shown.triangles)) own[static_cast<std::size_t>(v)] = n++;
+    return own;
 }
 
 /// The vertices of `open` in their own places, whatever the frame made of them.
@@ -47,8 +41,7 @@ SurfaceMesh in_place(SurfaceMesh filled, const SurfaceMesh& open, const UnitFram
 
 FilledSurface fill_holes(const SurfaceMesh& shown, Control& control) {
     control.begin_stage("fill holes");
-    std::vector<int> own;
-    const SurfaceMesh open = without_unused(shown, own);
+    const SurfaceMesh open = without_unused(shown);
     SurfaceMesh unit = open;
     const UnitFrame frame = to_unit_size(unit);
     std::string failure;
@@ -62,7 +55,7 @@ FilledSurface fill_holes(const SurfaceMesh& shown, Control& control) {
         CheckedMesh checked = check_and_repair(in_place(std::move(result.surface), open, frame), control);
         failure = first_defect(checked.report);
         if (failure.empty() && checked.mesh.n_vertices() == n_vertices)
-            return {std::move(checked.mesh), std::move(own), result.n_holes};
+            return {std::move(checked.mesh), places_of_used(shown), result.n_holes};
     }
     throw MeshError("even with its holes filled it is not a solid: " + failure + ". Choose a proxy.");
 }

@@ -16,6 +16,7 @@
 #include "mesh/checks/defects.hpp"
 #include "mesh/closest_point.hpp"
 #include "mesh/measures.hpp"
+#include "mesh/numbering.hpp"
 #include "mesh/solids.hpp"
 #include "mesh/surface_distance.hpp"
 #include "mesh/tets/tetrahedralize.hpp"
@@ -50,19 +51,6 @@ std::size_t hash_of(const CornerKey& corners) {
     for (const auto& corner : corners)
         for (const double x : corner) hash = 31 * hash + std::hash<double>()(x);
     return hash;
-}
-
-SurfaceMesh without_unused(const SurfaceMesh& mesh) {
-    std::vector<int> number(static_cast<std::size_t>(mesh.n_vertices()), -1), used;
-    for (const int v : mesh.triangles.reshaped()) number[static_cast<std::size_t>(v)] = 0;
-    for (int v = 0; v < mesh.n_vertices(); ++v)
-        if (int& own = number[static_cast<std::size_t>(v)]; own == 0) {
-            own = static_cast<int>(used.size());
-            used.push_back(v);
-        }
-    SurfaceMesh result{mesh.vertices(Eigen::all, used), mesh.triangles};
-    for (int& v : result.triangles.reshaped()) v = number[static_cast<std::size_t>(v)];
-    return result;
 }
 
 /// The triangles that can be wrapped: each once, since a search tree finds no way among thousands in one place. Without
@@ -195,8 +183,8 @@ constexpr int kFewestOfAWrap = 8;
 
 /// Surfaces of more vertices are wrapped even where they are sound: to collapse their edges takes several times longer.
 constexpr int kMostCollapsed = 100000;
-/// So are those with more triangles around one vertex, as in the cap of a finely divided cylinder: to collapse its edges
-/// takes a time that grows with the third power of their number, two seconds for 500.
+/// So are those with more triangles around one vertex, as in the cap of a finely divided cylinder: to collapse its
+/// edges takes a time that grows with the third power of their number, two seconds for 500.
 constexpr int kMostAroundVertex = 700;
 
 bool is_quick_to_collapse(const SurfaceMesh& surface) {

@@ -56,9 +56,8 @@ Eigen::Vector3d unit_motion(int kind, const Eigen::Vector3d& from_centre) {
 
 void require_sensible(const Deformer& deformer, std::size_t n_handles) {
     const std::string& name = deformer.model().body().name;
-    if (!deformer.linear())
-        throw Error(name + ": a figure needs a linear method, as it adds up answers. Choose another method.");
-    if (n_handles == 0) throw Error(name + ": there is no handle to pull in a figure. Add a handle.");
+    if (const std::string why = figure_refusal(deformer.model().method().kind, n_handles); !why.empty())
+        throw Error(name + ": " + why);
     const double n = deformer.model().facts().n_vertices;
     const double bytes = n * (3 + 9 * (1 + 6 * static_cast<double>(n_handles))) * sizeof(float) * 4 / 3;
     if (bytes > kLargestFigure)
@@ -67,6 +66,12 @@ void require_sensible(const Deformer& deformer, std::size_t n_handles) {
 }
 
 }  // namespace
+
+std::string figure_refusal(MethodKind method, std::size_t n_handles) {
+    if (!method->linear) return "a figure needs a linear method, as it adds up answers. Choose a linear method.";
+    if (n_handles == 0) return "there is no handle to pull in a figure. Add a handle.";
+    return {};
+}
 
 Figure make_figure(const Deformer& deformer, const Eigen::VectorXd& values, const std::vector<ConstraintGroup>& groups,
                    Control& control) {

@@ -33,6 +33,9 @@ struct Figure {
     std::vector<FigureHandle> handles;
 };
 
+/// Why no figure can be made by this method with so many handles, with a way forward; empty when one can.
+std::string figure_refusal(MethodKind method, std::size_t n_handles);
+
 /// groups: those of the deformer's set (Constraints::groups). Six solves for each handle. Throws Error where the method
 /// is not linear, where no handle is there to be pulled, or where the file would be beyond kLargestFigure; SolveError,
 /// Cancelled.

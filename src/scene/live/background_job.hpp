@@ -7,10 +7,12 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <utility>
 
 #include "base/control.hpp"
+#include "base/error.hpp"
 #include "base/timer.hpp"
 #include "scene/user_text.hpp"
 
@@ -53,8 +55,14 @@ public:
         const std::lock_guard lock(mutex_);
         next_ = ticket_;
         if (worker_runs_) return;
-        worker_runs_ = true;
-        worker_ = std::jthread([this] { work_off(); });  // joins the previous thread, which has nothing left to do
+        try {
+            worker_ = std::jthread([this] { work_off(); });  // joins the previous thread, which has nothing left to do
+            worker_runs_ = true;
+        } catch (const std::system_error&) {  // no memory for its stack, or no thread is left to this user
+            next_.reset();
+            ticket_->promise.set_exception(std::make_exception_ptr(
+                Error("no thread can be started for it. Close other programs, and try again.")));
+        }
     }
 
     /// Asks the running computation to stop; it does so at its next checkpoint.

@@ -67,6 +67,18 @@ TEST_F(GizmoTest, StandsAtTheSelectedHandleOnly) {
     EXPECT_TRUE(stage.state.gizmos().empty());
 }
 
+/// A key may remove a handle, and a press follow, before the next frame says what can be taken hold of.
+TEST_F(GizmoTest, OfAHandleThatIsGoneIsNotTakenHoldOf) {
+    GestureContext before = stage.state.gesture_context();
+    ASSERT_EQ(before.gizmos.size(), 1u);
+    const Eigen::Vector2d place = place_of({Kind::arrow, 2});
+    stage.scene().remove_handle(0);
+    Gestures& gestures = stage.state.gestures;
+    gestures.handle({.kind = InputEvent::Kind::cursor, .cursor = place}, before);
+    gestures.handle({.kind = InputEvent::Kind::button, .code = 0, .pressed = true, .seconds = 10.0}, before);
+    EXPECT_FALSE(gestures.gizmo_drag());
+}
+
 TEST_F(GizmoTest, ArrowsMoveAlongTheirAxisOnly) {
     for (int axis = 0; axis < 3; ++axis) {
         const Eigen::Vector3d before = moved();

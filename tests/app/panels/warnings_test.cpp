@@ -15,14 +15,15 @@
 namespace elastolab::test {
 namespace {
 
-using testing::StartsWith;
+using testing::EndsWith, testing::StartsWith;
 
 constexpr int kLooks = 1500;  ///< 20 ms apart
 
 /// Of a cube whose end is turned by a right angle, once how far displacements are off is known twice.
-std::vector<WarningsPanel::Warning> warnings_of_a_turn(MethodKind method) {
+std::vector<WarningsPanel::Warning> warnings_of_a_turn(MethodKind method, double poisson_ratio = 0.3) {
     Document document = cube_document_with_handle(4);
     document.method = method;
+    document.material.poisson_ratio = poisson_ratio;
     AffineMotion turn;
     turn.rotate = {.axis = Eigen::Vector3d::UnitX(), .degrees = 90.0, .center = {1.0, 0.5, 0.5}};
     document.handles.at(0).motion = turn;
@@ -32,7 +33,7 @@ std::vector<WarningsPanel::Warning> warnings_of_a_turn(MethodKind method) {
     std::vector<WarningsPanel::Warning> found;
     const auto n_off = [&] {
         return std::count_if(found.begin(), found.end(), [](const auto& one) {
-            return one.text.find("displacements are off") != std::string::npos || one.better != nullptr;
+            return one.text.find("displacements are off") != std::string::npos || one.text.starts_with("Linear theory");
         });
     };
     // Workers find them after the answer.
@@ -54,6 +55,15 @@ TEST(WarningsOfTheViewer, BeginWithWhatIsFarthestOff) {
     EXPECT_THAT(linear[0].text, StartsWith("Linear theory: "));
     EXPECT_EQ(linear[0].better, kNonlinearFem);
     EXPECT_THAT(linear[1].text, StartsWith("Linear BEM: displacements are off by about "));
+}
+
+TEST(WarningsOfTheViewer, OfferNoMethodThatCannotTakeTheBody) {
+    const auto found = warnings_of_a_turn(kLinearBem, 0.4999);
+    const auto theory =
+        std::ranges::find_if(found, [](const auto& one) { return one.text.starts_with("Linear theory"); });
+    ASSERT_NE(theory, found.end());
+    EXPECT_EQ(theory->better, nullptr);
+    EXPECT_THAT(theory->text, EndsWith("with a Poisson's ratio farther from 1/2."));
 }
 
 }  // namespace

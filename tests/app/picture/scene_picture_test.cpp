@@ -247,8 +247,7 @@ TEST_F(ScenePicture, PutsMarksTogetherAnewOnlyWhenTheyHaveChanged) {
 TEST_F(ScenePicture, HasALegendWithTheColoursOfTheFieldWhereThatIsWanted) {
     EXPECT_FALSE(legend_of(stage.state)) << "nothing is coloured";
     stage.state.display.field = Field::displacement;
-    stage.state.display.auto_range = false;
-    stage.state.display.range_high = 2.0;
+    stage.state.display.typed_ranges[Field::displacement] = {0.0, 2.0};
     stage.settle();
     stage.state.update_picture();
     renderer.upload(stage.state, palette);
