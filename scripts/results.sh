@@ -34,7 +34,7 @@ csv() {
     awk -F, '
       function seconds(s) { return s < 1e-3 ? sprintf("%.3g µs", 1e6 * s) : s < 1 ? sprintf("%.3g ms", 1e3 * s) : sprintf(s < 100 ? "%.3g s" : "%.0f s", s) }
       function bytes(b) { return b < 1e9 ? sprintf("%.0f MB", b / 1e6) : sprintf("%.3g GB", b / 1e9) }
-      function percent(x) { return sprintf(x >= 1 ? "%.0f %%" : "%.2g %%", 100 * x) }
+      function percent(x) { return x == "" ? "-" : sprintf(x >= 1 ? "%.0f %%" : "%.2g %%", 100 * x) }
       NR == 1 { for (i = 1; i <= NF; ++i) col[$i] = i; next }
       '"$2"
 }

@@ -36,26 +36,34 @@ ProbeValue probe(int vertex, const Positions& rest, const ShownBody& body, doubl
 }
 
 void Probes::toggle(int vertex) {
-    samples_.clear();  // rows of one length
-    recorded_ = 0;
-    if (std::erase(vertices_, vertex) == 0) vertices_.push_back(vertex);
+    if (std::erase(vertices_, vertex) == 0) {
+        vertices_.push_back(vertex);
+        return;
+    }
+    for (Sample& sample : samples_)
+        std::erase_if(sample.values, [&](const auto& value) { return value.first == vertex; });
+    if (vertices_.empty()) clear();
 }
 
 void Probes::clear() { *this = Probes(); }
 
 void Probes::record(double seconds, const Positions& rest, const ShownBody& body, const DisplaySettings& display) {
-    if (vertices_.empty() || body.revision() == recorded_ || display.deformation_scale == 0.0) return;
+    if (vertices_.empty() || display.deformation_scale == 0.0) return;
+    const bool is_new = samples_.empty() || body.revision() != recorded_;
+    if (!is_new && samples_.back().values.size() == vertices_.size()) return;
     recorded_ = body.revision();
-    Sample sample{seconds, field_title(display.field, body.kind()), {}};
-    for (const int vertex : vertices_) sample.values.push_back(probe(vertex, rest, body, display.deformation_scale));
-    samples_.push_back(std::move(sample));
+    if (is_new) samples_.push_back({seconds, field_title(display.field, body.kind()), {}});
+    Sample& sample = samples_.back();  // vertices are kept in the order in which they were added
+    for (std::size_t i = sample.values.size(); i < vertices_.size(); ++i)
+        sample.values.emplace_back(vertices_[i], probe(vertices_[i], rest, body, display.deformation_scale));
     if (samples_.size() > kMostSamples) samples_.pop_front();
 }
 
 std::vector<float> Probes::series(std::size_t probe) const {
     std::vector<float> result;
     for (const Sample& sample : samples_) {
-        const ProbeValue& value = sample.values[probe];
+        if (probe >= sample.values.size()) continue;  // not kept yet
+        const ProbeValue& value = sample.values[probe].second;
         result.push_back(static_cast<float>(value.field.value_or(value.displacement.norm())));
     }
     return result;
@@ -66,9 +74,8 @@ void Probes::write_csv(const std::filesystem::path& file) const {
     out.stream() << "time_s,field,vertex,x,y,z,ux,uy,uz,value,tx,ty,tz,sxx,syy,szz,sxy,syz,sxz\n";
     CsvWriter row(out.stream());
     for (const Sample& sample : samples_)
-        for (std::size_t i = 0; i < vertices_.size(); ++i) {
-            const ProbeValue& value = sample.values[i];
-            row.number(sample.seconds).text(sample.field).number(vertices_[i]);
+        for (const auto& [vertex, value] : sample.values) {
+            row.number(sample.seconds).text(sample.field).number(vertex);
             row.numbers(value.position).numbers(value.displacement);
             if (value.field)
                 row.number(*value.field);

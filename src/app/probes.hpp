@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/picture/shown_body.hpp"
@@ -24,7 +25,7 @@ class Probes {
 public:
     static constexpr std::size_t kMostSamples = 100000;
 
-    /// Keeps the vertex, or forgets it.
+    /// Keeps the vertex from now on, or forgets it and what was recorded there.
     void toggle(int vertex);
     void clear();
     const std::vector<int>& vertices() const { return vertices_; }
@@ -32,7 +33,8 @@ public:
     /// Adds what is shown now, when that is not what was added last. `seconds`: of the clock of frames.
     void record(double seconds, const Positions& rest, const ShownBody& body, const DisplaySettings& display);
     std::size_t n_samples() const { return samples_.size(); }
-    /// Samples of one probe, oldest first: the shown field where there is one, else how far the vertex has moved [L].
+    /// Samples of one probe since it is kept, oldest first: the shown field where there is one, else how far the vertex
+    /// has moved [L].
     std::vector<float> series(std::size_t probe) const;
     /// Rows of time_s,field,vertex,x,y,z,ux,uy,uz,value,tx,ty,tz,sxx,syy,szz,sxy,syz,sxz. Throws Error when it cannot
     /// be written.
@@ -42,7 +44,7 @@ private:
     struct Sample {
         double seconds;
         std::string field;
-        std::vector<ProbeValue> values;  ///< one a kept vertex
+        std::vector<std::pair<int, ProbeValue>> values;  ///< of the vertices that were kept then
     };
     std::vector<int> vertices_;
     std::deque<Sample> samples_;

@@ -24,7 +24,9 @@ void ViewerSession::draw_frame() {
 
     part = {};
     guarded([&] {
-        if (dispatch(events, Window::seconds(), gui_, state_, panels_)) pending_frames_ = kSettlingFrames;
+        if (dispatch(events_for_scene(events), Window::seconds(), gui_, state_, panels_))
+            pending_frames_ = kSettlingFrames;
+        if (panels_.selection().asks_name()) frames_for_field_ = kFramesForField;
         state_.update_displacements();
     });
     times.update_ms = 1e3 * part.seconds();
@@ -57,6 +59,20 @@ void ViewerSession::draw_frame() {
     if (n_drawn > 0) detail_.took(1e-3 * times.draw_ms + part.seconds());
     times.frame_ms = 1e3 * whole.seconds();
     end_frame(times, now);
+}
+
+/// A press beside a field that is typed into ends the typing, of what is selected still: the scene has it a frame
+/// later.
+std::vector<InputEvent> ViewerSession::events_for_scene(std::vector<InputEvent> events) {
+    std::vector<InputEvent> all = std::exchange(kept_events_, {});
+    all.insert(all.end(), events.begin(), events.end());
+    const auto is_press = [](const InputEvent& event) {
+        return event.kind == InputEvent::Kind::button && event.pressed;
+    };
+    if (!gui_.wants_text() || gui_.wants_mouse() || std::none_of(events.begin(), events.end(), is_press)) return all;
+    pending_frames_ = kSettlingFrames;
+    kept_events_ = std::move(all);
+    return {};
 }
 
 DrawingDetail ViewerSession::detail_at(double now, double pixel_ratio) {

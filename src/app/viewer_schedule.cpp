@@ -105,8 +105,17 @@ bool ViewerSession::may_close() {
     return state_.requests.quit;
 }
 
+/// A field was asked for and takes no letters yet: they would be shortcuts meanwhile.
+bool ViewerSession::waits_for_field() {
+    if (frames_for_field_ == 0) return false;
+    frames_for_field_ = gui_.wants_text() ? 0 : frames_for_field_ - 1;
+    pending_frames_ = kSettlingFrames;
+    return frames_for_field_ > 0;
+}
+
 std::vector<InputEvent> ViewerSession::take_events() {
     std::vector<InputEvent> events;
+    if (waits_for_field()) return events;
     if (replaying()) {
         if (!replay_->done() && !state_.simulation.busy() && !state_.files.loading() && state_.measurements.frame > 2)
             events = replay_->log.frames[replay_->next++].events;

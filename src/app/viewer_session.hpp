@@ -75,6 +75,8 @@ private:
 
     /// The events of this frame: from the log when there is one, else as many as one frame can take.
     std::vector<InputEvent> take_events();
+    std::vector<InputEvent> events_for_scene(std::vector<InputEvent> events);
+    bool waits_for_field();
 
     /// No failed edit ends a person's session: the failure becomes a message, and the result is false.
     template <class Action>
@@ -131,8 +133,11 @@ private:
     std::optional<StartTimeline> timeline_;
     std::optional<SeriesWriter> series_;
     std::vector<InputEvent> queue_;
+    std::vector<InputEvent> kept_events_;      ///< that the scene has in the next frame
     static constexpr int kSettlingFrames = 3;  ///< frames that Dear ImGui needs to settle after an event
-    int pending_frames_ = kSettlingFrames;     ///< that are drawn whatever comes
+    static constexpr int kFramesForField = 6;  ///< frames in which a field takes the keys, or will not
+    int frames_for_field_ = 0;
+    int pending_frames_ = kSettlingFrames;  ///< that are drawn whatever comes
     double last_frame_seconds_ = 0.0, message_seconds_ = -1.0;
     const Palette* styled_palette_ = nullptr;
     Preferences kept_preferences_;

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <sstream>
 #include <thread>
 
@@ -14,12 +15,15 @@
 #include "cli/command.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
+#include "cli/solve_outputs.hpp"
+#include "findings/words.hpp"
 #include "methods/precompute.hpp"
 #include "methods/registry.hpp"
 #include "scene/balance.hpp"
 #include "scene/constraints.hpp"
 #include "scene/file/scene_file.hpp"
 #include "scene/live/haptic_loop.hpp"
+#include "scene/proxy/carried_constraints.hpp"
 #include "scene/scene_mesh.hpp"
 
 namespace elastolab {
@@ -38,21 +42,23 @@ struct PathPoint {
     GripPose pose;
 };
 
-/// Rows "time_s,tx,ty,tz,rx,ry,rz" below a line of headings, times ascending from 0.
+/// Rows "time_s,tx,ty,tz,rx,ry,rz", below a line of such headings or without, times ascending.
 std::vector<PathPoint> read_path(const fs::path& file) {
     std::ifstream in(file);
     if (!in) throw Error(file.string() + ": cannot be opened. Name a path file.");
     std::vector<PathPoint> path;
     std::string line;
     for (int number = 1; std::getline(in, line); ++number) {
-        if (number == 1 || line.empty()) continue;
+        if (line.empty() || (number == 1 && line.find("time_s") != std::string::npos)) continue;
         std::replace(line.begin(), line.end(), ',', ' ');
         std::istringstream numbers(line);
         PathPoint point{};
         numbers >> point.seconds;
         for (double& x : point.pose.shift) numbers >> x;
         for (double& x : point.pose.turn) numbers >> x;
-        if (!numbers || !point.pose.shift.allFinite() || !point.pose.turn.allFinite() ||
+        const bool complete = !numbers.fail();
+        numbers >> std::ws;
+        if (!complete || !numbers.eof() || !point.pose.shift.allFinite() || !point.pose.turn.allFinite() ||
             (!path.empty() && !(point.seconds > path.back().seconds)))
             throw Error(file.string() + ": line " + std::to_string(number) +
                         " is not a time later than the one before and six numbers. Write time_s,tx,ty,tz,rx,ry,rz.");
@@ -113,46 +119,96 @@ void write_felt(std::ostream& out, const std::vector<std::pair<double, FeltForce
     }
 }
 
-void run_feel(const FeelOptions& options) {
-    Document document = load_scene(options.scene);
-    if (!options.method.empty()) document.method = *parse_method_kind(options.method);
+/// The handle that is led, on the surface that is simulated.
+struct FeltHandle {
+    std::unique_ptr<GripStiffness> stiffness;
+    Eigen::Vector3d arm = Eigen::Vector3d::Zero();  ///< from the handle's middle to that of its vertices there [L]
+    double size = 1.0;                              ///< of the body [L]
+
+    /// Of the vertices there, where this one is of the handle. Turns count as small.
+    GripPose of_vertices(const GripPose& handle) const { return {handle.shift + handle.turn.cross(arm), handle.turn}; }
+    FeltForce of_handle(const FeltForce& vertices) const {
+        return {vertices.force, vertices.moment + arm.cross(vertices.force)};
+    }
+};
+
+Eigen::Vector3d middle_of_handle(const Constraints& constraints, std::size_t handle, const SurfaceMesh& surface) {
+    const auto [begin, end] = constraints.range_of(handle);
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (int i = begin; i < end; ++i) sum += surface.vertices.col(constraints.set.handles[static_cast<std::size_t>(i)]);
+    return sum / (end - begin);
+}
+
+FeltHandle make_felt_handle(const FeelOptions& options, const Document& document, Control& control) {
+    const SceneMesh mesh = load_scene_mesh(document.mesh, options.scene, control);
+    require_material(document.material, document.method, options.scene);
+    const auto surface = std::make_shared<const SurfaceMesh>(mesh.checked.mesh);
+    const Constraints shown = make_constraints(document, *surface, options.scene);
+    require_balance(document, shown, *surface, options.scene);
+    const std::size_t felt = find_handle(shown, options.handle, options.scene);
+    require_no_other_force(shown, felt, options.scene);
+
+    Body body{.name = mesh.name, .surface = surface, .material = document.material};
+    std::optional<CarriedConstraints> carried;
+    if (needs_proxy(document.proxy, mesh.checked.report, document.method)) {
+        const auto proxy = make_proxy(mesh.name, surface, mesh.checked.report, document.proxy, control);
+        carried.emplace(proxy).set(shown);
+        body.surface = proxy->surface;
+        for (const std::string& text : words(findings_of_proxy(*proxy, mesh.name)))
+            std::cerr << "elastolab: warning: " << text << '\n';
+    } else {
+        require_usable(mesh, document.method);
+    }
+    const Constraints& constraints = carried ? carried->constraints() : shown;
+    const auto [begin, end] = constraints.range_of(felt);
+    if (begin == end)
+        throw Error(options.scene +
+                    ": the handle that is led is smaller than the proxy's triangles, and another one has "
+                    "the vertices there. Ask for more proxy vertices.");
+    Deformer deformer(precompute(body, {.kind = document.method}, control));
+    deformer.constrain(constraints.set, control);
+    FeltHandle handle;
+    handle.stiffness =
+        std::make_unique<GripStiffness>(deformer, constraints.values, std::vector<Grip>{{begin, end}}, control);
+    handle.arm = handle.stiffness->middle(0) - middle_of_handle(shown, felt, *surface);
+    handle.size = (surface->vertices.rowwise().maxCoeff() - surface->vertices.rowwise().minCoeff()).maxCoeff();
+    return handle;
+}
+
+void require_sensible(const FeelOptions& options, const Document& document) {
     if (!document.method->linear)
         throw Error(options.scene +
                     ": forces at haptic rate need a method that is linear. Choose another with --method.");
     constexpr double kMostSeconds = 86400.0;
     if (!(options.seconds > 0.0 && options.seconds <= kMostSeconds))
         throw UsageError("--seconds: must be positive and at most a day, " + exact(kMostSeconds) + ".");
-    if (!options.forces.empty()) AtomicFile::require_writable(options.forces);
+    if (options.forces.empty()) return;
+    std::vector<fs::path> inputs = files_of_scene(options.scene, document.mesh);
+    if (!options.path.empty()) inputs.emplace_back(options.path);
+    require_distinct({options.forces}, inputs);
+    AtomicFile::require_writable(options.forces);
+}
+
+void run_feel(const FeelOptions& options) {
+    Document document = load_scene(options.scene);
+    if (!options.method.empty()) document.method = *parse_method_kind(options.method);
+    require_sensible(options, document);
     Control control;
     const InterruptGuard interrupt(control);
-    std::unique_ptr<GripStiffness> stiffness;
-    double size = 1.0;
+    FeltHandle handle;
     {
         const ProgressBar progress(control, true);
-        const SceneMesh mesh = load_scene_mesh(document.mesh, options.scene, control);
-        require_usable(mesh, document.method);
-        require_material(document.material, document.method, options.scene);
-        const auto surface = std::make_shared<const SurfaceMesh>(mesh.checked.mesh);
-        const Constraints constraints = make_constraints(document, *surface, options.scene);
-        require_balance(document, constraints, *surface, options.scene);
-        const std::size_t felt = find_handle(constraints, options.handle, options.scene);
-        require_no_other_force(constraints, felt, options.scene);
-        const auto [begin, end] = constraints.range_of(felt);
-        size = (surface->vertices.rowwise().maxCoeff() - surface->vertices.rowwise().minCoeff()).maxCoeff();
-        Deformer deformer(precompute({mesh.name, surface, document.material}, {.kind = document.method}, control));
-        deformer.constrain(constraints.set, control);
-        stiffness =
-            std::make_unique<GripStiffness>(deformer, constraints.values, std::vector<Grip>{{begin, end}}, control);
+        handle = make_felt_handle(options, document, control);
     }
-    const std::vector<PathPoint> path = options.path.empty() ? figure_of_eight(size) : read_path(options.path);
+    const std::vector<PathPoint> path = options.path.empty() ? figure_of_eight(handle.size) : read_path(options.path);
     std::vector<std::pair<double, FeltForce>> forces;
     if (!options.forces.empty()) forces.reserve(static_cast<std::size_t>(1000.0 * options.seconds) + 1000);
     HapticTimings timings;
     {
         HapticLoop loop(
-            *stiffness, [&](double seconds) { return pose_at(path, seconds); },
+            *handle.stiffness, [&](double seconds) { return handle.of_vertices(pose_at(path, seconds)); },
             [&](double seconds, const FeltForce& felt) {
-                if (forces.size() < forces.capacity()) forces.emplace_back(seconds, felt);
+                if (forces.size() < forces.capacity()) forces.emplace_back(seconds, handle.of_handle(felt));
             });
         const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(options.seconds);
         while (std::chrono::steady_clock::now() < end) {

@@ -15,6 +15,7 @@
 #include "cli/report.hpp"
 #include "cli/solve_outputs.hpp"
 #include "cli/threads.hpp"
+#include "methods/choices.hpp"
 #include "methods/registry.hpp"
 #include "scene/file/scene_file.hpp"
 #include "scene/solve.hpp"
@@ -118,26 +119,6 @@ Method choose_method(const SolveOptions& options, const Document& document, cons
     return method;
 }
 
-/// Tells of options that mean nothing to the method.
-void add_choices_left_aside(const SolveOptions& options, MethodKind kind, Findings& findings) {
-    const auto tell = [&](bool is_given, bool MethodTraits::*chooses, const char* option) {
-        if (!is_given || kind->*chooses) return;
-        const std::span<const MethodKind> all = all_methods();
-        const auto its = std::find_if(all.begin(), all.end(), [&](MethodKind other) { return other->*chooses; });
-        findings.push_back({.kind = FindingKind::choice_left_aside, .method = *its, .object = option});
-    };
-    tell(!options.tractions.empty(), &MethodTraits::chooses_tractions, "--tractions");
-    tell(!options.elements.empty(), &MethodTraits::chooses_elements, "--elements");
-    tell(options.rims > 0, &MethodTraits::chooses_rims, "--rims");
-}
-
-std::vector<fs::path> input_files(const SolveRequest& request) {
-    std::vector<fs::path> inputs = {request.scene_file};
-    if (const auto* mesh = std::get_if<MeshFile>(&request.document.mesh))
-        inputs.push_back(request.scene_file.parent_path() / mesh->file);
-    return inputs;
-}
-
 Solution solve_with_progress(const SolveRequest& request, Control& control, bool with_bar) {
     const ProgressBar bar(control, with_bar);
     try {
@@ -159,12 +140,14 @@ void run_solve(const SolveOptions& options, const SolveVariant& variant) {
     request.method = choose_method(options, request.document, variant);
     request.solve_once = options.update.empty() && request.method.mode == Mode::on_demand;
     request.with_checks = !options.quiet || !options.report.empty();
-    require_writable(options.outputs(), input_files(request));
+    require_writable(options.outputs(), files_of_scene(request.scene_file, request.document.mesh));
     require_inside(request.method.kind, options.mesh_out);
     require_figure(request.method.kind, request.document.handles.size(), options.outputs());
 
     Solution solution = solve_with_progress(request, control, !options.quiet);
-    add_choices_left_aside(options, request.method.kind, solution.findings);
+    const ChoicesForSome given{!options.tractions.empty(), !options.elements.empty(), options.rims > 0};
+    for (Finding& left_aside : choices_left_aside(given, request.method.kind, "--"))
+        solution.findings.push_back(std::move(left_aside));
     write_outputs(options.outputs(), solution, control);
     if (options.quiet) return;
     lseek(STDOUT_FILENO, 0, SEEK_END);  // after an output that went to /dev/stdout, if that is a file

@@ -128,6 +128,12 @@ void require_distinct(const std::vector<fs::path>& outputs, const std::vector<fs
     }
 }
 
+std::vector<fs::path> files_of_scene(const fs::path& scene_file, const MeshSource& mesh) {
+    std::vector<fs::path> files = {scene_file};
+    if (const auto* file = std::get_if<MeshFile>(&mesh)) files.push_back(scene_file.parent_path() / file->file);
+    return files;
+}
+
 void require_mesh_extension(const fs::path& mesh) {
     const std::string extension = lower_case(mesh.extension().string());
     if (extension != ".obj" && extension != ".stl" && extension != ".glb" &&

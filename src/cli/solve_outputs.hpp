@@ -27,6 +27,9 @@ void require_writable(const OutputPaths& paths, const std::vector<std::filesyste
 void require_distinct(const std::vector<std::filesystem::path>& outputs,
                       const std::vector<std::filesystem::path>& inputs);
 
+/// What a scene is read from: its file, and that of its mesh where it has one.
+std::vector<std::filesystem::path> files_of_scene(const std::filesystem::path& scene_file, const MeshSource& mesh);
+
 /// Throws UsageError when meshes are not written under this extension.
 void require_mesh_extension(const std::filesystem::path& mesh);
 

@@ -1,10 +1,13 @@
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <memory>
+#include <vector>
 
 #include "app/picture/thumbnail.hpp"
 #include "base/error.hpp"
 #include "cli/command.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/solve_outputs.hpp"
 #include "scene/constraints.hpp"
 #include "scene/file/scene_file.hpp"
 #include "scene/scene_mesh.hpp"
@@ -23,6 +26,8 @@ void run_thumbnail(const ThumbnailOptions& options) {
     const InterruptGuard interrupt(control);
     const bool is_scene = is_scene_file(options.file);
     const MeshSource source = is_scene ? load_scene(options.file).mesh : MeshSource(MeshFile{options.file});
+    require_distinct({options.picture}, is_scene ? files_of_scene(options.file, source)
+                                                 : std::vector<std::filesystem::path>{options.file});
     const SceneMesh mesh = load_scene_mesh(source, is_scene ? options.file : "", control);
     if (mesh.checked.mesh.n_triangles() == 0)
         throw MeshError(mesh.name + ": it has no triangles to show. Check the file.");

@@ -54,7 +54,13 @@ public:
           forces_(forces),
           units_(grips_.units()),
           held_(grips_.body_is_held()),
-          moments_(std::ranges::any_of(forces, [](const GripForce& its) { return !its.moment.isZero(0.0); })) {}
+          moments_(std::ranges::any_of(forces, [](const GripForce& its) { return !its.moment.isZero(0.0); })) {
+        const Index n_fixed = std::ssize(deformer.set().fixed);
+        for (Index i = 0; i < n_fixed + std::ssize(deformer.set().handles); ++i)
+            if (std::ranges::none_of(grips,
+                                     [&](const Grip& g) { return n_fixed + g.begin <= i && i < n_fixed + g.end; }))
+                others_.push_back(i);
+    }
 
     State at(std::vector<GripPlace> places, VectorXd values, const Approach& approach) {
         control_.checkpoint();
@@ -134,9 +140,14 @@ private:
         }
         return std::nullopt;
     }
+    /// Of all forces: on the grips, and on what else is held or loaded, which may be all there is.
     double size_of(const State& state) const {
         const VectorXd wanted = grips_.wanted(state.places);
-        return std::max((units_.asDiagonal() * wanted).norm(), (units_.asDiagonal() * (wanted - state.missing)).norm());
+        double others = 0.0;
+        for (const Resultant& load : state.answer.loads) others += load.force.norm();
+        for (const Index i : others_) others += state.answer.reactions.forces.col(i).norm();
+        return std::max(
+            {(units_.asDiagonal() * wanted).norm(), (units_.asDiagonal() * (wanted - state.missing)).norm(), others});
     }
     bool balanced(const State& state, const GripTangent& stiffness, double tolerance) const {
         return stiffness.answered(state.missing).norm() <= tolerance * size_of(state);
@@ -198,6 +209,7 @@ private:
     MovedGrips grips_;
     const std::vector<GripForce>& forces_;
     VectorXd units_;
+    std::vector<Index> others_;  ///< constrained vertices that are of no grip
     bool held_, moments_, by_newton_ = false;
     int solves_ = 0, iterations_ = 0;
 };

@@ -96,7 +96,7 @@ std::optional<ReferenceAnswer> quadratic_reference(const FemSystem& linear, doub
                                                    const Eigen::VectorXd& values, const Eigen::VectorXd& first,
                                                    const Factor& held, Control& control) {
     const PinnedBody body(linear.positions().leftCols(linear.n_vertices()), vertices, values, first);
-    if (!body.is_held()) return {};
+    if (!body.is_held() || !can_be_judged(poisson_ratio)) return {};
     control.checkpoint();
     const QuadraticMesh mesh(linear.mesh->tets);
     if (quadratic_reference_memory(linear, held && !body.is_pinned()) > available_memory_bytes()) return {};
@@ -133,7 +133,8 @@ std::optional<ReferenceAnswer> halved_reference(const FemSystem& quadratic, doub
                                                 const Eigen::VectorXd& values, const Eigen::VectorXd& first,
                                                 const Factor& held, Control& control) {
     const PinnedBody body(quadratic.positions().leftCols(quadratic.n_vertices()), vertices, values, first);
-    if (!body.is_held() || halved_reference_memory(quadratic, held && !body.is_pinned()) > available_memory_bytes())
+    if (!body.is_held() || !can_be_judged(poisson_ratio) ||
+        halved_reference_memory(quadratic, held && !body.is_pinned()) > available_memory_bytes())
         return {};
     const ConstrainedFemNodes nodes =
         constrain_nodes(quadratic.positions(), quadratic.mesh->midpoints, {}, body.vertices());

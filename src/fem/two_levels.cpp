@@ -5,12 +5,15 @@
 #include <utility>
 
 #include "deform/conjugate_gradients.hpp"
+#include "deform/gmres.hpp"
 
 namespace elastolab {
 
 namespace {
 
 constexpr int kMostProducts = 150;
+/// Residual, over that of the error's energy norm, at which answers are about as good.
+constexpr double kResidualOfEnergy = 0.1;
 
 }  // namespace
 
@@ -78,9 +81,15 @@ Eigen::VectorXd TwoLevels::free_part(Eigen::VectorXd all) const {
 
 Eigen::VectorXd TwoLevels::solve(const Operators& apply, const Eigen::VectorXd& forces, double enough, Control& control,
                                  IterationReport* report) const {
+    const char* const name = "stiffness matrix of quadratic elements";
+    if (!apply.symmetric)
+        return gmres(FreeStiffness(*this, apply.stiffness), Preconditioner(*this, apply), free_part(forces),
+                     {.tolerance = kResidualOfEnergy * enough, .max_iterations = kMostProducts, .basis = kBasis}, name,
+                     control, report)
+            .col(0);
     return conjugate_gradients(FreeStiffness(*this, apply.stiffness), Preconditioner(*this, apply), free_part(forces),
                                {.energy_tolerance = enough, .max_iterations = kMostProducts, .must_converge = false},
-                               "stiffness matrix of quadratic elements", control, report)
+                               name, control, report)
         .col(0);
 }
 

@@ -29,10 +29,15 @@ public:
         Product stiffness;                             ///< forces for displacements of all nodes
         Product solve_coarse;                          ///< by the stiffness of the coarse nodes, prescribed ones zero
         std::function<Eigen::Matrix3d(int)> diagonal;  ///< block of a node on the diagonal of the stiffness
+        bool symmetric = true;
     };
+    /// Of GMRES: it keeps twice as many vectors.
+    static constexpr int kBasis = 30;
     /// Displacements at the free nodes that give these forces there, by conjugate gradients, which both levels
     /// precondition: the coarse stiffness, and the diagonal blocks of the nodes that it does not have. They end when
-    /// the energy norm of the error has fallen to `enough` of what it was. Throws SolveError, Cancelled.
+    /// the energy norm of the error has fallen to `enough` of what it was. Where the stiffness is not symmetric, by
+    /// GMRES, until the residual has fallen to a tenth of that; where it
+    /// does not, this throws SolveError. Throws Cancelled.
     Eigen::VectorXd solve(const Operators& apply, const Eigen::VectorXd& forces, double enough, Control& control,
                           IterationReport* report = nullptr) const;
 

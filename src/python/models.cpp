@@ -11,6 +11,7 @@
 #include "findings/cost.hpp"
 #include "findings/solution.hpp"
 #include "findings/words.hpp"
+#include "methods/choices.hpp"
 #include "methods/precompute.hpp"
 #include "methods/registry.hpp"
 #include "python/arrays.hpp"
@@ -56,11 +57,18 @@ Body body_of(const Surface& surface, const Material& material, const Method& met
     return {.name = surface.name, .surface = surface.mesh, .material = material};
 }
 
+/// Throws where the person has made errors of warnings.
+void warn_of_choices(const ChoicesForSome& given, MethodKind kind) {
+    for (const std::string& text : words(choices_left_aside(given, kind, "")))
+        if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) != 0) throw py::error_already_set();
+}
+
 ModelPointer precompute_model(const Surface& surface, const Material& material, const std::string& method,
                               const std::string& mode, const std::string& tractions, const std::string& update,
                               const std::string& elements, int rims, const py::object& progress) {
     const Method chosen = method_of(method, mode, tractions, update, elements, rims);
     const Body body = body_of(surface, material, chosen);
+    warn_of_choices({!tractions.empty(), !elements.empty(), rims > 0}, chosen.kind);
     return watched(progress,
                    [&](Control& control) { return std::const_pointer_cast<Model>(precompute(body, chosen, control)); });
 }
@@ -78,6 +86,7 @@ ModelPointer changed(const Model& before, const std::optional<Material>& materia
     const Material other = material.value_or(before.body().material);
     require_material(other);
     if (const std::string why = refusal(chosen, other.poisson_ratio); !why.empty()) throw py::value_error(why);
+    warn_of_choices({!tractions.empty(), !elements.empty(), rims.value_or(0) > 0}, chosen.kind);
     return watched(progress, [&](Control& control) {
         return std::const_pointer_cast<Model>(precompute_again(before, other, chosen, control));
     });

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "mesh/input/export.hpp"
+#include "methods/choices.hpp"
 #include "python/arrays.hpp"
 #include "python/method_words.hpp"
 #include "python/surfaces.hpp"
@@ -43,7 +44,12 @@ SolutionPointer solve_scene(const std::string& text, const fs::path& file, const
                             const std::string& mode, const std::string& tractions, const std::string& update,
                             const std::string& elements, int rims, bool checks, const py::object& progress) {
     const SolveRequest request = request_of(text, file, method, mode, tractions, update, elements, rims, checks);
-    return watched(progress, [&](Control& control) { return std::make_shared<Solution>(solve(request, control)); });
+    const SolutionPointer solution =
+        watched(progress, [&](Control& control) { return std::make_shared<Solution>(solve(request, control)); });
+    for (Finding& left_aside :
+         choices_left_aside({!tractions.empty(), !elements.empty(), rims > 0}, request.method.kind, ""))
+        solution->findings.push_back(std::move(left_aside));
+    return solution;
 }
 
 std::string normal_text(const std::string& text, const std::string& file) {

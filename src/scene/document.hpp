@@ -65,10 +65,12 @@ struct Selector {
     bool operator==(const Selector&) const = default;
 };
 
+/// A hundred turns: what is not linear follows each.
+inline constexpr double kMostDegrees = 36000.0;
 /// A turn that remembers its angle: 720 degrees are two full turns.
 struct Rotation {
-    Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();   ///< of any length but zero
-    double degrees = 0.0;                              ///< counter-clockwise, seen against the axis
+    Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< of any length but zero
+    double degrees = 0.0;  ///< counter-clockwise, seen against the axis; in files to +-kMostDegrees
     Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< [L]
     bool operator==(const Rotation&) const = default;
 };

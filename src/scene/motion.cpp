@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "base/lapack.hpp"
 #include "base/overloaded.hpp"
 #include "elasticity/rotation.hpp"
 
@@ -21,6 +22,8 @@ constexpr double kRigid = 1e-9;         ///< what rounding leaves of a turn
 constexpr double kRoundedMove = 1e-14;  ///< of a position, in what a stretch about a point leaves of a move
 constexpr double kNearTurn = 1.6;       ///< between a rotation vector and the one it continues [radians]
 constexpr double kNoTurn = 1e-13;       ///< [degree]
+constexpr double kSamePatch = 0.01;     ///< of its size: two places of a vertex that look the same
+constexpr double kFlatPatch = 1e-6;     ///< square of its extent along a direction, over the largest
 
 /// A rotation vector, along the axis and as long as the angle [radians].
 Vector3d vector_of(const Rotation& rotation) { return kDegree * rotation.degrees * rotation.axis.stableNormalized(); }
@@ -130,6 +133,36 @@ Eigen::Matrix3Xd displacements(const Motion& motion, const Positions& rest) {
                           }},
                motion);
     return u;
+}
+
+Motion motion_to(const Positions& rest, const Positions& present) {
+    const Eigen::Index n = rest.cols();
+    const Vector3d middle = rest.rowwise().mean(), to = present.rowwise().mean();
+    const Positions arms = rest.colwise() - middle, turned = present.colwise() - to;
+    if (arms.isZero(0.0)) return AffineMotion{.translate = to - middle};
+    const SymmetricEigen spread = symmetric_eigen(arms * arms.transpose());
+    const double least = kFlatPatch * spread.values[2];
+    AffineMotion motion;
+    if (spread.values[1] > least) {  // the vertices are not on a line
+        const Matrix3d products = turned * arms.transpose(), turn = nearest_rotation(products);
+        // Along directions in which the patch has no extent, nothing stretches.
+        Matrix3d stretch = Matrix3d::Zero();
+        for (int k = 0; k < 3; ++k) {
+            const Vector3d along = spread.vectors.col(k);
+            stretch += (spread.values[k] > least ? Vector3d(turn.transpose() * (products * along) / spread.values[k])
+                                                 : along) *
+                       along.transpose();
+        }
+        motion = rigid_motion(Vector3d::Zero(), rotation_vector(turn, Vector3d::Zero()), stretch * middle);
+        motion.matrix = stretch - Matrix3d::Identity();
+        motion.translate = to - stretch * middle;
+    }
+    const double size = arms.colwise().norm().maxCoeff();
+    const Positions missed = rest + displacements(motion, rest) - present;
+    if (missed.colwise().norm().maxCoeff() <= kSamePatch * size) return motion;
+    VertexMotion single;
+    for (Eigen::Index i = 0; i < n; ++i) single.displacements.emplace_back(present.col(i) - rest.col(i));
+    return single;
 }
 
 Motion translated(const Motion& motion, const Eigen::Vector3d& shift) {

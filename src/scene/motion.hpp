@@ -27,6 +27,11 @@ AffineMotion rigid_motion(const Eigen::Vector3d& shift, const Eigen::Vector3d& t
 /// Displacements of vertices at these rest positions, one column each, where the motion ends.
 Eigen::Matrix3Xd displacements(const Motion& motion, const Positions& rest);
 
+/// A motion that takes vertices from rest to these places, to a hundredth of the patch's size: the affine one that is
+/// nearest, which turns the patch as little as it can, or, where the patch is deformed in other ways, one of single
+/// vertices. rest, present: 3 x n, n > 0.
+Motion motion_to(const Positions& rest, const Positions& present);
+
 /// `motion`, followed by a shift of every vertex by `shift` [L].
 Motion translated(const Motion& motion, const Eigen::Vector3d& shift);
 

@@ -74,5 +74,35 @@ TEST_F(Probing, KeepsARowForEachChange) {
     EXPECT_TRUE(stage.state.probes.vertices().empty());
 }
 
+/// What was recorded at one vertex stays when others are kept or forgotten.
+TEST_F(Probing, EachVertexHasItsOwnPast) {
+    Probes& probes = stage.state.probes;
+    const int other =
+        stage.vertex_near({1, 1, 1}) == vertex ? stage.vertex_near({1, 0, 0}) : stage.vertex_near({1, 1, 1});
+    probes.toggle(vertex);
+    record(0.0);
+    const int handle = stage.scene().add_handle(std::vector{vertex});
+    const auto move_to = [&](double x, double seconds) {
+        stage.scene().set_motion(handle, AffineMotion{.translate = {x, 0.0, 0.0}});
+        stage.settle();
+        record(seconds);
+    };
+    move_to(0.25, 1.0);
+    probes.toggle(other);
+    record(1.5);  // what is shown already
+    move_to(0.5, 2.0);
+    EXPECT_EQ(probes.series(0), (std::vector{0.0f, 0.25f, 0.5f}));
+    EXPECT_EQ(probes.series(1).size(), 2u);
+    const test::TemporaryFolder folder;
+    stage.state.save_probes(folder.path() / "probes.csv");
+    std::ifstream file(folder.path() / "probes.csv");
+    int n_rows = -1;
+    for (std::string line; std::getline(file, line);) ++n_rows;
+    EXPECT_EQ(n_rows, 5);
+    probes.toggle(vertex);
+    EXPECT_EQ(probes.vertices(), std::vector{other});
+    EXPECT_EQ(probes.series(0).size(), 2u);
+}
+
 }  // namespace
 }  // namespace elastolab

@@ -124,6 +124,8 @@ INSTANTIATE_TEST_SUITE_P(
         changed("NewerVersion", R"("elastolab": 1)", R"("elastolab": 7)", {"/elastolab", "version 7"}),
         changed("UnknownKey", R"("method")", R"("methode")", {"/methode"}),
         changed("DuplicateKey", R"("elastolab": 1)", R"("elastolab": 1, "elastolab": 1)", {"appears twice"}),
+        changed("AThousandTurns", R"("translate": [0.1, 0, 0.05])",
+                R"("rotate": {"axis": [1, 0, 0], "degrees": 360000})", {"/handles/0/rotate/degrees", "hundred turns"}),
         changed("Overflow", "1000", "1e400", {"line 1", "overflow"}),
         changed("DenormalYoung", "1000", "5e-324", {"/material/young_modulus", "keep all their digits"}),
         changed("NegativeYoung", "1000", "-1", {"/material/young_modulus", "must be positive"}),

@@ -394,24 +394,5 @@ TEST_F(SolveTest, FinerRimsAreAdvisedWhereTheyHelp) {
     EXPECT_THAT(advice(sphere, "3"), testing::EndsWith("Refine the mesh."));
 }
 
-/// At haptic rate only the handle that is felt gives way.
-TEST_F(SolveTest, FeelRefusesWhatItCannotFollowOrWrite) {
-    folder_.write("two.json", R"({"elastolab": 1, "mesh": {"primitive": "cube", "resolution": 2},
-        "fixed": {"box": {"min": [-1, -1, -1], "max": [2, 2, 0.1]}},
-        "handles": [{"name": "felt", "select": {"box": {"min": [0.9, -1, 0.9], "max": [2, 0.1, 2]}}, "force": [0, 0, 1]},
-                    {"name": "pushed", "select": {"box": {"min": [0.9, 0.9, 0.9], "max": [2, 2, 2]}}, "force": [0, 0, 1]}]})");
-    const auto refused = [&](const std::vector<std::string>& more) {
-        std::vector<std::string> words = {"feel", "two.json", "--method", "fem", "--seconds", "0.1"};
-        words.insert(words.end(), more.begin(), more.end());
-        const ProgramRun run = run_program(words, folder_.path());
-        EXPECT_NE(run.exit_code, 0);
-        return run.err;
-    };
-    EXPECT_THAT(refused({}), testing::HasSubstr("\"pushed\" moves by a force"));
-    EXPECT_THAT(refused({"--handle", "pushed"}), testing::HasSubstr("\"felt\" moves by a force"));
-    EXPECT_THAT(refused({"--forces", "missing/f.csv"}), testing::HasSubstr("missing"));
-    EXPECT_THAT(refused({"--seconds", "1e12"}), testing::HasSubstr("--seconds"));
-}
-
 }  // namespace
 }  // namespace elastolab

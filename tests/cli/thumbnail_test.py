@@ -32,6 +32,14 @@ class Thumbnail(ProgramCase):
             "elastolab": 1, "mesh": mesh, "method": "fem", "handles": [],
             "material": {"young_modulus": 1, "poisson_ratio": 0.3}}))
 
+    def test_what_it_shows_is_not_overwritten(self):
+        self.scene({"primitive": "cube", "resolution": 1})
+        before = (self.folder / "scene.json").read_text()
+        run = self.run_program("scene.json", "./scene.json")
+        self.assertEqual(run.returncode, 2)
+        self.assertIn("is an input", run.stderr)
+        self.assertEqual((self.folder / "scene.json").read_text(), before)
+
     def test_a_cube_shows_three_faces_and_fills_the_picture(self):
         self.scene({"primitive": "cube", "resolution": 3})
         pixels = self.picture("scene.json", "cube.png", "--size", "96")

@@ -30,6 +30,15 @@ def test_a_scene_is_read_changed_solved_and_written(tmp_path, program):
         np.testing.assert_allclose(np.r_[reaction.force, reaction.moment], row, atol=1e-7 * abs(forces).max())
 
 
+def test_choices_that_mean_nothing_to_a_method_are_told():
+    solution = el.Scene(cube_scene("fem")).solve(rims=1, tractions="restricted")
+    assert [w for w in solution.warnings if w.endswith("and was ignored.")] == [
+        "tractions: applies to linear-bem only, and was ignored.",
+        "rims: applies to galerkin-bem only, and was ignored."]
+    with pytest.warns(UserWarning, match="elements: applies to nonlinear-fem only"):
+        el.precompute(el.Surface.primitive("cube", 2), method="fem", elements="linear")
+
+
 def test_a_mesh_keeps_its_file_when_a_scene_moves_to_another_folder(tmp_path):
     (tmp_path / "a").mkdir()
     (tmp_path / "b").mkdir()

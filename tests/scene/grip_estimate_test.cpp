@@ -65,6 +65,87 @@ TEST_F(GripEstimate, OfGalerkinSeesBarsOfFewTrianglesAcross) {
     }
 }
 
+/// A held bar whose end a handle holds under no force, loaded by its weight: the handle goes where linear theory says.
+TEST(HandleWithoutForce, FollowsWhateverElseActs) {
+    for (const double stiffness : {1e3, 1e9}) {
+        Document document = held_bar(stiffness, 1);
+        document.gravity = Eigen::Vector3d(0, 0, -1e-3);
+        document.handles = {{.name = "end", .select = end_of_bar()}};
+        document.handles[0].force = GripForce{};
+        const Solution linear = ten_nodes(document, kQuadraticFem), finite = ten_nodes(document, kNonlinearFem);
+        EXPECT_LT((finite.displacement - linear.displacement).norm(), 1e-3 * linear.displacement.norm()) << stiffness;
+        EXPECT_LT(finite.reactions[1].force.norm(), 1e-6 * finite.reactions[0].force.norm()) << stiffness;
+    }
+}
+
+/// By collocation reactions lack balance, which is an error of theirs that no motion of the handle takes back.
+TEST(EstimateOfForces, SeesWhatCollocationLacksOfBalance) {
+    Document document = held_bar(1e4, 1);
+    document.mesh = Primitive{.name = "beam", .resolution = 1, .size = {10, 1, 1}};
+    document.handles = {{.name = "end", .select = {PlaneSelector{{10, 0, 0}, {1, 0, 0}, 1e-9}}}};
+    document.handles[0].force = GripForce{{1, -2, 0.5}, {0, 0, 0}};
+    const Solution solution = ten_nodes(document, kConstantBem);
+    const double lacking = std::max(solution.imbalance.force, solution.imbalance.moment);
+    EXPECT_GT(lacking, 0.5);
+    EXPECT_GE(solution.force_error_estimate.value(), 0.99 * lacking);
+}
+
+/// Next to 1/2 the second answer is none: nothing is better than 400 times too little.
+TEST(EstimateOfFem, IsNoneNextToIncompressibility) {
+    Document document = held_bar(1e4, 1);
+    document.loads = {{.name = "push", .select = end_of_bar(), .value = ForceLoad{{0, 0, 1}}}};
+    for (const auto& [ratio, judged] : {std::pair(0.4999, true), std::pair(0.4999999, false)}) {
+        document.material.poisson_ratio = ratio;
+        for (const MethodKind kind : {kFem, kQuadraticFem})
+            EXPECT_EQ(ten_nodes(document, kind).error_estimate.has_value(), judged) << ratio << name(kind);
+    }
+}
+
+/// What is off of a body that forces at both ends stretch grows with them: nothing else holds it, and so nothing else
+/// is to answer what iterations leave of their balance.
+TEST(EstimateOfAFreeBody, IsAPartOfItsMotionHoweverSmallTheForces) {
+    const auto estimate = [](double force) {
+        Document document = held_bar(1e4, 2);
+        document.fixed.clear();
+        document.handles = {{.name = "end", .select = end_of_bar()},
+                            {.name = "start", .select = {PlaneSelector{{0, 0, 0}, {1, 0, 0}, 1e-9}}}};
+        document.handles[0].force = GripForce{{force, 0, 0}, {0, 0, 0}};
+        document.handles[1].force = GripForce{{-force, 0, 0}, {0, 0, 0}};
+        return ten_nodes(document, kNonlinearFem).error_estimate.value();
+    };
+    const double of_small = estimate(1.0), of_large = estimate(100.0);
+    EXPECT_LT(of_large, 0.03);
+    EXPECT_NEAR(of_small, of_large, 0.2 * of_large);
+}
+
+/// Where its rim is free, a pressure that follows the surface makes the tangent one that is not symmetric.
+TEST(EstimateUnderPressure, OfLargeDeformationsSeesFreeRims) {
+    const auto pressed = [](int cells, double pressure) {
+        Document document;
+        document.mesh = Primitive{.name = "cube", .resolution = cells, .size = {}};
+        document.material = {1e5, 0.3};
+        document.fixed = {{.name = "wall", .select = {PlaneSelector{{0, 0, 0}, {1, 0, 0}, 1e-9}}}};
+        document.loads = {
+            {.name = "press", .select = {PlaneSelector{{1, 0, 0}, {1, 0, 0}, 1e-9}}, .value = PressureLoad{pressure}}};
+        return ten_nodes(document, kNonlinearFem);
+    };
+    for (const double pressure : {-20000.0, 20000.0}) {
+        const Solution coarse = pressed(3, pressure), fine = pressed(6, pressure);
+        // The middle of the pressed face and its corners are vertices of both.
+        double error = 0.0, size = 0.0;
+        for (int v = 0; v < coarse.surface->n_vertices(); ++v) {
+            Eigen::Index same = 0;
+            (fine.surface->vertices.colwise() - coarse.surface->vertices.col(v)).colwise().norm().minCoeff(&same);
+            error = std::max(error, (fine.displacement.col(same) - coarse.displacement.col(v)).norm());
+            size = std::max(size, fine.displacement.col(same).norm());
+        }
+        const double told = coarse.error_estimate.value(), found = error / size;
+        EXPECT_GT(told, found / 3.0) << pressure;
+        EXPECT_LT(told, found * 3.0) << pressure;
+        EXPECT_LT(coarse.force_error_estimate.value(), 0.02) << pressure;
+    }
+}
+
 /// Forces balance those that are given, however stiff the elements are.
 TEST_F(GripEstimate, OfForcesIsSmallWhereTheyBalance) {
     for (const MethodKind kind : {kFem, kGalerkinBem, kQuadraticFem, kNonlinearFem}) {

@@ -117,6 +117,40 @@ TEST(Motion, PartsOfARotationInTheMatrixAreTurns) {
     EXPECT_EQ(displacements(part_of(single, 0.5, kRest), kRest), 0.5 * displacements(single, kRest));
 }
 
+TEST(MotionTo, IsAffineWhereThePlacesAre) {
+    const Motion found = motion_to(kRest, moved(kAny));
+    ASSERT_TRUE(std::holds_alternative<AffineMotion>(found));
+    EXPECT_LT((moved(found) - moved(kAny)).norm(), 1e-12);
+}
+
+TEST(MotionTo, IsAPlacementWhereThePatchIsTurnedAndMoved) {
+    Placement placement;
+    placement.move = {0.5, -1.0, 2.0};
+    placement.turn = {0.0, 40.0, 0.0};
+    for (const bool flat : {false, true}) {
+        Positions rest = kRest;
+        if (flat) rest.row(2).setConstant(0.7);
+        const Motion wanted = motion_of(placement, rest);
+        const std::optional<Placement> found = placement_of(motion_to(rest, rest + displacements(wanted, rest)), rest);
+        ASSERT_TRUE(found) << flat;
+        EXPECT_LT((found->move - placement.move).norm(), 1e-12);
+        EXPECT_LT((found->turn - placement.turn).norm(), 1e-9);
+        EXPECT_NEAR(found->scale, 1.0, 1e-12);
+    }
+}
+
+TEST(MotionTo, IsOfSingleVerticesWhereThePatchIsBent) {
+    Positions bent = kRest;
+    bent(2, 0) += 1.0, bent(2, 1) -= 1.0, bent(2, 2) += 1.0, bent(2, 3) -= 1.0;
+    EXPECT_LT((moved(motion_to(kRest, bent)) - bent).norm(), 1e-12);
+    const Positions line = (Positions(3, 3) << 0, 1, 3, 0, 0, 0, 0, 0, 0).finished(),
+                    turned_line = (Positions(3, 3) << 0, 0, 0, 0, 1, 3, 5, 5, 5).finished();
+    const Motion of_line = motion_to(line, turned_line);
+    EXPECT_LT((line + displacements(of_line, line) - turned_line).norm(), 1e-12);
+    const Positions one = line.rightCols(1), moved_one = turned_line.rightCols(1);
+    EXPECT_EQ(std::get<AffineMotion>(motion_to(one, moved_one)).translate, Vector3d(moved_one - one));
+}
+
 TEST(Placement, MovesTheMiddleAndTurnsAboutIt) {
     const Vector3d middle = kRest.rowwise().mean();
     const Placement placement{.move = {1, 2, 3}, .turn = {0, 0, 90}, .scale = 2.0};

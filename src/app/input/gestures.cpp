@@ -40,7 +40,9 @@ void Gestures::handle(const InputEvent& event, GestureContext& context) {
         case InputEvent::Kind::key:
             std::erase(held_keys_, event.code);
             if (event.pressed) held_keys_.push_back(event.code);
-            if (pulling() && event.pressed && event.code == GLFW_KEY_DELETE)
+            if (event.pressed && event.code == GLFW_KEY_ESCAPE && edits())
+                take_back(context);
+            else if (pulling() && event.pressed && event.code == GLFW_KEY_DELETE)
                 remove_pulled(context);
             else if (action_ == Action::load && event.pressed && event.code == GLFW_KEY_DELETE)
                 remove_dragged_load(context);
@@ -55,6 +57,21 @@ void Gestures::handle(const InputEvent& event, GestureContext& context) {
         case InputEvent::Kind::text:
             break;
     }
+}
+
+/// As if the button had never been pressed.
+void Gestures::take_back(GestureContext& context) {
+    context.scene.take_back();
+    const bool made_handle = action_ == Action::pull && pull_.grabbed == Grabbed::new_handle;
+    if (made_handle) selected_ = -1;
+    if (load_drag_ && load_drag_->is_new) selected_load_.reset();
+    load_drag_.reset();
+    gizmo_drag_.reset();
+    painted_.clear();
+    selected_ = std::min(selected_, context.scene.n_handles() - 1);
+    selected_fixed_ = std::min(selected_fixed_, context.scene.n_fixed_sets());
+    if (selected_load_ && *selected_load_ >= context.scene.n_loads()) selected_load_.reset();
+    action_ = Action::blocked;  // until the button is let go
 }
 
 const PointingTarget* Gestures::target_at(const GestureContext& context) const {
@@ -130,9 +147,20 @@ void Gestures::press_body(GestureContext& context, const PickHit& hit) {
     } else if (owner != LiveScene::kNobody) {
         begin_pull(context, owner, Grabbed::present_handle, hit);
     } else {
-        const std::vector<int> patch = free_patch(context, hit.vertex);
-        begin_pull(context, context.scene.add_handle(patch), Grabbed::new_handle, hit);
+        begin_pull(context, add_handle_in_place(context, free_patch(context, hit.vertex)), Grabbed::new_handle, hit);
     }
+}
+
+/// Where its vertices are shown, so that nothing moves before the mouse does.
+int Gestures::add_handle_in_place(GestureContext& context, const std::vector<int>& patch) {
+    const int handle = context.scene.add_handle(patch);
+    const Positions rest = context.scene.rest_positions(handle);
+    const std::span<const int> own = context.scene.vertices(handle);
+    const Positions moved =
+        (*context.targets[target_].positions)(Eigen::all, std::vector<int>(own.begin(), own.end())) - rest;
+    if (!moved.isZero(0.0) && context.display.deformation_scale > 0.0)
+        context.scene.set_motion(handle, motion_to(rest, rest + moved / context.display.deformation_scale));
+    return handle;
 }
 
 void Gestures::release(GestureContext& context) {

@@ -157,13 +157,14 @@ private:
         Eigen::Vector2d cursor = Eigen::Vector2d::Zero();
         Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< of the vertex, as shown
         Motion motion;
+        Motion before = AffineMotion{};                     ///< where it springs back to
         double spring = 0.0;                                ///< that it is pulled through; 0: none
         Eigen::Vector3d tension = Eigen::Vector3d::Zero();  ///< of the spring, were the patch at rest [force]
         Eigen::Vector3d moment = Eigen::Vector3d::Zero();   ///< that acts on the handle besides [force * L]
     };
     struct Spring {
         int handle = -1;
-        Motion from;
+        Motion from, to;
         double begin = -1.0;  ///< set when it first moves
     };
 
@@ -179,7 +180,11 @@ private:
 
     // Events: gestures.cpp
     void press(const InputEvent& event, GestureContext& context);
+    /// Whether what the button does now changes the scene.
+    bool edits() const { return pulling() || action_ == Action::load || action_ == Action::paint; }
+    void take_back(GestureContext& context);
     void press_body(GestureContext& context, const PickHit& hit);
+    int add_handle_in_place(GestureContext& context, const std::vector<int>& patch);
     void release(GestureContext& context);
     void move(GestureContext& context);
     void point(GestureContext& context);
@@ -214,6 +219,7 @@ private:
     Eigen::Vector3d pulled_center(const Positions& rest) const;
     void turn_pulled(GestureContext& context, const Eigen::Vector3d& turn);
     void end_pull(GestureContext& context);
+    static Motion on_the_way_back(const Spring& spring, double part, const Positions& rest);
     void end_spring(GestureContext& context);
 
     // Gizmos: gizmo_gesture.cpp

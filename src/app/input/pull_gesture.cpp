@@ -41,6 +41,7 @@ void Gestures::begin_pull(GestureContext& context, int handle, Grabbed grabbed, 
     pull_.vertex = hit.vertex;
     if (hit.triangle >= 0) pull_.normal = triangle_normal(context.targets[target_], hit.triangle);
     pull_.motion = context.scene.document().handles[static_cast<std::size_t>(handle)].motion;
+    if (grabbed == Grabbed::new_handle) pull_.before = pull_.motion;
     pull_.place = context.targets[target_].positions->col(hit.vertex);
     const std::optional<GripForce>& force = context.scene.document().handles[static_cast<std::size_t>(handle)].force;
     const bool gives_way = grabbed == Grabbed::new_handle || force.has_value();
@@ -156,14 +157,23 @@ void Gestures::end_pull(GestureContext& context) {
             selected_ = -1;
         }
     } else if (context.tools.release == Release::spring_back && !gizmo_drag_) {
-        spring_.emplace(
-            Spring{pull_.handle, context.scene.document().handles[static_cast<std::size_t>(pull_.handle)].motion});
+        const Motion& now = context.scene.document().handles[static_cast<std::size_t>(pull_.handle)].motion;
+        spring_.emplace(Spring{pull_.handle, now, pull_.before});
         selected_ = -1;
     } else {
         if (sprung)  // it stays where it is
             context.scene.set_force(pull_.handle, GripForce{.force = sprung->force, .moment = pull_.moment});
         context.scene.commit();
     }
+}
+
+/// To rest, or to where the body held the patch before it was pulled.
+Motion Gestures::on_the_way_back(const Spring& spring, double part, const Positions& rest) {
+    if (spring.to == Motion(AffineMotion{})) return part_of(spring.from, part, rest);
+    const Eigen::Matrix3Xd to = displacements(spring.to, rest), left = part * (displacements(spring.from, rest) - to);
+    VertexMotion between;
+    for (Eigen::Index i = 0; i < rest.cols(); ++i) between.displacements.emplace_back(to.col(i) + left.col(i));
+    return between;
 }
 
 bool Gestures::animate(double now, GestureContext& context) {
@@ -175,7 +185,7 @@ bool Gestures::animate(double now, GestureContext& context) {
         return false;
     }
     const Positions rest = context.scene.rest_positions(spring_->handle);
-    context.scene.set_motion(spring_->handle, part_of(spring_->from, (1.0 - t) * (1.0 - t), rest));
+    context.scene.set_motion(spring_->handle, on_the_way_back(*spring_, (1.0 - t) * (1.0 - t), rest));
     return true;
 }
 

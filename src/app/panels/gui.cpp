@@ -81,6 +81,8 @@ std::size_t Gui::n_for_one_frame(std::span<const InputEvent> events) {
             return i;  // the button counts where the cursor was
         if (event.kind == InputEvent::Kind::cursor && i > 0 && events[i - 1].kind == InputEvent::Kind::fingers)
             return i;  // so do fingers
+        if (i > 0 && events[i - 1].kind == InputEvent::Kind::key && events[i - 1].code == GLFW_KEY_F2)
+            return i;  // opens a field for what follows
         if (event.kind != InputEvent::Kind::button && event.kind != InputEvent::Kind::key) continue;
         const std::pair key(event.kind, event.code);
         if (std::find(changed.begin(), changed.end(), key) != changed.end()) return i;

@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include <imgui_stdlib.h>
+#include <algorithm>
 
 #include "app/panels/overlays.hpp"
 #include "app/panels/panel_context.hpp"
@@ -78,8 +79,10 @@ void draw_placement(ViewerState& state, std::optional<int> handle, float scale) 
     ImGui::BeginDisabled(!present || rest.cols() < 2);
     if (!present)
         draw_no_numbers("turn", 3, scale);
-    else if (draw_numbers("turn", typed.turn.data(), 3, "\u00b0", scale, kRoundingPart * 360.0))
+    else if (draw_numbers("turn", typed.turn.data(), 3, "\u00b0", scale, kRoundingPart * 360.0)) {
+        typed.turn *= std::min(1.0, kMostDegrees / std::max(typed.turn.stableNorm(), 1.0));
         scene.set_motion(*handle, motion_of(typed, rest));
+    }
     ended = ended || ImGui::IsItemDeactivatedAfterEdit();
     tooltip(
         "Rotation vector about the middle of the handle: along the axis, as long as the angle [degrees]. 0, 0, 720: "

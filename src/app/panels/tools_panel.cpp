@@ -60,6 +60,7 @@ void draw_patch(ViewerState& state, float scale) {
     tooltip(
         "Radius of the patch that a press grabs, in mesh units; keys [ and ]. A single vertex (0) is a point load: "
         "how far the body follows then depends on the mesh, and no two methods agree.");
+    if (state.tools.tool != Tool::pull) return;
     bool springs = state.tools.release == Release::spring_back;
     if (ImGui::Checkbox("let go on release", &springs))
         state.tools.release = springs ? Release::spring_back : Release::pin;

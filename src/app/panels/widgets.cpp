@@ -103,9 +103,7 @@ void tooltip(const char* text) {
     if (text == nullptr || *text == '\0' || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
     ImGui::BeginTooltip();
     const float width = ImGui::GetFontSize() * 22.0f;
-    ImGui::PushTextWrapPos(width);
     ImGui::TextUnformatted(broken_at_spaces(text, width, width_of_text).c_str());
-    ImGui::PopTextWrapPos();
     ImGui::EndTooltip();
 }
 

@@ -19,6 +19,10 @@ struct PackLanes {
     static void store(double* p, const B& value) { value.store_unaligned(p); }
     static B log1p(const B& x) { return xsimd::log1p(x); }
     static B least(const B& a, const B& b) { return xsimd::min(a, b); }
+    /// a where |x| < bound, else b.
+    static B if_small(const B& x, double bound, const B& a, const B& b) {
+        return xsimd::select(xsimd::abs(x) < B(bound), a, b);
+    }
 };
 template <>
 struct PackLanes<double> {
@@ -27,7 +31,17 @@ struct PackLanes<double> {
     static void store(double* p, double value) { *p = value; }
     static double log1p(double x) { return std::log1p(x); }
     static double least(double a, double b) { return a < b ? a : b; }
+    static double if_small(double x, double bound, double a, double b) { return std::abs(x) < bound ? a : b; }
 };
+
+/// x - ln(1 + x), of which the plain difference keeps no digits where x is small.
+template <class B>
+B less_log1p(const B& x, const B& log1p_x) {
+    constexpr double kSmall = 0.02;
+    B sum = B(1.0 / 9.0);
+    for (int k = 8; k >= 2; --k) sum = B(1.0 / k) - x * sum;
+    return PackLanes<B>::if_small(x, kSmall, x * x * sum, x - log1p_x);
+}
 
 inline constexpr int kEdgeEnds[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
 
@@ -44,6 +58,7 @@ struct PackPoint {
     Triple<B> present[n];  ///< in the present one: F^-T rest
     B H[3][3];             ///< displacement gradient
     B j, ln_J, J;          ///< J - 1, ln J, J
+    B j_beyond_trace;      ///< j - tr H
     B weight;              ///< volume
 
     void set_rest(const ElementPack& pack, int lane, int point) {
@@ -86,7 +101,8 @@ struct PackPoint {
         const B determinant = H[0][0] * (H[1][1] * H[2][2] - H[1][2] * H[2][1]) -
                               H[0][1] * (H[1][0] * H[2][2] - H[1][2] * H[2][0]) +
                               H[0][2] * (H[1][0] * H[2][1] - H[1][1] * H[2][0]);
-        j = trace + minors + determinant;
+        j_beyond_trace = minors + determinant;
+        j = trace + j_beyond_trace;
         J = 1.0 + j;
         ln_J = PackLanes<B>::log1p(j);
     }
@@ -112,8 +128,8 @@ struct PackPoint {
         B square = B(0.0);
         for (int i = 0; i < 3; ++i)
             for (int k = 0; k < 3; ++k) square = square + H[i][k] * H[i][k];
-        const B trace = H[0][0] + H[1][1] + H[2][2];
-        return weight * (0.5 * mu * (square + 2.0 * (trace - j) + 2.0 * (j - ln_J)) + 0.5 * lambda * (ln_J * ln_J));
+        return weight *
+               (0.5 * mu * (square - 2.0 * j_beyond_trace + 2.0 * less_log1p(j, ln_J)) + 0.5 * lambda * (ln_J * ln_J));
     }
 
     /// tau, the Kirchhoff stress, times the weight.

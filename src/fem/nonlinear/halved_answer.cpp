@@ -1,5 +1,7 @@
 #include "fem/nonlinear/halved_answer.hpp"
 
+#include "base/error.hpp"
+#include "base/memory.hpp"
 #include "deform/node_rows.hpp"
 #include "fem/error_estimate.hpp"
 #include "fem/halved_mesh.hpp"
@@ -28,6 +30,18 @@ struct Halved {
     }
 };
 
+/// Empty where the state is no longer near an equilibrium of the halved elements.
+Eigen::VectorXd change_by(const TwoLevels& levels, const TwoLevels::Operators& apply, const Eigen::VectorXd& forces,
+                          Control& control) {
+    IterationReport report;
+    try {
+        const Eigen::VectorXd change = levels.solve(apply, forces, kEnoughOfHalved, control, &report);
+        return report.indefinite ? Eigen::VectorXd() : change;
+    } catch (const SolveError&) {
+        return {};
+    }
+}
+
 }  // namespace
 
 std::optional<ReferenceAnswer> halved_answer(const NonlinearMesh& mesh, const Newton& newton,
@@ -40,6 +54,9 @@ std::optional<ReferenceAnswer> halved_answer(const NonlinearMesh& mesh, const Ne
         constrain_nodes(fine.mesh.positions, {fine.mesh.triangles, fine.mesh.midpoints}, {}, nodes.prescribed.nodes);
     const TwoLevels levels(fine.mesh, from_whole(fine.mesh, mesh.elements->elements()), held.prescribed.nodes);
     const Eigen::VectorXd u = levels.prolongation() * displacements;
+    if (fine.loads.follow() &&
+        2 * TwoLevels::kBasis * sizeof(double) * static_cast<std::size_t>(u.size()) > available_memory_bytes())
+        return {};
     const Material& material = newton.material();
     ElementWork work = fine.elements->make_work(false);
     if (!(fine.elements->energy(u, material, work, control).least_J > 0.0)) return {};
@@ -51,19 +68,18 @@ std::optional<ReferenceAnswer> halved_answer(const NonlinearMesh& mesh, const Ne
         if (!stable || !factor) return {};
     }
     const Eigen::Matrix3Xd diagonal = StiffnessProduct(fine.mesh, material).diagonal();
-    const TwoLevels::Operators apply{[&](const Eigen::VectorXd& v) -> Eigen::VectorXd {
-                                         return fine.elements->force_change(u, v, material, work, control) -
-                                                fine.loads.force_change(u, factors, v,
-                                                                        Eigen::VectorXd::Zero(factors.size()));
-                                     },
-                                     [&](const Eigen::VectorXd& f) -> Eigen::VectorXd {
-                                         return newton.tangent().all_rows(factor->solve(newton.tangent().free_rows(f)));
-                                     },
-                                     [&](int node) -> Eigen::Matrix3d { return diagonal.middleCols<3>(3 * node); }};
+    const TwoLevels::Operators apply{
+        [&](const Eigen::VectorXd& v) -> Eigen::VectorXd {
+            return fine.elements->force_change(u, v, material, work, control) -
+                   fine.loads.force_change(u, factors, v, Eigen::VectorXd::Zero(factors.size()));
+        },
+        [&](const Eigen::VectorXd& f) -> Eigen::VectorXd {
+            return newton.tangent().all_rows(factor->solve(newton.tangent().free_rows(f)));
+        },
+        [&](int node) -> Eigen::Matrix3d { return diagonal.middleCols<3>(3 * node); }, !fine.loads.follow()};
     const Eigen::VectorXd forces = fine.elements->forces(u, material, work, control) - fine.loads.forces(u, factors);
-    IterationReport report;
-    const Eigen::VectorXd change = levels.solve(apply, -forces, kEnoughOfHalved, control, &report);
-    if (report.indefinite) return {};  // the state is no longer near an equilibrium of the halved elements
+    const Eigen::VectorXd change = change_by(levels, apply, -forces, control);
+    if (change.size() == 0) return {};
     const Reactions at_nodes =
         gathered_reactions(held.shares, static_cast<int>(nodes.prescribed.nodes.size()),
                            rows_of(forces + apply.stiffness(change), held.prescribed.nodes).col(0));

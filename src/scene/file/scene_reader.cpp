@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <Eigen/Geometry>
 
 #include "base/text.hpp"
@@ -151,6 +152,8 @@ Rotation read_rotation(const JsonNode& node) {
     node.require_keys({"axis", "degrees", "center"});
     Rotation rotation{.axis = node.at("axis", "Give the axis of the turn.").vector3(),
                       .degrees = node.at("degrees", "Give the angle of the turn.").number()};
+    if (!(std::abs(rotation.degrees) <= kMostDegrees))
+        node.at("degrees", "").fail("is more than a hundred turns. Give -36000 to 36000 degrees.");
     if (rotation.axis.isZero(0.0)) node.at("axis", "").fail("is zero, so it has no direction. Give an axis.");
     if (const auto center = node.find("center")) rotation.center = center->vector3();
     return rotation;

@@ -122,6 +122,8 @@ public:
 
     /// Ends a step; does nothing when it changed nothing.
     void commit() { history_.commit(document_); }
+    /// Takes back what was done since the last step ended.
+    void take_back() { become(Document(history_.present())); }
     bool can_undo() const { return history_.can_undo(); }
     bool can_redo() const { return history_.can_redo(); }
     void undo();

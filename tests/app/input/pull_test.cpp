@@ -262,6 +262,84 @@ TEST(Pull, DeleteDuringADragRemovesTheHandleAndUndoBringsItBackAsItWas) {
     EXPECT_EQ(stage.motion(0), before);
 }
 
+/// What another handle has bent is taken hold of where it is: nothing moves before the mouse does.
+TEST(Pull, OfAPatchThatIsDeformedBeginsWhereItIs) {
+    for (const double scale : {1.0, 2.0}) {
+        Stage stage(6);
+        stage.state.display.deformation_scale = scale;
+        stage.settle();
+        const int first = stage.vertex_near({1, 0, 1});
+        stage.drag(stage.pixel(first), stage.pixel(first) + Eigen::Vector2d(0, -60));
+        stage.settle();
+        stage.state.tools.patch_radius = 0.3;
+        const int v = stage.vertex_near({0.67, 0.33, 1});
+        const Positions before = *stage.state.gesture_context().targets[0].positions;
+        ASSERT_GT((before.col(v) - stage.scene().mesh().vertices.col(v)).norm(), 0.02);
+        const Eigen::Vector2d at = stage.pixel(v), small(4.0, 0.0);
+        stage.wait(1.0);
+        stage.move(at);
+        stage.press();
+        stage.move(at + small);
+        stage.settle();
+        ASSERT_EQ(stage.scene().n_handles(), 2);
+        const Eigen::Vector3d shift = stage.place(v) - before.col(v);
+        for (const int other : stage.scene().vertices(1))
+            EXPECT_LT((stage.place(other) - before.col(other) - shift).norm(), 0.012 * scale * 0.3) << other;
+        EXPECT_LT((stage.pixel(v) - at - small).norm(), 1.5);
+        stage.release();
+    }
+}
+
+/// With the body let go as it was, and not by way of its rest.
+TEST(Pull, OfAPatchThatIsDeformedSpringsBackToWhereItWas) {
+    Stage stage(4);
+    const int first = stage.vertex_near({1, 0, 1}), v = stage.vertex_near({0.75, 0.25, 1});
+    stage.drag(stage.pixel(first), stage.pixel(first) + Eigen::Vector2d(0, -60));
+    stage.settle();
+    const Eigen::Vector3d before = stage.place(v);
+    stage.state.tools.release = Release::spring_back;
+    stage.drag(stage.pixel(v), stage.pixel(v) + kDrag);
+    GestureContext context = stage.state.gesture_context();
+    ASSERT_TRUE(stage.state.gestures.animate(10.0, context));
+    double distance = 1e9;
+    for (double now = 10.02; stage.state.gestures.animate(now, context); now += 0.02) {
+        const Motion& motion = stage.scene().document().handles.at(1).motion;
+        const Eigen::Vector3d rest = stage.scene().mesh().vertices.col(v);
+        distance = (rest + mean_displacement(motion, rest) - before).norm();
+    }
+    EXPECT_LT(distance, 0.02);
+    stage.settle();
+    EXPECT_LT((stage.place(v) - before).norm(), 1e-9);
+}
+
+TEST(Pull, EscapeTakesItBack) {
+    Stage stage;
+    const int v = top_vertex(stage);
+    const auto escape_from_a_pull = [&] {
+        stage.wait(1.0);
+        stage.move(stage.pixel(v) + kAside);
+        stage.press();
+        stage.move(stage.pixel(v) + kAside + kDrag);
+        EXPECT_TRUE(stage.state.gestures.dragging());
+        stage.key(GLFW_KEY_ESCAPE, true);
+        stage.key(GLFW_KEY_ESCAPE, false);
+        stage.move(stage.pixel(v));  // the button is still down
+        stage.release();
+        stage.settle();
+    };
+    escape_from_a_pull();
+    EXPECT_EQ(stage.scene().n_handles(), 0);
+    EXPECT_FALSE(stage.scene().can_undo());
+    stage.drag(stage.pixel(v) + kAside, stage.pixel(v) + kAside + kDrag);
+    stage.settle();
+    const AffineMotion before = stage.motion(0);
+    escape_from_a_pull();
+    ASSERT_EQ(stage.scene().n_handles(), 1);
+    EXPECT_EQ(stage.motion(0), before);
+    stage.state.undo();
+    EXPECT_EQ(stage.scene().n_handles(), 0) << "the pull that was taken back is no step";
+}
+
 TEST(Pull, FollowsTheCursorInAnExaggeratedView) {
     Stage stage;
     stage.state.display.deformation_scale = 3.0;

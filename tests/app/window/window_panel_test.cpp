@@ -5,6 +5,7 @@
 #include <functional>
 #include <string_view>
 #include <thread>
+#include <vector>
 
 #include "app/pixels.hpp"
 #include "app/real_window.hpp"
@@ -46,6 +47,36 @@ TEST(RealPanel, AHandleIsNamedMovedAndTurnedByTyping) {
     EXPECT_LT((motion.rotate.axis - Eigen::Vector3d::UnitZ()).norm(), 1e-12);
 }
 
+/// A press at the body ends the typing of what is selected still, as a step of its own.
+TEST(RealPanel, WhatIsTypedCountsWhenTheBodyIsPulledNext) {
+    const TemporaryFolder folder;
+    save_scene(folder.path() / "cube.json", cube_document_with_handle(4));
+    RealWindow window({"cube.json", "--size", "1000x1000", "--scene-out", "out.json"}, folder.path());
+    window.settle();
+    window.click(kSecondRow);
+    window.settle();
+    const auto type_and_pull = [&](const Eigen::Vector2d& field, const std::vector<const char*>& keys,
+                                   const Eigen::Vector2d& from) {
+        window.click(field);
+        window.stroke("ctrl+a");
+        for (const char* key : keys) window.stroke(key);
+        window.drag(from, from + Eigen::Vector2d(20, -40));
+        window.settle();
+    };
+    type_and_pull(kName, {"t", "i", "p"}, {620, 380});
+    window.click(kSecondRow);
+    window.settle();
+    type_and_pull(kMove, {"0", "period", "2", "5"}, {470, 420});
+    window.key("ctrl+z");  // the second pull only
+    window.settle();
+    ASSERT_EQ(window.quit().exit_code, 0);
+    const Document left = load_scene(folder.path() / "out.json");
+    ASSERT_EQ(left.handles.size(), 2u);
+    EXPECT_EQ(left.handles[0].name, "tip");
+    const Eigen::Vector3d middle(1, 0.5, 0.5);
+    EXPECT_NEAR(map_of(std::get<AffineMotion>(left.handles[0].motion)).displacement(middle).x(), 0.25, 1e-6);
+}
+
 /// What is selected is named after F2, whether it is a handle or a fixed set, and removed by Del.
 TEST(RealPanel, KeysNameAndRemoveWhatIsSelected) {
     const TemporaryFolder folder;
@@ -57,9 +88,8 @@ TEST(RealPanel, KeysNameAndRemoveWhatIsSelected) {
     RealWindow window({"cube.json", "--size", "800x600", "--scene-out", "out.json"}, folder.path());
     window.settle();
     const auto name_selection = [&](const std::string& name) {
-        window.stroke("F2");
-        window.settle();
-        window.type(name);
+        window.key("F2");
+        window.type(name);  // at once: letters are no shortcuts from then on
         window.settle();
     };
     window.stroke("h");

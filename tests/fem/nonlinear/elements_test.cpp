@@ -187,6 +187,8 @@ TEST_P(MaterialElements, SmallDisplacementsKeepTheirDigits) {
     const Eigen::VectorXd linear = elements->force_change(Eigen::VectorXd::Zero(d.size()), d, material, work, control);
     const Eigen::VectorXd f = elements->forces(1e-13 * d, material, work, control);
     EXPECT_LT((f - 1e-13 * linear).norm(), 1e-11 * f.norm());
+    const double energy = elements->energy(1e-13 * d, material, work, control).energy, half = 0.5e-26 * d.dot(linear);
+    EXPECT_NEAR(energy, half, 1e-11 * half);
 }
 
 TEST_P(MaterialElements, VectorLanesAgreeWithPlainOnes) {
