@@ -63,7 +63,17 @@ void ViewerState::quit() {
     files.guard([this] { requests.quit = true; });
 }
 
-Document ViewerState::document_to_save() const { return movable_document(*scene_, method, view_point_of(camera)); }
+/// As it is seen without a legend, which is no part of a scene: beside one the eye is farther away.
+Document ViewerState::document_to_save() const {
+    Camera seen = camera;
+    if (!shown.viewports.empty()) {
+        const Viewport& place = shown.viewports.front().place;
+        CameraPose pose = seen.pose();
+        pose.distance *= std::min(1.0, place.free_aspect()) / std::min(1.0, place.aspect());
+        seen.set_pose(pose);
+    }
+    return movable_document(*scene_, method, view_point_of(seen));
+}
 
 void ViewerState::take_scene(LoadedScene loaded) {
     gestures.reset();

@@ -130,8 +130,8 @@ Findings findings_of_set(const Deformer& deformer) {
     if (quality.held)
         append(findings, findings_of_condition("constraints", quality.condition_estimate));
     else
-        findings.push_back(
-            {.kind = quality.free_to_move ? FindingKind::free_motion : FindingKind::singular_though_held});
+        findings.push_back({.kind = quality.free_to_move ? FindingKind::free_motion : FindingKind::singular_though_held,
+                            .method = deformer.model().method().kind});
     append(findings, findings_of_points(surface, deformer.set()));
     return findings;
 }

@@ -171,8 +171,10 @@ std::string words(const Finding& finding) {
         case FindingKind::weak_hold:
             return weak_hold(finding);
         case FindingKind::free_motion:
-            return "constraints: leave the body free to move as a rigid body; the smallest such motion is chosen. "
-                   "Constrain three vertices that are not on one line.";
+            return std::string("constraints: leave the body free to move as a rigid body; ") +
+                   (finding.method != nullptr && !finding.method->linear ? "one such motion is shown"
+                                                                         : "the smallest such motion is chosen") +
+                   ". Constrain three vertices that are not on one line.";
         case FindingKind::singular_though_held:
             return std::string(kSingularThoughHeld) + " The smallest solution is chosen.";
         case FindingKind::coarse_mesh:

@@ -186,6 +186,20 @@ TEST(ViewerState, ARangeByHandIsKept) {
     EXPECT_EQ(range(), std::pair(2.0, 3.0)) << "remembered";
 }
 
+/// A legend makes room for itself by moving the eye away; it is no part of what is saved.
+TEST(ViewerState, AViewIsSavedAsItIsWithoutALegend) {
+    Stage stage(2);
+    Viewport& place = stage.state.shown.viewports.front().place;
+    place = {0.0, 0.0, 500.0, 400.0};
+    const auto eye = [&] { return stage.state.document_to_save().camera.value().eye; };
+    const Eigen::Vector3d before = eye();
+    place.covered = 200.0;
+    CameraPose pose = stage.state.camera.pose();
+    pose.distance /= place.free_aspect();
+    stage.state.camera.set_pose(pose);
+    EXPECT_LT((eye() - before).norm(), 1e-12 * before.norm());
+}
+
 /// A range that is held is one that was seen: a body at rest has none.
 TEST(RangeOfColours, IsHeldFromTheBeginningOfAPull) {
     Stage stage;

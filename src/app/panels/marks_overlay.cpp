@@ -14,6 +14,7 @@ namespace elastolab {
 
 namespace {
 
+constexpr float kCardOpacity = 0.96f;                  ///< what is below would read as part of its numbers
 constexpr double kRadians = std::numbers::pi / 180.0;  ///< of a degree
 constexpr double kNoAngle = 1e-9;                      ///< [radians] less is rounding
 
@@ -134,7 +135,7 @@ void draw_probes(const PanelContext& context, ImDrawList& list, const Viewport& 
     const double right = viewport.x + viewport.width, bottom = viewport.y + viewport.height;
     const double x = std::max(viewport.x + step, std::min(cursor.x() + step, right - width));
     const double y = std::max(viewport.y + step, std::min(cursor.y() + step, bottom - height));
-    draw_lines(context, list, im_point(x, y), width, lines);
+    draw_lines(context, list, im_point(x, y), width, lines, kCardOpacity);
 }
 
 void draw_forces(const PanelContext& context, ImDrawList& list, const Viewport& viewport, const ShownBody& body) {

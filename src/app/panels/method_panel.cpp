@@ -43,6 +43,7 @@ std::string state_words(const ViewerState& state, const CostOf& cost_of) {
         case State::preparing:
             return previewing ? "preview; preparing the exact answer" : "preparing the constrained set";
         case State::ready:
+            if (!state.method->linear && !runner.answers()) return "exact when the hand rests";
             if (runner.converged()) return state.method->linear ? "ready: pulls are instant" : "exact";
             return "ready, exact to " + number_text(runner.tolerance()) + (runner.converging() ? "; converging" : "");
         case State::failed:

@@ -19,7 +19,7 @@ inline constexpr float kOverlayMargin = 14.0f;
 ImVec2 im_point(double x, double y);
 
 /// What lies behind words over the scene, so that they are readable on any body.
-void chip(const PanelContext& context, ImDrawList& list, ImVec2 low, ImVec2 high);
+void chip(const PanelContext& context, ImDrawList& list, ImVec2 low, ImVec2 high, float opacity = 0.72f);
 
 struct OverlayLine {
     ImFont* font;
@@ -29,7 +29,7 @@ struct OverlayLine {
 };
 /// Lines under one another on a chip, broken where they are wider than `width`.
 void draw_lines(const PanelContext& context, ImDrawList& list, ImVec2 place, float width,
-                const std::vector<OverlayLine>& lines);
+                const std::vector<OverlayLine>& lines, float opacity = 0.72f);
 
 /// The least and the largest of the finite values that are seen, by their vertices; -1 when there are none.
 struct Extremes {

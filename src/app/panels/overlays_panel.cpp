@@ -50,7 +50,8 @@ std::string source_words(const ViewerState& state, MethodKind kind) {
                                    : simulation.waiting()           ? "waiting"
                                                                     : "not computed");
     const Proxy* proxy = simulation.embedded(kind).proxy();
-    if (!kind->linear) text = kDash + std::string(runner.following() ? "following" : "exact");
+    if (!kind->linear)
+        text = kDash + std::string(runner.following() ? "following" : runner.answers() ? "exact" : "preparing");
     if (!runner.converged() && !runner.following())
         text = kDash + std::string("exact to ") + number_text(runner.tolerance());
     if (proxy != nullptr && proxy->is_filled()) return text + kDash + "holes filled";

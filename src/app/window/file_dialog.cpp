@@ -129,6 +129,9 @@ void FileDialog::draw_name(float scale) {
     if (ImGui::IsItemEdited()) to_replace_.clear();
     ImGui::SameLine();
     const bool replaces = !to_replace_.empty();
+    // The field has let go of the keys at the first Enter.
+    go =
+        (replaces && !ImGui::IsAnyItemActive() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false)) || go;
     go = ImGui::Button(replaces ? "Replace" : is_saving() ? "Save" : "Open") || go;
     ImGui::SameLine();
     if (ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) {
@@ -139,7 +142,7 @@ void FileDialog::draw_name(float scale) {
         accept(fs::path(name_).is_absolute() ? fs::path(name_) : folder_ / name_);
     }
     if (replaces)
-        ImGui::TextUnformatted("There is a file of that name. Press Replace to write over it.");
+        ImGui::TextUnformatted("There is a file of that name. Replace, or Enter again, writes over it.");
     else
         ImGui::TextUnformatted(problem_.c_str());
 }

@@ -19,7 +19,7 @@ constexpr std::array kContinued = {"vt", "vn", "vp", "l", "p"};
 
 class ObjReader {
 public:
-    explicit ObjReader(std::string_view bytes) : words_(bytes, true) {}
+    explicit ObjReader(std::string_view bytes) : words_(bytes, true) { mesh_.first_number = 1; }
 
     SurfaceMesh read() {
         for (std::string_view key = words_.next(); !key.empty(); key = words_.next()) read_statement(key);

@@ -181,10 +181,11 @@ void fill(Matrix& matrix, const std::vector<Column>& columns) {
 
 }  // namespace
 
-int checked_index(std::int64_t index, std::size_t n_vertices) {
+int checked_index(std::int64_t index, std::size_t n_vertices, int first_number) {
     if (index < 0 || index >= static_cast<std::int64_t>(n_vertices))
-        throw Refusal("a face refers to vertex " + std::to_string(index) + " (counted from 0), and there are " +
-                      std::to_string(n_vertices) + ". Export the mesh again.");
+        throw Refusal("a face refers to vertex " + std::to_string(index + first_number) + " (counted from " +
+                      std::to_string(first_number) + "), and there are " + std::to_string(n_vertices) +
+                      ". Export the mesh again.");
     return static_cast<int>(index);
 }
 
@@ -205,7 +206,7 @@ void triangulate(std::span<const int> corners, const std::vector<Vector3d>& vert
 
 SurfaceMesh triangulated(const PolygonMesh& mesh) {
     require_size(mesh.vertices.size());
-    for (const int v : mesh.corners) checked_index(v, mesh.vertices.size());
+    for (const int v : mesh.corners) checked_index(v, mesh.vertices.size(), mesh.first_number);
     std::vector<Vector3i> triangles;
     std::size_t begin = 0;
     for (const std::size_t end : mesh.ends) {

@@ -14,12 +14,14 @@ struct PolygonMesh {
     std::vector<Eigen::Vector3d> vertices;
     std::vector<int> corners;       ///< vertices of all polygons, one polygon after another
     std::vector<std::size_t> ends;  ///< of each polygon, one past its last place in `corners`
+    int first_number = 0;           ///< what the file calls its first vertex
 
     void close_polygon() { ends.push_back(corners.size()); }
 };
 
-/// Number of a vertex as an int. Throws Refusal when it is not one of these: `index` counts from 0.
-int checked_index(std::int64_t index, std::size_t n_vertices);
+/// Number of a vertex as an int. Throws Refusal when it is not one of these: `index` counts from 0, the file from
+/// first_number.
+int checked_index(std::int64_t index, std::size_t n_vertices, int first_number = 0);
 
 /// Cuts polygons into triangles, in order; what has less than three corners is left out. Throws Refusal when a corner
 /// is no vertex, or the mesh is too large for this program.
