@@ -192,6 +192,13 @@ Eigen::MatrixXd Deformer::displace_all(const Eigen::MatrixXd& values) const {
 
 double Deformer::unit_of(std::size_t part) const { return linear() ? 1.0 : model_->parts()[part].scale; }
 
+std::shared_ptr<const Equilibrium> for_another_set(const Equilibrium& equilibrium) {
+    auto start = std::make_shared<Equilibrium>(equilibrium);
+    for (auto& solid : start->solids)
+        if (solid) solid = solid->for_another_set();
+    return start;
+}
+
 Approach Deformer::remembered(const Eigen::VectorXd& values, const Approach& approach) const {
     if (linear() || approach.start || approach.path.cols() > 0) return approach;
     return {memory_->find(values), {}, approach.most_steps};

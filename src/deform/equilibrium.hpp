@@ -24,6 +24,8 @@ public:
     virtual ~NodeState() = default;
     /// In the solid's coordinates, for unit Young's modulus.
     virtual EquilibriumFacts facts() const = 0;
+    /// The same, to begin from with another constrained set of the same model.
+    virtual std::shared_ptr<const NodeState> for_another_set() const = 0;
 };
 
 /// An equilibrium of a Deformer, for methods that are not linear in the prescribed values (MethodTraits::linear).
@@ -32,6 +34,8 @@ struct Equilibrium {
     Eigen::VectorXd values;                                ///< as Deformer::displace takes them
     std::vector<std::shared_ptr<const NodeState>> solids;  ///< one for each part of the model; null: it rests
 };
+/// Where to begin with another constrained set of the same model under the same loads: Approach::start of its deformer.
+std::shared_ptr<const Equilibrium> for_another_set(const Equilibrium& equilibrium);
 
 /// What any equilibrium that is found takes less than.
 inline constexpr int kMostEquilibriumSteps = 400;
@@ -40,7 +44,7 @@ inline constexpr int kMostEquilibriumSteps = 400;
 /// the same values (a bar turned twice about its axis prescribes what one at rest does) it decides which one is found.
 /// Linear methods ignore it.
 struct Approach {
-    /// An equilibrium of the same deformer; null: the body at rest.
+    /// An equilibrium of the same deformer, or for_another_set() of another's; null: the body at rest.
     std::shared_ptr<const Equilibrium> start = nullptr;
     /// Values to pass, one column each, in their order, before those that are asked for: as many as it takes to tell
     /// motions of more than half a turn apart. No columns: the shortest rotation of each handle.

@@ -110,6 +110,36 @@ TEST(LargeDeformation, ADragFollowsFromOneEquilibriumToTheNext) {
     EXPECT_LT((predicted - exact).norm(), 1e-3 * (exact - drag.rest).norm() + 1e-2 * drag.X.norm());
 }
 
+/// A handle more, taken hold of where the body is: that is its equilibrium nearly, up to the midpoints of the patch.
+TEST(LargeDeformation, AnotherSetBeginsWhereTheBodyIs) {
+    const Bar bar;
+    Control control;
+    const Eigen::VectorXd values = bar.turned({1, 0, 0}, 80.0);
+    const Deformer::Answer before = bar.deformer->answer(values, {}, control);
+    const std::vector<int> added =
+        vertices_where(*bar.body.surface, [](const auto& p) { return p[0] > 1.4 && p[0] < 2.1 && p[2] > 1.0 - 1e-9; });
+    ASSERT_GT(added.size(), 3u);
+    ConstrainedSet set = bar.set;
+    Eigen::VectorXd more(values.size() + 3 * std::ssize(added));
+    more.head(values.size()) = values;
+    for (std::size_t i = 0; i < added.size(); ++i) {
+        set.handles.push_back(added[i]);
+        more.segment<3>(values.size() + 3 * static_cast<Eigen::Index>(i)) =
+            before.displacements.segment<3>(3 * added[i]);
+    }
+    const auto answer = [&](const Approach& approach) {
+        Method method{.kind = kNonlinearFem};
+        method.elements = ElementDegree::quadratic;
+        Deformer deformer(test::precomputed(bar.body, method));
+        deformer.constrain(set, control);
+        return deformer.answer(more, {}, control, approach);
+    };
+    const Deformer::Answer here = answer({.start = for_another_set(*before.equilibrium)}), from_rest = answer({});
+    EXPECT_LT((here.displacements - before.displacements).norm(), 1e-2 * before.displacements.norm());
+    EXPECT_LT((here.displacements - from_rest.displacements).norm(), kLargeTolerance * before.displacements.norm());
+    EXPECT_LE(here.facts->iterations, from_rest.facts->iterations);
+}
+
 TEST(LargeDeformation, IsGivenUpAfterAsManyStepsAsAreAllowed) {
     const Bar bar;
     Control control;

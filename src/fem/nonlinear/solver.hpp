@@ -33,6 +33,10 @@ public:
         newton_.factor.reset();
     }
     EquilibriumFacts facts() const override { return facts_; }
+    /// Without a factor, which is that of other free nodes.
+    std::shared_ptr<const NodeState> for_another_set() const override {
+        return std::make_shared<const NonlinearState>(newton_, facts_);
+    }
     /// Without the factor.
     const NewtonState& newton() const { return newton_; }
     NewtonState with_factor() const {

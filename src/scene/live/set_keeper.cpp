@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "findings/solution.hpp"
+#include "scene/motion.hpp"
 #include "scene/user_text.hpp"
 
 namespace elastolab {
@@ -26,17 +27,27 @@ double first_tolerance(const Deformer& deformer) {
 }
 
 /// Where no columns are kept, a grab would integrate and take seconds: the worker solves, not the watcher.
-void solve_ahead(PreparedSet& prepared, const Wish& wish, Control& control) {
+/// start: an equilibrium close to the wish; null: from rest.
+void solve_ahead(PreparedSet& prepared, const Wish& wish, const std::shared_ptr<const Equilibrium>& start,
+                 Control& control) {
     const Stopwatch watch;
-    Approach approach;
-    if (!prepared.deformer->linear()) approach.path = way_to(wish, nullptr, handle_positions(*prepared.deformer)).path;
-    try {
-        DragSolver drag(prepared.deformer, wish.ends);
-        drag.prepare(wish.values, first_tolerance(*prepared.deformer), control, approach);
-        prepared.drag = std::move(drag);
-        prepared.at = std::make_shared<const Wish>(wish);
-    } catch (const SolveError&) {
-        // These values have no solution; the frame that asks for them says so, if they are still wanted then.
+    const auto solved = [&](const Approach& approach) {
+        try {
+            DragSolver drag(prepared.deformer, wish.ends);
+            drag.prepare(wish.values, first_tolerance(*prepared.deformer), control, approach);
+            prepared.drag = std::move(drag);
+            prepared.at = std::make_shared<const Wish>(wish);
+            return true;
+        } catch (const SolveError&) {
+            // These values have no solution; the frame that asks for them says so, if they are still wanted then.
+            return false;
+        }
+    };
+    if (!start || !solved({start, {}})) {
+        Approach from_rest;
+        if (!prepared.deformer->linear())
+            from_rest.path = way_to(wish, nullptr, handle_positions(*prepared.deformer)).path;
+        solved(from_rest);
     }
     prepared.solve_seconds = watch.seconds();
 }
@@ -183,7 +194,24 @@ SetKeeper::Event SetKeeper::use_or_prepare() {
     return event;
 }
 
-/// A prefetched set mostly has one more handle, at rest until it is pulled.
+void SetKeeper::prefetch(const ConstrainedSet& set, const Eigen::VectorXd& displacement) {
+    prefetch_ = set;
+    prefetch_moved_ = Positions::Zero(3, std::ssize(set.handles));
+    if (model_ && displacement.size() == 3 * model_->body().surface->n_vertices())
+        prefetch_moved_ = displacement.reshaped(3, displacement.size() / 3)(Eigen::all, set.handles);
+}
+
+/// Of a method that is not linear, where a body begins that is held or moved at more vertices than before: as it is.
+std::shared_ptr<const Equilibrium> SetKeeper::start_for(const ConstrainedSet& set) const {
+    if (!current_.deformer || &current_.deformer->model() != model_.get() || is_linear() || !current_.drag) return {};
+    const ConstrainedSet& now = current_.deformer->set();
+    const bool adds = set.fixed == now.fixed && set.loads == now.loads && set.handles.size() > now.handles.size() &&
+                      std::equal(now.handles.begin(), now.handles.end(), set.handles.begin());
+    const std::shared_ptr<const Equilibrium>& equilibrium = current_.drag->equilibrium();
+    return adds && equilibrium ? for_another_set(*equilibrium) : nullptr;
+}
+
+/// A prefetched set mostly has one more handle, where it is until it is pulled.
 void SetKeeper::prepare_prefetched(const ConstrainedSet& set) {
     const auto n = static_cast<int>(set.handles.size());
     Wish wish{.values = Eigen::VectorXd::Zero(set.n_values()), .motions = wanted_.motions, .ends = wanted_.ends};
@@ -193,6 +221,12 @@ void SetKeeper::prepare_prefetched(const ConstrainedSet& set) {
     const Eigen::Index n_loads = std::ssize(set.loads), n_loads_before = std::ssize(wanted_set_.loads);
     const Eigen::Index n_known = std::min(wish.values.size() - n_loads, wanted_.values.size() - n_loads_before);
     wish.values.head(n_known) = wanted_.values.head(n_known);
+    if (const Eigen::Index known = n_known / 3; known < n) {
+        const std::vector<int> added(set.handles.begin() + known, set.handles.end());
+        const Positions rest = model_->body().surface->vertices(Eigen::all, added);
+        const Motion motion = motion_to(rest, rest + prefetch_moved_.rightCols(n - known));
+        wish.values.segment(3 * known, 3 * (n - known)) = displacements(motion, rest).reshaped();
+    }
     // A handle may cover a load, which then acts no more.
     if (n_loads == n_loads_before) wish.values.tail(n_loads) = wanted_.values.tail(n_loads);
     prepare(set, std::move(wish));
@@ -206,7 +240,8 @@ void SetKeeper::prepare(const ConstrainedSet& set, Wish wish) {
     const bool drags = rule_ == FrameRule::drag_columns || !model_->method().kind->linear;
     std::vector<Grip> grips =
         same_as_wanted(set) && model_->method().kind->linear ? wanted_grips_ : std::vector<Grip>();
-    job_.start([model = model_, set, drags, wish = std::move(wish), grips = std::move(grips)](Control& control) {
+    job_.start([model = model_, set, drags, wish = std::move(wish), grips = std::move(grips),
+                start = start_for(set)](Control& control) {
         auto deformer = std::make_shared<Deformer>(model);
         control.begin_stage("constrain");
         deformer->constrain(set, control);
@@ -218,7 +253,7 @@ void SetKeeper::prepare(const ConstrainedSet& set, Wish wish) {
         if (!grips.empty())
             prepared.grips = std::make_shared<const GripStiffness>(*prepared.deformer, wish.values, grips, control);
         if (drags)
-            solve_ahead(prepared, wish, control);
+            solve_ahead(prepared, wish, start, control);
         else
             update_ahead(prepared, wish.values, control);
         return prepared;

@@ -70,8 +70,9 @@ public:
     /// True when the rule has changed.
     bool set_frame_rule(FrameRule rule);
     FrameRule frame_rule() const { return rule_; }
-    /// Prepares a set that may be asked for soon, when there is nothing else to do.
-    void prefetch(const ConstrainedSet& set) { prefetch_ = set; }
+    /// Prepares a set that may be asked for soon, when there is nothing else to do. displacement: of all vertices
+    /// where they are by now, 3*n_vertices, from where handles that are new are pulled; empty: at rest.
+    void prefetch(const ConstrainedSet& set, const Eigen::VectorXd& displacement);
 
     /// The sets of another model are prepared anew; the one at hand answers until then.
     void set_model(std::shared_ptr<const Model> model);
@@ -146,6 +147,7 @@ private:
     void converge_on_worker();
     Event take_failure();
     void prepare_prefetched(const ConstrainedSet& set);
+    std::shared_ptr<const Equilibrium> start_for(const ConstrainedSet& set) const;
     bool same_as_wanted(const ConstrainedSet& set) const;
 
     ConstrainedSet wanted_set_;
@@ -154,6 +156,7 @@ private:
     Stopwatch rest_;  ///< since another motion was wanted
     FrameRule rule_ = FrameRule::drag_columns;
     std::optional<ConstrainedSet> prefetch_;
+    Positions prefetch_moved_;  ///< its handles: how far they are moved by now
 
     std::shared_ptr<const Model> model_;
     PreparedSet current_;
