@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 
 #include "fem/nonlinear/method.hpp"
+#include "scene/motion.hpp"
 #include "scene/simulation_bench.hpp"
 #include "scene/solve.hpp"
 
@@ -80,6 +81,29 @@ TEST_F(LiveEquilibrium, TheNewestWishIsServedWhateverWasWishedBefore) {
         EXPECT_LT(off_handle(), 1e-9) << i;
     }
     ask(twist(40));
+    bench.settle(scene);
+    expect_converged(truth(scene, bench.choices.of(kNonlinearFem)));
+}
+
+/// A handle more, where the body was deformed by another one: it is there at once, and nothing has moved.
+TEST_F(LiveEquilibrium, AHandleMoreIsPreparedWhereTheBodyIs) {
+    ask(twist(60));
+    bench.settle(scene);
+    const Eigen::VectorXd before = u();
+    std::vector<int> patch;
+    for (int v = 0; v < scene.mesh().n_vertices(); ++v)
+        if (std::abs(scene.mesh().vertices(0, v) - 2.0) < 0.6 && scene.mesh().vertices(2, v) > 1.0 - 1e-9)
+            patch.push_back(v);
+    bench.simulation.prefetch(scene.constraints_with_handle(patch));
+    bench.update_until(scene, [&] { return !runner().preparing(); });
+    const int handle = scene.add_handle(patch);
+    const Positions rest = scene.rest_positions(handle);
+    const Eigen::Matrix3Xd moved = before.reshaped(3, before.size() / 3)(Eigen::all, patch);
+    scene.set_motion(handle, motion_to(rest, rest + moved));
+    bench.update(scene);
+    EXPECT_TRUE(runner().answers());
+    EXPECT_FALSE(runner().following());
+    EXPECT_LT((u() - before).norm(), 0.01 * before.norm());
     bench.settle(scene);
     expect_converged(truth(scene, bench.choices.of(kNonlinearFem)));
 }

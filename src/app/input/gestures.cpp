@@ -68,9 +68,7 @@ void Gestures::take_back(GestureContext& context) {
     load_drag_.reset();
     gizmo_drag_.reset();
     painted_.clear();
-    selected_ = std::min(selected_, context.scene.n_handles() - 1);
-    selected_fixed_ = std::min(selected_fixed_, context.scene.n_fixed_sets());
-    if (selected_load_ && *selected_load_ >= context.scene.n_loads()) selected_load_.reset();
+    keep_selection_within(context.scene);
     action_ = Action::blocked;  // until the button is let go
 }
 
@@ -231,10 +229,15 @@ void Gestures::finish(GestureContext& context) {
     action_ = Action::none;
     button_ = -1;
     end_spring(context);
-    selected_ = std::min(selected_, context.scene.n_handles() - 1);
-    selected_fixed_ = std::min(selected_fixed_, context.scene.n_fixed_sets());
-    if (selected_load_ && *selected_load_ >= context.scene.n_loads()) select_load(std::nullopt);
+    keep_selection_within(context.scene);
     hover_ = {};
+}
+
+/// What was selected may be gone.
+void Gestures::keep_selection_within(const LiveScene& scene) {
+    selected_ = std::min(selected_, scene.n_handles() - 1);
+    selected_fixed_ = std::min(selected_fixed_, scene.n_fixed_sets());
+    if (selected_load_ && *selected_load_ >= scene.n_loads()) select_load(std::nullopt);
 }
 
 void Gestures::reset() { *this = Gestures(); }

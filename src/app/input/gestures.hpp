@@ -183,6 +183,7 @@ private:
     /// Whether what the button does now changes the scene.
     bool edits() const { return pulling() || action_ == Action::load || action_ == Action::paint; }
     void take_back(GestureContext& context);
+    void keep_selection_within(const LiveScene& scene);
     void press_body(GestureContext& context, const PickHit& hit);
     int add_handle_in_place(GestureContext& context, const std::vector<int>& patch);
     void release(GestureContext& context);

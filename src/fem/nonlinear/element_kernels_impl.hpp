@@ -34,7 +34,7 @@ struct PackLanes<double> {
     static double if_small(double x, double bound, double a, double b) { return std::abs(x) < bound ? a : b; }
 };
 
-/// x - ln(1 + x), of which the plain difference keeps no digits where x is small.
+/// x - ln(1 + x) to 1e-14 of it: by its series where x is small, where the plain difference keeps no digits.
 template <class B>
 B less_log1p(const B& x, const B& log1p_x) {
     constexpr double kSmall = 0.02;

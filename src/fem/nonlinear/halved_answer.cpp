@@ -30,7 +30,8 @@ struct Halved {
     }
 };
 
-/// Empty where the state is no longer near an equilibrium of the halved elements.
+/// Empty where the state is no longer near an equilibrium of the halved elements, or iterations find no answer: an
+/// estimate that is not there takes nothing from the answer that it is of.
 Eigen::VectorXd change_by(const TwoLevels& levels, const TwoLevels::Operators& apply, const Eigen::VectorXd& forces,
                           Control& control) {
     IterationReport report;

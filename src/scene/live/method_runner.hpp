@@ -43,7 +43,7 @@ public:
     void set_solve_budget(double seconds) { solve_budget_ = seconds; }
     /// SetKeeper::set_may_hold_off.
     void set_may_hold_off(bool may) { sets_.set_may_hold_off(may); }
-    void prefetch(const ConstrainedSet& set) { sets_.prefetch(set, has_answer() ? displacement() : Eigen::VectorXd()); }
+    void prefetch(const ConstrainedSet& set) { sets_.prefetch(set, displacement_); }
 
     void complete(Update update) { models_.complete(update); }
     bool may_complete(Update update) const { return models_.may_complete(update); }

@@ -71,7 +71,8 @@ public:
     bool set_frame_rule(FrameRule rule);
     FrameRule frame_rule() const { return rule_; }
     /// Prepares a set that may be asked for soon, when there is nothing else to do. displacement: of all vertices
-    /// where they are by now, 3*n_vertices, from where handles that are new are pulled; empty: at rest.
+    /// where they are by now, 3*n_vertices, from where handles that are new are pulled; of another
+    /// size: at rest.
     void prefetch(const ConstrainedSet& set, const Eigen::VectorXd& displacement);
 
     /// The sets of another model are prepared anew; the one at hand answers until then.
