@@ -116,6 +116,9 @@ struct Method {
     /// re-entrant edges, at most kMostRims. With any, every constrained set is then solved afresh, whatever the update
     /// is.
     int rims = 0;
+    /// Galerkin BEM, on demand by the update `reduced`: a first constrained set with handles is solved by itself where
+    /// that is much sooner, and what further sets take over is made later (Model::serves_sets).
+    bool first_set_alone = false;
     /// BEM: number of vertices from which matrices are hierarchical, on demand. By linear BEM a cube of 3458 vertices
     /// with a fixed face and a patch took 29 s with a dense factor, one of 5402 takes 13 s with them; only a further
     /// handle of a few vertices, whose columns are few, is cheaper with the factor.

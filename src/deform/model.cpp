@@ -1,5 +1,6 @@
 #include "deform/model.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "deform/solid_model.hpp"
@@ -29,6 +30,10 @@ void rescale(NamedMatrix& matrix, double E, double scale) {
 
 Model::Model(Body body, Method method, std::vector<Part> parts, ModelFacts facts)
     : body_(std::move(body)), method_(method), parts_(std::move(parts)), facts_(std::move(facts)) {}
+
+bool Model::serves_sets() const {
+    return std::all_of(parts_.begin(), parts_.end(), [](const Part& part) { return part.solid->serves_sets(); });
+}
 
 void Model::visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const {
     for (std::size_t i = 0; i < parts_.size(); ++i)

@@ -87,6 +87,9 @@ public:
     const Method& method() const { return method_; }
     const ModelFacts& facts() const { return facts_; }
     const std::vector<Part>& parts() const { return parts_; }
+    /// False while a constrained set, besides its answer, would prepare what further sets take over
+    /// (Method::first_set_alone).
+    bool serves_sets() const;
 
     /// The dense matrices that the mode keeps (none on demand), solid by solid when there are several.
     void visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const;

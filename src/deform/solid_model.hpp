@@ -128,6 +128,9 @@ public:
     /// Bytes that constrain() takes beyond what is held, at its peak. An upper estimate from the arrays it makes:
     /// columns that are known already are counted as new.
     virtual std::uint64_t constrain_memory(std::span<const int> fixed, std::span<const int> handles) const = 0;
+    /// False while further sets have nothing to take over, since the first one was solved by itself: the next
+    /// constrain() makes it, of whatever set.
+    virtual bool serves_sets() const { return true; }
     /// Bytes that SolutionChecks::reference of such a set takes while it is made, beyond what is held for the set.
     virtual std::uint64_t check_memory(std::span<const int> fixed, std::span<const int> handles) const = 0;
     /// The matrices that the mode keeps, for unit Young's modulus.

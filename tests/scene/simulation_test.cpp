@@ -47,6 +47,23 @@ TEST_P(EveryMethod, SaysBeforehandWhetherItIsCompletedAndWhatThatTakes) {
     EXPECT_FALSE(completion_of(scene.mesh(), GetParam(), bench.choices)) << "it is computed so at once";
 }
 
+/// The answer that somebody waits for comes first; nobody has to ask for the rest.
+TEST(Simulation, WhatFurtherSetsTakeOverIsMadeAfterTheFirstAnswer) {
+    LiveScene scene = pulled_cube(6);
+    Bench bench({kGalerkinBem});
+    bench.update_until(scene, [&] { return bench.runner(kGalerkinBem).answers(); });
+    const std::shared_ptr<const Model> model = bench.runner(kGalerkinBem).model();
+    const std::uint64_t version = bench.runner(kGalerkinBem).version();
+    bench.update_until(scene, [&] { return model->serves_sets(); });
+    EXPECT_EQ(bench.runner(kGalerkinBem).model(), model);
+    EXPECT_EQ(bench.runner(kGalerkinBem).version(), version) << "what is shown stays";
+    EXPECT_EQ(bench.runner(kGalerkinBem).state(), State::ready);
+    expect_near(bench.runner(kGalerkinBem).displacement(), truth(scene, {.kind = kGalerkinBem}));
+    scene.add_handle(where(scene, 0.9, -0.1));
+    bench.settle(scene);
+    expect_near(bench.runner(kGalerkinBem).displacement(), truth(scene, {.kind = kGalerkinBem}));
+}
+
 /// An empty list of prescribed values is an answer as good as any other.
 TEST_P(EveryMethod, ABodyWhoseLastHandleIsRemovedComesToRest) {
     LiveScene scene = pulled_cube();

@@ -122,6 +122,11 @@ Cost predict_galerkin_bem(const SurfaceMesh& mesh, const Method& method) {
         work.flops += 2.5 * n * n * n;
     }
     cost.seconds = work.seconds();
+    const auto prescribed = static_cast<std::int64_t>(3.0 * UsualSet(mesh).vertices);
+    const auto tractions = static_cast<std::int64_t>(3.0 * UsualSet(mesh).triangles);
+    const bool may_be_alone = method.first_set_alone && factorises && method.mode == Mode::on_demand;
+    if (may_be_alone && is_sooner_alone(static_cast<std::int64_t>(n), prescribed, tractions))
+        cost.seconds *= kShareOfDirect;
     return cost;
 }
 

@@ -60,7 +60,7 @@ GalerkinModel::GalerkinModel(const SurfaceMesh& surface, double poisson_ratio, c
     facts_.n_triangles = surface.n_triangles();
     facts_.n_degrees_of_freedom = static_cast<int>(system_->size());
     facts_.memory_bytes = system_->memory_bytes();
-    facts_.condition_estimate = factorises_ahead(method) ? 1.0 / system_->reciprocal_condition() : 0.0;
+    if (const auto reciprocal = system_->reciprocal_condition()) facts_.condition_estimate = 1.0 / *reciprocal;
 }
 
 std::unique_ptr<ConstrainedSolid> GalerkinModel::constrain(std::span<const int> fixed, std::span<const int> handles,
@@ -70,6 +70,8 @@ std::unique_ptr<ConstrainedSolid> GalerkinModel::constrain(std::span<const int> 
     const bool is_direct = method_.update == Update::direct, is_held = holds(mesh.vertices, given.vertices);
     if (is_direct && !is_held) throw NotHeldError();
     if (method_.rims == 0) {
+        const bool may_be_alone = is_held && !handles.empty();
+        if (auto alone = may_be_alone ? first_set(given, control) : nullptr) return alone;
         std::optional<Eigen::MatrixXd> D;
         if (is_direct) {
             control.begin_stage("integrate");
@@ -93,6 +95,23 @@ std::unique_ptr<ConstrainedSolid> GalerkinModel::constrain(std::span<const int> 
     return constrain(system, std::nullopt, given, given, control);
 }
 
+std::unique_ptr<ConstrainedSolid> GalerkinModel::first_set(const SurfaceSet& given, Control& control) const {
+    const GalerkinTractions tractions(system_->boundary().mesh(), system_->surfaces(), given.vertices);
+    if (!is_sooner_alone(system_->size(), 3 * std::ssize(given.vertices), tractions.size())) return nullptr;
+    std::unique_ptr<NodeSolver> solver;
+    try {
+        system_->solve_first_set(
+            [&](const Eigen::MatrixXd& D) {
+                solver = std::make_unique<GalerkinDirectSolver>(*system_, D, given.vertices, tractions, given.loads,
+                                                                control);
+            },
+            control);
+    } catch (const NotHeldError&) {
+        return nullptr;  // compliance columns tell what moves least
+    }
+    return solver ? constrained(system_, std::move(solver), tractions, given, given) : nullptr;
+}
+
 HierarchicalGalerkinModel GalerkinModel::for_large_sets() const {
     Control control;
     return {system_->boundary().mesh(), poisson_ratio_, method_, nullptr, control};
@@ -114,15 +133,22 @@ std::unique_ptr<ConstrainedSolid> GalerkinModel::constrain_with_finer_rims(const
 std::unique_ptr<ConstrainedSolid> GalerkinModel::constrain(std::shared_ptr<const GalerkinSystem> system,
                                                            std::optional<Eigen::MatrixXd> D, const SurfaceSet& set,
                                                            const SurfaceSet& of_body, Control& control) const {
-    const auto& [vertices, loads, nodes, shares] = set;
-    const SurfaceMesh& mesh = system->boundary().mesh();
-    const GalerkinTractions tractions(mesh, system->surfaces(), vertices);
+    const GalerkinTractions tractions(system->boundary().mesh(), system->surfaces(), set.vertices);
     std::unique_ptr<NodeSolver> solver;
     if (D)
-        solver = std::make_unique<GalerkinDirectSolver>(*system, *std::move(D), vertices, tractions, loads, control);
+        solver = std::make_unique<GalerkinDirectSolver>(*system, *D, set.vertices, tractions, set.loads, control);
     else
-        solver = std::make_unique<ReducedSolver>(galerkin_reduced_system(system, vertices, tractions, loads, control),
-                                                 control);
+        solver = std::make_unique<ReducedSolver>(
+            galerkin_reduced_system(system, set.vertices, tractions, set.loads, control), control);
+    return constrained(std::move(system), std::move(solver), tractions, set, of_body);
+}
+
+std::unique_ptr<ConstrainedSolid> GalerkinModel::constrained(std::shared_ptr<const GalerkinSystem> system,
+                                                             std::unique_ptr<NodeSolver> solver,
+                                                             const GalerkinTractions& tractions, const SurfaceSet& set,
+                                                             const SurfaceSet& of_body) const {
+    const auto& [vertices, loads, nodes, shares] = set;
+    const SurfaceMesh& mesh = system->boundary().mesh();
     const auto residual = [system, vertices = vertices, loads = loads, tractions](const NodeSolution& solution,
                                                                                   Control& its_control) {
         const auto pairs = std::make_shared<const BoundaryPairs>(system->shared_boundary(), system->tolerance());
@@ -162,7 +188,11 @@ std::uint64_t GalerkinModel::constrain_memory(std::span<const int> fixed, std::s
     }
     const GalerkinTractions tractions(mesh, system_->surfaces(), vertices);
     const Eigen::Index n_loads = 3 * std::ssize(vertices);
-    if (method_.update == Update::reduced) return half_column_memory(*system_, n_loads + tractions.size());
+    if (method_.update == Update::reduced) {
+        const bool may_be_alone = !system_->is_factorised() && system_->serves_sets();
+        const std::uint64_t columns = half_column_memory(*system_, n_loads + tractions.size());
+        return may_be_alone ? std::max(columns, galerkin_direct_memory(system_->size(), tractions.size())) : columns;
+    }
     return galerkin_direct_memory(system_->size(), tractions.size());
 }
 

@@ -24,6 +24,7 @@ public:
     std::unique_ptr<ConstrainedSolid> constrain(std::span<const int> fixed, std::span<const int> handles,
                                                 std::span<const UnitLoad> loads, Control& control) const override;
     std::uint64_t constrain_memory(std::span<const int> fixed, std::span<const int> handles) const override;
+    bool serves_sets() const override { return system_->serves_sets(); }
     std::uint64_t check_memory(std::span<const int> fixed, std::span<const int> handles) const override;
     void visit_matrices(const std::function<void(const NamedMatrix&)>& visit) const override;
 
@@ -33,6 +34,12 @@ private:
     std::unique_ptr<ConstrainedSolid> constrain(std::shared_ptr<const GalerkinSystem> system,
                                                 std::optional<Eigen::MatrixXd> D, const SurfaceSet& set,
                                                 const SurfaceSet& of_body, Control& control) const;
+    /// By itself, with the D that is there; null where that is not sooner, or it is not the first.
+    std::unique_ptr<ConstrainedSolid> first_set(const SurfaceSet& given, Control& control) const;
+    std::unique_ptr<ConstrainedSolid> constrained(std::shared_ptr<const GalerkinSystem> system,
+                                                  std::unique_ptr<NodeSolver> solver,
+                                                  const GalerkinTractions& tractions, const SurfaceSet& set,
+                                                  const SurfaceSet& of_body) const;
     /// Throws NotHeldError when the set does not hold the body.
     std::unique_ptr<ConstrainedSolid> constrain_with_finer_rims(const SurfaceSet& given, Control& control) const;
     /// Of the same body, for sets whose own surface is large.

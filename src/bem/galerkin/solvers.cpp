@@ -15,6 +15,7 @@ GalerkinComplianceColumns::GalerkinComplianceColumns(std::shared_ptr<const Galer
       vertices_(std::move(vertices)),
       tractions_(std::move(tractions)),
       loads_(loads.begin(), loads.end()) {
+    system_->factorise(control);
     columns_ = system_->half_columns(vertices_, tractions_, control);
     given_ = system_->half_load_columns(loads_, control);
 }
@@ -104,7 +105,15 @@ std::uint64_t galerkin_direct_memory(std::int64_t n_degrees_of_freedom, std::int
     return 8 * (2 * n * n + 3 * n * m + m * m);
 }
 
-GalerkinDirectSolver::GalerkinDirectSolver(const GalerkinSystem& system, Eigen::MatrixXd&& matrix,
+bool is_sooner_alone(std::int64_t n_degrees_of_freedom, std::int64_t n_prescribed, std::int64_t n_tractions) {
+    const auto n = static_cast<double>(n_degrees_of_freedom), t = static_cast<double>(n_tractions);
+    const double prescribed = static_cast<double>(n_prescribed), m = prescribed + t, free = n - prescribed;
+    const double alone = n * t * t + t * t * t / 3.0 + free * free * t + free * free * free / 3.0;
+    const double columns = n * n * n / 3.0 + n * n * m + n * m * m + m * m * m / 1.5;
+    return alone < columns / 1.5;
+}
+
+GalerkinDirectSolver::GalerkinDirectSolver(const GalerkinSystem& system, const Eigen::MatrixXd& D,
                                            const std::vector<int>& vertices, const GalerkinTractions& tractions,
                                            std::span<const UnitLoad> loads, Control& control)
     : partition_(system.size(), vertices) {
@@ -114,7 +123,6 @@ GalerkinDirectSolver::GalerkinDirectSolver(const GalerkinSystem& system, Eigen::
         given_ = system.given_single_layer(tractions, loads, control);
     }
     GalerkinOperators operators = system.operators(tractions, control);
-    const Eigen::MatrixXd D = std::move(matrix);
     control.begin_stage("factorise");
     single_layer_ = CholeskyFactorization(std::move(operators.single_layer), "single-layer matrix", &control);
     Y_ = std::move(operators.double_layer);

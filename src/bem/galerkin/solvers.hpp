@@ -42,7 +42,7 @@ class GalerkinDirectSolver : public NodeSolver {
 public:
     /// D: GalerkinSystem::hypersingular. Throws NotHeldError when the constraints do not hold the body; SolveError,
     /// Cancelled.
-    GalerkinDirectSolver(const GalerkinSystem& system, Eigen::MatrixXd&& D, const std::vector<int>& vertices,
+    GalerkinDirectSolver(const GalerkinSystem& system, const Eigen::MatrixXd& D, const std::vector<int>& vertices,
                          const GalerkinTractions& tractions, std::span<const UnitLoad> loads, Control& control);
     /// loads: reactions at the vertices, then tractions.
     NodeSolution solve(const Eigen::MatrixXd& prescribed, bool want_loads) const override;
@@ -56,8 +56,12 @@ private:
     Eigen::MatrixXd D_constrained_;  ///< rows of D at the constrained vertices
 };
 
-/// Bytes that it takes at its peak: scalar unknowns of the body, and tractions.
+/// Bytes that it takes at its peak, D among them: scalar unknowns of the body, and tractions.
 std::uint64_t galerkin_direct_memory(std::int64_t n_degrees_of_freedom, std::int64_t n_tractions);
+
+/// Whether one answer by elimination takes at most two thirds of the arithmetic of the factor and the columns that
+/// serve further sets too. All in scalars.
+bool is_sooner_alone(std::int64_t n_degrees_of_freedom, std::int64_t n_prescribed, std::int64_t n_tractions);
 
 /// The capacitance system of a constrained set, its compliance columns kept.
 ReducedSystem galerkin_reduced_system(const std::shared_ptr<const GalerkinSystem>& system,

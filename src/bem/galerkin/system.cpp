@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "base/blas.hpp"
+#include "base/cancellable_lock.hpp"
 #include "base/parallel.hpp"
 #include "base/strips.hpp"
 #include "bem/galerkin/given_loads.hpp"
@@ -26,6 +28,21 @@ int components_of(const ColumnKey& key) { return key.front() == kSurfaceTraction
 std::uint64_t half_column_budget(Eigen::Index n, Mode mode) {
     const auto matrix = static_cast<std::uint64_t>(n * n) * 8;
     return (64ull << 20) + (mode == Mode::on_demand ? matrix / 4 : matrix);
+}
+
+/// use(first, count) for parts of D's columns, in parallel.
+template <class Use>
+void for_columns(const Eigen::MatrixXd& D, Control& control, Use&& use) {
+    const SerialBlas serial;
+    parallel_blocks(static_cast<int>(D.cols()), 64, control,
+                    [&](int begin, int end) { use(begin, Eigen::Index{end - begin}); });
+}
+
+/// D <- D + shift C C^T.
+void add_rigid_stiffness(const Eigen::MatrixXd& C, double shift, Eigen::MatrixXd& D, Control& control) {
+    for_columns(D, control, [&](Eigen::Index begin, Eigen::Index count) {
+        D.middleCols(begin, count).noalias() += shift * C * C.middleRows(begin, count).transpose();
+    });
 }
 
 /// What D's integrals leave where D C should vanish, C the rigid motions of closed surfaces: D - left C^T - C left^T =
@@ -54,13 +71,6 @@ public:
     }
 
 private:
-    template <class Use>
-    static void for_columns(const Eigen::MatrixXd& D, Control& control, Use&& use) {
-        const SerialBlas serial;
-        parallel_blocks(static_cast<int>(D.cols()), 64, control,
-                        [&](int begin, int end) { use(begin, Eigen::Index{end - begin}); });
-    }
-
     const Eigen::MatrixXd& C_;
     Eigen::MatrixXd left_;
 };
@@ -138,12 +148,13 @@ GalerkinSystem::GalerkinSystem(std::shared_ptr<const Boundary> boundary, double 
       surfaces_(boundary_->mesh()),
       body_modes_(rigid_modes(boundary_->mesh().vertices)),
       parts_(std::move(parts)),
+      keeps_matrix_(factorises_ahead(method)),
       cache_(std::make_unique<ColumnCache>(method.column_memory.value_or(half_column_budget(size(), method.mode)))) {
     if (method.rims > 0) {
         const Stage stage(parts_ ? "combine" : "integrate", control, stages);
         integrals_ = integrals(control);
     }
-    if (!factorises_ahead(method)) return;
+    if (!keeps_matrix_) return;
     Eigen::MatrixXd D, kept;
     {
         const Stage stage(parts_ ? "combine" : "integrate", control, stages);
@@ -154,13 +165,44 @@ GalerkinSystem::GalerkinSystem(std::shared_ptr<const Boundary> boundary, double 
             kept = D;
             rigid.replace(kept, 0.0, control);
         }
-        rigid.replace(D, shift_, control);
+        const bool is_put_off = method.first_set_alone && method.mode == Mode::on_demand;
+        rigid.replace(D, is_put_off ? 0.0 : shift_, control);
+        if (is_put_off) {
+            unfactorised_ = std::move(D);
+            return;
+        }
     }
     {
         const Stage stage("factorise", control, stages);
-        factor_ = CholeskyFactorization(std::move(D), "hypersingular matrix", &control);
+        take_factor(std::move(D), control);
     }
     if (method.mode != Mode::on_demand) complete(std::move(kept), stages, control);
+}
+
+void GalerkinSystem::take_factor(Eigen::MatrixXd&& D, Control& control) const {
+    factor_ = CholeskyFactorization(std::move(D), "hypersingular matrix", &control);
+    is_factorised_ = true;
+}
+
+void GalerkinSystem::factorise(Control& control) const {
+    if (is_factorised()) return;
+    const auto lock = lock_unless_cancelled(factor_mutex_, control);
+    if (is_factorised()) return;
+    // An attempt that was cancelled has taken D with it.
+    Eigen::MatrixXd D = std::exchange(unfactorised_, {});
+    if (D.size() == 0) D = hypersingular(control);
+    add_rigid_stiffness(surfaces_.rigid, shift_, D, control);
+    take_factor(std::move(D), control);
+}
+
+bool GalerkinSystem::solve_first_set(const std::function<void(const Eigen::MatrixXd& D)>& solve,
+                                     const Control& control) const {
+    if (is_factorised()) return false;
+    const auto lock = lock_unless_cancelled(factor_mutex_, control);
+    if (is_factorised() || solved_first_set_ || unfactorised_.size() == 0) return false;
+    solve(unfactorised_);
+    solved_first_set_ = true;
+    return true;
 }
 
 Eigen::MatrixXd GalerkinSystem::hypersingular(Control& control) const {
@@ -300,7 +342,7 @@ void GalerkinSystem::complete(Eigen::MatrixXd D, StageTimes& stages, Control& co
 }
 
 std::uint64_t GalerkinSystem::memory_bytes() const {
-    const auto n = static_cast<std::uint64_t>(factor_.size());
+    const auto n = static_cast<std::uint64_t>(keeps_matrix_ ? size() : 0);
     return 8 * (n * n * ((dense_ ? 3u : 1u) + (parts_ ? 2u : 0u)) + static_cast<std::uint64_t>(integrals_.size()));
 }
 

@@ -1,8 +1,12 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <Eigen/Core>
+#include <functional>
 #include <memory>
+#include <mutex>
+#include <optional>
 
 #include "base/cholesky.hpp"
 #include "base/control.hpp"
@@ -28,7 +32,8 @@ struct DenseHypersingular {
 /// R is the reaction: the derivative of the energy with respect to the prescribed displacements. Any thread may use it.
 class GalerkinSystem {
 public:
-    /// On demand with the update `direct` nothing is factorised here; with finer rims D is integrated and kept.
+    /// On demand with the update `direct` nothing is factorised here; with finer rims D is integrated and kept. With
+    /// Method::first_set_alone D is kept until factorise().
     /// `parts`: D's integrals of this boundary and tolerance, or null.
     GalerkinSystem(std::shared_ptr<const Boundary> boundary, double poisson_ratio, const Method& method,
                    std::shared_ptr<const HypersingularParts> parts, StageTimes& stages, Control& control);
@@ -40,7 +45,19 @@ public:
     const Material& material() const { return material_; }
     double tolerance() const { return tolerance_; }
     Eigen::Index size() const { return 3 * boundary_->mesh().n_vertices(); }
-    double reciprocal_condition() const { return factor_.reciprocal_condition(); }
+    /// Whether the factor is there, which columns and their products need.
+    bool is_factorised() const { return is_factorised_; }
+    /// Makes it where it is not there yet. Throws SolveError, Cancelled.
+    void factorise(Control& control) const;
+    /// Of the factor; nothing while there is none.
+    std::optional<double> reciprocal_condition() const {
+        return is_factorised() ? std::optional(factor_.reciprocal_condition()) : std::nullopt;
+    }
+    /// Of a system that was not factorised ahead: calls solve(D) for a first constrained set, D freed of rigid motions.
+    /// False for any other set: nothing is called. Throws Cancelled, and what solve throws.
+    bool solve_first_set(const std::function<void(const Eigen::MatrixXd& D)>& solve, const Control& control) const;
+    /// False after solve_first_set, until factorise().
+    bool serves_sets() const { return is_factorised_ || !solved_first_set_; }
     std::uint64_t memory_bytes() const;
 
     /// D afresh, both triangles, freed of rigid motions.
@@ -71,6 +88,7 @@ public:
 private:
     /// D as integrated, not yet projected.
     Eigen::MatrixXd integrals(Control& control) const;
+    void take_factor(Eigen::MatrixXd&& D, Control& control) const;
     void complete(Eigen::MatrixXd D, StageTimes& stages, Control& control);
     std::vector<Columns::Block> compute(const std::vector<ColumnKey>& missing, Control& control) const;
     void free_of_rigid_motions(Eigen::MatrixXd& K) const;
@@ -83,8 +101,12 @@ private:
     Eigen::MatrixXd body_modes_;  ///< 3V x 6: rigid motions of the whole body
     std::shared_ptr<const HypersingularParts> parts_;
     Eigen::MatrixXd integrals_;  ///< D as integrated, kept for sets with finer rims
+    bool keeps_matrix_;          ///< D, or its factor
     double shift_ = 1.0;
-    CholeskyFactorization factor_;
+    mutable std::mutex factor_mutex_;
+    mutable Eigen::MatrixXd unfactorised_;  ///< D freed of rigid motions
+    mutable CholeskyFactorization factor_;
+    mutable std::atomic<bool> is_factorised_ = false, solved_first_set_ = false;
     std::shared_ptr<const DenseHypersingular> dense_;
     std::unique_ptr<ColumnCache> cache_;
     mutable ColumnCache given_{kLoadColumnBytes};

@@ -93,6 +93,7 @@ void SetKeeper::set_model(std::shared_ptr<const Model> model) {
     model_ = std::move(model);
     failure_.clear();
     spare_ = {};
+    may_serve_sets_ = true;
     job_.cancel();
 }
 
@@ -123,6 +124,7 @@ SetKeeper::Event SetKeeper::take_finished() {
     switch (job_.poll()) {
         case JobEvent::finished: {
             PreparedSet prepared = job_.take();
+            if (!prepared.deformer) return Event::none;
             if (prepared.deformer == current_.deformer && converging_) {
                 current_.drag = std::move(prepared.drag);
                 return Event::converged;
@@ -190,6 +192,8 @@ SetKeeper::Event SetKeeper::use_or_prepare() {
         if (!same_as_wanted(*prefetch_) && !(spare_.deformer && spare_.deformer->set() == *prefetch_))
             prepare_prefetched(*prefetch_);
         prefetch_.reset();
+    } else if (may_serve_sets_ && !job_.running() && !model_->serves_sets()) {
+        serve_further_sets();
     }
     return event;
 }
@@ -345,6 +349,19 @@ void SetKeeper::converge_on_worker() {
         control.begin_stage("converge");
         drag.converge(control);
         return PreparedSet{.deformer = deformer, .drag = std::move(drag)};
+    });
+}
+
+/// The first set was answered by itself, the sooner: what further ones take over is made while it serves.
+void SetKeeper::serve_further_sets() {
+    may_serve_sets_ = false;
+    preparing_set_ = {};
+    converging_ = false;
+    solving_ = {};
+    job_.start([model = model_, set = wanted_set_](Control& control) {
+        control.begin_stage("constrain");
+        Deformer(model).constrain(set, control);  // its columns stay with the model
+        return PreparedSet{};
     });
 }
 

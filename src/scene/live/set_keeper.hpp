@@ -146,6 +146,7 @@ private:
     Approach approach_to(const Wish& wish) const;
     std::optional<Wish> next_step() const;
     void converge_on_worker();
+    void serve_further_sets();
     Event take_failure();
     void prepare_prefetched(const ConstrainedSet& set);
     std::shared_ptr<const Equilibrium> start_for(const ConstrainedSet& set) const;
@@ -164,6 +165,7 @@ private:
     PreparedSet spare_;  ///< of the same model: prefetched, or the one used before
     ConstrainedSet preparing_set_;
     bool converging_ = false, may_converge_ = true;
+    bool may_serve_sets_ = true;  ///< not yet tried with this model
     Wish solving_;                ///< what the worker solves for within the present set
     std::optional<Wish> failed_;  ///< that has no equilibrium
     bool may_hold_off_ = false;
