@@ -3,6 +3,7 @@
 #include <numbers>
 #include <utility>
 
+#include "fem/nonlinear/free_turns.hpp"
 #include "fem/nonlinear/solver.hpp"
 
 namespace elastolab {
@@ -19,6 +20,8 @@ constexpr double kPrediction = 0.1;
 /// Smallest ratio of volumes that a predicted state may have: those below are far from any equilibrium.
 constexpr double kCrushed = 0.05;
 constexpr int kPushes = 3;
+/// Part of the displacements by which an equilibrium may differ from the one nearest to rest.
+constexpr double kNoTurn = 1e-9;
 
 }  // namespace
 
@@ -181,10 +184,25 @@ void NonlinearSolver::keep(std::shared_ptr<const SparseCholesky> factor) const {
     kept_ = std::move(factor);
 }
 
+/// Newton's method stays within what is resisted only to first order, and so may turn a body about the rest.
+NewtonState NonlinearSolver::turned_to_rest(NewtonState state, double tolerance, NewtonWork& work,
+                                            Control& control) const {
+    const Eigen::VectorXd dead = newton_.loads().dead_forces(state.factors);
+    const Eigen::VectorXd u =
+        elastolab::turned_to_rest(elements().positions(), state.u, dead.reshaped(3, elements().n_nodes()));
+    if ((u - state.u).norm() < kNoTurn * u.norm()) return state;
+    NewtonState turned = newton_.run(u, state.factors, tolerance, kMostIterations, work, control);
+    if (!turned.converged || turned.iterations > 0) return state;
+    turned.iterations = state.iterations;
+    turned.stable = state.stable;
+    return turned;
+}
+
 NonlinearSolver::StatePtr NonlinearSolver::settled(NewtonState state, double tolerance, int most_steps,
                                                    NewtonWork& work, Control& control) const {
     judge_at_its_end(state, work, control);
     state = stabilised(std::move(state), tolerance, most_steps, work, control);
+    if (nodes_.nodes.empty()) state = turned_to_rest(std::move(state), tolerance, work, control);
     keep(state.factor);
     const Eigen::VectorXd rest = Eigen::VectorXd::Zero(state.u.size());
     EquilibriumFacts facts{.iterations = state.iterations,

@@ -37,6 +37,8 @@ public:
     /// Whether some load follows the surface, so that forces depend on u.
     bool follow() const { return !faces_.empty(); }
 
+    /// Forces on the nodes of the loads that do not follow the surface, 3*n_nodes.
+    Eigen::VectorXd dead_forces(const Eigen::VectorXd& factors) const { return dead_ * factors; }
     /// Forces on the nodes, 3*n_nodes.
     Eigen::VectorXd forces(const Eigen::VectorXd& u, const Eigen::VectorXd& factors) const;
     /// Their change with u along `motion` and with the factors, to first order.

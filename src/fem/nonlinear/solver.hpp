@@ -101,6 +101,8 @@ private:
     /// The state itself where it is stable, else the stable one that it is left for, where there is one.
     NewtonState stabilised(NewtonState state, double tolerance, int most_steps, NewtonWork& work,
                            Control& control) const;
+    /// Of a body that nothing holds, turned about what its loads do not resist.
+    NewtonState turned_to_rest(NewtonState state, double tolerance, NewtonWork& work, Control& control) const;
     StatePtr settled(NewtonState state, double tolerance, int most_steps, NewtonWork& work, Control& control) const;
     /// Keeps a factor, in place of the last one.
     void keep(std::shared_ptr<const SparseCholesky> factor) const;

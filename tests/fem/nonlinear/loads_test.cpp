@@ -223,6 +223,37 @@ TEST_P(LoadsOfDegree, PressureAllAroundAndOppositePullsDeformAFreeBodyHomogeneou
     }
 }
 
+/// About the forces' direction, or about any axis, nothing resists: of all turns that of rest is shown.
+TEST_P(LoadsOfDegree, AFreeBodyIsNotTurnedForNothing) {
+    const LoadedBox box({4, 2, 1}, {2, 1, 0.4}, GetParam());
+    const auto end = [&](double x) { return box.triangles([=](const Vector3d& at) { return at[0] == x; }); };
+    const std::vector<int> all = box.triangles([](const auto&) { return true; });
+    const std::vector<UnitLoad> pulled = {unit_traction(end(0.0), -Vector3d::UnitX()),
+                                          unit_traction(end(2.0), Vector3d::UnitX())};
+    std::vector<UnitLoad> pulled_and_pressed = pulled;
+    pulled_and_pressed.push_back(unit_pressure(box.surface, all));
+    for (const auto& [loads, factor] :
+         {std::pair(pulled, 0.05), std::pair(pulled, 0.6), std::pair(pulled_and_pressed, 0.3),
+          std::pair(std::vector{unit_pressure(box.surface, all)}, 0.5)}) {
+        const NodeSolution solution = box.solve({}, loads, VectorXd::Constant(std::ssize(loads), factor), {1.0, 0.3});
+        const Positions& rest = box.elements->positions();
+        const Positions u = solution.displacements.col(0).reshaped(3, rest.cols());
+        EXPECT_LT(u.rowwise().mean().norm(), 1e-6 * u.norm());
+        const Vector3d centre = rest.rowwise().mean();
+        Vector3d turn = Vector3d::Zero();
+        double size = 0.0;
+        for (Eigen::Index i = 0; i < rest.cols(); ++i) {
+            turn += (rest.col(i) - centre).cross(u.col(i));
+            size += (rest.col(i) - centre).squaredNorm();
+        }
+        EXPECT_LT(std::abs(turn[0]), 1e-8 * size) << factor;
+        if (loads.size() == 1) {
+            EXPECT_LT(turn.norm(), 1e-8 * size);
+        }
+        EXPECT_LT(solution.state->facts().energy, 1.0);
+    }
+}
+
 /// Poisson's ratio 0: no lateral strain, and mu (s - 1/s) = weight below the point is all there is.
 TEST(NonlinearLoads, ABarHangsUnderItsWeightAsTheClosedSolutionSays) {
     const Material material{1.0, 0.0};
