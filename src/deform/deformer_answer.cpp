@@ -113,9 +113,9 @@ std::optional<DiscretisationCheck> Deformer::check_of(const Answer& answer, cons
     const double resists = model_->body().material.young_modulus * size_of(surface);
     Eigen::Index moving_most = 0, worst = 0;
     // Relative to the better answer: one that moves too little would overstate its error.
-    const double size =
-        std::max(largest_motion(answer.displacements + to_better.displacements, moving_most),
-                 kNoMotion * gross_force(surface, set_.loads, values.tail(std::ssize(set_.loads))) / resists);
+    const double load_forces = gross_force(surface, set_.loads, values.tail(std::ssize(set_.loads)));
+    const double size = std::max(largest_motion(answer.displacements + to_better.displacements, moving_most),
+                                 kNoMotion * load_forces / resists);
     const double off = largest_motion(error.displacements, worst);
     if (!std::isfinite(off)) return {};
     const double u_error = size > 0.0 ? off / size : 0.0;
@@ -128,7 +128,7 @@ std::optional<DiscretisationCheck> Deformer::check_of(const Answer& answer, cons
     const Reactions better{answer.reactions.forces + to_better.reactions.forces,
                            answer.reactions.moments + to_better.reactions.moments};
     DiscretisationCheck found =
-        check(relative_reaction_error(model_->body(), set_, better, error.reactions, size, u_error));
+        check(relative_reaction_error(model_->body(), set_, better, error.reactions, load_forces, size, u_error));
     found.reaction_error = error.reactions;
     return found;
 }

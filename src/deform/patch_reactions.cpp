@@ -24,6 +24,9 @@ int root_of(std::vector<int>& parent, int i) {
 constexpr double kShearForces = 0.1;
 double shear_over_stretch(const Body& body) { return 1.0 / (1.0 + body.material.poisson_ratio); }
 
+/// Part of all forces, added up by their sizes, that is the least which errors are compared with: where patches bear
+/// nothing in all, as under loads that balance each other, nothing else is there.
+constexpr double kShareOfAll = 0.1;
 /// Forces below this fraction of Young's modulus times displacement times length are rounding.
 constexpr double kNoForce = 1e-9;
 
@@ -75,11 +78,12 @@ double size_of(const SurfaceMesh& surface) {
 }
 
 double relative_reaction_error(const Body& body, const ConstrainedSet& set, const Reactions& reactions,
-                               const Reactions& error, double motion, double motion_error) {
+                               const Reactions& error, double load_forces, double motion, double motion_error) {
     const SurfaceMesh& surface = *body.surface;
     const ConstrainedPatches patches = constrained_patches(surface, set.fixed, set.handles);
-    const double force = std::max(largest_patch_reaction(surface, patches, reactions),
-                                  kNoForce * body.material.young_modulus * motion * size_of(surface));
+    const double all_forces = reactions.forces.colwise().stableNorm().sum() + load_forces;
+    const double force = std::max({largest_patch_reaction(surface, patches, reactions), kShareOfAll * all_forces,
+                                   kNoForce * body.material.young_modulus * motion * size_of(surface)});
     const double off = largest_patch_reaction(surface, patches, error);
     return std::max(force > 0.0 ? off / force : 0.0, kShearForces * motion_error * shear_over_stretch(body));
 }

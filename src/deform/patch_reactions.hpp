@@ -23,9 +23,10 @@ double largest_patch_reaction(const SurfaceMesh& surface, const ConstrainedPatch
 /// From corner to corner of the surface's box [L].
 double size_of(const SurfaceMesh& surface);
 
-/// The largest reaction of a patch in `error` over the largest in `reactions`, those of a body whose largest
-/// displacement is `motion` [L] and off by the relative `motion_error`.
+/// The largest reaction of a patch in `error` over the largest in `reactions`, or over a tenth of all forces, which add
+/// up to nothing under loads that balance each other. Of a body whose largest displacement is `motion` [L] and off by
+/// the relative `motion_error`. load_forces: sizes of the loads' forces, added up (gross_force).
 double relative_reaction_error(const Body& body, const ConstrainedSet& set, const Reactions& reactions,
-                               const Reactions& error, double motion, double motion_error);
+                               const Reactions& error, double load_forces, double motion, double motion_error);
 
 }  // namespace elastolab

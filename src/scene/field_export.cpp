@@ -23,13 +23,9 @@ using DisplacementColumns = Eigen::Map<const Eigen::Matrix3Xd>;
 
 DisplacementColumns as_columns(const Eigen::VectorXd& u) { return {u.data(), 3, u.size() / 3}; }
 
-/// Rows of values at the model's vertices, carried to the shown ones.
-Eigen::MatrixXd as_shown(const SolvedBody& solved, const Eigen::MatrixXd& rows) {
-    if (!solved.proxy) return rows;
-    Eigen::MatrixXd shown(rows.rows(), solved.shown->n_vertices());
-    for (Eigen::Index i = 0; i < rows.rows(); ++i)
-        shown.row(i) = carried_values(*solved.proxy, rows.row(i).transpose()).transpose();
-    return shown;
+/// Columns of values at the model's vertices, carried to the shown ones.
+Eigen::MatrixXd as_shown(const SolvedBody& solved, const Eigen::MatrixXd& columns) {
+    return solved.proxy ? carried_columns(*solved.proxy, columns) : columns;
 }
 
 SurfaceMesh moved_surface(const SolvedBody& solved) {
@@ -100,6 +96,19 @@ const std::vector<std::string>& field_endings() {
 bool is_field_file(const fs::path& file) {
     return std::find(field_endings().begin(), field_endings().end(), lower_case(file.extension().string())) !=
            field_endings().end();
+}
+
+Eigen::MatrixXd carried_columns(const Proxy& proxy, const Eigen::MatrixXd& columns) {
+    Eigen::MatrixXd shown(columns.rows(), proxy.shown->n_vertices());
+    for (Eigen::Index i = 0; i < columns.rows(); ++i)
+        shown.row(i) = carried_values(proxy, columns.row(i).transpose()).transpose();
+    return shown;
+}
+
+Eigen::VectorXd stress_of(const SolvedBody& solved) {
+    for (const MeshField& field : surface_fields(solved))
+        if (field.name == "stress") return field.values.reshaped();
+    return {};
 }
 
 std::vector<MeshField> surface_fields(const SolvedBody& solved) {

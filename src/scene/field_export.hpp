@@ -30,6 +30,12 @@ struct SolvedBody {
 /// deform/surface_stress.hpp has them.
 std::vector<MeshField> surface_fields(const SolvedBody& solved);
 
+/// Its stress alone, 6*n of the shown vertices (StressNumbers, deform/surface_stress.hpp).
+Eigen::VectorXd stress_of(const SolvedBody& solved);
+
+/// Columns of values at a proxy's vertices, carried to the shown ones as displacements are.
+Eigen::MatrixXd carried_columns(const Proxy& proxy, const Eigen::MatrixXd& columns);
+
 /// The endings of files of fields: a surface with them (.ply, .vtp), a body with its inside (.vtu), or a table of the
 /// vertices at rest (.csv). Small letters.
 const std::vector<std::string>& field_endings();

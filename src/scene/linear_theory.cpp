@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "deform/grip_equilibrium.hpp"
 #include "methods/precompute.hpp"
 #include "methods/registry.hpp"
 
@@ -24,6 +25,12 @@ Method finite_method(const SurfaceMesh& surface) {
 /// takes 35 altogether; where loads crush a body, steps would go on and on.
 constexpr int kMostSteps = 40;
 
+/// Of the answers that are compared.
+constexpr double kTolerance = 1e-4;
+/// Part of all values and forces that is small enough for linear theory to hold to a thousandth of its error, and large
+/// enough to be solved for.
+constexpr double kSmallPart = 1e-3;
+
 double largest(const Eigen::VectorXd& u) {
     return u.size() == 0 ? 0.0 : u.reshaped(3, u.size() / 3).colwise().norm().maxCoeff();
 }
@@ -39,20 +46,36 @@ LinearTheoryGauge::LinearTheoryGauge(Body body, ConstrainedSet set, Control& con
     deformer_ = std::move(deformer);
 }
 
+/// The answer to so much of the values and forces.
+Eigen::VectorXd LinearTheoryGauge::finite(double part, const Eigen::VectorXd& values, Control& control,
+                                          const Approach& approach, const HandleForces& by_force) const {
+    if (by_force.grips.empty()) return deformer_->displace(part * values, control, kTolerance, approach);
+    std::vector<GripForce> forces = by_force.forces;
+    for (GripForce& force : forces) {
+        force.force *= part;
+        force.moment *= part;
+    }
+    const GripEquilibrium found =
+        find_grip_equilibrium(*deformer_, part * values, by_force.grips, forces, control, approach);
+    return deformer_->displace(found.values, control, kTolerance, {found.equilibrium, {}});
+}
+
 std::optional<double> LinearTheoryGauge::error(const Eigen::VectorXd& values, Control& control,
-                                               const Approach& approach) const {
-    constexpr double kTolerance = 1e-4;
-    if (values.isZero(0.0) && approach.path.cols() == 0) return {};  // no motion, and no full turns either
-    // The tangent at rest is linear theory.
-    const DragResponse rest =
-        deformer_->drag_response(Eigen::VectorXd::Zero(values.size()), values, control, kTolerance);
+                                               const Approach& approach, const HandleForces& by_force) const {
+    // No motion, and no full turns either.
+    if (by_force.grips.empty() && values.isZero(0.0) && approach.path.cols() == 0) return {};
+    Eigen::VectorXd linear;
+    if (by_force.grips.empty())  // the tangent at rest is linear theory
+        linear = deformer_->drag_response(Eigen::VectorXd::Zero(values.size()), values, control, kTolerance).X.col(0);
+    else
+        linear = finite(kSmallPart, values, control, {}, by_force) / kSmallPart;
     try {
         Approach bounded = approach;
         bounded.most_steps = std::min(approach.most_steps, kMostSteps);
-        const Eigen::VectorXd finite = deformer_->displace(values, control, kTolerance, bounded);
-        const double size = largest(finite);
+        const Eigen::VectorXd whole = finite(1.0, values, control, bounded, by_force);
+        const double size = largest(whole);
         if (!(size > 0.0)) return {};
-        return largest(finite - rest.X.col(0)) / size;
+        return largest(whole - linear) / size;
     } catch (const NoEquilibriumError&) {
         return std::numeric_limits<double>::infinity();
     }

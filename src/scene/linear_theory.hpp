@@ -3,15 +3,24 @@
 #include <Eigen/Core>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "base/control.hpp"
 #include "deform/deformer.hpp"
 #include "deform/finding.hpp"
+#include "deform/grip.hpp"
+#include "deform/grip_force.hpp"
 
 namespace elastolab {
 
 /// Errors of linear theory below this are not worth a word.
 inline constexpr double kSilentLinearTheory = 0.02;
+
+/// Handles of a set that move by forces, and these; none: all are moved.
+struct HandleForces {
+    std::vector<Grip> grips = {};
+    std::vector<GripForce> forces = {};
+};
 
 /// How far linear theory is off for a motion: the linear and the finite answer of the same elements, on a coarse
 /// surface that stands for the body (that of the preview). It tells the error of the model apart from that of the mesh.
@@ -25,10 +34,15 @@ public:
 
     /// Largest difference of both answers at a vertex, over the largest displacement of the finite one. values: as
     /// Deformer::displace takes them; approach: for turns of more than half a circle. Nothing where nothing moves,
-    /// infinite where no equilibrium is found: a real body would be crushed. Throws SolveError, Cancelled.
-    std::optional<double> error(const Eigen::VectorXd& values, Control& control, const Approach& approach = {}) const;
+    /// infinite where no equilibrium is found: a real body would be crushed. by_force: handles whose values are left
+    /// out, as each theory has them elsewhere. Throws SolveError, Cancelled.
+    std::optional<double> error(const Eigen::VectorXd& values, Control& control, const Approach& approach = {},
+                                const HandleForces& by_force = {}) const;
 
 private:
+    Eigen::VectorXd finite(double part, const Eigen::VectorXd& values, Control& control, const Approach& approach,
+                           const HandleForces& by_force) const;
+
     std::unique_ptr<const Deformer> deformer_;
 };
 

@@ -12,6 +12,7 @@
 #include "deform/grip_equilibrium.hpp"
 #include "deform/load_work.hpp"
 #include "deform/node_solver.hpp"
+#include "deform/patch_reactions.hpp"
 #include "findings/cost.hpp"
 #include "findings/solution.hpp"
 #include "findings/words.hpp"
@@ -104,6 +105,7 @@ SceneMesh load_mesh(const SolveRequest& request, Solution& solution, Control& co
     const Stage stage("load", control, solution.stages);
     SceneMesh mesh = load_scene_mesh(request.document.mesh, request.scene_file, control);
     solution.mesh_name = mesh.name;
+    if (request.document.camera) solution.vertical = request.document.camera->vertical;
     solution.defects = mesh.checked.report.defects;
     solution.surface = std::make_shared<const SurfaceMesh>(std::move(mesh.checked.mesh));
     return mesh;
@@ -138,9 +140,15 @@ void precompute_model(const Method& method, const Body& body, Solution& solution
 /// Vertices of a surface that is gauged itself.
 constexpr int kMostGaugedThemselves = 1200;
 
-/// Sizes of all forces, of loads and at constrained vertices, added up.
-double all_forces(const Constraints& constraints, const Reactions& reactions, const SurfaceMesh& surface) {
-    double sum = 0.0;
+/// Forces below this fraction of Young's modulus times displacement times length are rounding.
+constexpr double kRoundingForce = 1e-12;
+
+/// Sizes of all forces, of loads and at constrained vertices, added up, and what rounding may make of none.
+double all_forces(const Constraints& constraints, const Deformer::Answer& answer, const Body& body) {
+    const SurfaceMesh& surface = *body.surface;
+    const Reactions& reactions = answer.reactions;
+    double sum = kRoundingForce * body.material.young_modulus * size_of(surface) *
+                 answer.displacements.reshaped(3, surface.n_vertices()).colwise().stableNorm().maxCoeff();
     for (const auto& force : reactions.forces.colwise()) sum += force.stableNorm();
     const std::vector<UnitLoad>& loads = constraints.set.loads;
     return sum + gross_force(surface, loads, constraints.values.tail(std::ssize(loads)));
@@ -198,9 +206,8 @@ void apply(Constraints& constraints, Constraints* shown, bool with_checks, Solut
         std::vector<GroupReaction> all = solution.reactions;
         all.insert(all.end(), solution.loads.begin(), solution.loads.end());
         if (!moves_rigidly(constraints, *solution.model->body().surface))
-            solution.imbalance =
-                imbalance_of(all, all_forces(constraints, answer.reactions, *solution.model->body().surface),
-                             *solution.model->body().surface);
+            solution.imbalance = imbalance_of(all, all_forces(constraints, answer, solution.model->body()),
+                                              *solution.model->body().surface);
         if (!constraints.loads.empty())
             solution.compliance = answer.facts
                                       ? answer.facts->work_of_loads
@@ -231,8 +238,8 @@ void apply(Constraints& constraints, Constraints* shown, bool with_checks, Solut
 /// The answer is there: where this fails, it is left out.
 void gauge(const SceneMesh& mesh, const Constraints& shown, const Constraints& simulated, Solution& solution,
            Control& control) {
-    const bool moves =
-        !simulated.values.isZero(0.0) || approach_to(simulated, *solution.model->body().surface).path.cols() > 0;
+    const bool moves = simulated.has_forces() || !simulated.values.isZero(0.0) ||
+                       approach_to(simulated, *solution.model->body().surface).path.cols() > 0;
     if (!moves || !solution.model->method().kind->linear) return;
     const Stage stage("linear theory", control, solution.stages);
     try {
@@ -251,7 +258,8 @@ void gauge(const SceneMesh& mesh, const Constraints& shown, const Constraints& s
         }
         const LinearTheoryGauge linear_theory(body, constraints->set, control);
         const std::optional<double> error =
-            linear_theory.error(constraints->values, control, approach_to(*constraints, *body.surface));
+            linear_theory.error(constraints->values, control, approach_to(*constraints, *body.surface),
+                                {constraints->grips(), constraints->grip_forces()});
         if (!error) return;
         if (std::isfinite(*error)) solution.linear_theory_error = error;
         append(solution.findings,

@@ -52,6 +52,7 @@ struct Solution {
     std::shared_ptr<const Model> model;
     Cost predicted;
     std::string mesh_name;
+    Eigen::Vector3d vertical = Eigen::Vector3d::UnitZ();  ///< the axis of the scene that points up
     int n_constrained = 0;
     Eigen::Matrix3Xd displacement;  ///< 3 x n_vertices [L]
     /// For fields: the deformer of the model's surface and what is prescribed there, displacements, constrained

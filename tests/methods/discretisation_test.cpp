@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -282,6 +283,28 @@ TEST(DiscretisationCheck, OfFemIsHalfAgainTheDifferenceToQuadraticFem) {
 }
 
 /// One answer is what displace, reactions, residual and the check say one by one.
+/// Rims tell nothing of a coarse cavity that is pressed.
+TEST(DiscretisationCheck, OfGalerkinSeesACoarseCavity) {
+    const SurfaceMesh outer = make_sphere(3), inner = inside_out(make_sphere(1, 0.3));
+    const SurfaceMesh body = joined(outer, inner);
+    std::vector<int> cavity(static_cast<std::size_t>(inner.n_triangles()));
+    std::iota(cavity.begin(), cavity.end(), outer.n_triangles());
+    const ConstrainedSet set{.fixed = vertices_where(body, [](const Eigen::Vector3d& x) { return x.x() < -0.8; }),
+                             .handles = {},
+                             .loads = {unit_pressure(body, cavity)}};
+    const Eigen::VectorXd values = Eigen::VectorXd::Constant(1, 0.1);
+    const Eigen::VectorXd truth = displaced(precomputed(make_body(body), {.kind = kQuadraticFem}), set, values);
+    Control control;
+    Deformer deformer(precomputed(make_body(body), {.kind = kGalerkinBem}));
+    deformer.constrain(set, control);
+    const double error = error_against(truth, deformer.displace(values));
+    const DiscretisationCheck check = deformer.discretisation_check(values, control).value();
+    EXPECT_GT(error, 0.1);
+    EXPECT_GT(check.relative_error, error / 3.0);
+    EXPECT_LT(check.relative_error, error * 3.0);
+    EXPECT_LT(check.relative_force_error, 0.3) << "nothing is borne in all, of forces that are there";
+}
+
 TEST(DiscretisationCheck, IsPartOfAnAnswerThatSolvesOnce) {
     const CoarseAndFine example = cases()[0];
     ConstrainedSet set;

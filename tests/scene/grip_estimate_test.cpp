@@ -65,6 +65,55 @@ TEST_F(GripEstimate, OfGalerkinSeesBarsOfFewTrianglesAcross) {
     }
 }
 
+/// Galerkin BEM on the same triangles would be as much too stiff.
+TEST_F(GripEstimate, OfCollocationSeesBarsOfFewTrianglesAcross) {
+    for (const MethodKind kind : {kLinearBem, kConstantBem})
+        for (const int cells : {1, 2}) {
+            const Solution solution = ten_nodes(gripped_bar(cells), kind);
+            const std::string found = std::string(name(kind)) + ", " + std::to_string(cells) + " cells: off by " +
+                                      std::to_string(error(solution)) + ", told " +
+                                      std::to_string(*solution.error_estimate);
+            std::cout << found << '\n';
+            EXPECT_GT(*solution.error_estimate, error(solution) / 1.5) << found;
+            EXPECT_LT(*solution.error_estimate, error(solution) * (cells == 1 ? 4.0 : 2.0)) << found;
+        }
+}
+
+/// The second answer is one to the same motion: of a stiffness that is wrong by a multiple, balance tells more.
+TEST(EstimateOfSlenderBars, ByCollocationIsNoneTheSmaller) {
+    Document document;
+    document.mesh = Primitive{.name = "box", .resolution = 2, .size = {20, 1, 1}};
+    document.material = {1e4, 0.3};
+    document.fixed = {{.select = {PlaneSelector{{0, 0, 0}, {1, 0, 0}, 1e-9}}}};
+    document.handles = {{.name = "end", .select = {PlaneSelector{{20, 0, 0}, {1, 0, 0}, 1e-9}}}};
+    document.handles[0].force = GripForce{{0, 0, 1e-3}, {0, 0, 0}};
+    const double fine = reach_of(ten_nodes(document, kQuadraticFem));
+    const Solution solution = ten_nodes(document, kLinearBem);
+    const double error = std::abs(reach_of(solution) - fine) / fine;
+    EXPECT_GT(error, 0.1);
+    EXPECT_GT(*solution.error_estimate, error / 3.0);
+    EXPECT_LT(*solution.error_estimate, error * 3.0);
+}
+
+/// What is soft comes last in the iterations of the second answer.
+TEST(EstimateOfSlenderBars, ByQuadraticFemIsIteratedFarEnough) {
+    for (const double length : {20.0, 40.0}) {
+        Document document;
+        document.mesh = Primitive{.name = "box", .resolution = 1, .size = {length, 1, 1}};
+        document.material = {1e4, 0.3};
+        document.fixed = {{.select = {PlaneSelector{{0, 0, 0}, {1, 0, 0}, 1e-9}}}};
+        document.handles = {{.name = "end", .select = {PlaneSelector{{length, 0, 0}, {1, 0, 0}, 1e-9}}}};
+        document.handles[0].force = GripForce{{0, 0, 1e-4}, {0, 0, 0}};
+        const Solution solution = ten_nodes(document, kQuadraticFem);
+        document.mesh = Primitive{.name = "box", .resolution = 2, .size = {length, 1, 1}};
+        const double fine = reach_of(ten_nodes(document, kQuadraticFem));
+        const double error = std::abs(reach_of(solution) - fine) / fine;
+        EXPECT_GT(*solution.error_estimate, error / 3.0) << length;
+        EXPECT_LT(*solution.error_estimate, error * 3.0) << length;
+        EXPECT_LT(*solution.force_error_estimate, 0.02) << "statics fixes what the base bears";
+    }
+}
+
 /// A held bar whose end a handle holds under no force, loaded by its weight: the handle goes where linear theory says.
 TEST(HandleWithoutForce, FollowsWhateverElseActs) {
     for (const double stiffness : {1e3, 1e9}) {

@@ -88,18 +88,21 @@ std::uint64_t affordable_memory(const SurfaceMesh& surface, const Method& answer
     return differs && fits && is_quick(surface, answer, rims, loads) ? bytes : 0;
 }
 
-/// The surface of the second answer. pinned: what holds the body bears nothing, so that nothing is singular there.
+/// What holds a body that is pinned bears nothing, so that nothing is singular there.
+LoneVertices lone_vertices(bool pinned) { return pinned ? LoneVertices::kept : LoneVertices::refined; }
+
+/// The surface of the second answer.
 FinerRims reference_rims(const SurfaceMesh& surface, std::span<const int> vertices, std::span<const UnitLoad> loads,
                          bool pinned) {
-    return FinerRims(surface, vertices, loads, 1, pinned ? LoneVertices::kept : LoneVertices::refined);
+    return FinerRims(surface, vertices, loads, 1, lone_vertices(pinned));
 }
 
 /// That where a surface has few triangles across: all are halved. Nothing where it has more, or where that would take
 /// too long.
 std::optional<FinerRims> halved_surface(const SurfaceMesh& surface, const Method& answer, std::span<const int> vertices,
-                                        std::span<const UnitLoad> loads) {
-    if (answer.kind != kGalerkinBem || !(triangles_across(surface) < kFewTrianglesAcross)) return {};
-    FinerRims halved(surface, vertices, loads, std::max(answer.rims, 1), LoneVertices::kept, Halved::all);
+                                        std::span<const UnitLoad> loads, LoneVertices lone) {
+    if (!(triangles_across(surface) < kFewTrianglesAcross)) return {};
+    FinerRims halved(surface, vertices, loads, std::max(answer.rims, 1), lone, Halved::all);
     if (affordable_memory(surface, answer, halved, loads) == 0) return {};
     return halved;
 }
@@ -164,6 +167,10 @@ std::optional<ReferenceAnswer> galerkin_reference(const SurfaceMesh& surface, co
                                                   std::span<const UnitLoad> loads, const Eigen::VectorXd& values,
                                                   const Eigen::VectorXd& first, Control& control) {
     const PinnedBody body(surface.vertices, vertices, values, first);
+    if (answer.kind != kGalerkinBem)
+        if (const auto halved =
+                halved_surface(surface, answer, body.vertices(), loads, lone_vertices(body.is_pinned())))
+            return reference_on(*halved, surface, answer, body, poisson_ratio, control);
     const FinerRims rims = reference_rims(surface, body.vertices(), loads, body.is_pinned());
     if (affordable_memory(surface, answer, rims, loads) == 0) return {};
     return reference_on(rims, surface, answer, body, poisson_ratio, control);
@@ -171,8 +178,11 @@ std::optional<ReferenceAnswer> galerkin_reference(const SurfaceMesh& surface, co
 
 std::uint64_t galerkin_reference_memory(const SurfaceMesh& surface, const Method& answer,
                                         std::span<const int> vertices) {
-    return affordable_memory(surface, answer, reference_rims(surface, vertices, {}, !holds(surface.vertices, vertices)),
-                             {});
+    const bool pinned = !holds(surface.vertices, vertices);
+    if (answer.kind != kGalerkinBem)
+        if (const auto halved = halved_surface(surface, answer, vertices, {}, lone_vertices(pinned)))
+            return affordable_memory(surface, answer, *halved, {});
+    return affordable_memory(surface, answer, reference_rims(surface, vertices, {}, pinned), {});
 }
 
 std::optional<ReferenceAnswer> galerkin_self_reference(const SurfaceMesh& surface, const Method& answer,
@@ -181,7 +191,8 @@ std::optional<ReferenceAnswer> galerkin_self_reference(const SurfaceMesh& surfac
                                                        const Eigen::VectorXd& first, Control& control) {
     std::optional<ReferenceAnswer> reference;
     const PinnedBody body(surface.vertices, vertices, values, first);
-    if (const std::optional<FinerRims> halved = halved_surface(surface, answer, body.vertices(), loads)) {
+    if (const std::optional<FinerRims> halved =
+            halved_surface(surface, answer, body.vertices(), loads, LoneVertices::kept)) {
         reference = reference_on(*halved, surface, answer, body, poisson_ratio, control);
         if (reference) reference->share = kShareOfHalving;
         return reference;
@@ -202,7 +213,7 @@ std::optional<ReferenceAnswer> galerkin_self_reference(const SurfaceMesh& surfac
 }
 
 std::uint64_t galerkin_halved_memory(const SurfaceMesh& surface, const Method& answer, std::span<const int> vertices) {
-    const std::optional<FinerRims> halved = halved_surface(surface, answer, vertices, {});
+    const std::optional<FinerRims> halved = halved_surface(surface, answer, vertices, {}, LoneVertices::kept);
     return halved ? affordable_memory(surface, answer, *halved, {}) : 0;
 }
 

@@ -15,8 +15,10 @@ namespace elastolab {
 /// triangles along the rims of the constrained patches and along re-entrant edges, and those around lone constrained
 /// vertices halved. Galerkin itself is 2 to 14 times more accurate than collocation on organic bodies, and most of what
 /// is left comes from where tractions and stresses are singular: refining there gains nearly what refining everywhere
-/// does. Solved afresh each time, large surfaces by hierarchical matrices. A body that is not held is pinned
-/// (deform/pinned_body.hpp). Collocation is judged where there is nothing to refine, too, on the same triangles.
+/// does. Where the surface has few triangles across (mesh/triangles_across.hpp) and that is affordable, all triangles
+/// are halved: Galerkin on the same ones would be as stiff as what it judges. Solved afresh each time, large surfaces
+/// by hierarchical matrices. A body that is not held is pinned (deform/pinned_body.hpp). Collocation is judged where
+/// there is nothing to refine, too, on the same triangles.
 /// Nothing where it would take too much memory, more than ten times as long as the answer (and two seconds), or
 /// cannot be solved.
 /// answer    the method that is judged

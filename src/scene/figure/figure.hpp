@@ -10,6 +10,7 @@
 #include "base/control.hpp"
 #include "deform/deformer.hpp"
 #include "scene/constraints.hpp"
+#include "scene/field_export.hpp"
 
 namespace elastolab {
 
@@ -18,7 +19,7 @@ namespace elastolab {
 struct FigureHandle {
     std::string name;
     std::vector<int> vertices;
-    Eigen::Vector3d centre;        ///< mean of the vertices [L]
+    Eigen::Vector3d centre;        ///< mean of the vertices that are simulated [L]
     Eigen::MatrixXd displacement;  ///< 3*n_vertices x 6
     Eigen::MatrixXd stress;        ///< 6*n_vertices x 6, StressNumbers of the surface (deform/surface_stress.hpp)
 };
@@ -26,7 +27,8 @@ struct FigureHandle {
 /// A solved body that can be pulled on: as answers are linear, it is exact.
 struct Figure {
     std::string title, method;
-    std::shared_ptr<const SurfaceMesh> surface;  ///< what is simulated
+    std::shared_ptr<const SurfaceMesh> surface;  ///< that of the scene, to whose vertices all numbers belong
+    Eigen::Vector3d vertical;                    ///< the axis that points up
     std::vector<int> fixed;                      ///< vertices
     Eigen::VectorXd displacement;                ///< of the scene as it is, 3*n_vertices [L]
     Eigen::VectorXd stress;                      ///< likewise, 6*n_vertices [force / L^2]
@@ -36,12 +38,16 @@ struct Figure {
 /// Why no figure can be made by this method with so many handles, with a way forward; empty when one can.
 std::string figure_refusal(MethodKind method, std::size_t n_handles);
 
-/// groups: those of the deformer's set (Constraints::groups). Six solves for each handle. Throws Error where the method
-/// is not linear, where no handle is there to be pulled, or where the file would be beyond kLargestFigure; SolveError,
-/// Cancelled.
-Figure make_figure(const Deformer& deformer, const Eigen::VectorXd& values, const std::vector<ConstraintGroup>& groups,
-                   Control& control);
+/// groups: those of the deformer's set (Constraints::groups). Six solves for each handle. On a proxy, shown vertices
+/// follow their places on it. Throws Error where the method is not linear, where no handle is there to be pulled, where
+/// the file would be beyond kLargestFigure, or numbers beyond single precision; SolveError, Cancelled.
+Figure make_figure(const SolvedBody& solved, const std::vector<ConstraintGroup>& groups,
+                   const Eigen::Vector3d& vertical, Control& control);
 inline constexpr double kLargestFigure = 200e6;  ///< bytes
+
+/// Where the origin of a file in single precision is to be: that of the scene or, of a body that is far from it beside
+/// its size, its middle, since vertices would fall together.
+Eigen::Vector3d single_precision_origin(const Positions& positions);
 
 /// One HTML file that needs no network: the body can be pulled, turned and looked at in a browser, coloured by
 /// displacement or von Mises stress. Numbers are in single precision.

@@ -3,6 +3,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <Eigen/Geometry>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -83,7 +84,9 @@ std::string padded(std::string text) {
 void write_glb(std::ostream& out, const Figure& figure) {
     static constexpr std::array kMotions = {"shift x", "shift y", "shift z", "turn x", "turn y", "turn z"};
     Buffer buffer;
-    const int position = buffer.add_vectors(figure.surface->vertices.cast<float>());
+    const Positions& rest = figure.surface->vertices;
+    const Eigen::Vector3d origin = single_precision_origin(rest);
+    const int position = buffer.add_vectors((rest.colwise() - origin).cast<float>());
     const int corners = buffer.add_corners(figure.surface->triangles);
     Json targets = Json::array(), names = Json::array(), weights = Json::array();
     const auto add_target = [&](const Eigen::Ref<const Eigen::VectorXd>& u, const std::string& name, double weight) {
@@ -98,19 +101,23 @@ void write_glb(std::ostream& out, const Figure& figure) {
                        0.0);
     const Json primitive = {
         {"attributes", {{"POSITION", position}}}, {"indices", corners}, {"mode", 4}, {"targets", targets}};
-    const double half = 0.70710678118654752;
-    const Json root = {
-        {"asset", {{"version", "2.0"}, {"generator", std::string("elastolab ") + version()}}},
-        {"scene", 0},
-        {"scenes", Json::array({{{"nodes", {0}}}})},
-        {"nodes", Json::array({{{"mesh", 0}, {"name", figure.title}, {"rotation", {-half, 0.0, 0.0, half}}}})},
-        {"meshes", Json::array({{{"name", figure.title},
-                                 {"primitives", Json::array({primitive})},
-                                 {"weights", weights},
-                                 {"extras", {{"targetNames", names}}}}})},
-        {"accessors", buffer.accessors()},
-        {"bufferViews", buffer.views()},
-        {"buffers", Json::array({{{"byteLength", buffer.bytes().size()}}})}};
+    const auto upright = Eigen::Quaterniond::FromTwoVectors(figure.vertical, Eigen::Vector3d::UnitY());
+    const Eigen::Vector3d place = upright * origin;
+    const Json node = {{"mesh", 0},
+                       {"name", figure.title},
+                       {"rotation", {upright.x(), upright.y(), upright.z(), upright.w()}},
+                       {"translation", {place.x(), place.y(), place.z()}}};
+    const Json root = {{"asset", {{"version", "2.0"}, {"generator", std::string("elastolab ") + version()}}},
+                       {"scene", 0},
+                       {"scenes", Json::array({{{"nodes", {0}}}})},
+                       {"nodes", Json::array({node})},
+                       {"meshes", Json::array({{{"name", figure.title},
+                                                {"primitives", Json::array({primitive})},
+                                                {"weights", weights},
+                                                {"extras", {{"targetNames", names}}}}})},
+                       {"accessors", buffer.accessors()},
+                       {"bufferViews", buffer.views()},
+                       {"buffers", Json::array({{{"byteLength", buffer.bytes().size()}}})}};
     const std::string text = padded(root.dump(-1, ' ', true, Json::error_handler_t::replace));
     constexpr std::size_t kHeader = 12, kChunkHeader = 8;
     put(out, kMagic);

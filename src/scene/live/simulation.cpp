@@ -32,6 +32,7 @@ std::optional<Method> completion_of(const SurfaceMesh& mesh, MethodKind kind, co
 
 Method MethodChoices::of(MethodKind kind) const {
     Method method{.kind = kind, .mode = mode, .tractions = tractions, .update = update};
+    method.first_set_alone = true;
     if (!has(kind, mode)) method.mode = has(kind, Mode::full) ? Mode::full : Mode::on_demand;
     if (!has(kind, update)) method.update = Update::reduced;
     if (kind->chooses_elements) method.elements = elements;
@@ -254,13 +255,15 @@ void Simulation::gauge_theory(const LiveScene& scene) {
     if (runner(kind).state() != State::ready || !runner(kind).converged() || !runner(kind).answers()) return;
     gauged_on_ = scene.surface();
     Body body{.name = scene.name(), .surface = scene.surface(), .material = scene.document().material};
-    if (is_quick_at_equilibria(scene)) return gauge_.update(body, asked.set, wish_of(asked));
+    if (is_quick_at_equilibria(scene))
+        return gauge_.update(body, asked.set, wish_of(asked), {asked.grips(), asked.grip_forces()});
     const std::shared_ptr<const Proxy>& proxy = proxies_.preview();
     if (!proxy || proxy->shown != scene.surface()) return;
     if (!gauge_carried_ || &gauge_carried_->proxy() != proxy.get()) gauge_carried_.emplace(proxy);
     gauge_carried_->set(asked);
     body.surface = proxy->surface;
-    gauge_.update(body, gauge_carried_->constraints().set, wish_of(gauge_carried_->constraints()));
+    const Constraints& carried = gauge_carried_->constraints();
+    gauge_.update(body, carried.set, wish_of(carried), {carried.grips(), carried.grip_forces()});
 }
 
 /// Only when every shown method is ready, and one at a time: what is looked at comes first.

@@ -21,14 +21,14 @@ bool turns(const Wish& wish) {
 }  // namespace
 
 TheoryGauge::Found TheoryGauge::find(std::shared_ptr<const Made> made, const Body& body, const ConstrainedSet& set,
-                                     const Wish& wish, Control& control) {
+                                     const Wish& wish, const HandleForces& by_force, Control& control) {
     const bool serves = made && made->surface == body.surface && made->set == set && made->material == body.material;
     if (!serves)
         made =
             std::make_shared<const Made>(Made{body.surface, body.material, set, LinearTheoryGauge(body, set, control)});
     const Positions rest = body.surface->vertices(Eigen::all, set.handles);
     const Approach approach{nullptr, way_to(wish, nullptr, rest).path};
-    const double error = made->gauge.error(wish.values, control, approach).value_or(0.0);
+    const double error = made->gauge.error(wish.values, control, approach, by_force).value_or(0.0);
     const bool crushed = std::isinf(error);
     const bool handles_move = !wish.values.head(wish.values.size() - std::ssize(set.loads)).isZero(0.0);
     return {std::move(made),
@@ -45,7 +45,7 @@ void TheoryGauge::rest() {
     error_.reset();
 }
 
-void TheoryGauge::update(const Body& body, const ConstrainedSet& set, const Wish& wish) {
+void TheoryGauge::update(const Body& body, const ConstrainedSet& set, const Wish& wish, const HandleForces& by_force) {
     switch (job_.poll()) {
         case JobEvent::finished: {
             Found found = job_.take();
@@ -74,9 +74,9 @@ void TheoryGauge::update(const Body& body, const ConstrainedSet& set, const Wish
         rest_ = {};
     }
     if (done_ || job_.running() || rest_.seconds() < kGaugeRestSeconds) return;
-    job_.start([made = made_, body, set, wish](Control& control) {
+    job_.start([made = made_, body, set, wish, by_force](Control& control) {
         control.begin_stage("gauge");
-        return find(made, body, set, wish, control);
+        return find(made, body, set, wish, by_force, control);
     });
 }
 

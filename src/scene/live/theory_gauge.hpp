@@ -27,9 +27,9 @@ public:
     /// `wake` is called by the worker when update() will find something.
     explicit TheoryGauge(std::function<void()> wake) : job_(std::move(wake)) {}
 
-    /// The motion that is shown, and what it is gauged on: a body with few vertices, and a set and a wish of it. Once
-    /// per frame.
-    void update(const Body& body, const ConstrainedSet& set, const Wish& wish);
+    /// The motion that is shown, and what it is gauged on: a body with few vertices, and a set, a wish of it and what
+    /// moves by forces. Once per frame.
+    void update(const Body& body, const ConstrainedSet& set, const Wish& wish, const HandleForces& by_force);
     /// There is nothing to gauge.
     void rest();
     /// Of the last update's motion; nothing until it is known, and where the body cannot take the methods.
@@ -53,7 +53,7 @@ private:
         TheoryError error = {};
     };
     static Found find(std::shared_ptr<const Made> made, const Body& body, const ConstrainedSet& set, const Wish& wish,
-                      Control& control);
+                      const HandleForces& by_force, Control& control);
 
     std::shared_ptr<const Made> made_;
     std::optional<Wish> wanted_;

@@ -153,10 +153,15 @@ Vector3d CarriedConstraints::value_of(const Follower& follower) const {
 }
 
 Eigen::VectorXd CarriedConstraints::displacement(const Eigen::VectorXd& of_proxy) const {
-    Eigen::VectorXd u = places(of_proxy);
+    const Eigen::VectorXd proxied = places(of_proxy);
+    Eigen::VectorXd u = proxied;
+    const auto at = [](const Follower& follower) { return 3 * Index{follower.vertex}; };
     for (const Follower& follower : followers_) {
-        auto own = u.segment<3>(3 * Index{follower.vertex});
-        own = (1.0 - follower.share) * own + follower.share * value_of(follower);  // exact where the share is 1
+        const Follower& source = followers_[follower.source];
+        if (follower.member >= 0)
+            u.segment<3>(at(follower)) = value_of(follower);
+        else
+            u.segment<3>(at(follower)) += follower.share * (value_of(source) - proxied.segment<3>(at(source)));
     }
     return u;
 }

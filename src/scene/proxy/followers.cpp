@@ -17,7 +17,7 @@ std::vector<Follower> find_followers(const Proxy& proxy, const VertexTriangles& 
         const std::vector<int> vertices = vertices_of(shown, g);
         for (std::size_t i = 0; i < vertices.size(); ++i) {
             source_of[vertices[i]] = followers.size();
-            followers.push_back({vertices[i], g, static_cast<int>(i), 1.0});
+            followers.push_back({vertices[i], g, static_cast<int>(i), 1.0, followers.size()});
         }
     }
     const std::size_t n_constrained = followers.size();
@@ -47,7 +47,7 @@ std::vector<Follower> find_followers(const Proxy& proxy, const VertexTriangles& 
         const bool is_vertexwise =
             group >= first_handle && std::holds_alternative<VertexMotion>(shown.motions[group - first_handle]);
         const double fade = 1.0 - d / reach;
-        if (!is_vertexwise) followers.push_back({vertex, group, -1, fade * fade});
+        if (!is_vertexwise) followers.push_back({vertex, group, -1, fade * fade, source_of[vertex]});
     }
     return followers;
 }

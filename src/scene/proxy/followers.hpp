@@ -13,8 +13,9 @@ namespace elastolab {
 struct Follower {
     int vertex;
     std::size_t group;
-    int member;    ///< place in the group; -1 when it is only near
-    double share;  ///< of the group's motion in its displacement
+    int member;          ///< place in the group; -1 when it is only near
+    double share;        ///< of what the constrained vertex that it follows is moved by beyond its place on the proxy
+    std::size_t source;  ///< which follower that is: itself where it is constrained
 };
 
 /// The shown vertices whose displacements are not those of their places on the proxy alone. Constrained ones go exactly
