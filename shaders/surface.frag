@@ -61,5 +61,7 @@ void main() {
     float grazing = 1.0 - abs(dot(normal, to_eye));
     float cover = mix(opacity, 1.0, 0.5 * grazing * grazing);  // as glass: denser towards its outline
     if (opacity == 1.0) cover = 1.0;
+    // An outline alone: flat faces have none, at whatever angle they are seen; their edges are drawn.
+    if (opacity == 0.0) cover *= smoothstep(0.0, 2e-3, length(fwidth(normal)));
     shown = vec4(mix(to_srgb(bright), wire.rgb, covered), mix(cover, 1.0, 0.6 * covered));
 }

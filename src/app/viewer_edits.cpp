@@ -38,6 +38,10 @@ void ViewerState::take_step(const std::function<void()>& step) {
     finish_gesture();
     keep_method();
     const std::string selected_handle = selected_handle_name(), selected_fixed_set = selected_fixed_name();
+    const std::optional<int> selected_load = gestures.selected_load();
+    const std::string load_name = selected_load && *selected_load >= 0 && *selected_load < scene_->n_loads()
+                                      ? scene_->load_name(*selected_load)
+                                      : "";
     step();
     take_method();
     gestures.select_handle(-1);
@@ -47,6 +51,9 @@ void ViewerState::take_step(const std::function<void()>& step) {
         if (scene_->handle_name(handle) == selected_handle) gestures.select_handle(handle);
     for (int set = 0; set < scene_->n_fixed_sets(); ++set)
         if (scene_->fixed_name(set) == selected_fixed_set) gestures.keep_fixed(set);
+    if (selected_load == LiveScene::kGravity && scene_->document().gravity) gestures.select_load(selected_load);
+    for (int load = 0; load < scene_->n_loads(); ++load)
+        if (scene_->load_name(load) == load_name) gestures.select_load(load);
 }
 
 void ViewerState::undo() {

@@ -18,10 +18,7 @@ void write_outputs(const ViewerOptions& options, ViewerState& state, const std::
     Control never_cancelled;
     if (!options.scene_out.empty()) attempt([&] { write_scene(options.scene_out, state.document_to_save()); });
     if (!options.mesh_out.empty())
-        attempt([&] {
-            write_export(options.mesh_out, export_source(state.scene(), state.simulation.answer(state.method)),
-                         never_cancelled);
-        });
+        attempt([&] { write_export(options.mesh_out, state.export_source_now(), never_cancelled); });
     if (state.measurements.timings) attempt([&] { state.measurements.timings->finish(); });
     if (state.measurements.recorder) attempt([&] { state.measurements.recorder->finish(); });
     if (!options.screenshot.empty())

@@ -1,9 +1,12 @@
 // What a ViewerState begins with in a new scene, and how a new body comes about.
 #include <algorithm>
+#include <limits>
+#include <span>
 #include <utility>
 
 #include "app/input/default_support.hpp"
 #include "app/job_notes.hpp"
+#include "app/picture/load_arrows.hpp"
 #include "app/picture/view_point.hpp"
 #include "app/viewer_state.hpp"
 #include "render/drawing/legend.hpp"
@@ -17,10 +20,21 @@ namespace {
 constexpr double kPatchPart = 0.07;     ///< default radius of a patch: of the body's diagonal,
 constexpr double kPatchEdges = 1.6;     ///< but at least so many edges, so that it has whole triangles
 constexpr double kPressurePart = 0.01;  ///< default of a pressure: of Young's modulus
-constexpr double kSpringPart = 1.0;     ///< default of a spring: of Young's modulus times the radius of a patch
-constexpr int kDenseVertices = 2000;    ///< above, a wireframe hides more than it shows
+/// Default of a spring: of Young's modulus times the radius of a patch, or of the bending of a whole body.
+constexpr double kSpringPart = 1.0;
+constexpr int kDenseVertices = 2000;  ///< above, a wireframe hides more than it shows
 
 double diagonal(const MeshReport& report) { return (report.max_corner - report.min_corner).norm(); }
+
+/// The largest distance of a vertex from the middle of the fixed part; infinite where nothing is fixed.
+double farthest_from_support(const LiveScene& scene) {
+    const std::span<const int> fixed = scene.vertices(LiveScene::kFixed);
+    if (fixed.empty()) return std::numeric_limits<double>::infinity();
+    const Positions& all = scene.mesh().vertices;
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    for (const int v : fixed) middle += all.col(v) / static_cast<double>(fixed.size());
+    return (all.colwise() - middle).colwise().norm().maxCoeff();
+}
 
 /// What a person is told of a surface's defects as it is loaded. Where a closed surface stands for it, nothing has to
 /// be done about them; the panel lists them.
@@ -85,7 +99,8 @@ void ViewerState::take_scene(LoadedScene loaded) {
     scene_->start_with(method, choices.settings());
     tools.patch_radius = std::max(kPatchPart * diagonal(scene_->report()), kPatchEdges * scene_->report().mean_edge);
     tools.pressure = round_step(kPressurePart * scene_->document().material.young_modulus);
-    tools.spring = round_step(kSpringPart * scene_->document().material.young_modulus * tools.patch_radius);
+    tools.spring = round_step(kSpringPart * std::min(scene_->document().material.young_modulus * tools.patch_radius,
+                                                     bending_stiffness(*scene_, farthest_from_support(*scene_))));
     shown.forget();
     probes.clear();
     display.wireframe = scene_->mesh().n_vertices() <= kDenseVertices;

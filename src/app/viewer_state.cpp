@@ -119,9 +119,13 @@ void ViewerState::cancel_workers() {
     simulation.cancel();
 }
 
+ExportSource ViewerState::export_source_now() const {
+    return export_source(*scene_, simulation.answer(method), camera.up_axis());
+}
+
 void ViewerState::export_mesh(const fs::path& file) {
-    const auto source = [this] { return export_source(*scene_, simulation.answer(method)); };
-    exports_.start(file, source, simulation.previewing(method), messages);
+    exports_.start(
+        file, [this] { return export_source_now(); }, simulation.previewing(method), messages);
 }
 
 void ViewerState::record_timings(const fs::path& file) {
@@ -227,13 +231,47 @@ bool ViewerState::answering() const {
     });
 }
 
+/// The force that moves a handle as it is moved now; nothing where it is not known, as by a preview.
+std::optional<GripForce> ViewerState::present_force(int handle) const {
+    const ShownBody* body = simulation.previewing(method) || shown.solving() ? nullptr : shown.body(method);
+    if (body == nullptr) return std::nullopt;
+    for (const ShownReaction& reaction : body->reactions())
+        if (!reaction.fixed && reaction.name == scene_->handle_name(handle))
+            return GripForce{.force = reaction.force, .moment = reaction.moment_about_middle()};
+    return std::nullopt;
+}
+
+void ViewerState::move_by_force(int handle) {
+    moved_by_force_ = scene_->handle_name(handle);
+    take_wanted_force();
+}
+
+void ViewerState::take_wanted_force() {
+    if (moved_by_force_.empty()) return;
+    int handle = 0;
+    while (handle < scene_->n_handles() && scene_->handle_name(handle) != moved_by_force_) ++handle;
+    const bool is_there = handle < scene_->n_handles();
+    const std::string& failure = shown.reaction_failure(method);
+    if (is_there && failure.empty()) {
+        const std::optional<GripForce> force = present_force(handle);
+        if (!force) return;
+        scene_->set_force(handle, force);
+        scene_->commit();
+    } else if (is_there) {
+        messages.error(failure);
+    }
+    moved_by_force_.clear();
+}
+
 bool ViewerState::update_picture() {
+    take_wanted_force();
     return shown.update({.scene = *scene_,
                          .simulation = simulation,
                          .kinds = shown_kinds(),
                          .reference = reference(),
                          .display = display,
                          .probed = tools.tool == Tool::probe || !probes.vertices().empty(),
+                         .forces_wanted = !moved_by_force_.empty(),
                          .pulling = gestures.dragging()});
 }
 

@@ -79,6 +79,10 @@ public:
     /// The method to begin with, for the scene that is there and the one that is being opened.
     void start_with(MethodKind kind);
     void save_probes(const std::filesystem::path& file);
+    /// A handle is to be moved by the force that moves it now, as soon as that is known.
+    void move_by_force(int handle);
+    /// What the present method shows, to be written.
+    ExportSource export_source_now() const;
     /// Writes a mesh, or fields, on a worker (write_export).
     void export_mesh(const std::filesystem::path& file);
     /// The file that a worker writes; empty when none does.
@@ -133,10 +137,13 @@ private:
     std::string selected_fixed_name() const;
     std::string selected_handle_name() const;
     void take_step(const std::function<void()>& step);
+    std::optional<GripForce> present_force(int handle) const;
+    void take_wanted_force();
 
     std::unique_ptr<LiveScene> scene_;
     std::unique_ptr<VertexGraph> graph_;
     std::uint64_t scene_number_ = 0;
+    std::string moved_by_force_;   ///< a handle whose force is waited for
     bool has_saved_view_ = false;  ///< the scene was saved with its camera
     bool simulated_ = false;       ///< something was computed already
     std::vector<int> prefetched_;

@@ -37,7 +37,8 @@ void add_options(CLI::App& parser, BenchOptions& options) {
     std::vector<std::string> names;
     for (const StudyEntry& entry : studies()) names.push_back(entry.name);
     parser.add_option("study", options.study, "which study")->required()->check(CLI::IsMember(names));
-    parser.add_option("--out", options.folder, "folder for the results, made when it is missing (default bench-STUDY)");
+    parser.add_option("--out", options.folder, "folder for the results, made when it is missing (default bench-STUDY)")
+        ->check([](const std::string& text) { return std::string(text.empty() ? "the name is empty" : ""); });
     parser.add_flag("--quick", options.quick, "small sizes: under a minute");
     parser.add_option("--seed", options.seed,
                       "random seed of the constrained nodes (paper) and the edits (stability) (default 1)");

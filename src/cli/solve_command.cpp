@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/text.hpp"
 #include "cli/command.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
@@ -129,6 +130,12 @@ Solution solve_with_progress(const SolveRequest& request, Control& control, bool
     }
 }
 
+/// Whether the file is one of VTK's, which have points at rest or where they have moved to.
+bool has_points(const std::filesystem::path& mesh) {
+    const std::string extension = lower_case(mesh.extension().string());
+    return extension == ".vtp" || extension == ".vtu";
+}
+
 void run_solve(const SolveOptions& options, const SolveVariant& variant) {
     Control control;
     const InterruptGuard interrupt(control);
@@ -142,6 +149,8 @@ void run_solve(const SolveOptions& options, const SolveVariant& variant) {
     request.with_checks = !options.quiet || !options.report.empty();
     require_writable(options.outputs(), files_of_scene(request.scene_file, request.document.mesh));
     require_inside(request.method.kind, options.mesh_out);
+    if (options.deformed && !has_points(options.mesh_out))
+        throw UsageError("--deformed: there is no .vtp or .vtu whose points it could move. Add --mesh-out FILE.vtp.");
     require_figure(request.method.kind, request.document.handles.size(), options.outputs());
 
     Solution solution = solve_with_progress(request, control, !options.quiet);

@@ -6,6 +6,7 @@
 
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
+#include "base/output_path.hpp"
 #include "base/text.hpp"
 #include "cli/command.hpp"
 #include "cli/matrix_market.hpp"
@@ -32,9 +33,15 @@ std::vector<fs::path> files(const OutputPaths& paths) {
     return result;
 }
 
+/// Links lead to the same file before it is there, too.
 fs::path resolved(const fs::path& path) {
     std::error_code error;
-    const fs::path full = fs::weakly_canonical(fs::absolute(path, error), error);
+    fs::path target = path;
+    try {
+        if (!path.empty() && !is_open_stream(path)) target = followed_links(path);
+    } catch (const std::exception&) {  // told by whoever writes
+    }
+    const fs::path full = fs::weakly_canonical(fs::absolute(target, error), error);
     return error ? path.lexically_normal() : full;
 }
 
@@ -67,7 +74,7 @@ private:
 };
 
 Figure figure_of(const Solution& solution, Control& control) {
-    return make_figure(*solution.deformer, solution.values, solution.groups, control);
+    return make_figure(solved_body(solution), solution.groups, solution.vertical, control);
 }
 
 void write_mesh(std::ostream& out, const fs::path& name, const Solution& solution, VtkPoints points, Control& control) {

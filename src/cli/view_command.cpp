@@ -1,18 +1,27 @@
 #include <algorithm>
 #include <charconv>
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "app/files/series.hpp"
+#include "app/picture/film.hpp"
 #include "app/viewer.hpp"
+#include "base/error.hpp"
 #include "base/text.hpp"
 #include "cli/command.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/solve_outputs.hpp"
 #include "cli/threads.hpp"
 #include "methods/registry.hpp"
+#include "scene/file/scene_file.hpp"
 
 namespace elastolab {
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -38,14 +47,60 @@ Eigen::Vector2i parse_size(const std::string& option, const std::string& text) {
     throw UsageError(option + " " + text + ": give width and height in pixels, as in 1280x800.");
 }
 
-/// A scene may be written back to where it was read.
-void require_distinct_files(const ViewWords& words) {
-    require_distinct({words.screenshot, words.picture, words.timings, words.timeline, words.record, words.scene_out,
-                      words.mesh_out, words.series},
-                     {words.replay});
-    require_distinct(
-        {words.screenshot, words.picture, words.timings, words.timeline, words.record, words.mesh_out, words.series},
-        {words.input});
+/// The scene that is opened; nothing where it cannot be read, of which the viewer tells.
+std::optional<Document> scene_of(const ViewWords& words) {
+    Document document;
+    try {
+        if (!words.input.empty() && is_scene_file(words.input)) return load_scene(words.input);
+    } catch (const Error&) {
+        return std::nullopt;
+    }
+    if (!words.input.empty()) document.mesh = MeshFile{words.input};
+    return document;
+}
+
+/// A film is written as numbered pictures.
+std::vector<fs::path> pictures_of(const ViewWords& words) {
+    const int n = std::max(words.turntable, words.pull_film);
+    if (n == 0) return {words.picture};
+    std::vector<fs::path> frames;
+    for (int frame = 1; frame <= n; ++frame) frames.push_back(frame_file(words.picture, frame));
+    return frames;
+}
+
+/// A scene may be written back to where it was read, but not to its mesh.
+void require_distinct_files(const ViewWords& words, const std::optional<Document>& scene) {
+    std::vector<fs::path> outputs = {words.screenshot, words.timings,  words.timeline,
+                                     words.record,     words.mesh_out, words.series};
+    for (fs::path& picture : pictures_of(words)) outputs.push_back(std::move(picture));
+    std::vector<fs::path> inputs = {words.replay};
+    if (scene && !words.input.empty()) {
+        const std::vector<fs::path> files = files_of_scene(words.input, scene->mesh);
+        inputs.insert(inputs.end(), files.begin() + 1, files.end());
+    }
+    for (const fs::path& output : outputs)
+        if (is_part_of_series(words.series, output))
+            throw UsageError(output.string() + ": is a part of --series " + words.series + ". Name another file.");
+    require_distinct(outputs, {words.input});
+    outputs.emplace_back(words.scene_out);
+    require_distinct(outputs, inputs);
+}
+
+/// What cannot be written is refused before the window opens, where nobody can change the scene in it.
+void require_mesh(const ViewWords& words, const std::optional<Document>& scene) {
+    if (words.mesh_out.empty()) return;
+    require_mesh_extension(words.mesh_out);
+    if (!scene || !words.hidden || !words.replay.empty()) return;
+    const MethodKind method = parse_method_kind(words.method).value_or(scene->method);
+    require_inside(method, words.mesh_out);
+    OutputPaths paths;
+    paths.mesh = words.mesh_out;
+    require_figure(method, scene->handles.size(), paths);
+}
+
+void require_png(const std::string& option, const std::string& file) {
+    if (!file.empty() && lower_case(fs::path(file).extension().string()) != ".png")
+        throw UsageError(option + " " + file + ": pictures are written as .png. Choose that extension.");
 }
 
 ViewerOptions options_of(const ViewWords& words) {
@@ -64,8 +119,11 @@ ViewerOptions options_of(const ViewWords& words) {
     if (!words.series.empty() && lower_case(options.series.extension().string()) != ".pvd")
         throw UsageError("--series " + words.series + ": a series for ParaView is called .pvd. Choose that extension.");
     options.hidden = words.hidden;
-    require_distinct_files(words);
-    if (!words.mesh_out.empty()) require_mesh_extension(words.mesh_out);
+    require_png("--screenshot", words.screenshot);
+    require_png("--picture", words.picture);
+    const std::optional<Document> scene = scene_of(words);
+    require_distinct_files(words, scene);
+    require_mesh(words, scene);
     if (!words.size.empty()) options.size = parse_size("--size", words.size);
     options.picture = words.picture;
     options.transparent = words.transparent;
@@ -106,8 +164,10 @@ Command add_view_command(CLI::App& program) {
     parser->add_option("--record", words->record, "records the interaction")->check(path);
     parser->add_option("--scene-out", words->scene_out, "JSON: the scene as it is at the end")->check(path);
     parser
-        ->add_option("--mesh-out", words->mesh_out,
-                     "the deformed mesh at the end: OBJ, STL or PLY; or VTP, VTU: at rest, with the displacement")
+        ->add_option(
+            "--mesh-out", words->mesh_out,
+            "the deformed mesh at the end: OBJ, STL or PLY; VTP, VTU: at rest, with the displacement; GLB: at rest, "
+            "with morph targets")
         ->check(path);
     CLI::Option* const picture =
         parser->add_option("--picture", words->picture, "PNG of the scene alone, as it is at the end")->check(path);

@@ -76,7 +76,7 @@ py::dict fields_of(const Solution& solution) {
 void save(const Solution& solution, const fs::path& file, bool deformed, const py::object& progress) {
     run_watched(progress, [&](Control& control) {
         if (is_figure_file(file) || is_glb_file(file))
-            return save_figure(file, make_figure(*solution.deformer, solution.values, solution.groups, control));
+            return save_figure(file, make_figure(solved_body(solution), solution.groups, solution.vertical, control));
         if (is_field_file(file))
             return save_field_file(file, solved_body(solution), control,
                                    deformed ? VtkPoints::moved : VtkPoints::at_rest);

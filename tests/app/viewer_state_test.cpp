@@ -55,6 +55,30 @@ TEST(ViewerState, ShowsNothingThatCouldBePulledWhileItsFirstFileIsOpened) {
     EXPECT_FALSE(state.blank()) << "the body before stays until the next is there";
 }
 
+/// Whether forces are shown or not.
+TEST(ViewerState, AHandleThatIsMovedByAForceStaysWhereItWas) {
+    Stage stage(3);
+    ViewerState& state = stage.state;
+    state.display.arrows = false;
+    state.display.field = Field::none;
+    stage.drag(stage.pixel(stage.vertex_near({1, 0, 1})), stage.empty_place());
+    stage.settle();
+    ASSERT_EQ(stage.scene().n_handles(), 1);
+    const int vertex = stage.vertex_near({1, 0, 1});
+    const Eigen::Vector3d before = stage.place(vertex);
+    state.move_by_force(0);
+    wait_for([&] {
+        stage.frame();
+        return stage.scene().document().handles[0].force.has_value();
+    });
+    stage.settle();
+    EXPECT_GT(stage.scene().document().handles[0].force->force.norm(), 0.0);
+    EXPECT_LT((stage.place(vertex) - before).norm(), 1e-3 * (before - Eigen::Vector3d(1, 0, 1)).norm());
+    state.undo();
+    EXPECT_FALSE(stage.scene().document().handles[0].force) << "one step";
+    EXPECT_EQ(stage.scene().n_handles(), 1);
+}
+
 TEST(ViewerState, ShowsItsCubeWhereTheFirstFileCannotBeOpened) {
     ViewerState state([] {});
     state.files.open("/there/is/no/such.obj");

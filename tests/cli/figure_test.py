@@ -79,6 +79,20 @@ class Figure(ProgramCase):
         self.assertEqual(shown["reset"], [0] * 6)
         self.assertEqual(shown["largest"], 0)
 
+    def test_the_axis_of_the_scene_points_up_and_a_body_may_be_far_away(self):
+        for axis, vertical in enumerate(np.eye(3)):
+            description = scene("linear-bem", [0.1, 0, 0])
+            description["camera"] = {"eye": [5, 4, 3], "target": [0.5, 0.5, 0.5], "up": vertical.tolist(),
+                                     "vertical": vertical.tolist()}
+            self.solve(description, "--figure", "figure.html", "--displacements", "u.csv")
+            rest = self.columns("u.csv", "x", "z")
+            shown = self.run_in_browser("figure.displacement().fill(0);"
+                                        f"result.at = Array.from({{length: {len(rest)}}}, (_, v) => figure.onScreen(v))")
+            height = -np.array(shown["at"])[:, 1]
+            along = [np.corrcoef(height, rest[:, k])[0, 1] for k in range(3)]
+            self.assertEqual(int(np.argmax(along)), axis)
+            self.assertGreater(along[axis], 0.6)
+
     def test_a_figure_names_no_other_file_and_survives_any_name(self):
         description = scene("linear-bem", [0.1, 0, 0])
         description["handles"][0]["name"] = "</script><b>\u00fc"

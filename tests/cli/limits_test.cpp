@@ -130,6 +130,44 @@ TEST_F(LimitsTest, RefusesTwoOutputsInOneFile) {
     const ProgramRun view = run("true", "view --hidden --frames 1 --scene-out x.obj --mesh-out ./x.obj");
     EXPECT_EQ(view.exit_code, 2);
     EXPECT_THAT(view.err, HasSubstr("twice"));
+    std::filesystem::create_symlink("u.csv", folder_.path() / "link.csv");
+    const ProgramRun link = run("true", "solve --quiet scene.json --displacements u.csv --fields link.csv");
+    EXPECT_EQ(link.exit_code, 2) << "neither is there yet";
+    EXPECT_THAT(link.err, HasSubstr("twice"));
+}
+
+TEST_F(LimitsTest, TheViewerWritesOverNothingThatItReadsOrWrites) {
+    const std::string mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+    const std::string scene = R"({"elastolab": 1, "mesh": {"file": "body.obj"}})";
+    folder_.write("body.obj", mesh);
+    folder_.write("scene.json", scene);
+    folder_.write("log", "");
+    const std::vector<std::pair<std::string, std::string>> all = {
+        {"body.obj --scene-out body.obj", "input"},
+        {"scene.json --scene-out body.obj", "input"},
+        {"scene.json --timings body.obj", "input"},
+        {"scene.json --mesh-out ./body.obj", "input"},
+        {"scene.json --mesh-out a.obj --timings a.obj", "twice"},
+        {"scene.json --picture a.png --turntable 2 --screenshot a-0001.png", "twice"},
+        {"scene.json --picture a.png --pull-film 3 --timings a-0003.png", "twice"},
+        {"scene.json --replay log --series s.pvd --mesh-out s-0007.vtp", "part of --series"},
+        {"scene.json --picture a.jpg", ".png"},
+        {"scene.json --screenshot a", ".png"},
+        {"scene.json --mesh-out a.glb", "no handle"},
+        {"body.obj --mesh-out a.glb", "no handle"},
+        {"scene.json --method nonlinear-fem --mesh-out a.glb", "linear method"},
+        {"scene.json --method galerkin-bem --mesh-out a.vtu", "tetrahedra"}};
+    for (const auto& [arguments, why] : all) {
+        const ProgramRun result = run("true", "view --hidden --frames 1 " + arguments);
+        EXPECT_EQ(result.exit_code, 2) << arguments;
+        EXPECT_THAT(result.err, HasSubstr(why)) << arguments;
+    }
+    EXPECT_EQ(read_text(folder_.path() / "body.obj"), mesh);
+    EXPECT_EQ(read_text(folder_.path() / "scene.json"), scene);
+    EXPECT_THAT(folder_.listing(), ElementsAre("body.obj", "log", "scene.json"));
+    const ProgramRun deformed = run("true", "solve --quiet scene.json --mesh-out b.obj --deformed");
+    EXPECT_EQ(deformed.exit_code, 2);
+    EXPECT_THAT(deformed.err, HasSubstr("--deformed"));
 }
 
 }  // namespace

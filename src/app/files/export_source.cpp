@@ -1,5 +1,7 @@
 #include "app/files/export_source.hpp"
 
+#include <algorithm>
+
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "mesh/input/export.hpp"
@@ -10,13 +12,14 @@ namespace elastolab {
 
 namespace fs = std::filesystem;
 
-ExportSource export_source(const LiveScene& scene, const EmbeddedRunner& answer) {
+ExportSource export_source(const LiveScene& scene, const EmbeddedRunner& answer, const Eigen::Vector3d& vertical) {
     ExportSource source{.shown = scene.surface(),
                         .proxy = nullptr,
                         .deformer = nullptr,
                         .values = {},
                         .displacement = answer.displacement(),
                         .simulated_displacement = {},
+                        .vertical = vertical,
                         .carried = {}};
     const MethodRunner& runner = answer.runner();
     if (!answer.has_answer() || !answer.shows(scene.mesh()) || !runner.solved()) return source;
@@ -38,6 +41,13 @@ void write_moved_mesh(const fs::path& file, const ExportSource& source) {
     if (source.displacement.size() == mesh.vertices.size())
         mesh.vertices += Eigen::Map<const Eigen::Matrix3Xd>(source.displacement.data(), 3, mesh.vertices.cols());
     save_surface(file, mesh);
+}
+
+std::size_t n_handles(const ExportSource& source) {
+    const auto n_fixed = static_cast<int>(source.deformer->set().fixed.size());
+    return static_cast<std::size_t>(
+        std::count_if(source.groups.begin(), source.groups.end(),
+                      [&](const ConstraintGroup& group) { return group.begin >= n_fixed && group.end > group.begin; }));
 }
 
 /// What is shown first is not what is written.
@@ -69,8 +79,11 @@ bool takes_solves(const fs::path& file) { return is_field_file(file) || is_figur
 
 void write_export(const fs::path& file, const ExportSource& source, Control& control) {
     if (!source.converged) return write_export(file, converged(source, control), control);
-    if (source.deformer && (is_figure_file(file) || is_glb_file(file)))
-        return save_figure(file, make_figure(*source.deformer, source.values, source.groups, control));
+    if (source.deformer && (is_figure_file(file) || is_glb_file(file))) {
+        const std::string why = figure_refusal(source.deformer->model().method().kind, n_handles(source));
+        if (!why.empty()) throw Error(file.string() + ": " + why);
+        return save_figure(file, make_figure(solved_body(source, control), source.groups, source.vertical, control));
+    }
     if (source.deformer && is_field_file(file)) return save_field_file(file, solved_body(source, control), control);
     if (takes_solves(file) && lower_case(file.extension().string()) != ".ply")
         throw Error(file.string() + ": there is no answer to write yet. Wait until the method is ready.");

@@ -19,12 +19,14 @@ struct ExportSource {
     std::shared_ptr<const Proxy> proxy;        ///< null: shown itself is simulated
     std::shared_ptr<const Deformer> deformer;  ///< null: there is no answer yet
     Eigen::VectorXd values, displacement, simulated_displacement;
-    Approach approach = {};                     ///< of a method that is not linear: how to reach `values`
-    std::vector<ConstraintGroup> groups = {};   ///< of the deformer's set
+    Approach approach = {};                               ///< of a method that is not linear: how to reach `values`
+    std::vector<ConstraintGroup> groups = {};             ///< of the deformer's set
+    Eigen::Vector3d vertical = Eigen::Vector3d::UnitZ();  ///< the axis that points up
     bool converged = true;                      ///< else displacements are solved for again, to kSolveTolerance
     std::optional<CarriedConstraints> carried;  ///< to the shown vertices, where that is so and there is a proxy
 };
-ExportSource export_source(const LiveScene& scene, const EmbeddedRunner& answer);
+ExportSource export_source(const LiveScene& scene, const EmbeddedRunner& answer,
+                           const Eigen::Vector3d& vertical = Eigen::Vector3d::UnitZ());
 
 /// Writes the moved mesh or what else the ending of `file` stands for (scene/field_export.hpp, scene/figure); solves
 /// for the reactions where fields need them. A mesh is written at rest where there is no answer. Throws Error,

@@ -22,6 +22,16 @@ std::string step_name(const fs::path& list, std::size_t number) {
 
 }  // namespace
 
+bool is_part_of_series(const fs::path& list, const fs::path& file) {
+    if (list.empty() || file.empty()) return false;
+    if (fs::absolute(list).lexically_normal().parent_path() != fs::absolute(file).lexically_normal().parent_path())
+        return false;
+    const std::string name = file.filename().string(), start = list.stem().string() + "-", end = ".vtp";
+    if (name.size() < start.size() + end.size() || !name.starts_with(start) || !name.ends_with(end)) return false;
+    const std::string number = name.substr(start.size(), name.size() - start.size() - end.size());
+    return !number.empty() && number.find_first_not_of("0123456789") == std::string::npos;
+}
+
 SeriesWriter::SeriesWriter(fs::path list) : list_(std::move(list)) { AtomicFile::require_writable(list_); }
 
 void SeriesWriter::add(double seconds, const LiveScene& scene, const EmbeddedRunner& answer) {

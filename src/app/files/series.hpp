@@ -10,6 +10,9 @@
 
 namespace elastolab {
 
+/// Whether a file has a name that a part of this series (.pvd) may get.
+bool is_part_of_series(const std::filesystem::path& list, const std::filesystem::path& file);
+
 /// A replayed drag as ParaView's series: NAME.pvd and, beside it, NAME-0000.vtp, NAME-0001.vtp ..., the surface at rest
 /// with the fields of each answer.
 class SeriesWriter {

@@ -13,10 +13,18 @@ void Gestures::paint(GestureContext& context) {
         vertices_in_brush(context.camera, target.viewport, painted_to_, cursor_, context.tools.brush_pixels,
                           *target.positions, *target.triangles, Reach::visible);
     painted_to_ = cursor_;
-    if (context.tools.tool == Tool::pressure)
+    if (context.tools.tool == Tool::pressure) {
+        // Whole triangles are pressed. A brush may be smaller than one, which is meant all the same.
+        const std::optional<PickHit> hit = hit_in(context, target);
+        if (hit && !has_whole_triangle(context.scene.mesh(), vertices)) {
+            const std::vector<int> corners =
+                surface_vertices(*hit, *target.triangles, context.scene.mesh().n_vertices());
+            vertices.insert(vertices.end(), corners.begin(), corners.end());
+        }
         paint_pressure(context, std::move(vertices));
-    else
+    } else {
         fix_or_free(context, std::move(vertices), hold_);
+    }
 }
 
 /// Fixes or frees these vertices, except those inside the body, in the selected set.

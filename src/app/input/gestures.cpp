@@ -115,8 +115,7 @@ void Gestures::press(const InputEvent& event, GestureContext& context) {
         action_ = Action::box;
         return;
     }
-    const bool brushes = context.tools.tool == Tool::brush || context.tools.tool == Tool::pressure;
-    if (!brushes && press_arrow(context, *target)) return;
+    if (press_arrow(context, *target)) return;
     if (press_gizmo(context, *target)) return;
     const std::optional<PickHit> hit = hit_in(context, *target);
     if (hit && context.is_on_surface(hit->vertex))

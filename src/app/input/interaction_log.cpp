@@ -118,15 +118,21 @@ InteractionLog load_interaction(const std::filesystem::path& file) {
     constexpr std::size_t kLongestReason = 200;  // it may quote a whole file of one line
     InteractionLog log;
     int number = 1;
+    const auto refused = [&](const std::string& why) {
+        return SceneError(one_line(file.string() + ": line " + std::to_string(number) + ": not an interaction log (" +
+                                   shortened(why, kLongestReason) + "). Record one with elastolab view --record."));
+    };
     try {
         std::string line;
         if (!next_line(in, line)) throw std::runtime_error("is empty");
         log.window_size = window_size_of(Json::parse(line));
         for (number = 2; next_line(in, line); ++number) log.frames.push_back(frame_of(Json::parse(line)));
+    } catch (const Json::parse_error&) {
+        throw refused("it is cut off, or no JSON");
+    } catch (const Json::exception&) {
+        throw refused("a value is missing or of another kind");
     } catch (const std::exception& error) {
-        throw SceneError(one_line(file.string() + ": line " + std::to_string(number) + ": not an interaction log (" +
-                                  shortened(error.what(), kLongestReason) +
-                                  "). Record one with elastolab view --record."));
+        throw refused(error.what());
     }
     return log;
 }

@@ -24,14 +24,6 @@ std::vector<int> loadable_patch(const GestureContext& context, int vertex) {
     return patch_around(mesh, context.graph, vertex, radius, [](int) { return true; });
 }
 
-/// Vertices of the surface where it was hit. A triangle that is cut has corners that are none.
-std::vector<int> surface_vertices(const PickHit& hit, const Triangles& shown, int n_vertices) {
-    if (hit.triangle < 0) return {hit.vertex};
-    std::vector<int> corners(shown.col(hit.triangle).begin(), shown.col(hit.triangle).end());
-    std::erase_if(corners, [&](int v) { return v >= n_vertices; });
-    return corners;
-}
-
 /// The force that acts on a triangle with these corners, the latest of several.
 std::optional<int> force_on(const LiveScene& scene, const std::vector<int>& corners) {
     const auto has_all = [&](int triangle) {

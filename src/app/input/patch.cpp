@@ -83,4 +83,22 @@ std::vector<int> patch_around(const SurfaceMesh& mesh, const VertexGraph& graph,
     return radius > 0.0 ? with_whole_triangles(mesh, patch, is_free) : patch;
 }
 
+bool has_whole_triangle(const SurfaceMesh& surface, std::span<const int> vertices) {
+    std::vector<char> is_one(static_cast<std::size_t>(surface.n_vertices()), 0);
+    for (const int v : vertices)
+        if (v < surface.n_vertices()) is_one[static_cast<std::size_t>(v)] = 1;
+    for (const auto& triangle : surface.triangles.colwise())
+        if (is_one[static_cast<std::size_t>(triangle[0])] != 0 && is_one[static_cast<std::size_t>(triangle[1])] != 0 &&
+            is_one[static_cast<std::size_t>(triangle[2])] != 0)
+            return true;
+    return false;
+}
+
+std::vector<int> surface_vertices(const PickHit& hit, const Triangles& shown, int n_vertices) {
+    if (hit.triangle < 0) return {hit.vertex};
+    std::vector<int> corners(shown.col(hit.triangle).begin(), shown.col(hit.triangle).end());
+    std::erase_if(corners, [&](int v) { return v >= n_vertices; });
+    return corners;
+}
+
 }  // namespace elastolab

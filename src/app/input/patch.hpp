@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mesh/surface_mesh.hpp"
+#include "render/geometry/picking.hpp"
 
 namespace elastolab {
 
@@ -25,5 +26,11 @@ private:
 /// free. `center` must be free. Rest positions.
 std::vector<int> patch_around(const SurfaceMesh& mesh, const VertexGraph& graph, int center, double radius,
                               const std::function<bool(int)>& is_free);
+
+/// Whether some triangle has all its corners among these vertices of the surface; others are none of it.
+bool has_whole_triangle(const SurfaceMesh& surface, std::span<const int> vertices);
+
+/// Vertices of the surface where it was hit. A triangle that is cut has corners that are none.
+std::vector<int> surface_vertices(const PickHit& hit, const Triangles& shown, int n_vertices);
 
 }  // namespace elastolab

@@ -39,7 +39,7 @@ void RecoveryQuestion::draw(const PanelContext& context) {
     const std::string name = left.origin.empty() ? "a scene that was not saved yet" : left.origin.string();
     ImGui::TextUnformatted("A viewer ended unexpectedly, with unsaved changes of");
     ImGui::TextUnformatted(name.c_str());
-    ImGui::Text("as of %s ago.", readable_seconds(std::max(0.0, seconds_since(left.time))).c_str());
+    ImGui::Text("Kept %s ago.", readable_seconds(std::max(0.0, seconds_since(left.time))).c_str());
     ImGui::Spacing();
     const std::optional<int> answer = draw_answers(context, kRecoveryAnswers, choice_, later);
     if (answer) ImGui::CloseCurrentPopup();

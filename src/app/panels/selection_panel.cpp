@@ -17,15 +17,6 @@ namespace {
 /// Of the body's size, of a full turn and of a force: less is rounding.
 constexpr double kRoundingPart = 1e-9;
 
-/// What moves a handle as it is moved now, as far as forces are shown; else none.
-GripForce present_force(const ViewerState& state, int handle) {
-    if (const ShownBody* shown = state.shown.body(state.method))
-        for (const ShownReaction& reaction : shown->reactions())
-            if (!reaction.fixed && reaction.name == state.scene().handle_name(handle))
-                return {.force = reaction.force, .moment = reaction.moment_about_middle()};
-    return {};
-}
-
 /// The force on a handle that moves by it; true when the typing has ended.
 bool draw_grip_force(ViewerState& state, std::optional<int> handle, float scale) {
     LiveScene& scene = state.scene();
@@ -41,8 +32,12 @@ bool draw_grip_force(ViewerState& state, std::optional<int> handle, float scale)
     const bool was_by_force = by_force;
     ImGui::BeginDisabled(!handle);
     if (ImGui::Checkbox("moved by a force", &by_force)) {
-        scene.set_force(*handle, by_force ? std::optional(present_force(state, *handle)) : std::nullopt);
-        ended = true;
+        if (by_force) {
+            state.move_by_force(*handle);
+        } else {
+            scene.set_force(*handle, std::nullopt);
+            ended = true;
+        }
     }
     tooltip("The patch stays rigid and goes where this force holds it. Without: it is where it was put.");
     ImGui::EndDisabled();
@@ -84,15 +79,19 @@ void draw_placement(ViewerState& state, std::optional<int> handle, float scale) 
         scene.set_motion(*handle, motion_of(typed, rest));
     }
     ended = ended || ImGui::IsItemDeactivatedAfterEdit();
-    tooltip(
-        "Rotation vector about the middle of the handle: along the axis, as long as the angle [degrees]. 0, 0, 720: "
-        "two full turns about z.");
+    const bool was_deformed = handle && !present && rest.cols() >= 2;
+    constexpr const char* kDeformed =
+        "This patch was taken hold of where the body was deformed already, so that no turn and no scale from rest "
+        "describe it. The gizmo turns it.";
+    tooltip(was_deformed ? kDeformed
+                         : "Rotation vector about the middle of the handle: along the axis, as long as the angle "
+                           "[degrees]. 0, 0, 720: two full turns about z.");
     if (!present)
         draw_no_numbers("scale", 1, scale);
     else if (draw_numbers("scale", &typed.scale, 1, "", scale) && typed.scale > 0.0)
         scene.set_motion(*handle, motion_of(typed, rest));
     ended = ended || ImGui::IsItemDeactivatedAfterEdit();
-    tooltip("Scale about the middle of the handle.");
+    tooltip(was_deformed ? kDeformed : "Scale about the middle of the handle.");
     ImGui::EndDisabled();
     ended = draw_grip_force(state, handle, scale) || ended;
     if (ended) scene.commit();

@@ -52,9 +52,15 @@ void draw_status(const PanelContext& context) {
     ImGui::Begin("##status", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoBringToFrontOnFocus);
     ImGui::PopStyleVar(2);
-    ImGui::TextUnformatted(left_text(context.state).c_str());
-    const std::string right = right_text(context.state);
-    ImGui::SameLine(static_cast<float>(place.width) - ImGui::CalcTextSize(right.c_str()).x);
+    const std::string left = left_text(context.state), right = right_text(context.state);
+    const float begin = static_cast<float>(place.width) - ImGui::CalcTextSize(right.c_str()).x;
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float end = static_cast<float>(place.x) + begin - ImGui::GetStyle().ItemSpacing.x;
+    ImGui::PushClipRect(at, {end, at.y + ImGui::GetTextLineHeightWithSpacing()}, true);
+    ImGui::TextUnformatted(left.c_str());
+    ImGui::PopClipRect();
+    if (at.x + ImGui::CalcTextSize(left.c_str()).x > end) tooltip(left.c_str());
+    ImGui::SameLine(begin);
     ImGui::TextColored(imgui_colour(context.palette.text_dim), "%s", right.c_str());
     ImGui::End();
 }

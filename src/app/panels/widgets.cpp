@@ -207,14 +207,21 @@ std::string format_for(double value, const std::string& unit, float room) {
 }  // namespace
 
 bool draw_numbers(const char* label, double* values, int n, const char* unit, float scale, double noise) {
+    // What the field that is typed into held, and its text, which has fewer digits.
+    static double before = 0.0, before_as_text = 0.0;
     set_item_width(scale);
     bool typed = false;
     draw_fields(label, n, [&](int i, float room) {
         double shown = std::abs(values[i]) <= noise ? 0.0 : values[i];
-        const bool is_typed = ImGui::InputDouble("", &shown, 0.0, 0.0, format_for(shown, unit, room).c_str());
-        if (!reads_as_whole(shown)) tooltip((readable_number(shown, 6) + unit).c_str());
+        const std::string format = format_for(shown, unit, room);
+        const bool is_typed = ImGui::InputDouble("", &shown, 0.0, 0.0, format.c_str());
+        if (ImGui::IsItemActivated()) {
+            before = values[i];
+            before_as_text = std::strtod(formatted(format.c_str(), values[i]).c_str(), nullptr);
+        }
+        if (!ImGui::IsItemActive() && !reads_as_whole(shown)) tooltip((readable_number(shown, 6) + unit).c_str());
         if (!is_typed) return;
-        values[i] = shown;
+        values[i] = shown == before_as_text ? before : shown;  // as by Esc
         typed = true;
     });
     return typed;

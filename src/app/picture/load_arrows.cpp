@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <Eigen/Geometry>
+#include <limits>
 #include <numbers>
 
 #include "base/overloaded.hpp"
@@ -39,6 +40,17 @@ double loaded_area(const AppliedLoad& load, const SurfaceMesh& surface) {
     return area;
 }
 
+/// From what is loaded to the nearest fixed vertex, at rest.
+double distance_to_support(const LiveScene& scene, const AppliedLoad& load) {
+    const SurfaceMesh& surface = scene.mesh();
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    for (const int t : load.triangles) middle += centroid(surface, t) / static_cast<double>(load.triangles.size());
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const int v : scene.vertices(LiveScene::kFixed))
+        nearest = std::min(nearest, (surface.vertices.col(v) - middle).norm());
+    return nearest;
+}
+
 /// A rigid round punch of this area on a half-space needs 2 E times its radius for a unit length of motion; bodies that
 /// bend give way more easily.
 double natural_ratio(const LiveScene& scene, const AppliedLoad& load, double radius) {
@@ -48,8 +60,9 @@ double natural_ratio(const LiveScene& scene, const AppliedLoad& load, double rad
         return kOfPunch * 2.0 * E * radius / (scene.document().density * std::max(volume, 1e-3 * std::pow(radius, 3)));
     }
     const double area = loaded_area(load, scene.mesh());
-    const double force = kOfPunch * 2.0 * E * std::sqrt(area / std::numbers::pi);
-    return load.kind == AppliedLoad::Kind::force ? force : force / area;
+    const double punch = kOfPunch * 2.0 * E * std::sqrt(area / std::numbers::pi);
+    if (load.kind != AppliedLoad::Kind::force) return punch / area;
+    return std::min(punch, bending_stiffness(scene, distance_to_support(scene, load)));
 }
 
 LoadArrow arrow_of(const LiveScene& scene, const AppliedLoad& load, const Positions& positions) {
@@ -76,6 +89,13 @@ void put_end(const Eigen::VectorXd& value, bool is_pressure, LoadArrow& arrow) {
 }
 
 }  // namespace
+
+double bending_stiffness(const LiveScene& scene, double distance) {
+    const MeshReport& report = scene.report();
+    if (!(report.volume > 0.0 && std::isfinite(distance))) return std::numeric_limits<double>::infinity();
+    const double thickness = 4.0 * report.volume / report.area;
+    return 0.25 * scene.document().material.young_modulus * std::pow(thickness, 4) / std::pow(distance, 3);
+}
 
 std::optional<LoadArrow> load_arrow(const LiveScene& scene, int load, const Positions& positions, double radius) {
     const AppliedLoad* applied = scene.applied_load(load);

@@ -32,6 +32,10 @@ struct DraggedLoad {
     bool operator==(const DraggedLoad&) const = default;
 };
 
+/// About what a force across a body needs, for a unit length of motion, at this distance from where it is held
+/// [force / L]: that of a square bar of as much volume and surface, 3EI / distance^3. Infinite where that is unknown.
+double bending_stiffness(const LiveScene& scene, double distance);
+
 /// The arrow of a load, or of gravity; nothing where it has no effect. positions: of the surface, as shown; radius: of
 /// the scene, which keeps arrows from being too long or too short. A load of size zero has an arrow of no length, whose
 /// ratio is such that a force dragged by a length moves its patch by about as much.

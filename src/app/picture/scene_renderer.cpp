@@ -138,20 +138,18 @@ void SceneRenderer::draw_ghosts(const ViewerState& state, const SceneView& view,
     }
 }
 
-/// The background, and the opaque body in front of it, whole or cut open.
-const SurfaceDrawing& SceneRenderer::draw_solid(const ViewerState& state, const SceneView& view, MethodKind solid,
-                                                const Palette& palette, const DrawingDetail& detail) {
-    background_.draw(palette.background_top, palette.background_bottom);
-    SurfaceDrawing& body = drawing(solid).seen();
+/// The opaque body, whole or cut open.
+void SceneRenderer::draw_solid(const ViewerState& state, const SceneView& view, MethodKind solid,
+                               const Palette& palette, const DrawingDetail& detail) {
     SurfaceStyle style = surface_style(state, solid, palette);
     if (!detail.wireframe) style.wireframe = style.feature_edges = false;
     style.coarse = !detail.all_triangles;
-    body.draw(view, style);
-    return body;
+    drawing(solid).seen().draw(view, style);
 }
 
 void SceneRenderer::draw_depths(const ViewerState& state, const SceneViewport& viewport, const Palette& palette,
                                 double pixel_ratio, const Framebuffer& tile, DepthBuffer& whole) {
+    background_.draw(palette.background_top, palette.background_bottom);
     draw_solid(state, SceneView(state.camera, viewport.place, pixel_ratio), viewport.kinds.front(), palette);
     whole.take(tile);
 }
@@ -160,11 +158,13 @@ void SceneRenderer::draw_viewport(const ViewerState& state, const SceneViewport&
                                   double pixel_ratio, const Framebuffer& target, const Extent& extent) {
     const SceneView view(state.camera, viewport.place, pixel_ratio);
     BodyDrawing& main = drawing(viewport.kinds.front());
-    const SurfaceDrawing& body = draw_solid(state, view, viewport.kinds.front(), palette, extent.detail);
     const bool soft_shadows = state.display.soft_shadows && extent.detail.soft_shadows;
+    background_.draw(palette.background_top, palette.background_bottom);
+    // The ground is behind the body, however it lies: a shadow over it would change the colours of its field.
+    if (state.display.grid || soft_shadows) draw_ground(state, view, palette, main.seen(), target, soft_shadows);
+    draw_solid(state, view, viewport.kinds.front(), palette, extent.detail);
     if (soft_shadows && extent.whole != nullptr) occlusion_.draw_tile(view, target, *extent.whole);
     if (soft_shadows && !target.is_tile()) occlusion_.draw(view, target);
-    if (state.display.grid || soft_shadows) draw_ground(state, view, palette, body, target, soft_shadows);
     main.marks.draw_areas(view);
     draw_filling(state, view, viewport.kinds.front(), palette);
     draw_ghosts(state, view, viewport, palette, extent.detail);

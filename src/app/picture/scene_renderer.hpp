@@ -67,8 +67,8 @@ private:
     BodyDrawing& drawing(MethodKind kind);
     void draw_viewport(const ViewerState& state, const SceneViewport& viewport, const Palette& palette,
                        double pixel_ratio, const Framebuffer& target, const Extent& extent);
-    const SurfaceDrawing& draw_solid(const ViewerState& state, const SceneView& view, MethodKind solid,
-                                     const Palette& palette, const DrawingDetail& detail = {});
+    void draw_solid(const ViewerState& state, const SceneView& view, MethodKind solid, const Palette& palette,
+                    const DrawingDetail& detail = {});
     void draw_ground(const ViewerState& state, const SceneView& view, const Palette& palette,
                      const SurfaceDrawing& body, const Framebuffer& target, bool soft_shadows);
     void draw_filling(const ViewerState& state, const SceneView& view, MethodKind kind, const Palette& palette);

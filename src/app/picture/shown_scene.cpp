@@ -15,7 +15,8 @@ auto find_body(Bodies& bodies, MethodKind kind) {
 
 bool needs_reactions(const ShownAnswers& answers) {
     const Field field = answers.display.field;
-    return answers.display.arrows || answers.probed || field == Field::traction || stress_of(field).has_value();
+    return answers.display.arrows || answers.probed || answers.forces_wanted || field == Field::traction ||
+           stress_of(field).has_value();
 }
 
 }  // namespace

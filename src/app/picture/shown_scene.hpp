@@ -33,8 +33,9 @@ struct ShownAnswers {
     std::vector<MethodKind> kinds;              ///< of the methods on the screen
     const EmbeddedRunner* reference = nullptr;  ///< of differences; null when nothing needs one
     const DisplaySettings& display;
-    bool probed = false;   ///< a person looks at tractions and stresses of vertices
-    bool pulling = false;  ///< the range of the colours may be held meanwhile
+    bool probed = false;         ///< a person looks at tractions and stresses of vertices
+    bool forces_wanted = false;  ///< whatever is shown
+    bool pulling = false;        ///< the range of the colours may be held meanwhile
 };
 
 /// What is on the screen: the bodies as the methods' answers have them, and what only the picture needs of the answers

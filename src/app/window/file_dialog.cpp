@@ -17,6 +17,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// Enter, where no field takes it.
+bool enter_is_pressed() {
+    return !ImGui::IsAnyItemActive() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
+}
+
 bool has_extension_of(const fs::path& file, const FileDialog::Purpose& purpose) {
     const auto& wanted = purpose.extensions;
     const std::string extension = lower_case(file.extension().string());
@@ -36,12 +41,13 @@ void FileDialog::open(Purpose purpose) {
     name_ = purpose_.suggestion;
     problem_.clear();
     to_replace_.clear();
+    all_files_ = false;
     std::error_code error;
     if (fs::path last = purpose_.folder.empty() ? load_last_folder(kind()) : purpose_.folder; !last.empty())
         folder_ = std::move(last);
     if (folder_.empty()) folder_ = fs::current_path(error);
     list_folder();
-    open_ = opening_ = true;
+    open_ = opening_ = opened_by_enter_ = true;
 }
 
 /// What folders are remembered by.
@@ -59,7 +65,7 @@ void FileDialog::list_folder() {
         if (name.starts_with('.')) continue;
         std::error_code ignored;
         const bool is_folder = i->is_directory(ignored);
-        if (!is_folder && !has_extension_of(path, purpose_)) continue;
+        if (!is_folder && !all_files_ && !has_extension_of(path, purpose_)) continue;
         entries_.push_back({path, is_folder ? name + "/" : name, is_folder});
     }
     problem_ = error ? folder_.string() + ": " + error.message() : "";
@@ -73,6 +79,8 @@ void FileDialog::accept(const fs::path& typed) {
     if (fs::is_directory(typed, error)) {
         folder_ = fs::weakly_canonical(typed, error);
         list_folder();
+        name_ = purpose_.suggestion;
+        asks_name_ = true;
         return;
     }
     const fs::path file = is_saving() ? with_extension(typed, purpose_) : typed;
@@ -104,7 +112,8 @@ void FileDialog::draw_places() {
     ImGui::SameLine();
     std::string text = folder_.string();
     ImGui::SetNextItemWidth(-1.0f);
-    if (ImGui::InputText("##folder", &text, ImGuiInputTextFlags_EnterReturnsTrue)) accept(text);
+    enter_was_used_ = ImGui::InputText("##folder", &text, ImGuiInputTextFlags_EnterReturnsTrue);
+    if (enter_was_used_) accept(text);
 }
 
 void FileDialog::draw_entries(float scale) {
@@ -112,26 +121,32 @@ void FileDialog::draw_entries(float scale) {
     ImGui::BeginChild("entries", {560.0f * scale, std::max(80.0f, ImGui::GetContentRegionAvail().y - below)}, true);
     for (const Entry& entry : std::vector<Entry>(entries_)) {  // a copy: a click may list another folder
         const bool chosen = !entry.is_folder && entry.shown == name_;
-        if (!ImGui::Selectable(entry.shown.c_str(), chosen, ImGuiSelectableFlags_AllowDoubleClick)) continue;
+        const bool clicked = ImGui::Selectable(entry.shown.c_str(), chosen, ImGuiSelectableFlags_AllowDoubleClick);
+        const bool entered = entry.is_folder && ImGui::IsItemFocused() && enter_is_pressed();
+        if (!clicked && !entered) continue;
         if (!entry.is_folder) name_ = entry.shown;
         to_replace_.clear();
-        if (entry.is_folder || ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) accept(entry.path);
+        enter_was_used_ = enter_was_used_ || entered;
+        if (!entry.is_folder && !ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) continue;
+        accept(entry.path);
+        break;
     }
     if (entries_.empty()) ImGui::TextDisabled("No such file here.");
     ImGui::EndChild();
 }
 
 void FileDialog::draw_name(float scale) {
-    if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+    const bool appears = ImGui::IsWindowAppearing();
+    if (std::exchange(asks_name_, false) || appears) ImGui::SetKeyboardFocusHere();
     ImGui::SetNextItemWidth(360.0f * scale);
     bool go =
         ImGui::InputText("##name", &name_, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
     if (ImGui::IsItemEdited()) to_replace_.clear();
     ImGui::SameLine();
     const bool replaces = !to_replace_.empty();
-    // The field has let go of the keys at the first Enter.
-    go =
-        (replaces && !ImGui::IsAnyItemActive() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false)) || go;
+    // The field has let go of the keys at the first Enter, or a file was chosen in the list.
+    if (!ImGui::IsKeyDown(ImGui::GetKeyIndex(ImGuiKey_Enter))) opened_by_enter_ = false;
+    go = (!enter_was_used_ && !opened_by_enter_ && !name_.empty() && enter_is_pressed()) || go;
     go = ImGui::Button(replaces ? "Replace" : is_saving() ? "Save" : "Open") || go;
     ImGui::SameLine();
     if (ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) {
@@ -140,6 +155,10 @@ void FileDialog::draw_name(float scale) {
         if (purpose_.cancelled) purpose_.cancelled();
     } else if (go && !name_.empty()) {
         accept(fs::path(name_).is_absolute() ? fs::path(name_) : folder_ / name_);
+    }
+    if (!is_saving() && !purpose_.extensions.empty()) {
+        ImGui::SameLine();
+        if (ImGui::Checkbox("all files", &all_files_)) list_folder();
     }
     if (replaces)
         ImGui::TextUnformatted("There is a file of that name. Replace, or Enter again, writes over it.");

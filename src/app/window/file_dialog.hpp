@@ -43,6 +43,10 @@ private:
 
     Purpose purpose_;
     bool open_ = false, opening_ = false;
+    bool all_files_ = false;        ///< listed, whatever their extension
+    bool asks_name_ = false;        ///< the field of the name takes the keys next
+    bool enter_was_used_ = false;   ///< in this frame, for a folder
+    bool opened_by_enter_ = false;  ///< perhaps: the key has not been seen up yet
     std::filesystem::path folder_;
     std::vector<Entry> entries_;
     std::string name_, problem_;

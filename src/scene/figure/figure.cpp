@@ -92,9 +92,8 @@ void require_single_precision(const std::string& name, const Eigen::MatrixXd& nu
 }  // namespace
 
 std::string figure_refusal(MethodKind method, std::size_t n_handles) {
-    if (!method->linear)
-        return "handles are pulled by adding up answers, which needs a linear method. Choose a linear method.";
-    if (n_handles == 0) return "there is no handle to pull. Add a handle.";
+    if (!method->linear) return "a figure needs a linear method, as it adds up answers. Choose a linear method.";
+    if (n_handles == 0) return "there is no handle to pull in a figure. Add a handle.";
     return {};
 }
 

@@ -42,8 +42,17 @@ std::string machine_text(const Table& table) {
            other_machines(table);
 }
 
+/// As a shell reads it: quoted where it has more than plain letters.
+std::string shell_word(const std::string& text) {
+    constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./-+,:@%=";
+    if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) return text;
+    std::string quoted = "'";
+    for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return quoted + "'";
+}
+
 std::string command(const std::string& study, const Table& table, const std::string& folder) {
-    std::string text = "elastolab bench " + study + " --out " + folder;
+    std::string text = "elastolab bench " + study + " --out " + shell_word(folder);
     if (table.rows.empty()) return text;
     const Row& row = table.rows.front();
     if (row.text("quick") == "yes") text += " --quick";

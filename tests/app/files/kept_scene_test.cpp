@@ -104,6 +104,31 @@ TEST(KeptSelection, OfAHandleComesThroughUndoAndRedo) {
     EXPECT_EQ(stage.state.gestures.selected_handle(), -1) << "it is not there any more";
 }
 
+TEST(KeptSelection, OfALoadComesThroughUndoAndRedo) {
+    Stage stage(2);
+    for (const double x : {0.0, 1.0}) {
+        std::vector<int> side;
+        for (int v = 0; v < stage.scene().mesh().n_vertices(); ++v)
+            if (stage.scene().mesh().vertices(1, v) == x) side.push_back(v);
+        stage.scene().add_load(side, ForceLoad{{0, 0, 0.01}});
+        stage.scene().commit();
+    }
+    stage.scene().set_gravity(Eigen::Vector3d(0, 0, -1), 1e-3);
+    stage.scene().commit();
+    stage.scene().set_load(1, ForceLoad{{0, 0, 0.02}});
+    stage.scene().commit();
+    stage.state.gestures.select_load(1);
+    stage.state.undo();
+    EXPECT_EQ(stage.state.gestures.selected_load(), 1);
+    stage.state.redo();
+    EXPECT_EQ(stage.state.gestures.selected_load(), 1);
+    stage.state.gestures.select_load(LiveScene::kGravity);
+    stage.state.undo();
+    EXPECT_EQ(stage.state.gestures.selected_load(), LiveScene::kGravity);
+    stage.state.undo();
+    EXPECT_FALSE(stage.state.gestures.selected_load()) << "it is not there any more";
+}
+
 TEST(KeptMethod, ABodyJustOpenedIsNotChangedWhateverMethodItBeginsWith) {
     const TemporaryFolder folder;
     save_surface(folder.path() / "box.obj", make_box(3));

@@ -4,9 +4,12 @@
 
 #include <Eigen/Geometry>
 
+#include "app/picture/load_arrows.hpp"
 #include "app/selection.hpp"
 #include "app/stage.hpp"
+#include "fem/method.hpp"
 #include "fem/quadratic/method.hpp"
+#include "methods/precompute.hpp"
 #include "methods/registry.hpp"
 
 namespace elastolab::test {
@@ -191,6 +194,48 @@ TEST(PressureBrush, PaintsAPressureAndTakesItOff) {
     EXPECT_EQ(n_triangles(), first) << "what the second stroke has put on is off";
     remove_selection(stage.state);
     EXPECT_EQ(stage.scene().n_loads(), 0);
+}
+
+/// A force is dosed by the body that gives way to it: a slender one bends under a hundredth of what a stout one takes.
+TEST(ForceTool, MovesThePatchOfASlenderBodyByAboutAsMuchAsTheMouse) {
+    for (const char* name : {"cube", "beam"}) {
+        Document document;
+        document.mesh = Primitive{.name = name, .resolution = 3, .size = {}};
+        document.fixed = {{.select = {PlaneSelector{{0, 0, 0}, {1, 0, 0}, 1e-9}}}};
+        LiveScene scene(document, "scene.json");
+        const SurfaceMesh& mesh = scene.mesh();
+        const double end = mesh.vertices.row(0).maxCoeff();
+        std::vector<int> patch;
+        for (int v = 0; v < mesh.n_vertices(); ++v)
+            if (mesh.vertices(0, v) > end - 1e-9) patch.push_back(v);
+        const int load = scene.add_load(patch, ForceLoad{{0, 0, 0}});
+        const double ratio = load_arrow(scene, load, mesh.vertices, 1.0)->value_per_length;
+        scene.set_load(load, ForceLoad{{0, 0, ratio}});
+        Control control;
+        Deformer deformer(precompute(scene.body(kFem), Method{.kind = kFem}, control));
+        deformer.constrain(scene.constraints().set, control);
+        const Eigen::VectorXd u = deformer.displace(scene.constraints().values);
+        const double moved = u.reshaped(3, mesh.n_vertices()).colwise().norm().maxCoeff();
+        EXPECT_GT(moved, 0.1) << name;
+        EXPECT_LT(moved, 3.0) << name;
+    }
+}
+
+TEST(PressureBrush, PressesTheTriangleUnderTheCursorHoweverSmallItIs) {
+    Stage stage(3);
+    stage.state.tools.tool = Tool::pressure;
+    stage.state.tools.pressure = 0.02;
+    stage.state.tools.brush_pixels = 1.0;
+    stage.settle();
+    stage.drag(stage.pixel(Eigen::Vector3d(0.45, 0.6, 1.0)), stage.pixel(Eigen::Vector3d(0.55, 0.4, 1.0)));
+    ASSERT_EQ(stage.scene().n_loads(), 1);
+    const std::size_t n = stage.scene().applied_load(0)->triangles.size();
+    EXPECT_GE(n, 1u);
+    EXPECT_LE(n, 4u);
+    stage.modifiers = GLFW_MOD_SHIFT;
+    stage.wait(1.0);
+    stage.drag(stage.pixel(Eigen::Vector3d(0.45, 0.6, 1.0)), stage.pixel(Eigen::Vector3d(0.55, 0.4, 1.0)));
+    EXPECT_EQ(stage.scene().n_loads(), 0) << "and takes it off";
 }
 
 TEST(GravityGizmo, TurnsGravity) {

@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <imgui.h>
 #include <limits>
+#include <utility>
+
+#include "app/panels/bare_gui.hpp"
 
 namespace elastolab {
 namespace {
@@ -34,6 +38,29 @@ TEST(VectorText, ShowsRoundingAsZero) {
     EXPECT_EQ(vector_text({0.5, -2.249e-17, 1.0}), "(0.5, 0, 1)");
     EXPECT_EQ(vector_text({0.5, -2.249e-7, 1.0}), "(0.5, -2.25e-07, 1)");
     EXPECT_EQ(vector_text({1e-20, 2e-20, 0.0}), "(1e-20, 2e-20, 0)");
+}
+
+TEST(Numbers, KeepTheirHiddenDigitsWhereTypingIsTakenBack) {
+    constexpr double kExact = 324.33412345;
+    BareGui gui;
+    double value = kExact;
+    bool asks = true;
+    const auto draw = [&] {
+        ImGui::Begin("panel");
+        if (std::exchange(asks, false)) ImGui::SetKeyboardFocusHere();
+        draw_numbers("force", &value, 1, "", 1.0f, 0.0);
+        ImGui::End();
+    };
+    for (int i = 0; i < 3; ++i) gui.frame(draw);
+    gui.type("9", draw);
+    EXPECT_EQ(value, 9.0) << "what is typed counts at once";
+    gui.press(ImGuiKey_Escape, draw);
+    EXPECT_EQ(value, kExact);
+    asks = true;
+    for (int i = 0; i < 3; ++i) gui.frame(draw);
+    gui.type("12.5", draw);
+    gui.press(ImGuiKey_Enter, draw);
+    EXPECT_EQ(value, 12.5);
 }
 
 }  // namespace
