@@ -15,6 +15,8 @@ namespace {
 constexpr unsigned kPosition = 0, kNormal = 1, kScalar = 2;  // locations in surface.vert
 constexpr int kMapUnit = 0, kTriangleUnit = 1;               // of textures
 
+/// Opacity that the edges of an outline are of, whose faces have none.
+constexpr float kShareOfOutline = 0.14f;
 /// How far a ghost is pushed away from the eye, over its distance, so that it does not flicker where it touches others.
 constexpr float kGhostPush = 0.004f;
 
@@ -156,7 +158,8 @@ void SurfaceDrawing::draw(const SceneView& view, const SurfaceStyle& style) {
         draw_triangles({}, coarse);
     }
     if (!style.feature_edges) return;
-    const Colour colour = style.feature.with_opacity(style.feature_opacity * style.opacity);
+    const float share = style.opacity > 0.0f ? style.opacity : kShareOfOutline;
+    const Colour colour = style.feature.with_opacity(style.feature_opacity * share);
     features_.draw(view, frame_, {.colour = colour, .width = style.feature_width});
 }
 

@@ -117,6 +117,43 @@ TEST_F(ScenePicture, ShowsAllOfTheBodyInANarrowOneAndLeavesTheCameraAlone) {
     EXPECT_EQ(stage.state.camera.pose().distance, pose.distance);
 }
 
+/// A legend explains colours that nothing else changes: a body that hangs below the ground, before its rest shape.
+TEST_F(ScenePicture, TheGroundAndTheRestShapeLeaveTheColoursOfAField) {
+    LiveScene& scene = stage.state.scene();
+    std::vector<int> right;
+    for (int v = 0; v < scene.mesh().n_vertices(); ++v)
+        if (scene.mesh().vertices(0, v) > 1.0 - 1e-9) right.push_back(v);
+    scene.set_motion(scene.add_handle(right), AffineMotion{.translate = {0.4, 0, -1.6}});
+    DisplaySettings& display = stage.state.display;
+    display.field = Field::von_mises;
+    display.wireframe = display.feature_edges = display.arrows = false;
+    stage.settle();
+    stage.state.frame_body();
+    Palette plain = palette;
+    plain.background_top = plain.background_bottom = {0.0f, 0.0f, 0.0f, 1.0f};
+    const auto picture = [&](bool ground, bool rest) {
+        display.grid = display.soft_shadows = ground;
+        display.rest_shape = rest;
+        renderer.upload(stage.state, plain);
+        return scene_picture(renderer, stage.state, plain, {300, 300});
+    };
+    const Image body = picture(false, false), before_rest = picture(false, true), on_ground = picture(true, false);
+    int n_body = 0, n_tinted = 0, n_dark = 0;
+    for (int y = 0; y < body.height; ++y)
+        for (int x = 0; x < body.width; ++x) {
+            const auto [r, g, b] = body.at(x, y);
+            if (r + g + b < 60) continue;
+            const auto [rr, rg, rb] = before_rest.at(x, y);
+            const auto [gr, gg, gb] = on_ground.at(x, y);
+            ++n_body;
+            n_tinted += std::abs(rr - r) + std::abs(rg - g) + std::abs(rb - b) > 24;
+            n_dark += 2 * (gr + gg + gb) < r + g + b;
+        }
+    EXPECT_GT(n_body, 3000);
+    EXPECT_LT(n_tinted, n_body / 20) << "of " << n_body << ": but for the outline";
+    EXPECT_LT(n_dark, n_body / 200) << "of " << n_body;
+}
+
 TEST_F(ScenePicture, WithoutBackgroundIsOpaqueOnTheBodyAndClearBesideIt) {
     const test::TemporaryFolder folder;
     const auto file = folder.path() / "clear.png";
