@@ -16,7 +16,8 @@ namespace elastolab {
 /// Errors of linear theory below this are not worth a word.
 inline constexpr double kSilentLinearTheory = 0.02;
 
-/// Handles of a set that move by forces, and these; none: all are moved.
+/// Handles of a set that move by forces, and these; none: all are moved. For forces in proportion: where linear theory
+/// moves a body by more than its size, an equilibrium of the handles would be sought for a minute.
 struct HandleForces {
     std::vector<Grip> grips = {};
     std::vector<GripForce> forces = {};

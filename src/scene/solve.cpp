@@ -256,10 +256,12 @@ void gauge(const SceneMesh& mesh, const Constraints& shown, const Constraints& s
             constraints = &carried->constraints();
             body.surface = coarse->surface;
         }
+        const double moved = solution.displacement.colwise().norm().maxCoeff();
+        HandleForces by_force;
+        if (moved < size_of(*body.surface)) by_force = {constraints->grips(), constraints->grip_forces()};
         const LinearTheoryGauge linear_theory(body, constraints->set, control);
         const std::optional<double> error =
-            linear_theory.error(constraints->values, control, approach_to(*constraints, *body.surface),
-                                {constraints->grips(), constraints->grip_forces()});
+            linear_theory.error(constraints->values, control, approach_to(*constraints, *body.surface), by_force);
         if (!error) return;
         if (std::isfinite(*error)) solution.linear_theory_error = error;
         append(solution.findings,
