@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "base/error.hpp"
 #include "deform/grip_equilibrium.hpp"
+#include "deform/patch_reactions.hpp"
 #include "methods/precompute.hpp"
 #include "methods/registry.hpp"
 
@@ -36,6 +38,10 @@ double largest(const Eigen::VectorXd& u) {
 }
 
 }  // namespace
+
+HandleForces in_proportion(HandleForces by_force, double moved, const SurfaceMesh& surface) {
+    return moved < size_of(surface) ? std::move(by_force) : HandleForces{};
+}
 
 LinearTheoryGauge::LinearTheoryGauge(Body body, ConstrainedSet set, Control& control) {
     const double largest_ratio = large_deformation_method()->largest_poisson_ratio;

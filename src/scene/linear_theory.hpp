@@ -16,12 +16,15 @@ namespace elastolab {
 /// Errors of linear theory below this are not worth a word.
 inline constexpr double kSilentLinearTheory = 0.02;
 
-/// Handles of a set that move by forces, and these; none: all are moved. For forces in proportion: where linear theory
-/// moves a body by more than its size, an equilibrium of the handles would be sought for a minute.
+/// Handles of a set that move by forces, and these; none: all are moved.
 struct HandleForces {
     std::vector<Grip> grips = {};
     std::vector<GripForce> forces = {};
 };
+
+/// The same where linear theory moves a body by less than its size, `moved` [L] at most; else none: an equilibrium of
+/// the handles would be sought for a minute, and linear theory's motion says enough.
+HandleForces in_proportion(HandleForces by_force, double moved, const SurfaceMesh& surface);
 
 /// How far linear theory is off for a motion: the linear and the finite answer of the same elements, on a coarse
 /// surface that stands for the body (that of the preview). It tells the error of the model apart from that of the mesh.

@@ -257,8 +257,8 @@ void gauge(const SceneMesh& mesh, const Constraints& shown, const Constraints& s
             body.surface = coarse->surface;
         }
         const double moved = solution.displacement.colwise().norm().maxCoeff();
-        HandleForces by_force;
-        if (moved < size_of(*body.surface)) by_force = {constraints->grips(), constraints->grip_forces()};
+        const HandleForces by_force =
+            in_proportion({constraints->grips(), constraints->grip_forces()}, moved, *body.surface);
         const LinearTheoryGauge linear_theory(body, constraints->set, control);
         const std::optional<double> error =
             linear_theory.error(constraints->values, control, approach_to(*constraints, *body.surface), by_force);

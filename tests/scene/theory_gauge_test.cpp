@@ -1,13 +1,17 @@
 // How far linear theory is off, of motions and of loads: in what `solve` reports, and while a person edits.
 #include <gmock/gmock.h>
 
+#include <limits>
+
 #include "bem/collocation/method.hpp"
 #include "bem/galerkin/method.hpp"
 #include "fem/nonlinear/method.hpp"
 #include "fem/quadratic/method.hpp"
 #include "findings/words.hpp"
+#include "mesh/primitives.hpp"
 #include "methods/registry.hpp"
 #include "scene/held_bar.hpp"
+#include "scene/linear_theory.hpp"
 #include "scene/live/live_scene.hpp"
 #include "scene/live/simulation.hpp"
 #include "scene/solve.hpp"
@@ -59,6 +63,18 @@ TEST(TheoryGauge, OfAForceOnAHandleIsTheDifferenceOfBothTheories) {
         EXPECT_GT(expected, 0.05);
         EXPECT_NEAR(*linear.linear_theory_error, expected, (cells == 2 ? 5e-3 : 0.3) * expected) << cells;
     }
+}
+
+/// Then linear theory's motion is gauged: an equilibrium under the force would be sought for a minute.
+TEST(TheoryGauge, ForcesOutOfAllProportionAreNotSoughtFor) {
+    const SurfaceMesh box = make_box(1);
+    const HandleForces pulled{.grips = {{0, 4}}, .forces = {{.force = {0, 0, 1}}}};
+    EXPECT_EQ(in_proportion(pulled, 1.0, box).grips, pulled.grips);
+    EXPECT_TRUE(in_proportion(pulled, 2.0, box).grips.empty()) << "its diagonal is the root of 3";
+    EXPECT_TRUE(in_proportion(pulled, std::numeric_limits<double>::infinity(), box).grips.empty());
+    const Solution far = ten_nodes(gripped_bar(1e9), kQuadraticFem);
+    EXPECT_FALSE(far.linear_theory_error);
+    EXPECT_THAT(words(far.findings), testing::Contains(testing::HasSubstr("finds no equilibrium")));
 }
 
 /// Force and stiffness by the same factor: nothing changes; a weaker force: linear theory is right.

@@ -1,7 +1,5 @@
 #include "app/files/export_source.hpp"
 
-#include <algorithm>
-
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "mesh/input/export.hpp"
@@ -43,13 +41,6 @@ void write_moved_mesh(const fs::path& file, const ExportSource& source) {
     save_surface(file, mesh);
 }
 
-std::size_t n_handles(const ExportSource& source) {
-    const auto n_fixed = static_cast<int>(source.deformer->set().fixed.size());
-    return static_cast<std::size_t>(
-        std::count_if(source.groups.begin(), source.groups.end(),
-                      [&](const ConstraintGroup& group) { return group.begin >= n_fixed && group.end > group.begin; }));
-}
-
 /// What is shown first is not what is written.
 ExportSource converged(ExportSource source, Control& control) {
     source.simulated_displacement = source.deformer->displace(source.values, control, kSolveTolerance, source.approach);
@@ -80,7 +71,8 @@ bool takes_solves(const fs::path& file) { return is_field_file(file) || is_figur
 void write_export(const fs::path& file, const ExportSource& source, Control& control) {
     if (!source.converged) return write_export(file, converged(source, control), control);
     if (source.deformer && (is_figure_file(file) || is_glb_file(file))) {
-        const std::string why = figure_refusal(source.deformer->model().method().kind, n_handles(source));
+        const std::string why = figure_refusal(source.deformer->model().method().kind,
+                                               pulled_handles(source.deformer->set(), source.groups).size());
         if (!why.empty()) throw Error(file.string() + ": " + why);
         return save_figure(file, make_figure(solved_body(source, control), source.groups, source.vertical, control));
     }

@@ -91,6 +91,13 @@ void require_single_precision(const std::string& name, const Eigen::MatrixXd& nu
 
 }  // namespace
 
+std::vector<ConstraintGroup> pulled_handles(const ConstrainedSet& set, const std::vector<ConstraintGroup>& groups) {
+    std::vector<ConstraintGroup> handles;
+    for (const ConstraintGroup& group : groups)
+        if (group.begin >= static_cast<int>(set.fixed.size()) && group.end > group.begin) handles.push_back(group);
+    return handles;
+}
+
 std::string figure_refusal(MethodKind method, std::size_t n_handles) {
     if (!method->linear) return "a figure needs a linear method, as it adds up answers. Choose a linear method.";
     if (n_handles == 0) return "there is no handle to pull in a figure. Add a handle.";
@@ -102,9 +109,7 @@ Figure make_figure(const SolvedBody& solved, const std::vector<ConstraintGroup>&
     const Model& model = solved.deformer->model();
     const ConstrainedSet& set = solved.deformer->set();
     const auto n_fixed = static_cast<int>(set.fixed.size());
-    std::vector<ConstraintGroup> handles;
-    for (const ConstraintGroup& group : groups)
-        if (group.begin >= n_fixed && group.end > group.begin) handles.push_back(group);
+    const std::vector<ConstraintGroup> handles = pulled_handles(set, groups);
     require_sensible(solved, handles.size());
     control.begin_stage("figure");
     const Positions& x = model.body().surface->vertices;

@@ -35,6 +35,9 @@ struct Figure {
     std::vector<FigureHandle> handles;
 };
 
+/// The handles among the groups of a set (Constraints::groups) that have vertices on what is simulated.
+std::vector<ConstraintGroup> pulled_handles(const ConstrainedSet& set, const std::vector<ConstraintGroup>& groups);
+
 /// Why no figure can be made by this method with so many handles, with a way forward; empty when one can.
 std::string figure_refusal(MethodKind method, std::size_t n_handles);
 

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "deform/patch_reactions.hpp"
-
 namespace elastolab {
 
 namespace {
@@ -32,8 +30,8 @@ TheoryGauge::Found TheoryGauge::find(std::shared_ptr<const Made> made, const Bod
     const Approach approach{nullptr, way_to(wish, nullptr, rest).path};
     const double moved =
         rest.cols() == 0 ? 0.0 : wish.values.head(rest.size()).reshaped(3, rest.cols()).colwise().norm().maxCoeff();
-    const HandleForces in_proportion = moved < size_of(*body.surface) ? by_force : HandleForces{};
-    const double error = made->gauge.error(wish.values, control, approach, in_proportion).value_or(0.0);
+    const double error =
+        made->gauge.error(wish.values, control, approach, in_proportion(by_force, moved, *body.surface)).value_or(0.0);
     const bool crushed = std::isinf(error);
     const bool handles_move = !wish.values.head(wish.values.size() - std::ssize(set.loads)).isZero(0.0);
     return {std::move(made),
