@@ -11,12 +11,12 @@
 #include "app/input/navigation.hpp"
 #include "app/unit_names.hpp"
 #include "deform/method.hpp"
-#include "elasticity/stress.hpp"
 #include "methods/registry.hpp"
 #include "render/colour_map.hpp"
 #include "render/geometry/picking.hpp"
 #include "render/surface_material.hpp"
 #include "scene/live/simulation.hpp"
+#include "scene/shown.hpp"
 
 namespace elastolab {
 
@@ -58,36 +58,6 @@ struct CompareSettings {
     MethodKind reference = default_method();  ///< differences are to this one
 };
 
-/// What colours the body: lengths and measures, which are not negative, or a stress of either sign.
-enum class Field {
-    none,
-    displacement,
-    difference,
-    traction,
-    displacement_x,
-    displacement_y,
-    displacement_z,
-    von_mises,
-    first_principal,
-    third_principal,
-    stress_xx,
-    stress_yy,
-    stress_zz,
-    stress_xy,
-    stress_yz,
-    stress_xz
-};
-/// Names of the fields, as options have them: "displacement", "von-mises", "stress-xx".
-std::vector<std::string> field_names();
-/// Nothing for another text.
-std::optional<Field> parse_field(std::string_view name);
-/// The stress that a field is; nothing for the others.
-std::optional<StressMeasure> stress_of(Field field);
-/// The axis along which a field is the displacement; nothing for others.
-std::optional<int> displacement_axis(Field field);
-/// Whether it has values of either sign, so that zero is in the middle of the colours.
-bool is_signed(Field field);
-
 struct DisplaySettings {
     Field field = Field::none;
     std::string colour_map = "lagoon", signed_colour_map = "balance";  ///< the second where is_signed(field)
@@ -109,11 +79,8 @@ struct DisplaySettings {
     bool defects = true;       ///< where the surface is not closed
     bool soft_shadows = true;  ///< ambient occlusion, and a shadow on the ground
     double deformation_scale = 1.0;
-    bool section = false;
-    int section_axis = 0;
-    double section_turn = 0.0, section_tilt = 0.0;  ///< of the plane, from the axis [degree]
-    double section_place = 0.5;                     ///< 0 to 1 along its normal, through the body
-    bool section_flip = false;
+    bool section = false;  ///< the body is opened by `cut`
+    Cut cut = {};
     bool section_gizmo = true;  ///< the plane can be moved and turned with the mouse
     bool dark = true;
     float ui_scale = 1.0f;
@@ -123,6 +90,10 @@ struct DisplaySettings {
 
     bool operator==(const DisplaySettings&) const = default;
 };
+
+/// What of it belongs to the scene, and the other way round: everything else stays.
+Shown shown_by(const DisplaySettings& display);
+void show(const Shown& shown, DisplaySettings& display);
 
 /// The colours of the field that is shown.
 const ColourMap& shown_colour_map(const DisplaySettings& display);

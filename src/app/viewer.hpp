@@ -4,16 +4,16 @@
 #include <filesystem>
 #include <optional>
 
+#include "app/files/scene_io.hpp"
 #include "app/settings.hpp"
 #include "base/control.hpp"
-#include "deform/method.hpp"
 
 namespace elastolab {
 
 /// How the viewer is started.
 struct ViewerOptions {
     std::filesystem::path input;                    ///< scene or mesh; empty: the default scene
-    std::optional<MethodKind> method;               ///< instead of the scene's own
+    AskedFor asked;                                 ///< instead of the scene's own
     int n_frames = 0;                               ///< quit after so many; 0: when the person closes the window
     std::filesystem::path screenshot;               ///< of the last frame; empty: none
     std::filesystem::path timings, replay, record;  ///< likewise
@@ -23,10 +23,8 @@ struct ViewerOptions {
     std::filesystem::path picture;              ///< likewise: of the scene alone, or the frames of a film
     Eigen::Vector2i picture_size{1920, 1080};
     bool transparent = false;
-    bool legend = false;          ///< and with the colour bar
-    std::optional<Field> field;   ///< that colours the body from the start
-    std::optional<int> cut_axis;  ///< 0, 1 or 2: cut open through its middle across this axis, from the start
-    int film_frames = 0;          ///< 0: a single picture
+    bool legend = false;  ///< and with the colour bar
+    int film_frames = 0;  ///< 0: a single picture
     FilmKind film = FilmKind::turn;
     std::optional<Eigen::Vector2i> size;  ///< of the window [logical pixels]
     bool hidden = false;

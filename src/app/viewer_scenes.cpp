@@ -52,11 +52,20 @@ void note_defects(const LiveScene& scene, MethodKind method, Messages& messages)
                   ". A closed surface is simulated in its place.");
 }
 
+void show_asked(const AskedFor& asked, DisplaySettings& display) {
+    if (asked.field) display.field = *asked.field;
+    if (!asked.cut_axis) return;
+    display.section = true;
+    display.cut = {.axis = *asked.cut_axis};
+}
+
 }  // namespace
 
-void ViewerState::start_with(MethodKind kind) {
-    method = kind;
-    files.begin_with(kind);
+void ViewerState::start_with(const AskedFor& asked) {
+    files.begin_with(asked);
+    show_asked(asked, display);
+    if (!asked.method) return;
+    method = *asked.method;
     scene_->start_with(method, choices.settings());
 }
 
@@ -86,7 +95,7 @@ Document ViewerState::document_to_save() const {
         pose.distance *= std::min(1.0, place.free_aspect()) / std::min(1.0, place.aspect());
         seen.set_pose(pose);
     }
-    return movable_document(*scene_, method, view_point_of(seen));
+    return movable_document(*scene_, method, view_point_of(seen), shown_by(display));
 }
 
 void ViewerState::take_scene(LoadedScene loaded) {
@@ -94,8 +103,8 @@ void ViewerState::take_scene(LoadedScene loaded) {
     scene_ = std::move(loaded.scene);
     graph_ = std::make_unique<VertexGraph>(scene_->mesh());
     ++scene_number_;
-    if (!loaded.method && !loaded.note.empty()) messages.note(loaded.note);
-    method = loaded.method.value_or(scene_->document().method);
+    if (!loaded.asked.method && !loaded.note.empty()) messages.note(loaded.note);
+    method = loaded.asked.method.value_or(scene_->document().method);
     scene_->start_with(method, choices.settings());
     tools.patch_radius = std::max(kPatchPart * diagonal(scene_->report()), kPatchEdges * scene_->report().mean_edge);
     tools.pressure = round_step(kPressurePart * scene_->document().material.young_modulus);
@@ -103,6 +112,8 @@ void ViewerState::take_scene(LoadedScene loaded) {
                                                      bending_stiffness(*scene_, farthest_from_support(*scene_))));
     shown.forget();
     probes.clear();
+    if (const auto& of_scene = scene_->document().shown) show(*of_scene, display);
+    show_asked(loaded.asked, display);
     display.wireframe = scene_->mesh().n_vertices() <= kDenseVertices;
     camera.set_scene(frame_of(scene_->mesh().vertices));
     const std::optional<ViewPoint>& saved = scene_->document().camera;

@@ -27,12 +27,7 @@ void begin_viewer(ViewerState& state, const ViewerOptions& options, Control& con
         else
             state.files.open(options.input);
     }
-    if (options.method) state.start_with(*options.method);
-    if (options.field) state.display.field = *options.field;
-    if (options.cut_axis) {
-        state.display.section = true;
-        state.display.section_axis = *options.cut_axis;
-    }
+    state.start_with(options.asked);
     state.update_displacements();  // begins the precomputation
 }
 

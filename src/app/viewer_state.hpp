@@ -74,10 +74,10 @@ public:
     /// changes would be lost.
     void open_primitive(const Primitive& primitive);
     void quit();
-    /// The scene as it is saved: with the method, and as the camera sees it.
+    /// The scene as it is saved: with the method, the field and the cut, and as the camera sees it.
     Document document_to_save() const;
-    /// The method to begin with, for the scene that is there and the one that is being opened.
-    void start_with(MethodKind kind);
+    /// What to begin with, for the scene that is there and the one that is being opened.
+    void start_with(const AskedFor& asked);
     void save_probes(const std::filesystem::path& file);
     /// A handle is to be moved by the force that moves it now, as soon as that is known.
     void move_by_force(int handle);

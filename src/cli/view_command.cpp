@@ -98,6 +98,14 @@ void require_mesh(const ViewWords& words, const std::optional<Document>& scene) 
     require_figure(method, scene->handles.size(), paths);
 }
 
+/// A legend is of a field: one that is asked for, or the scene's, or one that a replay may choose.
+void require_colours(const ViewWords& words, const std::optional<Document>& scene) {
+    if (!words.legend || !scene || !words.replay.empty()) return;
+    const Field of_scene = scene->shown ? scene->shown->field : Field::none;
+    if (parse_field(words.field).value_or(of_scene) == Field::none)
+        throw UsageError("--legend: no field colours the body. Add --field NAME.");
+}
+
 void require_png(const std::string& option, const std::string& file) {
     if (!file.empty() && lower_case(fs::path(file).extension().string()) != ".png")
         throw UsageError(option + " " + file + ": pictures are written as .png. Choose that extension.");
@@ -106,7 +114,7 @@ void require_png(const std::string& option, const std::string& file) {
 ViewerOptions options_of(const ViewWords& words) {
     ViewerOptions options;
     options.input = words.input;
-    options.method = parse_method_kind(words.method);
+    options.asked.method = parse_method_kind(words.method);
     options.n_frames = words.frames;
     options.screenshot = words.screenshot;
     options.timings = words.timings;
@@ -128,10 +136,9 @@ ViewerOptions options_of(const ViewWords& words) {
     options.picture = words.picture;
     options.transparent = words.transparent;
     options.legend = words.legend;
-    options.field = parse_field(words.field);
-    if (!words.cut.empty()) options.cut_axis = words.cut.front() - 'x';
-    if (words.legend && words.field.empty() && words.replay.empty())
-        throw UsageError("--legend: no field colours the body. Add --field NAME.");
+    options.asked.field = parse_field(words.field);
+    if (!words.cut.empty()) options.asked.cut_axis = words.cut.front() - 'x';
+    require_colours(words, scene);
     options.film_frames = std::max(words.turntable, words.pull_film);
     options.film = words.pull_film > 0 ? FilmKind::pull : FilmKind::turn;
     if (!words.picture_size.empty()) options.picture_size = parse_size("--picture-size", words.picture_size);

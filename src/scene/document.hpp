@@ -14,6 +14,7 @@
 #include "elasticity/material.hpp"
 #include "mesh/wrap/hole_caps.hpp"
 #include "methods/registry.hpp"
+#include "scene/shown.hpp"
 
 namespace elastolab {
 
@@ -193,9 +194,10 @@ struct Document {
     ProxyChoice proxy = {};
     MethodSettings settings = {};
     std::optional<ViewPoint> camera = {};  ///< none: the whole body is to be seen
+    std::optional<Shown> shown = {};       ///< none: what the viewer shows already
 };
 
-/// Whether they state the same problem in the same way; the camera makes no difference.
+/// Whether they state the same problem in the same way; how it is looked at makes no difference.
 bool operator==(const Document& a, const Document& b);
 
 }  // namespace elastolab

@@ -153,7 +153,7 @@ TEST_F(ViewerTest, AReplayedDragEndsAtTheSameHandleForEveryMethod) {
     options.mesh_out = folder.path() / "out.obj";
     std::vector<Handle> handles;
     for (const MethodKind kind : all_methods()) {
-        options.method = kind;
+        options.asked.method = kind;
         run_viewer(options);
         const auto rows = timings();
         EXPECT_GE(std::count_if(rows.begin(), rows.end(), [](const auto& row) { return row[6] == "ready"; }), kMoves);

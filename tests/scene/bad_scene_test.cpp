@@ -51,6 +51,22 @@ TEST_P(BadSceneTest, IsRefusedWithItsPlaceAndAWayForward) {
 #define SELECT R"("select": {"vertices": [1]})"
 
 INSTANTIATE_TEST_SUITE_P(
+    ShownOfIt, BadSceneTest,
+    testing::Values(
+        BadScene{"NotAnObject", ROOT(R"("shown": "von-mises")"), "/shown", "must be an object"},
+        BadScene{"UnknownKey", ROOT(R"("shown": {"colour": "von-mises"})"), "/shown", "colour"},
+        BadScene{"UnknownField", ROOT(R"("shown": {"field": "heat"})"), "/shown/field", "is not a known field"},
+        BadScene{"HalfARange", ROOT(R"("shown": {"field": "traction", "range": [1]})"), "/shown/range", "2"},
+        BadScene{"NoAxis", ROOT(R"("shown": {"cut": {"place": 0.5}})"), "/shown/cut/axis", "is missing"},
+        BadScene{"TwoAxes", ROOT(R"("shown": {"cut": {"axis": "xy"}})"), "/shown/cut/axis", "none of x, y, z"},
+        BadScene{"EmptyAxis", ROOT(R"("shown": {"cut": {"axis": ""}})"), "/shown/cut/axis", "none of x, y, z"},
+        BadScene{"CutOutside", ROOT(R"("shown": {"cut": {"axis": "x", "place": 1.5}})"), "/shown/cut/place",
+                 "between 0 and 1"},
+        BadScene{"FlipIsANumber", ROOT(R"("shown": {"cut": {"axis": "x", "flip": 1}})"), "/shown/cut/flip",
+                 "true or false"}),
+    case_name);
+
+INSTANTIATE_TEST_SUITE_P(
     Syntax, BadSceneTest,
     testing::Values(
         BadScene{"Truncated", "{\"elastolab\": 1,\n \"mesh\": {", "line 2, column 10", "unexpected end of input"},

@@ -58,6 +58,20 @@ TEST(SceneFile, KeepsTheCameraExactlyAndApartFromTheProblem) {
     EXPECT_FALSE(parse_scene(print_scene(everything()), "test").camera) << "files without one stay without";
 }
 
+TEST(SceneFile, KeepsTheFieldAndTheCutExactlyAndApartFromTheProblem) {
+    Document document = everything();
+    for (const std::string& known : field_names()) {
+        document.shown = Shown{.field = *parse_field(known)};
+        EXPECT_EQ(parse_scene(print_scene(document), "test").shown, document.shown) << known;
+    }
+    document.shown->range = {1.0 / 3.0, -2e-300};
+    document.shown->cut = Cut{.axis = 2, .turn = 0.1, .tilt = -1.0 / 7.0, .place = 1.0, .flip = true};
+    const Document read = parse_scene(print_scene(document), "test");
+    EXPECT_EQ(read.shown, document.shown);
+    EXPECT_EQ(read, everything()) << "what is shown of it is no part of the problem";
+    EXPECT_FALSE(parse_scene(print_scene(everything()), "test").shown) << "files without one stay without";
+}
+
 TEST(SceneFile, IsWrittenTheSameAfterReading) {
     const std::string text = print_scene(everything());
     EXPECT_EQ(print_scene(parse_scene(text, "test")), text);

@@ -7,11 +7,13 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <exception>
 #include <memory>
 #include <string>
 #include <system_error>
 #include <thread>
 #include <utility>
+#include <variant>
 
 #include "app/window/state_folder.hpp"
 #include "base/error.hpp"
@@ -52,6 +54,16 @@ fs::path read_origin(const FileDescriptor& lock) {
     return std::string(text.data(), n > 0 ? static_cast<std::size_t>(n) : 0);
 }
 
+std::string body_of(const fs::path& scene) {
+    try {
+        const MeshSource mesh = load_scene(scene).mesh;
+        const MeshFile* file = std::get_if<MeshFile>(&mesh);
+        return file != nullptr ? fs::path(file->file).filename().string() : std::get<Primitive>(mesh).name;
+    } catch (const std::exception&) {  // recover() says what it is
+        return {};
+    }
+}
+
 }  // namespace
 
 void AutosavedScene::remove() {
@@ -76,7 +88,7 @@ std::vector<AutosavedScene> find_autosaved() {
         const fs::file_time_type time = fs::last_write_time(file, missing);
         if (missing) continue;
         fs::path origin = read_origin(locked);
-        found.push_back({file, lock, std::move(origin), time, std::move(locked)});
+        found.push_back({file, lock, std::move(origin), body_of(file), time, std::move(locked)});
     }
     std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.time > b.time; });
     return found;
@@ -90,7 +102,7 @@ void Autosave::make_place() {
         const std::string name = std::to_string(getpid()) + "-" + std::to_string(i);
         const fs::path lock = folder / (name + ".lock");
         if (FileDescriptor locked = open_locked(lock, O_CREAT | O_EXCL)) {
-            place_ = AutosavedScene{folder / (name + ".json"), lock, {}, {}, std::move(locked)};
+            place_ = AutosavedScene{folder / (name + ".json"), lock, {}, {}, {}, std::move(locked)};
             origin_is_named_ = false;
             return;
         }

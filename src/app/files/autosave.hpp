@@ -20,6 +20,7 @@ struct AutosavedScene {
     std::filesystem::path file;    ///< the scene, complete, with the absolute name of its mesh
     std::filesystem::path lock;    ///< names the scene file that it belongs to
     std::filesystem::path origin;  ///< that file; empty when it was never saved
+    std::string body;              ///< its mesh file or primitive, by name; empty where the copy cannot be read
     std::filesystem::file_time_type time;
     FileDescriptor locked;
 

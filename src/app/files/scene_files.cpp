@@ -26,8 +26,8 @@ void SceneFiles::open_document(Document document, const fs::path& base) {
     attempt(messages_, [&] { replace({.scene = std::make_unique<LiveScene>(std::move(document), base), .file = {}}); });
 }
 
-void SceneFiles::begin_with(MethodKind method) {
-    if (loading()) first_method_ = method;
+void SceneFiles::begin_with(const AskedFor& asked) {
+    if (loading()) asked_ = asked;
 }
 
 void SceneFiles::begin_loading(const fs::path& file) {
@@ -52,11 +52,11 @@ void SceneFiles::poll() {
             break;
         case JobEvent::failed:
             messages_.error(load_job_.failure());
-            first_method_.reset();
+            asked_ = {};
             recovering_.reset();
             break;
         case JobEvent::cancelled:
-            first_method_.reset();
+            asked_ = {};
             break;
         case JobEvent::none:
             break;
@@ -73,7 +73,7 @@ void SceneFiles::replace(LoadedScene loaded) {
     file_ = loaded.file;
     owns_file_ = false;
     ++n_replaced_;
-    loaded.method = std::exchange(first_method_, std::nullopt);
+    loaded.asked = std::exchange(asked_, {});
     edited_.replace(std::move(loaded));
 }
 

@@ -45,8 +45,8 @@ public:
     /// A document that was read from no file, without a question. base: the file that the name of its mesh is relative
     /// to.
     void open_document(Document document, const std::filesystem::path& base);
-    /// The scene that is being opened begins with this method; nothing where none is.
-    void begin_with(MethodKind method);
+    /// The scene that is being opened begins with this; nothing where none is.
+    void begin_with(const AskedFor& asked);
     /// Takes over what was opened. Once a frame.
     void poll();
     bool loading() const { return load_job_.running(); }
@@ -105,7 +105,7 @@ private:
     std::vector<std::filesystem::path> recent_;
     std::filesystem::path pending_file_;  ///< being loaded since the scene had this revision:
     std::uint64_t revision_at_open_ = 0;
-    std::optional<MethodKind> first_method_;
+    AskedFor asked_;                                        ///< of the one being loaded
     std::optional<AutosavedScene> recovering_, recovered_;  ///< being opened; open, but not adopted by autosave_ yet
     std::uint64_t n_replaced_ = 0;
     BackgroundJob<std::shared_ptr<LoadedScene>> load_job_;

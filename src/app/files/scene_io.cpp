@@ -68,10 +68,11 @@ LoadedScene load_autosaved(const fs::path& file, const fs::path& origin, Control
     return loaded;
 }
 
-Document movable_document(const LiveScene& scene, MethodKind method, const ViewPoint& camera) {
+Document movable_document(const LiveScene& scene, MethodKind method, const ViewPoint& camera, const Shown& shown) {
     Document document = scene.document();
     document.method = method;
     document.camera = camera;
+    document.shown = shown;
     if (auto* mesh = std::get_if<MeshFile>(&document.mesh))
         mesh->file = fs::absolute(scene.file().parent_path() / mesh->file).lexically_normal().string();
     return document;

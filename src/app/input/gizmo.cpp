@@ -110,7 +110,7 @@ Gizmo gravity_gizmo(const Positions& positions) {
 Gizmo plane_gizmo(const Positions& rest, const DisplaySettings& display) {
     const Plane plane = section_plane(rest, display);
     const Eigen::Vector3d middle = 0.5 * (rest.rowwise().minCoeff() + rest.rowwise().maxCoeff());
-    const double sign = display.section_flip ? -1.0 : 1.0;
+    const double sign = display.cut.flip ? -1.0 : 1.0;
     Gizmo gizmo;
     gizmo.center = middle + (plane.offset - plane.normal.dot(middle)) * plane.normal;
     gizmo.axes.col(0) = sign * plane.normal;

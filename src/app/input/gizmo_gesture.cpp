@@ -66,12 +66,12 @@ void Gestures::move_plane(GestureContext& context) {
         const Eigen::RowVectorXd along = gizmo_drag_->gizmo.axes.col(0).transpose() * context.scene.mesh().vertices;
         const double extent = along.maxCoeff() - along.minCoeff();
         if (!(extent > 0.0)) return;  // a flat sheet
-        display.section_place = std::clamp(plane_before_.section_place + amount / extent, 0.0, 1.0);
+        display.cut.place = std::clamp(plane_before_.cut.place + amount / extent, 0.0, 1.0);
         return;
     }
     const bool turns = gizmo_drag_->part.axis == 1;
-    double& angle = turns ? display.section_turn : display.section_tilt;
-    const double before = turns ? plane_before_.section_turn : plane_before_.section_tilt;
+    double& angle = turns ? display.cut.turn : display.cut.tilt;
+    const double before = turns ? plane_before_.cut.turn : plane_before_.cut.tilt;
     angle = std::clamp(before + amount * 180.0 / std::numbers::pi, -90.0, 90.0);
 }
 

@@ -123,13 +123,13 @@ void draw_section(DisplaySettings& display, float scale) {
     for (int axis = 0; axis < 3; ++axis) {
         ImGui::SameLine();
         constexpr std::array<const char*, 3> kAxes = {"x", "y", "z"};
-        if (ImGui::RadioButton(kAxes[static_cast<std::size_t>(axis)], display.section_axis == axis))
-            display.section_axis = axis;
+        if (ImGui::RadioButton(kAxes[static_cast<std::size_t>(axis)], display.cut.axis == axis))
+            display.cut.axis = axis;
     }
-    slider("place", display.section_place, 0.0, 1.0, "%.2f", scale);
-    slider("turn", display.section_turn, -90.0, 90.0, "%.0f\u00b0", scale);
-    slider("tilt", display.section_tilt, -90.0, 90.0, "%.0f\u00b0", scale);
-    ImGui::Checkbox("keep the other side", &display.section_flip);
+    slider("place", display.cut.place, 0.0, 1.0, "%.2f", scale);
+    slider("turn", display.cut.turn, -90.0, 90.0, "%.0f\u00b0", scale);
+    slider("tilt", display.cut.tilt, -90.0, 90.0, "%.0f\u00b0", scale);
+    ImGui::Checkbox("keep the other side", &display.cut.flip);
     ImGui::Checkbox("gizmo at the plane", &display.section_gizmo);
     tooltip("Drag its arrow to move the plane, its rings to turn and tilt it; with Ctrl in steps.");
 }

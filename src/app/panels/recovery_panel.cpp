@@ -36,7 +36,8 @@ void RecoveryQuestion::draw(const PanelContext& context) {
     if (!ImGui::IsPopupOpen(kRecoveryTitle)) choice_ = 0;
     if (!begin_question(kRecoveryTitle)) return;
     const AutosavedScene& left = files.recoverable.front();
-    const std::string name = left.origin.empty() ? "a scene that was not saved yet" : left.origin.string();
+    const std::string of_body = left.body.empty() ? "" : " (" + left.body + ")";
+    const std::string name = (left.origin.empty() ? "a scene that was not saved yet" : left.origin.string()) + of_body;
     ImGui::TextUnformatted("A viewer ended unexpectedly, with unsaved changes of");
     ImGui::TextUnformatted(name.c_str());
     ImGui::Text("Kept %s ago.", readable_seconds(std::max(0.0, seconds_since(left.time))).c_str());

@@ -16,11 +16,11 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// The plane's normal before it is turned (0 steps), and the axes that follow it in cyclic order.
 Eigen::Vector3d section_axis(const DisplaySettings& display, int steps) {
-    return Eigen::Vector3d::Unit((display.section_axis + steps) % 3);
+    return Eigen::Vector3d::Unit((display.cut.axis + steps) % 3);
 }
 
 Eigen::AngleAxisd section_turn(const DisplaySettings& display) {
-    return Eigen::AngleAxisd(kDegree * display.section_turn, section_axis(display, 1));
+    return Eigen::AngleAxisd(kDegree * display.cut.turn, section_axis(display, 1));
 }
 
 }  // namespace
@@ -34,11 +34,11 @@ Eigen::Matrix<double, 3, 2> section_hinges(const DisplaySettings& display) {
 Plane section_plane(const Positions& rest, const DisplaySettings& display) {
     const Eigen::Vector3d normal =
         section_turn(display) *
-        (Eigen::AngleAxisd(kDegree * display.section_tilt, section_axis(display, 2)) * section_axis(display, 0));
+        (Eigen::AngleAxisd(kDegree * display.cut.tilt, section_axis(display, 2)) * section_axis(display, 0));
     const Eigen::RowVectorXd along = normal.transpose() * rest;
     const double low = along.minCoeff(), high = along.maxCoeff();
-    const Plane plane{normal, low + display.section_place * (high - low)};
-    return display.section_flip ? Plane{-plane.normal, -plane.offset} : plane;
+    const Plane plane{normal, low + display.cut.place * (high - low)};
+    return display.cut.flip ? Plane{-plane.normal, -plane.offset} : plane;
 }
 
 SectionShape::SectionShape(std::shared_ptr<const SurfaceMesh> surface, const Plane& plane, int n_filling)

@@ -68,6 +68,11 @@ std::string JsonNode::text() const {
     return value_->get<std::string>();
 }
 
+bool JsonNode::boolean() const {
+    if (!value_->is_boolean()) fail_type("true or false");
+    return value_->get<bool>();
+}
+
 double JsonNode::number() const {
     if (!value_->is_number()) fail_type("a number");
     const double number = value_->get<double>();

@@ -35,6 +35,7 @@ public:
     JsonNode operator[](int i) const;
 
     std::string text() const;
+    bool boolean() const;
     double number() const;
     double positive_number() const;
     int integer(int min, int max) const;

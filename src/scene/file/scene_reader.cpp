@@ -263,6 +263,43 @@ ViewPoint read_camera(const JsonNode& node) {
     return view;
 }
 
+Field read_field(const JsonNode& node) {
+    const std::optional<Field> known = parse_field(node.text());
+    if (!known) node.fail(node.quoted() + " is not a known field. Known ones: " + listed(field_names()) + ".");
+    return *known;
+}
+
+std::pair<double, double> read_range(const JsonNode& node) {
+    node.array_size(2);
+    return {node[0].number(), node[1].number()};
+}
+
+Cut read_cut(const JsonNode& node) {
+    node.require_keys({"axis", "place", "turn", "tilt", "flip"});
+    const JsonNode axis = node.at("axis", "Give x, y or z.");
+    const std::size_t known = std::string_view("xyz").find(axis.text());
+    if (known == std::string_view::npos || axis.text().size() != 1)
+        axis.fail(axis.quoted() + " is none of x, y, z. Choose one of these.");
+    Cut cut{.axis = static_cast<int>(known)};
+    if (const auto place = node.find("place")) {
+        cut.place = place->number();
+        if (!(cut.place >= 0.0 && cut.place <= 1.0)) place->fail("is not between 0 and 1. Give a part of the body.");
+    }
+    if (const auto turn = node.find("turn")) cut.turn = turn->number();
+    if (const auto tilt = node.find("tilt")) cut.tilt = tilt->number();
+    if (const auto flip = node.find("flip")) cut.flip = flip->boolean();
+    return cut;
+}
+
+Shown read_shown(const JsonNode& node) {
+    node.require_keys({"field", "range", "cut"});
+    Shown shown;
+    if (const auto field = node.find("field")) shown.field = read_field(*field);
+    if (const auto range = node.find("range")) shown.range = read_range(*range);
+    if (const auto cut = node.find("cut")) shown.cut = read_cut(*cut);
+    return shown;
+}
+
 std::vector<Handle> read_handles(const JsonNode& node) {
     std::vector<Handle> handles;
     const int n = node.array_size();
@@ -308,7 +345,7 @@ Document parse_scene(std::string_view text, const std::string& name) {
     const JsonTree json = parse_json(text, name);
     const JsonNode root(json.value, "", name);
     root.require_keys({"elastolab", "mesh", "material", "method", "fixed", "handles", "gravity", "density", "loads",
-                       "proxy", "camera"});
+                       "proxy", "camera", "shown"});
     read_version(root);
     Document document;
     document.mesh = read_mesh(root.at("mesh", "Give a mesh file or a primitive."));
@@ -321,6 +358,7 @@ Document parse_scene(std::string_view text, const std::string& name) {
     if (const auto loads = root.find("loads")) document.loads = read_loads(*loads);
     if (const auto proxy = root.find("proxy")) document.proxy = read_proxy(*proxy);
     if (const auto camera = root.find("camera")) document.camera = read_camera(*camera);
+    if (const auto shown = root.find("shown")) document.shown = read_shown(*shown);
     return document;
 }
 

@@ -113,6 +113,21 @@ Json to_json(const ViewPoint& view) {
             {"vertical", to_json(view.vertical)}};
 }
 
+Json to_json(const Cut& cut) {
+    Json json{{"axis", std::string(1, "xyz"[cut.axis])}, {"place", cut.place}};
+    if (cut.turn != 0.0) json["turn"] = cut.turn;
+    if (cut.tilt != 0.0) json["tilt"] = cut.tilt;
+    if (cut.flip) json["flip"] = true;
+    return json;
+}
+
+Json to_json(const Shown& shown) {
+    Json json{{"field", name(shown.field)}};
+    if (shown.range) json["range"] = Json::array({shown.range->first, shown.range->second});
+    if (shown.cut) json["cut"] = to_json(*shown.cut);
+    return json;
+}
+
 Json to_json(const Document& document) {
     Json json{
         {"elastolab", kSceneVersion},
@@ -131,6 +146,7 @@ Json to_json(const Document& document) {
     }
     if (document.proxy != ProxyChoice{}) json["proxy"] = to_json(document.proxy);
     if (document.camera) json["camera"] = to_json(*document.camera);
+    if (document.shown) json["shown"] = to_json(*document.shown);
     return json;
 }
 

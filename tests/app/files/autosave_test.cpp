@@ -176,6 +176,7 @@ TEST(Autosave, IsRecoveredUnsavedAndKeptFromThenOn) {
     Stage stage(3);
     stage.state.files.recoverable = find_autosaved();
     ASSERT_THAT(stage.state.files.recoverable, SizeIs(1));
+    EXPECT_EQ(stage.state.files.recoverable[0].body, "cube") << "the question names it";
     stage.state.files.recover();
     stage.settle();
     EXPECT_EQ(stage.scene().mesh().n_vertices(), 26);

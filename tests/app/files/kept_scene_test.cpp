@@ -1,4 +1,4 @@
-// What a scene keeps between sessions and between steps of undo: the camera, the method.
+// What a scene keeps between sessions and between steps of undo: the camera, the field, the method.
 #include <gmock/gmock.h>
 
 #include "app/picture/view_point.hpp"
@@ -50,6 +50,57 @@ TEST(KeptCamera, OfNoUseIsLeftAside) {
     stage.state.files.open_now(folder.path() / "far.json");
     stage.state.frame_in_viewports(true);
     EXPECT_NEAR(stage.state.camera.pose().distance, framed.distance, 1e-9);
+}
+
+TEST(KeptField, ComesBackWithItsRangeAndTheCut) {
+    const TemporaryFolder folder;
+    const auto file = folder.path() / "seen.json", plain = folder.path() / "plain.json";
+    Stage stage(3);
+    ASSERT_TRUE(stage.state.files.save(plain));
+    stage.state.display.field = Field::stress_xz;
+    stage.state.display.typed_ranges[Field::stress_xz] = {-2.0, 3.0};
+    stage.state.display.section = true;
+    stage.state.display.cut = {.axis = 1, .turn = 20.0, .tilt = -5.0, .place = 0.25, .flip = true};
+    ASSERT_TRUE(stage.state.files.save(file));
+
+    Stage other(3);
+    other.state.display.typed_ranges[Field::displacement] = {0.0, 1.0};
+    other.state.files.open(file);
+    other.settle();
+    const DisplaySettings& display = other.state.display;
+    EXPECT_EQ(display.field, Field::stress_xz);
+    EXPECT_EQ(display.typed_ranges.at(Field::stress_xz), std::pair(-2.0, 3.0));
+    EXPECT_TRUE(display.typed_ranges.contains(Field::displacement)) << "those of other fields stay";
+    EXPECT_TRUE(display.section);
+    EXPECT_EQ(display.cut, stage.state.display.cut);
+    EXPECT_FALSE(other.scene().modified());
+    other.state.files.open(plain);
+    other.settle();
+    EXPECT_EQ(display.field, Field::none);
+    EXPECT_FALSE(display.section);
+}
+
+TEST(KeptField, GivesWayToWhatIsAskedForAndStaysWhereASceneHasNone) {
+    const TemporaryFolder folder;
+    const auto file = folder.path() / "seen.json", without = folder.path() / "without.json";
+    Document document = test::cube_document(2);
+    save_scene(without, document);
+    document.shown = Shown{.field = Field::traction, .range = {{0.0, 1.0}}, .cut = Cut{.axis = 2, .place = 0.1}};
+    save_scene(file, document);
+    Stage stage(2);
+    stage.state.files.open(file);
+    stage.state.start_with({.field = Field::von_mises, .cut_axis = 0});
+    stage.settle();
+    EXPECT_EQ(stage.state.display.field, Field::von_mises);
+    EXPECT_TRUE(stage.state.display.section);
+    EXPECT_EQ(stage.state.display.cut, Cut{});
+    stage.state.files.open(without);
+    stage.settle();
+    EXPECT_EQ(stage.state.display.field, Field::von_mises);
+    stage.state.files.open(file);
+    stage.settle();
+    EXPECT_EQ(stage.state.display.field, Field::traction) << "asked for once";
+    EXPECT_EQ(stage.state.display.cut.axis, 2);
 }
 
 TEST(KeptMethod, IsAStepOfUndo) {
@@ -135,7 +186,7 @@ TEST(KeptMethod, ABodyJustOpenedIsNotChangedWhateverMethodItBeginsWith) {
     Stage stage(2);
     for (const MethodKind kind : all_methods()) {
         stage.state.files.open_now(folder.path() / "box.obj");
-        stage.state.start_with(kind);
+        stage.state.start_with({.method = kind});
         stage.frame();
         EXPECT_FALSE(stage.scene().modified()) << name(kind);
         EXPECT_FALSE(stage.scene().can_undo()) << name(kind);

@@ -92,7 +92,7 @@ TEST(SceneFiles, TheMethodOfTheCommandLineOutlivesTheLoadingOfTheScene) {
     save_scene(folder.path() / "cube.json", test::cube_document(2));
     Stage stage(2);
     stage.state.files.open(folder.path() / "cube.json");
-    stage.state.start_with(kFem);
+    stage.state.start_with({.method = kFem});
     stage.settle();
     EXPECT_EQ(stage.state.method, kFem);
     stage.state.files.open(folder.path() / "cube.json");
@@ -105,7 +105,7 @@ TEST(SceneFiles, TheMethodOfTheCommandLineEndsWithAFileThatCannotBeLoaded) {
     save_scene(folder.path() / "cube.json", test::cube_document(2));
     Stage stage(2);
     stage.state.files.open(folder.write("bad.obj", "f 1 2 3\n"));
-    stage.state.start_with(kFem);
+    stage.state.start_with({.method = kFem});
     stage.settle();
     stage.state.files.open(folder.path() / "cube.json");
     stage.settle();

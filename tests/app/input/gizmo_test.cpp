@@ -208,29 +208,29 @@ TEST_F(GizmoTest, StaysWhereItWasPutWhenPatchesSpringBack) {
 TEST_F(GizmoTest, MovesAndTurnsThePlaneOfTheCut) {
     stage.state.gestures.select_handle(-1);
     stage.state.display.section = true;
-    stage.state.display.section_axis = 1;
+    stage.state.display.cut.axis = 1;
     stage.settle();
     ASSERT_EQ(stage.state.gizmos().size(), 1u);
     EXPECT_LT((gizmo().center - Eigen::Vector3d(0.5, 0.5, 0.5)).norm(), 1e-12);
     drag_along(0, 0.2);
-    EXPECT_NEAR(stage.state.display.section_place, 0.7, 0.03);
-    EXPECT_NEAR(gizmo().center.y(), stage.state.display.section_place, 1e-12);
+    EXPECT_NEAR(stage.state.display.cut.place, 0.7, 0.03);
+    EXPECT_NEAR(gizmo().center.y(), stage.state.display.cut.place, 1e-12);
     EXPECT_EQ(stage.scene().n_handles(), 1);
     for (const int axis : {1, 2}) {
         const Eigen::Vector2d from = place_of({Kind::ring, axis}), middle = stage.pixel(gizmo().center);
         stage.drag(from, middle + Eigen::Rotation2Dd(0.3) * (from - middle));
         stage.settle();
     }
-    EXPECT_GT(std::abs(stage.state.display.section_turn), 3.0);
-    EXPECT_GT(std::abs(stage.state.display.section_tilt), 3.0);
-    EXPECT_LT(std::abs(stage.state.display.section_turn), 90.0);
+    EXPECT_GT(std::abs(stage.state.display.cut.turn), 3.0);
+    EXPECT_GT(std::abs(stage.state.display.cut.tilt), 3.0);
+    EXPECT_LT(std::abs(stage.state.display.cut.turn), 90.0);
 }
 
 /// Turned by a ring, the normal turns by the angle that was dragged.
 TEST_F(GizmoTest, TurnsTheNormalOfTheCutWithTheRing) {
     stage.state.gestures.select_handle(-1);
     stage.state.display.section = true;
-    stage.state.display.section_turn = 20.0;
+    stage.state.display.cut.turn = 20.0;
     stage.settle();
     for (const int axis : {1, 2}) {
         const Gizmo before = gizmo();

@@ -88,8 +88,8 @@ TEST(ForceTool, TakesTheForceThatActsThereAlready) {
         stage.state.tools.tool = Tool::force;
         stage.state.tools.patch_radius = 0.4;
         stage.state.display.section = cut;
-        stage.state.display.section_axis = 1;
-        stage.state.display.section_place = 0.9;
+        stage.state.display.cut.axis = 1;
+        stage.state.display.cut.place = 0.9;
         stage.settle();
         const int v = vertex_on_top(stage);
         ASSERT_EQ(stage.state.shown.bodies().at(0).section().has_value(), cut);

@@ -91,8 +91,8 @@ protected:
     const ShownBody& body() { return *stage.state.shown.body(stage.state.method); }
     void cut_open() {
         stage.state.display.section = true;
-        stage.state.display.section_axis = 1;
-        stage.state.display.section_place = 0.45;
+        stage.state.display.cut.axis = 1;
+        stage.state.display.cut.place = 0.45;
         stage.settle();
     }
 
