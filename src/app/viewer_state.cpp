@@ -207,11 +207,7 @@ bool ViewerState::update_displacements() {
     if (blank()) return has_exported;  // the default scene would be computed for nothing
     simulated_ = true;
     const bool changed = simulation.update(*scene_, needed_kinds(), choices) || has_exported;
-    const EmbeddedRunner& answer = simulation.answer(method);
-    const std::vector<AffineMotion>& motions = answer.grip_motions();
-    const std::vector<std::size_t> gripped = answer.gripped();
-    for (std::size_t g = 0; g < gripped.size() && motions.size() == gripped.size(); ++g)
-        scene_->set_equilibrium(static_cast<int>(gripped[g]), motions[g]);
+    place_grips();
     for (const MethodKind kind : simulation.take_dropped())
         messages.note(title(kind) + " was let go to keep memory free. It is computed again when it is chosen.");
     const std::vector<int>& patch = gestures.hover().patch;
@@ -220,6 +216,17 @@ bool ViewerState::update_displacements() {
         simulation.prefetch(scene_->constraints_with_handle(patch));
     prefetched_ = patch;
     return changed;
+}
+
+/// Handles under a force are where the answer has them, unless that is still one to other handles.
+void ViewerState::place_grips() {
+    const EmbeddedRunner& answer = simulation.answer(method);
+    const std::vector<AffineMotion>& motions = answer.grip_motions();
+    const std::vector<std::size_t> gripped = answer.gripped();
+    if (gripped.empty() || motions.size() != gripped.size()) return;
+    const Constraints &answered = answer.shown_constraints(), &present = scene_->constraints();
+    if (answered.set.handles != present.set.handles || answered.gripped() != present.gripped()) return;
+    for (std::size_t g = 0; g < gripped.size(); ++g) scene_->set_equilibrium(static_cast<int>(gripped[g]), motions[g]);
 }
 
 bool ViewerState::answering() const {

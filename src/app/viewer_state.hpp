@@ -133,6 +133,7 @@ private:
     void take_scene(LoadedScene loaded);
     void make_primitive_scene(const Primitive& primitive);
     void keep_method();
+    void place_grips();
     void take_method();
     std::string selected_fixed_name() const;
     std::string selected_handle_name() const;

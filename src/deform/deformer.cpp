@@ -252,7 +252,24 @@ Deformer::Displaced Deformer::displace_by(const Eigen::MatrixXd& values, const E
 }
 
 Eigen::MatrixXd Deformer::displace_all(const Eigen::MatrixXd& values, Control& control, double tolerance) const {
-    return displace_by(values, {}, tolerance, {}, control).u;
+    constexpr Eigen::Index kBlock = 64;  // what solvers need for each beside its answer can be many times that
+    const Eigen::Index n = values.cols(), rows = 3 * model_->facts().n_vertices;
+    if (n <= kBlock) return displace_by(values, {}, tolerance, {}, control).u;
+    const double needed = 8.0 * static_cast<double>(rows) * static_cast<double>(n);
+    const std::uint64_t available = available_memory_bytes();
+    if (needed > static_cast<double>(available))
+        throw SolveError(model_->body().name + ": " + std::to_string(n) + " answers need " + readable_bytes(needed) +
+                         " of memory, " + readable_bytes(static_cast<double>(available)) +
+                         " is available. Ask for fewer at once.");
+    Eigen::MatrixXd u(rows, n);
+    control.begin_stage("displace");
+    for (Eigen::Index first = 0; first < n; first += kBlock) {
+        control.checkpoint();
+        control.set_progress(static_cast<double>(first) / static_cast<double>(n));
+        const Eigen::Index m = std::min(kBlock, n - first);
+        u.middleCols(first, m) = displace_by(values.middleCols(first, m), {}, tolerance, {}, control).u;
+    }
+    return u;
 }
 
 Eigen::VectorXd Deformer::displace(const Eigen::VectorXd& values) const { return displace_all(values); }

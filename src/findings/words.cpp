@@ -39,7 +39,7 @@ std::string lost_digits(const Finding& finding) {
     return finding.object + ": nearly dependent equations (condition " + readable_number(finding.value) +
            "). Displacements may be off by " + readable_number(std::min(finding.value * kRounding, 1.0)) +
            " of their size, and forces by more. Remove handles that nearly coincide, slivers, or a Poisson's ratio "
-           "next to 1/2.";
+           "next to 1/2; of a long slender body it is so by nature.";
 }
 
 std::string thin_triangle(const Finding& finding) {
@@ -116,8 +116,8 @@ std::string linear_theory(const Finding& finding) {
     if (std::isinf(finding.value))
         return std::string(finding.method->name) +
                ": linear theory cannot be right for these motions and loads: nonlinear-fem, which follows large turns "
-               "and stretches, finds no equilibrium, as where a body is crushed. Make them smaller, or check the "
-               "units.";
+               "and stretches, finds no equilibrium that would last, as where a body is crushed or buckles. Make "
+               "them smaller, or check the units.";
     return std::string(finding.method->name) + ": linear theory is off by about " + percent(finding.value) +
            " of the largest displacement. It takes turns and stretches to be small, so that what turns swells. Choose "
            "nonlinear-fem, which follows them" +

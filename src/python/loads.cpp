@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -29,18 +30,29 @@ std::vector<int> loaded(const py::object& object, const Surface& surface) {
     return chosen;
 }
 
-UnitLoad body_force(const py::object& force) { return {.body_force = vector_of(force, "force")}; }
-UnitLoad total_force(const Surface& surface, const py::object& triangles, const py::object& force) {
-    return unit_force(*surface.mesh, loaded(triangles, surface), vector_of(force, "force"));
+/// A load, and the surface whose triangles it names; null where it names none.
+struct SurfaceLoad {
+    UnitLoad load;
+    std::shared_ptr<const SurfaceMesh> surface;
+
+    bool is_for(const std::shared_ptr<const SurfaceMesh>& body) const {
+        return !surface || surface == body ||
+               (surface->vertices == body->vertices && surface->triangles == body->triangles);
+    }
+};
+
+SurfaceLoad body_force(const py::object& force) { return {{.body_force = vector_of(force, "force")}, nullptr}; }
+SurfaceLoad total_force(const Surface& surface, const py::object& triangles, const py::object& force) {
+    return {unit_force(*surface.mesh, loaded(triangles, surface), vector_of(force, "force")), surface.mesh};
 }
-UnitLoad traction(const Surface& surface, const py::object& triangles, const py::object& traction) {
-    return unit_traction(loaded(triangles, surface), vector_of(traction, "traction"));
+SurfaceLoad traction(const Surface& surface, const py::object& triangles, const py::object& traction) {
+    return {unit_traction(loaded(triangles, surface), vector_of(traction, "traction")), surface.mesh};
 }
-UnitLoad pressure(const Surface& surface, const py::object& triangles, double value) {
+SurfaceLoad pressure(const Surface& surface, const py::object& triangles, double value) {
     if (!std::isfinite(value)) throw py::value_error("pressure: is not finite. Give a finite number.");
     UnitLoad load = unit_pressure(*surface.mesh, loaded(triangles, surface));
     load.tractions *= value;
-    return load;
+    return {std::move(load), surface.mesh};
 }
 
 }  // namespace
@@ -50,19 +62,19 @@ std::vector<UnitLoad> loads_of(const py::object& loads, const Model& model) {
     if (loads.is_none()) return result;
     if (!py::isinstance<py::sequence>(loads)) throw py::type_error("loads: is no list. Give a list of Loads.");
     for (const py::handle& item : loads.cast<py::sequence>()) {
-        if (!py::isinstance<UnitLoad>(item))
+        if (!py::isinstance<SurfaceLoad>(item))
             throw py::type_error("loads: has an item that is no Load. Make it by Load.");
-        result.push_back(item.cast<UnitLoad>());
-        for (const int t : result.back().triangles)
-            if (t >= model.body().surface->n_triangles())
-                throw py::value_error("loads: triangle " + std::to_string(t) +
-                                      " does not exist on this body. Make the load for its surface.");
+        const auto& given = item.cast<const SurfaceLoad&>();
+        if (!given.is_for(model.body().surface))
+            throw py::value_error("loads: load " + std::to_string(result.size()) +
+                                  " is made for another surface. Make it for that of this body.");
+        result.push_back(given.load);
     }
     return result;
 }
 
 void bind_loads(py::module_& module) {
-    py::class_<UnitLoad>(
+    py::class_<SurfaceLoad>(
         module, "Load",
         R"(What acts on a body besides the handles; made by the functions below, taken by Model.constrain.
 
@@ -76,9 +88,10 @@ follows the surface; forces, and forces per area at rest, keep theirs.)")
                     "A force per area (3,) [force / length^2] on these triangles.")
         .def_static("pressure", &pressure, py::arg("surface"), py::arg("triangles"), py::arg("pressure"),
                     "[force / length^2]; presses into the body where it is positive.")
-        .def("__repr__", [](const UnitLoad& load) {
-            return load.is_body_force() ? std::string("<elastolab.Load: a body force>")
-                                        : "<elastolab.Load on " + std::to_string(load.triangles.size()) + " triangles>";
+        .def("__repr__", [](const SurfaceLoad& its) {
+            const std::size_t n = its.load.triangles.size();
+            return n == 0 ? std::string("<elastolab.Load: a body force>")
+                          : "<elastolab.Load on " + std::to_string(n) + " triangles>";
         });
 }
 

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "base/text.hpp"
 #include "findings/cost.hpp"
@@ -99,18 +101,32 @@ py::dict seconds_of(const Model& model) {
 }
 
 py::dict matrices_of(const Model& model) {
+    std::vector<std::pair<std::string, Eigen::MatrixXd>> copies = watched(py::none(), [&](Control& control) {
+        std::vector<std::pair<std::string, Eigen::MatrixXd>> all;
+        model.visit_matrices([&](const NamedMatrix& m) {
+            control.checkpoint();
+            all.emplace_back(m.name, m.values);
+        });
+        return all;
+    });
     py::dict matrices;
-    model.visit_matrices(
-        [&](const NamedMatrix& m) { matrices[py::str(m.name)] = as_matrix(Eigen::MatrixXd(m.values)); });
+    for (auto& [name, values] : copies) matrices[py::str(name)] = as_matrix(std::move(values));
     return matrices;
 }
 
 /// In compressed columns: (values, rows, ends, shape), what scipy.sparse.csc_matrix takes.
 py::dict stiffness_of(const Model& model) {
+    const std::vector<std::pair<std::string, SparseStiffness>> copies = watched(py::none(), [&](Control& control) {
+        std::vector<std::pair<std::string, SparseStiffness>> all;
+        model.visit_sparse_stiffness([&](const std::string& name, const SparseStiffness& given) {
+            control.checkpoint();
+            all.emplace_back(name, given);
+            all.back().second.makeCompressed();
+        });
+        return all;
+    });
     py::dict matrices;
-    model.visit_sparse_stiffness([&](const std::string& name, const SparseStiffness& given) {
-        SparseStiffness K = given;
-        K.makeCompressed();
+    for (const auto& [name, K] : copies) {
         const auto integers = [](const int* data, Eigen::Index n) {
             return as_integers(std::vector<int>(data, data + n));
         };
@@ -118,7 +134,7 @@ py::dict stiffness_of(const Model& model) {
             py::make_tuple(as_numbers(Eigen::Map<const Eigen::VectorXd>(K.valuePtr(), K.nonZeros())),
                            integers(K.innerIndexPtr(), K.nonZeros()), integers(K.outerIndexPtr(), K.cols() + 1),
                            py::make_tuple(K.rows(), K.cols()));
-    });
+    }
     return matrices;
 }
 

@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "deform/grip_equilibrium.hpp"
 #include "deform/patch_reactions.hpp"
+#include "mesh/triangles_across.hpp"
 #include "methods/precompute.hpp"
 #include "methods/registry.hpp"
 
@@ -14,12 +15,14 @@ namespace elastolab {
 
 namespace {
 
-/// Ten nodes up to so many vertices of the surface; beyond, four take less and tell as much.
+/// Ten nodes up to so many vertices of the surface; beyond, four take less and tell as much, but for thin bodies, which
+/// they hold so stiff that hardly anything turns. Of those, ten take little.
 constexpr int kTenNodes = 300;
 
 Method finite_method(const SurfaceMesh& surface) {
     Method method{.kind = large_deformation_method()};
-    method.elements = surface.n_vertices() <= kTenNodes ? ElementDegree::quadratic : ElementDegree::linear;
+    const bool ten_nodes = surface.n_vertices() <= kTenNodes || triangles_across(surface) < kFewTrianglesAcross;
+    method.elements = ten_nodes ? ElementDegree::quadratic : ElementDegree::linear;
     return method;
 }
 
@@ -32,6 +35,10 @@ constexpr double kTolerance = 1e-4;
 /// Part of all values and forces that is small enough for linear theory to hold to a thousandth of its error, and large
 /// enough to be solved for.
 constexpr double kSmallPart = 1e-3;
+
+bool is_stable(const Equilibrium& found) {
+    return std::ranges::all_of(found.solids, [](const auto& solid) { return !solid || solid->facts().stable; });
+}
 
 double largest(const Eigen::VectorXd& u) {
     return u.size() == 0 ? 0.0 : u.reshaped(3, u.size() / 3).colwise().norm().maxCoeff();
@@ -53,9 +60,13 @@ LinearTheoryGauge::LinearTheoryGauge(Body body, ConstrainedSet set, Control& con
 }
 
 /// The answer to so much of the values and forces.
-Eigen::VectorXd LinearTheoryGauge::finite(double part, const Eigen::VectorXd& values, Control& control,
-                                          const Approach& approach, const HandleForces& by_force) const {
-    if (by_force.grips.empty()) return deformer_->displace(part * values, control, kTolerance, approach);
+LinearTheoryGauge::Finite LinearTheoryGauge::finite(double part, const Eigen::VectorXd& values, Control& control,
+                                                    const Approach& approach, const HandleForces& by_force) const {
+    if (by_force.grips.empty()) {
+        DragResponse found =
+            deformer_->drag_response(part * values, Eigen::MatrixXd(values.size(), 0), control, kTolerance, approach);
+        return {std::move(found.rest), is_stable(*found.equilibrium)};
+    }
     std::vector<GripForce> forces = by_force.forces;
     for (GripForce& force : forces) {
         force.force *= part;
@@ -63,7 +74,7 @@ Eigen::VectorXd LinearTheoryGauge::finite(double part, const Eigen::VectorXd& va
     }
     const GripEquilibrium found =
         find_grip_equilibrium(*deformer_, part * values, by_force.grips, forces, control, approach);
-    return deformer_->displace(found.values, control, kTolerance, {found.equilibrium, {}});
+    return {deformer_->displace(found.values, control, kTolerance, {found.equilibrium, {}})};
 }
 
 std::optional<double> LinearTheoryGauge::error(const Eigen::VectorXd& values, Control& control,
@@ -74,14 +85,16 @@ std::optional<double> LinearTheoryGauge::error(const Eigen::VectorXd& values, Co
     if (by_force.grips.empty())  // the tangent at rest is linear theory
         linear = deformer_->drag_response(Eigen::VectorXd::Zero(values.size()), values, control, kTolerance).X.col(0);
     else
-        linear = finite(kSmallPart, values, control, {}, by_force) / kSmallPart;
+        linear = finite(kSmallPart, values, control, {}, by_force).u / kSmallPart;
     try {
         Approach bounded = approach;
         bounded.most_steps = std::min(approach.most_steps, kMostSteps);
-        const Eigen::VectorXd whole = finite(1.0, values, control, bounded, by_force);
-        const double size = largest(whole);
+        const Finite whole = finite(1.0, values, control, bounded, by_force);
+        const double size = largest(whole.u);
         if (!(size > 0.0)) return {};
-        return largest(whole - linear) / size;
+        const double error = largest(whole.u - linear) / size;
+        // A body that would buckle is where linear theory has it until the least push.
+        return whole.stable || error >= kSilentLinearTheory ? error : std::numeric_limits<double>::infinity();
     } catch (const NoEquilibriumError&) {
         return std::numeric_limits<double>::infinity();
     }

@@ -38,14 +38,18 @@ public:
 
     /// Largest difference of both answers at a vertex, over the largest displacement of the finite one. values: as
     /// Deformer::displace takes them; approach: for turns of more than half a circle. Nothing where nothing moves,
-    /// infinite where no equilibrium is found: a real body would be crushed. by_force: handles whose values are left
-    /// out, as each theory has them elsewhere. Throws SolveError, Cancelled.
+    /// infinite where no stable equilibrium is found: a real body would be crushed, or buckle. by_force: handles whose
+    /// values are left out, as each theory has them elsewhere. Throws SolveError, Cancelled.
     std::optional<double> error(const Eigen::VectorXd& values, Control& control, const Approach& approach = {},
                                 const HandleForces& by_force = {}) const;
 
 private:
-    Eigen::VectorXd finite(double part, const Eigen::VectorXd& values, Control& control, const Approach& approach,
-                           const HandleForces& by_force) const;
+    struct Finite {
+        Eigen::VectorXd u;
+        bool stable = true;
+    };
+    Finite finite(double part, const Eigen::VectorXd& values, Control& control, const Approach& approach,
+                  const HandleForces& by_force) const;
 
     std::unique_ptr<const Deformer> deformer_;
 };

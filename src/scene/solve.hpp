@@ -25,7 +25,7 @@ struct SolveRequest {
     /// Solving once, on demand: take the direct update, which needs one factorisation and nothing else, or the reduced
     /// one if the body is not held.
     bool solve_once = false;
-    /// Residual, and the estimates of the error, which take up to three times the solve.
+    /// Residual, and the estimates of the error: some times the solve, of small bodies some tenths of a second.
     bool with_checks = true;
 };
 

@@ -257,5 +257,38 @@ TEST(RangeOfColours, IsHeldFromTheBeginningOfAPull) {
     EXPECT_EQ(range(), largest());
 }
 
+/// The answer is still one to the handles before, for a frame or longer.
+TEST(ViewerState, HandlesMayGoBeforeOneThatAForceMoves) {
+    for (const MethodKind kind : all_methods()) {
+        for (const bool all : {false, true}) {
+            SCOPED_TRACE(std::string(name(kind)) + (all ? ", all" : ", the first"));
+            Stage stage(8);
+            stage.state.select_method(kind);
+            stage.scene().add_handle(std::vector<int>{stage.vertex_near({1, 0, 0})});
+            std::vector<int> pulled;
+            for (int v = 0; v < stage.scene().mesh().n_vertices(); ++v)
+                if ((stage.scene().mesh().vertices.col(v) - Eigen::Vector3d::Ones()).norm() < 0.3) pulled.push_back(v);
+            stage.scene().add_handle(pulled);
+            stage.scene().set_force(1, GripForce{{0, 0, 0.01}, {0, 0, 0}});
+            stage.scene().commit();
+            stage.settle();
+            const AffineMotion before = stage.motion(1);
+            if (!all) {
+                stage.state.remove_handle(0);
+                stage.frame();
+                ASSERT_EQ(stage.scene().n_handles(), 1);
+                EXPECT_LT((stage.motion(0).translate - before.translate).norm(), 1e-9) << "it stays for now";
+                stage.settle();
+                EXPECT_TRUE(stage.scene().document().handles[0].force.has_value());
+                EXPECT_GT(stage.motion(0).translate.norm(), 0.0);
+                continue;
+            }
+            stage.state.clear_handles();
+            stage.settle();
+            EXPECT_EQ(stage.scene().n_handles(), 0);
+        }
+    }
+}
+
 }  // namespace
 }  // namespace elastolab

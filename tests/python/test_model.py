@@ -34,6 +34,26 @@ def test_displacements_and_forces_are_those_of_the_program(method, program):
         np.testing.assert_allclose(reactions.moments[of].sum(0), rows[3:], atol=1e-6 * abs(forces).max())
 
 
+@pytest.mark.parametrize("method", METHODS)
+def test_many_answers_are_those_one_by_one_and_can_be_stopped(method):
+    body, _ = held_cube(method, 2)
+    n = 150 if method != "nonlinear-fem" else 70  # more than a block
+    motions = np.random.default_rng(1).uniform(-0.05, 0.05, (n, len(body.handles), 3))
+    found = body.displace_all(motions)
+    for u, motion in zip(found[::23], motions[::23]):
+        np.testing.assert_allclose(u, body.displace(motion), atol=1e-7)
+
+    class Enough(Exception):
+        pass
+
+    def stop(stage, fraction):
+        raise Enough
+
+    slow, _ = held_cube(method, 8)
+    with pytest.raises(Enough):
+        slow.displace_all(np.zeros((20000, len(slow.handles), 3)) + MOTION, progress=stop)
+
+
 def combinations():
     for row in el.methods():
         for mode in row["modes"]:
@@ -154,8 +174,11 @@ def test_wrong_loads_are_named():
         el.Load.pressure(cube, [4, 4], 1.0)
     with pytest.raises(ValueError, match="pressure: is not finite"):
         el.Load.pressure(cube, [4], float("nan"))
-    with pytest.raises(ValueError, match="loads: triangle 107 does not exist on this body"):
+    with pytest.raises(ValueError, match="loads: load 0 is made for another surface"):
         model.constrain(fixed=[0, 1, 2], loads=[el.Load.pressure(fine, [107], 1.0)])
+    with pytest.raises(ValueError, match="loads: load 1 is made for another surface"):
+        model.constrain(fixed=[0, 1, 2], loads=[el.Load.body_force([1, 0, 0]), el.Load.pressure(fine, [4], 1.0)])
+    model.constrain(fixed=[0, 1, 2], loads=[el.Load.pressure(el.Surface.primitive("cube", 2), [4], 1.0)])
     with pytest.raises(TypeError, match="loads: has an item that is no Load"):
         model.constrain(fixed=[0, 1, 2], loads=[1])
     with pytest.raises(ValueError, match="all vertices of triangle 0 are constrained"):

@@ -10,6 +10,17 @@ import elastolab as el
 from conftest import cube_scene, table
 
 
+@pytest.mark.parametrize("keys", [("material", "young_modulus"), ("handles", 0, "translate", 1)])
+def test_a_number_that_is_not_finite_is_named_by_its_path(keys):
+    data = cube_scene("fem")
+    inner = data
+    for key in keys[:-1]:
+        inner = inner[key]
+    inner[keys[-1]] = float("inf")
+    with pytest.raises(el.SceneError, match="data: /" + "/".join(map(str, keys)) + ": must be a finite number"):
+        el.Scene(data)
+
+
 def test_a_scene_is_read_changed_solved_and_written(tmp_path, program):
     (tmp_path / "in.json").write_text(json.dumps(cube_scene("fem")))
     scene = el.Scene.load(tmp_path / "in.json")

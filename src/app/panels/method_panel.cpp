@@ -126,27 +126,41 @@ bool must_be_begun(const ViewerState& state) {
 }
 
 /// How far a worker is with the model, or with a set of held vertices, and a button that stops it, or one that begins
-/// again. The row is there when nothing works, too, so that nothing below moves.
-void draw_progress(const PanelContext& context, MethodRunner& runner) {
+/// again; between them another button of this text, unless it is empty. The row is there when nothing works, too, so
+/// that nothing below moves. Returns whether that other button was pressed.
+bool draw_progress(const PanelContext& context, MethodRunner& runner, const std::string& other) {
     const float button = 60.0f * context.gui.scale(), height = ImGui::GetFrameHeight();
     const bool works = runner.precomputing() || runner.completing() || runner.state() == State::preparing;
     if (!works && must_be_begun(context.state)) {
         if (ImGui::Button("Compute")) context.state.simulation.retry(context.state.method);
-        return;
+        return false;
     }
     if (!works) {
         const std::optional<double> error = context.state.simulation.preview_error(context.state.method);
         const std::string text =
             error ? "the preview differed by " + formatted("%.*f", *error < 0.1 ? 1 : 0, 100.0 * *error) + " %" : "";
         ImGui::AlignTextToFramePadding();
-        return ImGui::TextColored(imgui_colour(context.palette.text_dim), "%s", text.c_str());
+        ImGui::TextColored(imgui_colour(context.palette.text_dim), "%s", text.c_str());
+        return false;
     }
     const JobStatus status = runner.status();
-    ImGui::ProgressBar(static_cast<float>(status.progress), {ImGui::GetContentRegionAvail().x - button - 8.0f, height},
-                       stage_words(status.stage).c_str());
+    constexpr float kBetween = 8.0f, kShortestBar = 40.0f;
+    const float others =
+        other.empty() ? 0.0f
+                      : ImGui::CalcTextSize(other.c_str()).x + 2.0f * ImGui::GetStyle().FramePadding.x + kBetween;
+    const float bar = ImGui::GetContentRegionAvail().x - button - kBetween - others;
+    ImGui::ProgressBar(static_cast<float>(status.progress), {std::max(bar, kShortestBar), height},
+                       other.empty() ? stage_words(status.stage).c_str() : "");
     tooltip((stage_words(status.stage) + "  " + readable_seconds(status.seconds)).c_str());
+    bool pressed = false;
+    if (!other.empty()) {
+        ImGui::SameLine();
+        pressed = ImGui::Button(other.c_str());
+        tooltip("Exact sooner than the chosen method, which goes on when it is chosen again.");
+    }
     ImGui::SameLine();
     if (ImGui::Button("Cancel", {button, 0.0f})) runner.cancel();
+    return pressed;
 }
 
 }  // namespace
@@ -170,20 +184,11 @@ MethodKind MethodPanel::sooner_method(const ViewerState& state) {
     return kFarSooner * seconds(best) > own ? nullptr : best;
 }
 
-/// One click to the method that answers sooner, in the row of the state.
-void MethodPanel::draw_sooner(const PanelContext& context) {
-    ViewerState& state = context.state;
-    const MethodKind sooner = sooner_method(state);
-    if (sooner == nullptr) return;
+std::string MethodPanel::sooner_words(const ViewerState& state, MethodKind sooner) {
+    if (sooner == nullptr) return "";
     const bool ready = state.simulation.runner(sooner).model() != nullptr;
-    const std::string when =
-        ready ? "ready" : "in about " + readable_prediction(costs_.of(state, state.choices.of(sooner)).seconds);
-    const std::string label = title(sooner) + ": " + when;
-    const float width = ImGui::CalcTextSize(label.c_str()).x + 2.0f * ImGui::GetStyle().FramePadding.x;
-    ImGui::SameLine();
-    if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
-    if (ImGui::SmallButton(label.c_str())) state.select_method(sooner);
-    tooltip("Exact sooner than the chosen method, which goes on when it is chosen again.");
+    return title(sooner) + ": " +
+           (ready ? "ready" : "in about " + readable_prediction(costs_.of(state, state.choices.of(sooner)).seconds));
 }
 
 void MethodPanel::draw(const PanelContext& context) {
@@ -195,8 +200,8 @@ void MethodPanel::draw(const PanelContext& context) {
     const bool previews = state.simulation.previewing(state.method) && runner.state() != State::failed;
     const Colour& colour = previews ? palette.good : state_colour(runner, palette);
     ImGui::TextColored(imgui_colour(colour), "%s", state_words(state, cost_of).c_str());
-    draw_sooner(context);
-    draw_progress(context, runner);
+    const MethodKind sooner = sooner_method(state);
+    if (draw_progress(context, runner, sooner_words(state, sooner))) state.select_method(sooner);
     draw_computation(context, costs_);
 }
 

@@ -15,7 +15,8 @@ public:
 
 private:
     MethodKind sooner_method(const ViewerState& state);
-    void draw_sooner(const PanelContext& context);
+    /// One click to that method; empty without one.
+    std::string sooner_words(const ViewerState& state, MethodKind sooner);
 
     CostPredictions& costs_;
 };

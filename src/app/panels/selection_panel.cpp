@@ -79,19 +79,19 @@ void draw_placement(ViewerState& state, std::optional<int> handle, float scale) 
         scene.set_motion(*handle, motion_of(typed, rest));
     }
     ended = ended || ImGui::IsItemDeactivatedAfterEdit();
-    const bool was_deformed = handle && !present && rest.cols() >= 2;
-    constexpr const char* kDeformed =
-        "This patch was taken hold of where the body was deformed already, so that no turn and no scale from rest "
-        "describe it. The gizmo turns it.";
-    tooltip(was_deformed ? kDeformed
-                         : "Rotation vector about the middle of the handle: along the axis, as long as the angle "
-                           "[degrees]. 0, 0, 720: two full turns about z.");
+    const bool is_other = handle && !present && rest.cols() >= 2;
+    constexpr const char* kOther =
+        "No turn and no scale from rest are this motion: it is a matrix or displacements of the scene's file, or the "
+        "patch was taken hold of where the body was deformed already. The gizmo turns it.";
+    tooltip(is_other ? kOther
+                     : "Rotation vector about the middle of the handle: along the axis, as long as the angle "
+                       "[degrees]. 0, 0, 720: two full turns about z.");
     if (!present)
         draw_no_numbers("scale", 1, scale);
     else if (draw_numbers("scale", &typed.scale, 1, "", scale) && typed.scale > 0.0)
         scene.set_motion(*handle, motion_of(typed, rest));
     ended = ended || ImGui::IsItemDeactivatedAfterEdit();
-    tooltip(was_deformed ? kDeformed : "Scale about the middle of the handle.");
+    tooltip(is_other ? kOther : "Scale about the middle of the handle.");
     ImGui::EndDisabled();
     ended = draw_grip_force(state, handle, scale) || ended;
     if (ended) scene.commit();

@@ -101,10 +101,12 @@ std::string broken_at_spaces(const std::string& text, float width,
 
 void tooltip(const char* text) {
     if (text == nullptr || *text == '\0' || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+    ImGui::PushStyleVar(ImGuiStyleVar_Alpha, 1.0f);  // also beside what is disabled, which is pale
     ImGui::BeginTooltip();
     const float width = ImGui::GetFontSize() * 22.0f;
     ImGui::TextUnformatted(broken_at_spaces(text, width, width_of_text).c_str());
     ImGui::EndTooltip();
+    ImGui::PopStyleVar();
 }
 
 void paragraph(const std::string& text, const Colour& colour) {
@@ -220,7 +222,7 @@ bool draw_numbers(const char* label, double* values, int n, const char* unit, fl
             before_as_text = std::strtod(formatted(format.c_str(), values[i]).c_str(), nullptr);
         }
         if (!ImGui::IsItemActive() && !reads_as_whole(shown)) tooltip((readable_number(shown, 6) + unit).c_str());
-        if (!is_typed) return;
+        if (!is_typed || !std::isfinite(shown)) return;
         values[i] = shown == before_as_text ? before : shown;  // as by Esc
         typed = true;
     });

@@ -155,6 +155,7 @@ void FileDialog::draw_name(float scale) {
         if (purpose_.cancelled) purpose_.cancelled();
     } else if (go && !name_.empty()) {
         accept(fs::path(name_).is_absolute() ? fs::path(name_) : folder_ / name_);
+        asks_name_ = asks_name_ || !problem_.empty();  // it is typed again
     }
     if (!is_saving() && !purpose_.extensions.empty()) {
         ImGui::SameLine();

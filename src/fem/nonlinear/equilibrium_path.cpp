@@ -13,13 +13,19 @@ namespace {
 /// Angle of a step that the tangent predicts well [rad].
 constexpr double kStepAngle = std::numbers::pi / 6.0;
 constexpr int kMostIterations = 40, kMostPassing = 30;
+/// Where loads alone change: a slender body that buckles turns by a little in each.
+constexpr int kMostUnderLoads = 120;
 /// Steps shorter than this part of the way are given up.
 constexpr double kShortestPart = 1.0 / 512.0;
 /// Residual of the linear systems that predict a step.
 constexpr double kPrediction = 0.1;
+/// Residual from which on a factor tells whether the equilibrium is stable.
+constexpr double kNear = 0.3;
 /// Smallest ratio of volumes that a predicted state may have: those below are far from any equilibrium.
 constexpr double kCrushed = 0.05;
 constexpr int kPushes = 3;
+/// Of a push along which the energy falls; and iterations from there.
+constexpr int kMostDoublings = 20, kMostPushed = 240;
 /// Part of the displacements by which an equilibrium may differ from the one nearest to rest.
 constexpr double kNoTurn = 1e-9;
 
@@ -80,13 +86,19 @@ NewtonState NonlinearSolver::followed(const NonlinearState& from, const MotionPa
     NewtonState failed;
     int iterations = 0;
     const Eigen::VectorXd before = at.factors;
+    const bool loads_only = of_prescribed(at.u) == path.at(1.0);
     while (part < 1.0 && length >= kShortestPart && iterations < most_steps) {
         control.checkpoint();
         const double next = part + length > 1.0 - 1e-9 ? 1.0 : part + length;
         const Eigen::VectorXd next_factors = next < 1.0 ? before + next * (factors - before) : factors;
-        const Eigen::VectorXd u = predicted(at, path.at(next), next_factors, iterations, work, control);
-        const BodyEnergy energy = newton_.energy(u, work, control);
-        if (!(energy.least_J > kCrushed * std::min(1.0, at.least_J))) {
+        Eigen::VectorXd u = predicted(at, path.at(next), next_factors, iterations, work, control);
+        BodyEnergy energy = newton_.energy(u, work, control);
+        const auto is_crushed = [&] { return !(energy.least_J > kCrushed * std::min(1.0, at.least_J)); };
+        if (is_crushed() && loads_only) {  // next to where the body buckles, its tangent predicts no end of motion
+            u = at.u;
+            energy = newton_.energy(u, work, control);
+        }
+        if (is_crushed()) {
             failed.crushed = energy.element;
             length = 0.5 * (next - part);
             continue;
@@ -95,8 +107,9 @@ NewtonState NonlinearSolver::followed(const NonlinearState& from, const MotionPa
         const bool stable = at.stable;
         keep(nullptr);  // a factor less at the same time; where the step fails, it is made again
         const int left = std::max(1, most_steps - iterations);
-        NewtonState reached = newton_.run(u, next_factors, wanted, next < 1.0 ? kMostPassing : kMostIterations, work,
-                                          control, std::exchange(at.factor, nullptr), left);
+        const int most = loads_only ? kMostUnderLoads : next < 1.0 ? kMostPassing : kMostIterations;
+        NewtonState reached =
+            newton_.run(u, next_factors, wanted, most, work, control, std::exchange(at.factor, nullptr), left);
         if (reached.iterations == 0) reached.stable = stable;
         const int still_left = left - reached.iterations;
         if (reached.converged) reached = stabilised(std::move(reached), wanted, still_left, work, control);
@@ -152,16 +165,42 @@ NonlinearSolver::StatePtr NonlinearSolver::advance(const NonlinearState& from, c
                                  elements().positions()(Eigen::all, corners).rowwise().mean());
     }
     const int left = most_steps - state.iterations;
+    // By a factor from rest alone, a body may come to a state that it would leave.
+    if (far && state.factor && state.factor_residual > kNear) state.stable = false;
     return settled(std::move(state), tolerance, left, work, control);
+}
+
+/// Whether the equilibrium is left at the least push.
+bool NonlinearSolver::leaves(const NewtonState& state, NewtonWork& work, Control& control) const {
+    if (state.stable || !state.factor) return !state.stable;
+    return !newton_.loads().follow() || newton_.leaves(state, work, control);
+}
+
+/// As far along a push as the energy falls: steps of Newton's method turn slender bodies by a little each.
+Eigen::VectorXd NonlinearSolver::pushed_far(const NewtonState& state, const Eigen::VectorXd& push, NewtonWork& work,
+                                            Control& control) const {
+    const Eigen::VectorXd goal = of_all_nodes(of_prescribed(state.u));
+    Eigen::VectorXd best = push, change = push - state.u;
+    double least = newton_.rise(state, push, newton_.energy(push, work, control).energy);
+    for (int doubling = 0; doubling < kMostDoublings; ++doubling) {
+        change *= 2.0;
+        const Eigen::VectorXd u = rest(work, control)->warped(state.u, change, goal, work, control);
+        const double energy = newton_.energy(u, work, control).energy;
+        if (!std::isfinite(energy) || !(newton_.rise(state, u, energy) < least)) break;
+        least = newton_.rise(state, u, energy);
+        best = u;
+    }
+    return best;
 }
 
 NewtonState NonlinearSolver::stabilised(NewtonState state, double tolerance, int most_steps, NewtonWork& work,
                                         Control& control) const {
+    if (!leaves(state, work, control)) return state;
     for (int push = 0; push < kPushes && !state.stable && state.factor && most_steps > 0; ++push) {
-        const Eigen::VectorXd u = newton_.pushed(state, work, control);
+        Eigen::VectorXd u = newton_.pushed(state, work, control);
         if (u == state.u) break;
-        NewtonState left =
-            newton_.run(u, state.factors, tolerance, 2 * kMostIterations, work, control, nullptr, most_steps);
+        u = pushed_far(state, u, work, control);
+        NewtonState left = newton_.run(u, state.factors, tolerance, kMostPushed, work, control, nullptr, most_steps);
         state.iterations += left.iterations;  // in vain or not
         most_steps -= left.iterations;
         if (!left.converged || !(newton_.rise(state, left.u, left.energy) < 0.0)) break;
@@ -203,13 +242,14 @@ NonlinearSolver::StatePtr NonlinearSolver::settled(NewtonState state, double tol
     judge_at_its_end(state, work, control);
     state = stabilised(std::move(state), tolerance, most_steps, work, control);
     if (nodes_.nodes.empty()) state = turned_to_rest(std::move(state), tolerance, work, control);
+    const bool stable = !leaves(state, work, control);
     keep(state.factor);
     const Eigen::VectorXd rest = Eigen::VectorXd::Zero(state.u.size());
     EquilibriumFacts facts{.iterations = state.iterations,
                            .energy = state.energy,
                            .work_of_loads = newton_.loads().work(rest, state.u, state.factors),
                            .largest_stretch = elements().largest_stretch(state.u, control),
-                           .stable = state.stable};
+                           .stable = stable};
     return std::make_shared<const NonlinearState>(std::move(state), facts);
 }
 

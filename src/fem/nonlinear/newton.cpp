@@ -13,6 +13,12 @@ namespace elastolab {
 
 namespace {
 
+Eigen::VectorXd random_vector(Eigen::Index n) {
+    std::mt19937 random(1);
+    std::normal_distribution<double> normal;
+    return Eigen::VectorXd::NullaryExpr(n, [&] { return normal(random); });
+}
+
 /// Reactions below this part of modulus times displacement times edge are rounding.
 constexpr double kNoForce = 1e-5;
 
@@ -86,6 +92,22 @@ NearSolution Newton::solve_near(const Eigen::VectorXd& u, const Eigen::VectorXd&
     return near;
 }
 
+bool Newton::leaves(const NewtonState& state, NewtonWork& work, Control& control) const {
+    constexpr int kIterations = 12, kMostOfEach = 60;
+    constexpr double kTolerance = 1e-3;
+    Eigen::VectorXd v = random_vector(tangent_->size());
+    double softness = 0.0;
+    for (int i = 0; i < kIterations; ++i) {
+        v.normalize();
+        const std::optional<Eigen::MatrixXd> x =
+            solve_tangent(state.u, state.factors, *state.factor, v, kTolerance, kMostOfEach, work, control);
+        if (!x) return true;  // nothing is known that speaks for it
+        softness = v.dot(x->col(0));
+        v = x->col(0);
+    }
+    return softness < 0.0;
+}
+
 Eigen::VectorXd Newton::pushed(const NewtonState& state, NewtonWork& work, Control& control) const {
     constexpr int kIterations = 40;
     SparseMatrix& K = work.K;
@@ -93,9 +115,7 @@ Eigen::VectorXd Newton::pushed(const NewtonState& state, NewtonWork& work, Contr
     loads_.add_tangent(state.u, state.factors, work);
     tangent_->assemble(work, 0.0, K, control);
     // With P the projected tangent, I - P^-1 K has eigenvalues above 1 where K has negative ones.
-    std::mt19937 random(1);
-    std::normal_distribution<double> normal;
-    Eigen::VectorXd v = Eigen::VectorXd::NullaryExpr(K.rows(), [&] { return normal(random); });
+    Eigen::VectorXd v = random_vector(K.rows());
     for (int i = 0; i < kIterations; ++i) {
         control.checkpoint();
         v.normalize();

@@ -74,6 +74,11 @@ public:
     /// none.
     Eigen::VectorXd pushed(const NewtonState& state, NewtonWork& work, Control& control) const;
 
+    /// Whether the body would leave an equilibrium under loads that follow its surface: the eigenvalue of the whole
+    /// tangent next to zero is negative. That the symmetric part is not positive definite does not say so: a bar that a
+    /// tension at its free end pulls straight is stable. Flutter, which needs the mass, is not seen.
+    bool leaves(const NewtonState& state, NewtonWork& work, Control& control) const;
+
     BodyEnergy energy(const Eigen::VectorXd& u, ElementWork& work, Control& control) const {
         return tangent_->elements().energy(u, material_, work, control);
     }

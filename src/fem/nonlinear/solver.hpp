@@ -98,6 +98,9 @@ private:
     /// Whether an equilibrium is stable, where the tangent on the way to it was not positive definite: out of
     /// equilibrium that of a body which is free to turn is not, since turning it by its tangent changes its energy.
     void judge_at_its_end(NewtonState& state, NewtonWork& work, Control& control) const;
+    bool leaves(const NewtonState& state, NewtonWork& work, Control& control) const;
+    Eigen::VectorXd pushed_far(const NewtonState& state, const Eigen::VectorXd& push, NewtonWork& work,
+                               Control& control) const;
     /// The state itself where it is stable, else the stable one that it is left for, where there is one.
     NewtonState stabilised(NewtonState state, double tolerance, int most_steps, NewtonWork& work,
                            Control& control) const;

@@ -2,6 +2,7 @@
 
 import copy
 import json
+import math
 import os
 import pathlib
 import shutil
@@ -61,7 +62,8 @@ class Scene:
     def solve(self, *, method="", mode="", tractions="", update="", elements="", rims=0, checks=True, progress=None):
         """Solves it, as `elastolab solve` does: a Solution. Words that are left empty are the scene's or the program's.
 
-        checks    residual and error estimates, which take up to three times the solve
+        checks    residual, error estimates and the error of linear theory: up to some times the solve, of small bodies
+                  some tenths of a second
         progress  called with a stage and a fraction; what it raises ends the computation
         """
         return _core._solve_text(_text(self.data), self.file, method, mode, tractions, update, elements, rims, checks,
@@ -120,9 +122,24 @@ def _program():
     return found
 
 
+def _path_of_what_is_not_finite(data, path=""):
+    """JSON path of the first number that is not finite, for which JSON has no word; None where all are."""
+    if isinstance(data, float):
+        return None if math.isfinite(data) else path
+    items = data.items() if isinstance(data, dict) else enumerate(data) if isinstance(data, (list, tuple)) else ()
+    found = (_path_of_what_is_not_finite(item, f"{path}/{key}") for key, item in items)
+    return next((path for path in found if path is not None), None)
+
+
 def _text(data):
     try:
-        return json.dumps(data)
+        text = json.dumps(data)
+        path = _path_of_what_is_not_finite(data) if "NaN" in text or "Infinity" in text else None
+        if path is not None:
+            raise _core.SceneError(f"data: {path}: must be a finite number. Correct it.")
+        return text
+    except _core.SceneError:
+        raise
     except (TypeError, ValueError, RecursionError) as error:
         raise TypeError(f"data: is no scene ({error}). Give dicts, lists, texts and numbers.") from None
 
