@@ -268,7 +268,8 @@ times each of the loads acts, (n_loads,): once, unless they are given. Any threa
              "The same for many values at once: (m, k, 3) to (m, n, 3).")
         .def("drag_response", &drag_response, py::arg("values"), py::arg("basis"), py::kw_only(),
              py::arg("factors") = py::none(), py::arg("progress") = py::none(),
-             R"(Displacements as a function of a few parameters, from `values` on.
+             R"(Displacements as a function of a few parameters, from `values` on. By nonlinear FEM that is
+its tangent there, right for small parameters only.
 
 basis  (m, k, 3): how the handles' vertices move for each of m parameters)")
         .def("reactions", &reactions, py::arg("values"), py::kw_only(), py::arg("factors") = py::none(),
@@ -285,7 +286,8 @@ basis  (m, k, 3): how the handles' vertices move for each of m parameters)")
 in the order xx yy zz xy yz xz [force / length^2].)")
         .def("inside", &inside, py::arg("values"), py::arg("points"), py::kw_only(), py::arg("factors") = py::none(),
              py::arg("progress") = py::none(),
-             "Displacements (m, 3) and stresses (m, 6) at points inside the body, (m, 3).");
+             R"(Displacements (m, 3) and stresses (m, 6), in the order xx yy zz xy yz xz, at points inside the body,
+(m, 3). Farther outside than by rounding they mean nothing.)");
 }
 
 }  // namespace
