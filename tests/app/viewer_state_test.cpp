@@ -277,7 +277,7 @@ TEST(ViewerState, HandlesMayGoBeforeOneThatAForceMoves) {
                 stage.state.remove_handle(0);
                 stage.frame();
                 ASSERT_EQ(stage.scene().n_handles(), 1);
-                EXPECT_LT((stage.motion(0).translate - before.translate).norm(), 1e-9) << "it stays for now";
+                EXPECT_LT((stage.motion(0).translate - before.translate).norm(), 1e-9) << "until the answer to it is there";
                 stage.settle();
                 EXPECT_TRUE(stage.scene().document().handles[0].force.has_value());
                 EXPECT_GT(stage.motion(0).translate.norm(), 0.0);

@@ -19,8 +19,6 @@ constexpr int kMostUnderLoads = 120;
 constexpr double kShortestPart = 1.0 / 512.0;
 /// Residual of the linear systems that predict a step.
 constexpr double kPrediction = 0.1;
-/// Residual from which on a factor tells whether the equilibrium is stable.
-constexpr double kNear = 0.3;
 /// Smallest ratio of volumes that a predicted state may have: those below are far from any equilibrium.
 constexpr double kCrushed = 0.05;
 constexpr int kPushes = 3;
@@ -112,7 +110,8 @@ NewtonState NonlinearSolver::followed(const NonlinearState& from, const MotionPa
             newton_.run(u, next_factors, wanted, most, work, control, std::exchange(at.factor, nullptr), left);
         if (reached.iterations == 0) reached.stable = stable;
         const int still_left = left - reached.iterations;
-        if (reached.converged) reached = stabilised(std::move(reached), wanted, still_left, work, control);
+        if (reached.converged && leaves(reached, work, control))
+            reached = stabilised(std::move(reached), wanted, still_left, work, control);
         iterations += reached.iterations;
         if (!reached.converged) {
             failed.crushed = reached.crushed;
@@ -166,7 +165,7 @@ NonlinearSolver::StatePtr NonlinearSolver::advance(const NonlinearState& from, c
     }
     const int left = most_steps - state.iterations;
     // By a factor from rest alone, a body may come to a state that it would leave.
-    if (far && state.factor && state.factor_residual > kNear) state.stable = false;
+    if (far && state.factor && state.factor_residual > kClose) state.stable = false;  // until judge_at_its_end()
     return settled(std::move(state), tolerance, left, work, control);
 }
 
@@ -195,7 +194,6 @@ Eigen::VectorXd NonlinearSolver::pushed_far(const NewtonState& state, const Eige
 
 NewtonState NonlinearSolver::stabilised(NewtonState state, double tolerance, int most_steps, NewtonWork& work,
                                         Control& control) const {
-    if (!leaves(state, work, control)) return state;
     for (int push = 0; push < kPushes && !state.stable && state.factor && most_steps > 0; ++push) {
         Eigen::VectorXd u = newton_.pushed(state, work, control);
         if (u == state.u) break;
@@ -240,9 +238,12 @@ NewtonState NonlinearSolver::turned_to_rest(NewtonState state, double tolerance,
 NonlinearSolver::StatePtr NonlinearSolver::settled(NewtonState state, double tolerance, int most_steps,
                                                    NewtonWork& work, Control& control) const {
     judge_at_its_end(state, work, control);
-    state = stabilised(std::move(state), tolerance, most_steps, work, control);
+    bool stable = !leaves(state, work, control);
+    if (!stable) {
+        state = stabilised(std::move(state), tolerance, most_steps, work, control);
+        stable = !leaves(state, work, control);
+    }
     if (nodes_.nodes.empty()) state = turned_to_rest(std::move(state), tolerance, work, control);
-    const bool stable = !leaves(state, work, control);
     keep(state.factor);
     const Eigen::VectorXd rest = Eigen::VectorXd::Zero(state.u.size());
     EquilibriumFacts facts{.iterations = state.iterations,

@@ -14,6 +14,10 @@
 
 namespace elastolab {
 
+/// Residual from which on the factor is to be one from so close to the solution: it shows whether the solution is
+/// stable, and residuals do not see the soft motions that an older one leaves.
+inline constexpr double kClose = 0.3;
+
 /// A state that Newton's method has reached, and its last linear system.
 struct NewtonState {
     Eigen::VectorXd u;        ///< 3*n_nodes [L]

@@ -24,9 +24,6 @@ constexpr double kNearTolerance = 0.3;
 constexpr int kMostNearIterations = 10, kManyNearIterations = 6;
 /// Steps in a row that only go downhill, since the tangent is not positive definite where they begin.
 constexpr int kMostDownhill = 2;
-/// Residual from which on the factor is to be one from so close to the solution: it shows whether the solution is
-/// stable, and residuals do not see the soft motions that an older one leaves.
-constexpr double kClose = 0.3;
 
 }  // namespace
 
