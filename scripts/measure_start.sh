@@ -29,31 +29,36 @@ start() {
   local csv=$folder/$1.csv
   rm -rf "$csv" "$XDG_STATE_HOME"  # what a viewer that was killed had kept would be offered first
   "$program" view --timeline "$csv" --size 1280x800 "${@:2}" > "$folder/$1.log" 2>&1 &
-  local viewer=$! window
+  local viewer=$! window moves
   local -i end=$((SECONDS + patience))
-  # Not `search --sync`, which looks twice a second only.
+  # Looks are few and moves are made by one process, as each new process takes time from the viewer: `search --sync`
+  # looks twice a second only, a loop without pauses took a quarter of two cores.
   until window=$(xdotool search --onlyvisible --pid "$viewer" 2> /dev/null | tail -1 | grep .); do
     if ((SECONDS >= end)) || ! kill -0 "$viewer" 2> /dev/null; then
       echo "$1: no window. What the viewer said: $(cat "$folder/$1.log")" >&2
       exit 1
     fi
+    sleep 0.03
   done
   xdotool mousemove --window "$window" 860 400 mousedown 1
   local early=
   [[ -n $(at loaded "$csv") ]] || early=yes
-  local -i step=0
+  local -i round=0 step
   end=$((SECONDS + patience))
   while [[ -z $(at exact "$csv") ]] && ((SECONDS < end)); do
     # A press before there was anything to press on is repeated, as a person would: when the body is seen, and later
     # twice a second.
     if [[ -n $early && -n $(at loaded "$csv") ]] ||
-      { [[ -n $(at answer "$csv") && -z $(at moved "$csv") ]] && ((step % 10 == 9)); }; then
+      { [[ -n $(at answer "$csv") && -z $(at moved "$csv") ]] && ((round % 5 == 4)); }; then
       early=
       xdotool mouseup 1 mousedown 1
     fi
-    step+=1
-    xdotool mousemove --window "$window" $((860 + 3 * (step % 20) + 5)) 390
-    sleep 0.05
+    round+=1
+    moves=()
+    for step in 1 2; do
+      moves+=(mousemove --window "$window" $((860 + 3 * ((2 * round + step) % 20) + 5)) 390 sleep 0.05)
+    done
+    xdotool "${moves[@]}"
   done
   printf '%-9s' "$1"
   for event in window loaded answer moved exact; do printf ' %8s' "$(at "$event" "$csv" | grep . || echo -)"; done

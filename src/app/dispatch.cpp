@@ -1,5 +1,7 @@
 #include "app/dispatch.hpp"
 
+#include <GLFW/glfw3.h>
+
 #include <utility>
 
 #include "app/panels/gui.hpp"
@@ -19,6 +21,11 @@ bool is_for_panels(const InputEvent& event, const Gui& gui, const Gestures& gest
     return gui.wants_mouse() && gestures.action() == Gestures::Action::none && !lets_go;
 }
 
+/// Keys belong to a drag; of a stroke Esc alone, which takes it back.
+bool is_for_gesture(const InputEvent& key, const Gestures& gestures) {
+    return gestures.dragging() || (gestures.edits() && key.code == GLFW_KEY_ESCAPE);
+}
+
 }  // namespace
 
 bool dispatch(const std::vector<InputEvent>& events, double now, const Gui& gui, ViewerState& state, Panels& panels) {
@@ -27,8 +34,8 @@ bool dispatch(const std::vector<InputEvent>& events, double now, const Gui& gui,
         const bool keys_are_free = !gui.wants_keys();
         if (event.kind == InputEvent::Kind::text && event.code == '?' && keys_are_free)
             state.show_help = !state.show_help;
-        if (event.kind == InputEvent::Kind::key && keys_are_free && !state.gestures.dragging() && !state.blank() &&
-            run_shortcut(event, state, panels)) {
+        if (event.kind == InputEvent::Kind::key && keys_are_free && !is_for_gesture(event, state.gestures) &&
+            !state.blank() && run_shortcut(event, state, panels)) {
             GestureContext changed = state.gesture_context();
             context.targets = std::move(changed.targets);
             context.gizmos = std::move(changed.gizmos);

@@ -47,12 +47,13 @@ void Probes::toggle(int vertex) {
 
 void Probes::clear() { *this = Probes(); }
 
-void Probes::record(double seconds, const Positions& rest, const ShownBody& body, const DisplaySettings& display) {
+void Probes::record(double seconds, const Positions& rest, const ShownBody& body, const DisplaySettings& display,
+                    MethodKind reference) {
     if (vertices_.empty() || display.deformation_scale == 0.0) return;
     const bool is_new = samples_.empty() || body.revision() != recorded_;
     if (!is_new && samples_.back().values.size() == vertices_.size()) return;
     recorded_ = body.revision();
-    if (is_new) samples_.push_back({seconds, field_title(display.field, body.kind()), {}});
+    if (is_new) samples_.push_back({seconds, field_title(display.field, reference), {}});
     Sample& sample = samples_.back();  // vertices are kept in the order in which they were added
     for (std::size_t i = sample.values.size(); i < vertices_.size(); ++i)
         sample.values.emplace_back(vertices_[i], probe(vertices_[i], rest, body, display.deformation_scale));

@@ -31,7 +31,8 @@ public:
     const std::vector<int>& vertices() const { return vertices_; }
 
     /// Adds what is shown now, when that is not what was added last. `seconds`: of the clock of frames.
-    void record(double seconds, const Positions& rest, const ShownBody& body, const DisplaySettings& display);
+    void record(double seconds, const Positions& rest, const ShownBody& body, const DisplaySettings& display,
+                MethodKind reference);
     std::size_t n_samples() const { return samples_.size(); }
     /// Samples of one probe since it is kept, oldest first: the shown field where there is one, else how far the vertex
     /// has moved [L].

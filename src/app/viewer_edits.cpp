@@ -1,9 +1,48 @@
 // What changes the scene of a ViewerState: the method, steps of the history, handles, loads, fixed sets.
+#include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "app/viewer_state.hpp"
 
 namespace elastolab {
+
+namespace {
+
+/// Of what a person selects, each by its number.
+struct Names {
+    std::vector<std::string> handles, fixed_sets, loads;
+    bool gravity = false;
+};
+
+Names names_of(const LiveScene& scene) {
+    Names names;
+    for (int handle = 0; handle < scene.n_handles(); ++handle) names.handles.push_back(scene.handle_name(handle));
+    for (int set = 0; set < scene.n_fixed_sets(); ++set) names.fixed_sets.push_back(scene.fixed_name(set));
+    for (int load = 0; load < scene.n_loads(); ++load) names.loads.push_back(scene.load_name(load));
+    names.gravity = scene.document().gravity.has_value();
+    return names;
+}
+
+/// -1 where it is not there.
+int place_of(const std::string& name, const std::vector<std::string>& names) {
+    const auto found = std::find(names.begin(), names.end(), name);
+    return found == names.end() ? -1 : static_cast<int>(found - names.begin());
+}
+
+/// -1 where none or several are new.
+int only_new_one(const std::vector<std::string>& before, const std::vector<std::string>& after) {
+    int found = -1;
+    for (std::size_t i = 0; i < after.size(); ++i) {
+        if (place_of(after[i], before) >= 0) continue;
+        if (found >= 0) return -1;
+        found = static_cast<int>(i);
+    }
+    return found;
+}
+
+}  // namespace
 
 /// A choice of the method or its settings becomes a step of the scene's history, wherever it was made.
 void ViewerState::keep_method() {
@@ -33,27 +72,30 @@ std::string ViewerState::selected_handle_name() const {
     return handle >= 0 && handle < scene_->n_handles() ? scene_->handle_name(handle) : "";
 }
 
-/// After undo and redo the numbers of handles and sets may mean others, their names do not.
+/// After undo and redo the numbers of handles, sets and loads may mean others, their names do not. One that a step
+/// brought is selected, as it was when it was made.
 void ViewerState::take_step(const std::function<void()>& step) {
     finish_gesture();
     keep_method();
-    const std::string selected_handle = selected_handle_name(), selected_fixed_set = selected_fixed_name();
+    moved_by_force_.clear();
+    const std::string handle = selected_handle_name(), fixed_set = selected_fixed_name();
     const std::optional<int> selected_load = gestures.selected_load();
-    const std::string load_name = selected_load && *selected_load >= 0 && *selected_load < scene_->n_loads()
-                                      ? scene_->load_name(*selected_load)
-                                      : "";
+    const Names before = names_of(*scene_);
+    const bool is_load = selected_load && *selected_load >= 0 && *selected_load < scene_->n_loads();
+    const std::string load = is_load ? scene_->load_name(*selected_load) : "";
     step();
     take_method();
-    gestures.select_handle(-1);
-    gestures.keep_fixed(-1);
+    const Names after = names_of(*scene_);
+    gestures.select_handle(place_of(handle, after.handles));
+    gestures.keep_fixed(place_of(fixed_set, after.fixed_sets));
     gestures.select_load(std::nullopt);
-    for (int handle = 0; handle < scene_->n_handles(); ++handle)
-        if (scene_->handle_name(handle) == selected_handle) gestures.select_handle(handle);
-    for (int set = 0; set < scene_->n_fixed_sets(); ++set)
-        if (scene_->fixed_name(set) == selected_fixed_set) gestures.keep_fixed(set);
-    if (selected_load == LiveScene::kGravity && scene_->document().gravity) gestures.select_load(selected_load);
-    for (int load = 0; load < scene_->n_loads(); ++load)
-        if (scene_->load_name(load) == load_name) gestures.select_load(load);
+    if (after.gravity && (selected_load == LiveScene::kGravity || !before.gravity))
+        gestures.select_load(LiveScene::kGravity);
+    if (const int kept = place_of(load, after.loads); kept >= 0) gestures.select_load(kept);
+    if (const int brought = only_new_one(before.handles, after.handles); brought >= 0) gestures.select_handle(brought);
+    if (const int brought = only_new_one(before.fixed_sets, after.fixed_sets); brought >= 0)
+        gestures.select_fixed(brought);
+    if (const int brought = only_new_one(before.loads, after.loads); brought >= 0) gestures.select_load(brought);
 }
 
 void ViewerState::undo() {

@@ -112,6 +112,7 @@ void ViewerState::take_scene(LoadedScene loaded) {
                                                      bending_stiffness(*scene_, farthest_from_support(*scene_))));
     shown.forget();
     probes.clear();
+    moved_by_force_.clear();
     if (const auto& of_scene = scene_->document().shown) show(*of_scene, display);
     show_asked(loaded.asked, display);
     display.wireframe = scene_->mesh().n_vertices() <= kDenseVertices;

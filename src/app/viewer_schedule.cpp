@@ -85,18 +85,24 @@ bool ViewerSession::must_draw() {
     if (window_.close_requested() && !may_close()) pending_frames_ = kSettlingFrames;  // for the question
     if (window_.close_requested()) return false;
     if (held_back()) {
-        state_.update_displacements();
-        state_.update_picture();
+        update_displacements();
+        guarded([&] { state_.update_picture(); });
         return false;
     }
-    if (rest_for_workers() > 0.0 && !state_.update_displacements()) return false;
+    if (rest_for_workers() > 0.0 && !update_displacements()) return false;
     if (options_.n_frames == 0 && pending_frames_ == 0 && !replaying()) {
         const bool checking = state_.simulation.checking();
-        const bool changed = state_.update_displacements();
+        const bool changed = update_displacements();
         if (!changed && checking == state_.simulation.checking()) return false;  // nothing new to see
         pending_frames_ = 1;
     }
     return window_.size().minCoeff() > 0;
+}
+
+/// Whether there is something new to see.
+bool ViewerSession::update_displacements() {
+    bool changed = false;
+    return !guarded([&] { changed = state_.update_displacements(); }) || changed;
 }
 
 bool ViewerSession::may_close() {

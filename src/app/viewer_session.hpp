@@ -69,6 +69,7 @@ private:
     /// be kept as it began until the next copy is due, nor of a film, which moves handles.
     void keep_scene();
     bool must_draw();
+    bool update_displacements();
 
     /// A window that is closed by hand stays open while a question about unsaved changes waits for its answer.
     bool may_close();

@@ -240,7 +240,10 @@ bool ViewerState::answering() const {
 
 /// The force that moves a handle as it is moved now; nothing where it is not known, as by a preview.
 std::optional<GripForce> ViewerState::present_force(int handle) const {
-    const ShownBody* body = simulation.previewing(method) || shown.solving() ? nullptr : shown.body(method);
+    const MethodRunner& runner = simulation.runner(method);
+    const bool is_present = runner.answers() && runner.converged() && !runner.following() && !runner.converging();
+    if (simulation.previewing(method) || shown.solving() || !is_present) return std::nullopt;
+    const ShownBody* body = shown.body(method);
     if (body == nullptr) return std::nullopt;
     for (const ShownReaction& reaction : body->reactions())
         if (!reaction.fixed && reaction.name == scene_->handle_name(handle))
@@ -249,8 +252,7 @@ std::optional<GripForce> ViewerState::present_force(int handle) const {
 }
 
 void ViewerState::move_by_force(int handle) {
-    moved_by_force_ = scene_->handle_name(handle);
-    take_wanted_force();
+    moved_by_force_ = scene_->handle_name(handle);  // the next frame knows whether the forces are of this scene
 }
 
 void ViewerState::take_wanted_force() {
@@ -271,15 +273,16 @@ void ViewerState::take_wanted_force() {
 }
 
 bool ViewerState::update_picture() {
-    take_wanted_force();
-    return shown.update({.scene = *scene_,
-                         .simulation = simulation,
-                         .kinds = shown_kinds(),
-                         .reference = reference(),
-                         .display = display,
-                         .probed = tools.tool == Tool::probe || !probes.vertices().empty(),
-                         .forces_wanted = !moved_by_force_.empty(),
-                         .pulling = gestures.dragging()});
+    const bool changed = shown.update({.scene = *scene_,
+                                       .simulation = simulation,
+                                       .kinds = shown_kinds(),
+                                       .reference = reference(),
+                                       .display = display,
+                                       .probed = tools.tool == Tool::probe || !probes.vertices().empty(),
+                                       .forces_wanted = !moved_by_force_.empty(),
+                                       .pulling = gestures.dragging()});
+    take_wanted_force();  // by the forces of this answer
+    return changed;
 }
 
 }  // namespace elastolab

@@ -40,11 +40,13 @@ void add_options(CLI::App& parser, BenchOptions& options) {
     parser.add_option("--out", options.folder, "folder for the results, made when it is missing (default bench-STUDY)")
         ->check([](const std::string& text) { return std::string(text.empty() ? "the name is empty" : ""); });
     parser.add_flag("--quick", options.quick, "small sizes: under a minute");
-    parser.add_option("--seed", options.seed,
-                      "random seed of the constrained nodes (paper) and the edits (stability) (default 1)");
+    CLI::Option* seed = parser.add_option(
+        "--seed", options.seed, "random seed of the constrained nodes (paper) and the edits (stability) (default 1)");
     add_threads_option(parser, options.threads);
-    parser.add_flag("--fresh", options.fresh, "start over instead of resuming a stopped run");
-    parser.add_flag("--report", options.report, "run nothing; plots and report again from the existing table");
+    CLI::Option* fresh = parser.add_flag("--fresh", options.fresh, "start over instead of resuming a stopped run");
+    parser.add_flag("--report", options.report, "run nothing; plots and report again from the existing table")
+        ->excludes(seed)
+        ->excludes(fresh);
     parser.add_flag("--quiet", options.quiet, "no list of cases and no progress bar");
     parser.footer(study_list());
 }

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cctype>
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <fstream>
@@ -42,14 +43,24 @@ struct PathPoint {
     GripPose pose;
 };
 
-/// Rows "time_s,tx,ty,tz,rx,ry,rz", below a line of such headings or without, times ascending.
+constexpr const char* kColumns = "time_s,tx,ty,tz,rx,ry,rz";
+
+/// Whether a first line names columns, which have to be those above, in this order.
+bool is_heading(std::string line, const fs::path& file) {
+    if (line.find("time_s") == std::string::npos) return false;
+    std::erase_if(line, [](unsigned char c) { return std::isspace(c) != 0; });
+    if (line != kColumns) throw Error(file.string() + ": line 1 names other columns. Write " + kColumns + ".");
+    return true;
+}
+
+/// Rows of the columns above, below a line of their names or without, times ascending.
 std::vector<PathPoint> read_path(const fs::path& file) {
     std::ifstream in(file);
     if (!in) throw Error(file.string() + ": cannot be opened. Name a path file.");
     std::vector<PathPoint> path;
     std::string line;
     for (int number = 1; std::getline(in, line); ++number) {
-        if (line.empty() || (number == 1 && line.find("time_s") != std::string::npos)) continue;
+        if (line.empty() || (number == 1 && is_heading(line, file))) continue;
         std::replace(line.begin(), line.end(), ',', ' ');
         std::istringstream numbers(line);
         PathPoint point{};
@@ -61,7 +72,7 @@ std::vector<PathPoint> read_path(const fs::path& file) {
         if (!complete || !numbers.eof() || !point.pose.shift.allFinite() || !point.pose.turn.allFinite() ||
             (!path.empty() && !(point.seconds > path.back().seconds)))
             throw Error(file.string() + ": line " + std::to_string(number) +
-                        " is not a time later than the one before and six numbers. Write time_s,tx,ty,tz,rx,ry,rz.");
+                        " is not a time later than the one before and six numbers. Write " + kColumns + ".");
         path.push_back(point);
     }
     if (path.size() < 2) throw Error(file.string() + ": has fewer than two poses. Record a longer path.");

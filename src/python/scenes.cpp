@@ -44,7 +44,7 @@ SolutionPointer solve_scene(const std::string& text, const fs::path& file, const
                             const std::string& mode, const std::string& tractions, const std::string& update,
                             const std::string& elements, int rims, bool checks, const py::object& progress) {
     const SolveRequest request = request_of(text, file, method, mode, tractions, update, elements, rims, checks);
-    const SolutionPointer solution =
+    SolutionPointer solution =
         watched(progress, [&](Control& control) { return std::make_shared<Solution>(solve(request, control)); });
     for (Finding& left_aside :
          choices_left_aside({!tractions.empty(), !elements.empty(), rims > 0}, request.method.kind, ""))

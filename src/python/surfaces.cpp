@@ -104,7 +104,7 @@ py::array triangles_of(const py::object& self) {
 }
 
 /// By the reader of scene files, so that selectors are those of scenes.
-py::array select(const Surface& surface, const py::dict& selector) {
+py::array select(const Surface& surface, const py::object& selector) {
     const auto dumps = py::module_::import("json").attr("dumps");
     std::string text;
     try {
@@ -116,8 +116,8 @@ py::array select(const Surface& surface, const py::dict& selector) {
     }
     const std::string scene =
         R"({"elastolab":1,"mesh":{"primitive":"cube","resolution":1},"material":{"young_modulus":1,"poisson_ratio":0},)"
-        R"("method":"fem","handles":[],"fixed":)" +
-        text + "}";
+        R"("method":"fem","handles":[],"fixed":[{"select":)" +
+        text + "}]}";
     const Document document = parse_scene(scene, surface.name);
     return as_integers(select_vertices(*surface.mesh, document.fixed.at(0).select, surface.name + ": selector"));
 }
@@ -218,7 +218,8 @@ surface with fatal defects can be looked at, but not simulated (make a Proxy of 
         .def_readonly("report", &Surface::report)
         .def_readonly("warning", &Surface::warning, "Of the reader of a file: coordinates that were rounded; or empty.")
         .def("select", &select, py::arg("selector"),
-             "Vertices of a selector as in scene files, such as {'box': {'min': [0, 0, 0], 'max': [0, 1, 1]}}.")
+             "Vertices of a selector as in scene files, such as {'box': {'min': [0, 0, 0], 'max': [0, 1, 1]}}, or of a "
+             "list of selectors: their union.")
         .def(
             "save", [](const Surface& s, const fs::path& file) { save_surface(file, *s.mesh); }, py::arg("file"),
             "Writes OBJ, PLY or STL, by the ending of the name.")

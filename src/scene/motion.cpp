@@ -1,5 +1,6 @@
 #include "scene/motion.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <Eigen/Geometry>
@@ -61,6 +62,12 @@ std::optional<Rotation> added(const Rotation& before, const Vector3d& turn) {
     return sum;
 }
 
+/// Whole turns beyond what a scene file may hold are left out.
+double without_excess(double degrees) {
+    const double excess = std::max(0.0, std::abs(degrees) - kMostDegrees);
+    return degrees - std::copysign(360.0 * std::ceil(excess / 360.0), degrees);
+}
+
 AffineMotion turned(const AffineMotion& motion, const Vector3d& turn, const Vector3d& center, const Positions& rest) {
     const Matrix3d identity = Matrix3d::Identity(), before = matrix_of(motion.rotate), next = rotation_by(turn);
     AffineMotion result = motion;
@@ -76,6 +83,7 @@ AffineMotion turned(const AffineMotion& motion, const Vector3d& turn, const Vect
         if (!near) result.matrix = before.transpose() * next * before * (identity + motion.matrix) - identity;
     }
     if (std::abs(result.rotate.degrees) < kNoTurn) result.rotate = {};
+    result.rotate.degrees = without_excess(result.rotate.degrees);
     // Both ways to write where a vertex goes agree for every y = x + matrix x of `motion`.
     const Vector3d& old_center = motion.rotate.center;
     const Vector3d at_zero = next * (old_center - before * old_center + motion.translate - center) + center;

@@ -163,6 +163,7 @@ RunResult run_study(const Study& study, const RunSettings& settings, StudyProgre
         write_conclusions(study, settings, result, control);
         return result;
     }
+    for (const fs::path& output : {csv, settings.folder / "README.md"}) AtomicFile::require_writable(output);
     const fs::path journal_file = settings.folder / (study.name + ".partial.csv");
     if (settings.fresh) fs::remove(journal_file, error);
     Journal journal(journal_file, origin_of(study, settings.options));

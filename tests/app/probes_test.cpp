@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "app/stage.hpp"
+#include "fem/quadratic/method.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace elastolab {
@@ -20,7 +21,8 @@ protected:
     }
     const ShownBody& body() { return *stage.state.shown.body(stage.state.method); }
     void record(double seconds) {
-        stage.state.probes.record(seconds, stage.scene().mesh().vertices, body(), stage.state.display);
+        stage.state.probes.record(seconds, stage.scene().mesh().vertices, body(), stage.state.display,
+                                  stage.state.compare.reference);
     }
 
     test::Stage stage;
@@ -102,6 +104,16 @@ TEST_F(Probing, EachVertexHasItsOwnPast) {
     probes.toggle(vertex);
     EXPECT_EQ(probes.vertices(), std::vector{other});
     EXPECT_EQ(probes.series(0).size(), 2u);
+}
+
+TEST_F(Probing, NamesTheMethodThatDifferencesAreTo) {
+    stage.state.probes.toggle(vertex);
+    stage.state.display.field = Field::difference;
+    stage.state.compare.reference = kQuadraticFem;
+    record(0.0);
+    const test::TemporaryFolder folder;
+    stage.state.save_probes(folder.path() / "probes.csv");
+    EXPECT_THAT(test::read_text(folder.path() / "probes.csv"), testing::HasSubstr("difference to Quadratic FEM"));
 }
 
 }  // namespace

@@ -64,20 +64,28 @@ RealWindow::RealWindow(std::vector<std::string> arguments, const std::filesystem
 
 void RealWindow::tell(const std::string& command) const { output_of("timeout 60 xdotool " + command + " 2>&1"); }
 
-void RealWindow::move(const Eigen::Vector2d& cursor) {
-    tell("mousemove --window " + id_ + " " + std::to_string(std::lround(cursor.x())) + " " +
-         std::to_string(std::lround(cursor.y())));
+std::string RealWindow::moved_to(const Eigen::Vector2d& cursor) const {
+    return "mousemove --window " + id_ + " " + std::to_string(std::lround(cursor.x())) + " " +
+           std::to_string(std::lround(cursor.y()));
 }
 
-void RealWindow::drag(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
-    move(from);
-    press();
+void RealWindow::move(const Eigen::Vector2d& cursor) { tell(moved_to(cursor)); }
+
+/// All by one process: a process for each event takes more of the machine than the program that it drives.
+void RealWindow::drag(const Eigen::Vector2d& from, const Eigen::Vector2d& to, int button) {
+    constexpr const char* kPause = " sleep 0.03 ";
+    const std::string number = std::to_string(button);
+    std::string events = moved_to(from) + kPause + "mousedown " + number + kPause;
     if (from != to)
-        for (const double part : {0.2, 0.4, 0.6, 0.8, 1.0}) move(from + part * (to - from));
-    release();
+        for (const double part : {0.2, 0.4, 0.6, 0.8, 1.0}) events += moved_to(from + part * (to - from)) + kPause;
+    tell(events + "mouseup " + number);
 }
 
-void RealWindow::key(const std::string& name) { tell("key " + name); }
+void RealWindow::key(const std::string& name, int times) {
+    std::string command = "key";
+    for (int i = 0; i < times; ++i) command += " " + name;
+    tell(command);
+}
 
 void RealWindow::stroke(const std::string& name) {
     const std::size_t plus = name.find('+');

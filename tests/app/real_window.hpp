@@ -19,10 +19,10 @@ public:
     void move(const Eigen::Vector2d& cursor);
     void press(int button = 1) { tell("mousedown " + std::to_string(button)); }
     void release(int button = 1) { tell("mouseup " + std::to_string(button)); }
-    void drag(const Eigen::Vector2d& from, const Eigen::Vector2d& to);
+    void drag(const Eigen::Vector2d& from, const Eigen::Vector2d& to, int button = 1);
     void click(const Eigen::Vector2d& at) { drag(at, at); }
     /// Keys as xdotool names them: "ctrl+q".
-    void key(const std::string& name);
+    void key(const std::string& name, int times = 1);
     /// The same as fingers do: what is held is let go last, and the program has answered before the next stroke. Keys
     /// are not held longer, as they would be repeated.
     void stroke(const std::string& name);
@@ -54,6 +54,7 @@ private:
     };
 
     void tell(const std::string& command) const;
+    std::string moved_to(const Eigen::Vector2d& cursor) const;
     Activity activity() const;
     /// Returns when it has slept at so many looks in a row.
     void settle(int sleeping_looks);

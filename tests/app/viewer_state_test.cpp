@@ -7,6 +7,8 @@
 #include "app/stage.hpp"
 #include "bem/collocation/method.hpp"
 #include "fem/method.hpp"
+#include "fem/nonlinear/method.hpp"
+#include "fem/quadratic/method.hpp"
 #include "mesh/input/export.hpp"
 #include "mesh/primitives.hpp"
 #include "methods/registry.hpp"
@@ -21,6 +23,7 @@ using test::n_errors;
 using test::Stage;
 using test::TemporaryFolder;
 using test::wait_for;
+using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 using testing::SizeIs;
@@ -277,7 +280,8 @@ TEST(ViewerState, HandlesMayGoBeforeOneThatAForceMoves) {
                 stage.state.remove_handle(0);
                 stage.frame();
                 ASSERT_EQ(stage.scene().n_handles(), 1);
-                EXPECT_LT((stage.motion(0).translate - before.translate).norm(), 1e-9) << "until the answer to it is there";
+                EXPECT_LT((stage.motion(0).translate - before.translate).norm(), 1e-9)
+                    << "until the answer to it is there";
                 stage.settle();
                 EXPECT_TRUE(stage.scene().document().handles[0].force.has_value());
                 EXPECT_GT(stage.motion(0).translate.norm(), 0.0);
@@ -288,6 +292,123 @@ TEST(ViewerState, HandlesMayGoBeforeOneThatAForceMoves) {
             EXPECT_EQ(stage.scene().n_handles(), 0);
         }
     }
+}
+
+/// The forces that are known are those of the method before, which answered in this one's place.
+TEST(ViewerState, AMethodWhoseSetWasCancelledShowsNoForcesOfTheOneBefore) {
+    Stage stage;
+    stage.state.choices.rims = 3;
+    Document document = test::cube_document_with_handle(6);
+    document.method = kFem;
+    document.handles.at(0).motion = AffineMotion{.translate = {0.1, 0, 0}};
+    stage.open(document);
+    stage.state.display.arrows = true;
+    stage.settle();
+    ASSERT_THAT(stage.state.shown.body(kFem)->reactions(), Not(IsEmpty()));
+    const MethodKind next = first_method();
+    ASSERT_NE(next, kFem);
+    stage.state.select_method(next);
+    bool cancelled = false;
+    wait_for([&] {
+        stage.frame();
+        cancelled = stage.state.simulation.runner(next).state() == MethodRunner::State::preparing;
+        return cancelled || stage.state.simulation.runner(next).state() == MethodRunner::State::ready;
+    });
+    ASSERT_TRUE(cancelled);
+    stage.state.simulation.runner(next).cancel();
+    for (int i = 0; i < 20; ++i) stage.frame();
+    EXPECT_FALSE(stage.state.simulation.answer(next).has_answer());
+    EXPECT_THAT(stage.state.shown.body(next)->reactions(), IsEmpty());
+}
+
+TEST(ViewerState, AWishForAForceEndsWithItsScene) {
+    Stage stage;
+    stage.state.display.arrows = false;
+    stage.state.display.field = Field::none;
+    stage.open(test::cube_document_with_handle(3));
+    stage.state.move_by_force(0);
+    ASSERT_FALSE(stage.scene().document().handles.at(0).force) << "which is not known yet";
+    Document other = test::cube_document_with_handle(4);
+    other.handles.at(0).motion = AffineMotion{.translate = {0.1, 0, 0}};
+    stage.open(other);
+    stage.settle();
+    EXPECT_FALSE(stage.scene().document().handles.at(0).force);
+    EXPECT_FALSE(stage.scene().can_undo());
+}
+
+/// Taken while the answer is on its way, as large turns and far motions take long.
+TEST(ViewerState, AForceOnAHandleIsThatOfWhereItIsNow) {
+    for (const MethodKind kind : {kFem, kNonlinearFem}) {
+        SCOPED_TRACE(name(kind));
+        Stage stage;
+        stage.state.display.arrows = true;
+        Document document = test::cube_document_with_handle(5);
+        document.method = kind;
+        document.handles.at(0).motion = AffineMotion{.translate = {0.05, 0, 0}};
+        stage.open(document);
+        stage.settle();
+        stage.scene().set_motion(0, AffineMotion{.translate = {0.5, 0, 0}});
+        stage.scene().commit();
+        stage.state.update_displacements();
+        stage.state.move_by_force(0);
+        wait_for([&] {
+            stage.frame();
+            return stage.scene().document().handles.at(0).force.has_value();
+        });
+        stage.settle();
+        EXPECT_NEAR(stage.motion(0).translate.x(), 0.5, 0.01);
+    }
+}
+
+TEST(ViewerState, LoadsThatBalanceNoLongerAreSaidAndTheAnswerBeforeStays) {
+    Document document = test::cube_document(3);
+    document.fixed.clear();
+    document.method = kNonlinearFem;
+    for (const double side : {0.0, 1.0})
+        document.loads.push_back({.name = side > 0.0 ? "right" : "left",
+                                  .select = {PlaneSelector{{side, 0, 0}, {1, 0, 0}, 1e-9}},
+                                  .value = ForceLoad{{side > 0.0 ? 0.01 : -0.01, 0, 0}}});
+    Stage stage;
+    stage.open(document);
+    stage.settle();
+    const auto& answer = stage.state.simulation.answer(kNonlinearFem);
+    const Eigen::VectorXd before = answer.displacement();
+    ASSERT_GT(before.norm(), 0.0);
+    stage.scene().set_load(0, ForceLoad{{-0.015, 0, 0}});
+    for (int i = 0; i < 20; ++i) {
+        EXPECT_NO_THROW(stage.frame());
+        stage.settle();
+    }
+    EXPECT_THAT(stage.state.simulation.problem(kNonlinearFem), HasSubstr("balance"));
+    EXPECT_EQ(answer.displacement(), before);
+    stage.scene().set_load(0, ForceLoad{{-0.01, 0, 0}});
+    stage.settle();
+    EXPECT_EQ(stage.state.simulation.problem(kNonlinearFem), "");
+}
+
+TEST(ViewerState, WhatIsSaidOfOneBodyIsNotSaidOfTheNext) {
+    Stage stage;
+    Document large = test::cube_document_with_handle(8);
+    large.method = first_method();
+    large.handles.at(0).motion = AffineMotion{.translate = {0.2, 0.1, 0}};
+    stage.open(large);
+    stage.settle();
+    ASSERT_TRUE(stage.state.simulation.preview_error(large.method));
+    Document small = test::cube_document_with_handle(3);
+    small.method = large.method;
+    stage.open(small);
+    stage.settle();
+    EXPECT_FALSE(stage.state.simulation.preview_error(large.method)) << "there was no preview";
+
+    Document refused = test::cube_document_with_handle(3);
+    refused.method = kQuadraticFem;
+    refused.material.poisson_ratio = 0.5;
+    stage.open(refused);
+    stage.frame();
+    EXPECT_NE(stage.state.simulation.problem(kQuadraticFem), "");
+    large.method = kQuadraticFem;
+    stage.open(large);
+    EXPECT_EQ(stage.state.simulation.problem(kQuadraticFem), "") << "while its preview is made";
 }
 
 }  // namespace

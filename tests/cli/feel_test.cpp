@@ -78,6 +78,10 @@ TEST_F(FeelTest, ReadsPathsWithAndWithoutHeadings) {
     const ProgramRun wide = run_program({"feel", "scene.json", "--path", "wide.csv"}, folder_.path());
     EXPECT_EQ(wide.exit_code, 1);
     EXPECT_THAT(wide.err, testing::HasSubstr("wide.csv: line 2 is not"));
+    folder_.write("other.csv", "tx,time_s,ty,tz,rx,ry,rz\n0,0.1,0,0,0,0,0\n1,0.1,0,0,0,0,0\n");
+    const ProgramRun other = run_program({"feel", "scene.json", "--path", "other.csv"}, folder_.path());
+    EXPECT_EQ(other.exit_code, 1);
+    EXPECT_THAT(other.err, testing::HasSubstr("other.csv: line 1 names other columns"));
 }
 
 /// At haptic rate only the handle that is felt gives way.

@@ -68,17 +68,13 @@ Eigen::Vector2d random_place(Random& random) {
 void drag_somewhere(RealWindow& window, Random& random) {
     const Eigen::Vector2d from = random_place(random), to = random_place(random);
     const int button = 1 + static_cast<int>(random.below(3));
-    window.move(from);
-    window.press(button);
-    for (int i = 1; i <= 8; ++i) window.move(from + 0.125 * i * (to - from));
-    window.release(button);
+    window.drag(from, to, button);
 }
 
 void scroll_somewhere(RealWindow& window, Random& random) {
     const int button = 4 + static_cast<int>(random.below(2));
-    window.move(random_place(random));
-    window.press(button);
-    window.release(button);
+    const Eigen::Vector2d at = random_place(random);
+    window.drag(at, at, button);
 }
 
 /// A dialog that it opens is closed at once: no round may write a file.
@@ -119,7 +115,7 @@ void undo_all(RealWindow& window) {
     window.key("Escape");
     window.key("Escape");
     window.resize(static_cast<int>(kWindow.x()), static_cast<int>(kWindow.y()));
-    for (int i = 0; i < 4 * kActsOfARound; ++i) window.key("ctrl+z");
+    window.key("ctrl+z", 4 * kActsOfARound);
     window.settle();
 }
 

@@ -57,6 +57,10 @@ def test_selectors_are_those_of_scene_files():
     cube = el.Surface.primitive("cube", 3)
     left = cube.select({"box": {"min": [0, 0, 0], "max": [0, 1, 1]}})
     np.testing.assert_array_equal(left, np.flatnonzero(cube.vertices[:, 0] == 0))
+    corner = cube.select([{"vertices": [7]}, {"box": {"min": [0, 0, 0], "max": [0, 1, 1]}}])
+    np.testing.assert_array_equal(np.unique(corner), np.union1d(left, [7]))
+    with pytest.raises(el.SceneError, match="select"):
+        cube.select([{"select": {"vertices": [7]}}])
     with pytest.raises(el.SceneError, match="radius"):
         cube.select({"sphere": {"center": [0, 0, 0], "radius": "large"}})
     with pytest.raises(el.SceneError, match="cube: selector"):

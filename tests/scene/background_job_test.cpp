@@ -107,6 +107,19 @@ TEST(ModelJob, DropsAResultThatComesAfterACancel) {
     EXPECT_EQ(job.take(), nullptr);
 }
 
+TEST(ModelJob, DropsAFailureThatComesAfterACancel) {
+    std::atomic<bool> go{false};
+    ModelJob job;
+    job.start([&](Control&) -> std::shared_ptr<const Model> {
+        test::wait_for([&] { return go.load(); });
+        throw MeshError("of what nobody wants any more");
+    });
+    job.cancel();
+    go = true;
+    EXPECT_EQ(wait_for_event(job), JobEvent::cancelled);
+    EXPECT_EQ(job.failure(), "");
+}
+
 TEST(ModelJob, AFailureLeavesTheModelBeforeItAndSaysWhy) {
     ModelJob job;
     job.start(giving("old"));

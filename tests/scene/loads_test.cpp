@@ -1,14 +1,19 @@
 // Loads of scenes, and how they are carried to proxies.
 #include <gmock/gmock.h>
 
+#include <filesystem>
 #include <string>
+#include <vector>
 
 #include "bem/galerkin/method.hpp"
 #include "fem/method.hpp"
 #include "fem/nonlinear/method.hpp"
 #include "fem/quadratic/method.hpp"
+#include "mesh/input/export.hpp"
+#include "mesh/primitives.hpp"
 #include "scene/loaded_cube.hpp"
 #include "scene/solved_scene.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace elastolab {
 namespace {
@@ -16,6 +21,7 @@ namespace {
 using test::named;
 using test::refusal_of;
 using test::solved;
+using test::TemporaryFolder;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
@@ -137,6 +143,66 @@ TEST(SceneLoads, AreCarriedToAProxyAroundTheBody) {
     }
     EXPECT_LT((proxy.displacement - own.displacement).norm(), 0.15 * own.displacement.norm());
     EXPECT_NEAR(*proxy.compliance, *own.compliance, 0.25 * *own.compliance);
+}
+
+/// A file with the triangles of a cube's surface for which all corners satisfy `kept`.
+template <class Kept>
+std::filesystem::path save_part_of_cube(const std::filesystem::path& file, int cells, const Kept& kept) {
+    SurfaceMesh mesh = make_box(cells);
+    std::vector<int> triangles;
+    for (int t = 0; t < mesh.n_triangles(); ++t)
+        if (kept(mesh.vertices(Eigen::all, mesh.triangles.col(t)))) triangles.push_back(t);
+    mesh.triangles = Triangles(mesh.triangles(Eigen::all, triangles));
+    save_surface(file, mesh);
+    return file;
+}
+
+Document document_of(const std::filesystem::path& mesh, const LoadValue& load, const Selector& loaded,
+                     const Selector& fixed) {
+    Document document;
+    document.mesh = MeshFile{mesh.string()};
+    document.material = {1.0, 0.3};
+    document.fixed = {{.select = fixed}};
+    document.loads = {{.name = "load", .select = loaded, .value = load}};
+    return document;
+}
+
+/// What closes a body whose top is open is near to a loaded wall, and carries nothing.
+TEST(SceneLoads, OfAWallActOnNothingBesideIt) {
+    const TemporaryFolder folder;
+    const auto file =
+        save_part_of_cube(folder.path() / "open.obj", 6, [](const auto& x) { return x.row(2).minCoeff() < 1.0; });
+    const Selector wall = {PlaneSelector{{0, 0, 0}, {1, 0, 0}, 1e-9}},
+                   bottom = {PlaneSelector{{0, 0, 0}, {0, 0, 1}, 1e-9}};
+    for (const LoadValue& load :
+         {LoadValue{ForceLoad{{1e-3, 0, 0}}}, LoadValue{TractionLoad{{1e-3, 0, 0}}}, LoadValue{PressureLoad{1e-3}}}) {
+        SCOPED_TRACE(load.index());
+        const Solution solution = solved(document_of(file, load, wall, bottom), kQuadraticFem, false);
+        ASSERT_TRUE(solution.proxy);
+        ASSERT_FALSE(solution.proxy->is_filled());
+        const bool is_corrected = !std::holds_alternative<PressureLoad>(load);
+        const GroupReaction& told = named(solution.loads, "load");
+        EXPECT_LT((told.force - Eigen::Vector3d(1e-3, 0, 0)).norm(), is_corrected ? 1e-12 : 0.06e-3);
+        EXPECT_NEAR(told.moment.y(), 0.5e-3, is_corrected ? 1e-12 : 0.05e-3);
+    }
+}
+
+/// It is simulated as a wall: one of its sides is loaded, that which the sheet's triangles face.
+TEST(SceneLoads, OfASheetActOnce) {
+    const TemporaryFolder folder;
+    const auto file =
+        save_part_of_cube(folder.path() / "sheet.obj", 6, [](const auto& x) { return x.row(2).maxCoeff() == 0.0; });
+    const Selector half = {BoxSelector{{0.499, 0, 0}, {1, 1, 0}}}, edge = {PlaneSelector{{0, 0, 0}, {1, 0, 0}, 1e-9}};
+    const Eigen::Vector3d expected(0, 0, 5e-7);
+    for (const LoadValue& load : {LoadValue{ForceLoad{expected}}, LoadValue{TractionLoad{2.0 * expected}},
+                                  LoadValue{PressureLoad{1e-6}}}) {  // the cube's bottom faces down
+        SCOPED_TRACE(load.index());
+        const Solution solution = solved(document_of(file, load, half, edge), kFem, false);
+        ASSERT_TRUE(solution.proxy);
+        const bool is_corrected = !std::holds_alternative<PressureLoad>(load);
+        EXPECT_LT((named(solution.loads, "load").force - expected).norm(),
+                  (is_corrected ? 1e-9 : 0.06) * expected.norm());
+    }
 }
 
 }  // namespace

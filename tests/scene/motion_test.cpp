@@ -61,6 +61,21 @@ TEST(Motion, TurnsAboutOneAxisAddUpWhereverTheirCenters) {
     EXPECT_NEAR(turned_by(motion, {0, 0, -840}, {0, 0, 0}).rotate.degrees, 10, 1e-9);
 }
 
+/// A scene file takes a hundred turns.
+TEST(Motion, TurnsAddUpToWhatAFileTakes) {
+    for (const double sign : {1.0, -1.0}) {
+        AffineMotion motion = kAny;
+        motion.rotate = {};
+        for (int i = 0; i < 450; ++i) motion = turned_by(motion, {0, 0, sign * 90.0}, {1, 2, 3});
+        EXPECT_LE(std::abs(motion.rotate.degrees), kMostDegrees);
+        EXPECT_GT(std::abs(motion.rotate.degrees), kMostDegrees - 360.0);
+        AffineMotion half = kAny;
+        half.rotate = {};
+        for (int i = 0; i < 2; ++i) half = turned_by(half, {0, 0, 90.0}, {1, 2, 3});
+        EXPECT_LT((moved(motion) - moved(half)).norm(), 1e-9);
+    }
+}
+
 TEST(Motion, BackToNoTurnAtAllIsNoTurn) {
     const AffineMotion there = turned_by(AffineMotion{.translate = {1, 0, 0}}, {0, 50, 0}, {1, 2, 3});
     EXPECT_EQ(turned_by(there, {0, -50, 0}, {1, 2, 3}).rotate, Rotation{});

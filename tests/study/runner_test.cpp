@@ -98,6 +98,13 @@ TEST_F(RunnerTest, GoesOnWhereItWasStopped) {
     EXPECT_EQ(result.table.rows.front().number("y"), 2.5);
 }
 
+TEST_F(RunnerTest, FindsOutFirstThatATableCannotBeWritten) {
+    Counting counting;
+    std::filesystem::create_directories(folder_.path() / "out" / "tiny.csv");
+    EXPECT_THROW(run(counting), Error);
+    EXPECT_EQ(counting.first, 0);
+}
+
 TEST_F(RunnerTest, KeepsNothingOfAnotherSeedNorWhenAskedToBeginAnew) {
     Counting counting;
     counting.before_second = [] { throw Cancelled{}; };

@@ -213,6 +213,20 @@ TEST(Frontier, FindsTheFastestBetweenTheSizes) {
     EXPECT_EQ(best[2].variant, "linear-bem");
 }
 
+/// A slow first case says nothing of the method.
+TEST(Frontier, TakesAFinerMeshThatWasReadySooner) {
+    Table table;
+    for (const auto& [error, seconds] : {std::pair{0.2, 0.001}, {0.05, 0.144}, {0.02, 0.036}, {0.004, 0.3}})
+        table.rows.push_back(Row{{"part", "refinement"}, {"problem", "p"}, {"nu", "0.3"}, {"variant", "fem"}}
+                                 .set("vertices", 10.0 / error)
+                                 .set("error", error)
+                                 .set("ready_s", seconds));
+    const auto points = frontier(table, "ready_s");
+    ASSERT_GE(points.size(), 2U);
+    for (const FrontierPoint& point : {points[0], points[1]}) EXPECT_LE(point.seconds, 0.036) << point.target;
+    EXPECT_EQ(points[1].vertices, 500.0);
+}
+
 TEST(StabilityTrial, SaysRightToldAndRefused) {
     Control control;
     const auto group = [](const std::string& name) {

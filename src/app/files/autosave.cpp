@@ -157,7 +157,10 @@ void Autosave::update(const Scene& scene, double now) {
     });
 }
 
-double Autosave::due_in(double now) const { return wanted_ ? std::max(0.0, last_ + kEverySeconds - now) : -1.0; }
+double Autosave::due_in(double now) const {
+    constexpr double kWhileWriting = 0.25;
+    return wanted_ ? std::max(job_.working() ? kWhileWriting : 0.0, last_ + kEverySeconds - now) : -1.0;
+}
 
 void Autosave::adopt(AutosavedScene scene) {
     clear();

@@ -24,7 +24,8 @@ ExportSource export_source(const LiveScene& scene, const EmbeddedRunner& answer,
     if (answer.proxy() != nullptr) source.proxy = std::make_shared<const Proxy>(*answer.proxy());
     source.deformer = runner.deformer();
     source.values = runner.values();
-    source.groups = answer.constraints().groups;
+    source.of_present_set = source.deformer->set() == answer.constraints().set;
+    if (source.of_present_set) source.groups = answer.constraints().groups;
     source.simulated_displacement = runner.displacement();
     source.converged = runner.converged();
     source.approach = runner.approach();
@@ -71,6 +72,8 @@ bool takes_solves(const fs::path& file) { return is_field_file(file) || is_figur
 void write_export(const fs::path& file, const ExportSource& source, Control& control) {
     if (!source.converged) return write_export(file, converged(source, control), control);
     if (source.deformer && (is_figure_file(file) || is_glb_file(file))) {
+        if (!source.of_present_set)
+            throw Error(file.string() + ": the present handles have no answer yet. Wait until the method is ready.");
         const std::string why = figure_refusal(source.deformer->model().method().kind,
                                                pulled_handles(source.deformer->set(), source.groups).size());
         if (!why.empty()) throw Error(file.string() + ": " + why);

@@ -20,6 +20,7 @@ struct ExportSource {
     std::shared_ptr<const Deformer> deformer;  ///< null: there is no answer yet
     Eigen::VectorXd values, displacement, simulated_displacement;
     Approach approach = {};                               ///< of a method that is not linear: how to reach `values`
+    bool of_present_set = true;                           ///< else the handles have changed since, and groups are empty
     std::vector<ConstraintGroup> groups = {};             ///< of the deformer's set
     Eigen::Vector3d vertical = Eigen::Vector3d::UnitZ();  ///< the axis that points up
     bool converged = true;                      ///< else displacements are solved for again, to kSolveTolerance

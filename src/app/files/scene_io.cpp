@@ -80,7 +80,8 @@ Document movable_document(const LiveScene& scene, MethodKind method, const ViewP
 
 void write_scene(const fs::path& file, Document document) {
     if (auto* mesh = std::get_if<MeshFile>(&document.mesh)) {
-        const fs::path relative = fs::path(mesh->file).lexically_relative(fs::absolute(file).parent_path());
+        const fs::path relative =
+            fs::path(mesh->file).lexically_relative(fs::absolute(file).lexically_normal().parent_path());
         if (!relative.empty()) mesh->file = relative.string();
     }
     save_scene(file, document);

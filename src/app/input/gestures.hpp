@@ -85,6 +85,8 @@ public:
     bool pulling() const { return action_ == Action::pull; }
     /// A handle or a load follows the mouse.
     bool dragging() const { return pulling() || action_ == Action::load; }
+    /// Whether what the button does now changes the scene, and Esc takes it back.
+    bool edits() const { return dragging() || action_ == Action::paint; }
     const Hover& hover() const { return hover_; }
     void clear_hover() { hover_ = {}; }
     /// The handle that was grabbed last (or chosen), for the panel and for removal; -1: none.
@@ -180,8 +182,6 @@ private:
 
     // Events: gestures.cpp
     void press(const InputEvent& event, GestureContext& context);
-    /// Whether what the button does now changes the scene.
-    bool edits() const { return pulling() || action_ == Action::load || action_ == Action::paint; }
     void take_back(GestureContext& context);
     void keep_selection_within(const LiveScene& scene);
     void press_body(GestureContext& context, const PickHit& hit);

@@ -147,7 +147,7 @@ void Gestures::drag_load(GestureContext& context) {
 void Gestures::end_load(GestureContext& context) {
     if (load_drag_->is_new && !load_drag_->moved) {
         context.scene.remove_load(load_drag_->arrow.load);  // a click loads nothing
-        selected_load_.reset();
+        select_load(std::nullopt);
     }
     context.scene.commit();
     load_drag_.reset();
@@ -161,7 +161,7 @@ void Gestures::remove_dragged_load(GestureContext& context) {
     context.scene.commit();
     load_drag_.reset();
     gizmo_drag_.reset();
-    selected_load_.reset();
+    select_load(std::nullopt);
     action_ = Action::blocked;  // until the button is let go
 }
 
@@ -184,7 +184,7 @@ void Gestures::paint_pressure(GestureContext& context, std::vector<int> vertices
         std::erase_if(loaded, [&](int v) { return std::binary_search(vertices.begin(), vertices.end(), v); });
         if (has_pressure && loaded.size() < n_before && !scene.set_loaded_vertices(*selected_load_, loaded)) {
             scene.remove_load(*selected_load_);
-            selected_load_.reset();
+            select_load(std::nullopt);
         }
         return;
     }

@@ -20,8 +20,8 @@ Cost CostPredictions::of(const ViewerState& state, const Method& method) {
     scene_number_ = state.scene_number();
     if (surface == nullptr) return {};
     measure_others();
-    const auto [place, is_new] = costs_.try_emplace(
-        {method.kind, method.mode, method.update, method.rims, surface->n_vertices(), surface->n_triangles()});
+    const auto [place, is_new] = costs_.try_emplace({method.kind, method.mode, method.update, method.elements,
+                                                     method.rims, surface->n_vertices(), surface->n_triangles()});
     if (is_new) place->second = predict_cost(*surface, method);
     Cost cost = place->second;
     cost.seconds *= slowdown_;
@@ -44,8 +44,8 @@ std::uint64_t CostPredictions::memory_with_completion(const ViewerState& state, 
     const std::uint64_t own = of(state, state.choices.of(kind)).memory_bytes;
     const MethodChoices& choices = state.choices;
     const auto [place, is_new] =
-        completed_bytes_.try_emplace({kind, choices.mode, choices.update, choices.rims, choices.complete_up_to,
-                                      surface->n_vertices(), surface->n_triangles()});
+        completed_bytes_.try_emplace({kind, choices.mode, choices.update, choices.elements, choices.rims,
+                                      choices.complete_up_to, surface->n_vertices(), surface->n_triangles()});
     if (!is_new) return place->second;
     const std::optional<Method> completion = completion_of(*surface, kind, choices);
     return place->second = completion ? std::max(own, of(state, *completion).memory_bytes) : own;

@@ -31,9 +31,10 @@ private:
     void measure_others();
 
     std::uint64_t scene_number_ = 0;
-    std::map<std::tuple<MethodKind, Mode, Update, int, int, int>, Cost>
-        costs_;  ///< by rims, vertices and triangles of what is simulated
-    std::map<std::tuple<MethodKind, Mode, Update, int, int, int, int>, std::uint64_t> completed_bytes_;  ///< likewise
+    /// By rims, vertices and triangles of what is simulated.
+    std::map<std::tuple<MethodKind, Mode, Update, ElementDegree, int, int, int>, Cost> costs_;
+    /// Likewise, and by the vertices up to which methods are completed.
+    std::map<std::tuple<MethodKind, Mode, Update, ElementDegree, int, int, int, int>, std::uint64_t> completed_bytes_;
     std::uint64_t program_bytes_ = 0;
     std::optional<ProcessorUse> processors_;  ///< a second ago at most
     Stopwatch since_;                         ///< then

@@ -43,6 +43,11 @@ std::string vertices_text(const std::string& name, std::span<const int> vertices
     return name + ": " + count_text(std::ssize(vertices)) + (vertices.size() == 1 ? " vertex" : " vertices");
 }
 
+std::string handle_text(const LiveScene& scene, int handle) {
+    const bool by_force = scene.document().handles[static_cast<std::size_t>(handle)].force.has_value();
+    return vertices_text(scene.handle_name(handle), scene.vertices(handle)) + (by_force ? ", moved by a force" : "");
+}
+
 /// Whether another button with this label fits beside the last one.
 bool fits_beside(const char* label) {
     const ImGuiStyle& style = ImGui::GetStyle();
@@ -89,8 +94,8 @@ void PullPanel::draw_handles(const PanelContext& context) {
         ImGui::PushID(h);
         const bool selected = selection(state) == Selection{false, h};
         const RowAnswer answer =
-            draw_row(vertices_text(scene.handle_name(h), scene.vertices(h)), selected,
-                     selected ? context.palette.active : context.palette.handle, context.gui.scale());
+            draw_row(handle_text(scene, h), selected, selected ? context.palette.active : context.palette.handle,
+                     context.gui.scale());
         scroll_to(state, {false, h});
         draw_reaction(context, scene.handle_name(h));
         if (answer.clicked) state.gestures.select_handle(selected ? -1 : h);

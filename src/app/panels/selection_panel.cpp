@@ -88,7 +88,7 @@ void draw_placement(ViewerState& state, std::optional<int> handle, float scale) 
                        "[degrees]. 0, 0, 720: two full turns about z.");
     if (!present)
         draw_no_numbers("scale", 1, scale);
-    else if (draw_numbers("scale", &typed.scale, 1, "", scale) && typed.scale > 0.0)
+    else if (draw_positive_number("scale", typed.scale, scale))
         scene.set_motion(*handle, motion_of(typed, rest));
     ended = ended || ImGui::IsItemDeactivatedAfterEdit();
     tooltip(is_other ? kOther : "Scale about the middle of the handle.");

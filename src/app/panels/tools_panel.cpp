@@ -71,8 +71,7 @@ void draw_pull_settings(ViewerState& state, float scale) {
     set_item_width(scale);
     choose<PullMode>("movement", state.tools.pull_mode, kPullModes);
     if (state.tools.pull_mode == PullMode::spring) {
-        double typed = state.tools.spring;
-        if (draw_numbers("spring", &typed, 1, "", scale) && typed > 0.0) state.tools.spring = typed;
+        draw_positive_number("spring", state.tools.spring, scale);
         tooltip("Stiffness of the spring: force per length, above zero.");
     }
     draw_gizmo_settings(state, scale);

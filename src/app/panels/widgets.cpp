@@ -229,6 +229,13 @@ bool draw_numbers(const char* label, double* values, int n, const char* unit, fl
     return typed;
 }
 
+bool draw_positive_number(const char* label, double& value, float scale) {
+    double typed = value;
+    if (!draw_numbers(label, &typed, 1, "", scale) || !(typed > 0.0)) return false;
+    value = typed;
+    return true;
+}
+
 void draw_no_numbers(const char* label, int n, float scale) {
     set_item_width(scale);
     double nothing = 0.0;

@@ -116,9 +116,10 @@ bool Film::pose(SceneRenderer& renderer, ViewerState& state, const Palette& pale
     return !waiting_;
 }
 
-/// Every handle that still does what the film has made it do gets its own motion back.
+/// Every handle that still does what the film has made it do gets its own motion back, unless it is of another scene.
 void Film::put_back(ViewerState& state) {
     waiting_ = false;
+    if (scene_number_ != state.scene_number()) pose_.reset();
     if (!pose_) return;
     LiveScene& scene = state.scene();
     for (int h = 0; h < scene.n_handles(); ++h)
@@ -167,8 +168,13 @@ void Film::draw(SceneRenderer& renderer, ViewerState& state, const Palette& pale
 
 void Film::step(SceneRenderer& renderer, ViewerState& state, const Palette& palette) {
     const int frame = std::exchange(next_, 0);  // an exception ends it
-    if (frame == 1 && !pose_) state.finish_gesture();
+    if (frame == 1 && !pose_) {
+        state.finish_gesture();
+        scene_number_ = state.scene_number();
+    }
     try {
+        if (scene_number_ != state.scene_number())
+            throw Error(request_.file.string() + ": another scene was opened while the film was made. Make it anew.");
         if (request_.kind == FilmKind::pull && (pose_ || !pull_scales(state))) {
             next_ = frame;
             if (!pose(renderer, state, palette)) return;

@@ -68,7 +68,8 @@ private:
     void finish(ViewerState& state);
 
     PictureRequest request_;
-    int next_ = 0;  ///< frame, counted from 1; 0: none
+    int next_ = 0;                    ///< frame, counted from 1; 0: none
+    std::uint64_t scene_number_ = 0;  ///< since the first frame (ViewerState::scene_number)
     bool waiting_ = false;
     std::optional<Pose> pose_;
     BackgroundJob<std::string> video_;  ///< with its note

@@ -33,7 +33,7 @@ void Pictures::take_of_scene(SceneRenderer& renderer, ViewerState& state, const 
         if (const auto request = std::exchange(state.requests.picture, std::nullopt))
             take(*request, renderer, state, palette);
         if (film_.running()) film_.step(renderer, state, palette);
-    } catch (const Error& error) {
+    } catch (const std::exception& error) {  // also where there is no memory for it
         state.messages.error(error.what());
     }
     bind_window(window.framebuffer_size().x(), window.framebuffer_size().y());

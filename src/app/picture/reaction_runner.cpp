@@ -69,7 +69,8 @@ void ReactionRunner::update(const MethodRunner& runner) {
     if (runner.following()) return;
     if (runner.converging()) return;  // by the iteration that these need too, which keeps its solutions
     const std::shared_ptr<const Deformer>& deformer = runner.deformer();
-    if (!deformer || runner.values().size() != deformer->set().n_values()) return;
+    if (!deformer) return forget();  // what is known is of another that answered in its place
+    if (runner.values().size() != deformer->set().n_values()) return;
     const bool same_set = deformer_.lock() == deformer;
     if (same_set && version_ == runner.version()) return;
     // A solve that runs is not stopped for the next motion: while a body is dragged none would ever end.

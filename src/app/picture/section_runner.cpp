@@ -56,12 +56,13 @@ Eigen::Matrix<double, 6, -1> SectionRunner::stresses() const {
 std::size_t SectionRunner::pulled_group(const EmbeddedRunner& answer) const {
     const std::vector<ConstraintGroup>& groups = answer.constraints().groups;
     const Eigen::VectorXd& values = answer.runner().values();
-    const Eigen::Index n_fixed = std::ssize(answer.runner().deformer()->set().fixed);
+    const ConstrainedSet& set = answer.runner().deformer()->set();
+    const Eigen::Index n_fixed = std::ssize(set.fixed), n_moved = 3 * std::ssize(set.handles);
     std::size_t pulled = groups.empty() ? 0 : groups.size() - 1;
     if (asked_.size() != values.size()) return pulled;
     for (std::size_t g = 0; g < groups.size(); ++g) {
         const Eigen::Index begin = 3 * (groups[g].begin - n_fixed), size = 3 * (groups[g].end - groups[g].begin);
-        if (begin < 0 || begin + size > values.size()) continue;
+        if (begin < 0 || begin + size > n_moved) continue;  // a group that the set does not have yet
         if (values.segment(begin, size) != asked_.segment(begin, size)) pulled = g;
     }
     return pulled;
@@ -76,7 +77,8 @@ std::shared_ptr<const SectionRunner::Basis> SectionRunner::make_basis(const Embe
     Eigen::MatrixXd motions(values.size(), 0);
     const bool linear = deformer.linear();
     const bool fits = linear && group < groups.size() && groups[group].begin >= n_fixed &&
-                      groups[group].end > groups[group].begin && 3 * (groups[group].end - n_fixed) <= values.size() &&
+                      groups[group].end > groups[group].begin &&
+                      groups[group].end - n_fixed <= std::ssize(deformer.set().handles) &&
                       deformer.model().facts().n_degrees_of_freedom <= kManyUnknowns;
     if (fits) {
         const Eigen::Index first = groups[group].begin - n_fixed, n = groups[group].end - groups[group].begin;

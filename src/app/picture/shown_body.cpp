@@ -82,6 +82,7 @@ void ShownBody::update_reactions(const Sources& sources) {
     tractions_ = {};
     const ReactionRunner* known = sources.reactions;
     if (known == nullptr || known->surface() == nullptr || known->surface() != sources.answer.surface()) return;
+    if (!sources.answer.has_answer()) return;  // they are of what answered in its place
     tractions_ = answer_tractions(sources.answer, *known);
     reactions_ = shown_reactions(sources.scene, sources.answer, *known, positions_);
 }

@@ -36,9 +36,16 @@ struct Wanted {
 /// The rows of the vertices of a pack of consecutive triangles, from their pairs with themselves and all later ones.
 struct PackRows {
     int first = 0;  ///< position of its first triangle
-    std::vector<int> vertices;
-    /// Of each matrix: [vertex of the mesh][vertex of the pack][3 x 3 by rows]; those of earlier vertices are unset.
-    std::vector<Eigen::VectorXd> blocks;
+    std::vector<int> vertices = {};
+    std::size_t begin = 0;  ///< of its numbers in WaitingRows::numbers
+};
+
+/// Rows that wait to be added.
+struct WaitingRows {
+    std::vector<PackRows> packs;
+    /// Of each matrix, pack by pack: [vertex of the mesh][vertex of the pack][3 x 3 by rows]; those of vertices whose
+    /// triangles are all earlier are unset. All packs share one allocation: many small ones would have small pages.
+    std::vector<Eigen::VectorXd> numbers;
 };
 
 class HypersingularAssembly {
@@ -60,17 +67,16 @@ public:
         for (Wanted& wanted : wanted_) set_zero(wanted.matrix, control);
         const int n_packs = (n_ + integrals_.lanes() - 1) / integrals_.lanes();
         ZeroBuffers all_sums(kCurlNumbers * last_.size() * static_cast<std::size_t>(integrals_.lanes()));
-        std::vector<PackRows> memory(static_cast<std::size_t>(std::min(n_packs, packs_at_once())));
-        for (int first = 0; first < n_packs; first += static_cast<int>(memory.size())) {
-            const auto packs =
-                std::span(memory).first(std::min(memory.size(), static_cast<std::size_t>(n_packs - first)));
-            parallel_blocks(static_cast<int>(packs.size()), kPacksPerTask, control, [&](int begin, int end) {
+        WaitingRows rows;
+        rows.numbers.resize(wanted_.size());
+        for (int first = 0; first < n_packs; first += packs_at_once()) {
+            begin_rows(first, std::min(first + packs_at_once(), n_packs), rows);
+            parallel_blocks(static_cast<int>(rows.packs.size()), kPacksPerTask, control, [&](int begin, int end) {
                 std::vector<double> sums = all_sums.take();
-                for (int i = begin; i < end; ++i)
-                    make_rows((first + i) * integrals_.lanes(), sums, packs[static_cast<std::size_t>(i)]);
+                for (int i = begin; i < end; ++i) make_rows(rows.packs[static_cast<std::size_t>(i)], sums, rows);
                 all_sums.give_back(std::move(sums));
             });
-            for (std::size_t w = 0; w < wanted_.size(); ++w) add(packs, w, control);
+            for (std::size_t w = 0; w < wanted_.size(); ++w) add(rows, w, control);
         }
         for (Wanted& wanted : wanted_) add_transpose(wanted.matrix, control);
     }
@@ -93,24 +99,34 @@ private:
         return static_cast<int>(std::clamp<std::size_t>(kRowBytes / bytes, kLeastPacks, 4096));
     }
 
-    /// The pairs of the triangles from position `first` on with all from there on. `sums` are zero before and after.
-    void make_rows(int first, std::vector<double>& sums, PackRows& rows) const {
-        const int end = std::min(n_, first + integrals_.lanes());
-        rows.first = first;
-        rows.vertices.clear();
-        for (int position = first; position < end; ++position)
-            for (int k = 0; k < 3; ++k) rows.vertices.push_back(static_cast<int>(vertex(position, k)));
-        std::sort(rows.vertices.begin(), rows.vertices.end());
-        rows.vertices.erase(std::unique(rows.vertices.begin(), rows.vertices.end()), rows.vertices.end());
-        rows.blocks.resize(wanted_.size());
-        const auto n_numbers = static_cast<Eigen::Index>(9 * rows.vertices.size() * last_.size());
-        for (Eigen::VectorXd& blocks : rows.blocks)
-            if (blocks.size() < n_numbers) blocks.resize(n_numbers);
+    /// Which vertices the packs have rows of, and where; what rows held before is given up.
+    void begin_rows(int first_pack, int end_pack, WaitingRows& rows) const {
+        std::size_t n_numbers = 0;
+        rows.packs.clear();
+        for (int pack = first_pack; pack < end_pack; ++pack) {
+            PackRows own{.first = pack * integrals_.lanes(), .begin = n_numbers};
+            for (int position = own.first; position < end_of(own); ++position)
+                for (int k = 0; k < 3; ++k) own.vertices.push_back(static_cast<int>(vertex(position, k)));
+            std::sort(own.vertices.begin(), own.vertices.end());
+            own.vertices.erase(std::unique(own.vertices.begin(), own.vertices.end()), own.vertices.end());
+            n_numbers += 9 * own.vertices.size() * last_.size();
+            rows.packs.push_back(std::move(own));
+        }
+        for (Eigen::VectorXd& numbers : rows.numbers)
+            if (numbers.size() < static_cast<Eigen::Index>(n_numbers))
+                numbers.resize(static_cast<Eigen::Index>(n_numbers));
+    }
+
+    int end_of(const PackRows& pack) const { return std::min(n_, pack.first + integrals_.lanes()); }
+
+    /// The pairs of the pack's triangles with themselves and all later ones. `sums` are zero before and after.
+    void make_rows(const PackRows& own, std::vector<double>& sums, WaitingRows& rows) const {
+        const int first = own.first, end = end_of(own);
         const auto tests =
             std::span(order_).subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(end - first));
         const PairIntegrals::Pack pack = integrals_.pack(tests);
         for (int position = first; position < n_; ++position) add_field(pack, first, end, position, sums);
-        contract(pack, first, end, sums, rows);
+        contract(pack, own, sums, rows);
     }
 
     double* sums_of(std::vector<double>& sums, std::size_t vertex) const {
@@ -135,8 +151,8 @@ private:
         kernels_.add_curls(Q, kHypersingularFactors, curls, into);
     }
 
-    void contract(const PairIntegrals::Pack& pack, int first, int end, std::vector<double>& sums,
-                  PackRows& rows) const {
+    void contract(const PairIntegrals::Pack& pack, const PackRows& own, std::vector<double>& sums,
+                  WaitingRows& rows) const {
         const auto lanes = static_cast<std::size_t>(integrals_.lanes());
         double curls[9 * kMaxLanes];
         std::size_t row_of[3 * kMaxLanes];
@@ -146,18 +162,19 @@ private:
                 for (std::size_t i = 0; i < 3; ++i)
                     curls[(3 * k + i) * lanes + lane] = c(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
                 const int v = boundary_.mesh().triangles(static_cast<Eigen::Index>(k), pack.triangles[lane]);
-                const auto at = std::lower_bound(rows.vertices.begin(), rows.vertices.end(), v);
-                row_of[3 * lane + k] = static_cast<std::size_t>(at - rows.vertices.begin());
+                const auto at = std::lower_bound(own.vertices.begin(), own.vertices.end(), v);
+                row_of[3 * lane + k] = static_cast<std::size_t>(at - own.vertices.begin());
             }
         double blocks[27 * kMaxLanes];
+        const std::size_t n_own = own.vertices.size(), n_tests = static_cast<std::size_t>(end_of(own) - own.first);
         for (std::size_t b = 0; b < last_.size(); ++b) {
-            if (last_[b] < first) continue;
+            if (last_[b] < own.first) continue;
             for (std::size_t w = 0; w < wanted_.size(); ++w) {
                 const Factors& factors = wanted_[w].factors;
                 kernels_.contract_curls(factors.alpha, factors.beta, curls, sums_of(sums, b), blocks);
-                double* row = rows.blocks[w].data() + 9 * rows.vertices.size() * b;
-                std::fill(row, row + 9 * rows.vertices.size(), 0.0);
-                for (std::size_t lane = 0; lane < static_cast<std::size_t>(end - first); ++lane)
+                double* row = rows.numbers[w].data() + own.begin + 9 * n_own * b;
+                std::fill(row, row + 9 * n_own, 0.0);
+                for (std::size_t lane = 0; lane < n_tests; ++lane)
                     for (std::size_t k = 0; k < 3; ++k)
                         for (std::size_t i = 0; i < 9; ++i)
                             row[9 * row_of[3 * lane + k] + i] += blocks[(9 * k + i) * lanes + lane];
@@ -167,15 +184,15 @@ private:
     }
 
     /// Each column of a matrix takes the packs in their order.
-    void add(std::span<const PackRows> packs, std::size_t w, Control& control) const {
+    void add(const WaitingRows& rows, std::size_t w, Control& control) const {
         Eigen::Ref<Eigen::MatrixXd>& D = wanted_[w].matrix;
         parallel_blocks(static_cast<int>(last_.size()), 16, control, [&](int begin, int end) {
             for (int b = begin; b < end; ++b)
-                for (const PackRows& rows : packs) {
-                    if (last_[static_cast<std::size_t>(b)] < rows.first) continue;
+                for (const PackRows& pack : rows.packs) {
+                    if (last_[static_cast<std::size_t>(b)] < pack.first) continue;
                     const double* block =
-                        rows.blocks[w].data() + 9 * rows.vertices.size() * static_cast<std::size_t>(b);
-                    for (const int a : rows.vertices) {
+                        rows.numbers[w].data() + pack.begin + 9 * pack.vertices.size() * static_cast<std::size_t>(b);
+                    for (const int a : pack.vertices) {
                         for (int i = 0; i < 3; ++i)
                             for (int j = 0; j < 3; ++j) D(3 * a + i, 3 * b + j) += block[3 * i + j];
                         block += 9;

@@ -85,6 +85,7 @@ public:
         } catch (const Cancelled&) {
             return JobEvent::cancelled;
         } catch (const std::exception& error) {
+            if (ticket->control.cancelled()) return JobEvent::cancelled;  // nobody waits for it any more
             failure_ = user_text(error);
             return JobEvent::failed;
         }

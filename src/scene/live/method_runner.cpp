@@ -143,7 +143,13 @@ void MethodRunner::follow() {
     if (!exact) sets_.solve_on_worker();
     if (up_to_date_ && following_ != exact && same(seen_, sets_.wanted())) return;
     if (!exact && (sets_.crushed() || !set.drag || !set.drag->has(sets_.wanted_values()))) return;
-    set.drag->displace(sets_.wanted_values(), displacement_);
+    try {
+        set.drag->displace(sets_.wanted_values(), displacement_);
+    } catch (const std::exception& error) {  // loads that do not balance: the last answer stays
+        failure_ = user_text(error);
+        following_ = up_to_date_ = false;
+        return;
+    }
     following_ = !exact;
     if (exact) {
         failure_.clear();

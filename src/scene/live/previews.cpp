@@ -55,6 +55,10 @@ bool give_body(EmbeddedRunner& preview, MethodKind on_itself, MethodKind on_prox
     return true;
 }
 
+bool prepares_first_set(const MethodRunner& runner) {
+    return runner.state() == MethodRunner::State::preparing && !runner.has_set();
+}
+
 }  // namespace
 
 bool is_worth_a_preview(const LiveScene& scene) { return scene.mesh().n_vertices() > kFewestToPreview; }
@@ -92,13 +96,14 @@ bool Previews::update_finite(const LiveScene& scene, const ProxyKeeper& proxies,
     return finite_.version() != before;
 }
 
-bool Previews::preparing() const {
-    const auto prepares = [](const MethodRunner& runner) {
-        const MethodRunner::State state = runner.state();
-        return state == MethodRunner::State::precomputing ||
-               (state == MethodRunner::State::preparing && !runner.has_set());
+bool Previews::preparing() const { return hold_up_methods() || (has_linear_ && prepares_first_set(linear_.runner())); }
+
+bool Previews::hold_up_methods() const {
+    const auto precomputes = [](const MethodRunner& runner) {
+        return runner.state() == MethodRunner::State::precomputing;
     };
-    return (has_linear_ && prepares(linear_.runner())) || (finite_kind_ && prepares(finite_.runner()));
+    if (has_linear_ && precomputes(linear_.runner())) return true;
+    return finite_kind_ && (precomputes(finite_.runner()) || prepares_first_set(finite_.runner()));
 }
 
 void Previews::prefetch(const Constraints& constraints) {

@@ -44,6 +44,8 @@ public:
     bool any() const { return has_linear_ || finite_kind_ != nullptr; }
     /// One that is needed cannot answer yet, and will by itself.
     bool preparing() const;
+    /// The same, and what is on its way takes more than a moment, as a linear one's constrained set does not.
+    bool hold_up_methods() const;
 
     /// Constraints that may be asked for soon.
     void prefetch(const Constraints& constraints);

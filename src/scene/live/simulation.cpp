@@ -118,16 +118,24 @@ bool Simulation::give_body(Entry& entry, const LiveScene& scene, const MethodCho
 bool Simulation::update_method(Entry& entry, const LiveScene& scene, const MethodChoices& choices, bool may_begin) {
     EmbeddedRunner& runner = *entry.runner;
     const std::uint64_t before = runner.version();
+    const SurfaceMesh* surface = runner.surface();
     if (may_begin) give_body(entry, scene, choices);
-    if (runner.surface() == nullptr || runner.surface() != simulated_surface(entry.kind, scene)) {
-        runner.clear();  // its turn has not come yet
+    const bool has_body = runner.surface() != nullptr && runner.surface() == simulated_surface(entry.kind, scene);
+    if (!has_body || runner.surface() != surface) {
+        entry.preview_error.reset();
+        entry.replaced_preview = false;
+    }
+    if (!has_body) {
+        if (!may_begin) entry.unfit.clear();  // what is known is of a body before
+        runner.clear();                       // its turn has not come yet
         return runner.version() != before;
     }
-    // Two at a time would slow each other down, and the preview's set takes only a moment.
+    // Two sets at a time would slow each other down, and the preview's takes only a moment.
     entry.waits_for_preview = previews_.preparing();
     runner.runner().set_frame_rule(choices.frame_rule);
     runner.runner().set_may_hold_off(entry.kind == previews_.finite_kind() && preview(entry.kind).has_answer());
-    if (!entry.waits_for_preview) runner.set_constraints(scene.constraints());
+    // A model that is on its way is to be of these: those before may belong to another body.
+    if (!entry.waits_for_preview || runner.runner().precomputing()) runner.set_constraints(scene.constraints());
     runner.poll();
     return runner.version() != before;
 }
@@ -189,7 +197,7 @@ bool Simulation::update(const LiveScene& scene, const std::vector<MethodKind>& s
     const bool preview_changed = previews_.update_linear(scene, proxies_, choices.frame_rule);
     const MethodKind finite = previews_.finite_kind();
     const bool finite_changed = previews_.update_finite(scene, proxies_, finite ? &runner(finite) : nullptr);
-    bool waiting = previews_.any() && (proxies_.running() || previews_.preparing());
+    bool waiting = previews_.any() && (proxies_.running() || previews_.hold_up_methods());
     for (const MethodKind kind : shown) {
         Entry& present = entries_[place(kind)];
         changed = update_method(present, scene, choices, !waiting) || changed;

@@ -13,14 +13,29 @@ namespace elastolab {
 
 namespace {
 
-/// Interpolated between the first mesh that is fine enough and the next coarser one.
-double reach(const std::vector<double>& error, const std::vector<double>& quantity, double target) {
+/// What an error takes.
+struct Reach {
+    double seconds = std::numeric_limits<double>::quiet_NaN(), vertices = seconds;
+};
+
+/// Interpolated between the first mesh that is fine enough and the next coarser one; or that of a finer mesh, where
+/// this was ready sooner.
+Reach reach(const std::vector<double>& error, const std::vector<double>& seconds, const std::vector<double>& vertices,
+            double target) {
+    Reach best;
+    const auto take = [&](const Reach& other) {
+        if (!(best.seconds <= other.seconds)) best = other;
+    };
     for (std::size_t i = 0; i < error.size(); ++i) {
         if (!(error[i] <= target)) continue;
-        if (i == 0) return quantity[0];
-        return interpolate_log(std::vector{error[i - 1], error[i]}, std::vector{quantity[i - 1], quantity[i]}, target);
+        if (std::isnan(best.seconds) && i > 0) {
+            const std::vector<double> errors{error[i - 1], error[i]};
+            take({interpolate_log(errors, std::vector{seconds[i - 1], seconds[i]}, target),
+                  interpolate_log(errors, std::vector{vertices[i - 1], vertices[i]}, target)});
+        }
+        take({seconds[i], vertices[i]});
     }
-    return std::numeric_limits<double>::quiet_NaN();
+    return best;
 }
 
 }  // namespace
@@ -39,9 +54,9 @@ std::vector<FrontierPoint> frontier(const Table& table, const std::string& time,
                 for (const std::string& variant : refinement.values("variant")) {
                     const Table rows = refinement.where({{"problem", problem}, {"nu", nu}, {"variant", variant}});
                     const std::vector<double> error = rows.numbers(error_column);
-                    const double seconds = reach(error, rows.numbers(time), target);
-                    const double vertices = reach(error, rows.numbers("vertices"), target);
-                    if (std::isfinite(seconds)) points.push_back({problem, nu, variant, target, seconds, vertices});
+                    const Reach at = reach(error, rows.numbers(time), rows.numbers("vertices"), target);
+                    if (std::isfinite(at.seconds))
+                        points.push_back({problem, nu, variant, target, at.seconds, at.vertices});
                 }
     return points;
 }

@@ -7,9 +7,12 @@
 #include <iterator>
 #include <sstream>
 
+#include "app/files/export_source.hpp"
 #include "app/stage.hpp"
+#include "base/error.hpp"
 #include "bem/collocation/method.hpp"
 #include "fem/method.hpp"
+#include "methods/registry.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace elastolab {
@@ -73,6 +76,37 @@ TEST(Exports, OfFieldsAreWrittenOnAWorker) {
     stage.settle();
     EXPECT_EQ(n_errors(stage.state), 2);
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "none.vtu"));
+}
+
+/// A second handle is being prepared while the first one's answer is shown.
+TEST(Exports, OfAFigureWaitForTheAnswerToThePresentHandles) {
+    const TemporaryFolder folder;
+    Stage stage;
+    stage.state.choices.rims = 3;
+    Document document = test::cube_document_with_handle(6);
+    document.method = first_method();
+    stage.open(document);
+    stage.settle();
+    std::vector<int> below;
+    for (int v = 0; v < stage.scene().mesh().n_vertices(); ++v)
+        if (const Eigen::Vector3d x = stage.scene().mesh().vertices.col(v); x.z() == 0.0 && x.x() > 0.4 && x.x() < 0.9)
+            below.push_back(v);
+    stage.scene().add_handle(below);
+    stage.scene().commit();
+    stage.state.update_displacements();
+    Control control;
+    const auto source = [&] { return export_source(stage.scene(), stage.state.simulation.answer(document.method)); };
+    for (const char* file : {"pull.html", "pull.glb"}) {
+        try {
+            write_export(folder.path() / file, source(), control);
+            ADD_FAILURE() << file << " was written";
+        } catch (const Error& error) {
+            EXPECT_THAT(error.what(), HasSubstr("Wait until the method is ready"));
+        }
+    }
+    write_export(folder.path() / "u.csv", source(), control);
+    stage.settle();
+    EXPECT_NO_THROW(write_export(folder.path() / "pull.glb", source(), control));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "app/picture/view_point.hpp"
+#include "app/selection.hpp"
 #include "app/stage.hpp"
 #include "bem/collocation/method.hpp"
 #include "fem/method.hpp"
@@ -153,6 +154,15 @@ TEST(KeptSelection, OfAHandleComesThroughUndoAndRedo) {
     stage.state.undo();
     stage.state.undo();
     EXPECT_EQ(stage.state.gestures.selected_handle(), -1) << "it is not there any more";
+    stage.state.redo();
+    EXPECT_EQ(stage.state.gestures.selected_handle(), 1) << "as when it was made";
+    stage.state.remove_handle(0);
+    EXPECT_EQ(stage.state.gestures.selected_handle(), -1);
+    stage.state.undo();
+    EXPECT_EQ(selected_name(stage.state), stage.scene().handle_name(0)) << "it is there again";
+    stage.state.clear_handles();
+    stage.state.undo();
+    EXPECT_EQ(stage.state.gestures.selected_handle(), -1) << "which of the two is not known";
 }
 
 TEST(KeptSelection, OfALoadComesThroughUndoAndRedo) {
@@ -178,6 +188,12 @@ TEST(KeptSelection, OfALoadComesThroughUndoAndRedo) {
     EXPECT_EQ(stage.state.gestures.selected_load(), LiveScene::kGravity);
     stage.state.undo();
     EXPECT_FALSE(stage.state.gestures.selected_load()) << "it is not there any more";
+    stage.state.redo();
+    EXPECT_EQ(stage.state.gestures.selected_load(), LiveScene::kGravity) << "as when it was made";
+    stage.state.gestures.select_load(0);
+    stage.state.remove_load(0);
+    stage.state.undo();
+    EXPECT_EQ(stage.state.gestures.selected_load(), 0) << "it is there again";
 }
 
 TEST(KeptMethod, ABodyJustOpenedIsNotChangedWhateverMethodItBeginsWith) {

@@ -136,7 +136,8 @@ TEST(SceneFiles, ASceneSavedElsewhereStillFindsItsMesh) {
     stage.state.files.open_now(folder.path() / "a" / "box.obj");
     stage.state.files.save(folder.path() / "b" / "c" / "scene.json");
     stage.state.files.save(folder.path() / "scene.json");
-    for (const char* scene : {"b/c/scene.json", "scene.json"}) {
+    stage.state.files.save(folder.path() / "b" / "c" / ".." / ".." / "b" / "up.json");
+    for (const char* scene : {"b/c/scene.json", "scene.json", "b/up.json"}) {
         Stage other(2);
         other.state.files.open_now(folder.path() / scene);
         EXPECT_EQ(other.scene().mesh().n_vertices(), 26);

@@ -366,5 +366,19 @@ TEST(LoadArrows, AreComputedAnewOnlyWhenTheSetALoadOrThePositionsHaveChanged) {
     EXPECT_GT((arrow_of(stage, load).place - place).norm(), 0.01);
 }
 
+TEST(ForceTool, AfterAClickThatLoadsNothingDeleteRemovesTheHandle) {
+    Stage stage(3);
+    stage.drag(stage.pixel(stage.vertex_near({1, 0, 1})), stage.empty_place());
+    stage.settle();
+    ASSERT_EQ(stage.scene().n_handles(), 1);
+    stage.state.tools.tool = Tool::force;
+    stage.state.tools.patch_radius = 0.5;
+    stage.frame();
+    stage.click(stage.pixel(stage.vertex_near({1, 0, 0})));
+    ASSERT_EQ(stage.scene().n_loads(), 0);
+    remove_selection(stage.state);
+    EXPECT_EQ(stage.scene().n_handles(), 0);
+}
+
 }  // namespace
 }  // namespace elastolab::test

@@ -40,17 +40,23 @@ TEST(VectorText, ShowsRoundingAsZero) {
     EXPECT_EQ(vector_text({1e-20, 2e-20, 0.0}), "(1e-20, 2e-20, 0)");
 }
 
+/// A panel with one field, which takes the keys where `asks` says so.
+template <class Draw>
+auto panel_with(bool& asks, const Draw& draw_field) {
+    return [&asks, draw_field] {
+        ImGui::Begin("panel");
+        if (std::exchange(asks, false)) ImGui::SetKeyboardFocusHere();
+        draw_field();
+        ImGui::End();
+    };
+}
+
 TEST(Numbers, KeepTheirHiddenDigitsWhereTypingIsTakenBack) {
     constexpr double kExact = 324.33412345;
     BareGui gui;
     double value = kExact;
     bool asks = true;
-    const auto draw = [&] {
-        ImGui::Begin("panel");
-        if (std::exchange(asks, false)) ImGui::SetKeyboardFocusHere();
-        draw_numbers("force", &value, 1, "", 1.0f, 0.0);
-        ImGui::End();
-    };
+    const auto draw = panel_with(asks, [&] { draw_numbers("force", &value, 1, "", 1.0f, 0.0); });
     for (int i = 0; i < 3; ++i) gui.frame(draw);
     gui.type("9", draw);
     EXPECT_EQ(value, 9.0) << "what is typed counts at once";
@@ -61,6 +67,26 @@ TEST(Numbers, KeepTheirHiddenDigitsWhereTypingIsTakenBack) {
     gui.type("12.5", draw);
     gui.press(ImGuiKey_Enter, draw);
     EXPECT_EQ(value, 12.5);
+}
+
+TEST(Numbers, AreFiniteAndPositiveWhereTheyHaveToBe) {
+    BareGui gui;
+    double force = 1.0, stiffness = 2.0;
+    bool asks = true;
+    const auto type_into = [&](double& value, const char* text, const auto& draw) {
+        asks = true;
+        for (int i = 0; i < 3; ++i) gui.frame(draw);
+        gui.type(text, draw);
+        gui.press(ImGuiKey_Enter, draw);
+        return value;
+    };
+    const auto any = panel_with(asks, [&] { draw_numbers("force", &force, 1, "", 1.0f); });
+    EXPECT_EQ(type_into(force, "1e999", any), 1.0);
+    EXPECT_EQ(type_into(force, "-3", any), -3.0);
+    const auto positive = panel_with(asks, [&] { draw_positive_number("spring", stiffness, 1.0f); });
+    EXPECT_EQ(type_into(stiffness, "-3", positive), 2.0);
+    EXPECT_EQ(type_into(stiffness, "0", positive), 2.0);
+    EXPECT_EQ(type_into(stiffness, "0.5", positive), 0.5);
 }
 
 }  // namespace

@@ -262,6 +262,14 @@ TEST(RealPanel, AFixedSetIsBegunPaintedNamedAndAnotherRemoved) {
     window.drag(screen.pixel({0.25, 0.5, 1}), screen.pixel({0.75, 0.5, 1}));
     window.settle();
     window.type_into(kName, "clamp");
+    // Esc takes a stroke back.
+    window.move(screen.pixel({0.25, 0.25, 1}));
+    window.press();
+    window.move(screen.pixel({0.75, 0.25, 1}));
+    window.settle();
+    window.key("Escape");
+    window.release();
+    window.settle();
     window.click(kRemoveFirst);
     window.settle();
     ASSERT_EQ(window.quit().exit_code, 0);
@@ -285,7 +293,7 @@ TEST(RealPanel, AWarningDoesNotMoveWhatIsToBeClicked) {
     const Screen screen(folder.path() / "cube.json", {1000, 1000});
     RealWindow window({"cube.json", "--size", "1000x1000", "--scene-out", "out.json"}, folder.path());
     window.settle();
-    for (int i = 0; i < 20; ++i) window.key("bracketleft");
+    window.key("bracketleft", 20);
     const Eigen::Vector2d from = screen.pixel({0.75, 0.25, 1});
     window.drag(from, from + Eigen::Vector2d(20, -30));
     window.settle();
