@@ -21,7 +21,8 @@ struct Image {
 
 /// Throws Error when the file cannot be written; then what was there before is left alone.
 void write_png(const std::filesystem::path& path, const Image& image);
-/// Writes width x height pixels of `channels` bytes each, 3 or 4.
+/// Writes width x height pixels of `channels` bytes each, 3 or 4. Throws as write_png, and where they are more than 2
+/// GB.
 void write_png_channels(const std::filesystem::path& path, int width, int height, int channels,
                         const std::uint8_t* pixels);
 

@@ -27,6 +27,7 @@ TEST(Image, ComesBackFromItsPngUnchanged) {
 TEST(Image, SaysWhenItCannotBeWritten) {
     const test::TemporaryFolder folder;
     EXPECT_THROW(write_png(folder.path() / "none" / "a.png", {1, 1, {0, 0, 0}}), Error);
+    EXPECT_THROW(write_png_channels(folder.path() / "a.png", 32768, 32768, 4, nullptr), Error) << "4 GB of pixels";
     EXPECT_TRUE(folder.listing().empty());
 }
 
