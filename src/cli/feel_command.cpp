@@ -155,7 +155,6 @@ FeltHandle make_felt_handle(const FeelOptions& options, const Document& document
     require_material(document.material, document.method, options.scene);
     const auto surface = std::make_shared<const SurfaceMesh>(mesh.checked.mesh);
     const Constraints shown = make_constraints(document, *surface, options.scene);
-    require_balance(document, shown, *surface, options.scene);
     const std::size_t felt = find_handle(shown, options.handle, options.scene);
     require_no_other_force(shown, felt, options.scene);
 
@@ -171,6 +170,7 @@ FeltHandle make_felt_handle(const FeelOptions& options, const Document& document
         require_usable(mesh, document.method);
     }
     const Constraints& constraints = carried ? carried->constraints() : shown;
+    require_balance(document, constraints, *body.surface, options.scene);
     const auto [begin, end] = constraints.range_of(felt);
     if (begin == end)
         throw Error(options.scene +

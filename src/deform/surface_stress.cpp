@@ -85,7 +85,7 @@ Eigen::Matrix3d large_stress(const Material& material, const TriangleState& at) 
     Eigen::Vector3d d = cross / cross.squaredNorm() - N;
     for (int i = 0; i < kIterations; ++i) {
         const Eigen::Vector3d force = law.first_piola(gradient(d)) * N - at.traction;
-        if (force.norm() <= kTolerance * law.mu) break;
+        if (force.stableNorm() <= kTolerance * law.mu) break;
         const ElasticTensor A = law.tangent(gradient(d));
         Eigen::Matrix3d K = Eigen::Matrix3d::Zero();
         for (int j = 0; j < 3; ++j)
@@ -115,7 +115,7 @@ void for_triangle_stresses(const SurfaceMesh& surface, const Material& material,
         changes << moved.col(t[1]) - moved.col(t[0]), moved.col(t[2]) - moved.col(t[0]);
         at.gradient = changes * (at.axes.leftCols<2>().transpose() * edges).inverse();
         const Eigen::Matrix3d at_corners = tractions(Eigen::all, t);
-        const bool loaded = (at_corners.colwise().squaredNorm().array() > 0.0).all();
+        const bool loaded = (at_corners.array().abs() > 0.0).colwise().any().all();  // squares may underflow
         if (loaded) at.traction = at_corners.rowwise().mean();
         if (of_loads.cols() > 0) at.traction += of_loads.col(k);
         each(t, 0.5 * a.cross(b).norm(), large ? large_stress(material, at) : small_stress(material, at));

@@ -173,7 +173,7 @@ NodalField::Place NodalField::place_of(const Eigen::Vector3d& point) const {
     Place best;
     double least = -std::numeric_limits<double>::infinity();
     // For a point between the rounded faces of two tetrahedra, or outside: the one that it is least outside of.
-    for (double reach = 1e-6 * edge_; std::isinf(least); reach *= 8.0)
+    for (double reach = 1e-6 * edge_; best.tetrahedron < 0 && std::isfinite(reach); reach *= 8.0)
         boxes_.for_each_near(
             point, [&](double) { return least >= -kOnFace ? -1.0 : reach; },
             [&](int t) {
@@ -181,10 +181,11 @@ NodalField::Place NodalField::place_of(const Eigen::Vector3d& point) const {
                 weights.tail<3>() =
                     edges_of(*tets_, t).inverse() * (point - tets_->vertices.col(tets_->tetrahedra(0, t)));
                 weights[0] = 1.0 - weights.tail<3>().sum();
-                if (weights.minCoeff() <= least) return;
+                if (best.tetrahedron >= 0 && !(weights.minCoeff() > least)) return;
                 least = weights.minCoeff();
                 best = {t, weights};
             });
+    if (best.tetrahedron < 0) best = {0, Eigen::Vector4d::Ones()};  // farther away than numbers reach
     best.weights = best.weights.cwiseMax(0.0);
     best.weights /= best.weights.sum();
     return best;

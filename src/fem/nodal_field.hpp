@@ -27,7 +27,7 @@ public:
 
 private:
     struct Place {
-        int tetrahedron = 0;
+        int tetrahedron = -1;
         Eigen::Vector4d weights = Eigen::Vector4d::Zero();  ///< of its corners, not negative, adding up to 1
     };
     Place place_of(const Eigen::Vector3d& point) const;

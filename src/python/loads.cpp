@@ -37,7 +37,8 @@ struct SurfaceLoad {
 
     bool is_for(const std::shared_ptr<const SurfaceMesh>& body) const {
         return !surface || surface == body ||
-               (surface->vertices == body->vertices && surface->triangles == body->triangles);
+               (surface->n_vertices() == body->n_vertices() && surface->n_triangles() == body->n_triangles() &&
+                surface->vertices == body->vertices && surface->triangles == body->triangles);
     }
 };
 

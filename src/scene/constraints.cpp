@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/overloaded.hpp"
+#include "mesh/measures.hpp"
 #include "scene/scene_failure.hpp"
 #include "scene/selectors.hpp"
 
@@ -103,10 +104,20 @@ private:
         for (const AppliedLoad& other : result_.loads)
             if (other.name == name) fail_named_twice("/loads", name);
         if (triangles.empty()) return;
+        if (!has_area(triangles)) {
+            if (loaded_ == ConstrainedTriangles::left_out) return;
+            fail_at(scene_file_, path + "/select",
+                    "selects triangles without area, on which no load acts. Select others.");
+        }
         apply({.name = name,
                .kind = static_cast<AppliedLoad::Kind>(1 + load.value.index()),
                .triangles = std::move(triangles),
                .number = static_cast<int>(i)});
+    }
+
+    bool has_area(const std::vector<int>& triangles) const {
+        return std::any_of(triangles.begin(), triangles.end(),
+                           [&](int t) { return area_vector(triangle_points(mesh_, t)).stableNorm() > 0.0; });
     }
 
     void apply(AppliedLoad load) {

@@ -20,6 +20,7 @@
 #include "scene/balance.hpp"
 #include "scene/linear_theory.hpp"
 #include "scene/proxy/carried_constraints.hpp"
+#include "scene/scene_failure.hpp"
 #include "scene/scene_mesh.hpp"
 #include "scene/wish.hpp"
 
@@ -271,6 +272,18 @@ void gauge(const SceneMesh& mesh, const Constraints& shown, const Constraints& s
     }
 }
 
+/// On a proxy a handle may be left without a vertex, where others have those nearby: its force would act on nothing.
+void require_held_by_handles(const SolveRequest& request, const Constraints& constraints) {
+    for (std::size_t h = 0; h < request.document.handles.size(); ++h) {
+        const auto [begin, end] = constraints.range_of(h);
+        if (begin != end || !request.document.handles[h].force) continue;
+        fail_at(
+            request.scene_file, "/handles/" + std::to_string(h),
+            "is smaller than the proxy's triangles, and others hold the vertices there, so that its force would act "
+            "on nothing. Ask for more proxy vertices.");
+    }
+}
+
 void carry_back(const CarriedConstraints& carried, Solution& solution) {
     const Eigen::VectorXd u = carried.displacement(solution.displacement.reshaped());
     solution.displacement = Eigen::Map<const Eigen::Matrix3Xd>(u.data(), 3, u.size() / 3);
@@ -322,6 +335,7 @@ Solution solve(const SolveRequest& request, Control& control) {
     std::optional<CarriedConstraints> carried;
     if (solution.proxy) carried.emplace(solution.proxy).set(shown);
     Constraints constraints = carried ? carried->constraints() : shown;
+    require_held_by_handles(request, constraints);
     require_balance(request.document, constraints, *body.surface, request.scene_file);
     solution.n_constrained = static_cast<int>(shown.set.fixed.size() + shown.set.handles.size());
     if (solution.n_constrained == 0 && shown.loads.empty())

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "cli/solve_case.hpp"
+#include "mesh/input/export.hpp"
+#include "mesh/primitives.hpp"
 
 namespace elastolab {
 namespace {
@@ -64,6 +66,23 @@ TEST_F(FeelTest, TakesTheProxyOfTheScene) {
     const double own = felt("0.1,0,0,0,0,0")[0];
     write_scene(R"("translate": [0.1, 0, 0])", R"("proxy": {"use": "always", "vertices": 80}, )");
     EXPECT_GT(std::abs(felt("0.1,0,0,0,0,0")[0] / own - 1.0), 1e-4);
+}
+
+/// What balances is the proxy around both cubes, of which one is held: the other one by itself is not.
+TEST_F(FeelTest, TakesPartsThatOverlapAsSolveDoes) {
+    const SurfaceMesh one = make_box(3);
+    SurfaceMesh both{Positions(3, 2 * one.n_vertices()), Triangles(3, 2 * one.n_triangles())};
+    both.vertices << one.vertices, one.vertices.colwise() + Eigen::Vector3d(0.5, 0.3, 0.2);
+    both.triangles << one.triangles, one.triangles.array() + one.n_vertices();
+    save_surface(file("both.obj"), both);
+    folder_.write("both.json", R"({"elastolab": 1, "mesh": {"file": "both.obj"}, "method": "fem",
+        "fixed": {"plane": {"point": [0, 0, 0], "normal": [1, 0, 0], "tolerance": 1e-9}},
+        "gravity": [0, 0, -1e-3], "density": 1,
+        "handles": [{"name": "end", "select": {"box": {"min": [1.45, -9, -9], "max": [2, 9, 9]}}, "translate": [0, 0, 0]}]})");
+    const ProgramRun solved = run_program({"solve", "both.json", "--quiet"}, folder_.path());
+    EXPECT_EQ(solved.exit_code, 0) << solved.err;
+    const ProgramRun felt = run_program({"feel", "both.json", "--seconds", "0.05"}, folder_.path());
+    EXPECT_EQ(felt.exit_code, 0) << felt.err;
 }
 
 TEST_F(FeelTest, ReadsPathsWithAndWithoutHeadings) {

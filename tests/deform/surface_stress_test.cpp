@@ -95,5 +95,22 @@ TEST(SurfaceStress, ARotationMakesNone) {
     EXPECT_LT(stress.maxCoeff(), 1e-12 * kRubber.young_modulus);
 }
 
+/// Of a modulus whose squares are less than numbers can be.
+TEST(SurfaceStress, DoesNotDependOnTheUnitOfForce) {
+    constexpr double kUnit = 0x1p-560;
+    const SurfaceMesh cube = make_box(2);
+    const Material tiny{kUnit * kRubber.young_modulus, kRubber.poisson_ratio};
+    const Eigen::Matrix3d gradient = (Eigen::Matrix3d() << 0.1, 0.05, 0, -0.02, -0.05, 0.03, 0.04, 0, 0.02).finished();
+    const Eigen::Matrix3Xd u = gradient * cube.vertices;
+    const Eigen::Matrix3Xd tractions =
+        0.05 * kRubber.young_modulus * (cube.vertices.colwise() + Eigen::Vector3d(0.3, 0.2, 0.1));
+    const Eigen::Map<const Eigen::VectorXd> all(u.data(), u.size());
+    for (const bool large : {false, true}) {
+        const Eigen::MatrixXd stress = surface_stress(cube, kRubber, all, tractions, large);
+        const Eigen::MatrixXd scaled = surface_stress(cube, tiny, all, kUnit * tractions, large) / kUnit;
+        EXPECT_LT((scaled - stress).cwiseAbs().maxCoeff(), 1e-9 * stress.cwiseAbs().maxCoeff()) << large;
+    }
+}
+
 }  // namespace
 }  // namespace elastolab

@@ -225,6 +225,20 @@ TEST(InteriorField, IsExactForLinearFieldsUpToTheSurface) {
     }
 }
 
+/// Points that are farther away than a product of numbers reaches.
+TEST(InteriorField, EndsForPointsOutOfReach) {
+    const SurfaceMesh mesh = make_box(2);
+    const UniaxialStretch stretch{kMaterial, 0.7};
+    const Problem p = problem(
+        "stretch", stretch, [&](int) { return mesh; }, [](const Eigen::Vector3d& x) { return x[0] < kEdge; }, {}, {});
+    Positions far(3, 4);
+    far << 1e308, 0, -1e300, 1e154, 0, 1e308, 1e300, 0, 0, 0, 1e300, -1e154;
+    Control control;
+    for (const MethodKind kind : {kFem, kQuadraticFem})
+        EXPECT_EQ(field_inside(p, mesh, make_method(kind))->at(far, control).displacements.rows(), far.size())
+            << name(kind);
+}
+
 /// Two solids, far from the origin and in another unit of length, of which only the second is pulled.
 TEST(InteriorField, FollowsEachSolidByItself) {
     const SurfaceMesh one = make_box(2);

@@ -7,6 +7,8 @@
 #include "base/lapack.hpp"
 #include "bem/collocation/method.hpp"
 #include "bem/galerkin/method.hpp"
+#include "fem/method.hpp"
+#include "findings/words.hpp"
 #include "mesh/primitives.hpp"
 #include "methods/precompute.hpp"
 #include "methods/problem.hpp"
@@ -210,6 +212,22 @@ TEST(OnDemandMode, SolvesAnIncompressibleBodyByConstantElements) {
     };
     const Eigen::VectorXd near = displacements(0.4999), at = displacements(0.5);
     EXPECT_LT((near - at).norm(), 1e-3 * at.norm());
+}
+
+/// What is found in a surface has the name of the method, and is not the same for all of them.
+TEST(PrecomputeAgain, ByAnotherMethodFindsWhatAFreshModelFinds) {
+    Control control;
+    const Body needle = make_body(make_box(1, {30, 1, 1}), {1.0, 0.3});
+    for (const MethodKind from : {kLinearBem, kConstantBem, kGalerkinBem, kFem})
+        for (const MethodKind to : {kLinearBem, kConstantBem, kGalerkinBem, kFem}) {
+            const auto first = precompute(needle, make_method(from), control);
+            const auto again = precompute_again(*first, needle.material, make_method(to), control);
+            const auto fresh = precompute(needle, make_method(to), control);
+            std::vector<std::string> found, expected;
+            for (const Finding& finding : again->facts().surface_findings) found.push_back(words(finding));
+            for (const Finding& finding : fresh->facts().surface_findings) expected.push_back(words(finding));
+            EXPECT_EQ(found, expected) << name(from) << " to " << name(to);
+        }
 }
 
 }  // namespace

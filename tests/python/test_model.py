@@ -179,6 +179,12 @@ def test_wrong_loads_are_named():
     with pytest.raises(ValueError, match="loads: load 1 is made for another surface"):
         model.constrain(fixed=[0, 1, 2], loads=[el.Load.body_force([1, 0, 0]), el.Load.pressure(fine, [4], 1.0)])
     model.constrain(fixed=[0, 1, 2], loads=[el.Load.pressure(el.Surface.primitive("cube", 2), [4], 1.0)])
+    shift = [4, 0, 0]  # this cube first, and another one
+    two = el.Surface(
+        np.vstack([cube.vertices, cube.vertices + shift]), np.vstack([cube.triangles, cube.triangles + len(cube.vertices)])
+    )
+    with pytest.raises(ValueError, match="loads: load 0 is made for another surface"):
+        el.precompute(two, method="fem").constrain(fixed=[0, 1, 2], loads=[el.Load.pressure(cube, [4], 1.0)])
     with pytest.raises(TypeError, match="loads: has an item that is no Load"):
         model.constrain(fixed=[0, 1, 2], loads=[1])
     with pytest.raises(ValueError, match="all vertices of triangle 0 are constrained"):

@@ -205,5 +205,43 @@ TEST(SceneLoads, OfASheetActOnce) {
     }
 }
 
+TEST(SceneLoads, OnTrianglesWithoutAreaAreRefused) {
+    const TemporaryFolder folder;
+    SurfaceMesh mesh = make_box(2);
+    const int n = mesh.n_vertices(), n_triangles = mesh.n_triangles();
+    mesh.vertices.conservativeResize(3, n + 3);
+    mesh.vertices.rightCols<3>() << 2, 3, 4, 0, 0, 0, 0, 0, 0;
+    mesh.triangles.conservativeResize(3, n_triangles + 1);
+    mesh.triangles.col(n_triangles) << n, n + 1, n + 2;
+    save_surface(folder.path() / "needle.obj", mesh);
+    const Selector needle = {BoxSelector{{1.5, -1, -1}, {5, 1, 1}}}, side = {PlaneSelector{{0, 0, 0}, {1, 0, 0}, 1e-9}};
+    for (const LoadValue& load :
+         {LoadValue{ForceLoad{{1, 0, 0}}}, LoadValue{TractionLoad{{1, 0, 0}}}, LoadValue{PressureLoad{1.0}}})
+        EXPECT_THAT(refusal_of(document_of(folder.path() / "needle.obj", load, needle, side)),
+                    AllOf(StartsWith("scene.json: /loads/0/select: "), HasSubstr("without area")));
+}
+
+/// Its neighbours have all vertices of the coarse proxy.
+TEST(SceneLoads, OfAHandleThatTheProxyHasNoVertexForAreRefused) {
+    const SurfaceMesh sphere = make_sphere(14);
+    int top = 0;
+    for (int v = 0; v < sphere.n_vertices(); ++v)
+        if (sphere.vertices(2, v) > sphere.vertices(2, top)) top = v;
+    std::vector<int> around;
+    for (int v = 0; v < sphere.n_vertices(); ++v)
+        if (v != top && (sphere.vertices.col(v) - sphere.vertices.col(top)).norm() < 0.8) around.push_back(v);
+    Document document;
+    document.mesh = Primitive{.name = "sphere", .resolution = 14, .size = {}};
+    document.material = {1e3, 0.3};
+    document.fixed = {{.select = {BoxSelector{{-2, -2, -2}, {2, 2, -0.7}}}}};
+    document.handles = {{.name = "around", .select = {VertexSelector{around}}, .motion = AffineMotion{}},
+                        {.name = "top", .select = {VertexSelector{{top}}}, .motion = AffineMotion{}}};
+    document.proxy = {.use = ProxyUse::always, .n_vertices = 60};
+    EXPECT_EQ(refusal_of(document), "no complaint");
+    document.handles[1].force = GripForce{{0, 0, 5}, {0, 0, 0}};
+    EXPECT_THAT(refusal_of(document),
+                AllOf(StartsWith("scene.json: /handles/1: "), HasSubstr("Ask for more proxy vertices")));
+}
+
 }  // namespace
 }  // namespace elastolab

@@ -56,7 +56,7 @@ RecycledSolutions::Columns RecycledSolutions::combine(const Eigen::MatrixXd& rig
 
 RecycledSolutions::Columns RecycledSolutions::Kept::combine(const Eigen::MatrixXd& sides, const Columns& columns,
                                                             Eigen::MatrixXd& answers) const {
-    if (columns.empty()) return {};
+    if (columns.empty() || right_hand_sides.cols() == 0) return columns;  // nothing is kept of too many at once
     const Eigen::MatrixXd wanted = sides(Eigen::all, columns);
     const Eigen::MatrixXd shares = solve_minimum_norm(right_hand_sides, wanted, kCombined).X;
     const Eigen::MatrixXd missed = right_hand_sides * shares - wanted;

@@ -101,7 +101,8 @@ void write_glb(std::ostream& out, const Figure& figure) {
                        0.0);
     const Json primitive = {
         {"attributes", {{"POSITION", position}}}, {"indices", corners}, {"mode", 4}, {"targets", targets}};
-    const auto upright = Eigen::Quaterniond::FromTwoVectors(figure.vertical, Eigen::Vector3d::UnitY());
+    const auto upright =
+        Eigen::Quaterniond::FromTwoVectors(figure.vertical.stableNormalized(), Eigen::Vector3d::UnitY());
     const Eigen::Vector3d place = upright * origin;
     const Json node = {{"mesh", 0},
                        {"name", figure.title},

@@ -118,7 +118,7 @@ std::vector<int> carried_triangles(const Proxy& proxy, const std::vector<int>& s
         all.push_back(static_cast<int>(t));
         if (faces_alike) alike.push_back(static_cast<int>(t));
     }
-    if (area_of(*proxy.surface, alike) >= kMostOfArea * area_of(*proxy.shown, shown)) return alike;
+    if (!alike.empty() && area_of(*proxy.surface, alike) >= kMostOfArea * area_of(*proxy.shown, shown)) return alike;
     if (all.empty()) all.push_back(ClosestPoint(*proxy.surface)(middle).triangle);
     return all;
 }

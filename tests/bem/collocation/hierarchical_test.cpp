@@ -270,6 +270,24 @@ TEST(RecycledSolutions, ACombinationOfRightHandSidesIsNotComputed) {
     EXPECT_EQ(computed, 4) << "three answers span all questions";
 }
 
+TEST(RecycledSolutions, OfManyAtOnceNoneIsKept) {
+    constexpr int kMany = 40;
+    RecycledSolutions kept;
+    int computed = 0;
+    const auto twice = [&](const Eigen::MatrixXd& questions, const Eigen::MatrixXd&) -> Eigen::MatrixXd {
+        computed += static_cast<int>(questions.cols());
+        return 2.0 * questions;
+    };
+    const Eigen::MatrixXd many = Eigen::MatrixXd::Identity(kMany, kMany);
+    EXPECT_EQ(kept.get(many, kMany, 1e-8, twice), 2.0 * many);
+    const Eigen::VectorXd one = many.col(3), other = many.col(4);
+    EXPECT_EQ(kept.get(one, kMany, 1e-8, twice), 2.0 * one);
+    EXPECT_EQ(computed, kMany + 1);
+    EXPECT_LT((kept.get(-one, kMany, 1e-8, twice) + 2.0 * one).norm(), 1e-12) << "is known";
+    EXPECT_EQ(computed, kMany + 1);
+    EXPECT_EQ(kept.get(other, kMany, 1e-8, twice), 2.0 * other);
+}
+
 TEST(RecycledSolutions, NearlyParallelRightHandSidesDoNotAmplifyErrors) {
     constexpr double kTolerance = 1e-8;
     for (const double angle : {1e-2, 1e-4, 1e-6}) {
