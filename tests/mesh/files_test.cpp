@@ -11,8 +11,8 @@
 #include "mesh/checks/check.hpp"
 #include "mesh/input/export.hpp"
 #include "mesh/input/import.hpp"
-#include "mesh/measures.hpp"
 #include "mesh/input/merge.hpp"
+#include "mesh/measures.hpp"
 #include "mesh/primitives.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -147,6 +147,25 @@ TEST(Export, RefusesOtherFormatsAndLeavesNothingBehind) {
     save_surface(folder.path() / "old.obj", mesh);
     EXPECT_THAT(folder.listing(), testing::ElementsAre("old.obj"));
     EXPECT_THAT(read_text(folder.path() / "old.obj"), testing::StartsWith("v 0 0 0"));
+}
+
+/// Blanks and line ends may stand anywhere, and normals may be none.
+TEST(Files, TextStlIsReadHoweverItIsBroken) {
+    const TemporaryFolder folder;
+    const std::string corners = "vertex 0 0 0 vertex 1 0 0\nvertex 0 1 0";
+    for (const char* normal : {"normal 0 0 1", "normal\n0 0\n1", "", "normal -1.#IND nan nan", "normal 0 0 1 and more"})
+        for (const char* between : {"\n", " "}) {
+            const auto file = folder.write("a.stl", std::string("solid a\nfacet ") + normal + between + "outer loop\n" +
+                                                        corners + "\nendloop endfacet\nendsolid a\n");
+            EXPECT_EQ(load_surface(file).n_triangles(), 1) << normal << between;
+        }
+    const auto damaged = folder.write("b.stl", "solid a\nfacet normal 0 0 1\nloop\n" + corners + "\nendloop\n");
+    try {
+        load_surface(damaged);
+        ADD_FAILURE() << "was read";
+    } catch (const MeshError& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("line 3: 'loop' stands where 'outer' should"));
+    }
 }
 
 TEST(Files, StlRefusesWhatSinglePrecisionCannotHold) {

@@ -83,14 +83,27 @@ private:
     void read_solid() {
         for (std::string key = next(); key != "endsolid"; key = next()) {
             if (key != "facet") refuse_damaged(found(key, "endsolid"));
-            words_.skip_line();  // its normal, which its corners say better
             read_facet();
         }
         words_.skip_line();
     }
 
+    /// Goes behind "outer". The normal before it is said better by the corners, and may be anything on its line; it may
+    /// go on in the next one.
+    void skip_normal() {
+        std::string word;
+        do {
+            word = lower_case(words_.next_in_line());
+        } while (!word.empty() && word != "outer");
+        while (word.empty() || to_double(word)) {
+            word = next();
+            if (word.empty()) break;
+        }
+        if (word != "outer") refuse_damaged(found(word, "outer"));
+    }
+
     void read_facet() {
-        require("outer");
+        skip_normal();
         require("loop");
         for (std::string key = next(); key != "endloop"; key = next()) {
             if (key != "vertex") refuse_damaged(found(key, "endloop"));
