@@ -273,7 +273,7 @@ void gauge(const SceneMesh& mesh, const Constraints& shown, const Constraints& s
 }
 
 /// On a proxy a handle may be left without a vertex, where others have those nearby: its force would act on nothing.
-void require_held_by_handles(const SolveRequest& request, const Constraints& constraints) {
+void require_vertices_for_forces(const SolveRequest& request, const Constraints& constraints) {
     for (std::size_t h = 0; h < request.document.handles.size(); ++h) {
         const auto [begin, end] = constraints.range_of(h);
         if (begin != end || !request.document.handles[h].force) continue;
@@ -335,7 +335,7 @@ Solution solve(const SolveRequest& request, Control& control) {
     std::optional<CarriedConstraints> carried;
     if (solution.proxy) carried.emplace(solution.proxy).set(shown);
     Constraints constraints = carried ? carried->constraints() : shown;
-    require_held_by_handles(request, constraints);
+    require_vertices_for_forces(request, constraints);
     require_balance(request.document, constraints, *body.surface, request.scene_file);
     solution.n_constrained = static_cast<int>(shown.set.fixed.size() + shown.set.handles.size());
     if (solution.n_constrained == 0 && shown.loads.empty())

@@ -70,10 +70,11 @@ SolvedBody solved_body(const ExportSource& source, Control& control) {
 bool takes_solves(const fs::path& file) { return is_field_file(file) || is_figure_file(file) || is_glb_file(file); }
 
 void write_export(const fs::path& file, const ExportSource& source, Control& control) {
+    const bool is_figure = source.deformer && (is_figure_file(file) || is_glb_file(file));
+    if (is_figure && !source.of_present_set)
+        throw Error(file.string() + ": the present handles have no answer yet. Wait until the method is ready.");
     if (!source.converged) return write_export(file, converged(source, control), control);
-    if (source.deformer && (is_figure_file(file) || is_glb_file(file))) {
-        if (!source.of_present_set)
-            throw Error(file.string() + ": the present handles have no answer yet. Wait until the method is ready.");
+    if (is_figure) {
         const std::string why = figure_refusal(source.deformer->model().method().kind,
                                                pulled_handles(source.deformer->set(), source.groups).size());
         if (!why.empty()) throw Error(file.string() + ": " + why);
