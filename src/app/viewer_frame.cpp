@@ -78,7 +78,8 @@ std::vector<InputEvent> ViewerSession::events_for_scene(std::vector<InputEvent> 
 DrawingDetail ViewerSession::detail_at(double now, double pixel_ratio) {
     if (nobody_watches()) return {};
     if (std::exchange(detailed_scene_, state_.scene_number()) != state_.scene_number()) detail_.forget();
-    return detail_.choose(hurries() || renderer_.has_moved(state_, palette(), pixel_ratio), now);
+    const bool moves = hurries() || renderer_.has_moved(state_, palette(), pixel_ratio);
+    return detail_.choose(moves, now, !workers_compute());
 }
 
 void ViewerSession::arrange(const Layout& layout) {

@@ -27,7 +27,7 @@ const std::array<DrawingDetail, DetailKeeper::kLevels>& DetailKeeper::levels() {
     return all;
 }
 
-const DrawingDetail& DetailKeeper::choose(bool moved, double now) {
+const DrawingDetail& DetailKeeper::choose(bool moved, double now, bool may_try) {
     if (is_first_) {
         rest_since_ = now;
         shown_ = while_moving_ = kFirstLevel;
@@ -35,7 +35,7 @@ const DrawingDetail& DetailKeeper::choose(bool moved, double now) {
         const bool begins = now - rest_since_ > kRestSeconds;
         rest_since_ = now;
         const double cost = cost_[while_moving_];
-        const bool may_be_quick = cost_[0] == 0.0 && cost > 0.0 && cost <= kQuickSeconds;
+        const bool may_be_quick = may_try && cost_[0] == 0.0 && cost > 0.0 && cost <= kQuickSeconds;
         const bool is_quick = begins && cost_[0] > 0.0 && cost_[0] <= kSlowSeconds;
         if (may_be_quick || is_quick) while_moving_ = 0;
         if (!begins) while_moving_ = std::min(kLevels - 1, while_moving_ + steps(cost_[while_moving_]));

@@ -23,8 +23,9 @@ class DetailKeeper {
 public:
     static constexpr double kSlowSeconds = 0.05, kRestSeconds = 0.35;
 
-    /// For the picture that is drawn at `now` [s]. moved: it shows something else than the last one.
-    const DrawingDetail& choose(bool moved, double now);
+    /// For the picture that is drawn at `now` [s]. moved: it shows something else than the last one. may_try: a moving
+    /// picture may have a detail that nobody has seen the cost of, as its shaders are compiled by cores that compute.
+    const DrawingDetail& choose(bool moved, double now, bool may_try = true);
     /// What the picture that was chosen last took.
     void took(double seconds);
     /// When the picture with all detail is due, from now [s]; < 0: it is shown already.

@@ -18,9 +18,9 @@ struct Screen {
         return full_seconds * (detail.soft_shadows ? 1.0 : 0.6) * (detail.samples == 1 ? 0.5 : 1.0) *
                (detail.wireframe ? 1.0 : 0.5) * (detail.all_triangles ? 1.0 : triangles) * detail.resolution;
     }
-    DrawingDetail frame(bool moved) {
+    DrawingDetail frame(bool moved, bool may_try = true) {
         now += kStep;
-        const DrawingDetail detail = keeper.choose(moved, now);
+        const DrawingDetail detail = keeper.choose(moved, now, may_try);
         keeper.took(cost(detail));
         now += cost(detail);
         return detail;
@@ -50,6 +50,14 @@ TEST(DetailKeeper, LeavesOutAsMuchAsItMustWhileSomethingMovesAndNothingAtRest) {
         // The next motion begins as the last one ended.
         EXPECT_EQ(screen.frame(true), moving);
     }
+}
+
+/// Shaders of software OpenGL take a third of a second of the cores that compute the answer which is waited for.
+TEST(DetailKeeper, TriesNothingNewWhileSomethingElseIsComputed) {
+    Screen screen{.full_seconds = 0.02};
+    for (int i = 0; i < 5; ++i) EXPECT_FALSE(screen.frame(true, false).soft_shadows);
+    EXPECT_EQ(screen.frame(true, true), DrawingDetail{});
+    EXPECT_EQ(screen.frame(true, false), DrawingDetail{}) << "its cost is known";
 }
 
 /// Whoever waits a second for a picture does not wait for six of them until it is quick.
