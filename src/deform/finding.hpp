@@ -38,6 +38,7 @@ enum class FindingKind {
     linear_theory,         ///< how far linear theory is off, over the largest displacement; infinite: no equilibrium
     unstable_equilibrium,  ///< an equilibrium that the least push makes the body leave
     thin_sheets,           ///< sheets of the mesh `object`, with `first` openings, became walls; their thickness
+    idle_handle,           ///< the handle `object` has no vertex of the proxy, as others hold those near it
     narrow_openings,       ///< how many openings of the mesh `object` a proxy closes though they were to stay open
 };
 

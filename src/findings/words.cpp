@@ -220,6 +220,10 @@ std::string words(const Finding& finding) {
                    "stable one was found nearby. Pull a little to one side, or in smaller steps.";
         case FindingKind::thin_sheets:
             return thin_sheets(finding);
+        case FindingKind::idle_handle:
+            return "handle " + finding.object +
+                   ": moves nothing but its own vertices. It is smaller than the proxy's triangles, and others hold "
+                   "the proxy's vertices there. Ask for more proxy vertices.";
         case FindingKind::narrow_openings:
             return finding.object + ": " + counted(finding.value, "opening") + (finding.value == 1.0 ? " is" : " are") +
                    " narrower than the proxy's triangles, so it is simulated as a solid although it was to be a sheet. "

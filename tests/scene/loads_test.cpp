@@ -238,6 +238,8 @@ TEST(SceneLoads, OfAHandleThatTheProxyHasNoVertexForAreRefused) {
                         {.name = "top", .select = {VertexSelector{{top}}}, .motion = AffineMotion{}}};
     document.proxy = {.use = ProxyUse::always, .n_vertices = 60};
     EXPECT_EQ(refusal_of(document), "no complaint");
+    EXPECT_THAT(solved(document, kFem, false).warnings(),
+                testing::Contains(AllOf(StartsWith("handle top: "), HasSubstr("Ask for more proxy vertices"))));
     document.handles[1].force = GripForce{{0, 0, 5}, {0, 0, 0}};
     EXPECT_THAT(refusal_of(document),
                 AllOf(StartsWith("scene.json: /handles/1: "), HasSubstr("Ask for more proxy vertices")));

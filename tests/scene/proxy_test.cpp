@@ -333,6 +333,10 @@ TEST(EmbeddedRunner, MovesTheHandleThatAForceActsOnAndNoneThatIsNotOnTheProxy) {
         };
         EXPECT_GT(moved(there).normalized().dot(forces[there - 1].normalized()), 0.7);
         EXPECT_EQ(moved(missing), Eigen::Vector3d(0, 0, 0));
+        std::vector<std::string> idle;
+        for (const Finding& finding : runner.findings())
+            if (finding.kind == FindingKind::idle_handle) idle.push_back(finding.object);
+        EXPECT_THAT(idle, testing::ElementsAre(crowded.document.handles[missing].name));
     }
 }
 

@@ -48,7 +48,7 @@ public:
     bool ready() const { return runner_.state() == MethodRunner::State::ready && !placing_grips(); }
     const Eigen::VectorXd& displacement() const override;
     std::uint64_t version() const override { return runner_.version(); }
-    /// Findings of the body that is computed on, and of its proxy; point constraints are those of the shown surface.
+    /// Findings of the body that is computed on, and of its proxy; some are those of CarriedConstraints::as_shown().
     Findings findings() const override;
 
     /// MethodRunner::check_at_rest, once handles under a force are placed.

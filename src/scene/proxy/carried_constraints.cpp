@@ -57,7 +57,6 @@ void CarriedConstraints::set(const Constraints& shown) {
     if (!same) {
         choose_vertices();
         followers_ = find_followers(*proxy_, around_, shown_);
-        points_ = findings_of_points(*proxy_->shown, shown_.set);
         chosen_ = true;
     }
     carry_values();
@@ -66,6 +65,7 @@ void CarriedConstraints::set(const Constraints& shown) {
 void CarriedConstraints::choose_vertices() {
     const std::vector<SurfaceMesh> parts = constrained_parts(*proxy_->shown, shown_);
     const std::vector<ProxyOwner> owners = proxy_owners(*proxy_, shown_, parts);
+    own_findings_ = findings_of_points(*proxy_->shown, shown_.set);
     carried_ = {};
     carried_.groups = shown_.groups;
     carried_.fixed_sets = shown_.fixed_sets;
@@ -91,6 +91,8 @@ void CarriedConstraints::choose_vertices() {
             origin_weights_.push_back(owners[v].point.weights);
         }
         carried_.groups[g].end = end;
+        if (carried_.groups[g].begin == end)
+            own_findings_.push_back({.kind = FindingKind::idle_handle, .object = shown_.groups[g].name});
     }
     carried_.loads = carried_loads(*proxy_, shown_.loads, carried_.set);
     for (const AppliedLoad& load : carried_.loads) {
@@ -183,7 +185,7 @@ Eigen::VectorXd CarriedConstraints::places(const Eigen::VectorXd& of_proxy) cons
 
 Findings CarriedConstraints::as_shown(Findings of_proxy) const {
     std::erase_if(of_proxy, [](const Finding& finding) { return finding.kind == FindingKind::point_constraint; });
-    of_proxy.insert(of_proxy.end(), points_.begin(), points_.end());
+    of_proxy.insert(of_proxy.end(), own_findings_.begin(), own_findings_.end());
     return of_proxy;
 }
 

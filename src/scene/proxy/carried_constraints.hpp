@@ -38,7 +38,8 @@ public:
     /// The same where those of the proxy are of other constraints: constrained vertices follow it, too.
     Eigen::VectorXd places(const Eigen::VectorXd& of_proxy) const;
 
-    /// Findings of an answer under constraints(), for the shown constraints: point constraints are shown vertices.
+    /// Findings of an answer under constraints(), for the shown constraints: point constraints are shown vertices, and
+    /// handles that the proxy has no vertex for are named.
     Findings as_shown(Findings of_proxy) const;
 
 private:
@@ -50,7 +51,7 @@ private:
     std::shared_ptr<const Proxy> proxy_;
     VertexTriangles around_;  ///< of the shown surface
     Constraints shown_, carried_;
-    Findings points_;  ///< of the shown constraints
+    Findings own_findings_;  ///< of the shown constraints, and of what the proxy has no vertex for
     bool chosen_ = false;
     std::vector<Eigen::Vector3i> origins_;         ///< of each carried handle vertex: places in its handle,
     std::vector<Eigen::Vector3d> origin_weights_;  ///< whose weighted mean is nearest to it

@@ -45,6 +45,7 @@ bool tells_of(const Finding& finding, Wrong what) {
         case FindingKind::impossible_volume:
         case FindingKind::large_residual:
         case FindingKind::unstable_equilibrium:
+        case FindingKind::idle_handle:
             return true;
         case FindingKind::linear_theory:  // of the theory; answers are judged within it
         case FindingKind::no_estimate:
