@@ -23,6 +23,8 @@ void SceneFiles::open_now(const fs::path& file, Control& control) {
 
 void SceneFiles::open_document(Document document, const fs::path& base) {
     edited_.finish_gesture();
+    load_job_.cancel();  // what is wanted last counts
+    asked_ = {};
     attempt(messages_, [&] { replace({.scene = std::make_unique<LiveScene>(std::move(document), base), .file = {}}); });
 }
 
@@ -39,7 +41,7 @@ void SceneFiles::load(fs::path file, std::function<LoadedScene(Control&)> work) 
     load_job_.start(
         [work = std::move(work)](Control& control) { return std::make_shared<LoadedScene>(work(control)); });
     pending_file_ = std::move(file);
-    revision_at_open_ = edited_.scene().revision();
+    revision_at_open_ = revision();
 }
 
 void SceneFiles::poll() {
@@ -47,7 +49,7 @@ void SceneFiles::poll() {
         case JobEvent::finished:
             // What was changed while it was being loaded counts, too.
             unsaved.guard(
-                edited_.scene().modified() && edited_.scene().revision() != revision_at_open_,
+                edited_.scene().modified() && revision() != revision_at_open_,
                 [this, loaded = load_job_.take(), file = pending_file_] { take_loaded(std::move(*loaded), file); });
             break;
         case JobEvent::failed:
@@ -135,14 +137,14 @@ void SceneFiles::discard_recoverable() {
     recoverable.erase(recoverable.begin());
 }
 
+std::uint64_t SceneFiles::revision() const { return edited_.scene().revision() + (n_replaced_ << 32); }
+
 bool SceneFiles::keep_copy(double now) {
     const std::string before = autosave_.failure();
     if (recovered_) autosave_.adopt(*std::exchange(recovered_, std::nullopt));
-    autosave_.update({.revision = edited_.scene().revision() + (n_replaced_ << 32),
-                      .modified = edited_.scene().modified(),
-                      .origin = file_,
-                      .document = edited_.document},
-                     now);
+    autosave_.update(
+        {.revision = revision(), .modified = edited_.scene().modified(), .origin = file_, .document = edited_.document},
+        now);
     return autosave_.failure() != before;
 }
 

@@ -42,8 +42,8 @@ public:
         Control never_cancelled;
         open_now(file, never_cancelled);
     }
-    /// A document that was read from no file, without a question. base: the file that the name of its mesh is relative
-    /// to.
+    /// A document that was read from no file, without a question; ends what is being opened. base: the file that the
+    /// name of its mesh is relative to.
     void open_document(Document document, const std::filesystem::path& base);
     /// The scene that is being opened begins with this; nothing where none is.
     void begin_with(const AskedFor& asked);
@@ -97,6 +97,8 @@ private:
     void take_loaded(LoadedScene loaded, const std::filesystem::path& file);
     void replace(LoadedScene loaded);
     void add_recent(const std::filesystem::path& file);
+    /// Of the scene; another one has other revisions.
+    std::uint64_t revision() const;
 
     EditedScene edited_;
     Messages& messages_;

@@ -103,6 +103,17 @@ TEST_F(Unsaved, WhatIsChangedWhileAFileIsLoadedCounts) {
     EXPECT_EQ(stage.scene().mesh().n_vertices(), 56);
 }
 
+TEST_F(Unsaved, ABodyThatIsAskedForWhileAFileIsLoadedEndsThat) {
+    state().files.save(folder.path() / "mine.json");
+    state().files.open(folder.path() / "other.json");
+    state().start_with({.field = Field::von_mises, .cut_axis = {}});
+    state().open_primitive({.name = "cube", .resolution = 1, .size = {}});
+    stage.settle();
+    EXPECT_FALSE(state().files.loading());
+    EXPECT_EQ(stage.scene().mesh().n_vertices(), 8);
+    EXPECT_FALSE(state().files.unsaved.asking());
+}
+
 TEST_F(Unsaved, ADragThatIsNotOverIsAChange) {
     state().files.save(folder.path() / "mine.json");
     stage.move(stage.pixel(stage.vertex_near({1, 1, 1})));
