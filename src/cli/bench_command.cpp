@@ -39,7 +39,7 @@ void add_options(CLI::App& parser, BenchOptions& options) {
     parser.add_option("study", options.study, "which study")->required()->check(CLI::IsMember(names));
     parser.add_option("--out", options.folder, "folder for the results, made when it is missing (default bench-STUDY)")
         ->check([](const std::string& text) { return std::string(text.empty() ? "the name is empty" : ""); });
-    parser.add_flag("--quick", options.quick, "small sizes: under a minute");
+    parser.add_flag("--quick", options.quick, "small sizes: about a minute");
     CLI::Option* seed = parser.add_option(
         "--seed", options.seed, "random seed of the constrained nodes (paper) and the edits (stability) (default 1)");
     add_threads_option(parser, options.threads);
@@ -77,6 +77,7 @@ RunResult run_with_bar(const Study& study, const RunSettings& settings, bool wit
         return run_study(study, settings, progress, control);
     } catch (const Cancelled&) {
         const StudyState state = progress.state();
+        if (state.n_cases == 0) throw Interrupted("Interrupted before the first case.");  // or while a report is made
         throw Interrupted("Interrupted after " + std::to_string(state.n_done) + " of " + std::to_string(state.n_cases) +
                           " cases, which are kept: the same command resumes from there.");
     }

@@ -60,6 +60,8 @@ std::vector<PathPoint> read_path(const fs::path& file) {
     std::vector<PathPoint> path;
     std::string line;
     for (int number = 1; std::getline(in, line); ++number) {
+        if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // a mark that spreadsheets write
+        if (line.ends_with('\r')) line.pop_back();
         if (line.empty() || (number == 1 && is_heading(line, file))) continue;
         std::replace(line.begin(), line.end(), ',', ' ');
         std::istringstream numbers(line);

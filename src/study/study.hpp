@@ -12,7 +12,7 @@ namespace elastolab {
 
 /// What a study is asked for.
 struct StudyOptions {
-    bool quick = false;  ///< small sizes, under a minute: to see that it works
+    bool quick = false;  ///< small sizes, about a minute: to see that it works
     unsigned seed = 1;   ///< of the known nodes of `paper` and the edits of `stability`; all else is always the same
 };
 

@@ -93,6 +93,11 @@ TEST_F(FeelTest, ReadsPathsWithAndWithoutHeadings) {
                     folder_.path());
     EXPECT_EQ(run.exit_code, 0) << run.err;
     EXPECT_EQ(-test::read_csv(file("plain-felt.csv")).rows.at(0).at(0), felt("0.1,0,0,0,0,0")[0]);
+    folder_.write("spreadsheet.csv",
+                  "\xEF\xBB\xBFtime_s,tx,ty,tz,rx,ry,rz\r\n\r\n0,0.1,0,0,0,0,0\r\n1,0.1,0,0,0,0,0\r\n\r\n");
+    const ProgramRun spreadsheet =
+        run_program({"feel", "scene.json", "--path", "spreadsheet.csv", "--seconds", "0.05"}, folder_.path());
+    EXPECT_EQ(spreadsheet.exit_code, 0) << spreadsheet.err;
     folder_.write("wide.csv", "0,0.1,0,0,0,0,0\n1,0.1,0,0,0,0,0,7\n");
     const ProgramRun wide = run_program({"feel", "scene.json", "--path", "wide.csv"}, folder_.path());
     EXPECT_EQ(wide.exit_code, 1);

@@ -211,13 +211,47 @@ TEST(ExactFiles, ReadOffAsAStreamOfWords) {
     }
 }
 
+/// A colour that is a number of corners would make the next face's first word a corner.
+TEST(ExactFiles, TakeColoursOfOffFilesForColours) {
+    const TemporaryFolder folder;
+    const SurfaceMesh sphere = make_sphere(4);
+    const auto same = [&](const std::string& text, const SurfaceMesh& expected) {
+        const SurfaceMesh mesh = load_surface(folder.write("a.off", text));
+        EXPECT_EQ(mesh.triangles, expected.triangles);
+        EXPECT_EQ(mesh.vertices, expected.vertices);
+    };
+    const auto header = [](const SurfaceMesh& mesh) {
+        return std::to_string(mesh.n_vertices()) + " " + std::to_string(mesh.n_triangles()) + " 0\n";
+    };
+    for (int colour = 0; colour <= 8; ++colour) {
+        SCOPED_TRACE(colour);
+        std::string lines;
+        for (int t = 0; t < sphere.n_triangles(); ++t) {
+            lines += "3";
+            for (const int v : sphere.triangles.col(t)) lines += " " + std::to_string(v);
+            lines += " " + std::to_string(colour) + "\n";
+        }
+        same("OFF\n" + header(sphere) + words(sphere, "") + lines, sphere);
+    }
+    SurfaceMesh tetrahedron{Positions::Zero(3, 4), Triangles(3, 4)};
+    tetrahedron.vertices.rightCols(3).setIdentity();
+    tetrahedron.triangles << 3, 0, 0, 0, 2, 1, 2, 3, 1, 3, 1, 2;
+    for (int red = 0; red <= 8; ++red) {
+        SCOPED_TRACE(red);
+        const std::string colour = " " + std::to_string(red) + " 3 0\n";
+        same("COFF\n4 4 0\n0 0 0" + colour + "1 0 0" + colour + "0 1 0" + colour + "0 0 1" + colour +
+                 faces(tetrahedron, "3 ", 0),
+             tetrahedron);
+    }
+}
+
 TEST(ExactFiles, ReadObjAsItIsWritten) {
     const TemporaryFolder folder;
     const std::string path = "mtllib C:\\meshes\\\n";  // no continuation
     const SurfaceMesh mesh = load_surface(folder.write(
         "a.obj",
         "# OBJ\r\n" + path +
-            "o a b\r\nv 0 0 0 0.5 0.5 0.5\r\nv 2 0 0 2\r\nv 0 \\\r\n1 0\r\nvt 0 0\nv +0 0. 1e0\n"
+            "o a b\r\nv 0 0 0 0.5 0.5 0.5\r\nv 2 0 0 2 0.5 0.5 0.5\r\nv 0 \\\r\n1 0\r\nvt 0 0\nv +0 0. 1e0\n"
             "vn 0 0 1\ng a\\\nb\ns off\nusemtl m\nf -1/1/1 -2/1/1 -3//1\nf 1 2\\\n 4 # the second\nf 1/1 3 2\nl 1 2\n"
             "f 1 4 3"));
     Triangles expected(3, 4);

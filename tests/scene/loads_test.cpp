@@ -205,6 +205,18 @@ TEST(SceneLoads, OfASheetActOnce) {
     }
 }
 
+TEST(SceneLoads, BeyondDoublePrecisionAreRefused) {
+    Document document = loaded_cube();
+    document.gravity = Eigen::Vector3d(0, 0, -1e300);
+    document.density = 1e10;
+    EXPECT_THAT(refusal_of(document), AllOf(StartsWith("scene.json: /gravity: "), HasSubstr("Make it smaller")));
+    document.gravity = Eigen::Vector3d(0, 0, -1.0);
+    document.density = 1.0;
+    document.material.young_modulus = 1e-10;
+    document.loads[1].value = ForceLoad{{1e300, 0, 0}};
+    EXPECT_THAT(refusal_of(document), AllOf(StartsWith("scene.json: /loads/1: "), HasSubstr("Make it smaller")));
+}
+
 TEST(SceneLoads, OnTrianglesWithoutAreaAreRefused) {
     const TemporaryFolder folder;
     SurfaceMesh mesh = make_box(2);

@@ -80,7 +80,7 @@ private:
         if (count < 3 || count == 5)
             refuse("a vertex has " + std::to_string(count) + " numbers instead of 3, 4, 6 or 7.");
         Eigen::Vector3d place(numbers[0], numbers[1], numbers[2]);
-        if (count == 4 && numbers[3] != 1.0) place /= weight(numbers[3]);
+        if ((count == 4 || count == 7) && numbers[3] != 1.0) place /= weight(numbers[3]);
         mesh_.vertices.push_back(place);
     }
 

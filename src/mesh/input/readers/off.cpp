@@ -164,14 +164,14 @@ private:
 SurfaceMesh read_off(std::string_view bytes) {
     const OffHeader header = OffHeaderReader(bytes).read();
     std::optional<Refusal> reason;
-    // A stream of words first, where nothing may be left over: what is read so is certain. A COFF file may have three
-    // numbers for a colour instead of four, and some files have colours that their header does not announce: then a
-    // line is a vertex.
-    for (const OffLayout layout : {OffLayout{false, false}, OffLayout{false, true}, OffLayout{true, true}}) {
+    // A line for each vertex and each face first: what else is on it is colour, of as many numbers as the writer liked,
+    // announced or not. A stream has fewer lines or shorter ones. It may not come first: colours can be taken for
+    // corners (all triangles with the colour 5).
+    for (const OffLayout layout : {OffLayout{true, true}, OffLayout{false, true}, OffLayout{false, false}}) {
         try {
             return triangulated(OffBodyReader(bytes, header, layout).read());
         } catch (const Refusal& refusal) {
-            if (!reason || layout.face_ends_line) reason = refusal;
+            if (!reason) reason = refusal;
         }
     }
     throw *reason;
