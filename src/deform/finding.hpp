@@ -58,6 +58,7 @@ struct Finding {
     int first = -1, second = -1;  ///< vertex or solids, by kind; coarse_mesh: vertex, constrained ones (0: refine);
                                   ///< linear_theory: 1 where nonlinear FEM does not take the Poisson's ratio
     std::string object = {};      ///< what it is said of, where the kind does not tell
+    int n_more = 0;               ///< other solids of which the same is true to a lesser degree
 };
 
 using Findings = std::vector<Finding>;

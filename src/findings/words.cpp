@@ -147,9 +147,7 @@ std::string imbalance(const Finding& finding, const char* what) {
                 : "Collocation does not balance them; choose galerkin-bem or fem where forces matter.");
 }
 
-}  // namespace
-
-std::string words(const Finding& finding) {
+std::string of_one(const Finding& finding) {
     switch (finding.kind) {
         case FindingKind::locking:
             return locking(finding);
@@ -230,6 +228,13 @@ std::string words(const Finding& finding) {
                    "Ask for more proxy vertices.";
     }
     return {};
+}
+
+}  // namespace
+
+std::string words(const Finding& finding) {
+    if (finding.n_more == 0) return of_one(finding);
+    return of_one(finding) + " The same is true of " + counted(finding.n_more, "other solid") + ", which are no worse.";
 }
 
 std::vector<std::string> words(const Findings& findings) {

@@ -32,6 +32,29 @@ void add_finding(const Finding& finding, Findings& findings) {
     if (!known) findings.push_back(finding);
 }
 
+/// Of solids of which the same is found: the worst, and how many others there are.
+Findings worst_of(const Findings& all) {
+    constexpr std::size_t kMost = 3;
+    const auto is_worse = [](const Finding& a, const Finding& b) {
+        const bool small_is_bad = a.kind == FindingKind::thin_triangle || a.kind == FindingKind::thin_wall;
+        return small_is_bad ? a.value < b.value : a.value > b.value;
+    };
+    Findings kept;
+    for (const Finding& finding : all) {
+        if (std::ranges::any_of(kept, [&](const Finding& other) { return other.kind == finding.kind; })) continue;
+        Findings same;
+        std::ranges::copy_if(all, std::back_inserter(same),
+                             [&](const Finding& other) { return other.kind == finding.kind; });
+        if (same.size() > kMost) {
+            std::ranges::stable_sort(same, is_worse);
+            same[kMost - 1].n_more = static_cast<int>(same.size() - kMost);
+            same.resize(kMost);
+        }
+        kept.insert(kept.end(), same.begin(), same.end());
+    }
+    return kept;
+}
+
 /// Sums the facts of the solids; the condition is that of the worst.
 ModelFacts summed(const std::vector<Model::Part>& parts) {
     ModelFacts sum;
@@ -46,6 +69,7 @@ ModelFacts summed(const std::vector<Model::Part>& parts) {
         for (const Finding& finding : facts.findings) add_finding(finding, sum.findings);
         for (const StageTime& stage : facts.stages) add_stage(stage, sum.stages);
     }
+    sum.findings = worst_of(sum.findings);
     return sum;
 }
 
@@ -57,7 +81,7 @@ Findings findings_of(const SurfaceMesh& surface, const std::vector<Solid>& solid
     for (const Solid& solid : solids)
         for (const Finding& finding : findings_of_surface(solid.surface, method, control))
             add_finding(finding, findings);
-    return findings;
+    return worst_of(findings);
 }
 
 /// Whether both methods find the same in a surface: what those of boundary elements find has their names.
@@ -78,9 +102,9 @@ bool takes_over(const Model& before, const Method& method, const Material& mater
 /// before: a model of the same surface, or null. It lives on beside the new one.
 std::shared_ptr<const Model> precompute(const Body& body, const Method& method, const Model* before, Control& control) {
     require_possible(method, body.material);
-    if (before == nullptr || !takes_over(*before, method, body.material))
-        require_memory(predict_cost(*body.surface, method), method);
     const std::vector<Solid> solids = split_solids(*body.surface);
+    if (before == nullptr || !takes_over(*before, method, body.material))
+        require_memory(predict_cost(solids, method), method);
     const bool same_inside = before != nullptr && before->method().growth == method.growth;
     std::vector<Model::Part> parts;
     for (std::size_t i = 0; i < solids.size(); ++i) {

@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "deform/grip_equilibrium.hpp"
 #include "deform/patch_reactions.hpp"
+#include "mesh/solids.hpp"
 #include "mesh/triangles_across.hpp"
 #include "methods/precompute.hpp"
 #include "methods/registry.hpp"
@@ -40,6 +41,12 @@ bool is_stable(const Equilibrium& found) {
     return std::ranges::all_of(found.solids, [](const auto& solid) { return !solid || solid->facts().stable; });
 }
 
+/// Each is filled with tetrahedra by a process of its own, which takes some hundredths of a second.
+void require_few_solids(const SurfaceMesh& surface) {
+    if (split_solids(surface).size() > kMostGaugedSolids)
+        throw SolveError("linear theory is not gauged for so many solids. Delete those that do not move.");
+}
+
 double largest(const Eigen::VectorXd& u) {
     return u.size() == 0 ? 0.0 : u.reshaped(3, u.size() / 3).colwise().norm().maxCoeff();
 }
@@ -51,6 +58,7 @@ HandleForces in_proportion(HandleForces by_force, double moved, const SurfaceMes
 }
 
 LinearTheoryGauge::LinearTheoryGauge(Body body, ConstrainedSet set, Control& control) {
+    require_few_solids(*body.surface);
     const double largest_ratio = large_deformation_method()->largest_poisson_ratio;
     body.material.poisson_ratio = std::min(body.material.poisson_ratio, largest_ratio);
     const Method method = finite_method(*body.surface);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <Eigen/Core>
 #include <memory>
 #include <optional>
@@ -56,6 +57,8 @@ private:
 
 /// Vertices that are enough to tell.
 inline constexpr int kGaugeVertices = 500;
+/// Solids of more are not gauged.
+inline constexpr std::size_t kMostGaugedSolids = 64;
 
 /// Whether the method that is right beyond linear theory takes no Poisson's ratio as large as this.
 bool is_too_incompressible_for_turns(double poisson_ratio);

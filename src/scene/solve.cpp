@@ -241,7 +241,7 @@ void gauge(const SceneMesh& mesh, const Constraints& shown, const Constraints& s
            Control& control) {
     const bool moves = simulated.has_forces() || !simulated.values.isZero(0.0) ||
                        approach_to(simulated, *solution.model->body().surface).path.cols() > 0;
-    if (!moves || !solution.model->method().kind->linear) return;
+    if (!moves || !solution.model->method().kind->linear || solution.model->parts().size() > kMostGaugedSolids) return;
     const Stage stage("linear theory", control, solution.stages);
     try {
         Body body = solution.model->body();

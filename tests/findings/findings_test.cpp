@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <numbers>
@@ -179,6 +180,21 @@ TEST(Findings, TellOfSolidsThatTouch) {
     EXPECT_THAT(warnings_of(joined(cube, moved(cube, {1.001, 0.0, 0.0})), method),
                 Contains(HasSubstr("solids 1 and 2")));
     EXPECT_THAT(warnings_of(joined(cube, moved(cube, {1.2, 0.0, 0.0})), method), IsEmpty());
+}
+
+/// Of a crowd the worst are named, with how many others there are.
+TEST(Findings, OfManySolidsNameTheWorst) {
+    SurfaceMesh all;
+    for (int i = 0; i < 8; ++i) {
+        SurfaceMesh wall = make_box(4);
+        wall.vertices.row(2) *= 0.02 - 0.001 * i;
+        wall.vertices.row(0).array() += 2.0 * i;
+        all = i == 0 ? wall : joined(all, wall);
+    }
+    const std::vector<std::string> told = warnings_of(all, make_method(kConstantBem));
+    EXPECT_EQ(std::ranges::count_if(told, [](const auto& text) { return text.find("edge away") != std::string::npos; }),
+              3);
+    EXPECT_THAT(told, Contains(::testing::AllOf(HasSubstr("edge away"), HasSubstr("5 other solids"))));
 }
 
 TEST(Findings, TellOfPointConstraintsAndWhereTheyAre) {

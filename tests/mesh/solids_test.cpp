@@ -72,6 +72,26 @@ TEST(SplitSolids, GivesEachCavityToTheInnermostSolidAroundIt) {
     EXPECT_EQ(solids[1].surface.n_vertices(), 36);
 }
 
+/// Shells in shells, beside a crowd: each surface is compared with those around it only.
+TEST(SplitSolids, FindsWhatIsAroundEachOfMany) {
+    constexpr int kShells = 12, kCrowd = 9;
+    SurfaceMesh mesh = make_sphere(2, 1.0);
+    for (int i = 1; i < 2 * kShells; ++i) {
+        const SurfaceMesh sphere = make_sphere(2, 1.0 + i);
+        mesh = joined(mesh, i % 2 == 1 ? inside_out(sphere) : sphere);
+    }
+    mesh = joined(mesh, make_sphere(2, 1.0 + 2 * kShells));
+    for (int i = 0; i < kCrowd; ++i)
+        mesh = joined(mesh, moved(make_sphere(2, 0.4), {40.0 + i % 3, static_cast<double>(i / 3), 0}));
+    const std::vector<Solid> solids = split_solids(mesh);
+    ASSERT_EQ(solids.size(), 1u + kShells + kCrowd);
+    EXPECT_EQ(solids[0].surface.n_vertices(), 18);
+    for (std::size_t i = 1; i <= kShells; ++i) {
+        EXPECT_EQ(solids[i].surface.n_vertices(), 36) << i;
+        EXPECT_NEAR(solids[i].surface.vertices.colwise().norm().minCoeff(), 2.0 * static_cast<double>(i), 1e-9);
+    }
+}
+
 TEST(SplitSolids, RejectsACavityInNothing) { EXPECT_THROW(split_solids(inside_out(make_box(2))), MeshError); }
 
 }  // namespace

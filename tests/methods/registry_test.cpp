@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 
 #include <set>
+#include <utility>
+#include <vector>
 
 #include "base/error.hpp"
 #include "bem/collocation/method.hpp"
@@ -80,6 +82,38 @@ TEST(Predictions, GrowWithTheBodyTheModeAndFinerRims) {
             EXPECT_GT(seconds(8, method), seconds(8, {.kind = kind, .rims = rims - 1})) << rims;
         }
     }
+}
+
+/// So many of them in a row.
+SurfaceMesh repeated(const SurfaceMesh& mesh, int n, double distance) {
+    SurfaceMesh all{mesh.vertices.replicate(1, n), mesh.triangles.replicate(1, n)};
+    for (int i = 0; i < n; ++i) {
+        all.vertices.middleCols(i * mesh.n_vertices(), mesh.n_vertices()).row(0).array() += distance * i;
+        all.triangles.middleCols(i * mesh.n_triangles(), mesh.n_triangles()).array() += i * mesh.n_vertices();
+    }
+    return all;
+}
+
+/// Each solid has a system of its own, wherever it is; what is only needed while one is computed is there once.
+TEST(Predictions, OfSeveralSolidsAreThoseOfEach) {
+    constexpr std::uint64_t kOnce = 16'000'000;
+    const SurfaceMesh ball = make_sphere(10);
+    const std::vector<std::pair<int, SurfaceMesh>> rows = {
+        {2, repeated(ball, 2, 500.0)}, {5, repeated(ball, 5, 2.5)}, {80, repeated(ball, 80, 2.5)}};
+    for (const MethodKind kind : elastolab::all_methods())
+        for (const Mode mode : kind->modes)
+            for (const auto& [n, row] : rows) {
+                SCOPED_TRACE(testing::Message() << n << " by " << kind->name << " " << name(mode));
+                const Method method{.kind = kind, .mode = mode};
+                const Cost one = predict_cost(ball, method), sum = predict_cost(row, method);
+                EXPECT_NEAR(static_cast<double>(sum.degrees_of_freedom),
+                            static_cast<double>(n * one.degrees_of_freedom),
+                            0.1 * static_cast<double>(sum.degrees_of_freedom));
+                const auto times = static_cast<std::uint64_t>(n);
+                EXPECT_LE(sum.memory_bytes, times * one.memory_bytes);
+                EXPECT_GE(sum.memory_bytes + times * kOnce, times * one.memory_bytes);
+                EXPECT_NEAR(sum.seconds, n * one.seconds, 0.1 * sum.seconds);
+            }
 }
 
 }  // namespace
