@@ -30,7 +30,7 @@ public:
 
     double length() const { return length_; }
     const Eigen::MatrixXd& stiffness() const { return stiffness_; }
-    /// False: there is a motion along which the forces drive it on.
+    /// False: there is a motion along which the forces drive it on, whatever the mass of the grips.
     bool stable() const;
     /// Those of the forces that some motion answers.
     Eigen::VectorXd answered(const Eigen::VectorXd& forces) const;

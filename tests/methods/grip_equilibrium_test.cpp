@@ -167,6 +167,25 @@ TEST(GripEquilibrium, AColumnBucklesIntoItsElastica) {
     test::print_measured("equilibria of the column", found.solves);
 }
 
+/// Under a moment alone a bar is a part of a circle, up to a whole one: the moment is the same all along, so that
+/// nothing else balances. It keeps its direction, and the stiffness is not symmetric.
+TEST(GripEquilibrium, AMomentBendsABarIntoACircle) {
+    const double length = 10.0, young = 1200.0;
+    const GrippedBar bar({length, 1, 1}, 1, {young, 0.0});
+    for (const double degrees : {90.0, 175.0, 200.0}) {
+        SCOPED_TRACE(degrees);
+        const double angle = degrees * kDegree, moment = young / 12.0 * angle / length;
+        const GripEquilibrium found = bar.find({{{0, 0, 0}, {0, 0, moment}}});
+        const GripPlace& end = found.places[0];
+        EXPECT_TRUE(found.tangent.stable());
+        EXPECT_NEAR(end.turn.z(), angle, 0.05 * angle);
+        EXPECT_LT(end.turn.head<2>().norm(), 0.01);  // of irregular tetrahedra
+        const double own = end.turn.z();
+        EXPECT_NEAR(end.shift.x(), (std::sin(own) / own - 1.0) * length, 0.02 * length);
+        EXPECT_NEAR(end.shift.y(), (1.0 - std::cos(own)) / own * length, 0.02 * length);
+    }
+}
+
 TEST(GripEquilibrium, OfABodyThatNothingElseHolds) {
     const GrippedBar held, free({3, 1, 1}, 2, {2.0, 0.3}, false);
     const GripForce pull{{0.8, 0, 0}, {0, 0, 0}}, against{{-0.8, 0, 0}, {0, 0, 0}};

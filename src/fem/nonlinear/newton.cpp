@@ -48,16 +48,30 @@ double Newton::residual(double size, const Eigen::VectorXd& forces, const Eigen:
 }
 
 std::shared_ptr<const SparseCholesky> Newton::factor_at(const Eigen::VectorXd& u, const Eigen::VectorXd& factors,
-                                                        NewtonWork& work, bool& stable, Control& control) const {
-    for (const bool projected : {false, true}) {
-        tangent_->elements().stiffness(u, material_, projected, work, control);
-        if (!projected) loads_.add_tangent(u, factors, work);
-        tangent_->assemble(work, shift_, work.K, control);
-        stable = !projected;
-        if (std::optional<SparseCholesky> factor = factorised(*tangent_, work.K, control))
-            return std::make_shared<const SparseCholesky>(std::move(*factor));
+                                                        NewtonWork& work, bool& stable, Control& control,
+                                                        double* lift) const {
+    constexpr int kLifts = 8;
+    constexpr double kLeastLift = 1e-8, kHigher = 4.0;  // the first over the mean of the diagonal
+    const auto factor = [&](double lifted) -> std::shared_ptr<const SparseCholesky> {
+        tangent_->assemble(work, shift_ + lifted, work.K, control);
+        std::optional<SparseCholesky> found = factorised(*tangent_, work.K, control);
+        return found ? std::make_shared<const SparseCholesky>(std::move(*found)) : nullptr;
+    };
+    tangent_->elements().stiffness(u, material_, false, work, control);
+    loads_.add_tangent(u, factors, work);
+    stable = true;
+    if (auto found = factor(0.0)) return found;
+    stable = false;
+    if (lift != nullptr) {
+        double lifted = std::max(*lift / kHigher, kLeastLift * work.K.diagonal().mean());
+        for (int i = 0; i < kLifts; ++i, lifted *= kHigher)
+            if (auto found = factor(lifted)) {
+                *lift = lifted;
+                return found;
+            }
     }
-    return nullptr;
+    tangent_->elements().stiffness(u, material_, true, work, control);
+    return factor(0.0);
 }
 
 NewtonState Newton::run(Eigen::VectorXd u, const Eigen::VectorXd& factors, double tolerance, int most_iterations,

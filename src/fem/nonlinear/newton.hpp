@@ -110,8 +110,12 @@ public:
     const Material& material() const { return material_; }
     const NonlinearLoads& loads() const { return loads_; }
     /// The factorised tangent at u: the true one, or (stable false) the projected one, which leaves loads out.
+    /// lift: where given, the true one with so much or more added to its diagonal comes before the projected one, and
+    /// what was added is returned there. Close to an equilibrium it leads on at once; the projected one, which is much
+    /// stiffer, takes hundreds of steps.
     std::shared_ptr<const SparseCholesky> factor_at(const Eigen::VectorXd& u, const Eigen::VectorXd& factors,
-                                                    NewtonWork& work, bool& stable, Control& control) const;
+                                                    NewtonWork& work, bool& stable, Control& control,
+                                                    double* lift = nullptr) const;
 
     /// X at the free nodes with tangent X = B, the true tangent at u, loads included, by GMRES; factor: of one close to
     /// it. Nothing where so many iterations do not reach the relative tolerance. Throws Cancelled.

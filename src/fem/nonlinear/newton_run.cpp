@@ -13,6 +13,7 @@ constexpr double kRoundedEnergy = 1e-6;
 /// Part of the decrease that the slope promises, which a step must bring.
 constexpr double kArmijo = 1e-4;
 constexpr double kShortestStep = 1e-8;
+constexpr int kMostLonger = 20;  // doublings
 /// Projected tangents, which a body takes that buckles, converge slowly: so many times as many iterations are allowed.
 constexpr int kMoreWhereProjected = 4;
 /// Steps under pressures that follow the surface.
@@ -24,6 +25,10 @@ constexpr double kNearTolerance = 0.3;
 constexpr int kMostNearIterations = 10, kManyNearIterations = 6;
 /// Steps in a row that only go downhill, since the tangent is not positive definite where they begin.
 constexpr int kMostDownhill = 2;
+/// Whole steps instead of parts of them: so many more that put them right, also where energies cannot tell; and the
+/// part of one that is tried next.
+constexpr int kMostRighting = 4, kMostRightingOfRounded = 8;
+constexpr double kShortLeap = 0.25;
 
 }  // namespace
 
@@ -67,7 +72,8 @@ std::optional<Eigen::VectorXd> NewtonRun::near_step(const Eigen::VectorXd& gradi
 
 std::optional<Eigen::VectorXd> NewtonRun::own_step(const Eigen::VectorXd& gradient) {
     state_.factor.reset();  // not two at once
-    state_.factor = newton_.factor_at(state_.u, state_.factors, work_, state_.stable, control_);
+    double* lift = state_.residual <= kClose && !newton_.loads().follow() ? &lift_ : nullptr;
+    state_.factor = newton_.factor_at(state_.u, state_.factors, work_, state_.stable, control_, lift);
     if (!state_.factor) return std::nullopt;
     state_.factor_residual = state_.residual;
     stale_ = false;
@@ -79,13 +85,25 @@ std::optional<Eigen::VectorXd> NewtonRun::own_step(const Eigen::VectorXd& gradie
     return -state_.factor->solve(gradient);
 }
 
+double NewtonRun::lengthened(const Eigen::VectorXd& step, double rise) const {
+    double length = 1.0;
+    for (int doubling = 0; doubling < kMostLonger; ++doubling, length *= 2.0) {
+        const Eigen::VectorXd to = state_.u + 2.0 * length * step;
+        const double energy = newton_.energy(to, work_, control_).energy;
+        if (!std::isfinite(energy) || !(newton_.rise(state_, to, energy) < rise)) break;
+        rise = newton_.rise(state_, to, energy);
+    }
+    return length;
+}
+
 double NewtonRun::step_length(const Eigen::VectorXd& step, double slope, double gradient) const {
     for (int halvings = 0; std::ldexp(1.0, -halvings) > kShortestStep; ++halvings) {
         const double length = std::ldexp(1.0, -halvings);
         const Eigen::VectorXd to = state_.u + length * step;
         const double energy = newton_.energy(to, work_, control_).energy;
         if (!std::isfinite(energy)) continue;
-        if (newton_.rise(state_, to, energy) <= kArmijo * length * slope) return length;
+        if (newton_.rise(state_, to, energy) <= kArmijo * length * slope)
+            return halvings == 0 && !state_.stable ? lengthened(step, newton_.rise(state_, to, energy)) : length;
         if (newton_.loads().follow() && free_rows(newton_.forces(to, state_.factors, work_, control_)).norm() <=
                                             (1.0 - kArmijo * length) * gradient)
             return length;
@@ -95,23 +113,70 @@ double NewtonRun::step_length(const Eigen::VectorXd& step, double slope, double 
 
 bool NewtonRun::go(const Eigen::VectorXd& reduced, const Eigen::VectorXd& gradient) {
     const Eigen::VectorXd step = newton_.tangent().all_rows(reduced);
-    const double length = state_.residual > kRoundedEnergy
-                              ? step_length(step, std::min(gradient.dot(reduced), 0.0), gradient.norm())
-                              : 1.0;
-    if (length == 0.0) return false;
-    const Eigen::VectorXd next = state_.u + length * step;
-    const BodyEnergy energy = newton_.energy(next, work_, control_);
+    if (state_.residual <= kRoundedEnergy) {
+        const Place before = place();
+        if (put(state_.u + step) && state_.residual < before.residual) return true;
+        take(before);
+        const bool by_own = state_.stable && state_.factor_residual == state_.residual;
+        return by_own && (leap(step, 0.0) || leap(kShortLeap * step, 0.0));
+    }
+    const double slope = std::min(gradient.dot(reduced), 0.0);
+    const double length = step_length(step, slope, gradient.norm());
+    if (length < 1.0 && state_.stable && state_.residual <= kClose && state_.iterations >= leaps_from_) {
+        if (leap(step, slope) || leap(kShortLeap * step, kShortLeap * slope)) {
+            wait_ = 1;
+            return true;
+        }
+        wait_ *= 2;
+        leaps_from_ = state_.iterations + wait_;
+        stale_ = true;
+    }
+    return length > 0.0 && put(state_.u + length * step);
+}
+
+bool NewtonRun::put(const Eigen::VectorXd& u) {
+    const BodyEnergy energy = newton_.energy(u, work_, control_);
     if (!std::isfinite(energy.energy)) return false;
-    const Eigen::VectorXd forces = newton_.forces(next, state_.factors, work_, control_);
-    if (newton_.loads().size() > 0) size_ = std::max(size_, next.lpNorm<Eigen::Infinity>());
-    const double residual = newton_.residual(size_, forces, next, state_.factors);
-    if (state_.residual <= kRoundedEnergy && !(residual < state_.residual)) return false;
-    state_.u = next;
+    forces_ = newton_.forces(u, state_.factors, work_, control_);
+    if (newton_.loads().size() > 0) size_ = std::max(size_, u.lpNorm<Eigen::Infinity>());
+    state_.residual = newton_.residual(size_, forces_, u, state_.factors);
+    state_.u = u;
     energy_ = energy;
     state_.energy = energy.energy;
-    forces_ = forces;
-    state_.residual = residual;
     return true;
+}
+
+void NewtonRun::take(const Place& place) {
+    state_.u = place.u;
+    state_.energy = place.energy.energy;
+    state_.residual = place.residual;
+    energy_ = place.energy;
+    forces_ = place.forces;
+    size_ = place.size;
+}
+
+bool NewtonRun::leap(const Eigen::VectorXd& step, double slope) {
+    const Place before = place();
+    NewtonState from;
+    from.u = before.u;
+    from.energy = before.energy.energy;
+    from.factors = state_.factors;
+    const auto is_better = [&] {
+        return before.residual > kRoundedEnergy ? newton_.rise(from, state_.u, state_.energy) <= kArmijo * slope
+                                                : state_.residual < before.residual;
+    };
+    const int most = before.residual > kRoundedEnergy ? kMostRighting : kMostRightingOfRounded;
+    bool moved = put(state_.u + step);
+    for (int more = 0; moved && !is_better() && more < most; ++more) {
+        const Eigen::VectorXd gradient = free_rows(forces_);
+        std::optional<Eigen::VectorXd> next = near_step(gradient);
+        if (!next) next = own_step(gradient);
+        moved = next && put(state_.u + newton_.tangent().all_rows(*next));
+        ++state_.iterations;
+    }
+    if (moved && is_better()) return true;
+    take(before);
+    return false;
 }
 
 NewtonState NewtonRun::run(int most_iterations, int most_steps) {

@@ -17,6 +17,14 @@ public:
     NewtonState run(int most_iterations, int most_steps);
 
 private:
+    /// Where it is, and what is known there.
+    struct Place {
+        Eigen::VectorXd u, forces;
+        BodyEnergy energy;
+        double residual, size;
+    };
+    Place place() const { return {state_.u, forces_, energy_, state_.residual, size_}; }
+    void take(const Place& place);
     Eigen::VectorXd free_rows(const Eigen::VectorXd& all) const { return newton_.tangent().free_rows(all); }
     double progress() const;
     bool may_use_factor() const;
@@ -25,8 +33,16 @@ private:
     std::optional<Eigen::VectorXd> own_step(const Eigen::VectorXd& gradient);
     /// A part of the step that inverts nothing and lowers the energy enough, 0 when there is none.
     double step_length(const Eigen::VectorXd& step, double slope, double gradient) const;
+    /// Where the body leaves a state that is not stable, the energy falls on and on: so many times the step. rise: with
+    /// it.
+    double lengthened(const Eigen::VectorXd& step, double rise) const;
     /// False where no part of the step helps: nothing has changed.
     bool go(const Eigen::VectorXd& reduced, const Eigen::VectorXd& gradient);
+    /// The whole step and a few more that put right what it strains; false where the energy is no lower then, and all
+    /// is as it was. What a straight step of a bent bar stretches, the next one lets go.
+    bool leap(const Eigen::VectorXd& step, double slope);
+    /// False where an element would be inverted: nothing has changed.
+    bool put(const Eigen::VectorXd& u);
 
     const Newton& newton_;
     double tolerance_, first_, size_;
@@ -36,6 +52,9 @@ private:
     BodyEnergy energy_;
     Eigen::VectorXd forces_;
     bool stale_ = false;  ///< the factor is too far away by now
+    double lift_ = 0.0;   ///< of the last factor that was lifted
+    int leaps_from_ = 0;  ///< the iteration from which on a leap may be tried,
+    int wait_ = 1;        ///< and how many are waited for it after one in vain
     int n_downhill_ = 0;  ///< the last steps that were only known to go downhill
 };
 
