@@ -82,7 +82,7 @@ std::vector<Shortcut> make_shortcuts() {
         {GLFW_KEY_DELETE, GLFW_MOD_SHIFT, "Shift+Del", "remove all handles",
          [](ViewerState& s, Panels&) { s.clear_handles(); }},
         {GLFW_KEY_Z, GLFW_MOD_CONTROL, "Ctrl+Z", "undo", [](ViewerState& s, Panels&) { s.undo(); }},
-        {GLFW_KEY_Y, GLFW_MOD_CONTROL, "Ctrl+Y", "redo", [](ViewerState& s, Panels&) { s.redo(); }},
+        {GLFW_KEY_Y, GLFW_MOD_CONTROL, "Ctrl+Y or Ctrl+Shift+Z", "redo", [](ViewerState& s, Panels&) { s.redo(); }},
         {GLFW_KEY_F, 0, "F", "frame the body", [](ViewerState& s, Panels&) { s.frame_body(); }},
         {GLFW_KEY_F, GLFW_MOD_SHIFT, "Shift+F", "frame the selected handle or fixed set",
          [](ViewerState& s, Panels&) { frame_selection(s); }},
@@ -159,6 +159,10 @@ bool run_shortcut(const InputEvent& event, ViewerState& state, Panels& panels) {
             shortcut.run(state, panels);
             return true;
         }
+    if (event.code == GLFW_KEY_Z && modifiers == (GLFW_MOD_CONTROL | GLFW_MOD_SHIFT)) {
+        state.redo();
+        return true;
+    }
     return run_view_key(event.code, modifiers, state.camera);
 }
 

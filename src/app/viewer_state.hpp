@@ -111,6 +111,7 @@ public:
 
     ViewerRequests requests;
     std::optional<PictureProgress> pictures_under_way;
+    bool posed_for_film = false;  ///< handles are part of their way, for a frame of a film
 
     // Frames.
     /// Takes over what workers finished and brings displacements, and then what is shown of them, up to date.

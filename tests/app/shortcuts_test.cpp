@@ -69,6 +69,9 @@ TEST_F(Shortcuts, UndoAndRedoGoThroughTheSteps) {
     EXPECT_EQ(stage.scene().n_handles(), 0);
     press(GLFW_KEY_Y, GLFW_MOD_CONTROL);
     EXPECT_EQ(stage.scene().n_handles(), 1);
+    press(GLFW_KEY_Z, GLFW_MOD_CONTROL);
+    press(GLFW_KEY_Z, GLFW_MOD_CONTROL | GLFW_MOD_SHIFT);
+    EXPECT_EQ(stage.scene().n_handles(), 1);
     press(GLFW_KEY_DELETE, GLFW_MOD_SHIFT);
     EXPECT_EQ(stage.scene().n_handles(), 0);
     press(GLFW_KEY_DELETE);  // nothing is chosen: nothing happens

@@ -36,6 +36,45 @@ double factor(const LiveScene& scene, int load, int row = 0) {
     return all.values[all.values.size() - std::ssize(all.set.loads) + scene.applied_load(load)->first + row];
 }
 
+/// Displacements under loads go as one over Young's modulus; those that are prescribed do not depend on it.
+TEST(LiveLoads, WaitForTheMaterialThatTheyActOn) {
+    LiveScene scene(fixed_cube(), "scene.json");
+    const std::vector<int> above = vertices_at(scene, 2, 1.0);
+    for (const bool loaded : {true, false}) {
+        if (loaded)
+            scene.add_load(above, PressureLoad{3.0});
+        else {
+            scene.remove_load(0);
+            scene.set_motion(scene.add_handle(vertices_at(scene, 0, 1.0)), AffineMotion{.translate = {0.1, 0, 0}});
+        }
+        scene.commit();
+        MethodRunner runner([] {});
+        const auto set = [&] {
+            runner.set_body(scene.body(kGalerkinBem), {.kind = kGalerkinBem});
+            runner.set_constraints(scene.constraints());
+            runner.poll();
+        };
+        wait_until([&] {
+            set();
+            return runner.state() == MethodRunner::State::ready;
+        });
+        EXPECT_TRUE(runner.answers());
+        EXPECT_TRUE(runner.has_present_forces());
+        const Eigen::VectorXd before = runner.displacement();
+        scene.set_material({100.0, 0.3});
+        set();
+        EXPECT_EQ(runner.answers(), !loaded);
+        EXPECT_FALSE(runner.has_present_forces());
+        wait_until([&] {
+            set();
+            return runner.has_present_forces();
+        });
+        EXPECT_LT((runner.displacement() - (loaded ? 10.0 : 1.0) * before).norm(), 1e-9 * runner.displacement().norm());
+        scene.set_material({1000.0, 0.3});
+        scene.commit();
+    }
+}
+
 TEST(LiveLoads, AreAddedNamedRemovedAndTakenBack) {
     LiveScene scene(fixed_cube(), "scene.json");
     const int above = scene.add_load(vertices_at(scene, 2, 1.0), PressureLoad{3.0});

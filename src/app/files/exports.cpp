@@ -8,22 +8,22 @@
 namespace elastolab {
 
 void Exports::start(const std::filesystem::path& file, const std::function<ExportSource()>& make_source,
-                    bool is_preview, Messages& messages) {
+                    const std::string& remark, Messages& messages) {
     if (running()) {
         messages.error(file_.filename().string() + " is still being written. Export " + file.filename().string() +
                        " when it is there.");
         return;
     }
+    const std::string note = "Exported " + file.string() + remark;
     ExportSource source = make_source();
     if (!takes_solves(file) && source.converged) {  // the work of a frame
         attempt(messages, [&] {
             Control never_cancelled;
             write_export(file, source, never_cancelled);
-            messages.note("Exported " + file.string());
+            messages.note(note);
         });
         return;
     }
-    std::string note = "Exported " + file.string() + (is_preview ? ", the preview: the method is not ready yet" : "");
     file_ = file;
     job_.start([file, note, source = std::make_shared<const ExportSource>(std::move(source))](Control& control) {
         write_export(file, *source, control);

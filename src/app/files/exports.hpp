@@ -17,9 +17,9 @@ public:
     explicit Exports(const std::function<void()>& wake) : job_(wake) {}
 
     /// Writes what `make_source` returns (write_export): here and now where that is the work of a frame, else on a
-    /// worker. Refused while another one is being written. is_preview: the method's own answer is not there yet.
-    void start(const std::filesystem::path& file, const std::function<ExportSource()>& make_source, bool is_preview,
-               Messages& messages);
+    /// worker. Refused while another one is being written. remark: what the note that tells of it ends with.
+    void start(const std::filesystem::path& file, const std::function<ExportSource()>& make_source,
+               const std::string& remark, Messages& messages);
     /// Whether one has ended since the last call.
     bool poll(Messages& messages);
 

@@ -112,7 +112,7 @@ void SceneFiles::guard(UnsavedChanges::Action action) {
 void SceneFiles::answer(UnsavedAnswer answer) {
     if (answer == UnsavedAnswer::cancel) return unsaved.cancel();
     if (answer == UnsavedAnswer::save) {
-        wants_name = file_.empty();
+        wants_name = !owns_file_;
         if (wants_name || !save(fs::path(file_))) return;
     }
     unsaved.proceed();

@@ -73,7 +73,8 @@ public:
     /// Ends the gesture; what would lose changes then waits for the person's answer.
     void guard(UnsavedChanges::Action action);
     void answer(UnsavedAnswer answer);
-    /// The person wants to save a scene that has no file: a name is to be asked for, then comes save().
+    /// The person wants to save a scene that has no file, or one that was only read: a name is to be asked for, then
+    /// comes save().
     bool wants_name = false;
 
     // Copies of what is not saved.

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <string>
+#include <string_view>
 
 #include "app/panels/file_questions.hpp"
 #include "app/panels/widgets.hpp"
@@ -31,14 +32,23 @@ constexpr std::array<ExportKind, 8> kExports = {
      {"Morph targets (glTF)...", ".glb", "For Blender and game engines: six for each handle. Linear methods."},
      {"Table of vertices (CSV)...", ".csv", "Rest positions, displacements, tractions and stresses."}}};
 
+/// Why a method cannot have it; empty where it can.
+std::string why_not_exported(const ExportKind& kind, MethodKind method) {
+    const std::string_view ending = kind.ending;
+    if (ending == ".vtu" && !method->has_inside)
+        return "This method has no tetrahedra: choose a finite-element method.";
+    if ((ending == ".html" || ending == ".glb") && !method->linear) return "A figure needs a linear method.";
+    return "";
+}
+
 }  // namespace
 
 void draw_export_menu(ViewerState& state, FileQuestions& files) {
     if (!ImGui::BeginMenu("Export")) return;
     for (const ExportKind& kind : kExports) {
-        const bool possible = std::string(kind.ending) != ".vtu" || state.method->has_inside;
-        if (ImGui::MenuItem(kind.label, nullptr, false, possible)) files.ask_export(state, kind.ending);
-        tooltip(possible ? kind.explanation : "This method has no tetrahedra: choose a finite-element method.");
+        const std::string why_not = why_not_exported(kind, state.method);
+        if (ImGui::MenuItem(kind.label, nullptr, false, why_not.empty())) files.ask_export(state, kind.ending);
+        tooltip(why_not.empty() ? kind.explanation : why_not.c_str());
     }
     ImGui::EndMenu();
 }

@@ -1,6 +1,7 @@
 #include "app/panels/file_questions.hpp"
 
 #include <filesystem>
+#include <utility>
 #include <vector>
 
 #include "app/viewer_state.hpp"
@@ -34,24 +35,28 @@ void FileQuestions::save(ViewerState& state) {
         save_as(state);
 }
 
-void FileQuestions::save_as(ViewerState& state) {
+void FileQuestions::ask_name_of_scene(ViewerState& state, std::function<void(const std::filesystem::path&)> done,
+                                      std::function<void()> cancelled) {
     const std::filesystem::path& present = state.files.file();
     dialog_.open({.title = "Save the scene",
                   .extensions = {".json"},
                   .suggestion = present.empty() ? suggested_name(state, ".json") : present.filename().string(),
-                  .done = [&](const auto& file) { state.files.save(file); },
+                  .done = std::move(done),
+                  .cancelled = std::move(cancelled),
                   .folder = present.parent_path()});
 }
 
+void FileQuestions::save_as(ViewerState& state) {
+    ask_name_of_scene(state, [&](const auto& file) { state.files.save(file); });
+}
+
 void FileQuestions::ask_name_of_unsaved(ViewerState& state) {
-    dialog_.open({.title = "Save the scene",
-                  .extensions = {".json"},
-                  .suggestion = suggested_name(state, ".json"),
-                  .done =
-                      [&](const auto& file) {
-                          if (state.files.save(file)) state.files.unsaved.proceed();
-                      },
-                  .cancelled = [&] { state.files.unsaved.cancel(); }});
+    ask_name_of_scene(
+        state,
+        [&](const auto& file) {
+            if (state.files.save(file)) state.files.unsaved.proceed();
+        },
+        [&] { state.files.unsaved.cancel(); });
 }
 
 void FileQuestions::ask_export(ViewerState& state, const std::string& ending) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -36,6 +37,9 @@ public:
     void visit_texts(const std::function<void(std::string_view)>& visit) const { dialog_.visit_texts(visit); }
 
 private:
+    void ask_name_of_scene(ViewerState& state, std::function<void(const std::filesystem::path&)> done,
+                           std::function<void()> cancelled = {});
+
     FileDialog dialog_;
 };
 

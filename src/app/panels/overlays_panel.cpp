@@ -49,6 +49,7 @@ std::string source_words(const ViewerState& state, MethodKind kind) {
                                    : runner.preparing()             ? "preparing the constrained set"
                                    : simulation.waiting()           ? "waiting"
                                                                     : "not computed");
+    if (!runner.is_of_present_model()) return kDash + std::string("before the last change: waiting");
     const Proxy* proxy = simulation.embedded(kind).proxy();
     if (!kind->linear)
         text = kDash + std::string(runner.following() ? "following" : runner.answers() ? "exact" : "preparing");
@@ -123,8 +124,8 @@ std::string hint_text(const ViewerState& state) {
     if (state.scene().n_handles() > 0 || state.scene().n_loads() > 0 || state.gestures.dragging()) return "";
     const Simulation& simulation = state.simulation;
     if (!simulation.problem(state.method).empty() && !simulation.previewing(state.method))
-        return title(state.method) + " cannot compute this body; choose another method with the keys 1 to " +
-               std::to_string(all_methods().size()) + ".";
+        return title(state.method) + " has no answer; the panel (P) says why. Keys 1 to " +
+               std::to_string(all_methods().size()) + " choose other methods.";
     if (state.tools.tool == Tool::brush) return "Paint over the vertices that are to be fixed; with Shift, free them.";
     if (state.tools.tool == Tool::force) return "Press on the body and drag: the arrow is the force.";
     if (state.tools.tool == Tool::pressure) return "Paint where the pressure acts; with Shift, take the paint off.";

@@ -86,6 +86,10 @@ std::vector<WarningsPanel::Warning> WarningsPanel::present(const ViewerState& st
          {state.simulation.problem(state.method), state.shown.reaction_failure(state.method),
           state.shown.section_failure(state.method)})
         if (!problem.empty()) warnings.push_back({problem, true});
+    for (const MethodKind other : state.shown_kinds())
+        if (const std::string problem = state.simulation.problem(other); other != state.method && !problem.empty())
+            warnings.push_back(
+                {(problem.find(name(other)) == std::string::npos ? title(other) + ": " : "") + problem, true});
     if (!state.files.copy_failure().empty())
         warnings.push_back({"Changes would be lost if the viewer were killed: " + state.files.copy_failure(), true});
     const std::ptrdiff_t n_problems = std::ssize(warnings);
@@ -95,10 +99,12 @@ std::vector<WarningsPanel::Warning> WarningsPanel::present(const ViewerState& st
     for (const std::string& text : words(findings)) warnings.push_back({text, false});
     if (const std::string theory = theory_words(state); !theory.empty() && state.method->linear) {
         const TheoryError& error = *state.simulation.theory_error();
+        const bool may_switch =
+            !too_incompressible_for_turns(state) && state.simulation.problem(large_deformation_method()).empty();
         const bool mesh_is_worse =
             of_mesh != findings.begin() && !error.crushed && findings.front().value > error.relative;
         warnings.insert(warnings.begin() + n_problems + (mesh_is_worse ? of_mesh - findings.begin() : 0),
-                        {theory, false, too_incompressible_for_turns(state) ? nullptr : large_deformation_method()});
+                        {theory, false, may_switch ? large_deformation_method() : nullptr});
     }
     const std::string& name = state.scene().name();
     for (Warning& warning : warnings)

@@ -92,6 +92,7 @@ bool pull_scales(const ViewerState& state) {
 bool Film::pose(SceneRenderer& renderer, ViewerState& state, const Palette& palette) {
     LiveScene& scene = state.scene();
     if (!pose_) {
+        state.posed_for_film = true;
         pose_ = Pose{.handles = {}, .revision = scene.revision(), .range = state.shown.field_range(state.display)};
         for (int h = 0; h < scene.n_handles(); ++h) {
             const Motion& motion = scene.constraints().motions[static_cast<std::size_t>(h)];
@@ -118,7 +119,7 @@ bool Film::pose(SceneRenderer& renderer, ViewerState& state, const Palette& pale
 
 /// Every handle that still does what the film has made it do gets its own motion back, unless it is of another scene.
 void Film::put_back(ViewerState& state) {
-    waiting_ = false;
+    waiting_ = state.posed_for_film = false;
     if (scene_number_ != state.scene_number()) pose_.reset();
     if (!pose_) return;
     LiveScene& scene = state.scene();

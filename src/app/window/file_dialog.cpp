@@ -173,7 +173,7 @@ void FileDialog::draw(float scale) {
     if (std::exchange(opening_, false)) ImGui::OpenPopup(id.c_str());
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({0.5f * screen.x, 0.5f * screen.y}, ImGuiCond_Always, {0.5f, 0.5f});
-    ImGui::SetNextWindowSize({590.0f * scale, std::min(440.0f * scale, 0.95f * screen.y)});
+    ImGui::SetNextWindowSize({std::min(590.0f * scale, screen.x), std::min(440.0f * scale, 0.95f * screen.y)});
     if (!ImGui::BeginPopupModal(id.c_str(), nullptr, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove)) return;
     draw_places();
     draw_entries(scale);

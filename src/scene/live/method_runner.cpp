@@ -229,8 +229,20 @@ MethodRunner::State MethodRunner::state() const {
 bool MethodRunner::answers() const {
     if (following_ && sets_.may_hold_off() && sets_.is_slow()) return false;
     return solved_ && shows_wanted() && sets_.answers() && values_.size() == sets_.wanted_values().size() &&
-           values_ == sets_.wanted_values() &&
-           deformer()->model().body().material.poisson_ratio == models_.body().material.poisson_ratio;
+           values_ == sets_.wanted_values() && model_fits();
+}
+
+/// Displacements depend on Young's modulus where a force has a part in them.
+bool MethodRunner::model_fits() const {
+    const bool by_forces = !deformer()->set().loads.empty() || grips() != nullptr;
+    Material of_answer = deformer()->model().body().material;
+    if (!by_forces) of_answer.young_modulus = models_.body().material.young_modulus;
+    return of_answer == models_.body().material && same_answers(deformer()->model().method(), models_.method());
+}
+
+bool MethodRunner::is_of_present_model() const {
+    return deformer() && deformer()->model().body().material == models_.body().material &&
+           same_answers(deformer()->model().method(), models_.method());
 }
 
 JobStatus MethodRunner::status() const {

@@ -106,9 +106,13 @@ public:
     /// Whether it is being converged.
     bool converging() const { return sets_.converging(); }
 
-    /// Whether displacement() is what the scene asks for, by whichever model of this body and Poisson's ratio: a model
-    /// with its inverse is prepared while the one without it answers.
+    /// Whether displacement() is what the scene asks for, by whichever model that has the same: a model with its
+    /// inverse is prepared while the one without it answers.
     bool answers() const;
+    /// The same of forces: they depend on Young's modulus where displacements need not.
+    bool has_present_forces() const { return answers() && is_of_present_model(); }
+    /// Whether what answers now is of the body's present material and of the present choices, mode and update aside.
+    bool is_of_present_model() const;
 
     bool precomputing() const { return models_.precomputing(); }
     bool preparing() const { return sets_.preparing(); }
@@ -123,6 +127,7 @@ public:
 
 private:
     void forget_answer();
+    bool model_fits() const;
     void handle(SetKeeper::Event event);
     bool was_tried(const Eigen::VectorXd& wanted) const;
     bool takes_long() const;

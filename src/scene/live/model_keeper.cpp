@@ -8,14 +8,8 @@ namespace elastolab {
 
 namespace {
 
-bool same(const Material& a, const Material& b) {
-    return a.young_modulus == b.young_modulus && a.poisson_ratio == b.poisson_ratio;
-}
-
 bool same(const Method& a, const Method& b) {
-    return a.kind == b.kind && a.mode == b.mode && a.tractions == b.tractions && a.update == b.update &&
-           a.elements == b.elements && a.growth == b.growth && a.rims == b.rims &&
-           a.hierarchical_from == b.hierarchical_from && a.integral_tolerance == b.integral_tolerance;
+    return same_answers(a, b) && a.mode == b.mode && a.update == b.update && a.hierarchical_from == b.hierarchical_from;
 }
 
 void drop(ModelJob& job) {
@@ -25,9 +19,14 @@ void drop(ModelJob& job) {
 
 }  // namespace
 
+bool same_answers(const Method& a, const Method& b) {
+    return a.kind == b.kind && a.tractions == b.tractions && a.elements == b.elements && a.growth == b.growth &&
+           a.rims == b.rims && a.integral_tolerance == b.integral_tolerance;
+}
+
 void ModelKeeper::ask(const Body& body, const Method& method) {
     const bool same_surface = body.surface == body_.surface;
-    if (asked_ && same_surface && same(body.material, body_.material) && same(method, method_)) return;
+    if (asked_ && same_surface && body.material == body_.material && same(method, method_)) return;
     if (!same_surface) {  // nothing that is there can be shown on it
         model_.reset();
         completed_ = false;

@@ -12,6 +12,9 @@ namespace elastolab {
 
 using ModelJob = BackgroundJob<std::shared_ptr<const Model>>;
 
+/// Whether models of the same body by these differ in speed and memory alone, as by their mode.
+bool same_answers(const Method& a, const Method& b);
+
 /// Keeps the model of one body under one method, precomputed on a worker thread, and completes it by K and its inverse
 /// when there is time. The last complete model stays until the next one is there. All members are for one thread.
 class ModelKeeper {

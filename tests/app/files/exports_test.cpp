@@ -35,6 +35,25 @@ TEST(Exports, AreTheDeformedMesh) {
     EXPECT_NEAR(read.mesh().vertices.row(0).maxCoeff(), 1.5, 1e-9);
 }
 
+/// What is written is what is seen; where that is not the present scene's answer, a word tells.
+TEST(Exports, OfAFormerAnswerSaySo) {
+    const TemporaryFolder folder;
+    Stage stage(2);
+    stage.state.method = kFem;
+    stage.scene().add_load(std::vector<int>{stage.vertex_near({1, 1, 1}), stage.vertex_near({1, 1, 0.5}),
+                                            stage.vertex_near({1, 0.5, 1}), stage.vertex_near({1, 0.5, 0.5})},
+                           ForceLoad{{1, 0, 0}});
+    stage.scene().commit();
+    stage.settle();
+    stage.state.export_mesh(folder.path() / "now.obj");
+    EXPECT_THAT(stage.state.messages.all().back().text, testing::EndsWith("now.obj"));
+    stage.state.choices.preview = false;
+    stage.scene().set_material({1.0, 0.3});
+    stage.state.update_displacements();
+    stage.state.export_mesh(folder.path() / "then.obj");
+    EXPECT_THAT(stage.state.messages.all().back().text, HasSubstr("the method is not ready yet"));
+}
+
 TEST(Exports, OfFieldsAreWrittenOnAWorker) {
     const TemporaryFolder folder;
     Stage stage(2);

@@ -68,20 +68,39 @@ TEST_F(Unsaved, SavingAsksForANameWhereThereIsNone) {
     EXPECT_FALSE(state().requests.quit);
 }
 
-TEST_F(Unsaved, SavingWritesOverTheFileThatTheSceneCameFrom) {
+TEST_F(Unsaved, SavingWritesOverAFileOnceItWasSavedTo) {
     const auto file = folder.path() / "other.json";
     state().files.open_now(file);
     stage.scene().add_handle(std::vector<int>{stage.vertex_near({1, 1, 1})});
     state().quit();
     state().files.answer(UnsavedAnswer::save);
+    EXPECT_TRUE(state().files.wants_name) << "it was only read: an example, say";
+    EXPECT_FALSE(state().requests.quit);
+    EXPECT_EQ(load_scene(file).handles.size(), 0u);
+    state().files.answer(UnsavedAnswer::cancel);
+    state().files.save(file);
+    stage.scene().add_handle(std::vector<int>{stage.vertex_near({1, 1, 0})});
+    state().quit();
+    state().files.answer(UnsavedAnswer::save);
     EXPECT_TRUE(state().requests.quit);
-    EXPECT_EQ(load_scene(file).handles.size(), 1u);
+    EXPECT_EQ(load_scene(file).handles.size(), 2u);
+}
+
+/// A film moves the handles: what is saved meanwhile would be one of its frames.
+TEST_F(Unsaved, NothingIsSavedWhileAFilmMovesTheHandles) {
+    state().posed_for_film = true;
+    EXPECT_FALSE(state().files.save(folder.path() / "mine.json"));
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "mine.json"));
+    EXPECT_EQ(test::n_errors(state()), 1);
+    state().posed_for_film = false;
+    EXPECT_TRUE(state().files.save(folder.path() / "mine.json"));
 }
 
 TEST_F(Unsaved, ASaveThatFailsLosesNothing) {
     std::filesystem::create_directories(folder.path() / "gone");
     save_scene(folder.path() / "gone" / "cube.json", test::cube_document(2));
     state().files.open_now(folder.path() / "gone" / "cube.json");
+    state().files.save(folder.path() / "gone" / "cube.json");
     stage.scene().add_handle(std::vector<int>{stage.vertex_near({1, 1, 1})});
     std::filesystem::remove_all(folder.path() / "gone");
     state().quit();

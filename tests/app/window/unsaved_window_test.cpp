@@ -62,7 +62,7 @@ TEST_F(UnsavedWindow, ClosingAsksEscapeStaysAndEnterSaves) {
     window->settle();
     EXPECT_FALSE(window->ended());
     window->close();
-    answer_and_end({"Return"});
+    answer_and_end({"Return", "Return", "Return"});  // save, by the name that is proposed, over what was only read
     EXPECT_EQ(n_saved_handles(), 1u);
 }
 
@@ -87,7 +87,7 @@ TEST_F(UnsavedWindow, AFileFromTheDialogAsks) {
     window->key("ctrl+o");
     window->settle();
     window->type((folder.path() / "other.json").string());
-    answer({"Return"});  // save
+    answer({"Return", "Return", "Return"});  // save, by the name that is proposed, over what was only read
     expect_good_end(window->quit());
     EXPECT_EQ(n_saved_handles(), 1u);
     EXPECT_EQ(n_vertices(), "26");
