@@ -89,6 +89,11 @@ void FileDialog::accept(const fs::path& typed) {
         problem_ = file.string() + " is not there.";
         return;
     }
+    if (const fs::path folder = fs::absolute(file, error).parent_path();
+        is_saving() && !fs::is_directory(folder, error)) {
+        problem_ = folder.string() + " is no folder. Make it, or save elsewhere.";
+        return;
+    }
     if (is_saving() && exists && to_replace_ != file) {
         to_replace_ = file;
         return;
@@ -116,9 +121,9 @@ void FileDialog::draw_places() {
     if (enter_was_used_) accept(text);
 }
 
-void FileDialog::draw_entries(float scale) {
+void FileDialog::draw_entries() {
     const float below = 2.6f * ImGui::GetFrameHeightWithSpacing();
-    ImGui::BeginChild("entries", {560.0f * scale, std::max(80.0f, ImGui::GetContentRegionAvail().y - below)}, true);
+    ImGui::BeginChild("entries", {0.0f, std::max(80.0f, ImGui::GetContentRegionAvail().y - below)}, true);
     for (const Entry& entry : std::vector<Entry>(entries_)) {  // a copy: a click may list another folder
         const bool chosen = !entry.is_folder && entry.shown == name_;
         const bool clicked = ImGui::Selectable(entry.shown.c_str(), chosen, ImGuiSelectableFlags_AllowDoubleClick);
@@ -138,7 +143,7 @@ void FileDialog::draw_entries(float scale) {
 void FileDialog::draw_name(float scale) {
     const bool appears = ImGui::IsWindowAppearing();
     if (std::exchange(asks_name_, false) || appears) ImGui::SetKeyboardFocusHere();
-    ImGui::SetNextItemWidth(360.0f * scale);
+    ImGui::SetNextItemWidth(std::min(360.0f * scale, 0.5f * ImGui::GetContentRegionAvail().x));
     bool go =
         ImGui::InputText("##name", &name_, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
     if (ImGui::IsItemEdited()) to_replace_.clear();
@@ -176,7 +181,7 @@ void FileDialog::draw(float scale) {
     ImGui::SetNextWindowSize({std::min(590.0f * scale, screen.x), std::min(440.0f * scale, 0.95f * screen.y)});
     if (!ImGui::BeginPopupModal(id.c_str(), nullptr, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove)) return;
     draw_places();
-    draw_entries(scale);
+    draw_entries();
     draw_name(scale);
     ImGui::EndPopup();
 }

@@ -36,7 +36,7 @@ private:
     std::string kind() const;
     void list_folder();
     void draw_places();
-    void draw_entries(float scale);
+    void draw_entries();
     void draw_name(float scale);
     void accept(const std::filesystem::path& file);
     bool is_saving() const { return !purpose_.suggestion.empty(); }

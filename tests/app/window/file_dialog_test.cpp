@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include "app/panels/bare_gui.hpp"
 #include "support/temporary_folder.hpp"
@@ -83,6 +84,41 @@ TEST(FileDialog, EnterOpensWhatWasChosen) {
     gui.press(ImGuiKey_Enter, draw);
     EXPECT_EQ(opened.filename(), "b.3ds") << "the field has the keys again, and is empty";
     EXPECT_FALSE(dialog.is_open());
+}
+
+/// Also in a window that is narrower than it would like to be.
+TEST(FileDialog, AMissingFolderIsNamedAndTheNameStays) {
+    const test::TemporaryFolder folder;
+    BareGui gui;
+    FileDialog dialog;
+    std::filesystem::path saved;
+    dialog.open({.title = "Save",
+                 .extensions = {".json"},
+                 .suggestion = "cube.json",
+                 .done = [&](const auto& file) { saved = file; },
+                 .folder = folder.path()});
+    float width = 0.0f;
+    const auto draw = [&] {
+        ImGui::Begin("background");
+        dialog.draw(3.0f);
+        ImGui::End();
+        if (const ImGuiWindow* window = ImGui::FindWindowByName("###file-dialog")) width = window->Size.x;
+    };
+    for (int i = 0; i < 4; ++i) gui.frame(draw);
+    EXPECT_GT(width, 0.0f);
+    EXPECT_LE(width, ImGui::GetIO().DisplaySize.x);
+    gui.type("missing/mine", draw);
+    gui.press(ImGuiKey_Enter, draw);
+    for (int i = 0; i < 3; ++i) gui.frame(draw);
+    EXPECT_TRUE(dialog.is_open());
+    EXPECT_TRUE(saved.empty());
+    bool told = false, stays = false;
+    dialog.visit_texts([&](std::string_view text) {
+        told = told || text.find("missing is no folder") != std::string_view::npos;
+        stays = stays || text == "missing/mine";
+    });
+    EXPECT_TRUE(told);
+    EXPECT_TRUE(stays);
 }
 
 }  // namespace
