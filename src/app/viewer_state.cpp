@@ -133,7 +133,8 @@ ExportSource ViewerState::export_source_now() const {
 
 void ViewerState::export_mesh(const fs::path& file) {
     const MethodRunner& runner = simulation.runner(method);
-    const bool is_former = runner.state() != MethodRunner::State::ready && !runner.answers();
+    const bool is_former =
+        simulation.is_of_former_model(method) || (runner.state() != MethodRunner::State::ready && !runner.answers());
     exports_.start(
         file, [this] { return export_source_now(); },
         simulation.previewing(method) ? ", the preview: the method is not ready yet"
@@ -257,7 +258,8 @@ std::optional<GripForce> ViewerState::present_force(int handle) const {
     const MethodRunner& runner = simulation.runner(method);
     const bool is_present =
         runner.has_present_forces() && runner.converged() && !runner.following() && !runner.converging();
-    if (simulation.previewing(method) || shown.solving() || !is_present) return std::nullopt;
+    if (simulation.previewing(method) || simulation.is_of_former_model(method) || shown.solving() || !is_present)
+        return std::nullopt;
     const ShownBody* body = shown.body(method);
     if (body == nullptr) return std::nullopt;
     for (const ShownReaction& reaction : body->reactions())

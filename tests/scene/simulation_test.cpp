@@ -111,6 +111,23 @@ TEST(Simulation, EveryFrameRuleAndUpdateShowsTheSame) {
         }
 }
 
+/// Methods are made anew one after the other: what the later ones show meanwhile is not of this scene.
+TEST(Simulation, AMethodThatWaitsForItsTurnIsOfTheMaterialBefore) {
+    LiveScene scene = pulled_cube();
+    Bench bench({kGalerkinBem, kFem});
+    bench.settle(scene);
+    const Eigen::VectorXd before = bench.runner(kFem).displacement();
+    for (const MethodKind kind : bench.shown) EXPECT_FALSE(bench.simulation.is_of_former_model(kind));
+    Material material = scene.document().material;
+    material.poisson_ratio = 0.1;
+    scene.set_material(material);
+    bench.update(scene);
+    for (const MethodKind kind : bench.shown) EXPECT_TRUE(bench.simulation.is_of_former_model(kind));
+    bench.settle(scene);
+    for (const MethodKind kind : bench.shown) EXPECT_FALSE(bench.simulation.is_of_former_model(kind));
+    EXPECT_GT((bench.runner(kFem).displacement() - before).norm(), 1e-3 * before.norm());
+}
+
 /// Another choice of the rims is another model, and the same one for the methods that have no such choice.
 TEST(Simulation, FinerRimsAreAnsweredOnceTheyAreChosen) {
     LiveScene scene = pulled_cube();

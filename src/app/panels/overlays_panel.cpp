@@ -49,7 +49,7 @@ std::string source_words(const ViewerState& state, MethodKind kind) {
                                    : runner.preparing()             ? "preparing the constrained set"
                                    : simulation.waiting()           ? "waiting"
                                                                     : "not computed");
-    if (!runner.is_of_present_model()) return kDash + std::string("before the last change: waiting");
+    if (simulation.is_of_former_model(kind)) return kDash + std::string("before the last change: waiting");
     const Proxy* proxy = simulation.embedded(kind).proxy();
     if (!kind->linear)
         text = kDash + std::string(runner.following() ? "following" : runner.answers() ? "exact" : "preparing");

@@ -127,9 +127,14 @@ bool Simulation::update_method(Entry& entry, const LiveScene& scene, const Metho
     }
     if (!has_body) {
         if (!may_begin) entry.unfit.clear();  // what is known is of a body before
-        runner.clear();                       // its turn has not come yet
+        entry.is_held_back = false;
+        runner.clear();  // its turn has not come yet
         return runner.version() != before;
     }
+    const std::shared_ptr<const Model>& model = runner.runner().model();
+    entry.is_held_back =
+        !may_begin && model &&
+        (model->body().material != scene.document().material || !same_answers(model->method(), choices.of(entry.kind)));
     // Two sets at a time would slow each other down, and the preview's takes only a moment.
     entry.waits_for_preview = previews_.preparing();
     runner.runner().set_frame_rule(choices.frame_rule);
@@ -143,7 +148,7 @@ bool Simulation::update_method(Entry& entry, const LiveScene& scene, const Metho
 /// The preview answers as long as it is ready and the method is not. Returns whether the one that answers has changed.
 bool Simulation::choose_answer(Entry& entry) const {
     const bool before = entry.previewing;
-    const bool ready = entry.runner->runner().answers() && !entry.waits_for_preview;
+    const bool ready = entry.runner->runner().answers() && !entry.waits_for_preview && !entry.is_held_back;
     const EmbeddedRunner& coarser = preview(entry.kind);
     if (ready || entry.runner->runner().crushed())
         entry.previewing = false;

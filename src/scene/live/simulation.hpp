@@ -85,6 +85,10 @@ public:
     const EmbeddedRunner& preview(MethodKind kind) const { return previews_.of(kind); }
     /// The surface that a method computes on in this scene; null while its proxy is not there.
     const SurfaceMesh* simulated_surface(MethodKind kind, const LiveScene& scene) const;
+    /// Whether a method's own model is not of the scene's material and choices, mode and update aside.
+    bool is_of_former_model(MethodKind kind) const {
+        return entries_[place(kind)].is_held_back || (runner(kind).model() && !runner(kind).is_of_present_model());
+    }
     /// Whether the proxy that a method needs is being made.
     bool making_proxy(MethodKind kind) const { return entries_[place(kind)].waits_for_proxy; }
     /// Why a method cannot take this scene (a mesh or material that is not fit for it), or why it failed; empty
@@ -114,6 +118,7 @@ private:
         std::string unfit = {};
         bool waits_for_proxy = false;
         bool waits_for_preview = false;  ///< its constraints are older than the scene's
+        bool is_held_back = false;       ///< others come first, and its model is of the material or choices before
         bool previewing = false;         ///< by its coarse preview
         MethodKind before = nullptr;     ///< what was looked at when this one was chosen
         bool replaced_preview = false;   ///< by an answer that is not converged yet
