@@ -9,6 +9,7 @@
 #include "app/picture/load_arrows.hpp"
 #include "app/picture/view_point.hpp"
 #include "app/viewer_state.hpp"
+#include "base/error.hpp"
 #include "render/drawing/legend.hpp"
 
 namespace elastolab {
@@ -88,6 +89,8 @@ void ViewerState::quit() {
 
 /// As it is seen without a legend, which is no part of a scene: beside one the eye is farther away.
 Document ViewerState::document_to_save() const {
+    if (posed_for_film)
+        throw Error("The scene is not saved: a film is being made, which moves the handles. Save when it is done.");
     Camera seen = camera;
     if (!shown.viewports.empty()) {
         const Viewport& place = shown.viewports.front().place;

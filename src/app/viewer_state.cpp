@@ -6,7 +6,6 @@
 
 #include "app/job_notes.hpp"
 #include "app/names.hpp"
-#include "base/error.hpp"
 #include "findings/cost.hpp"
 
 namespace elastolab {
@@ -47,14 +46,7 @@ ViewerState::ViewerState(const std::function<void()>& wake)
     : simulation(wake),
       shown(wake),
       files({.scene = [this]() -> LiveScene& { return *scene_; },
-             .document =
-                 [this] {
-                     if (posed_for_film)
-                         throw Error(
-                             "The scene is not saved: a film is being made, which moves the handles. Save when it is "
-                             "done.");
-                     return document_to_save();
-                 },
+             .document = [this] { return document_to_save(); },
              .finish_gesture = [this] { finish_gesture(); },
              .replace = [this](LoadedScene loaded) { take_scene(std::move(loaded)); }},
             messages, wake),
@@ -256,8 +248,7 @@ bool ViewerState::answering() const {
 /// The force that moves a handle as it is moved now; nothing where it is not known, as by a preview.
 std::optional<GripForce> ViewerState::present_force(int handle) const {
     const MethodRunner& runner = simulation.runner(method);
-    const bool is_present =
-        runner.has_present_forces() && runner.converged() && !runner.following() && !runner.converging();
+    const bool is_present = runner.answers() && runner.converged() && !runner.following() && !runner.converging();
     if (simulation.previewing(method) || simulation.is_of_former_model(method) || shown.solving() || !is_present)
         return std::nullopt;
     const ShownBody* body = shown.body(method);

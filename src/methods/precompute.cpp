@@ -1,6 +1,8 @@
 #include "methods/precompute.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <tuple>
 
 #include "base/error.hpp"
 #include "deform/solid_model.hpp"
@@ -25,28 +27,28 @@ void add_stage(const StageTime& stage, StageTimes& stages) {
         same->seconds += stage.seconds;
 }
 
-void add_finding(const Finding& finding, Findings& findings) {
-    const bool known = std::any_of(findings.begin(), findings.end(), [&](const Finding& other) {
-        return other.kind == finding.kind && other.place == finding.place && other.value == finding.value;
-    });
-    if (!known) findings.push_back(finding);
-}
-
-/// Of solids of which the same is found: the worst, and how many others there are.
+/// Of solids of which the same is found: the worst, each once, and how many others there are.
 Findings worst_of(const Findings& all) {
     constexpr std::size_t kMost = 3;
-    const auto is_worse = [](const Finding& a, const Finding& b) {
-        const bool small_is_bad = a.kind == FindingKind::thin_triangle || a.kind == FindingKind::thin_wall;
-        return small_is_bad ? a.value < b.value : a.value > b.value;
+    const auto at = [](const Finding& finding) {
+        const Eigen::Vector3d place = finding.place.value_or(Eigen::Vector3d::Zero());
+        return std::tuple(place.x(), place.y(), place.z());
     };
+    const auto is_worse = [&](const Finding& a, const Finding& b) {
+        const bool small_is_bad = a.kind == FindingKind::thin_triangle || a.kind == FindingKind::thin_wall;
+        if (a.value != b.value) return small_is_bad ? a.value < b.value : a.value > b.value;
+        return at(a) < at(b);
+    };
+    const auto is_same = [](const Finding& a, const Finding& b) { return a.value == b.value && a.place == b.place; };
     Findings kept;
     for (const Finding& finding : all) {
         if (std::ranges::any_of(kept, [&](const Finding& other) { return other.kind == finding.kind; })) continue;
         Findings same;
         std::ranges::copy_if(all, std::back_inserter(same),
                              [&](const Finding& other) { return other.kind == finding.kind; });
+        std::ranges::sort(same, is_worse);
+        same.erase(std::unique(same.begin(), same.end(), is_same), same.end());
         if (same.size() > kMost) {
-            std::ranges::stable_sort(same, is_worse);
             same[kMost - 1].n_more = static_cast<int>(same.size() - kMost);
             same.resize(kMost);
         }
@@ -66,7 +68,7 @@ ModelFacts summed(const std::vector<Model::Part>& parts) {
         sum.n_degrees_of_freedom += facts.n_degrees_of_freedom;
         sum.memory_bytes += facts.memory_bytes;
         sum.condition_estimate = std::max(sum.condition_estimate, facts.condition_estimate);
-        for (const Finding& finding : facts.findings) add_finding(finding, sum.findings);
+        sum.findings.insert(sum.findings.end(), facts.findings.begin(), facts.findings.end());
         for (const StageTime& stage : facts.stages) add_stage(stage, sum.stages);
     }
     sum.findings = worst_of(sum.findings);
@@ -78,9 +80,10 @@ Findings findings_of(const SurfaceMesh& surface, const std::vector<Solid>& solid
     std::vector<std::vector<int>> vertices;
     for (const Solid& solid : solids) vertices.push_back(solid.vertices);
     Findings findings = findings_of_contact(surface, vertices);
-    for (const Solid& solid : solids)
-        for (const Finding& finding : findings_of_surface(solid.surface, method, control))
-            add_finding(finding, findings);
+    for (const Solid& solid : solids) {
+        const Findings its = findings_of_surface(solid.surface, method, control);
+        findings.insert(findings.end(), its.begin(), its.end());
+    }
     return worst_of(findings);
 }
 

@@ -128,7 +128,7 @@ private:
         const Eigen::VectorXd factors = load_factors(document_, load);
         if (!std::isfinite(gross_force(mesh_, units, factors) / document_.material.young_modulus))
             fail_at(scene_file_, load.number < 0 ? "/gravity" : "/loads/" + std::to_string(load.number),
-                    "is a force beyond double precision, or is over Young's modulus. Make it smaller.");
+                    "is beyond double precision as a force, or as a force over Young's modulus. Make it smaller.");
         values_.insert(values_.end(), factors.begin(), factors.end());
         result_.set.loads.insert(result_.set.loads.end(), units.begin(), units.end());
         result_.loads.push_back(std::move(load));

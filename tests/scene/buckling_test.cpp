@@ -63,7 +63,6 @@ TEST(Buckling, ColumnBeyondEulersLoadIsTheElastica) {
             EXPECT_NEAR(moved.x(), (2.0 * E / K - 2.0) * kLength, tolerance);
             EXPECT_NEAR(moved.tail<2>().norm(), 2.0 * k / K * kLength, tolerance);
             EXPECT_TRUE(bent.facts->stable);
-            testing::Test::RecordProperty("iterations", bent.facts->iterations);
         }
 }
 

@@ -59,15 +59,15 @@ TEST(LiveLoads, WaitForTheMaterialThatTheyActOn) {
             return runner.state() == MethodRunner::State::ready;
         });
         EXPECT_TRUE(runner.answers());
-        EXPECT_TRUE(runner.has_present_forces());
+        EXPECT_TRUE(runner.is_of_present_model());
         const Eigen::VectorXd before = runner.displacement();
         scene.set_material({100.0, 0.3});
         set();
         EXPECT_EQ(runner.answers(), !loaded);
-        EXPECT_FALSE(runner.has_present_forces());
+        EXPECT_FALSE(runner.is_of_present_model());
         wait_until([&] {
             set();
-            return runner.has_present_forces();
+            return runner.answers() && runner.is_of_present_model();
         });
         EXPECT_LT((runner.displacement() - (loaded ? 10.0 : 1.0) * before).norm(), 1e-9 * runner.displacement().norm());
         scene.set_material({1000.0, 0.3});

@@ -150,6 +150,7 @@ void NewtonRun::take(const Place& place) {
     state_.u = place.u;
     state_.energy = place.energy.energy;
     state_.residual = place.residual;
+    state_.stable = place.stable;
     energy_ = place.energy;
     forces_ = place.forces;
     size_ = place.size;
@@ -166,16 +167,20 @@ bool NewtonRun::leap(const Eigen::VectorXd& step, double slope) {
                                                 : state_.residual < before.residual;
     };
     const int most = before.residual > kRoundedEnergy ? kMostRighting : kMostRightingOfRounded;
-    bool moved = put(state_.u + step);
+    bool moved = put(state_.u + step), keeps_factor = true;
     for (int more = 0; moved && !is_better() && more < most; ++more) {
         const Eigen::VectorXd gradient = free_rows(forces_);
         std::optional<Eigen::VectorXd> next = near_step(gradient);
-        if (!next) next = own_step(gradient);
+        if (!next) {
+            next = own_step(gradient);
+            keeps_factor = false;
+        }
         moved = next && put(state_.u + newton_.tangent().all_rows(*next));
         ++state_.iterations;
     }
     if (moved && is_better()) return true;
     take(before);
+    if (!keeps_factor) state_.factor.reset();  // it is of a place that was given up
     return false;
 }
 

@@ -22,8 +22,9 @@ private:
         Eigen::VectorXd u, forces;
         BodyEnergy energy;
         double residual, size;
+        bool stable;
     };
-    Place place() const { return {state_.u, forces_, energy_, state_.residual, size_}; }
+    Place place() const { return {state_.u, forces_, energy_, state_.residual, size_, state_.stable}; }
     void take(const Place& place);
     Eigen::VectorXd free_rows(const Eigen::VectorXd& all) const { return newton_.tangent().free_rows(all); }
     double progress() const;
@@ -38,8 +39,9 @@ private:
     double lengthened(const Eigen::VectorXd& step, double rise) const;
     /// False where no part of the step helps: nothing has changed.
     bool go(const Eigen::VectorXd& reduced, const Eigen::VectorXd& gradient);
-    /// The whole step and a few more that put right what it strains; false where the energy is no lower then, and all
-    /// is as it was. What a straight step of a bent bar stretches, the next one lets go.
+    /// The whole step and a few more that put right what it strains; false where the energy is no lower then: it is
+    /// where it was, without a factor if another one was made on the way. What a straight step of a bent bar stretches,
+    /// the next one lets go.
     bool leap(const Eigen::VectorXd& step, double slope);
     /// False where an element would be inverted: nothing has changed.
     bool put(const Eigen::VectorXd& u);

@@ -235,14 +235,14 @@ bool MethodRunner::answers() const {
 /// Displacements depend on Young's modulus where a force has a part in them.
 bool MethodRunner::model_fits() const {
     const bool by_forces = !deformer()->set().loads.empty() || grips() != nullptr;
-    Material of_answer = deformer()->model().body().material;
-    if (!by_forces) of_answer.young_modulus = models_.body().material.young_modulus;
-    return of_answer == models_.body().material && same_answers(deformer()->model().method(), models_.method());
+    Material wanted = models_.body().material;
+    if (!by_forces) wanted.young_modulus = deformer()->model().body().material.young_modulus;
+    return is_of(wanted, models_.method());
 }
 
-bool MethodRunner::is_of_present_model() const {
-    return deformer() && deformer()->model().body().material == models_.body().material &&
-           same_answers(deformer()->model().method(), models_.method());
+bool MethodRunner::is_of(const Material& material, const Method& method) const {
+    return deformer() && deformer()->model().body().material == material &&
+           same_answers(deformer()->model().method(), method);
 }
 
 JobStatus MethodRunner::status() const {

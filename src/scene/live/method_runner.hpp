@@ -109,10 +109,11 @@ public:
     /// Whether displacement() is what the scene asks for, by whichever model that has the same: a model with its
     /// inverse is prepared while the one without it answers.
     bool answers() const;
-    /// The same of forces: they depend on Young's modulus where displacements need not.
-    bool has_present_forces() const { return answers() && is_of_present_model(); }
-    /// Whether what answers now is of the body's present material and of the present choices, mode and update aside.
-    bool is_of_present_model() const;
+    /// Whether what answers now is of this material and these choices, mode and update aside. Forces depend on Young's
+    /// modulus where displacements need not.
+    bool is_of(const Material& material, const Method& method) const;
+    /// The same of those that were asked for.
+    bool is_of_present_model() const { return is_of(models_.body().material, models_.method()); }
 
     bool precomputing() const { return models_.precomputing(); }
     bool preparing() const { return sets_.preparing(); }

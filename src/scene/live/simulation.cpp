@@ -131,10 +131,8 @@ bool Simulation::update_method(Entry& entry, const LiveScene& scene, const Metho
         runner.clear();  // its turn has not come yet
         return runner.version() != before;
     }
-    const std::shared_ptr<const Model>& model = runner.runner().model();
     entry.is_held_back =
-        !may_begin && model &&
-        (model->body().material != scene.document().material || !same_answers(model->method(), choices.of(entry.kind)));
+        !may_begin && runner.has_answer() && !runner.runner().is_of(scene.document().material, choices.of(entry.kind));
     // Two sets at a time would slow each other down, and the preview's takes only a moment.
     entry.waits_for_preview = previews_.preparing();
     runner.runner().set_frame_rule(choices.frame_rule);

@@ -87,7 +87,7 @@ public:
     const SurfaceMesh* simulated_surface(MethodKind kind, const LiveScene& scene) const;
     /// Whether a method's own model is not of the scene's material and choices, mode and update aside.
     bool is_of_former_model(MethodKind kind) const {
-        return entries_[place(kind)].is_held_back || (runner(kind).model() && !runner(kind).is_of_present_model());
+        return entries_[place(kind)].is_held_back || (runner(kind).has_answer() && !runner(kind).is_of_present_model());
     }
     /// Whether the proxy that a method needs is being made.
     bool making_proxy(MethodKind kind) const { return entries_[place(kind)].waits_for_proxy; }
