@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "deform/triangle_tractions.hpp"
 #include "elasticity/neo_hookean.hpp"
 
 namespace elastolab {
@@ -29,15 +30,6 @@ Eigen::VectorXd vertex_areas(const SurfaceMesh& surface, const Counts& counts) {
     return areas;
 }
 
-/// Orthonormal axes of a triangle: two in its plane, then its normal.
-Eigen::Matrix3d triangle_axes(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-    Eigen::Matrix3d axes;
-    axes.col(0) = a.normalized();
-    axes.col(2) = a.cross(b).normalized();
-    axes.col(1) = axes.col(2).cross(axes.col(0));
-    return axes;
-}
-
 /// Stress from the strain within a plane and the traction on it (in axes whose third is the normal). Finite at nu =
 /// 1/2.
 Eigen::Matrix3d stress(const Material& material, const Eigen::Matrix2d& strain, const Eigen::Vector3d& traction) {
@@ -52,22 +44,14 @@ Eigen::Matrix3d stress(const Material& material, const Eigen::Matrix2d& strain, 
     return sigma;
 }
 
-/// What a triangle and the displacements of its corners tell.
-struct TriangleState {
-    Eigen::Matrix3d axes;                  ///< of the rest triangle
-    Eigen::Matrix<double, 3, 2> gradient;  ///< of the displacement, along its two axes in its plane
-    Eigen::Vector3d traction;              ///< per rest area
-};
-
-Eigen::Matrix3d small_stress(const Material& material, const TriangleState& at) {
-    const Eigen::Matrix2d gradient = at.axes.leftCols<2>().transpose() * at.gradient;
-    const Eigen::Matrix2d strain = 0.5 * (gradient + gradient.transpose());
-    return at.axes * stress(material, strain, at.axes.transpose() * at.traction) * at.axes.transpose();
+Eigen::Matrix3d small_stress(const Material& material, const TriangleStrain& at, const Eigen::Vector3d& traction) {
+    return at.axes * stress(material, at.small(), at.axes.transpose() * traction) * at.axes.transpose();
 }
 
 /// The displacement's derivative d along the normal N makes P N the traction: Newton's method on the energy, which is
 /// convex in d as long as J < exp(1 + mu / lambda); steps are halved where they would turn the material inside out.
-Eigen::Matrix3d large_stress(const Material& material, const TriangleState& at) {
+/// traction: per rest area.
+Eigen::Matrix3d large_stress(const Material& material, const TriangleStrain& at, const Eigen::Vector3d& traction) {
     constexpr int kIterations = 30, kHalvings = 40;
     constexpr double kTolerance = 1e-12;
     const NeoHookean law(material);
@@ -75,7 +59,7 @@ Eigen::Matrix3d large_stress(const Material& material, const TriangleState& at) 
     const Eigen::Matrix3d in_plane = at.gradient * at.axes.leftCols<2>().transpose();
     const auto gradient = [&](const Eigen::Vector3d& d) -> Eigen::Matrix3d { return in_plane + d * N.transpose(); };
     const auto potential = [&](const Eigen::Vector3d& d) {
-        return volume_change(gradient(d)) > -1.0 ? law.energy(gradient(d)) - at.traction.dot(d)
+        return volume_change(gradient(d)) > -1.0 ? law.energy(gradient(d)) - traction.dot(d)
                                                  : std::numeric_limits<double>::infinity();
     };
     // The present normal, as long as the area's change lets the volume stay.
@@ -84,7 +68,7 @@ Eigen::Matrix3d large_stress(const Material& material, const TriangleState& at) 
     if (!(cross.norm() > 0.0)) return Eigen::Matrix3d::Zero();
     Eigen::Vector3d d = cross / cross.squaredNorm() - N;
     for (int i = 0; i < kIterations; ++i) {
-        const Eigen::Vector3d force = law.first_piola(gradient(d)) * N - at.traction;
+        const Eigen::Vector3d force = law.first_piola(gradient(d)) * N - traction;
         if (force.stableNorm() <= kTolerance * law.mu) break;
         const ElasticTensor A = law.tangent(gradient(d));
         Eigen::Matrix3d K = Eigen::Matrix3d::Zero();
@@ -105,20 +89,14 @@ void for_triangle_stresses(const SurfaceMesh& surface, const Material& material,
                            const Eigen::Matrix3Xd& tractions, bool large, const Eigen::Matrix3Xd& of_loads,
                            const Each& each) {
     const Eigen::Map<const Eigen::Matrix3Xd> moved(u.data(), 3, u.size() / 3);
+    const std::vector<TriangleStrain> strains = triangle_strains(surface, moved);
+    Eigen::Matrix3Xd on_triangles = triangle_tractions(surface, material, strains, tractions, large);
+    if (of_loads.cols() > 0) on_triangles += of_loads;
     for (Eigen::Index k = 0; k < surface.triangles.cols(); ++k) {
-        const Eigen::Vector3i t = surface.triangles.col(k);
-        const Eigen::Vector3d a = surface.vertices.col(t[1]) - surface.vertices.col(t[0]);
-        const Eigen::Vector3d b = surface.vertices.col(t[2]) - surface.vertices.col(t[0]);
-        TriangleState at{triangle_axes(a, b), {}, Eigen::Vector3d::Zero()};
-        Eigen::Matrix<double, 3, 2> edges, changes;
-        edges << a, b;
-        changes << moved.col(t[1]) - moved.col(t[0]), moved.col(t[2]) - moved.col(t[0]);
-        at.gradient = changes * (at.axes.leftCols<2>().transpose() * edges).inverse();
-        const Eigen::Matrix3d at_corners = tractions(Eigen::all, t);
-        const bool loaded = (at_corners.array().abs() > 0.0).colwise().any().all();  // squares may underflow
-        if (loaded) at.traction = at_corners.rowwise().mean();
-        if (of_loads.cols() > 0) at.traction += of_loads.col(k);
-        each(t, 0.5 * a.cross(b).norm(), large ? large_stress(material, at) : small_stress(material, at));
+        const TriangleStrain& at = strains[static_cast<std::size_t>(k)];
+        const Eigen::Vector3d traction = on_triangles.col(k);
+        each(surface.triangles.col(k), at.area,
+             large ? large_stress(material, at, traction) : small_stress(material, at, traction));
     }
 }
 

@@ -24,7 +24,7 @@ Eigen::Matrix3Xd load_tractions(const SurfaceMesh& surface, std::span<const Unit
 
 /// A measure of the stress on the surface, at every vertex the mean over its triangles by area [force / L^2]. In a
 /// triangle the strain within its plane comes from the displacements u (3*n_vertices [L]) of its corners, the stress on
-/// its plane from the mean traction where all corners have one and from what acts on the triangle (`of_loads`, as from
+/// its plane from its traction (triangle_tractions) and from what acts on the triangle (`of_loads`, as from
 /// load_tractions; zero on the free surface), and Hooke's law gives the rest; so it means the same for all methods.
 /// First order in the mesh size. With large deformations it is the Cauchy stress of the neo-Hookean material on the
 /// present triangle; tractions are still per rest area.

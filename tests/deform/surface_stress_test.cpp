@@ -2,9 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 #include "bem/collocation/method.hpp"
 #include "deform/deformer.hpp"
 #include "elasticity/exact_fields.hpp"
+#include "elasticity/neo_hookean.hpp"
+#include "mesh/measures.hpp"
 #include "mesh/primitives.hpp"
 #include "methods/precompute.hpp"
 #include "methods/registry.hpp"
@@ -93,6 +97,46 @@ TEST(SurfaceStress, ARotationMakesNone) {
                                                           Eigen::Map<const Eigen::VectorXd>(u.data(), u.size()),
                                                           Eigen::Matrix3Xd::Zero(3, sphere.n_vertices()));
     EXPECT_LT(stress.maxCoeff(), 1e-12 * kRubber.young_modulus);
+}
+
+/// A grip around edges and corners: forces of sigma n over the triangles of each vertex, whose sum one traction is not.
+TEST(SurfaceStress, IsThatOfHomogeneousStrainsAtEdgesInsideAGripToo) {
+    const SurfaceMesh box = make_box(3, {2.0, 1.0, 0.7});
+    const Eigen::Matrix3d gradient =
+        (Eigen::Matrix3d() << 0.1, 0.05, 0.0, -0.02, -0.05, 0.03, 0.04, 0.0, -0.05).finished();  // keeps the volume
+    const Eigen::Matrix3Xd u = gradient * box.vertices;
+    const Eigen::Map<const Eigen::VectorXd> all(u.data(), u.size());
+    std::vector<int> everywhere(static_cast<std::size_t>(box.n_vertices()));
+    std::iota(everywhere.begin(), everywhere.end(), 0);
+    for (const bool large : {false, true})
+        for (const double nu : {0.0, 0.3, 0.499, 0.5}) {
+            if (large && nu == 0.5) continue;
+            const Material material{kRubber.young_modulus, nu};
+            const NeoHookean law({kRubber.young_modulus, std::min(nu, 0.499)});
+            const Eigen::Matrix3d hooke_stress = stress_tensor(hooke(gradient, material));
+            const Eigen::Matrix3d nominal = large ? law.first_piola(gradient) : hooke_stress;
+            Eigen::Matrix3Xd forces = Eigen::Matrix3Xd::Zero(3, box.n_vertices());
+            for (int t = 0; t < box.n_triangles(); ++t)
+                for (const int v : box.triangles.col(t))
+                    forces.col(v) += nominal * area_vector(triangle_points(box, t)) / 6.0;
+            const Eigen::MatrixXd stress =
+                surface_stress(box, material, all, vertex_tractions(box, everywhere, forces), large);
+            const StressNumbers expected = large ? stress_numbers(law.cauchy(gradient)) : stress_numbers(hooke_stress);
+            for (int v = 0; v < box.n_vertices(); ++v)
+                EXPECT_LT((stress.col(v) - expected).norm(), 1e-8 * expected.norm())
+                    << v << ", nu " << nu << (large ? ", large" : "");
+        }
+}
+
+/// A sheet of no thickness: two opposite faces say nothing of what presses on them.
+TEST(SurfaceStress, IsFiniteWhereFacesAreOpposite) {
+    SurfaceMesh sheet;
+    sheet.vertices = Eigen::Matrix3d::Identity();
+    sheet.triangles = (Triangles(3, 2) << 0, 0, 1, 2, 2, 1).finished();
+    const Eigen::Matrix3Xd u = 0.1 * sheet.vertices, tractions = 300.0 * sheet.vertices;
+    for (const bool large : {false, true}) {
+        EXPECT_TRUE(surface_stress(sheet, kRubber, u.reshaped(), tractions, large).allFinite()) << large;
+    }
 }
 
 /// Of a modulus whose squares are less than numbers can be.
