@@ -195,6 +195,22 @@ TEST(EstimateUnderPressure, OfLargeDeformationsSeesFreeRims) {
     }
 }
 
+/// Next to incompressibility, where elements of four nodes lock and would say ten times as much.
+TEST(EstimateUnderPressure, OfSmallAndLargeDeformationsIsTheSameNextToIncompressibility) {
+    Document document;
+    document.mesh = Primitive{.name = "box", .resolution = 3, .size = {3.0, 1.0, 1.0}};
+    document.fixed = {{.name = "wall", .select = {PlaneSelector{{0, 0, 0}, {1, 0, 0}, 1e-9}}}};
+    document.loads = {
+        {.name = "press", .select = {PlaneSelector{{0, 0, 1}, {0, 0, 1}, 1e-9}}, .value = PressureLoad{1e-6}}};
+    for (const double nu : {0.3, 0.49, 0.499}) {
+        document.material = {10.0, nu};
+        const double linear = ten_nodes(document, kQuadraticFem).error_estimate.value();
+        const Solution large = ten_nodes(document, kNonlinearFem);
+        ASSERT_TRUE(large.error_estimate) << nu;
+        EXPECT_NEAR(*large.error_estimate, linear, 0.1 * linear) << nu;
+    }
+}
+
 /// Forces balance those that are given, however stiff the elements are.
 TEST_F(GripEstimate, OfForcesIsSmallWhereTheyBalance) {
     for (const MethodKind kind : {kFem, kGalerkinBem, kQuadraticFem, kNonlinearFem}) {

@@ -1,5 +1,7 @@
 #include "fem/nonlinear/halved_answer.hpp"
 
+#include <functional>
+
 #include "base/error.hpp"
 #include "base/memory.hpp"
 #include "deform/node_rows.hpp"
@@ -43,6 +45,22 @@ Eigen::VectorXd change_by(const TwoLevels& levels, const TwoLevels::Operators& a
     }
 }
 
+/// The same under loads that follow, where GMRES ends before it is there, as near nu = 1/2: conjugate gradients without
+/// the change of the loads, which is put right after each. Where that is not small they do not get there either.
+Eigen::VectorXd change_by_correction(const TwoLevels& levels, const TwoLevels::Operators& without,
+                                     const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& change_of_loads,
+                                     const Eigen::VectorXd& forces, Control& control) {
+    constexpr int kMostCorrections = 4;
+    constexpr double kEnough = 0.05;  // of an estimate
+    Eigen::VectorXd change = change_by(levels, without, forces, control);
+    for (int i = 0; i < kMostCorrections && change.size() > 0; ++i) {
+        const Eigen::VectorXd before = change;
+        change = change_by(levels, without, forces + change_of_loads(before), control);
+        if (change.size() > 0 && (change - before).norm() <= kEnough * change.norm()) return change;
+    }
+    return {};
+}
+
 }  // namespace
 
 std::optional<ReferenceAnswer> halved_answer(const NonlinearMesh& mesh, const Newton& newton,
@@ -70,17 +88,27 @@ std::optional<ReferenceAnswer> halved_answer(const NonlinearMesh& mesh, const Ne
         if (!factor || (!stable && !fine.loads.follow())) return {};
     }
     const Eigen::Matrix3Xd diagonal = StiffnessProduct(fine.mesh, material).diagonal();
+    const auto change_of_loads = [&](const Eigen::VectorXd& v) -> Eigen::VectorXd {
+        return fine.loads.force_change(u, factors, v, Eigen::VectorXd::Zero(factors.size()));
+    };
     const TwoLevels::Operators apply{
         [&](const Eigen::VectorXd& v) -> Eigen::VectorXd {
-            return fine.elements->force_change(u, v, material, work, control) -
-                   fine.loads.force_change(u, factors, v, Eigen::VectorXd::Zero(factors.size()));
+            return fine.elements->force_change(u, v, material, work, control) - change_of_loads(v);
         },
         [&](const Eigen::VectorXd& f) -> Eigen::VectorXd {
             return newton.tangent().all_rows(factor->solve(newton.tangent().free_rows(f)));
         },
         [&](int node) -> Eigen::Matrix3d { return diagonal.middleCols<3>(3 * node); }, !fine.loads.follow()};
     const Eigen::VectorXd forces = fine.elements->forces(u, material, work, control) - fine.loads.forces(u, factors);
-    const Eigen::VectorXd change = change_by(levels, apply, -forces, control);
+    Eigen::VectorXd change = change_by(levels, apply, -forces, control);
+    if (change.size() == 0 && fine.loads.follow()) {
+        TwoLevels::Operators without = apply;
+        without.symmetric = true;
+        without.stiffness = [&](const Eigen::VectorXd& v) -> Eigen::VectorXd {
+            return fine.elements->force_change(u, v, material, work, control);
+        };
+        change = change_by_correction(levels, without, change_of_loads, -forces, control);
+    }
     if (change.size() == 0) return {};
     const Reactions at_nodes =
         gathered_reactions(held.shares, static_cast<int>(nodes.prescribed.nodes.size()),
