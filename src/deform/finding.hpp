@@ -11,16 +11,17 @@ namespace elastolab {
 
 /// What may be said of a mesh, a material, a constrained set or a solution. `value` means, by kind:
 enum class FindingKind {
-    locking,               ///< Poisson's ratio, near 1/2, of a method that locks
-    lost_digits,           ///< condition number of `object`, large enough to lose digits
-    singular_stiffness,    ///< K = G^-1 H with G singular to rounding
-    thin_triangle,         ///< altitude over longest edge of a triangle whose integrals lose digits
-    slender_body,          ///< length over thickness
-    thin_wall,             ///< distance of the other side over the edge of a triangle there
-    contact,               ///< solids number `first` and `second` touch but are separate bodies
-    point_constraint,      ///< how many vertices are constrained without a whole constrained triangle; `first` is one
-    weak_hold,             ///< by how much an error of a handle is amplified
-    free_motion,           ///< the constraints leave the body free to move; the smallest motion is taken
+    locking,             ///< Poisson's ratio, near 1/2, of a method that locks
+    uncertain_pressure,  ///< Poisson's ratio, so near 1/2 that stresses are; `first` 1: a whole surface is constrained
+    lost_digits,         ///< condition number of `object`, large enough to lose digits
+    singular_stiffness,  ///< K = G^-1 H with G singular to rounding
+    thin_triangle,       ///< altitude over longest edge of a triangle whose integrals lose digits
+    slender_body,        ///< length over thickness
+    thin_wall,           ///< distance of the other side over the edge of a triangle there
+    contact,             ///< solids number `first` and `second` touch but are separate bodies
+    point_constraint,    ///< how many vertices are constrained without a whole constrained triangle; `first` is one
+    weak_hold,           ///< by how much an error of a handle is amplified
+    free_motion,         ///< the constraints leave the body free to move; the smallest motion is taken
     singular_though_held,  ///< the constraints hold the body, and yet their system is singular
     coarse_mesh,           ///< estimated error of the displacement of the worst vertex, over the largest displacement
     coarse_forces,         ///< estimated error of the reactions of the worst patch, over the largest

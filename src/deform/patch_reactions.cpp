@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <Eigen/Geometry>
+#include <numbers>
 #include <numeric>
+
+#include "mesh/measures.hpp"
 
 namespace elastolab {
 
@@ -25,10 +28,19 @@ constexpr double kShearForces = 0.1;
 double shear_over_stretch(const Body& body) { return 1.0 / (1.0 + body.material.poisson_ratio); }
 
 /// Part of all forces, added up by their sizes, that is the least which errors are compared with: where patches bear
-/// nothing in all, as under loads that balance each other, nothing else is there.
+/// nothing in all, as under loads that balance each other, nothing else is there. Of a slender body it is less, as much
+/// as it is more slender than a cube: a moment over its length is that much less than the forces that make it.
 constexpr double kShareOfAll = 0.1;
-/// Forces below this fraction of Young's modulus times displacement times length are rounding.
+/// Forces below this fraction of Young's modulus times displacement times thickness are rounding.
 constexpr double kNoForce = 1e-9;
+/// Thickness over size of a cube.
+constexpr double kOfACube = 2.0 / (3.0 * std::numbers::sqrt3);
+
+/// Four times the volume over the surface: of a long bar of square section its width, of a plate twice its thickness.
+double thickness_of(const SurfaceMesh& surface) {
+    const double area = surface_area(surface);
+    return area > 0.0 ? 4.0 * std::abs(enclosed_volume(surface)) / area : 0.0;
+}
 
 }  // namespace
 
@@ -82,8 +94,10 @@ double relative_reaction_error(const Body& body, const ConstrainedSet& set, cons
     const SurfaceMesh& surface = *body.surface;
     const ConstrainedPatches patches = constrained_patches(surface, set.fixed, set.handles);
     const double all_forces = reactions.forces.colwise().stableNorm().sum() + load_forces;
-    const double force = std::max({largest_patch_reaction(surface, patches, reactions), kShareOfAll * all_forces,
-                                   kNoForce * body.material.young_modulus * motion * size_of(surface)});
+    const double slenderness = thickness_of(surface) / size_of(surface);
+    const double force = std::max({largest_patch_reaction(surface, patches, reactions),
+                                   kShareOfAll * std::min(1.0, slenderness / kOfACube) * all_forces,
+                                   kNoForce * body.material.young_modulus * motion * thickness_of(surface)});
     const double off = largest_patch_reaction(surface, patches, error);
     return std::max(force > 0.0 ? off / force : 0.0, kShearForces * motion_error * shear_over_stretch(body));
 }

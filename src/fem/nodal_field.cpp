@@ -20,6 +20,9 @@ namespace {
 
 /// Barycentric weights that are below zero by no more than this count as rounding.
 constexpr double kOnFace = 1e-9;
+/// Poisson's ratios between which the stress of ten-node elements goes over from the pressure at their nodes to that
+/// recovered from their means.
+constexpr double kPressureOfNodes = 0.4, kPressureOfMeans = 0.49;
 /// Least eigenvalue of a patch's moments, scaled to a diagonal of ones, above which they determine a slope.
 constexpr double kTellsSlope = 0.02;
 
@@ -142,6 +145,48 @@ double typical_edge(const TetMesh& tets) {
     return size.norm() / std::cbrt(static_cast<double>(tets.n_tetrahedra()));
 }
 
+double mean_stress(const Eigen::Ref<const Eigen::VectorXd>& numbers) { return numbers.head<3>().mean(); }
+
+/// Puts another pressure into the stresses of ten-node elements: a linear fit to the mean pressures of the elements
+/// around each corner, and between corners their mean. Near nu = 1/2 pressure is lambda div u with lambda without
+/// bound: elements have the volume right on the average and not at each node.
+void recover_pressures(const Eigen::Matrix<int, 10, Eigen::Dynamic>& elements, const Positions& x, double poisson_ratio,
+                       const Eigen::MatrixXd& u, bool large, double part, Eigen::MatrixXd& stresses) {
+    const Material material{1.0, poisson_ratio};
+    const TetMesh corners{x, elements.topRows<4>(), static_cast<int>(x.cols())};
+    const PatchFits fits(corners, typical_edge(corners));
+    constexpr double kInner = 0.1381966011250105;  // the rule of four points
+    Eigen::MatrixXd pressures = Eigen::MatrixXd::Zero(x.cols(), u.cols());
+    for (Eigen::Index e = 0; e < elements.cols(); ++e) {
+        const auto element = elements.col(e);
+        const Eigen::Matrix3d edges = edges_of(corners, e);
+        Eigen::Matrix<double, 4, 3> of_coordinates;
+        of_coordinates.bottomRows<3>() = edges.inverse();
+        of_coordinates.row(0) = -of_coordinates.bottomRows<3>().colwise().sum();
+        Eigen::RowVectorXd mean = Eigen::RowVectorXd::Zero(u.cols());
+        for (int point = 0; point < 4; ++point) {
+            Eigen::Vector4d L = Eigen::Vector4d::Constant(kInner);
+            L[point] = 1.0 - 3.0 * kInner;
+            const Eigen::Matrix<double, 10, 3> of_shapes = quadratic_slopes(L) * of_coordinates;
+            for (Eigen::Index c = 0; c < u.cols(); ++c) {
+                Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();
+                for (int i = 0; i < 10; ++i) gradient += u.col(c).segment<3>(3 * element[i]) * of_shapes.row(i);
+                mean[c] += 0.25 * mean_stress(stress_of(gradient, material, large));
+            }
+        }
+        for (int i = 0; i < 4; ++i) pressures.row(element[i]) += fits.weight(e, element[i], edges.determinant()) * mean;
+    }
+    for (const auto& element : elements.colwise())
+        for (int m = 0; m < 6; ++m)
+            pressures.row(element[4 + m]) =
+                0.5 * (pressures.row(element[kTetEdges[m][0]]) + pressures.row(element[kTetEdges[m][1]]));
+    for (Eigen::Index node = 0; node < x.cols(); ++node)
+        for (Eigen::Index c = 0; c < u.cols(); ++c) {
+            auto numbers = stresses.col(c).segment<6>(6 * node);
+            numbers.head<3>().array() += part * (pressures(node, c) - mean_stress(numbers));
+        }
+}
+
 }  // namespace
 
 NodalField::NodalField(std::shared_ptr<const TetMesh> tets, ElementDegree degree, double poisson_ratio,
@@ -153,9 +198,16 @@ NodalField::NodalField(std::shared_ptr<const TetMesh> tets, ElementDegree degree
       boxes_(diagonals_of_boxes(*tets_), all_tetrahedra(*tets_)) {
     assert(displacements_.rows() == 3 * tets_->vertices.cols());
     if (degree == ElementDegree::quadratic) elements_ = rejoined(*tets_);
-    stresses_ = degree == ElementDegree::quadratic
-                    ? averaged_stresses(elements_, tets_->vertices, poisson_ratio, displacements_, large_deformations)
-                    : recovered_stresses(*tets_, edge_, poisson_ratio, displacements_, large_deformations);
+    if (degree == ElementDegree::linear) {
+        stresses_ = recovered_stresses(*tets_, edge_, poisson_ratio, displacements_, large_deformations);
+        return;
+    }
+    stresses_ = averaged_stresses(elements_, tets_->vertices, poisson_ratio, displacements_, large_deformations);
+    const double part =
+        std::clamp((poisson_ratio - kPressureOfNodes) / (kPressureOfMeans - kPressureOfNodes), 0.0, 1.0);
+    if (part > 0.0)
+        recover_pressures(elements_, tets_->vertices, poisson_ratio, displacements_, large_deformations, part,
+                          stresses_);
 }
 
 template <class Each>

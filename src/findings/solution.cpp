@@ -7,6 +7,7 @@
 #include <span>
 
 #include "base/lapack.hpp"
+#include "mesh/topology.hpp"
 #include "mesh/triangles_across.hpp"
 
 namespace elastolab {
@@ -17,6 +18,9 @@ using Eigen::Vector3d;
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();
 constexpr double kLocking = 0.48;
+/// Poisson's ratio above which pressures of ten-node elements, and of collocation between surfaces that are wholly
+/// constrained, are off by more than a third of the stress (docs/formulation.md section 9).
+constexpr double kUncertainPressure = 0.495;
 constexpr double kLostDigits = 1e-6;     ///< relative error of displacements above which rounding is reported
 constexpr double kWeakLever = 100.0;     ///< tolerated amplification of an error at a handle
 constexpr double kLargeResidual = 1e-6;  ///< rounding leaves 1e-10 at most
@@ -53,6 +57,25 @@ Findings findings_of_hold(const SurfaceMesh& surface, std::span<const int> solid
     const double off_line = std::sqrt(std::max(axes.values[0] + axes.values[1], 0.0));
     if (off_line * kWeakLever > reach || off_line < 1e-12 * reach) return {};  // the latter is not held at all
     return {{.kind = FindingKind::weak_hold, .value = reach / off_line, .place = centre}};
+}
+
+/// Collocation where a whole closed surface is prescribed: that a uniform pressure on it moves nothing is nearly true
+/// of its equations, which leave that pressure open.
+Findings findings_of_closed_surfaces(const Model& model, std::span<const char> constrained) {
+    const MethodKind method = model.method().kind;
+    const double poisson_ratio = model.body().material.poisson_ratio;
+    if (method->balances_forces || poisson_ratio <= kUncertainPressure) return {};
+    const SurfaceMesh& surface = *model.body().surface;
+    for (const std::vector<int>& component : connected_components(surface, EdgeTable(surface)).triangles()) {
+        const auto is_constrained = [&](int t) {
+            const Eigen::Vector3i corners = surface.triangles.col(t);
+            return std::all_of(corners.begin(), corners.end(),
+                               [&](int v) { return constrained[static_cast<std::size_t>(v)] != 0; });
+        };
+        if (std::all_of(component.begin(), component.end(), is_constrained))
+            return {{.kind = FindingKind::uncertain_pressure, .value = poisson_ratio, .method = method, .first = 1}};
+    }
+    return {};
 }
 
 /// Volume between the surface of a solid and the origin, and what displacements add to it, to first order.
@@ -102,8 +125,11 @@ Findings findings_of_volume(const Deformer& deformer, const Eigen::VectorXd& u) 
 }  // namespace
 
 Findings findings_of_material(MethodKind method, double poisson_ratio) {
-    if (!method->locks || poisson_ratio <= kLocking) return {};
-    return {{.kind = FindingKind::locking, .value = poisson_ratio, .method = method}};
+    if (method->locks && poisson_ratio > kLocking)
+        return {{.kind = FindingKind::locking, .value = poisson_ratio, .method = method}};
+    if (!method->takes_incompressible && poisson_ratio > kUncertainPressure)
+        return {{.kind = FindingKind::uncertain_pressure, .value = poisson_ratio, .method = method, .first = 0}};
+    return {};
 }
 
 Findings findings_of_condition(std::string object, double condition) {
@@ -133,6 +159,7 @@ Findings findings_of_set(const Deformer& deformer) {
         findings.push_back({.kind = quality.free_to_move ? FindingKind::free_motion : FindingKind::singular_though_held,
                             .method = deformer.model().method().kind});
     append(findings, findings_of_points(surface, deformer.set()));
+    append(findings, findings_of_closed_surfaces(deformer.model(), constrained));
     return findings;
 }
 

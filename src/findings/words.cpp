@@ -35,6 +35,18 @@ std::string locking(const Finding& finding) {
            "galerkin-bem or linear-bem, which do not lock, or refine the mesh.";
 }
 
+std::string uncertain_pressure(const Finding& finding) {
+    const std::string begin = std::string(finding.method->name) + ": ";
+    const std::string ratio = "Poisson's ratio " + readable_number(finding.value, 6);
+    if (finding.first == 1)
+        return begin + "a whole closed surface is constrained, and next to 1/2 (" + ratio +
+               ") collocation does not find the pressure inside: stresses may be off by several times their size and "
+               "displacements by 15 %, on finer meshes too. Choose galerkin-bem.";
+    return begin + ratio +
+           " is so close to 1/2 that pressures, and with them stresses, are off by more than displacements: in bending "
+           "by a quarter to three quarters at 0.499. Choose galerkin-bem for stresses.";
+}
+
 std::string lost_digits(const Finding& finding) {
     return finding.object + ": nearly dependent equations (condition " + readable_number(finding.value) +
            "). Displacements may be off by " + readable_number(std::min(finding.value * kRounding, 1.0)) +
@@ -60,7 +72,8 @@ std::string slender_body(const Finding& finding) {
 std::string thin_wall(const Finding& finding) {
     const std::string_view errors =
         finding.method->shows_averages    ? "of 35 to 45 %. Refine there, or choose linear-bem."
-        : finding.method->balances_forces ? "of up to 2 %. Refine there, or compare with fem."
+        : finding.method->balances_forces ? "of 2 % or, where they are slender, many times that. Refine there, or "
+                                            "compare with quadratic-fem."
                                           : "of 1 to 10 %. Refine there, or choose galerkin-bem.";
     return "boundary elements: the surface near " + place_of(finding) + " is only " + readable_number(finding.value) +
            " of a triangle's edge away from its other side. Walls and gaps that thin have bending errors " +
@@ -151,6 +164,8 @@ std::string of_one(const Finding& finding) {
     switch (finding.kind) {
         case FindingKind::locking:
             return locking(finding);
+        case FindingKind::uncertain_pressure:
+            return uncertain_pressure(finding);
         case FindingKind::lost_digits:
             return lost_digits(finding);
         case FindingKind::singular_stiffness:

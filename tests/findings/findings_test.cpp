@@ -14,6 +14,8 @@
 #include "bem/galerkin/method.hpp"
 #include "elasticity/exact_fields.hpp"
 #include "fem/method.hpp"
+#include "fem/nonlinear/method.hpp"
+#include "fem/quadratic/method.hpp"
 #include "findings/cost.hpp"
 #include "findings/solution.hpp"
 #include "findings/words.hpp"
@@ -96,11 +98,38 @@ TEST(Findings, TellOfLockingFromWhereTheErrorHasDoubled) {
     EXPECT_THAT(warnings_of(make_box(3), Method{.kind = kLinearBem}, 0.5), IsEmpty());
 }
 
+TEST(Findings, TellOfUncertainPressures) {
+    for (const MethodKind kind : {kQuadraticFem, kNonlinearFem}) {
+        EXPECT_THAT(warnings_of(make_box(2), Method{.kind = kind}, 0.49), IsEmpty());
+        EXPECT_THAT(warnings_of(make_box(2), Method{.kind = kind}, 0.499), Contains(HasSubstr("pressures")));
+    }
+    // A hollow ball: its outer surface is prescribed, and the cavity free; or a part of each.
+    const SurfaceMesh ball = make_hollow_sphere(3, 1.0, 0.4);
+    std::vector<int> outer, upper;
+    for (int v = 0; v < ball.n_vertices(); ++v) {
+        if (ball.vertices.col(v).norm() > 0.7) outer.push_back(v);
+        if (ball.vertices(2, v) > 0.3) upper.push_back(v);
+    }
+    const auto is_told = [&](MethodKind kind, double nu, const std::vector<int>& handles) {
+        Control control;
+        Deformer deformer(precomputed(make_body(ball, {1.0, nu}), Method{.kind = kind}));
+        deformer.constrain({{}, handles}, control);
+        const Findings all = findings_of_set(deformer);
+        return std::any_of(all.begin(), all.end(),
+                           [](const Finding& f) { return f.kind == FindingKind::uncertain_pressure; });
+    };
+    for (const MethodKind kind : {kLinearBem, kConstantBem}) {
+        EXPECT_TRUE(is_told(kind, 0.4999, outer)) << name(kind);
+        EXPECT_FALSE(is_told(kind, 0.4999, upper)) << name(kind);
+        EXPECT_FALSE(is_told(kind, 0.3, outer)) << name(kind);
+    }
+    EXPECT_FALSE(is_told(kGalerkinBem, 0.4999, outer));
+}
+
 TEST(Findings, TellOfThinWalls) {
-    for (const auto& [kind, least, most, words] :
-         {std::tuple{kLinearBem, 0.03, 0.1, "bending errors of 1 to 10 %"},
-          std::tuple{kConstantBem, 0.35, 0.45, "bending errors of 35 to 45 %"},
-          std::tuple{kGalerkinBem, 0.0, 0.02, "bending errors of up to 2 %"}}) {
+    for (const auto& [kind, least, most, words] : {std::tuple{kLinearBem, 0.03, 0.1, "bending errors of 1 to 10 %"},
+                                                   std::tuple{kConstantBem, 0.35, 0.45, "bending errors of 35 to 45 %"},
+                                                   std::tuple{kGalerkinBem, 0.0, 0.02, "bending errors of 2 % or"}}) {
         for (const double thickness : {0.002, 0.02, 0.08}) {
             const double error = bending_error(plate(thickness), 0.3, make_method(kind));
             EXPECT_GT(error, least) << name(kind) << " " << thickness;
@@ -305,6 +334,10 @@ TEST(Findings, NeverAdviseTheMethodInUse) {
         for (const FindingKind finding : {FindingKind::coarse_mesh, FindingKind::coarse_forces,
                                           FindingKind::force_imbalance, FindingKind::moment_imbalance})
             texts.push_back(words({.kind = finding, .value = 0.1, .method = kind, .second = 1}));
+        for (const int first : {0, 1})
+            if (kind->name != "galerkin-bem")
+                texts.push_back(
+                    words({.kind = FindingKind::uncertain_pressure, .value = 0.499, .method = kind, .first = first}));
         if (kind->locks) texts.push_back(words({.kind = FindingKind::locking, .value = 0.49, .method = kind}));
         if (kind->integrates_boundary)
             for (const FindingKind finding : {FindingKind::thin_triangle, FindingKind::thin_wall})

@@ -32,6 +32,8 @@ bool tells_of(const Finding& finding, Wrong what) {
         case FindingKind::force_imbalance:
         case FindingKind::moment_imbalance:
             return what == Wrong::forces;
+        case FindingKind::uncertain_pressure:  // of ten-node elements: of stresses, which are not judged
+            return finding.first == 1;
         case FindingKind::locking:
         case FindingKind::lost_digits:
         case FindingKind::singular_stiffness:
