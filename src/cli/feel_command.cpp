@@ -230,6 +230,7 @@ void run_feel(const FeelOptions& options) {
         }
         timings = loop.timings();
     }
+    forces.resize(std::min(forces.size(), static_cast<std::size_t>(timings.ticks)));  // another tick may have followed
     if (!options.forces.empty()) {
         AtomicFile file(options.forces);
         write_felt(file.stream(), forces);

@@ -33,6 +33,14 @@ std::vector<std::string> with_command(int argc, char** argv, const std::vector<C
     return words;
 }
 
+/// As the parser says it, which lists them backwards.
+std::string not_expected(const std::vector<std::string>& words) {
+    std::string finding =
+        words.size() > 1 ? "The following arguments were not expected:" : "The following argument was not expected:";
+    for (const std::string& word : words) finding += " " + word;
+    return finding;
+}
+
 int run(int argc, char** argv) {
     CLI::App program("Elastolab: elastic bodies by finite and boundary elements.", "elastolab");
     program.set_version_flag("--version", std::string("elastolab ") + version());
@@ -47,7 +55,8 @@ int run(int argc, char** argv) {
     } catch (const CLI::Success& request) {
         return program.exit(request);  // --help and --version
     } catch (const CLI::ParseError& error) {
-        const std::string finding = error.what();
+        const bool has_extras = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
+        const std::string finding = has_extras ? not_expected(program.remaining(true)) : error.what();
         return complain(finding + (finding.ends_with('.') ? "" : ".") + " See elastolab --help.", kBadUsage);
     }
     const auto chosen =

@@ -94,9 +94,13 @@ void print_memory(std::ostream& out, const Solution& solution) {
 }
 
 void print_accuracy(std::ostream& out, const Solution& solution) {
+    const bool has_condition = solution.condition_estimate > 1.0;  // else it was not estimated
+    if (!solution.residual && !has_condition) return;
     out << "  accuracy      ";
-    if (solution.residual) out << "relative residual " << readable_number(*solution.residual, 4) << ", ";
-    out << "condition about " << readable_number(solution.condition_estimate, 4) << "\n";
+    if (solution.residual)
+        out << "relative residual " << readable_number(*solution.residual, 4) << (has_condition ? ", " : "");
+    if (has_condition) out << "condition about " << readable_number(solution.condition_estimate, 4);
+    out << "\n";
 }
 
 void print_equilibrium(std::ostream& out, const EquilibriumFacts& facts) {

@@ -151,7 +151,7 @@ void run_solve(const SolveOptions& options, const SolveVariant& variant) {
     require_inside(request.method.kind, options.mesh_out);
     if (options.deformed && !has_points(options.mesh_out))
         throw UsageError("--deformed: there is no .vtp or .vtu whose points it could move. Add --mesh-out FILE.vtp.");
-    require_figure(request.method.kind, request.document.handles.size(), options.outputs());
+    require_figure(request.method.kind, request.document, options.outputs());
 
     Solution solution = solve_with_progress(request, control, !options.quiet);
     const ChoicesForSome given{!options.tractions.empty(), !options.elements.empty(), options.rims > 0};

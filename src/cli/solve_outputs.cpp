@@ -73,12 +73,12 @@ private:
     std::deque<AtomicFile> files_;  ///< references to its members stay valid
 };
 
-Figure figure_of(const Solution& solution, Control& control) {
-    return make_figure(solved_body(solution), solution.groups, solution.vertical, control);
+Figure figure_of(const Solution& solution, FigureUse use, Control& control) {
+    return make_figure(solved_body(solution), solution.groups, solution.vertical, use, control);
 }
 
 void write_mesh(std::ostream& out, const fs::path& name, const Solution& solution, VtkPoints points, Control& control) {
-    if (is_glb_file(name)) return write_glb(out, figure_of(solution, control));
+    if (is_glb_file(name)) return write_glb(out, figure_of(solution, FigureUse::show, control));
     if (is_field_file(name)) return write_field_file(out, name, solved_body(solution), control, points);
     SurfaceMesh mesh = *solution.surface;
     mesh.vertices += solution.displacement;
@@ -156,11 +156,14 @@ void require_inside(MethodKind method, const fs::path& mesh) {
                          " has no tetrahedra inside. Choose .vtp, or a finite-element method.");
 }
 
-void require_figure(MethodKind method, std::size_t n_handles, const OutputPaths& paths) {
-    const fs::path& figure = is_glb_file(paths.mesh) ? paths.mesh : paths.figure;
-    if (figure.empty()) return;
-    if (const std::string why = figure_refusal(method, n_handles); !why.empty())
-        throw UsageError(figure.string() + ": " + why);
+void require_figure(MethodKind method, const Document& scene, const OutputPaths& paths) {
+    const std::size_t n_handles = scene.handles.size(), n_loads = scene.loads.size() + (scene.gravity ? 1 : 0);
+    const fs::path glb = is_glb_file(paths.mesh) ? paths.mesh : fs::path();
+    for (const auto& [file, n_causes] : {std::pair(paths.figure, n_handles), std::pair(glb, n_handles + n_loads)}) {
+        if (file.empty()) continue;
+        if (const std::string why = figure_refusal(method, n_causes); !why.empty())
+            throw UsageError(file.string() + ": " + why);
+    }
 }
 
 void require_writable(const OutputPaths& paths, const std::vector<fs::path>& inputs) {
@@ -182,7 +185,8 @@ void write_outputs(const OutputPaths& paths, const Solution& solution, Control& 
                         surface_fields(solved_body(solution)));
     if (!paths.mesh.empty())
         write_mesh(outputs.add(paths.mesh).stream(), paths.mesh, solution, paths.mesh_points, control);
-    if (!paths.figure.empty()) write_figure(outputs.add(paths.figure).stream(), figure_of(solution, control));
+    if (!paths.figure.empty())
+        write_figure(outputs.add(paths.figure).stream(), figure_of(solution, FigureUse::pull, control));
     if (!paths.forces.empty()) {
         std::vector<GroupReaction> rows = solution.reactions;
         rows.insert(rows.end(), solution.loads.begin(), solution.loads.end());

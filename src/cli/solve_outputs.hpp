@@ -37,7 +37,7 @@ void require_mesh_extension(const std::filesystem::path& mesh);
 void require_inside(MethodKind method, const std::filesystem::path& mesh);
 
 /// Throws UsageError where a figure is among the outputs (.html, .glb) that cannot be made (figure_refusal).
-void require_figure(MethodKind method, std::size_t n_handles, const OutputPaths& paths);
+void require_figure(MethodKind method, const Document& scene, const OutputPaths& paths);
 
 /// Writes all outputs, then puts them in their places together: when one fails, none is there. Solves for what figures
 /// and fields need besides. Throws Error, Cancelled.

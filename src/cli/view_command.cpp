@@ -95,7 +95,7 @@ void require_mesh(const ViewWords& words, const std::optional<Document>& scene) 
     require_inside(method, words.mesh_out);
     OutputPaths paths;
     paths.mesh = words.mesh_out;
-    require_figure(method, scene->handles.size(), paths);
+    require_figure(method, *scene, paths);
 }
 
 /// A legend is of a field: one that is asked for, or the scene's, or one that a replay may choose.

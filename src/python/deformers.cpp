@@ -73,7 +73,7 @@ Eigen::MatrixXd all_values_of(const Deformer& deformer, const py::object& values
 /// On a worker where it may take long.
 Eigen::VectorXd displaced(const Deformer& deformer, const Eigen::VectorXd& values) {
     if (!deformer.iterates() && deformer.linear()) {
-        const py::gil_scoped_release others;
+        const WithoutLock others;
         return deformer.displace(values);
     }
     return watched(py::none(), [&](Control& control) { return deformer.displace(values, control); });
@@ -129,7 +129,7 @@ py::dict surface_fields(const Deformer& deformer, const py::object& values, cons
     Eigen::MatrixXd stress;
     Eigen::VectorXd von_mises;
     {
-        const py::gil_scoped_release others;
+        const WithoutLock others;
         tractions = vertex_tractions(*body.surface, constrained_vertices(deformer), a.reactions.forces);
         stress = surface_stress(*body.surface, body.material, a.displacements, tractions, !deformer.linear(),
                                 load_tractions(*body.surface, deformer.set().loads, load_factors,
@@ -190,7 +190,7 @@ py::array drag(const DragResponse& response, const py::object& parameters, const
     if (response.X.size() < kManyNumbers) {
         response.displace(given, u);
     } else {
-        const py::gil_scoped_release others;
+        const WithoutLock others;
         response.displace(given, u);
     }
     std::memcpy(array.mutable_data(), u.data(), sizeof(double) * static_cast<std::size_t>(u.size()));
@@ -258,9 +258,11 @@ times each of the loads acts, (n_loads,): once, unless they are given. Any threa
         .def_property_readonly("n_vertices", &n_vertices)
         .def_property_readonly("n_loads", [](const Deformer& d) { return d.set().loads.size(); })
         .def_property_readonly(
-            "held", [](const Deformer& d) { return d.quality().held; },
+            "held", [](const Deformer& d) { return d.quality().held && !constrained_vertices(d).empty(); },
             "False: the body is free to move, and the smallest motion is taken.")
-        .def_property_readonly("condition_estimate", [](const Deformer& d) { return d.quality().condition_estimate; })
+        .def_property_readonly(
+            "condition_estimate", [](const Deformer& d) { return d.quality().condition_estimate; },
+            "Of the set's matrix; 1 where it is not estimated.")
         .def_property_readonly("warnings", [](const Deformer& d) { return words(findings_of_set(d)); })
         .def("displace", &displace, py::arg("values"), py::arg("out") = py::none(), py::kw_only(),
              py::arg("factors") = py::none(), "Displacements of all vertices: (n, 3), into `out` if it is given.")

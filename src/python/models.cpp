@@ -198,6 +198,12 @@ py::dict predicted(const Surface& surface, const std::string& method, const std:
     return row;
 }
 
+/// The name of a choice, or nothing where a method has none.
+template <class Choice>
+std::optional<std::string> named_if(bool chooses, Choice choice) {
+    return chooses ? std::optional<std::string>(name(choice)) : std::nullopt;
+}
+
 void bind_model(py::module_& module) {
     py::class_<Model, ModelPointer>(module, "Model",
                                     "A body that is ready to be constrained: what `precompute` returns. Immutable; any "
@@ -208,15 +214,22 @@ void bind_model(py::module_& module) {
         .def_property_readonly("material", [](const Model& m) { return m.body().material; })
         .def_property_readonly("method", [](const Model& m) { return name(m.method().kind); })
         .def_property_readonly("mode", [](const Model& m) { return name(m.method().mode); })
-        .def_property_readonly("tractions", [](const Model& m) { return name(m.method().tractions); })
+        .def_property_readonly(
+            "tractions",
+            [](const Model& m) { return named_if(m.method().kind->chooses_tractions, m.method().tractions); },
+            "None where the method has no choice of them.")
         .def_property_readonly("update", [](const Model& m) { return name(m.method().update); })
-        .def_property_readonly("elements", [](const Model& m) { return name(m.method().elements); })
+        .def_property_readonly(
+            "elements", [](const Model& m) { return named_if(m.method().kind->chooses_elements, m.method().elements); },
+            "None where the method has no choice of them.")
         .def_property_readonly("rims", [](const Model& m) { return m.method().rims; })
         .def_property_readonly("n_vertices", [](const Model& m) { return m.facts().n_vertices; })
         .def_property_readonly("n_tetrahedra", [](const Model& m) { return m.facts().n_tetrahedra; })
         .def_property_readonly("degrees_of_freedom", [](const Model& m) { return m.facts().n_degrees_of_freedom; })
         .def_property_readonly("memory_bytes", [](const Model& m) { return m.facts().memory_bytes; })
-        .def_property_readonly("condition_estimate", [](const Model& m) { return m.facts().condition_estimate; })
+        .def_property_readonly(
+            "condition_estimate", [](const Model& m) { return m.facts().condition_estimate; },
+            "Of the matrix that is inverted; 0 where nothing is.")
         .def_property_readonly("seconds", &seconds_of, "Of each stage of the precomputation.")
         .def_property_readonly("warnings", [](const Model& m) { return words(findings_of_model(m)); })
         .def("matrices", &matrices_of, "The dense matrices that the mode keeps, by name ('H', 'G', 'K', 'Kinv' ...).")

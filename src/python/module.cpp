@@ -1,4 +1,5 @@
 // The Python module: what it binds is in the files beside.
+#include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
 #include <algorithm>
@@ -14,6 +15,7 @@
 #include "python/models.hpp"
 #include "python/scenes.hpp"
 #include "python/surfaces.hpp"
+#include "python/watch.hpp"
 
 namespace py = pybind11;
 
@@ -52,6 +54,9 @@ PYBIND11_MODULE(_core, module) {
     module.doc() = "The compiled part of elastolab.";
     reserve_blas_buffers();
     bind_errors(module);
+    // Now, under the import's lock: threads that needed it first at once would wait for each other for ever.
+    py::detail::npy_api::get();
+    python::stop_work_at_the_end();
     python::bind_surfaces(module);
     python::bind_loads(module);
     python::bind_deformers(module);

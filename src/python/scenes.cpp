@@ -7,6 +7,8 @@
 #include <memory>
 #include <utility>
 
+#include "base/error.hpp"
+#include "base/text.hpp"
 #include "mesh/input/export.hpp"
 #include "methods/choices.hpp"
 #include "python/arrays.hpp"
@@ -63,7 +65,7 @@ void save_text(const std::string& text, const std::string& name, const fs::path&
 py::dict fields_of(const Solution& solution) {
     std::vector<MeshField> fields;
     {
-        const py::gil_scoped_release others;
+        const WithoutLock others;
         fields = surface_fields(solved_body(solution));
     }
     py::dict result;
@@ -76,10 +78,16 @@ py::dict fields_of(const Solution& solution) {
 void save(const Solution& solution, const fs::path& file, bool deformed, const py::object& progress) {
     run_watched(progress, [&](Control& control) {
         if (is_figure_file(file) || is_glb_file(file))
-            return save_figure(file, make_figure(solved_body(solution), solution.groups, solution.vertical, control));
+            return save_figure(
+                file, make_figure(solved_body(solution), solution.groups, solution.vertical, use_of(file), control));
         if (is_field_file(file))
             return save_field_file(file, solved_body(solution), control,
                                    deformed ? VtkPoints::moved : VtkPoints::at_rest);
+        const std::string extension = lower_case(file.extension().string());
+        if (extension != ".obj" && extension != ".ply" && extension != ".stl")
+            throw Error(one_line(file.string()) +
+                        ": a solution is written as .obj, .ply, .stl, .vtp, .vtu, .csv, .html or .glb. Choose one of "
+                        "these extensions.");
         SurfaceMesh mesh = *solution.surface;
         mesh.vertices += solution.displacement;
         save_surface(file, mesh);
@@ -100,6 +108,11 @@ void bind_reaction(py::module_& module) {
         .def_property_readonly(
             "moment", [](const GroupReaction& r) { return as_numbers(Eigen::VectorXd(r.moment)); },
             "About the origin: (3,) [force * length].");
+}
+
+template <class Value>
+std::optional<Value> of_equilibrium(const Solution& solution, Value EquilibriumFacts::*fact) {
+    return solution.facts ? std::optional<Value>((*solution.facts).*fact) : std::nullopt;
 }
 
 void bind_solution(py::module_& module) {
@@ -135,7 +148,16 @@ void bind_solution(py::module_& module) {
                       "Of the displacement of the worst vertex, over the largest; None where there is none.")
         .def_readonly("force_error_estimate", &Solution::force_error_estimate)
         .def_readonly("residual", &Solution::residual)
-        .def_readonly("condition_estimate", &Solution::condition_estimate)
+        .def_readonly("condition_estimate", &Solution::condition_estimate, "1 where it is not estimated.")
+        .def_property_readonly(
+            "iterations", [](const Solution& s) { return of_equilibrium(s, &EquilibriumFacts::iterations); },
+            "Of Newton's method; None but for nonlinear FEM, as for the next two.")
+        .def_property_readonly(
+            "energy", [](const Solution& s) { return of_equilibrium(s, &EquilibriumFacts::energy); },
+            "That of the strains [force * length].")
+        .def_property_readonly(
+            "largest_stretch", [](const Solution& s) { return of_equilibrium(s, &EquilibriumFacts::largest_stretch); },
+            "Length over length at rest, at most.")
         .def_property_readonly("warnings", [](const Solution& s) { return s.warnings(); })
         .def_property_readonly("seconds", &stage_seconds, "Of each stage.")
         .def_property_readonly("model", [](const Solution& s) { return std::const_pointer_cast<Model>(s.model); })

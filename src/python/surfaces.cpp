@@ -106,9 +106,10 @@ py::array triangles_of(const py::object& self) {
 /// By the reader of scene files, so that selectors are those of scenes.
 py::array select(const Surface& surface, const py::object& selector) {
     const auto dumps = py::module_::import("json").attr("dumps");
+    const auto plain = py::module_::import("elastolab._scene").attr("_plain");
     std::string text;
     try {
-        text = dumps(selector).cast<std::string>();
+        text = dumps(selector, py::arg("default") = plain).cast<std::string>();
     } catch (py::error_already_set& error) {
         if (!error.matches(PyExc_TypeError) && !error.matches(PyExc_ValueError)) throw;
         throw py::type_error(

@@ -32,3 +32,39 @@ def test_ctrl_c_ends_a_precomputation(method, mode):
         assert process.stdout.readline() == "interrupted\n"
         print(f"{method}: {time.monotonic() - begin:.3f} s")
         assert process.wait() == 0
+
+
+# Threads that compute when the interpreter ends: daemons, and those whose join was interrupted.
+BEGIN = """
+import elastolab as el, os, signal, sys, threading, time
+body = el.Surface.primitive("cube", 18)
+begun = threading.Event()
+def compute():
+    el.precompute(body, method="galerkin-bem", progress=lambda stage, fraction: begun.set())
+def frames():
+    model = el.precompute(el.Surface.primitive("cube", 6), method="fem")
+    deformer = model.constrain(fixed=range(9), handles=range(20, 24))
+    while True:
+        deformer.displace([0.1, 0.0, 0.0])
+        begun.set()
+"""
+ENDS = {
+    "a daemon that precomputes": "threading.Thread(target=compute, daemon=True).start(); begun.wait()",
+    "daemons that draw frames": "[threading.Thread(target=frames, daemon=True).start() for _ in range(3)]; begun.wait()",
+    "an interrupted join": """
+thread = threading.Thread(target=compute)
+thread.start()
+begun.wait()
+threading.Timer(0.1, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+try:
+    thread.join()
+except KeyboardInterrupt:
+    sys.exit(0)
+""",
+}
+
+
+@pytest.mark.parametrize("end", ENDS)
+def test_the_interpreter_ends_while_threads_compute(end):
+    run = subprocess.run([sys.executable, "-c", BEGIN + ENDS[end]], capture_output=True, text=True, timeout=60)
+    assert (run.returncode, run.stderr) == (0, "")

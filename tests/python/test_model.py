@@ -204,6 +204,19 @@ def test_small_loads_do_the_same_by_nonlinear_fem():
     np.testing.assert_allclose(u, v, atol=2e-3 * np.abs(u).max())
 
 
+def test_what_a_method_has_no_choice_of_is_none():
+    cube = el.Surface.primitive("cube", 2)
+    models = {name: el.precompute(cube, method=name) for name in ("fem", "linear-bem", "nonlinear-fem")}
+    assert {name: (model.tractions, model.elements) for name, model in models.items()} == {
+        "fem": (None, None), "linear-bem": ("discontinuous", None), "nonlinear-fem": (None, "quadratic")}
+
+
+def test_a_body_without_constraints_is_not_held():
+    model = el.precompute(el.Surface.primitive("cube", 2), method="fem")
+    assert not model.constrain().held
+    assert model.constrain(fixed=range(9)).held
+
+
 def test_a_free_body_says_so_and_rests_at_a_rigid_motion():
     cube = el.Surface.primitive("cube", 3)
     body = el.precompute(cube, method="fem").constrain(handles=[0])

@@ -145,6 +145,30 @@ def test_a_figure_of_a_loaded_body_is_right_when_its_handle_is_pulled(tmp_path, 
                                atol=1e-5 * abs(expected).max())
 
 
+def test_facts_of_an_equilibrium_are_those_of_nonlinear_fem():
+    large, small = (el.Scene(cube_scene(method, 2)).solve(checks=False) for method in ("nonlinear-fem", "fem"))
+    assert large.iterations > 0 and large.energy > 0 and large.largest_stretch > 1
+    assert small.iterations is None and small.energy is None and small.largest_stretch is None
+
+
+def test_numbers_of_numpy_are_numbers_of_scenes():
+    data = cube_scene("fem", 2)
+    data["handles"][0]["select"] = {"vertices": np.array([26, 25])}
+    data["material"]["young_modulus"] = np.float32(2.0)
+    data["handles"][0]["translate"] = np.array([0.1, 0.0, 0.0])
+    scene = el.Scene(data)
+    assert scene.data["handles"][0]["select"]["vertices"] == [26, 25]
+    assert el.Surface.primitive("cube", 2).select({"vertices": [np.int64(3)]}).tolist() == [3]
+    data["handles"][0]["translate"] = np.array([np.nan, 0.0, 0.0])
+    with pytest.raises(el.SceneError, match="/handles/0/translate/0: must be a finite number"):
+        el.Scene(data)
+
+
+def test_a_solution_says_what_it_can_be_saved_as(tmp_path):
+    with pytest.raises(el.Error, match=".vtp, .vtu, .csv, .html or .glb"):
+        el.Scene(cube_scene("fem", 2)).solve(checks=False).save(tmp_path / "body.xyz")
+
+
 def test_a_figure_needs_a_linear_method_and_a_handle(tmp_path):
     with pytest.raises(el.Error, match="a figure needs a linear method"):
         el.Scene(cube_scene("nonlinear-fem", 2)).solve(checks=False).save(tmp_path / "figure.html")

@@ -74,12 +74,9 @@ void write_export(const fs::path& file, const ExportSource& source, Control& con
     if (is_figure && !source.of_present_set)
         throw Error(file.string() + ": the present handles have no answer yet. Wait until the method is ready.");
     if (!source.converged) return write_export(file, converged(source, control), control);
-    if (is_figure) {
-        const std::string why = figure_refusal(source.deformer->model().method().kind,
-                                               pulled_handles(source.deformer->set(), source.groups).size());
-        if (!why.empty()) throw Error(file.string() + ": " + why);
-        return save_figure(file, make_figure(solved_body(source, control), source.groups, source.vertical, control));
-    }
+    if (is_figure)
+        return save_figure(
+            file, make_figure(solved_body(source, control), source.groups, source.vertical, use_of(file), control));
     if (source.deformer && is_field_file(file)) return save_field_file(file, solved_body(source, control), control);
     if (takes_solves(file) && lower_case(file.extension().string()) != ".ply")
         throw Error(file.string() + ": there is no answer to write yet. Wait until the method is ready.");

@@ -131,10 +131,17 @@ def _path_of_what_is_not_finite(data, path=""):
     return next((path for path in found if path is not None), None)
 
 
+def _plain(value):
+    """Numbers and arrays of NumPy as those of JSON."""
+    if hasattr(value, "tolist"):
+        return value.tolist()
+    raise TypeError(f"{type(value).__name__} is none of JSON")
+
+
 def _text(data):
     try:
-        text = json.dumps(data)
-        path = _path_of_what_is_not_finite(data) if "NaN" in text or "Infinity" in text else None
+        text = json.dumps(data, default=_plain)
+        path = _path_of_what_is_not_finite(json.loads(text)) if "NaN" in text or "Infinity" in text else None
         if path is not None:
             raise _core.SceneError(f"data: {path}: must be a finite number. Correct it.")
         return text

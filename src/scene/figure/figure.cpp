@@ -72,8 +72,6 @@ Eigen::Vector3d unit_motion(int kind, const Eigen::Vector3d& from_centre) {
 
 void require_sensible(const SolvedBody& body, std::size_t n_handles) {
     const Model& model = body.deformer->model();
-    if (const std::string why = figure_refusal(model.method().kind, n_handles); !why.empty())
-        throw Error(model.body().name + ": " + why);
     const double n = body.shown->n_vertices();
     const double bytes = n * (3 + 9 * (1 + 6 * static_cast<double>(n_handles))) * sizeof(float) * 4 / 3;
     if (bytes > kLargestFigure)
@@ -98,18 +96,21 @@ std::vector<ConstraintGroup> pulled_handles(const ConstrainedSet& set, const std
     return handles;
 }
 
-std::string figure_refusal(MethodKind method, std::size_t n_handles) {
+std::string figure_refusal(MethodKind method, std::size_t n_causes) {
     if (!method->linear) return "a figure needs a linear method, as it adds up answers. Choose a linear method.";
-    if (n_handles == 0) return "there is no handle to pull in a figure. Add a handle.";
+    if (n_causes == 0) return "there is no handle to pull in a figure. Add a handle.";
     return {};
 }
 
 Figure make_figure(const SolvedBody& solved, const std::vector<ConstraintGroup>& groups,
-                   const Eigen::Vector3d& vertical, Control& control) {
+                   const Eigen::Vector3d& vertical, FigureUse use, Control& control) {
     const Model& model = solved.deformer->model();
     const ConstrainedSet& set = solved.deformer->set();
     const auto n_fixed = static_cast<int>(set.fixed.size());
     const std::vector<ConstraintGroup> handles = pulled_handles(set, groups);
+    const std::size_t n_causes = handles.size() + (use == FigureUse::show ? set.loads.size() : 0);
+    if (const std::string why = figure_refusal(model.method().kind, n_causes); !why.empty())
+        throw Error(model.body().name + ": " + why);
     require_sensible(solved, handles.size());
     control.begin_stage("figure");
     const Positions& x = model.body().surface->vertices;

@@ -38,14 +38,18 @@ struct Figure {
 /// The handles among the groups of a set (Constraints::groups) that have vertices on what is simulated.
 std::vector<ConstraintGroup> pulled_handles(const ConstrainedSet& set, const std::vector<ConstraintGroup>& groups);
 
-/// Why no figure can be made by this method with so many handles, with a way forward; empty when one can.
-std::string figure_refusal(MethodKind method, std::size_t n_handles);
+/// What a figure is for: to be pulled; or to be shown as it is, and pulled where there is a handle.
+enum class FigureUse { pull, show };
+
+/// Why no figure can be made by this method, with a way forward; empty when one can. n_causes: handles, and loads where
+/// it is to be shown.
+std::string figure_refusal(MethodKind method, std::size_t n_causes);
 
 /// groups: those of the deformer's set (Constraints::groups). Six solves for each handle. On a proxy, shown vertices
-/// follow their places on it. Throws Error where the method is not linear, where no handle is there to be pulled, where
-/// the file would be beyond kLargestFigure, or numbers beyond single precision; SolveError, Cancelled.
+/// follow their places on it. Throws Error where none can be made (figure_refusal), where the file would be
+/// beyond kLargestFigure, or numbers beyond single precision; SolveError, Cancelled.
 Figure make_figure(const SolvedBody& solved, const std::vector<ConstraintGroup>& groups,
-                   const Eigen::Vector3d& vertical, Control& control);
+                   const Eigen::Vector3d& vertical, FigureUse use, Control& control);
 inline constexpr double kLargestFigure = 200e6;  ///< bytes
 
 /// Where the origin of a file in single precision is to be: that of the scene or, of a body that is far from it beside

@@ -136,4 +136,6 @@ void save_figure(const std::filesystem::path& file, const Figure& figure) {
 
 bool is_glb_file(const std::filesystem::path& file) { return lower_case(file.extension().string()) == ".glb"; }
 
+FigureUse use_of(const std::filesystem::path& file) { return is_glb_file(file) ? FigureUse::show : FigureUse::pull; }
+
 }  // namespace elastolab

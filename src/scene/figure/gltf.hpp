@@ -19,5 +19,7 @@ void save_figure(const std::filesystem::path& file, const Figure& figure);
 
 /// Whether a file is called like binary glTF (.glb).
 bool is_glb_file(const std::filesystem::path& file);
+/// What a figure in this file is for: those of glTF are shown, others are pulled.
+FigureUse use_of(const std::filesystem::path& file);
 
 }  // namespace elastolab
