@@ -64,7 +64,7 @@ void frame_selection(ViewerState& state) {
 void select_next_handle(ViewerState& state) {
     state.finish_gesture();
     if (const int n = state.scene().n_handles(); n > 0)
-        state.gestures.select_handle((state.gestures.selected_handle() + 1) % n);
+        state.gestures.select_handle((state.gestures.last_handle() + 1) % n);
 }
 
 void select_next_fixed_set(ViewerState& state) {

@@ -44,12 +44,13 @@ int only_new_one(const std::vector<std::string>& before, const std::vector<std::
 
 }  // namespace
 
-/// A choice of the method or its settings becomes a step of the scene's history, wherever it was made.
+/// A choice of the method or its settings becomes a step of the scene's history, wherever it was made; but it takes no
+/// redo away.
 void ViewerState::keep_method() {
     const Document& document = scene_->document();
     if (document.method == method && document.settings == choices.settings()) return;
     scene_->set_method(method, choices.settings());
-    if (gestures.action() == Gestures::Action::none) scene_->commit();  // else the gesture's own step has it
+    if (gestures.action() == Gestures::Action::none) scene_->commit_method();  // else the gesture's own step has it
 }
 
 void ViewerState::select_method(MethodKind kind) {

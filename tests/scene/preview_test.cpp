@@ -103,6 +103,23 @@ TEST(Preview, IsNotMadeBesideTheMethodThatItWouldBeMadeBy) {
     EXPECT_EQ(bench.simulation.preview(kConstantBem).surface(), nullptr);
 }
 
+/// The preview of the method before stays where the new one is the one that it is made by.
+TEST(Preview, StaysUntilTheMethodThatItIsMadeByAnswers) {
+    const LiveScene scene = pulled_cube(13);
+    PreviewBench bench({kLinearBem});
+    bench.begin(scene);
+    bench.wait_for_preview(scene);
+    ASSERT_TRUE(bench.simulation.previewing(kLinearBem));
+    bench.shown = {quick_method()};
+    do {
+        bench.update(scene);
+        expect_handles_where_they_are_put(scene, bench.simulation.answer(quick_method()).displacement());
+    } while (!bench.runner(quick_method()).answers());
+    bench.settle(scene);
+    EXPECT_FALSE(bench.simulation.previewing(quick_method()));
+    EXPECT_EQ(bench.simulation.preview(kLinearBem).surface(), nullptr) << "it is not needed any more";
+}
+
 TEST(ChangeOfMethod, ShowsWhatWasLookedAtUntilTheNewOneAnswers) {
     LiveScene scene = pulled_cube(5);
     Bench bench({kFem});

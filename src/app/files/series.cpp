@@ -1,5 +1,6 @@
 #include "app/files/series.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <utility>
@@ -46,8 +47,12 @@ void SeriesWriter::add(double seconds, const LiveScene& scene, const EmbeddedRun
 }
 
 void SeriesWriter::finish() const {
+    std::vector<SeriesStep> steps = steps_;
+    const auto is_late = [](const SeriesStep& a, const SeriesStep& b) { return !(a.time < b.time); };
+    if (std::adjacent_find(steps.begin(), steps.end(), is_late) != steps.end())  // recorded without a clock
+        for (std::size_t i = 0; i < steps.size(); ++i) steps[i].time = static_cast<double>(i);
     AtomicFile file(list_);
-    write_pvd(file.stream(), steps_);
+    write_pvd(file.stream(), steps);
     file.commit();
 }
 

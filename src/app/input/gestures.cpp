@@ -64,7 +64,10 @@ void Gestures::take_back(GestureContext& context) {
     context.scene.take_back();
     const bool made_handle = action_ == Action::pull && pull_.grabbed == Grabbed::new_handle;
     if (made_handle) selected_ = -1;
-    if (load_drag_ && load_drag_->is_new) select_load(std::nullopt);
+    if (load_drag_ && load_drag_->is_new) {
+        select_load(std::nullopt);
+        select_handle(load_drag_->handle_before);
+    }
     load_drag_.reset();
     gizmo_drag_.reset();
     painted_.clear();

@@ -89,11 +89,17 @@ public:
     bool edits() const { return dragging() || action_ == Action::paint; }
     const Hover& hover() const { return hover_; }
     void clear_hover() { hover_ = {}; }
-    /// The handle that was grabbed last (or chosen), for the panel and for removal; -1: none.
+    /// The handle that was grabbed last (or chosen), for the panel and for removal; -1: none. What is selected takes
+    /// the place of what was, but for the fixed set, which brush and box go on to change.
     int selected_handle() const { return selected_; }
+    /// The last one that was, whatever was selected after it.
+    int last_handle() const { return last_handle_; }
     void select_handle(int handle) {
         selected_ = handle;
-        if (handle >= 0) fixed_is_latest_ = load_is_latest_ = false;
+        if (handle < 0) return;
+        last_handle_ = handle;
+        fixed_is_latest_ = load_is_latest_ = false;
+        selected_load_.reset();
     }
     /// The fixed set that brush and box change: -1: add to the last one, and free vertices of all; n_fixed_sets(): a
     /// new one, from the next stroke on.
@@ -101,17 +107,20 @@ public:
     void select_fixed(int set) {
         keep_fixed(set);
         fixed_is_latest_ = set >= 0;
-        if (set >= 0) load_is_latest_ = false;
+        if (set < 0) return;
+        selected_ = -1;
+        select_load(std::nullopt);
     }
     /// The load that was dragged last (or chosen), LiveScene::kGravity for gravity.
     const std::optional<int>& selected_load() const { return selected_load_; }
     void select_load(std::optional<int> load) {
         selected_load_ = load;
         load_is_latest_ = load.has_value();
+        if (load) selected_ = -1;
     }
     /// Whether it was selected after handles and fixed sets.
     bool load_is_latest() const { return load_is_latest_; }
-    /// The load whose arrow is dragged.
+    /// The load whose arrow is dragged, or was last and is selected.
     std::optional<DraggedLoad> dragged_load() const;
     /// The same set under a new number: which selection is the latest stays.
     void keep_fixed(int set) { selected_fixed_ = set; }
@@ -173,6 +182,7 @@ private:
     struct LoadDrag {
         LoadArrow arrow;  ///< as it was taken hold of
         bool is_new = false, moved = false;
+        int handle_before = -1;  ///< that was selected
         // At the beginning, or when the mode last changed:
         PullMode mode = PullMode::plane;
         Eigen::Vector2d cursor = Eigen::Vector2d::Zero();
@@ -255,11 +265,12 @@ private:
     Pull pull_;
     std::optional<Spring> spring_;
     std::optional<GizmoDrag> gizmo_drag_;
+    std::optional<DraggedLoad> last_dragged_;  ///< for the way it points
     std::optional<LoadDrag> load_drag_;
     Eigen::Vector2d painted_to_ = cursor_;  ///< where the present stroke has come to
     std::vector<int> painted_;              ///< by the present stroke of a pressure: they may have no triangle yet
     DisplaySettings plane_before_;          ///< as it was taken hold of
-    int selected_ = -1, selected_fixed_ = -1;
+    int selected_ = -1, last_handle_ = -1, selected_fixed_ = -1;
     std::optional<int> selected_load_;
     bool fixed_is_latest_ = false, load_is_latest_ = false;
     double last_press_seconds_ = -1.0;

@@ -91,8 +91,8 @@ void Gestures::press_force(GestureContext& context, const PickHit& hit) {
 
 void Gestures::begin_load(GestureContext& context, const LoadArrow& arrow, bool is_new) {
     action_ = Action::load;
+    load_drag_ = LoadDrag{.arrow = arrow, .is_new = is_new, .handle_before = selected_};
     select_load(arrow.load);
-    load_drag_ = LoadDrag{.arrow = arrow, .is_new = is_new};
     set_load_baseline(context);
 }
 
@@ -148,8 +148,10 @@ void Gestures::end_load(GestureContext& context) {
     if (load_drag_->is_new && !load_drag_->moved) {
         context.scene.remove_load(load_drag_->arrow.load);  // a click loads nothing
         select_load(std::nullopt);
+        select_handle(load_drag_->handle_before);
     }
     context.scene.commit();
+    last_dragged_ = DraggedLoad{.load = load_drag_->arrow.load, .inward = load_drag_->arrow.inward};
     load_drag_.reset();
 }
 
@@ -166,7 +168,7 @@ void Gestures::remove_dragged_load(GestureContext& context) {
 }
 
 std::optional<DraggedLoad> Gestures::dragged_load() const {
-    if (!load_drag_) return std::nullopt;
+    if (!load_drag_) return last_dragged_ && last_dragged_->load == selected_load_ ? last_dragged_ : std::nullopt;
     return DraggedLoad{load_drag_->arrow.load, load_drag_->arrow.value_per_length, load_drag_->arrow.inward};
 }
 

@@ -71,17 +71,12 @@ void BodyPanel::draw_proxy(ViewerState& state, float scale) {
     tooltip("A proxy of more vertices is closer to the surface and takes longer to prepare.");
 }
 
-/// "0.5" passes through "0": the number counts when its field is left.
 void BodyPanel::draw_young_modulus(ViewerState& state, float scale) {
-    double value = typed_modulus_.value_or(state.scene().document().material.young_modulus);
-    set_item_width(scale);
-    if (ImGui::InputDouble("Young's modulus", &value, 0.0, 0.0, "%.4g")) typed_modulus_ = value;
-    const bool left = ImGui::IsItemDeactivatedAfterEdit(), active = ImGui::IsItemActive();
+    const double present = state.scene().document().material.young_modulus;
+    if (const auto typed = young_modulus_.draw("Young's modulus", present, scale)) state.set_young_modulus(*typed);
     tooltip(
         "Stiffness: the force per area that would stretch the body by its own length. The forces that a "
         "motion takes grow with it, and the motions that loads and forces cause shrink.");
-    if (left && typed_modulus_) state.set_young_modulus(*typed_modulus_);
-    if (!active) typed_modulus_.reset();
 }
 
 /// What keeps the surface from being a solid, with a button that goes from one place of it to the next.

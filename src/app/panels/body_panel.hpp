@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "app/panels/widgets.hpp"
+
 namespace elastolab {
 
 struct PanelContext;
@@ -29,9 +31,9 @@ private:
 
     std::string primitive_ = "cube";
     int resolution_ = 13;
-    std::optional<double> typed_modulus_;  ///< Young's modulus while it is typed
-    std::optional<int> proxy_vertices_;    ///< while the slider is held
-    std::size_t n_flights_ = 0;            ///< to places of defects
+    NumberField young_modulus_;
+    std::optional<int> proxy_vertices_;  ///< while the slider is held
+    std::size_t n_flights_ = 0;          ///< to places of defects
 };
 
 }  // namespace elastolab

@@ -58,7 +58,7 @@ void draw_differences(const PanelContext& context) {
         const ShownBody* shown = state.shown.body(kind);
         if (shown == nullptr) continue;
         ImGui::TableNextColumn();
-        ImGui::TextColored(imgui_colour(context.palette.body(kind)), "%s", title(kind).c_str());
+        ImGui::TextColored(imgui_colour(context.palette.words(kind)), "%s", title(kind).c_str());
         ImGui::TableNextColumn();
         if (!shown->difference()) {
             ImGui::TextUnformatted(kind == state.compare.reference ? "reference" : "...");

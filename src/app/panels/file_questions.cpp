@@ -23,9 +23,20 @@ std::string suggested_name(const ViewerState& state, const std::string& ending) 
     return std::filesystem::path(state.scene().name()).stem().string() + ending;
 }
 
+/// Where the body or scene on the screen is from; empty where it is from no file.
+std::filesystem::path folder_of_body(const ViewerState& state) {
+    const std::filesystem::path file =
+        state.files.file().empty() ? std::filesystem::path(state.scene().name()) : state.files.file();
+    std::error_code error;
+    return std::filesystem::exists(file, error) ? std::filesystem::absolute(file, error).parent_path() : "";
+}
+
 void FileQuestions::ask_open(ViewerState& state) {
-    dialog_.open(
-        {"Open a mesh or scene", with_scenes(kMeshFiles), "", [&](const auto& file) { state.files.open(file); }});
+    dialog_.open({.title = "Open a mesh or scene",
+                  .extensions = with_scenes(kMeshFiles),
+                  .suggestion = "",
+                  .done = [&](const auto& file) { state.files.open(file); },
+                  .folder = folder_of_body(state)});
 }
 
 void FileQuestions::save(ViewerState& state) {

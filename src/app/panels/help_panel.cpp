@@ -14,6 +14,8 @@ namespace elastolab {
 
 namespace {
 
+constexpr float kTwoColumns = 640.0f;  ///< width from which both lists fit beside each other [pixels at scale 1]
+
 /// Lines that the entries of a list take, roughly.
 std::size_t n_lines(const auto& entries) {
     constexpr std::size_t kCharacters = 40;
@@ -49,11 +51,13 @@ void draw_help(const PanelContext& context) {
         of_keys > of_mouse ? (of_keys - of_mouse) / 2 : 0;  // so that both columns end alike
     const float rows = static_cast<float>(std::max(of_mouse + beside_mouse, of_keys - beside_mouse));
     const float height = rows * ImGui::GetTextLineHeightWithSpacing() + 2.0f * ImGui::GetFrameHeight();
-    ImGui::SetNextWindowSize({std::min(820.0f * scale, screen.x), std::min(height, screen.y)});
+    const float width = std::min(820.0f * scale, screen.x);
+    const int n_columns = width < kTwoColumns * scale ? 1 : 2;
+    ImGui::SetNextWindowSize({width, std::min(height, screen.y)});
     if (ImGui::Begin("Mouse and keys", &context.state.show_help,
                      ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove)) {
         const auto keys_of = [](const Shortcut& shortcut) { return shortcut.keys; };
-        if (ImGui::BeginTable("help", 2, ImGuiTableFlags_SizingStretchSame)) {
+        if (ImGui::BeginTable("help", n_columns, ImGuiTableFlags_SizingStretchSame)) {
             ImGui::TableNextColumn();
             draw_help_list("mouse", context, gesture_help(), [](const GestureHelp& help) { return help.gesture; });
             draw_help_list("more keys", context, keys.last(beside_mouse), keys_of);

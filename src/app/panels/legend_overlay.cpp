@@ -31,11 +31,11 @@ void draw_legend(const PanelContext& context, ImDrawList& list) {
     const float heading_top = y - words.y - 0.7f * size;
     chip(context, list, {left, heading_top}, {right, y + height + 0.5f * size});
     const ColourMap& map = shown_colour_map(state.display);
-    constexpr int kSteps = 64;
-    for (int i = 0; i < kSteps; ++i) {
-        const float top = y + height * (1.0f - static_cast<float>(i + 1) / kSteps);
-        const float bottom = y + height * (1.0f - static_cast<float>(i) / kSteps);
-        list.AddRectFilled({x, top}, {x + width, bottom + 0.5f}, imgui_packed(map.sample((i + 0.5) / kSteps)));
+    const int n_steps = state.display.bands ? kColourBands : 64;
+    for (int i = 0; i < n_steps; ++i) {
+        const float top = y + height * (1.0f - static_cast<float>(i + 1) / static_cast<float>(n_steps));
+        const float bottom = y + height * (1.0f - static_cast<float>(i) / static_cast<float>(n_steps));
+        list.AddRectFilled({x, top}, {x + width, bottom + 0.5f}, imgui_packed(map.sample((i + 0.5) / n_steps)));
     }
     list.AddRect({x, y}, {x + width, y + height}, imgui_packed(context.palette.border));
     const ColourScale scale_of_colours = state.shown.field_scale(state.display);

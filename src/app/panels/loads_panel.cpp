@@ -84,16 +84,13 @@ void LoadsPanel::draw_gravity(const PanelContext& context) {
     if (draw_numbers("g", gravity.data(), 3, "", scale)) scene.set_gravity(gravity, density);
     bool ended = ImGui::IsItemDeactivatedAfterEdit();
     tooltip("Acceleration along x, y and z.");
-    double typed = typed_density_.value_or(density);
-    if (draw_numbers("density", &typed, 1, "", scale)) typed_density_ = typed;
-    if (ImGui::IsItemDeactivatedAfterEdit() && typed_density_) {  // "0.5" passes through "0"
-        if (*typed_density_ > 0.0)
-            scene.set_gravity(scene.document().gravity, *typed_density_);
+    if (const auto typed = density_.draw("density", density, scale)) {
+        if (*typed > 0.0)
+            scene.set_gravity(scene.document().gravity, *typed);
         else
             state.messages.error("The density must be positive. Enter a mass per volume above 0.");
         ended = true;
     }
-    if (!ImGui::IsItemActive()) typed_density_.reset();
     tooltip("Mass per volume.");
     ImGui::EndDisabled();
     if (ended) scene.commit();

@@ -4,6 +4,8 @@
 #include <string>
 #include <utility>
 
+#include "app/panels/widgets.hpp"
+
 namespace elastolab {
 
 struct PanelContext;
@@ -22,8 +24,8 @@ private:
     void draw_selected(const PanelContext& context);
     void draw_name(ViewerState& state, int load, float scale);
 
-    std::optional<double> typed_density_;                    ///< while it is typed
-    std::optional<std::pair<int, std::string>> typed_name_;  ///< likewise, of a load
+    NumberField density_;
+    std::optional<std::pair<int, std::string>> typed_name_;  ///< of a load, while it is typed
 };
 
 }  // namespace elastolab

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "app/names.hpp"
+#include "app/panels/label_places.hpp"
 #include "app/panels/overlays.hpp"
 #include "app/panels/widgets.hpp"
 #include "app/picture/load_arrows.hpp"
@@ -18,30 +19,37 @@ constexpr float kCardOpacity = 0.96f;                  ///< what is below would 
 constexpr double kRadians = std::numbers::pi / 180.0;  ///< of a degree
 constexpr double kNoAngle = 1e-9;                      ///< [radians] less is rounding
 
-/// A ring at a vertex with words beside it, which turn to the left where there is no room.
-void draw_mark(const PanelContext& context, ImDrawList& list, const Viewport& viewport, const Eigen::Vector3d& place,
-               const Colour& colour, const std::string& text) {
-    const ProjectedPoint projected = context.state.camera.project(place, viewport);
-    if (projected.depth <= 0.0 || !viewport.contains(projected.pixel)) return;
-    const ImVec2 at = im_point(projected.pixel.x(), projected.pixel.y());
-    const float scale = context.gui.scale();
-    list.AddCircle(at, 5.0f * scale, imgui_packed(context.palette.panel, 0.8f), 24, 4.0f * scale);
-    list.AddCircle(at, 5.0f * scale, imgui_packed(colour), 24, 2.0f * scale);
-    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-    const float right = static_cast<float>(viewport.x + viewport.width) - 12.0f * scale;
-    const float x = at.x + 18.0f * scale + size.x < right ? at.x + 18.0f * scale : at.x - 18.0f * scale - size.x;
-    const ImVec2 low{x, at.y - 0.5f * size.y};
-    chip(context, list, low, {low.x + size.x, low.y + size.y});
-    list.AddText(low, imgui_packed(colour), text.c_str());
-}
+/// One viewport's marks, and where their words stand.
+struct Marks {
+    const PanelContext& context;
+    ImDrawList& list;
+    const Viewport& viewport;
+    LabelPlaces& labels;
 
-void draw_extremes(const PanelContext& context, ImDrawList& list, const Viewport& viewport, const ShownBody& body) {
+    /// A ring at a point with words beside it, broken where they do not fit into the viewport.
+    void draw(const Eigen::Vector3d& place, const Colour& colour, const std::string& text) const {
+        const ProjectedPoint projected = context.state.camera.project(place, viewport);
+        if (projected.depth <= 0.0 || !viewport.contains(projected.pixel)) return;
+        const ImVec2 at = im_point(projected.pixel.x(), projected.pixel.y());
+        const float scale = context.gui.scale(), width = static_cast<float>(labels.width());
+        list.AddCircle(at, 5.0f * scale, imgui_packed(context.palette.panel, 0.8f), 24, 4.0f * scale);
+        list.AddCircle(at, 5.0f * scale, imgui_packed(colour), 24, 2.0f * scale);
+        const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, width);
+        const auto box = labels.take(projected.pixel, {size.x, size.y}, 18.0 * scale);
+        const ImVec2 low = im_point(box.min().x(), box.min().y());
+        chip(context, list, low, {low.x + size.x, low.y + size.y});
+        list.AddText(nullptr, 0.0f, low, imgui_packed(colour), text.c_str(), nullptr, width);
+    }
+};
+
+void draw_extremes(const Marks& marks, const ShownBody& body) {
+    const auto& [context, list, viewport, labels] = marks;
     if (!body.is_coloured() || body.largest_magnitude() <= 0.0) return;
     const Extremes extremes = extremes_of(body);
     const auto mark = [&](Eigen::Index v, const char* name) {
         if (v >= 0)
-            draw_mark(context, list, viewport, body.positions().col(v), context.palette.text,
-                      name + number_text(body.values()[static_cast<std::size_t>(v)]));
+            marks.draw(body.positions().col(v), context.palette.text,
+                       name + number_text(body.values()[static_cast<std::size_t>(v)]));
     };
     mark(extremes.largest, "largest ");
     if (is_signed(context.state.display.field)) mark(extremes.smallest, "smallest ");
@@ -57,7 +65,8 @@ void draw_arrow_head(ImDrawList& list, ImVec2 from, ImVec2 tip, float size, unsi
 }
 
 /// A gizmo's lines, the part under the cursor and the one that is dragged thicker, with how far it was dragged.
-void draw_gizmo(const PanelContext& context, ImDrawList& list, const Viewport& viewport, const Gizmo& gizmo) {
+void draw_gizmo(const Marks& marks, const Gizmo& gizmo) {
+    const auto& [context, list, viewport, labels] = marks;
     const ViewerState& state = context.state;
     const float scale = context.gui.scale();
     const Gestures& gestures = state.gestures;
@@ -82,8 +91,7 @@ void draw_gizmo(const PanelContext& context, ImDrawList& list, const Viewport& v
     const std::string amount =
         moves ? number_text(drag->amount)
               : number_text(std::abs(drag->amount) < kNoAngle ? 0.0 : drag->amount / kRadians) + "\u00b0";
-    draw_mark(context, list, viewport, gizmo.center, context.palette.text,
-              (moves ? "moved by " : "turned by ") + amount);
+    marks.draw(gizmo.center, context.palette.text, (moves ? "moved by " : "turned by ") + amount);
 }
 
 /// All that is known at a vertex.
@@ -116,15 +124,16 @@ std::vector<OverlayLine> card(const PanelContext& context, int vertex, const Pro
 }
 
 /// The kept probes, and a card of what is known at the vertex under the cursor.
-void draw_probes(const PanelContext& context, ImDrawList& list, const Viewport& viewport, const ShownBody& body) {
+void draw_probes(const Marks& marks, const ShownBody& body) {
+    const auto& [context, list, viewport, labels] = marks;
     const ViewerState& state = context.state;
     const Positions& rest = state.scene().mesh().vertices;
     const auto value_at = [&](int vertex) { return probe(vertex, rest, body, state.display.deformation_scale); };
     for (const int vertex : state.probes.vertices()) {
         if (body.is_cut_away(vertex)) continue;
         const ProbeValue value = value_at(vertex);
-        draw_mark(context, list, viewport, body.positions().col(vertex), context.palette.probe,
-                  std::to_string(vertex) + ": " + number_text(value.field.value_or(value.displacement.norm())));
+        marks.draw(body.positions().col(vertex), context.palette.probe,
+                   std::to_string(vertex) + ": " + number_text(value.field.value_or(value.displacement.norm())));
     }
     const int hovered = state.gestures.hover().vertex;
     const Eigen::Vector2d& cursor = state.gestures.cursor();
@@ -138,30 +147,32 @@ void draw_probes(const PanelContext& context, ImDrawList& list, const Viewport& 
     draw_lines(context, list, im_point(x, y), width, lines, kCardOpacity);
 }
 
-void draw_forces(const PanelContext& context, ImDrawList& list, const Viewport& viewport, const ShownBody& body) {
+void draw_forces(const Marks& marks, const ShownBody& body) {
+    const auto& [context, list, viewport, labels] = marks;
     const UnitNames& units = context.state.display.units;
     for (const ShownReaction& reaction : body.reactions())
-        draw_mark(context, list, viewport, reaction.place,
-                  reaction.fixed ? context.palette.fixed : context.palette.handle,
-                  reaction.name + ": force " + number_text(reaction.force.norm()) + units.after_force() + ", moment " +
-                      number_text(reaction.moment_about_middle().norm()) + units.after_moment());
+        marks.draw(reaction.place, reaction.fixed ? context.palette.fixed : context.palette.handle,
+                   reaction.name + ": force " + number_text(reaction.force.norm()) + units.after_force() + ", moment " +
+                       number_text(reaction.moment_about_middle().norm()) + units.after_moment());
 }
 
 /// The size of the load that is selected, dragged or pointed at, at the end of its arrow.
-void draw_load_sizes(const PanelContext& context, ImDrawList& list, const Viewport& viewport, const ShownBody& body) {
+void draw_load_sizes(const Marks& marks, const ShownBody& body) {
+    const auto& [context, list, viewport, labels] = marks;
     const ViewerState& state = context.state;
     const Gestures& gestures = state.gestures;
     for (const LoadArrow& arrow : state.load_arrows_at(body)) {
         const bool chosen = gestures.selected_load() == arrow.load || gestures.hover().load == arrow.load;
         if (!chosen && !state.display.arrows) continue;
         const std::string name = arrow.load == LiveScene::kGravity ? "" : state.scene().load_name(arrow.load) + ": ";
-        draw_mark(context, list, viewport, arrow.end, chosen ? context.palette.active : context.palette.load,
-                  name + load_text(state.scene(), arrow.load, state.display.units));
+        marks.draw(arrow.end, chosen ? context.palette.active : context.palette.load,
+                   name + load_text(state.scene(), arrow.load, state.display.units));
     }
 }
 
 /// The spring that a patch is pulled through, and the force in it.
-void draw_spring(const PanelContext& context, ImDrawList& list, const Viewport& viewport, const ShownBody& body) {
+void draw_spring(const Marks& marks, const ShownBody& body) {
+    const auto& [context, list, viewport, labels] = marks;
     const ViewerState& state = context.state;
     if (!state.gestures.pulling()) return;
     const auto spring = state.gestures.spring_pull(state.scene());
@@ -180,22 +191,19 @@ void draw_spring(const PanelContext& context, ImDrawList& list, const Viewport& 
     line.push_back(im_point(to.x(), to.y()));
     list.AddPolyline(line.data(), static_cast<int>(line.size()), imgui_packed(context.palette.active), 0,
                      2.0f * context.gui.scale());
-    draw_mark(context, list, viewport, place, context.palette.active, "force " + number_text(spring->force.norm()));
+    marks.draw(place, context.palette.active, "force " + number_text(spring->force.norm()));
 }
 
-}  // namespace
-
-namespace {
-
 /// Where a body is crushed that has no equilibrium, as it is shown.
-void draw_crushed(const PanelContext& context, ImDrawList& list, const SceneViewport& viewport, const ShownBody& body) {
+void draw_crushed(const Marks& marks, MethodKind kind, const ShownBody& body) {
+    const auto& [context, list, viewport, labels] = marks;
     const ViewerState& state = context.state;
-    const std::optional<Crushed>& crushed = state.simulation.runner(viewport.kinds.front()).crushed();
+    const std::optional<Crushed>& crushed = state.simulation.runner(kind).crushed();
     const Positions& rest = state.scene().mesh().vertices;
     if (!crushed || body.positions().cols() != rest.cols()) return;
     Eigen::Index nearest = 0;
     (rest.colwise() - crushed->place).colwise().squaredNorm().minCoeff(&nearest);
-    draw_mark(context, list, viewport.place, body.positions().col(nearest), context.palette.bad, "crushed here");
+    marks.draw(body.positions().col(nearest), context.palette.bad, "crushed here");
 }
 
 }  // namespace
@@ -212,17 +220,19 @@ Extremes extremes_of(const ShownBody& body) {
     return result;
 }
 
-void draw_marks(const PanelContext& context, ImDrawList& list, const SceneViewport& viewport) {
+void draw_marks(const PanelContext& context, ImDrawList& list, const SceneViewport& viewport, LabelPlaces& labels) {
     const ViewerState& state = context.state;
-    const ShownBody* body = state.shown.body(viewport.kinds.front());
+    const MethodKind kind = viewport.kinds.front();
+    const ShownBody* body = state.shown.body(kind);
     if (body == nullptr) return;
-    if (state.display.arrows) draw_forces(context, list, viewport.place, *body);
-    if (state.display.constraints) draw_load_sizes(context, list, viewport.place, *body);
-    if (state.display.extremes) draw_extremes(context, list, viewport.place, *body);
-    draw_crushed(context, list, viewport, *body);
-    draw_spring(context, list, viewport.place, *body);
-    for (const Gizmo& gizmo : state.gizmos()) draw_gizmo(context, list, viewport.place, gizmo);
-    draw_probes(context, list, viewport.place, *body);  // over the gizmos: numbers are to be read
+    const Marks marks{context, list, viewport.place, labels};
+    if (state.display.arrows) draw_forces(marks, *body);
+    if (state.display.constraints) draw_load_sizes(marks, *body);
+    if (state.display.extremes) draw_extremes(marks, *body);
+    draw_crushed(marks, kind, *body);
+    draw_spring(marks, *body);
+    for (const Gizmo& gizmo : state.gizmos()) draw_gizmo(marks, gizmo);
+    draw_probes(marks, *body);  // over the gizmos: numbers are to be read
 }
 
 }  // namespace elastolab

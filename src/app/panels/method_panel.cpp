@@ -19,6 +19,8 @@ namespace {
 
 using State = MethodRunner::State;
 
+constexpr double kLeftOfPassed = 0.2;  ///< the least that is left, over the time that has passed
+
 /// What a person wants to know first: does the body answer, is that the method's own answer, and when will it be. That
 /// is predicted only once something answers, as a prediction takes processors that the first answer wants.
 template <class CostOf>
@@ -27,8 +29,10 @@ std::string state_words(const ViewerState& state, const CostOf& cost_of) {
     const MethodRunner& runner = simulation.runner(state.method);
     const bool previewing = simulation.previewing(state.method);
     if (runner.crushed()) return "no equilibrium: the last one stays";
-    if (!state.method->linear && runner.has_set() && runner.state() == State::preparing)
+    if (!state.method->linear && runner.has_set() && runner.state() == State::preparing) {
+        if (!state.gestures.dragging()) return previewing ? "preview; finding the exact answer" : "finding the answer";
         return previewing ? "preview is following; exact when the hand rests" : "following";
+    }
     switch (runner.state()) {
         case State::idle:
             if (simulation.making_proxy(state.method)) return "making a closed surface to simulate";
@@ -36,8 +40,9 @@ std::string state_words(const ViewerState& state, const CostOf& cost_of) {
             return runner.has_answer() ? "stopped; the last answer is shown" : "not computed";
         case State::precomputing: {
             if (!previewing && simulation.preparing_preview()) return "preparing the preview";
-            const double left = cost_of(state.method).seconds - runner.status().seconds;
-            const std::string when = "in about " + readable_prediction(std::max(left, 1.0));
+            const double passed = runner.status().seconds, left = cost_of(state.method).seconds - passed;
+            // What takes longer than predicted will not be there in a moment.
+            const std::string when = "in about " + readable_prediction(std::max({left, kLeftOfPassed * passed, 1.0}));
             return previewing ? "preview; exact " + when : "ready " + when;
         }
         case State::preparing:

@@ -17,8 +17,8 @@ void chip(const PanelContext& context, ImDrawList& list, ImVec2 low, ImVec2 high
                        imgui_packed(context.palette.panel, opacity), 0.8f * pad);
 }
 
-void draw_lines(const PanelContext& context, ImDrawList& list, ImVec2 place, float width,
-                const std::vector<OverlayLine>& lines, float opacity) {
+ImVec2 draw_lines(const PanelContext& context, ImDrawList& list, ImVec2 place, float width,
+                  const std::vector<OverlayLine>& lines, float opacity) {
     ImVec2 high = place;
     std::vector<float> tops;
     for (const OverlayLine& line : lines) {
@@ -30,6 +30,7 @@ void draw_lines(const PanelContext& context, ImDrawList& list, ImVec2 place, flo
     for (std::size_t i = 0; i < lines.size(); ++i)
         list.AddText(lines[i].font, lines[i].size, {place.x, tops[i]}, imgui_packed(lines[i].colour),
                      lines[i].text.c_str(), nullptr, width);
+    return high;
 }
 
 }  // namespace elastolab

@@ -12,6 +12,8 @@ struct ImVec2;
 
 namespace elastolab {
 
+class LabelPlaces;
+
 /// From the edges of the scene to what is written over it [logical pixels at scale 1].
 inline constexpr float kOverlayMargin = 14.0f;
 
@@ -27,9 +29,9 @@ struct OverlayLine {
     Colour colour;
     std::string text;
 };
-/// Lines under one another on a chip, broken where they are wider than `width`.
-void draw_lines(const PanelContext& context, ImDrawList& list, ImVec2 place, float width,
-                const std::vector<OverlayLine>& lines, float opacity = 0.72f);
+/// Lines under one another on a chip, broken where they are wider than `width`; the lower right corner of the words.
+ImVec2 draw_lines(const PanelContext& context, ImDrawList& list, ImVec2 place, float width,
+                  const std::vector<OverlayLine>& lines, float opacity = 0.72f);
 
 /// The least and the largest of the finite values that are seen, by their vertices; -1 when there are none.
 struct Extremes {
@@ -38,7 +40,7 @@ struct Extremes {
 Extremes extremes_of(const ShownBody& body);
 
 /// Draws what is at points of the body: forces, extremes, probes, gizmos.
-void draw_marks(const PanelContext& context, ImDrawList& list, const SceneViewport& viewport);
+void draw_marks(const PanelContext& context, ImDrawList& list, const SceneViewport& viewport, LabelPlaces& labels);
 
 /// Draws the colours of the field that is shown, with round numbers, at the right of the scene; nothing where none is.
 void draw_legend(const PanelContext& context, ImDrawList& list);

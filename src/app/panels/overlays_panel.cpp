@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/panels/label_places.hpp"
 #include "app/panels/overlays.hpp"
 #include "app/panels/panel_context.hpp"
 #include "app/panels/widgets.hpp"
@@ -69,18 +70,18 @@ std::pair<std::string, std::string> difference_words(const ViewerState& state, M
             "largest " + number_text(100.0 * shown->difference()->relative_max) + " % of the largest"};
 }
 
-/// Whose answer a viewport shows, how it is doing, and how far it is from the reference.
-void draw_title(const PanelContext& context, ImDrawList& list, const SceneViewport& viewport) {
+/// Whose answer a viewport shows, how it is doing, and how far it is from the reference. No labels are to cover it.
+void draw_title(const PanelContext& context, ImDrawList& list, const SceneViewport& viewport, LabelPlaces& labels) {
     const ViewerState& state = context.state;
     const Palette& palette = context.palette;
     const float size = ImGui::GetFontSize(), margin = kOverlayMargin * context.gui.scale();
-    const float width = std::max(40.0f, static_cast<float>(viewport.place.width) - 2.0f * margin);
+    const Viewport& place = viewport.place;
+    const float width = std::max(40.0f, static_cast<float>(place.width - place.covered) - 2.0f * margin);
     std::vector<OverlayLine> lines;
     for (const MethodKind kind : viewport.kinds) {
         const bool first = lines.empty();
         lines.push_back({first ? context.gui.fonts().large : context.gui.fonts().regular, first ? 1.35f * size : size,
-                         mix(palette.body(kind), palette.text, state.display.dark ? 0.35 : 0.6),
-                         title(kind) + source_words(state, kind)});
+                         palette.words(kind), title(kind) + source_words(state, kind)});
         const auto [rms, largest] = difference_words(state, kind);
         if (rms.empty()) continue;
         const std::string both = rms + (largest.empty() ? "" : "   ") + largest;
@@ -89,7 +90,9 @@ void draw_title(const PanelContext& context, ImDrawList& list, const SceneViewpo
         if (first) lines.push_back({context.gui.fonts().regular, size, palette.text, fits ? both : rms});
         if (first && !fits) lines.push_back({context.gui.fonts().regular, size, palette.text, largest});
     }
-    draw_lines(context, list, im_point(viewport.place.x + margin, viewport.place.y + margin), width, lines);
+    const Eigen::Vector2d low(place.x + margin, place.y + margin);
+    const ImVec2 high = draw_lines(context, list, im_point(low.x(), low.y()), width, lines);
+    labels.cover({low, Eigen::Vector2d(high.x, high.y)});
 }
 
 void draw_axes_letters(const PanelContext& context, ImDrawList& list, const SceneViewport& viewport) {
@@ -177,9 +180,10 @@ void draw_overlays(const PanelContext& context) {
     for (const SceneViewport& viewport : context.state.shown.viewports) {
         const Viewport& v = viewport.place;
         list.PushClipRect(im_point(v.x, v.y), im_point(v.x + v.width, v.y + v.height));
-        draw_title(context, list, viewport);
+        LabelPlaces labels(v, 7.0 * context.gui.scale());
+        draw_title(context, list, viewport, labels);
         draw_axes_letters(context, list, viewport);
-        draw_marks(context, list, viewport);
+        draw_marks(context, list, viewport, labels);
         list.PopClipRect();
     }
     draw_legend(context, list);

@@ -21,6 +21,7 @@ void draw_number(const char* label, int& value, int low, int high, float scale) 
     ImGui::SetNextItemWidth(110.0f * scale);
     ImGui::InputInt(label, &value, 0, 0);
     value = std::clamp(value, low, high);
+    tooltip((std::to_string(low) + " to " + std::to_string(high)).c_str());
 }
 
 /// A single picture, or what film; whether it is one.
@@ -87,19 +88,25 @@ void PicturePanel::draw_question(const PanelContext& context, FileQuestions& fil
     ImGui::EndPopup();
 }
 
-/// While the frames of a film are drawn.
+/// While the frames of a film are drawn. No key or button reaches anything else: what is changed would be in the film.
 void PicturePanel::draw_progress(const PanelContext& context) {
+    constexpr const char* kTitle = "##pictures";
     ViewerState& state = context.state;
-    if (!state.pictures_under_way) return;
+    if (state.pictures_under_way && !ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId)) ImGui::OpenPopup(kTitle);
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({0.5f * screen.x, 0.5f * screen.y}, ImGuiCond_Always, {0.5f, 0.5f});
-    ImGui::Begin("##pictures", nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove);
-    const auto [done, wanted] = *state.pictures_under_way;
-    ImGui::Text("Frame %d of %d", done, wanted);
-    ImGui::ProgressBar(static_cast<float>(done) / static_cast<float>(wanted), {260.0f * context.gui.scale(), 0.0f});
-    if (ImGui::Button("Stop")) state.requests.stop_pictures = true;
-    ImGui::End();
+    constexpr ImGuiWindowFlags kFixed =
+        ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove;
+    if (!ImGui::BeginPopupModal(kTitle, nullptr, kFixed)) return;
+    if (state.pictures_under_way) {
+        const auto [done, wanted] = *state.pictures_under_way;
+        ImGui::Text("Frame %d of %d", done, wanted);
+        ImGui::ProgressBar(static_cast<float>(done) / static_cast<float>(wanted), {260.0f * context.gui.scale(), 0.0f});
+        if (ImGui::Button("Stop")) state.requests.stop_pictures = true;
+    } else {
+        ImGui::CloseCurrentPopup();
+    }
+    ImGui::EndPopup();
 }
 
 }  // namespace elastolab

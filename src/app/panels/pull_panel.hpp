@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "app/panels/widgets.hpp"
 #include "app/selection.hpp"
 #include "app/viewer_state.hpp"
 
@@ -23,6 +24,7 @@ private:
     void draw_handles(const PanelContext& context);
     void scroll_to(const ViewerState& state, const Selection& row) const;
 
+    NumberField spring_;
     std::optional<Selection> listed_;    ///< as the list was last scrolled to it
     float tool_settings_height_ = 0.0f;  ///< of those for pulling
     float held_height_ = 0.0f;           ///< of the list of handles; 0: not drawn yet

@@ -27,9 +27,12 @@ std::optional<int> draw_answers(const PanelContext& context, std::span<const Que
         const auto& [label, explanation] = answers[static_cast<std::size_t>(i)];
         if (i > 0) ImGui::SameLine();
         const bool stands_out = i == choice;
-        if (stands_out) ImGui::PushStyleColor(ImGuiCol_Button, imgui_colour(context.palette.accent));
+        if (stands_out) {
+            ImGui::PushStyleColor(ImGuiCol_Button, imgui_colour(context.palette.accent));
+            ImGui::PushStyleColor(ImGuiCol_Text, imgui_colour(context.palette.panel));
+        }
         if (ImGui::Button(label, {112.0f * context.gui.scale(), 0.0f})) answer = i;
-        if (stands_out) ImGui::PopStyleColor();
+        if (stands_out) ImGui::PopStyleColor(2);
         tooltip(explanation);
     }
     if (ImGui::IsWindowAppearing()) return answer;  // the key that brought the question does not answer it

@@ -54,9 +54,11 @@ bool draw_grip_force(ViewerState& state, std::optional<int> handle, float scale)
     return ended;
 }
 
+}  // namespace
+
 /// How a handle is moved, turned and scaled, as numbers that can be typed. The fields are there where nothing can be
 /// typed, too, so that nothing below them moves during a drag.
-void draw_placement(ViewerState& state, std::optional<int> handle, float scale) {
+void SelectionPanel::draw_placement(ViewerState& state, std::optional<int> handle, float scale) {
     LiveScene& scene = state.scene();
     const Motion motion = handle ? scene.document().handles[static_cast<std::size_t>(*handle)].motion : Motion{};
     const Positions rest = handle ? scene.rest_positions(*handle) : Positions(3, 0);
@@ -88,16 +90,19 @@ void draw_placement(ViewerState& state, std::optional<int> handle, float scale) 
                        "[degrees]. 0, 0, 720: two full turns about z.");
     if (!present)
         draw_no_numbers("scale", 1, scale);
-    else if (draw_positive_number("scale", typed.scale, scale))
-        scene.set_motion(*handle, motion_of(typed, rest));
-    ended = ended || ImGui::IsItemDeactivatedAfterEdit();
+    else if (const auto left = scale_.draw("scale", typed.scale, scale)) {
+        ended = true;
+        typed.scale = *left;
+        if (*left > 0.0)
+            scene.set_motion(*handle, motion_of(typed, rest));
+        else
+            state.messages.error("The scale must be positive. Enter a number above 0; 1 is the size at rest.");
+    }
     tooltip(is_other ? kOther : "Scale about the middle of the handle.");
     ImGui::EndDisabled();
     ended = draw_grip_force(state, handle, scale) || ended;
     if (ended) scene.commit();
 }
-
-}  // namespace
 
 /// A text field for the name of the selected handle or fixed set; true when the typing has ended.
 bool SelectionPanel::draw_name(const PanelContext& context) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "app/panels/widgets.hpp"
 #include "app/selection.hpp"
 
 namespace elastolab {
@@ -24,9 +25,11 @@ public:
 
 private:
     bool draw_name(const PanelContext& context);
+    void draw_placement(ViewerState& state, std::optional<int> handle, float scale);
 
     std::optional<std::pair<Selection, std::string>> typed_name_;  ///< while it is typed
     bool asks_name_ = false;
+    NumberField scale_;
 };
 
 }  // namespace elastolab

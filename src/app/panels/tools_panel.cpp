@@ -67,11 +67,16 @@ void draw_patch(ViewerState& state, float scale) {
     tooltip("A released patch springs back. Otherwise it stays where it was put.");
 }
 
-void draw_pull_settings(ViewerState& state, float scale) {
+void draw_pull_settings(ViewerState& state, NumberField& spring, float scale) {
     set_item_width(scale);
     choose<PullMode>("movement", state.tools.pull_mode, kPullModes);
     if (state.tools.pull_mode == PullMode::spring) {
-        draw_positive_number("spring", state.tools.spring, scale);
+        if (const auto typed = spring.draw("spring", state.tools.spring, scale)) {
+            if (*typed > 0.0)
+                state.tools.spring = *typed;
+            else
+                state.messages.error("The spring's stiffness must be positive. Enter a force per length above 0.");
+        }
         tooltip("Stiffness of the spring: force per length, above zero.");
     }
     draw_gizmo_settings(state, scale);
@@ -109,7 +114,7 @@ void PullPanel::draw_tool_settings(const PanelContext& context) {
     const float top = ImGui::GetCursorPosY();
     switch (state.tools.tool) {
         case Tool::pull:
-            draw_pull_settings(state, scale);
+            draw_pull_settings(state, spring_, scale);
             tool_settings_height_ = ImGui::GetCursorPosY() - top;
             break;
         case Tool::brush:

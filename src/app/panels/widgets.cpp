@@ -229,11 +229,13 @@ bool draw_numbers(const char* label, double* values, int n, const char* unit, fl
     return typed;
 }
 
-bool draw_positive_number(const char* label, double& value, float scale) {
-    double typed = value;
-    if (!draw_numbers(label, &typed, 1, "", scale) || !(typed > 0.0)) return false;
-    value = typed;
-    return true;
+std::optional<double> NumberField::draw(const char* label, double value, float scale) {
+    double number = typed_.value_or(value);
+    if (draw_numbers(label, &number, 1, "", scale)) typed_ = number;
+    const bool counts = ImGui::IsItemDeactivatedAfterEdit() && typed_ != value;
+    const std::optional<double> typed = typed_;
+    if (!ImGui::IsItemActive()) typed_.reset();
+    return counts ? typed : std::nullopt;
 }
 
 void draw_no_numbers(const char* label, int n, float scale) {

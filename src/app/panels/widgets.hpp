@@ -51,8 +51,15 @@ void set_item_width(float scale);
 /// Numbers with a label to their right; true while they are typed. unit: written behind each. noise: what is not larger
 /// is rounding, and shown as 0. Each has as many digits as its field holds. What is not finite is not taken.
 bool draw_numbers(const char* label, double* values, int n, const char* unit, float scale, double noise = 0.0);
-/// One of them, which stays as it is while what is typed is not above zero.
-bool draw_positive_number(const char* label, double& value, float scale);
+/// One of them that counts once its field is left: "0.5" passes through "0".
+class NumberField {
+public:
+    /// What was typed, when the field is left; nothing where it is the value.
+    std::optional<double> draw(const char* label, double value, float scale);
+
+private:
+    std::optional<double> typed_;
+};
 /// Fields in which nothing can be typed, as nothing has a value there.
 void draw_no_numbers(const char* label, int n, float scale);
 /// What was done to a row of a list.

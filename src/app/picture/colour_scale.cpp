@@ -39,6 +39,10 @@ std::vector<LegendTick> ColourScale::ticks(int n) const {
     return ticks;
 }
 
+double place_on_map(double place, bool bands) {
+    return bands ? (std::clamp(std::floor(place * kColourBands), 0.0, kColourBands - 1.0) + 0.5) / kColourBands : place;
+}
+
 ColourScale colour_scale(double low, double high, bool logarithmic) {
     const double lowest = low > 0.0 ? low : kDecades * high;
     if (!logarithmic || !(lowest > 0.0) || !std::isfinite(high)) return {low, high, false};

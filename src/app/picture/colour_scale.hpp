@@ -19,6 +19,11 @@ struct ColourScale {
     std::vector<LegendTick> ticks(int n) const;
 };
 
+/// Bands of one colour each, where a field is shown by them.
+inline constexpr int kColourBands = 10;
+/// The place on a colour map of a place on the scale, both from 0 to 1: where there are bands, that of the band.
+double place_on_map(double place, bool bands);
+
 /// The scale of a field between these: logarithmic ones begin at a thousandth of `high` where `low` is not positive.
 /// Even where no logarithms can be.
 ColourScale colour_scale(double low, double high, bool logarithmic);

@@ -117,7 +117,7 @@ std::vector<LoadArrow> load_arrows(const LiveScene& scene, const Positions& posi
     for (const AppliedLoad& applied : scene.constraints().loads) {
         std::optional<LoadArrow> arrow = load_arrow(scene, applied.number, positions, radius);
         if (dragged && dragged->load == applied.number) {
-            arrow->value_per_length = dragged->value_per_length;
+            arrow->value_per_length = dragged->value_per_length.value_or(arrow->value_per_length);
             arrow->inward = dragged->inward;
             put_end(load_value(scene, applied.number), applied.kind == AppliedLoad::Kind::pressure, *arrow);
         }

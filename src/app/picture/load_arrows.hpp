@@ -24,10 +24,11 @@ struct LoadArrow {
     bool operator==(const LoadArrow&) const = default;
 };
 
-/// A load whose arrow keeps this ratio, and the way it points, while it is dragged.
+/// A load whose arrow keeps this ratio, and the way it points, while it is dragged; afterwards, as long as it is
+/// selected, the way alone, so that its end stays where the mouse has put it.
 struct DraggedLoad {
     int load = LiveScene::kGravity;
-    double value_per_length = 1.0;
+    std::optional<double> value_per_length = {};
     bool inward = false;
     bool operator==(const DraggedLoad&) const = default;
 };

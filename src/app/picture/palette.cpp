@@ -91,6 +91,8 @@ const Colour& Palette::body(MethodKind kind) const {
     return bodies[static_cast<std::size_t>(kind->colour) % bodies.size()];
 }
 
+Colour Palette::words(MethodKind kind) const { return mix(body(kind), text, this == &light_palette() ? 0.6 : 0.35); }
+
 const Palette& dark_palette() {
     static const Palette palette = make_dark();
     return palette;

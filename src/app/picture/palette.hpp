@@ -19,6 +19,8 @@ struct Palette {
     std::array<Colour, 6> bodies;  ///< by MethodTraits::colour
 
     const Colour& body(MethodKind kind) const;
+    /// The same for words on a panel.
+    Colour words(MethodKind kind) const;
 };
 
 const Palette& dark_palette();

@@ -28,7 +28,7 @@ std::optional<PictureLegend> legend_of(const ViewerState& state) {
         std::none_of(bodies.begin(), bodies.end(), [](const ShownBody& body) { return body.is_coloured(); }))
         return {};
     return PictureLegend{field_title(state.display.field, state.compare.reference, state.display.units),
-                         state.shown.field_scale(state.display), &shown_colour_map(state.display)};
+                         state.shown.field_scale(state.display), &shown_colour_map(state.display), state.display.bands};
 }
 
 void draw_legend(Canvas& canvas, const PictureLegend& legend, const Palette& palette, double scale) {
@@ -52,7 +52,8 @@ void draw_legend(Canvas& canvas, const PictureLegend& legend, const Palette& pal
 
     const double bar = right - bar_and_ticks, bar_right = bar + kBarWidth * scale;
     for (auto y = static_cast<int>(top); y < static_cast<int>(bottom); ++y)
-        canvas.fill_rectangle(bar, y, bar_right, y + 1, legend.colours->sample((bottom - y - 0.5) / bar_height));
+        canvas.fill_rectangle(bar, y, bar_right, y + 1,
+                              legend.colours->sample(place_on_map((bottom - y - 0.5) / bar_height, legend.bands)));
     for (const LegendTick& tick : ticks) {
         const double y = bottom - legend.scale.place(tick.value) * bar_height;
         canvas.fill_rectangle(bar_right, y - 0.5 * scale, bar_right + kTickLength * scale, y + 0.5 * scale,

@@ -15,6 +15,7 @@ struct PictureLegend {
     std::string heading;
     ColourScale scale = {};
     const ColourMap* colours = nullptr;
+    bool bands = false;
 };
 
 /// The legend of what the viewer shows now; nothing where no body is coloured by a field.

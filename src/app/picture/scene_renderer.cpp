@@ -12,7 +12,6 @@ namespace elastolab {
 
 namespace {
 
-constexpr int kBands = 10;
 constexpr double kGroundPart = 3.0, kShadowPart = 1.4;  ///< radii of the ground and of the shadow, of the scene's
 constexpr double kLeastDeformation = 0.01;              ///< of the scene's radius, from which a ghost is drawn
 
@@ -71,7 +70,7 @@ SurfaceStyle SceneRenderer::surface_style(const ViewerState& state, MethodKind k
     style.low = scale.even(scale.low);
     style.high = scale.even(scale.high);
     style.logarithmic = scale.logarithmic;
-    style.contour_bands = display.bands ? kBands : 0;
+    style.contour_bands = display.bands ? kColourBands : 0;
     if (display.field != Field::none) style.light = 0.75f;
     return style;
 }
@@ -118,6 +117,7 @@ void SceneRenderer::draw_ghosts(const ViewerState& state, const SceneView& view,
     SurfaceStyle style;
     style.ghost = true;
     style.coarse = !detail.all_triangles;
+    if (style.coarse) style.inside = style.inside.with_opacity(0.0f);  // its folds would look like holes
     style.feature_edges = state.display.feature_edges;
     style.feature_width = 1.2f;
     const bool has_field = state.display.field != Field::none;
@@ -144,6 +144,7 @@ void SceneRenderer::draw_solid(const ViewerState& state, const SceneView& view, 
     SurfaceStyle style = surface_style(state, solid, palette);
     if (!detail.wireframe) style.wireframe = style.feature_edges = false;
     style.coarse = !detail.all_triangles;
+    if (style.coarse) style.inside = style.inside.with_opacity(0.0f);  // its folds would look like holes
     drawing(solid).seen().draw(view, style);
 }
 

@@ -30,6 +30,20 @@ std::vector<ConstraintGroup> told_groups(const Constraints& constraints) {
     return groups;
 }
 
+/// What rounding has left of a force or a moment that vanishes, beside the largest of both, is shown as zero.
+void clear_rounding(std::vector<ShownReaction>& all, double length) {
+    constexpr double kRoundingPart = 1e-9;
+    double largest = 0.0;  // [force]
+    for (const ShownReaction& one : all)
+        largest = std::max({largest, one.force.norm(), one.moment_about_middle().norm() / length});
+    for (ShownReaction& one : all) {
+        const Eigen::Vector3d moment = one.moment_about_middle();
+        if (one.force.norm() <= kRoundingPart * largest) one.force.setZero();
+        one.moment = one.middle.cross(one.force);
+        if (moment.norm() > kRoundingPart * largest * length) one.moment += moment;
+    }
+}
+
 }  // namespace
 
 std::vector<ShownReaction> shown_reactions(const LiveScene& scene, const EmbeddedRunner& answer,
@@ -59,6 +73,7 @@ std::vector<ShownReaction> shown_reactions(const LiveScene& scene, const Embedde
                           .place = positions(Eigen::all, vertices).rowwise().mean(),
                           .middle = middle});
     }
+    clear_rounding(result, (scene.report().max_corner - scene.report().min_corner).norm());
     return result;
 }
 

@@ -28,7 +28,9 @@ HierarchicalSystem::HierarchicalSystem(const SurfaceMesh& surface, double poisso
       surface_modes_(to_tree_order(*tree_, surfaces_.rigid)),
       body_modes_(to_tree_order(*tree_, rigid_modes(surface.vertices))) {
     const Stage stage("integrate", control, stages);
+    control.begin_stage("integrate close pairs");  // of which the progress is another one
     const HypersingularEntries entries(pairs_, tree_, material_, pairs_->keep_close_pairs(control));
+    control.begin_stage("integrate");
     D_ = std::make_unique<const HierarchicalMatrix>(tree_, tree_, true, entries, options_, control);
 }
 

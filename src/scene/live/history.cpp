@@ -45,6 +45,13 @@ std::size_t History::bytes() const {
                            [](std::size_t sum, const Step& step) { return sum + step.bytes; });
 }
 
+void History::set_method(MethodKind kind, const MethodSettings& settings) {
+    for (std::size_t i = present_; i < steps_.size(); ++i) {
+        steps_[i].document.method = kind;
+        steps_[i].document.settings = settings;
+    }
+}
+
 void History::commit(const Document& document) {
     if (document == present()) return;
     steps_.resize(present_ + 1);

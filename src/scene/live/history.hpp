@@ -18,6 +18,8 @@ public:
 
     /// Ends a step with this document; later steps that were undone are forgotten. One that changed nothing is no step.
     void commit(const Document& document);
+    /// Gives the present document, and those that were undone, this method: no step.
+    void set_method(MethodKind kind, const MethodSettings& settings);
     bool can_undo() const { return present_ > 0; }
     bool can_redo() const { return present_ + 1 < steps_.size(); }
     /// The document before the last step (requires can_undo), or after the next one (requires can_redo).

@@ -122,6 +122,13 @@ public:
 
     /// Ends a step; does nothing when it changed nothing.
     void commit() { history_.commit(document_); }
+    /// Ends the step of a choice of the method. After an undo it is none, so that what was undone can be done again.
+    void commit_method() {
+        if (can_redo())
+            history_.set_method(document_.method, document_.settings);
+        else
+            commit();
+    }
     /// Takes back what was done since the last step ended.
     void take_back() { become(Document(history_.present())); }
     bool can_undo() const { return history_.can_undo(); }

@@ -67,10 +67,12 @@ bool is_quick_at_equilibria(const LiveScene& scene) {
     return !scene.needs_proxy(large_deformation_method()) && scene.mesh().n_vertices() <= kMostQuickAtEquilibria;
 }
 
-void Previews::choose(const LiveScene& scene, const std::vector<MethodKind>& shown, bool wanted) {
+void Previews::choose(const LiveScene& scene, const std::vector<MethodKind>& shown, bool first_answers, bool wanted) {
     wanted = wanted && is_worth_a_preview(scene);
     on_itself_ = preview_on_itself(scene);
-    const bool comes_first_anyway = !shown.empty() && shown.front() == on_itself_;
+    // One that is there, for a method that was looked at before, stays until then.
+    const bool is_there = linear_.has_answer() && linear_.surface() == scene.surface().get();
+    const bool comes_first_anyway = !shown.empty() && shown.front() == on_itself_ && (first_answers || !is_there);
     has_linear_ = wanted && !comes_first_anyway &&
                   std::any_of(shown.begin(), shown.end(), [](MethodKind kind) { return kind->linear; });
     const auto finite = std::find_if(shown.begin(), shown.end(), [](MethodKind kind) { return !kind->linear; });

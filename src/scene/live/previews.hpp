@@ -26,8 +26,8 @@ public:
     /// `wake` is called by the workers when an update will find something.
     explicit Previews(const std::function<void()>& wake) : linear_(wake), finite_(wake) {}
 
-    /// Chooses what is needed where these methods are shown, the first of them first.
-    void choose(const LiveScene& scene, const std::vector<MethodKind>& shown, bool wanted);
+    /// Chooses what is needed where these methods are shown, the first of them first; first_answers: it has answered.
+    void choose(const LiveScene& scene, const std::vector<MethodKind>& shown, bool first_answers, bool wanted);
     bool need_proxy() const { return (has_linear_ && on_itself_ == nullptr) || finite_kind_ != nullptr; }
 
     /// Each brings a preview up to date with the scene and returns whether its displacements changed. That of a method

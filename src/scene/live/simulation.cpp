@@ -82,7 +82,7 @@ const SurfaceMesh* Simulation::simulated_surface(MethodKind kind, const LiveScen
 }
 
 void Simulation::ask_for_proxies(const LiveScene& scene, const MethodChoices& choices) {
-    previews_.choose(scene, shown_, choices.preview);
+    previews_.choose(scene, shown_, !shown_.empty() && runner(shown_.front()).answers(), choices.preview);
     const auto needs_proxy = [&](MethodKind kind) { return scene.needs_proxy(kind); };
     const bool needs_model = std::any_of(shown_.begin(), shown_.end(), needs_proxy) || proxies_.model();
     const bool gauges = choices.preview && is_worth_a_preview(scene) && gauged_on_.lock() == scene.surface() &&

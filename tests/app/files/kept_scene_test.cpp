@@ -125,6 +125,23 @@ TEST(KeptMethod, IsAStepOfUndo) {
     EXPECT_FALSE(stage.scene().can_redo());
 }
 
+TEST(KeptMethod, TakesNoRedoAway) {
+    Stage stage(2);
+    stage.drag(stage.pixel(stage.vertex_near({1, 0, 1})), stage.empty_place());
+    stage.settle();
+    ASSERT_EQ(stage.scene().n_handles(), 1);
+    stage.state.undo();
+    const MethodKind other = stage.state.method == kFem ? kConstantBem : kFem;
+    stage.state.select_method(other);
+    stage.settle();
+    ASSERT_TRUE(stage.scene().can_redo());
+    stage.state.redo();
+    EXPECT_EQ(stage.scene().n_handles(), 1);
+    EXPECT_EQ(stage.state.method, other) << "what is looked at stays";
+    stage.state.undo();
+    EXPECT_EQ(stage.state.method, other);
+}
+
 TEST(KeptMethod, AndAnEditInItAreTakenBackOneByOne) {
     Stage stage(2);
     const MethodKind first = stage.state.method;

@@ -64,6 +64,43 @@ TEST(ForceTool, PullsAtAPatchByAnArrowThatEndsAtTheCursor) {
     }
 }
 
+/// It was drawn from the patch to the cursor, and stands there still when the button is let go.
+TEST(ForceTool, LeavesTheArrowWhereItWasDrawn) {
+    Stage stage;
+    stage.state.tools.tool = Tool::force;
+    stage.settle();
+    // From the side that is seen, so that the force goes into the body and not away from it.
+    const int v = stage.vertex_near({1.0, 2.0 / 3, 1.0 / 3});
+    for (const Eigen::Vector2d& dragged : {Eigen::Vector2d(60, 0), Eigen::Vector2d(-60, 0), Eigen::Vector2d(0, 60)}) {
+        const Eigen::Vector2d from = stage.pixel(v);
+        stage.drag(from, from + dragged);
+        ASSERT_EQ(stage.scene().n_loads(), 1);
+        const LoadArrow arrow = arrow_of(stage, 0);
+        EXPECT_GT((stage.pixel(arrow.end) - stage.pixel(arrow.place)).dot(dragged), 0.0) << dragged.transpose();
+        stage.state.clear_loads();
+        stage.settle();
+        stage.wait(1.0);
+    }
+}
+
+/// What is shown as selected is what Del removes.
+TEST(ForceTool, SelectsItsLoadInPlaceOfAHandle) {
+    Stage stage;
+    stage.settle();
+    const Eigen::Vector2d place = stage.pixel(vertex_on_top(stage));
+    stage.drag(place, place + kDragged);
+    stage.wait(1.0);
+    ASSERT_EQ(stage.state.gestures.selected_handle(), 0);
+    stage.state.tools.tool = Tool::force;
+    const Eigen::Vector2d other = stage.pixel(stage.vertex_near({1.0, 2.0 / 3, 1.0 / 3}));
+    stage.drag(other, other + kDragged);
+    ASSERT_EQ(stage.scene().n_loads() + stage.scene().n_handles(), 2);
+    ASSERT_EQ(stage.state.gestures.selected_load(), 0);
+    EXPECT_EQ(stage.state.gestures.selected_handle(), -1);
+    stage.state.gestures.select_handle(0);
+    EXPECT_FALSE(stage.state.gestures.selected_load());
+}
+
 TEST(ForceTool, WithShiftPressesAlongTheNormalAndAClickLoadsNothing) {
     Stage stage;
     stage.state.tools.tool = Tool::force;

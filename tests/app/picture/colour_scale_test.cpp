@@ -44,6 +44,13 @@ TEST(ColourScale, StaysFiniteAtTheEndsOfWhatNumbersCanBe) {
                      std::log10(ticks[2].value) - std::log10(ticks[1].value));
 }
 
+TEST(ColourScale, HasOneColourInEachBand) {
+    EXPECT_EQ(place_on_map(0.123, false), 0.123);
+    for (const double place : {0.0, 0.05, 0.0999}) EXPECT_DOUBLE_EQ(place_on_map(place, true), 0.05);
+    EXPECT_DOUBLE_EQ(place_on_map(0.1001, true), 0.15);
+    EXPECT_DOUBLE_EQ(place_on_map(1.0, true), 0.95);
+}
+
 TEST(ColourScale, HasRoundTicksWithinItsRange) {
     for (const auto& [low, high] : {std::pair(1e-3, 1.0), {2.0, 30.0}, {1e-9, 1e9}, {0.9, 1.3}}) {
         const ColourScale scale = colour_scale(low, high, true);

@@ -6,6 +6,7 @@
 
 #include "app/stage.hpp"
 #include "bem/collocation/method.hpp"
+#include "bem/galerkin/method.hpp"
 #include "fem/method.hpp"
 #include "methods/registry.hpp"
 #include "support/wait_until.hpp"
@@ -95,6 +96,21 @@ TEST_F(ShownBodyTest, ReactionsBalance) {
     EXPECT_GT(body.reactions()[1].force.x(), 0.0);
     EXPECT_LT(force.norm(), 1e-6 * size);
     EXPECT_LT(moment.norm(), 1e-6 * size);
+}
+
+/// Else an arrow as long as any other would show what rounding has left.
+TEST_F(ShownBodyTest, AForceThatVanishesIsZero) {
+    for (const MethodKind kind : {kFem, kGalerkinBem}) {
+        state.method = kind;
+        state.display.arrows = true;
+        stage.scene().set_force(0, GripForce{.force = Eigen::Vector3d::Zero(), .moment = {0.0, 1e-3, 2e-3}});
+        stage.settle();
+        ASSERT_THAT(shown(kind).reactions(), SizeIs(2));
+        for (const ShownReaction& reaction : shown(kind).reactions()) {
+            EXPECT_EQ(reaction.force, Eigen::Vector3d::Zero().eval());
+            EXPECT_GT(reaction.moment_about_middle().norm(), 1e-4);
+        }
+    }
 }
 
 TEST_F(ShownBodyTest, EveryFixedSetHasAForceOfItsOwn) {
