@@ -33,7 +33,7 @@ std::string selected(const Series& series, const std::string& column) {
     std::string condition;
     for (const auto& [name, text] : series.where.cells())
         condition += (condition.empty() ? "" : " && ") + std::string("strcol('") + name + "') eq " + quoted(text);
-    const std::string value = "column('" + column + "')";
+    const std::string value = column.starts_with('(') ? column : "column('" + column + "')";
     return condition.empty() ? value : "(" + condition + " ? " + value + " : NaN)";
 }
 

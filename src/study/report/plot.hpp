@@ -12,9 +12,9 @@ namespace elastolab {
 /// Rows of the study's CSV, drawn as one line.
 struct Series {
     std::string title = {};
-    Row where = {};  ///< cells that a row must have
-    std::string x = {}, y = {};
-    int color = 0;  ///< number in the palette; the same thing has the same colour in all plots
+    Row where = {};              ///< cells that a row must have
+    std::string x = {}, y = {};  ///< columns; or x as an expression of gnuplot in brackets
+    int color = 0;               ///< number in the palette; the same thing has the same colour in all plots
     bool dashed = false;
     std::string style = "linespoints";
 };

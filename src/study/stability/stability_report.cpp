@@ -84,18 +84,20 @@ std::string edit_findings(const Table& table) {
            " of them compared with a fresh solve: worst relative difference " + short_number(worst) + ".\n";
 }
 
-Plot sweep_plot(const Table& table, const std::string& group, bool log_x) {
+Plot sweep_plot(const Table& table, const std::string& group) {
     Plot plot{.name = "stability-" + group, .title = "Error in the trial: " + group};
     plot.caption = "Against the exact solution; where a method was refused there is no point.";
-    plot.x_label = table.where({{"group", group}}).rows.front().text("parameter");
+    // Poisson's ratios that matter are so close to 1/2 that they would be one point.
+    const bool towards_half = group == "nu-to-half";
+    const std::string parameter = table.where({{"group", group}}).rows.front().text("parameter");
+    plot.x_label = towards_half ? "1/2 - " + parameter + " (1/2 itself: 1e-10)" : parameter;
     plot.y_label = "largest error / largest displacement";
-    plot.log_x = log_x;
-    plot.log_y = true;
-    plot.extra = "set yrange [1e-16:*]";
+    plot.log_x = plot.log_y = true;
+    if (!towards_half) plot.extra = "set yrange [1e-16:*]";
     for (const TrialVariant& variant : trial_variants()) {
         plot.series.push_back({variant.name,
                                {{"group", group}, {"variant", variant.name}},
-                               "level",
+                               towards_half ? "(0.5 - column('level') + 1e-10)" : "level",
                                "error_max",
                                method_color(variant.name),
                                variant.name.find(' ') != std::string::npos});
@@ -118,8 +120,7 @@ Conclusions conclude_stability(const Table& table) {
     for (const std::string& group : table.values("group"))
         conclusions.findings += heading(table, group) + group_table(table, group) + "\n";
     for (const std::string group : {"nu-to-half", "plate", "slivers", "far-away"})
-        if (!table.where({{"group", group}}).rows.empty())
-            conclusions.plots.push_back(sweep_plot(table, group, group != "nu-to-half"));
+        if (!table.where({{"group", group}}).rows.empty()) conclusions.plots.push_back(sweep_plot(table, group));
     return conclusions;
 }
 
