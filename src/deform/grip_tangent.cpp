@@ -67,10 +67,10 @@ bool GripTangent::has_falling_motion() const { return (values_.array() < -none_)
 /// it suffices, from the body's size down to that of a small grip. What falls whatever the mass is not stable.
 bool GripTangent::stable() const {
     if (!has_falling_motion()) return true;
-    constexpr double kSmallGrip = 1.0 / 64.0, kPart = 0.5;
-    for (double part = 1.0; part >= kSmallGrip; part *= kPart) {
+    constexpr int kBody = 1, kSmallGrip = 64;  // parts of the body's size
+    for (int parts = kBody; parts <= kSmallGrip; parts *= 2) {
         Eigen::VectorXd turns = Eigen::VectorXd::Ones(scaled_.rows());
-        for (Eigen::Index g = 0; 6 * g < turns.size(); ++g) turns.segment<3>(6 * g + 3).setConstant(1.0 / part);
+        for (Eigen::Index g = 0; 6 * g < turns.size(); ++g) turns.segment<3>(6 * g + 3).setConstant(parts);
         if (real_parts_of_eigenvalues(turns.asDiagonal() * scaled_ * turns.asDiagonal())[0] >= -none_) return true;
     }
     return false;

@@ -31,7 +31,8 @@ UnderWay& under_way() {
     return all;
 }
 
-void change(const std::function<void(UnderWay&)>& by) {
+template <class By>
+void change(const By& by) {
     {
         const std::scoped_lock lock(under_way().mutex);
         by(under_way());
@@ -120,7 +121,7 @@ WithoutLock::WithoutLock() {
     if (!ending) released_.emplace();
 }
 
-WithoutLock::~WithoutLock() {
+WithoutLock::~WithoutLock() {  // NOLINT(bugprone-exception-escape)
     if (!released_) return;
     released_.reset();
     change([](UnderWay& all) { --all.n_without_lock; });
