@@ -14,7 +14,7 @@ void Exports::start(const std::filesystem::path& file, const std::function<Expor
                        " when it is there.");
         return;
     }
-    const std::string note = "Exported " + file.string() + remark;
+    std::string note = "Exported " + file.string() + remark;
     ExportSource source = make_source();
     if (!takes_solves(file) && source.converged) {  // the work of a frame
         attempt(messages, [&] {

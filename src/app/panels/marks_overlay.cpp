@@ -48,7 +48,7 @@ void draw_extremes(const Marks& marks, const ShownBody& body) {
     const Extremes extremes = extremes_of(body);
     const auto mark = [&](Eigen::Index v, const char* name) {
         if (v >= 0)
-            marks.draw(body.positions().col(v), context.palette.text,
+            marks.draw(body.positions().col(v), marks.context.palette.text,
                        name + number_text(body.values()[static_cast<std::size_t>(v)]));
     };
     mark(extremes.largest, "largest ");
