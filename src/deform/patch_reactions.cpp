@@ -6,7 +6,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "mesh/measures.hpp"
+#include "mesh/triangles_across.hpp"
 
 namespace elastolab {
 
@@ -35,12 +35,6 @@ constexpr double kShareOfAll = 0.1;
 constexpr double kNoForce = 1e-9;
 /// Thickness over size of a cube.
 constexpr double kOfACube = 2.0 / (3.0 * std::numbers::sqrt3);
-
-/// Four times the volume over the surface: of a long bar of square section its width, of a plate twice its thickness.
-double thickness_of(const SurfaceMesh& surface) {
-    const double area = surface_area(surface);
-    return area > 0.0 ? 4.0 * std::abs(enclosed_volume(surface)) / area : 0.0;
-}
 
 }  // namespace
 
@@ -94,10 +88,10 @@ double relative_reaction_error(const Body& body, const ConstrainedSet& set, cons
     const SurfaceMesh& surface = *body.surface;
     const ConstrainedPatches patches = constrained_patches(surface, set.fixed, set.handles);
     const double all_forces = reactions.forces.colwise().stableNorm().sum() + load_forces;
-    const double slenderness = thickness_of(surface) / size_of(surface);
+    const double thick = thickness(surface), slenderness = thick / size_of(surface);
     const double force = std::max({largest_patch_reaction(surface, patches, reactions),
                                    kShareOfAll * std::min(1.0, slenderness / kOfACube) * all_forces,
-                                   kNoForce * body.material.young_modulus * motion * thickness_of(surface)});
+                                   kNoForce * body.material.young_modulus * motion * thick});
     const double off = largest_patch_reaction(surface, patches, error);
     return std::max(force > 0.0 ? off / force : 0.0, kShearForces * motion_error * shear_over_stretch(body));
 }

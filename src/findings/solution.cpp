@@ -18,8 +18,9 @@ using Eigen::Vector3d;
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();
 constexpr double kLocking = 0.48;
-/// Poisson's ratio above which pressures of ten-node elements, and of collocation between surfaces that are wholly
-/// constrained, are off by more than a third of the stress (docs/formulation.md section 9).
+/// Poisson's ratio above which pressures of ten-node elements are uncertain, and of collocation where a closed surface
+/// is wholly constrained. Stresses of bars in bending are off by less than a tenth at 0.49, and by a quarter to three
+/// quarters at 0.499 (docs/results.md, "Stress inside").
 constexpr double kUncertainPressure = 0.495;
 constexpr double kLostDigits = 1e-6;     ///< relative error of displacements above which rounding is reported
 constexpr double kWeakLever = 100.0;     ///< tolerated amplification of an error at a handle

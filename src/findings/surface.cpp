@@ -6,6 +6,7 @@
 
 #include "mesh/measures.hpp"
 #include "mesh/surface_distance.hpp"
+#include "mesh/triangles_across.hpp"
 
 namespace elastolab {
 
@@ -43,14 +44,14 @@ void add_thin_triangle(const SurfaceMesh& surface, Findings& findings) {
     findings.push_back({.kind = FindingKind::thin_triangle, .value = thinnest, .place = place});
 }
 
-/// Length over thickness, 4 volume / area: that of a bar, twice that of a plate. A plate is as long as its box, what is
-/// wound as the way along it.
+/// Length over thickness (mesh/triangles_across.hpp): that of a bar, twice that of a plate. A plate is as long as its
+/// box, what is wound as the way along it.
 void add_slenderness(const SurfaceMesh& surface, MethodKind method, Findings& findings) {
     const double straight = (surface.vertices.rowwise().maxCoeff() - surface.vertices.rowwise().minCoeff()).norm();
     const double length = std::max(straight, length_along_surface(surface));
-    const double thickness = 4.0 * enclosed_volume(surface) / surface_area(surface);
-    if (length >= kSlender * thickness)
-        findings.push_back({.kind = FindingKind::slender_body, .value = length / thickness, .method = method});
+    const double thick = thickness(surface);
+    if (length >= kSlender * thick)
+        findings.push_back({.kind = FindingKind::slender_body, .value = length / thick, .method = method});
 }
 
 }  // namespace

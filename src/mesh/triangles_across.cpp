@@ -10,11 +10,13 @@ namespace elastolab {
 
 namespace {
 
-double across(const SurfaceMesh& surface) {
-    return 4.0 * std::abs(enclosed_volume(surface)) / (surface_area(surface) * mean_edge(surface));
-}
+double across(const SurfaceMesh& surface) { return thickness(surface) / mean_edge(surface); }
 
 }  // namespace
+
+double thickness(const SurfaceMesh& surface) {
+    return 4.0 * std::abs(enclosed_volume(surface)) / surface_area(surface);
+}
 
 double triangles_across(const SurfaceMesh& surface) {
     double fewest = across(surface);

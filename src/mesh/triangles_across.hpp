@@ -4,7 +4,10 @@
 
 namespace elastolab {
 
-/// Triangles across a body: its thickness, that of a square bar of so much volume and surface, over the mean edge. With
+/// Of a square bar of so much volume and surface, 4V/A [L]: its width if it is long; of a plate twice its thickness.
+double thickness(const SurfaceMesh& surface);
+
+/// Triangles across a body: its thickness over the mean edge. With
 /// several closed surfaces that, or the fewest of one of them: a cavity counts like a body of its shape.
 double triangles_across(const SurfaceMesh& surface);
 
