@@ -77,68 +77,100 @@ std::optional<TractionOn> of_small(const Around& at, double nu) {
 
 using Gradient = Eigen::Matrix<double, 9, 1>;  ///< du / dX, column by column
 
-/// The displacement's gradient: that within each plane, and P times the mean normal, by Gauss and Newton. Young's
-/// modulus is 1.
-std::optional<TractionOn> of_large(const Around& at, double nu) {
-    constexpr int kIterations = 30;
-    constexpr double kTolerance = 1e-10;
-    const NeoHookean law({1.0, nu});
-    const auto matrix = [](const Gradient& g) -> Matrix3d { return g.reshaped(3, 3); };
-    const auto residual = [&](const Gradient& g) {
-        double sum = (law.first_piola(matrix(g)) * at.normal - at.traction).squaredNorm();
-        for (const TriangleStrain* t : at.triangles)
-            sum +=
-                t->area / at.area * law.mu * law.mu * (matrix(g) * t->axes.leftCols<2>() - t->gradient).squaredNorm();
-        return sum;
-    };
-    // Within the triangles as they are; across them, as much as keeps the volume.
-    Matrix3d mean = Matrix3d::Zero();
-    for (const TriangleStrain* t : at.triangles) {
-        const Eigen::Matrix<double, 3, 2> edges = t->axes.leftCols<2>() + t->gradient;
-        const Vector3d cross = edges.col(0).cross(edges.col(1));
-        if (!(cross.norm() > 0.0)) return {};
-        const Vector3d across = cross / cross.squaredNorm() - t->axes.col(2);
-        mean +=
-            t->area / at.area * (t->gradient * t->axes.leftCols<2>().transpose() + across * t->axes.col(2).transpose());
+/// Fits the displacement's gradient at a vertex to that within the plane of each triangle and, through Neo-Hooke's law,
+/// to the traction on the mean normal. Young's modulus is 1.
+class GradientFit {
+public:
+    GradientFit(const Around& at, double nu) : at_(at), law_({1.0, nu}) {}
+
+    /// Within the triangles as they are; across them, as much as keeps the volume. Nothing where a triangle has become
+    /// a line.
+    std::optional<Gradient> first() const {
+        Matrix3d mean = Matrix3d::Zero();
+        for (const TriangleStrain* t : at_.triangles) {
+            const Eigen::Matrix<double, 3, 2> edges = t->axes.leftCols<2>() + t->gradient;
+            const Vector3d cross = edges.col(0).cross(edges.col(1));
+            if (!(cross.norm() > 0.0)) return {};
+            const Vector3d across = cross / cross.squaredNorm() - t->axes.col(2);
+            mean +=
+                weight(*t) * (t->gradient * t->axes.leftCols<2>().transpose() + across * t->axes.col(2).transpose());
+        }
+        return mean.reshaped();
     }
-    Gradient g = mean.reshaped();
-    if (!(volume_change(matrix(g)) > -1.0)) return {};
-    for (int i = 0; i < kIterations; ++i) {
+
+    /// By Gauss and Newton, from a gradient that inverts nothing; nothing where the equations do not determine it.
+    std::optional<Gradient> from(Gradient g) const {
+        constexpr int kIterations = 30;
+        constexpr double kTolerance = 1e-10;
+        for (int i = 0; i < kIterations; ++i) {
+            std::optional<Gradient> step = step_from(g);
+            if (!step) return {};
+            if (!shorten(*step, g)) break;  // as good as it gets
+            g += *step;
+            if (step->norm() <= kTolerance * (1.0 + g.norm())) break;
+        }
+        return g;
+    }
+
+    static bool inverts(const Gradient& g) { return !(volume_change(matrix(g)) > -1.0); }
+    Matrix3d first_piola(const Gradient& g) const { return law_.first_piola(matrix(g)); }
+
+private:
+    static Matrix3d matrix(const Gradient& g) { return g.reshaped(3, 3); }
+    double weight(const TriangleStrain& triangle) const { return triangle.area / at_.area; }
+    Vector3d off_traction(const Gradient& g) const { return first_piola(g) * at_.normal - at_.traction; }
+
+    double squares(const Gradient& g) const {
+        double sum = off_traction(g).squaredNorm();
+        for (const TriangleStrain* t : at_.triangles)
+            sum += weight(*t) * law_.mu * law_.mu * (matrix(g) * t->axes.leftCols<2>() - t->gradient).squaredNorm();
+        return sum;
+    }
+
+    std::optional<Gradient> step_from(const Gradient& g) const {
         Eigen::Matrix<double, 9, 9> A = Eigen::Matrix<double, 9, 9>::Zero();
         Gradient b = Gradient::Zero();
-        for (const TriangleStrain* t : at.triangles) {
-            const double weight = t->area / at.area;
+        for (const TriangleStrain* t : at_.triangles)
             for (int j = 0; j < 2; ++j) {
                 const Vector3d axis = t->axes.col(j);
                 const Vector3d off = matrix(g) * axis - t->gradient.col(j);
                 for (int l = 0; l < 3; ++l) {
-                    b.segment<3>(3 * l) -= weight * axis[l] * off;
+                    b.segment<3>(3 * l) -= weight(*t) * axis[l] * off;
                     for (int m = 0; m < 3; ++m)
-                        A.block<3, 3>(3 * l, 3 * m).diagonal().array() += weight * axis[l] * axis[m];
+                        A.block<3, 3>(3 * l, 3 * m).diagonal().array() += weight(*t) * axis[l] * axis[m];
                 }
             }
-        }
-        const ElasticTensor tangent = law.tangent(matrix(g));
+        const ElasticTensor tangent = law_.tangent(matrix(g));
         Eigen::Matrix<double, 3, 9> change = Eigen::Matrix<double, 3, 9>::Zero();
         for (int l = 0; l < 3; ++l)
-            for (int j = 0; j < 3; ++j) change.middleCols<3>(3 * l) += at.normal[j] * tangent.block<3, 3>(3 * j, 3 * l);
+            for (int j = 0; j < 3; ++j)
+                change.middleCols<3>(3 * l) += at_.normal[j] * tangent.block<3, 3>(3 * j, 3 * l);
         A += change.transpose() * change;
-        b -= change.transpose() * (law.first_piola(matrix(g)) * at.normal - at.traction);
-        std::optional<Gradient> step = solved<9>(A, b);
-        if (!step) return {};
-        const double before = residual(g);
-        const auto is_worse = [&] {
-            const Gradient next = g + *step;
-            return !(volume_change(matrix(next)) > -1.0) || !(residual(next) <= before);
-        };
-        constexpr int kHalvings = 20;
-        int halvings = 0;
-        while (is_worse() && halvings++ < kHalvings) *step *= 0.5;
-        if (halvings > kHalvings) break;  // as good as it gets
-        g += *step;
-        if (step->norm() <= kTolerance * (1.0 + g.norm())) break;
+        b -= change.transpose() * off_traction(g);
+        return solved<9>(A, b);
     }
-    return [P = law.first_piola(matrix(g))](const Vector3d& normal) -> Vector3d { return P * normal; };
+
+    /// Halves the step until it makes nothing worse; whether it could be.
+    bool shorten(Gradient& step, const Gradient& g) const {
+        constexpr int kHalvings = 20;
+        const double before = squares(g);
+        const auto is_worse = [&] { return inverts(g + step) || !(squares(g + step) <= before); };
+        int halvings = 0;
+        while (is_worse() && halvings++ < kHalvings) step *= 0.5;
+        return halvings <= kHalvings;
+    }
+
+    const Around& at_;
+    const NeoHookean law_;
+};
+
+std::optional<TractionOn> of_large(const Around& at, double nu) {
+    const GradientFit fit(at, nu);
+    std::optional<Gradient> gradient = fit.first();
+    if (!gradient || GradientFit::inverts(*gradient)) return {};
+    gradient = fit.from(*gradient);
+    if (!gradient) return {};
+    return [P = fit.first_piola(*gradient)](const Vector3d& normal) -> Vector3d { return P * normal; };
 }
 
 }  // namespace

@@ -114,6 +114,38 @@ Eigen::MatrixXd recovered_stresses(const TetMesh& tets, double edge, double pois
     return sums;
 }
 
+/// A ten-node element with the displacements of its nodes.
+class TenNodes {
+public:
+    TenNodes(const Eigen::Ref<const Eigen::Matrix<int, 10, 1>>& nodes, const Positions& x, const Eigen::MatrixXd& u)
+        : nodes_(nodes), u_(u) {
+        const Eigen::Matrix3d edges = x(Eigen::all, nodes_.segment<3>(1)).colwise() - x.col(nodes_[0]);
+        of_coordinates_.bottomRows<3>() = edges.inverse();
+        of_coordinates_.row(0) = -of_coordinates_.bottomRows<3>().colwise().sum();
+        volume_ = edges.determinant();
+    }
+
+    /// Six times the element's.
+    double volume() const { return volume_; }
+
+    /// each(c, gradient of the displacements of column c) at a point of these barycentric coordinates.
+    template <class Each>
+    void for_each_gradient(const Eigen::Vector4d& coordinates, const Each& each) const {
+        const Eigen::Matrix<double, 10, 3> of_shapes = quadratic_slopes(coordinates) * of_coordinates_;
+        for (Eigen::Index c = 0; c < u_.cols(); ++c) {
+            Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();
+            for (int i = 0; i < 10; ++i) gradient += u_.col(c).segment<3>(3 * nodes_[i]) * of_shapes.row(i);
+            each(c, gradient);
+        }
+    }
+
+private:
+    Eigen::Matrix<int, 10, 1> nodes_;
+    const Eigen::MatrixXd& u_;
+    Eigen::Matrix<double, 4, 3> of_coordinates_;  ///< gradients of the barycentric coordinates
+    double volume_ = 0.0;
+};
+
 /// At every node the mean over the ten-node elements around it, by volume: 6*n_nodes x m.
 Eigen::MatrixXd averaged_stresses(const Eigen::Matrix<int, 10, Eigen::Dynamic>& elements, const Positions& x,
                                   double poisson_ratio, const Eigen::MatrixXd& u, bool large) {
@@ -121,19 +153,12 @@ Eigen::MatrixXd averaged_stresses(const Eigen::Matrix<int, 10, Eigen::Dynamic>& 
     Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(2 * u.rows(), u.cols());
     Eigen::VectorXd volumes = Eigen::VectorXd::Zero(x.cols());
     for (const auto& element : elements.colwise()) {
-        const Eigen::Matrix3d edges = x(Eigen::all, element.segment<3>(1)).colwise() - x.col(element[0]);
-        Eigen::Matrix<double, 4, 3> of_coordinates;  // gradients of the barycentric coordinates
-        of_coordinates.bottomRows<3>() = edges.inverse();
-        of_coordinates.row(0) = -of_coordinates.bottomRows<3>().colwise().sum();
-        const double volume = edges.determinant();
+        const TenNodes field(element, x, u);
         for (int node = 0; node < 10; ++node) {
-            const Eigen::Matrix<double, 10, 3> of_shapes = quadratic_slopes(node_coordinates(node)) * of_coordinates;
-            volumes[element[node]] += volume;
-            for (Eigen::Index c = 0; c < u.cols(); ++c) {
-                Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();
-                for (int i = 0; i < 10; ++i) gradient += u.col(c).segment<3>(3 * element[i]) * of_shapes.row(i);
-                sums.col(c).segment<6>(6 * element[node]) += volume * stress_of(gradient, material, large);
-            }
+            volumes[element[node]] += field.volume();
+            field.for_each_gradient(node_coordinates(node), [&](Eigen::Index c, const Eigen::Matrix3d& gradient) {
+                sums.col(c).segment<6>(6 * element[node]) += field.volume() * stress_of(gradient, material, large);
+            });
         }
     }
     for (Eigen::Index node = 0; node < x.cols(); ++node) sums.middleRows<6>(6 * node) /= volumes[node];
@@ -159,22 +184,16 @@ void recover_pressures(const Eigen::Matrix<int, 10, Eigen::Dynamic>& elements, c
     Eigen::MatrixXd pressures = Eigen::MatrixXd::Zero(x.cols(), u.cols());
     for (Eigen::Index e = 0; e < elements.cols(); ++e) {
         const auto element = elements.col(e);
-        const Eigen::Matrix3d edges = edges_of(corners, e);
-        Eigen::Matrix<double, 4, 3> of_coordinates;
-        of_coordinates.bottomRows<3>() = edges.inverse();
-        of_coordinates.row(0) = -of_coordinates.bottomRows<3>().colwise().sum();
+        const TenNodes field(element, x, u);
         Eigen::RowVectorXd mean = Eigen::RowVectorXd::Zero(u.cols());
         for (int point = 0; point < 4; ++point) {
-            Eigen::Vector4d L = Eigen::Vector4d::Constant(kInner);
-            L[point] = 1.0 - 3.0 * kInner;
-            const Eigen::Matrix<double, 10, 3> of_shapes = quadratic_slopes(L) * of_coordinates;
-            for (Eigen::Index c = 0; c < u.cols(); ++c) {
-                Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();
-                for (int i = 0; i < 10; ++i) gradient += u.col(c).segment<3>(3 * element[i]) * of_shapes.row(i);
+            Eigen::Vector4d coordinates = Eigen::Vector4d::Constant(kInner);
+            coordinates[point] = 1.0 - 3.0 * kInner;
+            field.for_each_gradient(coordinates, [&](Eigen::Index c, const Eigen::Matrix3d& gradient) {
                 mean[c] += 0.25 * mean_stress(stress_of(gradient, material, large));
-            }
+            });
         }
-        for (int i = 0; i < 4; ++i) pressures.row(element[i]) += fits.weight(e, element[i], edges.determinant()) * mean;
+        for (int i = 0; i < 4; ++i) pressures.row(element[i]) += fits.weight(e, element[i], field.volume()) * mean;
     }
     for (const auto& element : elements.colwise())
         for (int m = 0; m < 6; ++m)
