@@ -63,7 +63,7 @@ void ViewerState::toggle_comparison(CompareMode mode) {
     for (const MethodKind kind : compared_methods()) {
         const SurfaceMesh* surface = simulation.simulated_surface(kind, *scene_);
         const bool is_ready = simulation.runner(kind).model() != nullptr;
-        if (is_ready || surface == nullptr || predict_cost(*surface, choices.of(kind)).seconds <= kComparisonSeconds)
+        if (is_ready || surface == nullptr || predict_cost(*surface, choices.of(kind)).seconds() <= kComparisonSeconds)
             compare.kinds.push_back(kind);
     }
 }

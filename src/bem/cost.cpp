@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "deform/machine_speed.hpp"
 #include "mesh/surface_mesh.hpp"
 
 namespace elastolab {
@@ -21,8 +20,6 @@ double cluster_levels(std::int64_t n_vertices) {
     return std::log2(std::max(static_cast<double>(n_vertices) / 48.0, 2.0));
 }
 
-double PredictedWork::seconds() const { return flops / product_speed() + integrals / integral_speed(); }
-
 UsualSet::UsualSet(const SurfaceMesh& surface) : vertices(std::max(0.1 * surface.n_vertices(), 3.0)) {
     triangles = std::min(2.0 * vertices + 5.0 * std::sqrt(vertices), static_cast<double>(surface.n_triangles()));
 }
@@ -30,10 +27,10 @@ UsualSet::UsualSet(const SurfaceMesh& surface) : vertices(std::max(0.1 * surface
 Cost predict_hierarchical(const SurfaceMesh& surface, const HierarchicalPrices& prices) {
     const double n = surface.n_vertices(), levels = cluster_levels(surface.n_vertices());
     const double set = UsualSet(surface).triangles;
-    const PredictedWork work{
-        0.0, (prices.precomputation + prices.set) * n * std::cbrt(n) + prices.set_triangles * set * std::cbrt(set)};
+    const Work work{.integrals = (prices.precomputation + prices.set) * n * std::cbrt(n) +
+                                 prices.set_triangles * set * std::cbrt(set)};
     return {3 * static_cast<std::int64_t>(surface.n_vertices()),
-            (64u << 20) + static_cast<std::uint64_t>(prices.bytes * levels * n), work.seconds()};
+            (64u << 20) + static_cast<std::uint64_t>(prices.bytes * levels * n), work};
 }
 
 }  // namespace elastolab

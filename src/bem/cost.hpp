@@ -9,14 +9,6 @@ namespace elastolab {
 bool is_hierarchical(const SurfaceMesh& surface, const Method& method);
 bool is_hierarchical(std::int64_t n_vertices, const Method& method);
 
-/// The arithmetic that is predicted, and how long it takes on this machine (deform/machine_speed.hpp) [s].
-struct PredictedWork {
-    double flops = 0.0;      ///< of matrix products: product_speed()
-    double integrals = 0.0;  ///< in evaluations of the potential of a triangle: integral_speed()
-
-    double seconds() const;
-};
-
 /// The constrained set that predictions reckon with: a tenth of the vertices, in two patches.
 struct UsualSet {
     double vertices, triangles;  ///< triangles: those with a constrained corner

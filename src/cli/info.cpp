@@ -79,7 +79,7 @@ void print_costs(std::ostream& out, const std::vector<MethodCost>& costs, bool f
         if (row.cost)
             out << formatted("%12lld  %12s  %10s", static_cast<long long>(row.cost->degrees_of_freedom),
                              readable_bytes(static_cast<double>(row.cost->memory_bytes)).c_str(),
-                             readable_seconds(row.cost->seconds).c_str())
+                             readable_seconds(row.cost->seconds()).c_str())
                 << (!row.on_proxy ? "\n"
                     : filled      ? "  with its holes filled\n"
                                   : "  on the proxy\n");
@@ -106,7 +106,7 @@ Json to_json(const MethodCost& row) {
     json["simulates"] = row.cost ? Json(row.on_proxy ? "proxy" : "surface") : Json(nullptr);
     json["degrees_of_freedom"] = row.cost ? Json(row.cost->degrees_of_freedom) : Json(nullptr);
     json["memory_bytes"] = row.cost ? Json(row.cost->memory_bytes) : Json(nullptr);
-    json["seconds"] = row.cost ? finite_or_null(row.cost->seconds) : Json(nullptr);
+    json["seconds"] = row.cost ? finite_or_null(row.cost->seconds()) : Json(nullptr);
     return json;
 }
 

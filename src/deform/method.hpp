@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "deform/element_degree.hpp"
+#include "deform/machine_speed.hpp"
 
 namespace elastolab {
 
@@ -40,13 +41,15 @@ inline constexpr std::array kAllTractions = {Tractions::discontinuous, Tractions
 inline constexpr std::array kAllUpdates = {Update::direct, Update::eqn9, Update::reduced};
 inline constexpr std::array kAllElements = {ElementDegree::quadratic, ElementDegree::linear};
 
-/// What a precomputation would take, before it is begun. Seconds include a first constrained set of a tenth of the
-/// vertices; they are estimated from the arithmetic and the speeds of this machine (machine_speed.hpp). Memory is what
-/// the model's arrays add up to; what a constrained set takes beyond: Deformer::predict_memory.
+/// What a precomputation would take, before it is begun. Its work includes a first constrained set of a tenth of the
+/// vertices. Memory is what the model's arrays add up to; what a constrained set takes beyond:
+/// Deformer::predict_memory.
 struct Cost {
     std::int64_t degrees_of_freedom = 0;
     std::uint64_t memory_bytes = 0;  ///< at its peak, beyond what the program holds already
-    double seconds = 0.0;
+    Work work = {};
+
+    double seconds() const { return work.seconds(); }
 };
 
 /// MethodTraits::reported_error of methods whose estimate is of the size of the error: half the error that must be

@@ -48,15 +48,16 @@ FactorEstimate::FactorEstimate(const SurfaceMesh& mesh, double nodes, bool quadr
 }
 
 /// Measured: half the speed of a product; copies, the estimate of the condition and the first columns by entries.
-double FactorEstimate::seconds() const { return (2.4 * flops + 1500.0 * entries) / product_speed(); }
+Work FactorEstimate::work() const { return {.flops = 2.4 * flops + 1500.0 * entries}; }
 
 Cost predict_sparse(const FactorEstimate& factor, double unknowns, double elements_work) {
-    Cost cost{static_cast<std::int64_t>(unknowns), 0, 0.0};
+    Cost cost{static_cast<std::int64_t>(unknowns)};
     // The factor with its blocks' corners; K, its two parts and K with the fixed set eliminated; tetrahedra and
     // columns; what the allocator keeps.
     cost.memory_bytes =
         static_cast<std::uint64_t>(10.5 * factor.entries + 4.0 * 13.0 * factor.nonzeros + 200.0 * unknowns + 8e6);
-    cost.seconds = kStart + factor.seconds() + elements_work / scalar_speed();
+    cost.work = factor.work();
+    cost.work += {.scalars = elements_work, .waiting = kStart};
     return cost;
 }
 
@@ -67,7 +68,7 @@ Cost predict_linear_fem(const SurfaceMesh& mesh, const Method& method) {
     if (method.mode == Mode::on_demand) return cost;
     const double dense = method.mode == Mode::full ? surface : n;
     cost.memory_bytes += 4 * square_bytes(dense + 6.0);
-    cost.seconds += (2.0 * dense * dense * dense + 4.0 * surface * factor.entries) / product_speed();
+    cost.work.flops += 2.0 * dense * dense * dense + 4.0 * surface * factor.entries;
     return cost;
 }
 

@@ -16,8 +16,8 @@ struct FactorEstimate {
 
     /// nodes: of linear elements; those of quadratic ones have their own powers.
     FactorEstimate(const SurfaceMesh& mesh, double nodes, bool quadratic);
-    /// Seconds of a factorisation and what goes with it.
-    double seconds() const;
+    /// Of a factorisation and what goes with it.
+    Work work() const;
 };
 
 /// TetGen, assembly and ordering, for a node: as long as so many integrals at scalar_speed().

@@ -25,7 +25,8 @@ std::uint64_t shared_memory(const Method& method) {
 void add(const Cost& cost, std::size_t times, std::uint64_t shared, Cost& sum) {
     sum.degrees_of_freedom += cost.degrees_of_freedom * static_cast<std::int64_t>(times);
     sum.memory_bytes += (cost.memory_bytes - std::min(cost.memory_bytes, shared)) * times;
-    sum.seconds += cost.seconds * static_cast<double>(times);
+    Work work = cost.work;
+    sum.work += work *= static_cast<double>(times);
 }
 
 /// Solids that are within a fifth of each other's size, by the largest of them.

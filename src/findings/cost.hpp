@@ -10,8 +10,8 @@
 namespace elastolab {
 
 /// What a precomputation would take, of all solids together: each has a system of its own. The larger the surface the
-/// longer it takes itself, up to a tenth of a second at 40 000 vertices; the first call measures the speed of the
-/// machine as well (deform/machine_speed.hpp).
+/// longer it takes itself, up to a tenth of a second at 40 000 vertices. Whoever asks for seconds first measures the
+/// speed of the machine (deform/machine_speed.hpp).
 Cost predict_cost(const SurfaceMesh& surface, const Method& method);
 Cost predict_cost(const std::vector<Solid>& solids, const Method& method);
 

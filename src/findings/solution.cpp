@@ -192,8 +192,14 @@ Findings findings_of_answer(const Deformer& deformer, const Deformer::Answer& an
                                            triangles_across(*deformer.model().body().surface) >= kFewTrianglesAcross));
     const int n_advised =
         has_advice ? static_cast<int>(deformer.set().fixed.size() + deformer.set().handles.size()) : 0;
-    if (!answer.check && method->reported_error)
-        findings.push_back({.kind = FindingKind::no_estimate, .severity = Severity::note, .method = method});
+    if (!answer.check && method->reported_error) {
+        const double across = method->integrates_boundary ? triangles_across(*deformer.model().body().surface) : 0.0;
+        const bool is_bad = method->integrates_boundary && across < kFewTrianglesAcross;
+        findings.push_back({.kind = FindingKind::no_estimate,
+                            .severity = is_bad ? Severity::warning : Severity::note,
+                            .value = is_bad ? across : 0.0,
+                            .method = method});
+    }
     if (has_limit && answer.check->relative_force_error > *method->reported_error)
         findings.push_back({.kind = FindingKind::coarse_forces,
                             .value = answer.check->relative_force_error,

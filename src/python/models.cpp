@@ -194,7 +194,7 @@ py::dict predicted(const Surface& surface, const std::string& method, const std:
     py::dict row;
     row["degrees_of_freedom"] = cost.degrees_of_freedom;
     row["memory_bytes"] = cost.memory_bytes;
-    row["seconds"] = cost.seconds;
+    row["seconds"] = cost.seconds();
     return row;
 }
 

@@ -57,6 +57,8 @@ private:
 
 /// Vertices that are enough to tell.
 inline constexpr int kGaugeVertices = 500;
+/// A surface of more vertices is gauged on a proxy.
+inline constexpr int kMostGaugedThemselves = 1200;
 /// Solids of more are not gauged.
 inline constexpr std::size_t kMostGaugedSolids = 64;
 

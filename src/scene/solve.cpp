@@ -138,9 +138,6 @@ void precompute_model(const Method& method, const Body& body, Solution& solution
     append(solution.findings, findings_of_model(*solution.model));
 }
 
-/// Vertices of a surface that is gauged itself.
-constexpr int kMostGaugedThemselves = 1200;
-
 /// Forces below this fraction of Young's modulus times displacement times length are rounding.
 constexpr double kRoundingForce = 1e-12;
 

@@ -60,7 +60,7 @@ void until_it_can_be_pulled(benchmark::State& state, const HeldBody& held, Metho
         if (!deformer.linear()) deformer.drag_response(rest, basis);  // which factorises
         seconds += watch.seconds();
     }
-    const double predicted = predict_cost(*body.surface, method).seconds;
+    const double predicted = predict_cost(*body.surface, method).seconds();
     state.counters["predicted_s"] = predicted;
     state.counters["ratio"] = predicted * static_cast<double>(state.iterations()) / seconds;
 }

@@ -65,6 +65,25 @@ TEST_F(GripEstimate, OfGalerkinSeesBarsOfFewTrianglesAcross) {
     }
 }
 
+/// A rod whose halved triangles cost too much is a quarter too stiff: that nothing is told of it is told.
+TEST(EstimateOfSlenderBars, ByGalerkinIsNotThatOfItsRims) {
+    for (const double length : {150.0, 300.0}) {
+        Document document;
+        document.mesh = Primitive{.name = "box", .resolution = 1, .size = {1, 1, length}};
+        document.material = {1e4, 0.3};
+        document.fixed = {{.select = {PlaneSelector{{0, 0, 0}, {0, 0, 1}, 1e-9}}}};
+        document.handles = {{.name = "end", .select = {PlaneSelector{{0, 0, length}, {0, 0, 1}, 1e-9}}}};
+        document.handles[0].force = GripForce{{1e-6, 0, 0}, {0, 0, 0}};
+        const Solution solution = ten_nodes(document, kGalerkinBem);
+        if (length < 200.0) {
+            EXPECT_NEAR(solution.error_estimate.value_or(0.0), 0.265, 0.05);
+        } else {
+            EXPECT_FALSE(solution.error_estimate);
+            EXPECT_THAT(words(solution.findings), testing::Contains(testing::HasSubstr("triangles across")));
+        }
+    }
+}
+
 /// Galerkin BEM on the same triangles would be as much too stiff.
 TEST_F(GripEstimate, OfCollocationSeesBarsOfFewTrianglesAcross) {
     for (const MethodKind kind : {kLinearBem, kConstantBem})
@@ -93,6 +112,24 @@ TEST(EstimateOfSlenderBars, ByCollocationIsNoneTheSmaller) {
     EXPECT_GT(error, 0.1);
     EXPECT_GT(*solution.error_estimate, error / 3.0);
     EXPECT_LT(*solution.error_estimate, error * 3.0);
+}
+
+/// Nothing of a moment at the end reaches the base by linear BEM, and the bar bends two to eight times as far.
+TEST(EstimateOfSlenderBars, ByCollocationUnderAMomentIsOfItsSize) {
+    for (const double length : {10.0, 30.0}) {
+        Document document;
+        document.mesh = Primitive{.name = "box", .resolution = 2, .size = {length, 1, 1}};
+        document.material = {1e4, 0.3};
+        document.fixed = {{.select = {PlaneSelector{{0, 0, 0}, {1, 0, 0}, 1e-9}}}};
+        document.handles = {{.name = "end", .select = {PlaneSelector{{length, 0, 0}, {1, 0, 0}, 1e-9}}}};
+        document.handles[0].force = GripForce{{0, 0, 0}, {0, 1e-4, 0}};
+        const double fine = reach_of(ten_nodes(document, kQuadraticFem));
+        const Solution solution = ten_nodes(document, kLinearBem);
+        const double error = std::abs(reach_of(solution) - fine) / reach_of(solution);
+        EXPECT_GT(error, 0.5) << length;
+        EXPECT_GT(*solution.error_estimate, error / 1.5) << length;
+        EXPECT_LT(*solution.error_estimate, error * 1.5) << length;
+    }
 }
 
 /// What is soft comes last in the iterations of the second answer.

@@ -23,26 +23,27 @@ void hold_lowest(LiveScene& scene, const Eigen::Vector3d& up) {
 }
 
 constexpr double kLongSeconds = 15.0, kFarSooner = 4.0;  ///< times
+constexpr int kSmall = 2000;                             ///< vertices up to which nothing takes so long
 
 /// A body does not begin with a method that takes long where another one is exact far sooner. Returns what is to be
 /// said of that; empty where it begins as usual.
 std::string begin_with_what_is_soon(LiveScene& scene) {
     const MethodKind usual = scene.document().method;
     const auto cost_of = [&](MethodKind kind) { return predict_cost(scene.mesh(), {.kind = kind}); };
-    if (scene.needs_proxy(usual)) return "";  // which has few vertices
+    if (scene.needs_proxy(usual) || scene.mesh().n_vertices() <= kSmall) return "";  // a proxy has few vertices
     const Cost own = cost_of(usual);
-    if (own.seconds < kLongSeconds) return "";
+    if (own.seconds() < kLongSeconds) return "";
     MethodKind soonest = usual;
-    double seconds = own.seconds / kFarSooner;
+    double seconds = own.seconds() / kFarSooner;
     for (const MethodKind kind : all_methods())
-        if (const Cost cost = cost_of(kind); !scene.needs_proxy(kind) && cost.seconds < seconds) {
+        if (const double its = cost_of(kind).seconds(); !scene.needs_proxy(kind) && its < seconds) {
             soonest = kind;
-            seconds = cost.seconds;
+            seconds = its;
         }
     if (soonest == usual) return "";
     scene.start_with(soonest, scene.document().settings);
     return title(soonest) + " comes first: exact in about " + readable_prediction(seconds) + ". " + title(usual) +
-           " would take about " + readable_prediction(own.seconds) + " and " +
+           " would take about " + readable_prediction(own.seconds()) + " and " +
            readable_bytes(static_cast<double>(own.memory_bytes)) + "; choose it in the panel.";
 }
 

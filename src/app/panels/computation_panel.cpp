@@ -104,7 +104,7 @@ void draw_mode(const PanelContext& context, CostPredictions& costs) {
             method.mode = choice.value;
             const Cost& price = costs.of(state, method);
             const bool fits = price.memory_bytes < available_memory_bytes();
-            const std::string label = std::string(choice.label) + "   " + readable_prediction(price.seconds) + ", " +
+            const std::string label = std::string(choice.label) + "   " + readable_prediction(price.seconds()) + ", " +
                                       readable_bytes(static_cast<double>(price.memory_bytes)) +
                                       (fits ? "" : " (does not fit)");
             ImGui::BeginDisabled(!fits);

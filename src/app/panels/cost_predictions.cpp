@@ -24,7 +24,7 @@ Cost CostPredictions::of(const ViewerState& state, const Method& method) {
                                                      method.rims, surface->n_vertices(), surface->n_triangles()});
     if (is_new) place->second = predict_cost(*surface, method);
     Cost cost = place->second;
-    cost.seconds *= slowdown_;
+    cost.work *= slowdown_;
     return cost;
 }
 

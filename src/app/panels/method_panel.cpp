@@ -40,7 +40,7 @@ std::string state_words(const ViewerState& state, const CostOf& cost_of) {
             return runner.has_answer() ? "stopped; the last answer is shown" : "not computed";
         case State::precomputing: {
             if (!previewing && simulation.preparing_preview()) return "preparing the preview";
-            const double passed = runner.status().seconds, left = cost_of(state.method).seconds - passed;
+            const double passed = runner.status().seconds, left = cost_of(state.method).seconds() - passed;
             // What takes longer than predicted will not be there in a moment.
             const std::string when = "in about " + readable_prediction(std::max({left, kLeftOfPassed * passed, 1.0}));
             return previewing ? "preview; exact " + when : "ready " + when;
@@ -74,9 +74,9 @@ const Colour& state_colour(const MethodRunner& runner, const Palette& palette) {
 std::string button_words(const ViewerState& state, MethodKind kind, const Cost& cost, std::uint64_t completed_bytes) {
     const MethodRunner& runner = state.simulation.runner(kind);
     if (runner.state() == State::ready) return "ready";
-    if (cost.seconds <= 0.0) return "not begun";
+    if (cost.seconds() <= 0.0) return "not begun";
     std::string price =
-        readable_prediction(cost.seconds) + ", " + readable_bytes(static_cast<double>(cost.memory_bytes));
+        readable_prediction(cost.seconds()) + ", " + readable_bytes(static_cast<double>(cost.memory_bytes));
     if (completed_bytes > cost.memory_bytes)
         price += ", with K and its inverse later " + readable_bytes(static_cast<double>(completed_bytes));
     if (cost.memory_bytes > available_memory_bytes()) return "takes " + price + ": does not fit into memory";
@@ -175,12 +175,12 @@ MethodKind MethodPanel::sooner_method(const ViewerState& state) {
     constexpr double kLong = 4.0, kFarSooner = 3.0;  // seconds; times
     if (state.simulation.runner(state.method).state() != State::precomputing) return nullptr;
     if (state.simulation.preparing_preview()) return nullptr;  // no prediction before the first answer
-    const double own = costs_.of(state, state.choices.of(state.method)).seconds;
+    const double own = costs_.of(state, state.choices.of(state.method)).seconds();
     if (own < kLong) return nullptr;
     for (const MethodKind kind : all_methods())
         if (state.simulation.runner(kind).model() != nullptr && kind != state.method) return kind;
     const auto seconds = [&](MethodKind kind) {
-        const double predicted = costs_.of(state, state.choices.of(kind)).seconds;
+        const double predicted = costs_.of(state, state.choices.of(kind)).seconds();
         return predicted > 0.0 && state.simulation.problem(kind).empty() ? predicted : own;
     };
     const std::span<const MethodKind> all = all_methods();
@@ -193,7 +193,7 @@ std::string MethodPanel::sooner_words(const ViewerState& state, MethodKind soone
     if (sooner == nullptr) return "";
     const bool ready = state.simulation.runner(sooner).model() != nullptr;
     return title(sooner) + ": " +
-           (ready ? "ready" : "in about " + readable_prediction(costs_.of(state, state.choices.of(sooner)).seconds));
+           (ready ? "ready" : "in about " + readable_prediction(costs_.of(state, state.choices.of(sooner)).seconds()));
 }
 
 void MethodPanel::draw(const PanelContext& context) {

@@ -30,10 +30,10 @@ Cost predict(const SurfaceMesh& mesh, const Method& method, double nodes, double
              const DensePrices& prices) {
     const double n = 3.0 * nodes, triangles = mesh.n_triangles();
     const double set = UsualSet(mesh).triangles;
-    Cost cost{static_cast<std::int64_t>(n), kLeastMemory, 0.0};
+    Cost cost{static_cast<std::int64_t>(n), kLeastMemory};
     if (!factorises_ahead(method)) return cost;
     cost.memory_bytes += square_bytes(n + 6.0);
-    PredictedWork work{0.72 * n * n * n, prices.pairs * nodes * triangles + prices.triangles * triangles};
+    Work work{.flops = 0.72 * n * n * n, .integrals = prices.pairs * nodes * triangles + prices.triangles * triangles};
     if (method.mode != Mode::on_demand) {
         cost.memory_bytes += 5 * square_bytes(n + 6.0);
         work.flops += prices.inverse * n * n * n;
@@ -43,7 +43,7 @@ Cost predict(const SurfaceMesh& mesh, const Method& method, double nodes, double
         work.flops += prices.columns * n * n * set_values + 60.0 * set * set * set;
         work.integrals += prices.set_pairs * nodes * set + prices.set_triangles * set;
     }
-    cost.seconds = work.seconds();
+    cost.work = work;
     return cost;
 }
 

@@ -41,10 +41,10 @@ double integrals_of_hypersingular(const SurfaceMesh& mesh) {
 }
 
 /// The single layer is factorised and eliminated from all rows. set: its triangles.
-PredictedWork work_of_set(const SurfaceMesh& mesh, double set) {
+Work work_of_set(const SurfaceMesh& mesh, double set) {
     const double n = 3.0 * mesh.n_vertices(), tractions = 3.0 * set;
-    return {1.7 * tractions * tractions * tractions + 4.2 * n * tractions * tractions + 330.0 * n * n,
-            kIntegralsOfASet * mesh.n_triangles() * set};
+    return {.flops = 1.7 * tractions * tractions * tractions + 4.2 * n * tractions * tractions + 330.0 * n * n,
+            .integrals = kIntegralsOfASet * mesh.n_triangles() * set};
 }
 
 /// Half an LU.
@@ -68,14 +68,14 @@ bool is_hierarchical_with(const ThinTriangles& thin, const SurfaceMesh& mesh, co
     return is_hierarchical(static_cast<std::int64_t>(thin.n_vertices(mesh)), method);
 }
 
-PredictedWork work_of_finer_rims(const SurfaceMesh& mesh, const ThinTriangles& thin) {
+Work work_of_finer_rims(const SurfaceMesh& mesh, const ThinTriangles& thin) {
     const double n = 3.0 * thin.n_vertices(mesh), triangles = mesh.n_triangles();
     const double rim = thin.along_rim, edges = thin.along_edges;
-    const PredictedWork as_given = work_of_set(mesh, UsualSet(mesh).triangles);
-    return {5.0 * as_given.flops + 2.3 * n * n * n,
-            5.0 * as_given.integrals +
-                rim * (kIntegralsOfARim + kIntegralsAcrossRims * triangles + kIntegralsBetweenRims * rim) +
-                edges * (kIntegralsOfAnEdge + kIntegralsAcrossEdges * (triangles + 0.5 * edges))};
+    const Work as_given = work_of_set(mesh, UsualSet(mesh).triangles);
+    return {.flops = 5.0 * as_given.flops + 2.3 * n * n * n,
+            .integrals = 5.0 * as_given.integrals +
+                         rim * (kIntegralsOfARim + kIntegralsAcrossRims * triangles + kIntegralsBetweenRims * rim) +
+                         edges * (kIntegralsOfAnEdge + kIntegralsAcrossEdges * (triangles + 0.5 * edges))};
 }
 
 }  // namespace
@@ -98,19 +98,19 @@ Cost predict_galerkin_bem(const SurfaceMesh& mesh, const Method& method) {
     const ThinTriangles thin(mesh, method.rims);
     if (is_hierarchical_with(thin, mesh, method)) {
         Cost cost = predict_hierarchical(mesh, kHierarchical);
-        cost.seconds += costly_pair_integrals(mesh) / integral_speed();
+        cost.work.integrals += costly_pair_integrals(mesh);
         const double finer = thin.n_vertices(mesh) / mesh.n_vertices();
         cost.memory_bytes = static_cast<std::uint64_t>(finer * static_cast<double>(cost.memory_bytes));
-        cost.seconds *= finer * std::cbrt(finer);
+        cost.work *= finer * std::cbrt(finer);
         return cost;
     }
     const double vertices = mesh.n_vertices(), n = 3.0 * vertices;
     const double waiting =
         std::min(kLeastRowMemory + kRowMemoryPerVertex * vertices, kRowMemoryPerPair * vertices * vertices);
-    Cost cost{static_cast<std::int64_t>(n), kLeastMemory + static_cast<std::uint64_t>(waiting), 0.0};
+    Cost cost{static_cast<std::int64_t>(n), kLeastMemory + static_cast<std::uint64_t>(waiting)};
     const bool factorises = factorises_ahead(method), keeps_integrals = method.rims > 0;
     if (!factorises && !keeps_integrals) return cost;
-    PredictedWork work = method.rims > 0 ? work_of_finer_rims(mesh, thin) : work_of_set(mesh, UsualSet(mesh).triangles);
+    Work work = method.rims > 0 ? work_of_finer_rims(mesh, thin) : work_of_set(mesh, UsualSet(mesh).triangles);
     work.integrals += integrals_of_hypersingular(mesh);
     if (keeps_integrals) cost.memory_bytes += square_bytes(n);
     if (factorises) {
@@ -121,12 +121,12 @@ Cost predict_galerkin_bem(const SurfaceMesh& mesh, const Method& method) {
         cost.memory_bytes += 4 * square_bytes(n);
         work.flops += 2.5 * n * n * n;
     }
-    cost.seconds = work.seconds();
+    cost.work = work;
     const auto prescribed = static_cast<std::int64_t>(3.0 * UsualSet(mesh).vertices);
     const auto tractions = static_cast<std::int64_t>(3.0 * UsualSet(mesh).triangles);
     const bool may_be_alone = method.first_set_alone && factorises && method.mode == Mode::on_demand;
     if (may_be_alone && is_sooner_alone(static_cast<std::int64_t>(n), prescribed, tractions))
-        cost.seconds *= kShareOfDirect;
+        cost.work *= kShareOfDirect;
     return cost;
 }
 
@@ -137,14 +137,14 @@ std::uint64_t galerkin_answer_memory(const SurfaceMesh& mesh, const Method& meth
                : galerkin_direct_memory(3 * std::int64_t{mesh.n_vertices()}, n_tractions);
 }
 
-double predict_galerkin_answer(const SurfaceMesh& mesh, std::int64_t n_constrained, std::int64_t n_loaded) {
-    PredictedWork work = work_of_set(mesh, static_cast<double>(n_constrained));
+Work predict_galerkin_answer(const SurfaceMesh& mesh, std::int64_t n_constrained, std::int64_t n_loaded) {
+    Work work = work_of_set(mesh, static_cast<double>(n_constrained));
     work.flops += flops_of_factor(3.0 * mesh.n_vertices());
     const double triangles = mesh.n_triangles(), loaded = static_cast<double>(n_loaded);
     const double of_both = 2.0 * (static_cast<double>(n_constrained) + loaded) / triangles;  // from either of a pair
     work.integrals += integrals_of_hypersingular(mesh) + kIntegralsOfASet * triangles * loaded +
                       of_both * costly_pair_integrals(mesh);
-    return kShareOfDirect * work.seconds();
+    return work *= kShareOfDirect;
 }
 
 }  // namespace elastolab

@@ -9,9 +9,9 @@ bool has_hierarchical_model(const SurfaceMesh& surface, const Method& method);
 
 Cost predict_galerkin_bem(const SurfaceMesh& surface, const Method& method);
 
-/// Seconds that one answer takes with dense matrices, D and all, for a set of so many constrained triangles and loads
+/// What one answer takes with dense matrices, D and all, for a set of so many constrained triangles and loads
 /// on so many triangles: predictions of the method do not know them.
-double predict_galerkin_answer(const SurfaceMesh& surface, std::int64_t n_constrained, std::int64_t n_loaded);
+Work predict_galerkin_answer(const SurfaceMesh& surface, std::int64_t n_constrained, std::int64_t n_loaded);
 /// Bytes of one answer on a surface as it is, all that is computed for it. n_loaded, n_tractions: as in
 /// hierarchical_set_memory.
 std::uint64_t galerkin_answer_memory(const SurfaceMesh& surface, const Method& method, std::int64_t n_loaded,

@@ -57,14 +57,15 @@ std::int64_t count_triangles(const SurfaceMesh& surface, std::span<const UnitLoa
     return std::min<std::int64_t>(n, surface.n_triangles());
 }
 
-/// Seconds of one answer on a surface, all that is computed for it. Of Galerkin BEM with dense matrices the set and the
-/// loads are known; what the other methods take depends on them less.
+/// Seconds of one answer on a surface, all that is computed for it, on a usual machine: whether an error is told must
+/// not depend on what else runs. Of Galerkin BEM with dense matrices the set and the loads are known; what the other
+/// methods take depends on them less.
 double predicted_seconds(const SurfaceMesh& surface, Method method, std::int64_t n_constrained,
                          std::span<const UnitLoad> loads) {
     method.update = Update::reduced;  // which factorises what the others do for each set
     if (method.kind == kGalerkinBem && !is_hierarchical(surface, method))
-        return predict_galerkin_answer(surface, n_constrained, count_triangles(surface, loads));
-    return method.kind->predict(surface, method).seconds;
+        return predict_galerkin_answer(surface, n_constrained, count_triangles(surface, loads)).usual_seconds();
+    return method.kind->predict(surface, method).work.usual_seconds();
 }
 
 /// Whether it takes at most ten times as long as the answer, or two seconds.
@@ -97,11 +98,11 @@ FinerRims reference_rims(const SurfaceMesh& surface, std::span<const int> vertic
     return FinerRims(surface, vertices, loads, 1, lone_vertices(pinned));
 }
 
-/// That where a surface has few triangles across: all are halved. Nothing where it has more, or where that would take
-/// too long.
+bool is_few_across(const SurfaceMesh& surface) { return triangles_across(surface) < kFewTrianglesAcross; }
+
+/// That of a surface of few triangles across: all are halved. Nothing where that would take too long.
 std::optional<FinerRims> halved_surface(const SurfaceMesh& surface, const Method& answer, std::span<const int> vertices,
                                         std::span<const UnitLoad> loads, LoneVertices lone) {
-    if (!(triangles_across(surface) < kFewTrianglesAcross)) return {};
     FinerRims halved(surface, vertices, loads, std::max(answer.rims, 1), lone, Halved::all);
     if (affordable_memory(surface, answer, halved, loads) == 0) return {};
     return halved;
@@ -167,10 +168,11 @@ std::optional<ReferenceAnswer> galerkin_reference(const SurfaceMesh& surface, co
                                                   std::span<const UnitLoad> loads, const Eigen::VectorXd& values,
                                                   const Eigen::VectorXd& first, Control& control) {
     const PinnedBody body(surface.vertices, vertices, values, first);
-    if (answer.kind != kGalerkinBem)
-        if (const auto halved =
-                halved_surface(surface, answer, body.vertices(), loads, lone_vertices(body.is_pinned())))
-            return reference_on(*halved, surface, answer, body, poisson_ratio, control);
+    if (answer.kind != kGalerkinBem && is_few_across(surface)) {
+        const auto halved = halved_surface(surface, answer, body.vertices(), loads, lone_vertices(body.is_pinned()));
+        if (!halved) return {};  // finer rims would be as wrong as this answer
+        return reference_on(*halved, surface, answer, body, poisson_ratio, control);
+    }
     const FinerRims rims = reference_rims(surface, body.vertices(), loads, body.is_pinned());
     if (affordable_memory(surface, answer, rims, loads) == 0) return {};
     return reference_on(rims, surface, answer, body, poisson_ratio, control);
@@ -179,9 +181,10 @@ std::optional<ReferenceAnswer> galerkin_reference(const SurfaceMesh& surface, co
 std::uint64_t galerkin_reference_memory(const SurfaceMesh& surface, const Method& answer,
                                         std::span<const int> vertices) {
     const bool pinned = !holds(surface.vertices, vertices);
-    if (answer.kind != kGalerkinBem)
-        if (const auto halved = halved_surface(surface, answer, vertices, {}, lone_vertices(pinned)))
-            return affordable_memory(surface, answer, *halved, {});
+    if (answer.kind != kGalerkinBem && is_few_across(surface)) {
+        const auto halved = halved_surface(surface, answer, vertices, {}, lone_vertices(pinned));
+        return halved ? affordable_memory(surface, answer, *halved, {}) : 0;
+    }
     return affordable_memory(surface, answer, reference_rims(surface, vertices, {}, pinned), {});
 }
 
@@ -191,8 +194,9 @@ std::optional<ReferenceAnswer> galerkin_self_reference(const SurfaceMesh& surfac
                                                        const Eigen::VectorXd& first, Control& control) {
     std::optional<ReferenceAnswer> reference;
     const PinnedBody body(surface.vertices, vertices, values, first);
-    if (const std::optional<FinerRims> halved =
-            halved_surface(surface, answer, body.vertices(), loads, LoneVertices::kept)) {
+    if (is_few_across(surface)) {
+        const auto halved = halved_surface(surface, answer, body.vertices(), loads, LoneVertices::kept);
+        if (!halved) return {};  // finer rims would be as wrong as this answer
         reference = reference_on(*halved, surface, answer, body, poisson_ratio, control);
         if (reference) reference->share = kShareOfHalving;
         return reference;
@@ -213,6 +217,7 @@ std::optional<ReferenceAnswer> galerkin_self_reference(const SurfaceMesh& surfac
 }
 
 std::uint64_t galerkin_halved_memory(const SurfaceMesh& surface, const Method& answer, std::span<const int> vertices) {
+    if (!is_few_across(surface)) return 0;
     const std::optional<FinerRims> halved = halved_surface(surface, answer, vertices, {}, LoneVertices::kept);
     return halved ? affordable_memory(surface, answer, *halved, {}) : 0;
 }

@@ -1,6 +1,5 @@
 #include "fem/nonlinear/cost.hpp"
 
-#include "deform/machine_speed.hpp"
 #include "fem/cost.hpp"
 #include "fem/quadratic/cost.hpp"
 #include "mesh/tets/node_estimate.hpp"
@@ -15,7 +14,7 @@ Cost predict_nonlinear_fem(const SurfaceMesh& mesh, const Method& method) {
     const FactorEstimate factor(mesh, estimated_tet_nodes(mesh), quadratic);
     Cost cost = quadratic ? predict_quadratic_fem(mesh, method) : predict_linear_fem(mesh, method);
     cost.memory_bytes += static_cast<std::uint64_t>(10.5 * (kFactors - 1.0) * factor.entries);
-    cost.seconds += kTangentWork * static_cast<double>(cost.degrees_of_freedom) / 3.0 / scalar_speed();
+    cost.work.scalars += kTangentWork * static_cast<double>(cost.degrees_of_freedom) / 3.0;
     return cost;
 }
 

@@ -6,6 +6,7 @@
 #include "base/memory.hpp"
 #include "findings/cost.hpp"
 #include "methods/registry.hpp"
+#include "scene/linear_theory.hpp"
 #include "scene/user_text.hpp"
 
 namespace elastolab {
@@ -19,6 +20,11 @@ constexpr double kMaxCompletionSeconds = 120.0;
 /// Of the memory that is free, methods that are not shown keep one part in so many.
 constexpr std::uint64_t kPartForHidden = 4;
 
+/// As `solve` does it, so that both say the same.
+bool is_gauged_itself(const LiveScene& scene) {
+    return scene.mesh().n_vertices() <= kMostGaugedThemselves && !scene.needs_proxy(large_deformation_method());
+}
+
 }  // namespace
 
 std::optional<Method> completion_of(const SurfaceMesh& mesh, MethodKind kind, const MethodChoices& choices) {
@@ -26,7 +32,7 @@ std::optional<Method> completion_of(const SurfaceMesh& mesh, MethodKind kind, co
     if (choices.mode != Mode::on_demand || !can_be || mesh.n_vertices() > choices.complete_up_to) return std::nullopt;
     Method full = choices.of(kind);
     full.mode = Mode::full;
-    if (predict_cost(mesh, full).seconds > kMaxCompletionSeconds) return std::nullopt;
+    if (predict_cost(mesh, full).seconds() > kMaxCompletionSeconds) return std::nullopt;
     return full;
 }
 
@@ -86,7 +92,7 @@ void Simulation::ask_for_proxies(const LiveScene& scene, const MethodChoices& ch
     const auto needs_proxy = [&](MethodKind kind) { return scene.needs_proxy(kind); };
     const bool needs_model = std::any_of(shown_.begin(), shown_.end(), needs_proxy) || proxies_.model();
     const bool gauges = choices.preview && is_worth_a_preview(scene) && gauged_on_.lock() == scene.surface() &&
-                        !is_quick_at_equilibria(scene);
+                        !is_gauged_itself(scene);
     proxies_.ask(scene, needs_model, previews_.need_proxy() || gauges ? kPreviewVertices : 0);
     proxies_.poll();
 }
@@ -266,7 +272,7 @@ void Simulation::gauge_theory(const LiveScene& scene) {
     if (runner(kind).state() != State::ready || !runner(kind).converged() || !runner(kind).answers()) return;
     gauged_on_ = scene.surface();
     Body body{.name = scene.name(), .surface = scene.surface(), .material = scene.document().material};
-    if (is_quick_at_equilibria(scene))
+    if (is_gauged_itself(scene))
         return gauge_.update(body, asked.set, wish_of(asked), {asked.grips(), asked.grip_forces()});
     const std::shared_ptr<const Proxy>& proxy = proxies_.preview();
     if (!proxy || proxy->shown != scene.surface()) return;

@@ -95,7 +95,7 @@ std::vector<Row> measure_growth(const Method& method, int cells, Control& contro
                 .set("precompute_s", median(precomputed))
                 .set("set_change_s", median(set_change))
                 .set("frame_s", frame)
-                .set("predicted_s", predicted.seconds)
+                .set("predicted_s", predicted.seconds())
                 .set("predicted_bytes", predicted.memory_bytes)
                 .set("measured_bytes", model_bytes)
                 .set("with_set_bytes", all_bytes)};

@@ -264,7 +264,7 @@ TEST(FinerRims, AlongReentrantEdgesAreKnownBeforeAnythingIsConstrained) {
     EXPECT_TRUE(has_hierarchical_model(inside_out(box), with_rims(3)));
     const Cost convex = predict_galerkin_bem(make_box(8), with_rims(2)),
                reentrant = predict_galerkin_bem(inside_out(make_box(8)), with_rims(2));
-    EXPECT_GT(reentrant.seconds, 2.0 * convex.seconds);
+    EXPECT_GT(reentrant.seconds(), 2.0 * convex.seconds());
 }
 
 std::vector<int> lower_end(const SurfaceMesh& bar) {
