@@ -1,8 +1,10 @@
 // When the viewer draws a frame, which events that has, and what it waits for in between.
 #include <algorithm>
+#include <string>
 #include <utility>
 
 #include "app/viewer_session.hpp"
+#include "base/error.hpp"
 
 namespace elastolab {
 
@@ -119,18 +121,39 @@ bool ViewerSession::waits_for_field() {
     return frames_for_field_ > 0;
 }
 
+/// Events are of places in the window: it has to be as large as it was. A window manager may not let it.
+bool ViewerSession::has_size_of_replay() {
+    constexpr int kPatience = 200;  // frames
+    const std::optional<Eigen::Vector2i>& wanted = replay_->log.frames[replay_->next].window_size;
+    if (!wanted || window_.size() == *wanted) {
+        frames_for_size_ = 0;
+        return true;
+    }
+    if (frames_for_size_++ == 0) window_.set_size(*wanted);
+    pending_frames_ = kSettlingFrames;
+    if (frames_for_size_ < kPatience) return false;
+    replay_->next = replay_->log.frames.size();
+    guarded([&] {
+        throw Error("replay: the window cannot be made " + std::to_string(wanted->x()) + "x" +
+                    std::to_string(wanted->y()) + ", as it was when this was recorded. Replay it with --hidden.");
+    });
+    return false;
+}
+
 std::vector<InputEvent> ViewerSession::take_events() {
     std::vector<InputEvent> events;
     if (waits_for_field()) return events;
     if (replaying()) {
-        if (!replay_->done() && !state_.simulation.busy() && !state_.files.loading() && state_.measurements.frame > 2)
+        if (!replay_->done() && !state_.simulation.busy() && !state_.files.loading() && state_.measurements.frame > 2 &&
+            has_size_of_replay())
             events = replay_->log.frames[replay_->next++].events;
     } else {
         const auto n = static_cast<std::ptrdiff_t>(Gui::n_for_one_frame(queue_));
         events.assign(queue_.begin(), queue_.begin() + n);
         queue_.erase(queue_.begin(), queue_.begin() + n);
     }
-    if (state_.measurements.recorder && !events.empty()) state_.measurements.recorder->add({Window::seconds(), events});
+    if (state_.measurements.recorder && !events.empty())
+        state_.measurements.recorder->add({Window::seconds(), events, window_.size()});
     if (!events.empty()) pending_frames_ = kSettlingFrames;
     return events;
 }

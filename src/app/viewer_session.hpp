@@ -76,6 +76,7 @@ private:
 
     /// The events of this frame: from the log when there is one, else as many as one frame can take.
     std::vector<InputEvent> take_events();
+    bool has_size_of_replay();
     std::vector<InputEvent> events_for_scene(std::vector<InputEvent> events);
     bool waits_for_field();
 
@@ -137,7 +138,7 @@ private:
     std::vector<InputEvent> kept_events_;      ///< that the scene has in the next frame
     static constexpr int kSettlingFrames = 3;  ///< frames that Dear ImGui needs to settle after an event
     static constexpr int kFramesForField = 6;  ///< frames in which a field takes the keys, or will not
-    int frames_for_field_ = 0;
+    int frames_for_field_ = 0, frames_for_size_ = 0;
     int pending_frames_ = kSettlingFrames;  ///< that are drawn whatever comes
     double last_frame_seconds_ = 0.0, message_seconds_ = -1.0;
     const Palette* styled_palette_ = nullptr;

@@ -75,13 +75,16 @@ protected:
         return rows;
     }
     static constexpr int kMoves = 8;
-    /// A drag in the middle of the body, as --record writes it: so many moves of the cursor, in a small window.
-    void record_drag() {
+    /// A drag in the middle of the body, as --record writes it: so many moves of the cursor, in a small window that had
+    /// another size at first.
+    void record_drag(const Eigen::Vector2i& first_size = {480, 360}) {
         const Eigen::Vector2d from(340, 180);
-        options.size = Eigen::Vector2i(480, 360);
+        options.size = first_size;
         InteractionRecorder recorder(folder.path() / "drag.log", *options.size);
         double seconds = 0.0;
-        const auto add = [&](InputEvent event) { recorder.add({.seconds = seconds += 0.25, .events = {event}}); };
+        const auto add = [&](InputEvent event) {
+            recorder.add({.seconds = seconds += 0.25, .events = {event}, .window_size = Eigen::Vector2i(480, 360)});
+        };
         using Of = InputEvent::Kind;
         add({.kind = Of::cursor, .cursor = from});
         add({.kind = Of::button, .cursor = from, .pressed = true});
@@ -207,6 +210,22 @@ TEST_F(ViewerTest, AReplayIsRecordedAgainAsItWas) {
     for (std::size_t i = 0; i < first.frames.size(); ++i)
         EXPECT_EQ(again.frames[i].events.front().cursor, first.frames[i].events.front().cursor);
     EXPECT_GT(read_picture(options.screenshot).n_colours, 100u);
+}
+
+/// Its places are in a window of the size that it had then.
+TEST_F(ViewerTest, AReplayHasTheSizesThatTheWindowHad) {
+    options.scene_out = folder.path() / "out.json";
+    std::vector<double> moved;
+    for (const Eigen::Vector2i& first : {Eigen::Vector2i(480, 360), Eigen::Vector2i(1000, 700)}) {
+        record_drag(first);
+        options.size.reset();
+        run_viewer(options);
+        const Document left = load_scene(options.scene_out);
+        ASSERT_EQ(left.handles.size(), 1u);
+        moved.push_back(std::get<AffineMotion>(left.handles[0].motion).translate.norm());
+    }
+    EXPECT_GT(moved[0], 0.0);
+    EXPECT_NEAR(moved[1], moved[0], 0.3 * moved[0]) << "the camera has another distance";
 }
 
 TEST_F(ViewerTest, AReplayedDragBecomesASeriesForParaView) {

@@ -1,13 +1,29 @@
 #include "app/files/scene_files.hpp"
 
+#include <system_error>
 #include <utility>
+#include <variant>
 
 #include "app/job_notes.hpp"
 #include "app/window/recent_files.hpp"
+#include "base/error.hpp"
 
 namespace elastolab {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+/// When the file of the mesh was written; nothing where there is none.
+std::optional<fs::file_time_type> time_of_mesh(const Document& document) {
+    const auto* mesh = std::get_if<MeshFile>(&document.mesh);
+    std::error_code failure;
+    if (mesh == nullptr) return {};
+    const fs::file_time_type time = fs::last_write_time(mesh->file, failure);
+    return failure ? std::optional<fs::file_time_type>() : time;
+}
+
+}  // namespace
 
 SceneFiles::SceneFiles(EditedScene edited, Messages& messages, const std::function<void()>& wake)
     : edited_(std::move(edited)), messages_(messages), recent_(load_recent_files()), load_job_(wake), autosave_(wake) {}
@@ -77,18 +93,32 @@ void SceneFiles::replace(LoadedScene loaded) {
     ++n_replaced_;
     loaded.asked = std::exchange(asked_, {});
     edited_.replace(std::move(loaded));
+    mesh_written_ = time_of_mesh(edited_.document());
 }
 
 bool SceneFiles::save(const fs::path& file) {
     edited_.finish_gesture();
     return attempt(messages_, [&] {
-        write_scene(file, edited_.document());
+        const Document document = edited_.document();
+        write_scene(file, document);
         edited_.scene().mark_saved();
         file_ = fs::absolute(file);
         owns_file_ = true;
         add_recent(file);
-        messages_.note("Saved " + file.string());
+        const std::string problem = mesh_file_problem(document);
+        if (problem.empty()) return messages_.note("Saved " + file.string());
+        throw SceneError("Saved " + file.string() + ", but " + problem);
     });
+}
+
+std::string SceneFiles::mesh_file_problem(const Document& document) const {
+    const auto* mesh = std::get_if<MeshFile>(&document.mesh);
+    if (mesh == nullptr || !mesh_written_) return "";
+    const std::optional<fs::file_time_type> now = time_of_mesh(document);
+    if (now == mesh_written_) return "";
+    return "its mesh " + mesh->file + (now ? " is another file than" : " is no longer there, as") +
+           " when it was opened: the saved scene is of what is there. Bring the file back before you open it "
+           "again.";
 }
 
 std::string SceneFiles::title() const {

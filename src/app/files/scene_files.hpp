@@ -57,7 +57,7 @@ public:
     bool working() const { return load_job_.working(); }
 
     // Saving.
-    /// False when it could not be written.
+    /// False when it could not be written, or is of no use: the file of its mesh is gone, or another one.
     bool save(const std::filesystem::path& file);
     /// The file that the scene came from or was last saved to; empty when there is none.
     const std::filesystem::path& file() const { return file_; }
@@ -98,6 +98,8 @@ private:
     void take_loaded(LoadedScene loaded, const std::filesystem::path& file);
     void replace(LoadedScene loaded);
     void add_recent(const std::filesystem::path& file);
+    /// What became of the file of the mesh since it was read, as the end of a sentence; empty where nothing did.
+    std::string mesh_file_problem(const Document& document) const;
     /// Of the scene; another one has other revisions.
     std::uint64_t revision() const;
 
@@ -105,6 +107,8 @@ private:
     Messages& messages_;
     std::filesystem::path file_;
     bool owns_file_ = false;
+    std::optional<std::filesystem::file_time_type>
+        mesh_written_;  ///< when the file of the mesh was; none: there is none
     std::vector<std::filesystem::path> recent_;
     std::filesystem::path pending_file_;  ///< being loaded since the scene had this revision:
     std::uint64_t revision_at_open_ = 0;

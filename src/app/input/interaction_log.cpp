@@ -61,16 +61,20 @@ InputEvent event_of(const Json& json, double seconds) {
     return event;
 }
 
+Eigen::Vector2i size_of(const Json& size) {
+    return {integer(size.at(0), 1, kMaxWindow), integer(size.at(1), 1, kMaxWindow)};
+}
+
 LoggedFrame frame_of(const Json& json) {
     LoggedFrame frame{.seconds = json.at("seconds").get<double>(), .events = {}};
+    if (json.contains("window")) frame.window_size = size_of(json.at("window"));
     for (const Json& event : json.at("events")) frame.events.push_back(event_of(event, frame.seconds));
     return frame;
 }
 
 Eigen::Vector2i window_size_of(const Json& header) {
     if (header.at("elastolab_interaction") != kVersion) throw std::runtime_error("has another version");
-    const Json& size = header.at("window");
-    return {integer(size.at(0), 1, kMaxWindow), integer(size.at(1), 1, kMaxWindow)};
+    return size_of(header.at("window"));
 }
 
 /// The next line, of a length that a frame can have: a device may have no end of line at all.
@@ -88,7 +92,7 @@ bool next_line(std::istream& in, std::string& line) {
 }  // namespace
 
 InteractionRecorder::InteractionRecorder(const std::filesystem::path& file, const Eigen::Vector2i& window_size)
-    : path_(file), file_(std::make_unique<AtomicFile>(file)) {
+    : path_(file), file_(std::make_unique<AtomicFile>(file)), window_size_(window_size) {
     file_->stream() << Json{{"elastolab_interaction", kVersion}, {"window", {window_size.x(), window_size.y()}}}
                     << '\n';
 }
@@ -100,10 +104,15 @@ InteractionRecorder::~InteractionRecorder() {
     }
 }
 
-void InteractionRecorder::add(const LoggedFrame& frame) {
+void InteractionRecorder::add(LoggedFrame frame) {
     Json events = Json::array();
     for (const InputEvent& event : frame.events) events.push_back(to_json(event));
-    file_->stream() << Json{{"seconds", frame.seconds}, {"events", std::move(events)}} << '\n';
+    Json line = {{"seconds", frame.seconds}, {"events", std::move(events)}};
+    if (frame.window_size && *frame.window_size != window_size_) {
+        window_size_ = *frame.window_size;
+        line["window"] = {window_size_.x(), window_size_.y()};
+    }
+    file_->stream() << line << '\n';
 }
 
 void InteractionRecorder::finish() {

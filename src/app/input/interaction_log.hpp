@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "app/window/input_event.hpp"
@@ -14,9 +15,10 @@ namespace elastolab {
 struct LoggedFrame {
     double seconds = 0.0;  ///< since the recording began
     std::vector<InputEvent> events;
+    std::optional<Eigen::Vector2i> window_size = {};  ///< where it is another one from here on
 };
 
-/// A recorded interaction: every frame that had events, in a window of this size.
+/// A recorded interaction: every frame that had events, in a window that has this size at first.
 struct InteractionLog {
     Eigen::Vector2i window_size = {1280, 800};  ///< logical pixels
     std::vector<LoggedFrame> frames;
@@ -29,7 +31,8 @@ public:
     /// Throws Error when the file cannot be written.
     InteractionRecorder(const std::filesystem::path& file, const Eigen::Vector2i& window_size);
     ~InteractionRecorder();
-    void add(const LoggedFrame& frame);
+    /// Its window size is kept where it differs from the last.
+    void add(LoggedFrame frame);
     /// Throws Error when the disk is full or the like.
     void finish();
     const std::filesystem::path& file() const { return path_; }
@@ -37,6 +40,7 @@ public:
 private:
     std::filesystem::path path_;
     std::unique_ptr<AtomicFile> file_;
+    Eigen::Vector2i window_size_;
 };
 
 /// Throws SceneError naming file, line, finding and a way forward.

@@ -65,11 +65,9 @@ void draw_range_rule(ViewerState& state) {
     display.range_part = rule == RangeRule::most ? kMostOfData : 1.0;
 }
 
-/// What is no finite number is not taken.
 void draw_end_of_range(const char* label, double& end, float scale) {
     ImGui::SetNextItemWidth(80.0f * scale);
-    double typed = end;
-    if (ImGui::InputDouble(label, &typed, 0.0, 0.0, "%.5g") && std::isfinite(typed)) end = typed;
+    draw_number(label, end);
 }
 
 void draw_range(ViewerState& state, float scale) {

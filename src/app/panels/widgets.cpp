@@ -3,10 +3,12 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
 
+#include "app/panels/typed_number.hpp"
 #include "base/text.hpp"
 
 namespace elastolab {
@@ -208,6 +210,27 @@ std::string format_for(double value, const std::string& unit, float room) {
 
 }  // namespace
 
+namespace {
+
+constexpr std::size_t kLongestNumber = 64;
+
+/// A field of Dear ImGui for a number, which takes what typed_number() does; true when it was typed into, and is one.
+bool number_field(const char* label, double& value, const std::string& format, const std::string& unit) {
+    static double before = 0.0;  // of the field that is typed into
+    std::array<char, kLongestNumber> text{};
+    formatted(format.c_str(), value).copy(text.data(), text.size() - 1);
+    const bool edited = ImGui::InputText(label, text.data(), text.size(), ImGuiInputTextFlags_AutoSelectAll);
+    if (ImGui::IsItemActivated()) before = value;
+    if (!edited) return false;
+    const std::optional<double> typed = typed_number(text.data(), unit, before);
+    if (typed) value = *typed;
+    return typed.has_value();
+}
+
+}  // namespace
+
+bool draw_number(const char* label, double& value) { return number_field(label, value, "%.5g", ""); }
+
 bool draw_numbers(const char* label, double* values, int n, const char* unit, float scale, double noise) {
     // What the field that is typed into held, and its text, which has fewer digits.
     static double before = 0.0, before_as_text = 0.0;
@@ -216,13 +239,13 @@ bool draw_numbers(const char* label, double* values, int n, const char* unit, fl
     draw_fields(label, n, [&](int i, float room) {
         double shown = std::abs(values[i]) <= noise ? 0.0 : values[i];
         const std::string format = format_for(shown, unit, room);
-        const bool is_typed = ImGui::InputDouble("", &shown, 0.0, 0.0, format.c_str());
+        const bool is_typed = number_field("", shown, format, unit);
         if (ImGui::IsItemActivated()) {
             before = values[i];
             before_as_text = std::strtod(formatted(format.c_str(), values[i]).c_str(), nullptr);
         }
         if (!ImGui::IsItemActive() && !reads_as_whole(shown)) tooltip((readable_number(shown, 6) + unit).c_str());
-        if (!is_typed || !std::isfinite(shown)) return;
+        if (!is_typed) return;
         values[i] = shown == before_as_text ? before : shown;  // as by Esc
         typed = true;
     });
@@ -241,7 +264,9 @@ std::optional<double> NumberField::draw(const char* label, double value, float s
 void draw_no_numbers(const char* label, int n, float scale) {
     set_item_width(scale);
     double nothing = 0.0;
-    draw_fields(label, n, [&](int, float) { ImGui::InputDouble("", &nothing, 0.0, 0.0, "\u2013"); });
+    draw_fields(label, n, [&](int, float) {
+        ImGui::InputDouble("", &nothing, 0.0, 0.0, "\u2013", ImGuiInputTextFlags_ReadOnly);
+    });
 }
 
 RowAnswer draw_row(const std::string& text, bool selected, const Colour& colour, float scale) {

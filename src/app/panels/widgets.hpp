@@ -49,8 +49,11 @@ std::optional<std::size_t> draw_segments(const SegmentColours& colours, std::spa
 void set_item_width(float scale);
 
 /// Numbers with a label to their right; true while they are typed. unit: written behind each. noise: what is not larger
-/// is rounding, and shown as 0. Each has as many digits as its field holds. What is not finite is not taken.
+/// is rounding, and shown as 0. Each has as many digits as its field holds. What is no number leaves it as it is
+/// (typed_number()).
 bool draw_numbers(const char* label, double* values, int n, const char* unit, float scale, double noise = 0.0);
+/// One by itself.
+bool draw_number(const char* label, double& value);
 /// One of them that counts once its field is left: "0.5" passes through "0".
 class NumberField {
 public:

@@ -198,6 +198,7 @@ void Window::set_title(const std::string& title) {
 void Window::swap_buffers() { glfwSwapBuffers(handle_); }
 void Window::disable_vsync() { glfwSwapInterval(0); }
 void Window::hide() { glfwHideWindow(handle_); }
+void Window::set_size(const Eigen::Vector2i& size) { glfwSetWindowSize(handle_, size.x(), size.y()); }
 
 std::string Window::clipboard() const {
     const char* text = glfwGetClipboardString(handle_);

@@ -50,6 +50,8 @@ public:
     /// From now on swap_buffers() does not wait for the screen's refresh, as it does in a visible window otherwise.
     void disable_vsync();
     void hide();
+    /// In logical pixels; it takes effect some frames later, or not at all where a window manager does not let it.
+    void set_size(const Eigen::Vector2i& size);
 
     std::string clipboard() const;
     void set_clipboard(const std::string& text);

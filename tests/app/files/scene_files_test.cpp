@@ -127,6 +127,26 @@ TEST(SceneFiles, ASavedSceneComesBackWithTheMethodAndTheHandles) {
     EXPECT_EQ(saved.handles, stage.scene().document().handles);
 }
 
+/// It holds the name of its mesh only: without that, or with another one under that name, it is worth nothing.
+TEST(SceneFiles, ASceneIsNotSavedInSilenceWhoseMeshIsGone) {
+    const TemporaryFolder folder;
+    const auto mesh = folder.path() / "box.obj", saved = folder.path() / "saved.json";
+    save_surface(mesh, make_box(3));
+    Stage stage(2);
+    stage.state.files.open_now(mesh);
+    EXPECT_TRUE(stage.state.files.save(saved));
+    const auto written = last_write_time(mesh);
+    last_write_time(mesh, written + std::chrono::seconds(5));
+    EXPECT_FALSE(stage.state.files.save(saved));
+    EXPECT_THAT(stage.state.messages.all().back().text, AllOf(HasSubstr("box.obj"), HasSubstr("is another file")));
+    remove(mesh);
+    EXPECT_FALSE(stage.state.files.save(saved));
+    EXPECT_THAT(stage.state.messages.all().back().text, AllOf(HasSubstr("box.obj"), HasSubstr("is no longer there")));
+    save_surface(mesh, make_box(3));
+    last_write_time(mesh, written);
+    EXPECT_TRUE(stage.state.files.save(saved));
+}
+
 TEST(SceneFiles, ASceneSavedElsewhereStillFindsItsMesh) {
     const TemporaryFolder folder;
     std::filesystem::create_directories(folder.path() / "a");

@@ -41,6 +41,21 @@ TEST(InteractionLog, ComesBackAsItWasRecorded) {
     EXPECT_EQ(log.frames[1].seconds, kSecond.seconds);
 }
 
+TEST(InteractionLog, KnowsWhenTheWindowBecameAnotherSize) {
+    const TemporaryFolder folder;
+    const auto file = folder.path() / "drag.log";
+    InteractionRecorder recorder(file, {800, 600});
+    for (const Eigen::Vector2i& size :
+         {Eigen::Vector2i(800, 600), Eigen::Vector2i(640, 600), Eigen::Vector2i(640, 600)})
+        recorder.add({kFirst.seconds, kFirst.events, size});
+    recorder.finish();
+    const InteractionLog log = load_interaction(file);
+    ASSERT_EQ(log.frames.size(), 3u);
+    EXPECT_FALSE(log.frames[0].window_size);
+    EXPECT_EQ(log.frames[1].window_size, Eigen::Vector2i(640, 600));
+    EXPECT_FALSE(log.frames[2].window_size);
+}
+
 TEST(InteractionLog, IsThereOnlyWhenItIsComplete) {
     const TemporaryFolder folder;
     const auto file = folder.path() / "drag.log";
@@ -72,6 +87,7 @@ TEST(InteractionLog, ErrorsNameFileLineFindingAndAWayForwardInOneLine) {
         {R"({"elastolab_interaction":1,"window":[0,600]})", "out of its range"},
         {R"({"elastolab_interaction":1,"window":[1e300,600]})", "out of its range"},
         {R"({"elastolab_interaction":1,"window":[800]})", "line 1: "},
+        {kHeader + "\n{\"seconds\":1,\"events\":[],\"window\":[0,1]}\n", "out of its range"},
         {kHeader + "\n{\"seconds\":1}\n", "line 2: "},
         {kHeader + "\n{\"seconds\":1,\"events\":[]}\n[1]\n", "line 3: "},
         {kHeader + "\n{\"seconds\":1,\"events\":[[\"jump\",0,0,0,false,false,0]]}\n", "not a known event"},
