@@ -31,6 +31,17 @@ Document gripped_bar(int cells) {
     return document;
 }
 
+/// One that is so long and 1 thick, held at x = 0, with so many cells across.
+Document long_bar(int cells, double length, const GripForce& force) {
+    Document document;
+    document.mesh = Primitive{.name = "box", .resolution = cells, .size = {length, 1, 1}};
+    document.material = {1e4, 0.3};
+    document.fixed = {{.select = {PlaneSelector{{0, 0, 0}, {1, 0, 0}, 1e-9}}}};
+    document.handles = {{.name = "end", .select = {PlaneSelector{{length, 0, 0}, {1, 0, 0}, 1e-9}}}};
+    document.handles[0].force = force;
+    return document;
+}
+
 double reach_of(const Solution& solution) { return solution.displacement.colwise().norm().maxCoeff(); }
 
 struct GripEstimate : testing::Test {
@@ -68,13 +79,7 @@ TEST_F(GripEstimate, OfGalerkinSeesBarsOfFewTrianglesAcross) {
 /// A rod whose halved triangles cost too much is a quarter too stiff: that nothing is told of it is told.
 TEST(EstimateOfSlenderBars, ByGalerkinIsNotThatOfItsRims) {
     for (const double length : {150.0, 300.0}) {
-        Document document;
-        document.mesh = Primitive{.name = "box", .resolution = 1, .size = {1, 1, length}};
-        document.material = {1e4, 0.3};
-        document.fixed = {{.select = {PlaneSelector{{0, 0, 0}, {0, 0, 1}, 1e-9}}}};
-        document.handles = {{.name = "end", .select = {PlaneSelector{{0, 0, length}, {0, 0, 1}, 1e-9}}}};
-        document.handles[0].force = GripForce{{1e-6, 0, 0}, {0, 0, 0}};
-        const Solution solution = ten_nodes(document, kGalerkinBem);
+        const Solution solution = ten_nodes(long_bar(1, length, GripForce{{0, 0, 1e-6}, {0, 0, 0}}), kGalerkinBem);
         if (length < 200.0) {
             EXPECT_NEAR(solution.error_estimate.value_or(0.0), 0.265, 0.05);
         } else {
@@ -100,12 +105,7 @@ TEST_F(GripEstimate, OfCollocationSeesBarsOfFewTrianglesAcross) {
 
 /// The second answer is one to the same motion: of a stiffness that is wrong by a multiple, balance tells more.
 TEST(EstimateOfSlenderBars, ByCollocationIsNoneTheSmaller) {
-    Document document;
-    document.mesh = Primitive{.name = "box", .resolution = 2, .size = {20, 1, 1}};
-    document.material = {1e4, 0.3};
-    document.fixed = {{.select = {PlaneSelector{{0, 0, 0}, {1, 0, 0}, 1e-9}}}};
-    document.handles = {{.name = "end", .select = {PlaneSelector{{20, 0, 0}, {1, 0, 0}, 1e-9}}}};
-    document.handles[0].force = GripForce{{0, 0, 1e-3}, {0, 0, 0}};
+    const Document document = long_bar(2, 20, GripForce{{0, 0, 1e-3}, {0, 0, 0}});
     const double fine = reach_of(ten_nodes(document, kQuadraticFem));
     const Solution solution = ten_nodes(document, kLinearBem);
     const double error = std::abs(reach_of(solution) - fine) / fine;
@@ -117,12 +117,7 @@ TEST(EstimateOfSlenderBars, ByCollocationIsNoneTheSmaller) {
 /// Nothing of a moment at the end reaches the base by linear BEM, and the bar bends two to eight times as far.
 TEST(EstimateOfSlenderBars, ByCollocationUnderAMomentIsOfItsSize) {
     for (const double length : {10.0, 30.0}) {
-        Document document;
-        document.mesh = Primitive{.name = "box", .resolution = 2, .size = {length, 1, 1}};
-        document.material = {1e4, 0.3};
-        document.fixed = {{.select = {PlaneSelector{{0, 0, 0}, {1, 0, 0}, 1e-9}}}};
-        document.handles = {{.name = "end", .select = {PlaneSelector{{length, 0, 0}, {1, 0, 0}, 1e-9}}}};
-        document.handles[0].force = GripForce{{0, 0, 0}, {0, 1e-4, 0}};
+        const Document document = long_bar(2, length, GripForce{{0, 0, 0}, {0, 1e-4, 0}});
         const double fine = reach_of(ten_nodes(document, kQuadraticFem));
         const Solution solution = ten_nodes(document, kLinearBem);
         const double error = std::abs(reach_of(solution) - fine) / reach_of(solution);
@@ -135,12 +130,7 @@ TEST(EstimateOfSlenderBars, ByCollocationUnderAMomentIsOfItsSize) {
 /// What is soft comes last in the iterations of the second answer.
 TEST(EstimateOfSlenderBars, ByQuadraticFemIsIteratedFarEnough) {
     for (const double length : {20.0, 40.0}) {
-        Document document;
-        document.mesh = Primitive{.name = "box", .resolution = 1, .size = {length, 1, 1}};
-        document.material = {1e4, 0.3};
-        document.fixed = {{.select = {PlaneSelector{{0, 0, 0}, {1, 0, 0}, 1e-9}}}};
-        document.handles = {{.name = "end", .select = {PlaneSelector{{length, 0, 0}, {1, 0, 0}, 1e-9}}}};
-        document.handles[0].force = GripForce{{0, 0, 1e-4}, {0, 0, 0}};
+        Document document = long_bar(1, length, GripForce{{0, 0, 1e-4}, {0, 0, 0}});
         const Solution solution = ten_nodes(document, kQuadraticFem);
         document.mesh = Primitive{.name = "box", .resolution = 2, .size = {length, 1, 1}};
         const double fine = reach_of(ten_nodes(document, kQuadraticFem));
