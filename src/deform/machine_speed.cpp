@@ -91,7 +91,8 @@ double Work::seconds() const {
 }
 
 double Work::usual_seconds() const {
-    constexpr double kProducts = 1.7e11, kIntegrals = 1.3e8, kScalars = 1e7;  // of two cores with AVX-512
+    // Measured on two cores with AVX-512; the last roughly, as no choice depends on it yet.
+    constexpr double kProducts = 1.7e11, kIntegrals = 1.3e8, kScalars = 1e7;
     return flops / kProducts + integrals / kIntegrals + scalars / kScalars + waiting;
 }
 

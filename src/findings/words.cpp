@@ -197,15 +197,12 @@ std::string of_one(const Finding& finding) {
         case FindingKind::no_estimate:
             if (finding.value > 0.0)
                 return std::string(finding.method->name) +
-                       ": the error is not estimated, as that would take more than ten times as long as this answer, "
-                       "and "
-                       "may be large: the surface is " +
+                       ": the error is not estimated, and may be large: the surface is " +
                        formatted("%.1f", finding.value) +
-                       " triangles across. Boundary elements are too stiff in bending then, by a quarter and more at "
-                       "one "
-                       "triangle across and a twentieth and more at two. Use a surface with smaller triangles, or "
-                       "finite "
-                       "elements with ten nodes.";
+                       " triangles across. Boundary elements are too stiff in bending then, by about 26 % at one "
+                       "triangle across and 4 % at two, and more where triangles are long. The second answer that the "
+                       "error is told by takes too long or too much memory, or cannot be computed. Use a surface with "
+                       "smaller triangles, or finite elements with ten nodes.";
             return std::string(finding.method->name) +
                    ": the error is not estimated. The second, better answer that it is told by would take more than "
                    "ten times as long as this one, more memory than there is, cannot be computed, or finds no rim "

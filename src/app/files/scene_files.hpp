@@ -107,8 +107,8 @@ private:
     Messages& messages_;
     std::filesystem::path file_;
     bool owns_file_ = false;
-    std::optional<std::filesystem::file_time_type>
-        mesh_written_;  ///< when the file of the mesh was; none: there is none
+    /// When the file of the mesh was last written before the scene was opened; none where it has no such file.
+    std::optional<std::filesystem::file_time_type> mesh_written_;
     std::vector<std::filesystem::path> recent_;
     std::filesystem::path pending_file_;  ///< being loaded since the scene had this revision:
     std::uint64_t revision_at_open_ = 0;

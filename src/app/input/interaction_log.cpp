@@ -104,7 +104,7 @@ InteractionRecorder::~InteractionRecorder() {
     }
 }
 
-void InteractionRecorder::add(LoggedFrame frame) {
+void InteractionRecorder::add(const LoggedFrame& frame) {
     Json events = Json::array();
     for (const InputEvent& event : frame.events) events.push_back(to_json(event));
     Json line = {{"seconds", frame.seconds}, {"events", std::move(events)}};

@@ -32,7 +32,7 @@ public:
     InteractionRecorder(const std::filesystem::path& file, const Eigen::Vector2i& window_size);
     ~InteractionRecorder();
     /// Its window size is kept where it differs from the last.
-    void add(LoggedFrame frame);
+    void add(const LoggedFrame& frame);
     /// Throws Error when the disk is full or the like.
     void finish();
     const std::filesystem::path& file() const { return path_; }

@@ -4,7 +4,6 @@
 #include <imgui_stdlib.h>
 
 #include <array>
-#include <cmath>
 #include <string>
 
 #include "app/panels/panel_context.hpp"

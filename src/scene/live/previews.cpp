@@ -23,6 +23,11 @@ constexpr double kGrowth = 0.6;
 /// Equilibria of a surface with no more vertices than this follow a drag.
 constexpr int kMostQuickAtEquilibria = 900;
 
+/// Whether equilibria of the scene's own surface follow a drag.
+bool is_quick_at_equilibria(const LiveScene& scene) {
+    return !scene.needs_proxy(large_deformation_method()) && scene.mesh().n_vertices() <= kMostQuickAtEquilibria;
+}
+
 /// The method that the preview simulates the scene's own surface by; null where it is made on a proxy.
 MethodKind preview_on_itself(const LiveScene& scene) {
     const bool is_rubber = scene.document().material.poisson_ratio > kRubber;
@@ -62,10 +67,6 @@ bool prepares_first_set(const MethodRunner& runner) {
 }  // namespace
 
 bool is_worth_a_preview(const LiveScene& scene) { return scene.mesh().n_vertices() > kFewestToPreview; }
-
-bool is_quick_at_equilibria(const LiveScene& scene) {
-    return !scene.needs_proxy(large_deformation_method()) && scene.mesh().n_vertices() <= kMostQuickAtEquilibria;
-}
 
 void Previews::choose(const LiveScene& scene, const std::vector<MethodKind>& shown, bool first_answers, bool wanted) {
     wanted = wanted && is_worth_a_preview(scene);

@@ -15,8 +15,6 @@ inline constexpr int kPreviewVertices = 500;
 
 /// Whether the scene's body is not ready before a person has looked at it.
 bool is_worth_a_preview(const LiveScene& scene);
-/// Whether equilibria of the scene's own surface follow a drag.
-bool is_quick_at_equilibria(const LiveScene& scene);
 
 /// What answers while a method cannot: one coarse answer for all linear methods, and one for a method that is not
 /// linear while its equilibria take long, by the same method. Each is on the scene's own surface where that is coarse
