@@ -22,6 +22,9 @@ int exponent_of(double largest) { return std::isnormal(largest) ? std::clamp(std
 /// an incompressible body under pressure all around.
 constexpr double kNoMotion = 1e-6;
 
+/// Displacements of a solid of order one on which nothing acts: what an equilibrium that has unwound keeps of rounding.
+constexpr double kRoundedRest = 1e-12;
+
 double largest_of(const Eigen::Matrix3Xd& forces) { return forces.size() == 0 ? 0.0 : forces.cwiseAbs().maxCoeff(); }
 
 /// Throws where a force that is not zero is next to it in double precision.
@@ -171,10 +174,11 @@ Deformer::Answer Deformer::answer(const Eigen::VectorXd& values, Wanted wanted, 
             place_columns(s, force_unit_of(s) * solid->forces(solution, 1 + static_cast<Eigen::Index>(k)),
                           answer.force_changes[k]);
         if (!linear()) add_loads_of(s, solution.resultants, answer.loads);
-        if (wanted.residual) answer.residual = std::max(*answer.residual, solid->residual(solution, control));
         const Eigen::MatrixXd prescribed = solids_[s].values(unit_values);
         // After whole turns nothing is prescribed, and the solid is wound up. Where it rests, that is exact.
-        const bool rests = prescribed.isZero(0.0) && solution.displacements.col(0).isZero(0.0);
+        const bool rests =
+            prescribed.isZero(0.0) && solution.displacements.col(0).cwiseAbs().maxCoeff() <= kRoundedRest;
+        if (wanted.residual && !rests) answer.residual = std::max(*answer.residual, solid->residual(solution, control));
         if (wanted.check && !rests) {
             std::optional<SolutionError> own = solid->error(unit_of(s) * prescribed, solution, control);
             wanted.check = own.has_value();

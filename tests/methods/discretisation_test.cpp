@@ -16,7 +16,9 @@
 #include "findings/words.hpp"
 #include "mesh/meshes.hpp"
 #include "mesh/primitives.hpp"
+#include "mesh/refine.hpp"
 #include "methods/finer_mesh.hpp"
+#include "methods/load_cases.hpp"
 #include "methods/organic_cases.hpp"
 #include "methods/problem.hpp"
 #include "methods/registry.hpp"
@@ -68,6 +70,37 @@ TEST(DiscretisationCheck, EstimatesTheLargestErrorWithinAFactorOfThree) {
             EXPECT_EQ(findings_of_answer(deformer, {.check = check}).empty(),
                       check.relative_error < 0.05 && check.relative_force_error < 0.05);
         }
+    }
+}
+
+/// A cavity under pressure has no rim that would show how coarse it is.
+TEST(DiscretisationCheck, OfGalerkinSeesALoadedCavity) {
+    for (const int cells : {3, 6}) {
+        const RefinedSurface coarse = unrefined(make_hollow_sphere(cells)), fine = refine_all(coarse);
+        const auto answer = [](const RefinedSurface& surface, std::vector<int> fixed, bool check) {
+            Control control;
+            Deformer deformer(precomputed(make_body(surface.mesh), {.kind = kGalerkinBem}));
+            deformer.constrain(
+                {std::move(fixed),
+                 {},
+                 {unit_pressure(surface.mesh,
+                                triangles_where(surface.mesh, [](const auto& x) { return x.norm() < 0.75; }))}},
+                control);
+            return deformer.answer(Eigen::VectorXd::Constant(1, 1e-2), {.check = check}, control);
+        };
+        std::vector<int> cap = vertices_where(coarse.mesh, [](const auto&x) { return x[2] < -0.7; }), fine_cap = cap;
+        const auto is_held = [&](int v) { return std::find(cap.begin(), cap.end(), v) != cap.end(); };
+        for (std::size_t i = 0; i < fine.cuts.size(); ++i)
+            if (is_held(fine.cuts[i].ends[0]) && is_held(fine.cuts[i].ends[1]))
+                fine_cap.push_back(coarse.mesh.n_vertices() + static_cast<int>(i));
+        const auto found = answer(coarse, cap, true);
+        const Eigen::VectorXd better = answer(fine, fine_cap, false).displacements.head(found.displacements.size()),
+                              truth = better + (better - found.displacements) / 3.0;  // errors fall by the square
+        const double error = error_against(truth, found.displacements), told = found.check.value().relative_error;
+        print_measured(std::to_string(cells) + " cells: largest error", error);
+        print_measured(std::to_string(cells) + " cells: estimate", told);
+        EXPECT_GT(told, error / 1.5) << cells;
+        EXPECT_LT(told, error * 2.0) << cells;
     }
 }
 

@@ -38,7 +38,8 @@ std::uint64_t galerkin_reference_memory(const SurfaceMesh& surface, const Method
 
 /// The same for an answer by Galerkin on the surface as it is, of whose error a row along the rims shows most. Where
 /// the answer has such rows already (Method::rims), the second answer is the worse one, with rims as given. Where the
-/// surface has few triangles across (mesh/triangles_across.hpp), all are halved besides, if that is affordable.
+/// surface has few triangles across (mesh/triangles_across.hpp), or a closed surface bears loads all over, all are
+/// halved besides, if that is affordable.
 std::optional<ReferenceAnswer> galerkin_self_reference(const SurfaceMesh& surface, const Method& answer,
                                                        double poisson_ratio, std::span<const int> vertices,
                                                        std::span<const UnitLoad> loads, const Eigen::VectorXd& values,
