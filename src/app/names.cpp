@@ -44,6 +44,12 @@ std::string field_title(Field field, MethodKind reference, const UnitNames& unit
     return field == Field::traction ? "traction" + per_area : "";
 }
 
+std::string after_value(Field field, const UnitNames& units) {
+    const bool is_length = field == Field::none || field == Field::displacement || field == Field::difference ||
+                           displacement_axis(field).has_value();
+    return is_length ? units.after_length() : units.after_stress();
+}
+
 std::string stage_words(std::string_view stage) {
     static const std::map<std::string_view, std::string> words = {{"proxy", "wrapping the surface"},
                                                                   {"tetrahedralize", "making tetrahedra"},

@@ -17,6 +17,8 @@ std::string with_titles(std::string text);
 
 /// "displacement", "difference to linear-bem", ... and its unit in words.
 std::string field_title(Field field, MethodKind reference, const UnitNames& units = {});
+/// What stands behind a value of a field (UnitNames::after_length); of none, behind a displacement.
+std::string after_value(Field field, const UnitNames& units);
 
 /// What a worker is doing, for people, from the name of the stage in reports ("tetrahedralize": "making tetrahedra").
 std::string stage_words(std::string_view stage);

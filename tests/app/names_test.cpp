@@ -35,6 +35,10 @@ TEST(FieldTitle, HasTheUnitsThatAPersonNames) {
     EXPECT_EQ(field_title(Field::von_mises, kFem, units), "von Mises stress [N/mm\u00b2]");
     EXPECT_EQ(field_title(Field::traction, kFem, {"", "N"}), "traction [N/unit\u00b2]");
     EXPECT_EQ(units.after_moment(), " N mm");
+    EXPECT_EQ(after_value(Field::displacement_y, units), " mm");
+    EXPECT_EQ(after_value(Field::none, units), " mm");
+    EXPECT_EQ(after_value(Field::stress_xx, units), " N/mm\u00b2");
+    EXPECT_EQ(after_value(Field::von_mises, {"", "N"}), "");
     EXPECT_EQ(UnitNames{}.after_stress(), "");
 }
 

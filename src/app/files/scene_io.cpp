@@ -17,7 +17,7 @@ namespace {
 
 /// Holds the lowest part of a body that nothing holds yet. The person has changed nothing by that.
 void hold_lowest(LiveScene& scene, const Eigen::Vector3d& up) {
-    scene.fix(lowest_vertices(scene.mesh(), up, kFeet));
+    scene.fix(first_held_vertices(scene.mesh(), up));
     scene.commit();
     scene.mark_saved();
 }

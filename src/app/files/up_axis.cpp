@@ -46,6 +46,15 @@ std::vector<int> lowest_vertices(const SurfaceMesh& mesh, const Eigen::Vector3d&
     return lowest;
 }
 
+std::vector<int> first_held_vertices(const SurfaceMesh& mesh, const Eigen::Vector3d& up) {
+    constexpr double kFlat = 1e-6;  // height over the longest side
+    const Eigen::Vector3d sides = mesh.vertices.rowwise().maxCoeff() - mesh.vertices.rowwise().minCoeff();
+    Eigen::Index longest = 0;
+    const double length = sides.maxCoeff(&longest);
+    const bool lies = std::abs(up.dot(sides)) <= kFlat * length;
+    return lowest_vertices(mesh, lies ? Eigen::Vector3d::Unit(longest) : up, kFeet);
+}
+
 Eigen::Vector3d up_axis_of(const SurfaceMesh& mesh) {
     constexpr int kY = 1, kZ = 2;
     const Eigen::Vector3d center = center_of(mesh);

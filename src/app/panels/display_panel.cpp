@@ -43,9 +43,8 @@ constexpr std::array<Choice<SurfaceMaterial>, 4> kMaterials = {
 
 enum class RangeRule { data, most, typed };
 constexpr std::array<Choice<RangeRule>, 3> kRangeRules = {
-    {{RangeRule::data, "of all data", "From the smallest to the largest value that is seen."},
-     {RangeRule::most, "of 98 % of the data",
-      "Leaves out the two per cent that are most extreme, such as at sharp rims."},
+    {{RangeRule::data, "of all that is seen", "From the smallest to the largest value of what is not cut away."},
+     {RangeRule::most, "of 98 % of it", "Leaves out the two per cent that are most extreme, such as at sharp rims."},
      {RangeRule::typed, "typed", "Stays as it is typed, for this field."}}};
 constexpr double kMostOfData = 0.98;
 

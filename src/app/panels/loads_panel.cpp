@@ -114,7 +114,7 @@ void LoadsPanel::draw_list(const PanelContext& context) {
                 paragraph("no effect: all its triangles are constrained", context.palette.bad);
             ImGui::PopID();
         }
-        if (scene.n_loads() == 0)
+        if (scene.n_loads() == 0 && !scene.document().gravity)
             paragraph("No load yet: choose force or pressure above, then drag on the body.", context.palette.text_dim);
     }
     ImGui::EndChild();

@@ -46,13 +46,15 @@ void draw_extremes(const Marks& marks, const ShownBody& body) {
     const auto& [context, list, viewport, labels] = marks;
     if (!body.is_coloured() || body.largest_magnitude() <= 0.0) return;
     const Extremes extremes = extremes_of(body);
+    const DisplaySettings& display = context.state.display;
+    const std::string unit = after_value(display.field, display.units);
     const auto mark = [&](Eigen::Index v, const char* name) {
         if (v >= 0)
             marks.draw(body.positions().col(v), marks.context.palette.text,
-                       name + number_text(body.values()[static_cast<std::size_t>(v)]));
+                       name + number_text(body.values()[static_cast<std::size_t>(v)]) + unit);
     };
     mark(extremes.largest, "largest ");
-    if (is_signed(context.state.display.field)) mark(extremes.smallest, "smallest ");
+    if (is_signed(display.field)) mark(extremes.smallest, "smallest ");
 }
 
 void draw_arrow_head(ImDrawList& list, ImVec2 from, ImVec2 tip, float size, unsigned colour) {
@@ -89,7 +91,7 @@ void draw_gizmo(const Marks& marks, const Gizmo& gizmo) {
     if (!drag || drag->gizmo.handle != gizmo.handle) return;
     const bool moves = drag->part.kind == GizmoPart::Kind::arrow;
     const std::string amount =
-        moves ? number_text(drag->amount)
+        moves ? number_text(drag->amount) + state.display.units.after_length()
               : number_text(std::abs(drag->amount) < kNoAngle ? 0.0 : drag->amount / kRadians) + "\u00b0";
     marks.draw(gizmo.center, context.palette.text, (moves ? "moved by " : "turned by ") + amount);
 }
@@ -133,7 +135,8 @@ void draw_probes(const Marks& marks, const ShownBody& body) {
         if (body.is_cut_away(vertex)) continue;
         const ProbeValue value = value_at(vertex);
         marks.draw(body.positions().col(vertex), context.palette.probe,
-                   std::to_string(vertex) + ": " + number_text(value.field.value_or(value.displacement.norm())));
+                   std::to_string(vertex) + ": " + number_text(value.field.value_or(value.displacement.norm())) +
+                       after_value(value.field ? state.display.field : Field::none, state.display.units));
     }
     const int hovered = state.gestures.hover().vertex;
     const Eigen::Vector2d& cursor = state.gestures.cursor();
@@ -191,7 +194,8 @@ void draw_spring(const Marks& marks, const ShownBody& body) {
     line.push_back(im_point(to.x(), to.y()));
     list.AddPolyline(line.data(), static_cast<int>(line.size()), imgui_packed(context.palette.active), 0,
                      2.0f * context.gui.scale());
-    marks.draw(place, context.palette.active, "force " + number_text(spring->force.norm()));
+    marks.draw(place, context.palette.active,
+               "force " + number_text(spring->force.norm()) + context.state.display.units.after_force());
 }
 
 /// Where a body is crushed that has no equilibrium, as it is shown.

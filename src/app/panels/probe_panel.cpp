@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "app/names.hpp"
 #include "app/panels/file_questions.hpp"
 #include "app/panels/panel_context.hpp"
 #include "app/panels/widgets.hpp"
@@ -40,8 +41,9 @@ void ProbePanel::draw(const PanelContext& context) {
         const int vertex = state.probes.vertices()[i];
         const ProbeValue value = probe(vertex, state.scene().mesh().vertices, *body, state.display.deformation_scale);
         ImGui::PushID(vertex);
-        fact(("vertex " + std::to_string(vertex)).c_str(), number_text(value.field.value_or(value.displacement.norm())),
-             context.palette.probe);
+        const std::string unit = after_value(value.field ? state.display.field : Field::none, state.display.units);
+        fact(("vertex " + std::to_string(vertex)).c_str(),
+             number_text(value.field.value_or(value.displacement.norm())) + unit, context.palette.probe);
         draw_series(context, i);
         if (ImGui::SmallButton("forget")) forgotten = vertex;
         ImGui::PopID();

@@ -71,7 +71,8 @@ void SelectionPanel::draw_placement(ViewerState& state, std::optional<int> handl
     if (draw_numbers("move", typed.move.data(), 3, "", scale, kRoundingPart * size))
         scene.set_motion(*handle, translated(motion, typed.move - moved));
     ended = ImGui::IsItemDeactivatedAfterEdit();
-    tooltip("Displacement of the middle of the handle along x, y and z [mesh units].");
+    tooltip(("Displacement of the middle of the handle along x, y and z [" + state.display.units.of_length() + "].")
+                .c_str());
     ImGui::EndDisabled();
     ImGui::BeginDisabled(!present || rest.cols() < 2);
     if (!present)

@@ -43,8 +43,8 @@ void draw_gizmo_settings(ViewerState& state, float scale) {
     tooltip("Arrows and rings at the selected handle: drag one to move or turn it; with Ctrl in steps.");
     ImGui::SameLine();
     ImGui::Checkbox("snap", &state.tools.snap);
-    tooltip(("Pulls go in steps of " + number_text(snap_length(state.scene())) +
-             " mesh units, 15\u00b0 and 10 %. On the gizmo also with Ctrl.")
+    tooltip(("Pulls go in steps of " + number_text(snap_length(state.scene())) + " " + state.display.units.of_length() +
+             ", 15\u00b0 and 10 %. On the gizmo also with Ctrl.")
                 .c_str());
     ImGui::SameLine();
     if (ImGui::GetContentRegionAvail().x < kLeastChoice * scale) ImGui::NewLine();
@@ -58,8 +58,10 @@ void draw_patch(ViewerState& state, float scale) {
     const double largest = 0.5 * (state.scene().report().max_corner - state.scene().report().min_corner).norm();
     slider("patch radius", state.tools.patch_radius, 0.0, largest, "%.3g", scale);
     tooltip(
-        "Radius of the patch that a press grabs, in mesh units; keys [ and ]. A single vertex (0) is a point load: "
-        "how far the body follows then depends on the mesh, and no two methods agree.");
+        ("Radius of the patch that a press grabs, in " + state.display.units.of_length() +
+         "; keys [ and ]. A single vertex (0) is a point load: how far the body follows then depends on the mesh, and "
+         "no two methods agree.")
+            .c_str());
     if (state.tools.tool != Tool::pull) return;
     bool springs = state.tools.release == Release::spring_back;
     if (ImGui::Checkbox("let go on release", &springs))

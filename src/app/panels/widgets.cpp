@@ -214,17 +214,25 @@ namespace {
 
 constexpr std::size_t kLongestNumber = 64;
 
-/// A field of Dear ImGui for a number, which takes what typed_number() does; true when it was typed into, and is one.
+/// A field of Dear ImGui for a number, which takes what typed_number() does; true when it was typed into. What is no
+/// number has no value of its own, nor that of its beginning: it is then what it was before.
 bool number_field(const char* label, double& value, const std::string& format, const std::string& unit) {
     static double before = 0.0;  // of the field that is typed into
+    static bool is_number = true;
     std::array<char, kLongestNumber> text{};
     formatted(format.c_str(), value).copy(text.data(), text.size() - 1);
     const bool edited = ImGui::InputText(label, text.data(), text.size(), ImGuiInputTextFlags_AutoSelectAll);
-    if (ImGui::IsItemActivated()) before = value;
-    if (!edited) return false;
-    const std::optional<double> typed = typed_number(text.data(), unit, before);
-    if (typed) value = *typed;
-    return typed.has_value();
+    if (ImGui::IsItemActivated()) {
+        before = value;
+        is_number = true;
+    }
+    if (edited) {
+        const std::optional<double> typed = typed_number(text.data(), unit, before);
+        is_number = typed.has_value();
+        value = typed.value_or(before);
+    }
+    if (ImGui::IsItemActive() && !is_number) ImGui::SetTooltip("no number that can be used here");
+    return edited;
 }
 
 }  // namespace

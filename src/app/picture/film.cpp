@@ -8,6 +8,7 @@
 
 #include "app/job_notes.hpp"
 #include "base/error.hpp"
+#include "base/overloaded.hpp"
 #include "base/program.hpp"
 #include "base/text.hpp"
 
@@ -25,6 +26,14 @@ std::string frame_pattern(const fs::path& file) {
     std::string text;
     for (const char c : fs::path(file).replace_extension().string()) text += c == '%' ? "%%" : std::string(1, c);
     return text + "-%04d" + file.extension().string();
+}
+
+LoadValue scaled(LoadValue load, double part) {
+    std::visit(
+        Overloaded{[&](ForceLoad& value) { value.force *= part; }, [&](TractionLoad& value) { value.traction *= part; },
+                   [&](PressureLoad& value) { value.pressure *= part; }},
+        load);
+    return load;
 }
 
 std::string last_line(std::string text) {
@@ -88,28 +97,65 @@ bool pull_scales(const ViewerState& state) {
     return true;
 }
 
+Film::Pose::Pose(const ViewerState& state) : range(state.shown.field_range(state.display)) {
+    const LiveScene& scene = state.scene();
+    const Document& document = scene.document();
+    for (int h = 0; h < scene.n_handles(); ++h) {
+        const Motion& motion = scene.constraints().motions[static_cast<std::size_t>(h)];
+        handles.push_back({scene.handle_name(h), motion, motion, document.handles[static_cast<std::size_t>(h)].force});
+    }
+    for (int l = 0; l < scene.n_loads(); ++l) {
+        const LoadValue& value = document.loads[static_cast<std::size_t>(l)].value;
+        loads.push_back({scene.load_name(l), value, value});
+    }
+    whole_gravity = gravity = document.gravity;
+    revision = scene.revision();
+}
+
+void Film::Pose::put(LiveScene& scene, double part) {
+    for (int h = 0; h < scene.n_handles(); ++h) {
+        Handle& handle = handles[static_cast<std::size_t>(h)];
+        handle.part = part_of(handle.whole, part, scene.rest_positions(h));
+        scene.set_motion(h, handle.part);
+    }
+    for (int l = 0; l < scene.n_loads(); ++l) {
+        Load& load = loads[static_cast<std::size_t>(l)];
+        load.part = scaled(load.whole, part);
+        scene.set_load(l, load.part);
+    }
+    if (whole_gravity) {
+        gravity = part * *whole_gravity;
+        scene.set_gravity(gravity, scene.document().density);
+    }
+    revision = scene.revision();
+}
+
+/// What still is as the film has made it, by its name, becomes what it was.
+void Film::Pose::put_back(LiveScene& scene) const {
+    for (int h = 0; h < scene.n_handles(); ++h)
+        for (const Handle& handle : handles)
+            if (handle.name == scene.handle_name(h) &&
+                handle.part == scene.constraints().motions[static_cast<std::size_t>(h)]) {
+                scene.set_motion(h, handle.whole);
+                if (handle.force) scene.set_force(h, handle.force);
+            }
+    for (int l = 0; l < scene.n_loads(); ++l)
+        for (const Load& load : loads)
+            if (load.name == scene.load_name(l) &&
+                load.part == scene.document().loads[static_cast<std::size_t>(l)].value)
+                scene.set_load(l, load.whole);
+    if (gravity && scene.document().gravity == gravity) scene.set_gravity(whole_gravity, scene.document().density);
+}
+
 /// Whether the body is as it is to be in this frame; else that is under way.
 bool Film::pose(SceneRenderer& renderer, ViewerState& state, const Palette& palette) {
-    LiveScene& scene = state.scene();
     if (!pose_) {
         state.posed_for_film = true;
-        pose_ = Pose{.handles = {}, .revision = scene.revision(), .range = state.shown.field_range(state.display)};
-        for (int h = 0; h < scene.n_handles(); ++h) {
-            const Motion& motion = scene.constraints().motions[static_cast<std::size_t>(h)];
-            pose_->handles.push_back(
-                {scene.handle_name(h), motion, motion, scene.document().handles[static_cast<std::size_t>(h)].force});
-        }
+        pose_.emplace(state);
     }
-    if (scene.revision() != pose_->revision)
+    if (state.scene().revision() != pose_->revision)
         throw Error(request_.file.string() + ": the scene was changed while the film was made. Make it anew.");
-    if (!waiting_) {
-        for (int h = 0; h < scene.n_handles(); ++h) {
-            Pose::Handle& handle = pose_->handles[static_cast<std::size_t>(h)];
-            handle.part = part_of(handle.whole, pulled_part(next_, request_.n_frames), scene.rest_positions(h));
-            scene.set_motion(h, handle.part);
-        }
-        pose_->revision = scene.revision();
-    }
+    if (!waiting_) pose_->put(state.scene(), pulled_part(next_, request_.n_frames));
     state.update_displacements();
     state.update_picture();
     waiting_ = state.answering();
@@ -117,19 +163,10 @@ bool Film::pose(SceneRenderer& renderer, ViewerState& state, const Palette& pale
     return !waiting_;
 }
 
-/// Every handle that still does what the film has made it do gets its own motion back, unless it is of another scene.
+/// Nothing is put back in another scene.
 void Film::put_back(ViewerState& state) {
     waiting_ = state.posed_for_film = false;
-    if (scene_number_ != state.scene_number()) pose_.reset();
-    if (!pose_) return;
-    LiveScene& scene = state.scene();
-    for (int h = 0; h < scene.n_handles(); ++h)
-        for (const Pose::Handle& handle : pose_->handles)
-            if (handle.name == scene.handle_name(h) &&
-                handle.part == scene.constraints().motions[static_cast<std::size_t>(h)]) {
-                scene.set_motion(h, handle.whole);
-                if (handle.force) scene.set_force(h, handle.force);
-            }
+    if (pose_ && scene_number_ == state.scene_number()) pose_->put_back(state.scene());
     pose_.reset();
 }
 
@@ -137,7 +174,7 @@ void Film::put_back(ViewerState& state) {
 void Film::draw(SceneRenderer& renderer, ViewerState& state, const Palette& palette, int frame) const {
     const CameraPose pose = state.camera.pose();
     const DisplaySettings display = state.display;
-    const PictureOptions options{request_.transparent, request_.legend ? legend_of(state) : std::nullopt};
+    PictureOptions options{request_.transparent, request_.legend ? legend_of(state) : std::nullopt};
     const auto restore = [&] {
         state.camera.set_pose(pose);
         state.display = display;
@@ -149,6 +186,7 @@ void Film::draw(SceneRenderer& renderer, ViewerState& state, const Palette& pale
             state.camera.set_pose(turned(state.camera, pose, static_cast<double>(frame - 1) / request_.n_frames));
         } else if (pose_) {
             state.display.typed_ranges[display.field] = pose_->range;
+            if (options.legend) options.legend = legend_of(state);
             state.update_picture();
             renderer.upload(state, palette);
         } else {

@@ -27,8 +27,8 @@ bool pull_scales(const ViewerState& state);
 
 /// Frames of a film as numbered pictures, one at a time so that the window stays alive, and then, when it is wanted, a
 /// video of them made by ffmpeg on a worker. A film of a pull that does not merely scale moves the handles of the scene
-/// part of their way for each frame, through their turns, and puts them back at its end. All members are for the thread
-/// of the window.
+/// part of their way for each frame, through their turns, under that part of the loads, and puts them back at its end.
+/// All members are for the thread of the window.
 class Film {
 public:
     /// `wake` is called by the worker when poll() will find something.
@@ -51,14 +51,24 @@ public:
     bool working() const { return video_.working(); }
 
 private:
-    /// The handles on their way: what they did before, and what they do in the present frame.
+    /// Handles and loads on their way: what they were before, and what they are in the present frame.
     struct Pose {
         struct Handle {
             std::string name;
             Motion whole, part;
             std::optional<GripForce> force;  ///< that moved it there; on its way it is led
         };
+        struct Load {
+            std::string name;
+            LoadValue whole, part;
+        };
+        explicit Pose(const ViewerState& state);
+        void put(LiveScene& scene, double part);
+        void put_back(LiveScene& scene) const;
+
         std::vector<Handle> handles;
+        std::vector<Load> loads;
+        std::optional<Eigen::Vector3d> whole_gravity, gravity;
         std::uint64_t revision = 0;       ///< of the scene, as it was put last
         std::pair<double, double> range;  ///< of the colours, of the whole pull
     };

@@ -104,6 +104,7 @@ void LiveScene::set_gravity(const std::optional<Eigen::Vector3d>& gravity, doubl
         return become(std::move(changed));
     }
     document_.gravity = gravity;
+    if (gravity) *document_.gravity += Eigen::Vector3d::Zero();  // -0 becomes 0
     document_.density = density;
     if (gravity) return take_factors(kGravity, density * *gravity);
     ++revision_;

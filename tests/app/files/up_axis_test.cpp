@@ -46,5 +46,14 @@ TEST(UpAxis, LowestVerticesAreThoseOfAPartOfTheHeight) {
     EXPECT_THAT(lowest_vertices(make_box(4), Vector3d::UnitZ(), 0.0), testing::SizeIs(25));
 }
 
+TEST(UpAxis, ASheetThatLiesDownIsNotHeldAllOver) {
+    SurfaceMesh sheet = make_box(4, {2.0, 1.0, 1.0});
+    EXPECT_THAT(first_held_vertices(sheet, Vector3d::UnitZ()), testing::SizeIs(9 * 5));
+    sheet.vertices.row(2).setZero();
+    const std::vector<int> held = first_held_vertices(sheet, Vector3d::UnitZ());
+    EXPECT_THAT(held, testing::Not(testing::IsEmpty()));
+    for (const int v : held) EXPECT_EQ(sheet.vertices(0, v), 0.0);
+}
+
 }  // namespace
 }  // namespace elastolab

@@ -47,6 +47,24 @@ TEST(RealPanel, AHandleIsNamedMovedAndTurnedByTyping) {
     EXPECT_LT((motion.rotate.axis - Eigen::Vector3d::UnitZ()).norm(), 1e-12);
 }
 
+/// "1e4" is a number on the way to "1e400", which is none.
+TEST(RealPanel, WhatIsNoNumberLeavesWhatWasThere) {
+    const TemporaryFolder folder;
+    const Document document = cube_document_with_handle(4);
+    save_scene(folder.path() / "cube.json", document);
+    RealWindow window({"cube.json", "--size", "1000x1000", "--scene-out", "out.json"}, folder.path());
+    window.settle();
+    window.click(kSecondRow);
+    window.settle();
+    window.click(kMove);
+    window.stroke("ctrl+a");
+    for (const char* key : {"1", "e", "4", "0", "0"}) window.stroke(key);
+    window.type("");
+    window.settle();
+    ASSERT_EQ(window.quit().exit_code, 0);
+    EXPECT_EQ(load_scene(folder.path() / "out.json"), document);
+}
+
 /// A press at the body ends the typing of what is selected still, as a step of its own.
 TEST(RealPanel, WhatIsTypedCountsWhenTheBodyIsPulledNext) {
     const TemporaryFolder folder;

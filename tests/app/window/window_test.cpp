@@ -196,6 +196,50 @@ TEST_F(RealProgram, FilmsAFullTurnThroughAllItsAngles) {
     EXPECT_EQ(out.handles[1].force, document.handles[1].force) << "the force was lost";
 }
 
+/// Colours and legend of all frames are of one range, and at the first nothing acts yet.
+TEST_F(RealProgram, FilmsLoadsFromRestUnderOneLegend) {
+    const auto film = [&](Document document, const std::string& name, const std::vector<std::string>& more) {
+        save_scene(folder.path() / (name + ".json"), document);
+        std::vector<std::string> words = {"view",      name + ".json", "--hidden",       "--frames", "2",
+                                          "--picture", name + ".png",  "--picture-size", "320x240",  "--pull-film",
+                                          "4",         "--scene-out",  "out.json"};
+        words.insert(words.end(), more.begin(), more.end());
+        const ProgramRun run = run_program(words, folder.path());
+        EXPECT_EQ(run.exit_code, 0) << run.err;
+        return load_scene(folder.path() / "out.json");
+    };
+    Document document = cube_document_with_handle(3);
+    document.handles[0].motion = AffineMotion{.rotate = {.axis = {1, 0, 0}, .degrees = 90, .center = {1, 0.5, 0.5}}};
+    document.material.young_modulus = 1.0;
+    document.gravity = Eigen::Vector3d(0, 0, -0.1);
+    document.loads = {
+        {.name = "side", .select = {BoxSelector{{-0.1, -0.1, 0.9}, {0.8, 1.1, 1.1}}}, .value = PressureLoad{0.1}}};
+    document.camera = film(document, "loaded", {}).camera;  // else that of the deformed body
+    const Document out = film(document, "loaded", {});
+    EXPECT_EQ(out.gravity, document.gravity);
+    EXPECT_EQ(out.loads, document.loads);
+    EXPECT_EQ(out.handles[0], document.handles[0]);
+    Document heavier = document;
+    *heavier.gravity *= 3.0;
+    heavier.loads[0].value = PressureLoad{0.3};
+    film(heavier, "heavier", {});
+    film(document, "coloured", {"--field", "displacement", "--legend"});
+    const auto pixels = [&](const std::string& file) { return Pixels(folder.path() / file); };
+    constexpr int kRounded = 40;  // of a pixel at an edge
+    const auto differ = [](const Pixels& one, const Pixels& other, int from_x, int from_y) {
+        int n = 0;
+        for (int x = from_x; x < 320; ++x)
+            for (int y = from_y; y < 240; ++y)
+                n += (one.at({x, y}) - other.at({x, y})).cwiseAbs().maxCoeff() > kRounded;
+        return n;
+    };
+    EXPECT_EQ(differ(pixels("loaded-0001.png"), pixels("heavier-0001.png"), 0, 0), 0) << "at rest nothing acts";
+    EXPECT_GT(differ(pixels("loaded-0003.png"), pixels("heavier-0003.png"), 0, 0), 100);
+    constexpr int kLegendX = 270, kLegendY = 100;
+    EXPECT_EQ(differ(pixels("coloured-0001.png"), pixels("coloured-0003.png"), kLegendX, kLegendY), 0);
+    EXPECT_GT(differ(pixels("coloured-0001.png"), pixels("coloured-0003.png"), 0, 0), 100);
+}
+
 TEST_F(RealProgram, CutsTheBodyOpenFromTheStart) {
     const auto drawn_part = [&](const std::vector<std::string>& more) {
         std::vector<std::string> words = {"view",      save_cube(3), "--hidden",       "--frames", "2",
