@@ -180,5 +180,96 @@ TEST_F(LiveEquilibrium, AStoppedOneIsTriedAgainWhenAskedFor) {
     expect_converged(truth(scene, bench.choices.of(kNonlinearFem)));
 }
 
+/// A soft bar that bends far under its handle's force, in a window that watches every frame. What it shows as exact is
+/// compared with what comes out in the end.
+class LiveForce : public ::testing::Test {
+protected:
+    LiveForce() { scene.set_force(0, kForce); }
+    const EmbeddedRunner& answer() { return bench.simulation.answer(kNonlinearFem); }
+    const MethodRunner& runner() { return bench.runner(kNonlinearFem); }
+    Eigen::VectorXd solved() {
+        Control control;
+        return solve({.scene_file = "bar.json",
+                      .document = scene.document(),
+                      .method = bench.choices.of(kNonlinearFem),
+                      .with_checks = false},
+                     control)
+            .displacement.reshaped();
+    }
+    /// Until it rests; in every frame something like `before` or the answer is seen.
+    void expect_no_jump_and_no_early_answer(const Eigen::VectorXd& before) {
+        const Eigen::VectorXd expected = solved();
+        const double least = 0.5 * std::min(before.norm(), expected.norm());
+        int n_frames = 0;
+        bench.update_until(scene, [&] {
+            ++n_frames;
+            const Eigen::VectorXd& u = answer().displacement();
+            const double seen = u.size() > 0 ? u.norm() : 0.0;
+            EXPECT_GT(seen, least) << "in frame " << n_frames;
+            if (runner().answers() && !runner().following()) {
+                EXPECT_LT((u - expected).norm(), 1e-3 * expected.norm()) << "exact in frame " << n_frames;
+            }
+            EXPECT_FALSE(runner().state() == State::ready && answer().placing_grips()) << "in frame " << n_frames;
+            return !bench.simulation.busy() || HasFailure();
+        });
+        EXPECT_EQ(bench.simulation.problem(kNonlinearFem), "");
+        EXPECT_EQ(runner().state(), State::ready);
+        EXPECT_LT((runner().displacement() - expected).norm(), kConverged * expected.norm());
+    }
+    /// Vertices of the top between these.
+    std::vector<int> top(double from, double to) const {
+        std::vector<int> patch;
+        for (int v = 0; v < scene.mesh().n_vertices(); ++v)
+            if (const Eigen::Vector3d x = scene.mesh().vertices.col(v);
+                x.x() > from && x.x() < to && x.z() > 1.0 - 1e-9)
+                patch.push_back(v);
+        return patch;
+    }
+
+    static inline const GripForce kForce{{0.0, 0.2, 1.0}, {0.0, 0.0, 0.0}};
+    LiveScene scene = [] {
+        Document document = bar().document();
+        document.material.young_modulus = 100.0;
+        document.gravity = Eigen::Vector3d(0, 0, -0.1);
+        return LiveScene(document, "bar.json");
+    }();
+    Bench bench{{kNonlinearFem}};
+};
+
+TEST_F(LiveForce, FirstAnswerHasTheHandleWhereItsForceHoldsIt) {
+    bench.shown = {kFem};
+    bench.settle(scene);
+    const Eigen::VectorXd by_linear_fem = bench.simulation.answer(kFem).displacement();
+    bench.shown = {kNonlinearFem};
+    expect_no_jump_and_no_early_answer(by_linear_fem);
+}
+
+TEST_F(LiveForce, AnotherHandleUnderAForceLeavesTheBodyWhereItIsUntilBothAreInEquilibrium) {
+    bench.settle(scene);
+    const Eigen::VectorXd before = runner().displacement();
+    const int handle = scene.add_handle(top(1.5, 3.0));
+    scene.set_force(handle, GripForce{{0.0, 0.5, 0.5}, {0.0, 0.0, 0.0}});
+    expect_no_jump_and_no_early_answer(before);
+    scene.set_force(handle, GripForce{{0.0, 1.0, 0.2}, {0.0, 0.0, 0.0}});
+    expect_no_jump_and_no_early_answer(runner().displacement());
+}
+
+TEST_F(LiveForce, AHandleThatIsMovedIsFollowedUntilTheForceOfTheOtherOneIsMet) {
+    bench.settle(scene);
+    const Eigen::VectorXd before = runner().displacement();
+    const std::vector<int> patch = top(1.5, 3.0);
+    const int handle = scene.add_handle(patch);
+    const Positions rest = scene.rest_positions(handle);
+    const Eigen::Matrix3Xd moved = before.reshaped(3, before.size() / 3)(Eigen::all, patch);
+    scene.set_motion(handle, motion_to(rest, rest + moved));
+    expect_no_jump_and_no_early_answer(before);
+    AffineMotion further = std::get<AffineMotion>(motion_to(rest, rest + moved));
+    further.translate.y() += 0.3;
+    scene.set_motion(handle, further);
+    bench.update(scene);
+    EXPECT_TRUE(runner().following());
+    expect_no_jump_and_no_early_answer(before);
+}
+
 }  // namespace
 }  // namespace elastolab::testing_simulation

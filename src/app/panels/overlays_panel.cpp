@@ -54,7 +54,7 @@ std::string source_words(const ViewerState& state, MethodKind kind) {
     const Proxy* proxy = simulation.embedded(kind).proxy();
     if (!kind->linear)
         text = kDash + std::string(runner.following() ? "following" : runner.answers() ? "exact" : "preparing");
-    if (!runner.converged() && !runner.following())
+    if (!runner.converged() && !runner.following() && (kind->linear || runner.answers()))
         text = kDash + std::string("exact to ") + number_text(runner.tolerance());
     if (proxy != nullptr && proxy->is_filled()) return text + kDash + "holes filled";
     return proxy ? text + kDash + "on a proxy of " + count_text(proxy->surface->n_vertices()) + " vertices" : text;

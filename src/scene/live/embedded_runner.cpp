@@ -60,6 +60,7 @@ void EmbeddedRunner::set_constraints(const Constraints& constraints) {
         asked_.reset();
         forget_grips();
     }
+    runner_.set_grip_places(grip_places(), placer_.equilibrium());
     runner_.set_constraints(this->constraints());
 }
 
@@ -80,12 +81,22 @@ bool EmbeddedRunner::may_place_grips() const {
     return deformer && deformer->set() == constraints().set;
 }
 
-/// Until it is known where their forces hold handles, they stay where the scene has them.
+GripPlaces EmbeddedRunner::grip_places() const {
+    const bool are_followed = asked_ && runner_.surface() && !runner_.method().kind->linear && !gripped().empty();
+    if (!are_followed || !grip_failure().empty() || placer_.equilibrium()) return GripPlaces::in_equilibrium;
+    return grip_motions_.empty() ? GripPlaces::unknown : GripPlaces::nearby;
+}
+
+/// Until it is known where their forces hold handles, they stay where they stood last, or else where the scene has
+/// them.
 void EmbeddedRunner::place_grips() {
-    if (!may_place_grips()) return placer_.wait();
-    auto motions = placer_.place(runner_.deformer(), constraints(), runner_.grips());
-    if (!motions) return;
-    grip_motions_ = std::move(*motions);
+    std::optional<std::vector<AffineMotion>> motions;
+    if (may_place_grips())
+        motions = placer_.place(runner_.deformer(), constraints(), runner_.grips());
+    else
+        placer_.wait();
+    if (motions) grip_motions_ = std::move(*motions);
+    if (grip_motions_.empty() || !grip_failure().empty()) return;
     Constraints moved = *asked_;
     placed_ = gripped_vertices(moved);
     const std::vector<std::size_t> handles = gripped();

@@ -80,6 +80,7 @@ public:
 private:
     void give(const Constraints& constraints);
     bool may_place_grips() const;
+    GripPlaces grip_places() const;
     void place_grips();
     void forget_grips();
 

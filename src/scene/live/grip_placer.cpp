@@ -17,7 +17,7 @@ constexpr double kFrameSeconds = 0.005;
 std::optional<std::vector<AffineMotion>> GripPlacer::place(const std::shared_ptr<const Deformer>& deformer,
                                                            Constraints constraints,
                                                            const std::shared_ptr<const GripStiffness>& made) {
-    failure_.clear();
+    wait();
     if (deformer != deformer_) {
         clear();
         deformer_ = deformer;
@@ -48,7 +48,10 @@ std::optional<std::vector<AffineMotion>> GripPlacer::place_by_equilibria(Constra
     const GripEquilibrium* last = made_.equilibrium.get();
     if (last != nullptr && last->grips != constraints.grips()) last = nullptr;
     const bool exact = last != nullptr && last->forces == forces && made_.asked == constraints.values;
-    if (!exact) follow(constraints);
+    if (exact)
+        exact_ = last->equilibrium;
+    else
+        follow(constraints);
     if (!failure_.empty() || last == nullptr) return std::nullopt;
     return constraints.move_grips(exact ? last->places : last->places_under(forces), vertices);
 }
@@ -149,6 +152,7 @@ void GripPlacer::clear() {
     job_.poll();
     deformer_.reset();
     made_ = {};
+    exact_.reset();
     asked_grips_.clear();
     asked_forces_.clear();
     asked_.resize(0);

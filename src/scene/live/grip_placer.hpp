@@ -37,7 +37,10 @@ public:
     /// No handle is under a force any more.
     void clear();
     /// The set is being prepared: nothing is known of it, and no failure.
-    void wait() { failure_.clear(); }
+    void wait() {
+        failure_.clear();
+        exact_.reset();
+    }
     /// Stops the worker. What it was stopped at begins again with retry() or with the next change.
     void cancel();
     void retry();
@@ -45,6 +48,9 @@ public:
     /// Whether the worker is at it: what place() said last is not the last word.
     bool placing() const { return deformer_ != nullptr && job_.running(); }
     bool working() const { return job_.working(); }
+    /// Of a method that is not linear, where place() said last where the forces hold them and not what is near; else
+    /// null.
+    const std::shared_ptr<const Equilibrium>& equilibrium() const { return exact_; }
     /// Why place() has none; else empty.
     const std::string& failure() const { return failure_; }
 
@@ -70,6 +76,7 @@ private:
 
     std::shared_ptr<const Deformer> deformer_;
     Made made_;
+    std::shared_ptr<const Equilibrium> exact_;  ///< of made_, where it is what place() was asked for
     // Of the worker.
     std::vector<Grip> asked_grips_;
     Eigen::VectorXd asked_;                ///< values

@@ -56,6 +56,9 @@ void MethodRunner::poll() {
 void MethodRunner::handle(SetKeeper::Event event) {
     switch (event) {
         case SetKeeper::Event::another_set:
+            up_to_date_ = false;
+            if (!deformer()->linear()) solved_ = false;  // by this set
+            break;
         case SetKeeper::Event::converged:
             up_to_date_ = false;
             break;
@@ -138,6 +141,7 @@ void MethodRunner::drag() {
 /// A method that is not linear: each frame shows what the tangent says, until the worker has the equilibrium. After a
 /// motion that had none, it would lead away from what is known.
 void MethodRunner::follow() {
+    if (sets_.grip_places() == GripPlaces::unknown) return;
     PreparedSet& set = sets_.current();
     const bool exact = sets_.is_exact();
     if (!exact) sets_.solve_on_worker();
@@ -183,7 +187,7 @@ void MethodRunner::take_values(Eigen::VectorXd values, bool solved) {
 
 std::shared_ptr<const Equilibrium> MethodRunner::equilibrium() const {
     const std::optional<DragSolver>& drag = sets_.current().drag;
-    return drag && solved_ && !following_ ? drag->equilibrium() : nullptr;
+    return drag && solved_ && !following() ? drag->equilibrium() : nullptr;
 }
 
 void MethodRunner::check_at_rest(const std::function<GripsInPlace()>& grips) {
@@ -223,11 +227,18 @@ MethodRunner::State MethodRunner::state() const {
     if (models_.precomputing()) return State::precomputing;
     if (!failure().empty() && !sets_.solving()) return State::failed;  // else another motion is tried
     if (!models_.is_wanted()) return State::idle;
-    return sets_.is_current() && !sets_.solving() && !following_ ? State::ready : State::preparing;
+    if (!sets_.is_current() || sets_.solving() || !is_placed() || following_) return State::preparing;
+    return deformer()->linear() || (solved_ && shows_wanted()) ? State::ready : State::preparing;
+}
+
+/// The first equilibrium of a method that is not linear may come long after its constrained set.
+bool MethodRunner::has_answer() const {
+    return deformer() && (deformer()->linear() || displacement_.size() > 0 || !failure_.empty());
 }
 
 bool MethodRunner::answers() const {
-    if (following_ && sets_.may_hold_off() && sets_.is_slow()) return false;
+    if (sets_.grip_places() == GripPlaces::unknown) return false;
+    if (following() && sets_.may_hold_off() && sets_.is_slow()) return false;
     return solved_ && shows_wanted() && sets_.answers() && values_.size() == sets_.wanted_values().size() &&
            values_ == sets_.wanted_values() && model_fits();
 }

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "scene/live/answer.hpp"
 #include "scene/live/model_keeper.hpp"
@@ -37,6 +38,11 @@ public:
     const SurfaceMesh* surface() const { return models_.body().surface.get(); }
     /// Constraints belong to the body last set.
     void set_constraints(const Constraints& constraints) override { sets_.want(constraints); }
+    /// SetKeeper::set_grip_places, of the constraints that are set next. While places are unknown, the last complete
+    /// answer stays.
+    void set_grip_places(GripPlaces places, std::shared_ptr<const Equilibrium> found) {
+        sets_.set_grip_places(places, std::move(found));
+    }
     void set_frame_rule(FrameRule rule);
     /// Seconds that poll() may solve for a new motion itself, judged by the last time; longer solves, and the first
     /// ones of a set or of a rule, go to the worker, and the previous answer stays meanwhile.
@@ -71,7 +77,7 @@ public:
     const std::string& failure() const;
     const Eigen::VectorXd& displacement() const override { return displacement_; }
     std::uint64_t version() const override { return version_; }
-    bool has_answer() const override { return deformer() != nullptr; }
+    bool has_answer() const override;
     /// The model that answers now; null before the first.
     const std::shared_ptr<const Model>& model() const { return models_.model(); }
     const Method& method() const { return models_.method(); }
@@ -84,7 +90,7 @@ public:
     /// Whether these are what the scene asks for.
     bool shows_wanted() const { return same(seen_, sets_.wanted()); }
     /// How values() are reached from the last equilibrium, of a method that is not linear.
-    Approach approach() const { return following_ ? sets_.approach() : Approach{equilibrium(), {}}; }
+    Approach approach() const { return following() ? sets_.approach() : Approach{equilibrium(), {}}; }
     /// Whether the constrained set is prepared.
     bool has_set() const { return sets_.is_current(); }
     /// Of a method that is not linear: an equilibrium takes longer than SetKeeper::kFollowSeconds.
@@ -98,8 +104,8 @@ public:
     double tolerance() const { return tolerance_; }
     bool converged() const { return tolerance_ <= kSolveTolerance; }
     /// Of a method that is not linear: displacement() is what the tangent about the last equilibrium makes of the
-    /// present motion, and the equilibrium is on its way.
-    bool following() const { return following_; }
+    /// present motion, or has handles where their forces do not hold them yet, and the equilibrium is on its way.
+    bool following() const { return following_ || (has_answer() && !is_placed()); }
     /// Of a method that is not linear: the motion that was tried last has no equilibrium, and displacement() is the
     /// last one that was found.
     const std::optional<Crushed>& crushed() const { return sets_.crushed(); }
@@ -130,6 +136,8 @@ private:
     void forget_answer();
     bool model_fits() const;
     void handle(SetKeeper::Event event);
+    /// Handles under a force are where they are in equilibrium.
+    bool is_placed() const { return sets_.grip_places() == GripPlaces::in_equilibrium; }
     bool was_tried(const Eigen::VectorXd& wanted) const;
     bool takes_long() const;
     void update_displacement();

@@ -78,6 +78,11 @@ void SetKeeper::want(const Constraints& constraints) {
     wanted_ = std::move(wish);
 }
 
+void SetKeeper::set_grip_places(GripPlaces places, std::shared_ptr<const Equilibrium> found) {
+    grip_places_ = places;
+    found_ = std::move(found);
+}
+
 bool SetKeeper::set_frame_rule(FrameRule rule) {
     if (rule == rule_) return false;
     rule_ = rule;
@@ -104,6 +109,7 @@ void SetKeeper::clear() {
     prefetch_.reset();  // of another body
     current_ = {};
     spare_ = {};
+    found_.reset();
     failure_.clear();
     motion_failure_.clear();
 }
@@ -180,13 +186,14 @@ SetKeeper::Event SetKeeper::use_or_prepare() {
         std::swap(current_, spare_);
         spare_.drag.reset();
         if (!keep) spare_ = {};
+        found_.reset();
         failure_.clear();
         event = Event::another_set;
     }
     if (!is_current()) {
         if (failure_.empty() && !(job_.running() && same_as_wanted(preparing_set_))) prepare(wanted_set_, wanted_);
-    } else if (may_converge_ && !job_.running() && current_.drag && current_.drag->tolerance() > kSolveTolerance &&
-               (is_exact() || failed_)) {
+    } else if (may_converge_ && grip_places_ == GripPlaces::in_equilibrium && !job_.running() && current_.drag &&
+               current_.drag->tolerance() > kSolveTolerance && (is_exact() || failed_)) {
         converge_on_worker();
     } else if (prefetch_ && !job_.running()) {
         if (!same_as_wanted(*prefetch_) && !(spare_.deformer && spare_.deformer->set() == *prefetch_))
@@ -241,10 +248,11 @@ void SetKeeper::prepare(const ConstrainedSet& set, Wish wish) {
     converging_ = false;
     solving_ = {};
     failed_.reset();
-    const bool drags = rule_ == FrameRule::drag_columns || !model_->method().kind->linear;
-    std::vector<Grip> grips =
-        same_as_wanted(set) && model_->method().kind->linear ? wanted_grips_ : std::vector<Grip>();
-    job_.start([model = model_, set, drags, wish = std::move(wish), grips = std::move(grips),
+    const bool linear = model_->method().kind->linear, drags = rule_ == FrameRule::drag_columns || !linear;
+    // An equilibrium with handles under a force where the scene has them would be none of theirs.
+    const bool solves = linear || !same_as_wanted(set) || grip_places_ != GripPlaces::unknown;
+    std::vector<Grip> grips = same_as_wanted(set) && linear ? wanted_grips_ : std::vector<Grip>();
+    job_.start([model = model_, set, drags, solves, wish = std::move(wish), grips = std::move(grips),
                 start = start_for(set)](Control& control) {
         auto deformer = std::make_shared<Deformer>(model);
         control.begin_stage("constrain");
@@ -253,6 +261,7 @@ void SetKeeper::prepare(const ConstrainedSet& set, Wish wish) {
         PreparedSet prepared{.deformer = std::move(deformer)};
         prepared.findings = findings_of_set(*prepared.deformer);
         prepared.memory_bytes = prepared.deformer->predict_memory(set) + prepared.deformer->predict_check_memory(set);
+        if (!solves) return prepared;
         control.begin_stage("solve");
         if (!grips.empty())
             prepared.grips = std::make_shared<const GripStiffness>(*prepared.deformer, wish.values, grips, control);
@@ -279,17 +288,18 @@ bool SetKeeper::may_solve_now() {
     if (is_linear()) return !solving();
     if (failed_ && same(*failed_, wanted_)) return false;
     if (solving() && same(solving_, wanted_)) return false;
-    if (may_hold_off_ && is_slow()) {
+    if (may_hold_off_ && is_slow() && current_.drag) {  // the first answer of a set is not held off
         if (solving()) job_.cancel();
         return rest_.seconds() >= kPauseSeconds;
     }
     return !solving() || job_.status().seconds > kPatienceSeconds;
 }
 
-/// Of a method that is not linear: from the equilibrium at hand, or from rest.
+/// Of a method that is not linear: from the equilibrium at hand, that of the handles under a force, or from rest.
 Approach SetKeeper::approach_to(const Wish& wish) const {
     if (is_linear()) return {};
     const bool has_start = current_.drag && current_.at && current_.drag->equilibrium();
+    if (!has_start && found_) return {found_, {}};
     Way way = way_to(wish, has_start ? current_.at.get() : nullptr, handle_positions(*current_.deformer));
     return {way.from_rest ? nullptr : current_.drag->equilibrium(), std::move(way.path)};
 }

@@ -51,6 +51,13 @@ struct PreparedSet {
     std::optional<Crushed> crushed = std::nullopt;  ///< the last motion that was tried has no equilibrium
 };
 
+/// What is known of where handles under a force stand, by a method that is not linear.
+enum class GripPlaces {
+    in_equilibrium,  ///< where their forces hold them; or there are none, or it cannot be known
+    nearby,          ///< where they stood, or what a tangent says: their equilibrium is on its way
+    unknown          ///< nothing yet: what is wanted has them where the scene does, which is no answer to it
+};
+
 /// Prepares the wanted constrained set on a worker thread, and solves there for motions within it that take long. Where
 /// the method iterates, columns to kFirstTolerance come first, and are converged to kSolveTolerance when there is
 /// nothing else to do for the set. The set used before stays at hand. All members are for one thread.
@@ -58,12 +65,17 @@ struct PreparedSet {
 /// Of a method that is not linear the worker follows the motion with equilibria, each from the one before: always for
 /// the newest wish, never for a queue of them; where they take long, by turns that are not too far. Where it may hold
 /// off (set_may_hold_off) and takes long, it waits until the motion rests, and gives up what is not wanted any more.
+/// Nothing is solved for while the places of handles under a force are unknown.
 class SetKeeper {
 public:
     /// `wake` is called by the worker when poll() will find something.
     explicit SetKeeper(std::function<void()> wake) : job_(std::move(wake)) {}
 
     void want(const Constraints& constraints);
+    /// Of the constraints that are wanted next. found: the equilibrium of current() where its handles under a force
+    /// stand, from which the first answer begins; null where it is not known.
+    void set_grip_places(GripPlaces places, std::shared_ptr<const Equilibrium> found);
+    GripPlaces grip_places() const { return grip_places_; }
     const Wish& wanted() const { return wanted_; }
     const Eigen::VectorXd& wanted_values() const { return wanted_.values; }
     const std::vector<int>& handle_ends() const { return wanted_.ends; }
@@ -154,6 +166,8 @@ private:
 
     ConstrainedSet wanted_set_;
     std::vector<Grip> wanted_grips_;  ///< handles of it that are under a force
+    GripPlaces grip_places_ = GripPlaces::in_equilibrium;
+    std::shared_ptr<const Equilibrium> found_;  ///< of current_, with handles under a force where they stand
     Wish wanted_;
     Stopwatch rest_;  ///< since another motion was wanted
     FrameRule rule_ = FrameRule::drag_columns;
