@@ -219,10 +219,10 @@ NodeSolution Deformer::solve(std::size_t part, const Eigen::MatrixXd& values, co
     } catch (const NoEquilibriumError& error) {
         const Model::Part& of = model_->parts()[part];
         const Eigen::Vector3d place = error.place() / of.scale + of.origin;
-        throw NoEquilibriumError(model_->body().name + ": " + error.what() + " The body is crushed most near " +
-                                     readable_point(place) +
-                                     (state.loads.empty() ? ". Pull less far, or in smaller steps."
-                                                          : ". Pull less far, or make the loads smaller."),
+        throw NoEquilibriumError(model_->body().name + ": " + error.what() + " " + readable_point(place) +
+                                     (set_.handles.empty()  ? ". Make the loads smaller."
+                                      : state.loads.empty() ? ". Pull less far, or in smaller steps."
+                                                            : ". Pull less far, or make the loads smaller."),
                                  place);
     }
 }

@@ -13,6 +13,7 @@
 #include "fem/nonlinear/method.hpp"
 #include "fem/quadratic/method.hpp"
 #include "mesh/primitives.hpp"
+#include "methods/load_cases.hpp"
 #include "methods/problem.hpp"
 
 namespace elastolab {
@@ -266,6 +267,29 @@ TEST(LargeDeformation, NearlyIncompressibleBodiesAreTakenUpTo0499AndRefusedBeyon
         EXPECT_NE(why.find("0.499"), std::string::npos);
     }
     EXPECT_EQ(refusal({.kind = kNonlinearFem}, 0.499), "");
+}
+
+/// A balloon bears a pressure of a quarter of its modulus or so; nothing is crushed beyond it, and nothing was moved.
+TEST(LargeDeformation, APressureBeyondWhatABalloonBearsIsRefusedWithItsShare) {
+    const SurfaceMesh mesh = make_hollow_sphere(3);
+    const UnitLoad inside =
+        unit_pressure(mesh, test::triangles_where(mesh, [](const Vector3d& x) { return x.norm() < 0.75; }));
+    Deformer deformer(test::precomputed(test::make_body(mesh, {1.0, 0.3}), {.kind = kNonlinearFem}));
+    Control control;
+    deformer.constrain({{}, {}, {inside}}, control);
+    EXPECT_LT(*deformer.answer(Eigen::VectorXd::Constant(1, 0.2), {.residual = true}, control).residual, 1e-7);
+    try {
+        deformer.answer(Eigen::VectorXd::Constant(1, 0.6), {}, control);
+        FAIL();
+    } catch (const NoEquilibriumError& error) {
+        const std::string words = error.what(), begin = "An equilibrium was found up to ";
+        EXPECT_EQ(words.find("crushed"), std::string::npos) << words;
+        EXPECT_EQ(words.find("motions"), std::string::npos) << words;
+        ASSERT_NE(words.find(begin), std::string::npos) << words;
+        const double share = std::stod(words.substr(words.find(begin) + begin.size())) / 100.0;
+        EXPECT_GT(share * 0.6, 0.2) << words;
+        EXPECT_LT(share * 0.6, 0.4) << words;
+    }
 }
 
 /// Random handles on a ball, pulled, turned and sheared at random, many of them absurd.

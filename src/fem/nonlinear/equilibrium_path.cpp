@@ -1,6 +1,8 @@
 // The part of NonlinearSolver that goes from one equilibrium to another.
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <string>
 #include <utility>
 
 #include "fem/nonlinear/free_turns.hpp"
@@ -17,6 +19,12 @@ constexpr int kMostIterations = 40, kMostPassing = 30;
 constexpr int kMostUnderLoads = 120;
 /// Steps shorter than this part of the way are given up.
 constexpr double kShortestPart = 1.0 / 512.0;
+/// The same where loads alone change, between an equilibrium and loads for which none is found: the limit is told.
+constexpr double kShortestOfLoads = 1.0 / 64.0;
+/// A step of the loads that stretches the body so many times as much as it was runs away, or is one for shorter steps.
+constexpr double kMostMoreStretch = 10.0;
+/// Where an equilibrium is not compressed further than this, what fails next to it is not that it is crushed.
+constexpr double kNotCrushed = 0.5;
 /// Residual of the linear systems that predict a step.
 constexpr double kPrediction = 0.1;
 /// Smallest ratio of volumes that a predicted state may have: those below are far from any equilibrium.
@@ -26,6 +34,19 @@ constexpr int kPushes = 3;
 constexpr int kMostDoublings = 20, kMostPushed = 240;
 /// Part of the displacements by which an equilibrium may differ from the one nearest to rest.
 constexpr double kNoTurn = 1e-9;
+
+/// For which no equilibrium was found, and up to where there was one; the place completes the last sentence.
+std::string without_equilibrium(const NewtonState& failed, bool loaded, bool from_rest) {
+    if (!failed.share)
+        return std::string("no equilibrium was found for these motions") + (loaded ? " and loads" : "") +
+               ". The body is crushed most near";
+    std::string text = "no equilibrium was found for these loads.";
+    const int percent = static_cast<int>(100.0 * *failed.share);
+    if (percent > 0)
+        text += " An equilibrium was found up to " + std::to_string(percent) + " % of " +
+                (from_rest ? "the loads." : "their change.");
+    return text + (failed.least_J < kNotCrushed ? " The body is crushed most near" : " The body gives way near");
+}
 
 }  // namespace
 
@@ -80,12 +101,14 @@ NewtonState NonlinearSolver::followed(const NonlinearState& from, const MotionPa
                                       NewtonWork& work, Control& control) const {
     NewtonState at = from.with_factor();
     at.iterations = 0;
-    double part = 0.0, length = 1.0 / std::max(1.0, std::ceil(path.largest_angle() / kStepAngle - 1e-6));
+    double part = 0.0, failed_at = 2.0,
+           length = 1.0 / std::max(1.0, std::ceil(path.largest_angle() / kStepAngle - 1e-6));
     NewtonState failed;
     int iterations = 0;
     const Eigen::VectorXd before = at.factors;
     const bool loads_only = of_prescribed(at.u) == path.at(1.0);
-    while (part < 1.0 && length >= kShortestPart && iterations < most_steps) {
+    const double shortest = loads_only ? kShortestOfLoads : kShortestPart;
+    while (part < 1.0 && length >= shortest && iterations < most_steps) {
         control.checkpoint();
         const double next = part + length > 1.0 - 1e-9 ? 1.0 : part + length;
         const Eigen::VectorXd next_factors = next < 1.0 ? before + next * (factors - before) : factors;
@@ -106,8 +129,10 @@ NewtonState NonlinearSolver::followed(const NonlinearState& from, const MotionPa
         keep(nullptr);  // a factor less at the same time; where the step fails, it is made again
         const int left = std::max(1, most_steps - iterations);
         const int most = loads_only ? kMostUnderLoads : next < 1.0 ? kMostPassing : kMostIterations;
-        NewtonState reached =
-            newton_.run(u, next_factors, wanted, most, work, control, std::exchange(at.factor, nullptr), left);
+        const double most_stretch = loads_only ? kMostMoreStretch * elements().largest_stretch(at.u, control)
+                                               : std::numeric_limits<double>::infinity();
+        NewtonState reached = newton_.run(u, next_factors, wanted, most, work, control,
+                                          std::exchange(at.factor, nullptr), left, most_stretch);
         if (reached.iterations == 0) reached.stable = stable;
         const int still_left = left - reached.iterations;
         if (reached.converged && leaves(reached, work, control))
@@ -115,6 +140,7 @@ NewtonState NonlinearSolver::followed(const NonlinearState& from, const MotionPa
         iterations += reached.iterations;
         if (!reached.converged) {
             failed.crushed = reached.crushed;
+            failed_at = next;
             length = 0.5 * (next - part);
             continue;
         }
@@ -122,6 +148,8 @@ NewtonState NonlinearSolver::followed(const NonlinearState& from, const MotionPa
         keep(at.factor);
         part = next;
         length = std::min(2.0 * length, 1.0);
+        // Loads that failed already most likely fail again, at many times the cost of loads that are borne.
+        if (loads_only && failed_at > part) length = std::min(length, 0.5 * (failed_at - part));
         if (part < 1.0 && path.largest_angle() > 0.0) length = std::min(length, kStepAngle / path.largest_angle());
     }
     at.iterations = iterations;
@@ -129,6 +157,8 @@ NewtonState NonlinearSolver::followed(const NonlinearState& from, const MotionPa
         if (failed.crushed < 0) failed.crushed = at.crushed;  // the steps were used up
         failed.iterations = iterations;
         failed.u = at.u;
+        failed.least_J = at.least_J;
+        if (loads_only) failed.share = part;
         return failed;
     }
     return at;
@@ -159,9 +189,9 @@ NonlinearSolver::StatePtr NonlinearSolver::advance(const NonlinearState& from, c
     }
     if (!state.converged) {
         const Eigen::Vector4i corners = elements().elements().col(std::max(state.crushed, 0)).head<4>();
-        throw NoEquilibriumError(newton_.loads().size() > 0 ? "no equilibrium was found for these motions and loads."
-                                                            : "no equilibrium was found for these motions.",
-                                 elements().positions()(Eigen::all, corners).rowwise().mean());
+        throw NoEquilibriumError(
+            without_equilibrium(state, newton_.loads().size() > 0, from.newton().factors.isZero(0.0)),
+            elements().positions()(Eigen::all, corners).rowwise().mean());
     }
     const int left = most_steps - state.iterations;
     // By a factor from rest alone, a body may come to a state that it would leave.

@@ -76,9 +76,9 @@ std::shared_ptr<const SparseCholesky> Newton::factor_at(const Eigen::VectorXd& u
 
 NewtonState Newton::run(Eigen::VectorXd u, const Eigen::VectorXd& factors, double tolerance, int most_iterations,
                         NewtonWork& work, Control& control, std::shared_ptr<const SparseCholesky> before,
-                        int most_steps) const {
+                        int most_steps, double most_stretch) const {
     return NewtonRun(*this, std::move(u), factors, tolerance, work, control, std::move(before))
-        .run(most_iterations, most_steps);
+        .run(most_iterations, most_steps, most_stretch);
 }
 
 NearSolution Newton::solve_near(const Eigen::VectorXd& u, const Eigen::VectorXd& factors, const SparseCholesky& factor,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -28,6 +29,8 @@ struct NewtonState {
     double energy = 0.0;  ///< stored in the body
     double least_J = 1.0;
     int crushed = -1;  ///< the element of least J
+    /// Where loads alone changed and no equilibrium was found: the part of their change up to which there was one.
+    std::optional<double> share = std::nullopt;
     /// Factorised tangent of a state close by: on the way to this one, where the residual was `factor_residual`, or
     /// before it (1).
     std::shared_ptr<const SparseCholesky> factor = nullptr;
@@ -71,9 +74,11 @@ public:
     /// suffice; what was reached is returned all the same. Throws SolveError, Cancelled.
     /// before: a factor of a tangent near by. It preconditions the steps, for as long as a few iterations do, down to
     /// where the solution is close; there one factor is made that serves the rest. It is let go of before that.
+    /// most_stretch: a run out of a state that is not stable ends, not converged, where it stretches the body more.
     NewtonState run(Eigen::VectorXd u, const Eigen::VectorXd& factors, double tolerance, int most_iterations,
                     NewtonWork& work, Control& control, std::shared_ptr<const SparseCholesky> before = nullptr,
-                    int most_steps = kMostEquilibriumSteps) const;
+                    int most_steps = kMostEquilibriumSteps,
+                    double most_stretch = std::numeric_limits<double>::infinity()) const;
     /// A push along the most unstable direction that lowers the energy less the loads' work; u itself where there is
     /// none.
     Eigen::VectorXd pushed(const NewtonState& state, NewtonWork& work, Control& control) const;

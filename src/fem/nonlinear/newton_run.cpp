@@ -184,7 +184,7 @@ bool NewtonRun::leap(const Eigen::VectorXd& step, double slope) {
     return false;
 }
 
-NewtonState NewtonRun::run(int most_iterations, int most_steps) {
+NewtonState NewtonRun::run(int most_iterations, int most_steps, double most_stretch) {
     int unhindered = 0;
     most_steps = std::min(most_steps, kMoreWhereProjected * most_iterations);
     while (state_.residual > tolerance_ && unhindered < most_iterations && state_.iterations < most_steps) {
@@ -197,6 +197,9 @@ NewtonState NewtonRun::run(int most_iterations, int most_steps) {
         }
         unhindered += state_.stable ? 1 : 0;
         ++state_.iterations;
+        if (std::isfinite(most_stretch) && !state_.stable &&
+            newton_.tangent().elements().largest_stretch(state_.u, control_) > most_stretch)
+            break;
     }
     state_.converged = state_.residual <= tolerance_;
     state_.least_J = energy_.least_J;

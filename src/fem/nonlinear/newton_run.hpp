@@ -14,7 +14,7 @@ class NewtonRun {
 public:
     NewtonRun(const Newton& newton, Eigen::VectorXd u, const Eigen::VectorXd& factors, double tolerance,
               NewtonWork& work, Control& control, std::shared_ptr<const SparseCholesky> before);
-    NewtonState run(int most_iterations, int most_steps);
+    NewtonState run(int most_iterations, int most_steps, double most_stretch);
 
 private:
     /// Where it is, and what is known there.

@@ -59,7 +59,8 @@ void NonlinearSolver::require_faces(const Eigen::VectorXd& prescribed) const {
     };
     for (const Eigen::Vector3i& face : faces_)
         if (!(area(present, face) > kFlattened * area(rest_positions_, face)))
-            throw NoEquilibriumError("these motions flatten a part of a handle.", rest_positions_.col(face[0]));
+            throw NoEquilibriumError("these motions flatten a part of a handle. The body is crushed most near",
+                                     rest_positions_.col(face[0]));
 }
 
 std::shared_ptr<const WarpedStart> NonlinearSolver::rest(NewtonWork& work, Control& control) const {
