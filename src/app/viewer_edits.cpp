@@ -5,10 +5,14 @@
 #include <vector>
 
 #include "app/viewer_state.hpp"
+#include "base/text.hpp"
 
 namespace elastolab {
 
 namespace {
+
+/// Of the largest displacement: as far apart two answers to the same question are, of one equilibrium.
+constexpr double kSameShape = 1e-3;
 
 /// Of what a person selects, each by its number.
 struct Names {
@@ -155,6 +159,32 @@ void ViewerState::remove_fixed_set(int set) {
     scene_->remove_fixed_set(set);
     scene_->commit();
     gestures.select_fixed(-1);
+}
+
+void ViewerState::begin_from_rest() {
+    finish_gesture();
+    const MethodRunner& runner = simulation.runner(method);
+    if (runner.equilibrium() == nullptr) return;
+    from_rest_ = {method, scene_->revision(), runner.displacement()};
+    simulation.begin_from_rest(method);
+}
+
+void ViewerState::tell_from_rest() {
+    if (!from_rest_) return;
+    const MethodRunner& runner = simulation.runner(from_rest_->method);
+    const Eigen::VectorXd &before = from_rest_->before, &now = runner.displacement();
+    if (from_rest_->revision != scene_->revision() || runner.crushed() || now.size() != before.size())
+        return from_rest_.reset();
+    if (runner.equilibrium() == nullptr || !runner.converged()) return;
+    const auto largest = [](const Eigen::VectorXd& u) {
+        return u.reshaped(3, u.size() / 3).colwise().norm().maxCoeff();
+    };
+    const double other = largest(now - before) / std::max(largest(before), largest(now));
+    messages.note(other < kSameShape
+                      ? "From rest the body comes to the same shape."
+                      : "From rest the body comes to another shape, up to " + readable_number(100.0 * other, 2) +
+                            " % of its largest displacement away: both are equilibria.");
+    from_rest_.reset();
 }
 
 void ViewerState::set_young_modulus(double value) {

@@ -18,7 +18,9 @@ void ViewerSession::draw_frame() {
     panels_.visit_user_texts(state_, [&](std::string_view text) { gui_.want_characters(text); });
     gui_.begin(events, now - std::exchange(last_frame_seconds_, now));
     const Layout layout = layout_of(window_.size(), gui_.scale(), state_.display);
-    window_.set_title(state_.blank() ? "Elastolab" : state_.files.title() + " \u2013 Elastolab");
+    // What a film moves is no change of the scene.
+    if (!state_.posed_for_film)
+        window_.set_title(state_.blank() ? "Elastolab" : state_.files.title() + " \u2013 Elastolab");
     arrange(layout);
     times.gui_ms = 1e3 * part.seconds();
 
@@ -42,7 +44,7 @@ void ViewerSession::draw_frame() {
     part = {};
     const double ratio = static_cast<double>(window_.framebuffer_size().x()) / window_.size().x();
     const int n_drawn = renderer_.draw(state_, palette(), ratio, detail_at(now, ratio));
-    renderer_.show(state_, ratio, window_.framebuffer_size());
+    renderer_.show(state_, palette(), ratio, window_.framebuffer_size());
     times.draw_ms = 1e3 * part.seconds();
     // The first picture takes long, as shaders are compiled for it. What workers have ready by then has not to wait.
     if (state_.measurements.frame == 0) guarded([&] { state_.update_displacements(); });

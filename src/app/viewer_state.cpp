@@ -215,6 +215,7 @@ bool ViewerState::update_displacements() {
     simulated_ = true;
     const bool changed = simulation.update(*scene_, needed_kinds(), choices) || has_exported;
     place_grips();
+    tell_from_rest();
     for (const MethodKind kind : simulation.take_dropped())
         messages.note(title(kind) + " was let go to keep memory free. It is computed again when it is chosen.");
     const std::vector<int>& patch = gestures.hover().patch;

@@ -98,6 +98,8 @@ public:
     void remove_fixed_set(int set);
     void set_young_modulus(double value);
     void select_method(MethodKind kind);
+    /// Finds the equilibrium of a method that is not linear anew, from rest, and tells whether it is another.
+    void begin_from_rest();
     void frame_body();
 
     /// The number of viewports has changed: frames the body, except the first time that a scene saved with its
@@ -141,10 +143,18 @@ private:
     void take_step(const std::function<void()>& step);
     std::optional<GripForce> present_force(int handle) const;
     void take_wanted_force();
+    void tell_from_rest();
 
     std::unique_ptr<LiveScene> scene_;
     std::unique_ptr<VertexGraph> graph_;
     std::uint64_t scene_number_ = 0;
+    /// An equilibrium that is found anew, from rest.
+    struct FromRest {
+        MethodKind method;
+        std::uint64_t revision;  ///< of the scene
+        Eigen::VectorXd before;  ///< displacements
+    };
+    std::optional<FromRest> from_rest_;
     std::string moved_by_force_;   ///< a handle whose force is waited for
     bool has_saved_view_ = false;  ///< the scene was saved with its camera
     bool simulated_ = false;       ///< something was computed already

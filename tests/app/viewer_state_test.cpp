@@ -294,6 +294,31 @@ TEST(ViewerState, HandlesMayGoBeforeOneThatAForceMoves) {
     }
 }
 
+/// An end turned by 120 degrees, and pushed on to 200: 160 the other way are nearer.
+TEST(ViewerState, TellsWhetherTheEquilibriumFromRestIsAnother) {
+    Stage stage;
+    stage.open(test::cube_document_with_handle(2));
+    stage.state.select_method(kNonlinearFem);
+    const auto turned = [](double degrees) {
+        return AffineMotion{.rotate = {.axis = {1, 0, 0}, .degrees = degrees, .center = {1, 0.5, 0.5}}};
+    };
+    stage.scene().set_motion(0, turned(120));
+    stage.settle();
+    const auto told = [&] {
+        stage.state.begin_from_rest();
+        stage.settle();
+        return stage.state.messages.all().empty() ? std::string() : stage.state.messages.all().back().text;
+    };
+    EXPECT_THAT(told(), HasSubstr("the same shape"));
+    VertexMotion pushed;
+    const Eigen::Matrix3Xd u = displacements(Motion(turned(200)), stage.scene().rest_positions(0));
+    for (Eigen::Index i = 0; i < u.cols(); ++i) pushed.displacements.emplace_back(u.col(i));
+    stage.scene().set_motion(0, pushed);
+    stage.settle();
+    EXPECT_THAT(told(), HasSubstr("another shape"));
+    EXPECT_THAT(told(), HasSubstr("the same shape"));
+}
+
 /// The forces that are known are those of the method before, which answered in this one's place.
 TEST(ViewerState, AMethodWhoseSetWasCancelledShowsNoForcesOfTheOneBefore) {
     Stage stage;

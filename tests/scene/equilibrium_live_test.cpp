@@ -145,6 +145,29 @@ TEST_F(LiveEquilibrium, FullTurnsAreWoundUpAndUnwound) {
     expect_converged(solved.displacement.reshaped());
 }
 
+/// An end that is pushed on from 120 to 200 degrees, by displacements, which know nothing of turns.
+TEST_F(LiveEquilibrium, OneThatIsFoundAnewIsThatFromRest) {
+    ask(twist(120));
+    bench.settle(scene);
+    const Eigen::Matrix3Xd pushed = displacements(Motion(twist(200)), scene.rest_positions(0));
+    VertexMotion motion;
+    for (Eigen::Index i = 0; i < pushed.cols(); ++i) motion.displacements.emplace_back(pushed.col(i));
+    scene.set_motion(0, motion);
+    bench.settle(scene);
+    const Eigen::VectorXd wound = u(), from_rest = truth(scene, bench.choices.of(kNonlinearFem));
+    ASSERT_GT((wound - from_rest).norm(), 0.5 * wound.norm()) << "200 degrees, and 160 the other way";
+    bench.simulation.begin_from_rest(kNonlinearFem);
+    bench.update(scene);
+    EXPECT_TRUE(runner().following());
+    EXPECT_EQ(runner().equilibrium(), nullptr);
+    EXPECT_EQ(u(), wound) << "what is shown stays until the other is there";
+    bench.settle(scene);
+    expect_converged(from_rest);
+    bench.simulation.begin_from_rest(kNonlinearFem);
+    bench.settle(scene);
+    expect_converged(from_rest);
+}
+
 TEST_F(LiveEquilibrium, AMotionWithoutAnEquilibriumKeepsTheLastAndSaysWhere) {
     scene = bar(kHalf);
     bench.settle(scene);
@@ -252,6 +275,14 @@ TEST_F(LiveForce, AnotherHandleUnderAForceLeavesTheBodyWhereItIsUntilBothAreInEq
     expect_no_jump_and_no_early_answer(before);
     scene.set_force(handle, GripForce{{0.0, 1.0, 0.2}, {0.0, 0.0, 0.0}});
     expect_no_jump_and_no_early_answer(runner().displacement());
+}
+
+TEST_F(LiveForce, FoundAnewFromRestIsTheSameWithoutAJump) {
+    bench.settle(scene);
+    const Eigen::VectorXd before = runner().displacement();
+    bench.simulation.begin_from_rest(kNonlinearFem);
+    EXPECT_TRUE(runner().following());
+    expect_no_jump_and_no_early_answer(before);
 }
 
 TEST_F(LiveForce, AHandleThatIsMovedIsFollowedUntilTheForceOfTheOtherOneIsMet) {

@@ -161,6 +161,7 @@ private:
         int handle = -1;
         Grabbed grabbed = Grabbed::present_handle;
         bool moved = false;
+        bool had_force = false;                             ///< which moved it when it was grabbed
         int vertex = -1;                                    ///< under the cursor
         Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< of the surface there when it was grabbed
         PullMode mode = PullMode::plane;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <Eigen/Geometry>
+#include <utility>
 
 #include "app/input/gestures.hpp"
 #include "elasticity/rotation.hpp"
@@ -45,6 +46,7 @@ void Gestures::begin_pull(GestureContext& context, int handle, Grabbed grabbed, 
     pull_.place = context.targets[target_].positions->col(hit.vertex);
     const std::optional<GripForce>& force = context.scene.document().handles[static_cast<std::size_t>(handle)].force;
     const bool gives_way = grabbed == Grabbed::new_handle || force.has_value();
+    pull_.had_force = force.has_value();
     if (force) pull_.moment = force->moment;
     if (context.tools.pull_mode == PullMode::spring && gives_way) pull_.spring = context.tools.spring;
     set_baseline(context);
@@ -94,7 +96,10 @@ Eigen::Vector3d Gestures::pull_shift(const GestureContext& context) const {
 void Gestures::pull(GestureContext& context) {
     if (!gizmo_drag_ && pull_mode(context.tools) != pull_.mode) set_baseline(context);
     if (!pull_.moved && (cursor_ - press_cursor_).norm() < kClickPixels) return;
-    pull_.moved = true;
+    if (!std::exchange(pull_.moved, true) && pull_.had_force && (gizmo_drag_ || pull_.spring <= 0.0))
+        hint_ =
+            "A force moved this handle; now you do. Undo (Ctrl+Z) brings the force back. To change it, type it in the "
+            "panel or pull with a spring.";
     if (gizmo_drag_) return pull_by_gizmo(context);
     if (pull_.spring > 0.0) return pull_by_spring(context);
     if (pull_.mode != PullMode::turn && pull_.mode != PullMode::scale) {

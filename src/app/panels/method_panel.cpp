@@ -130,6 +130,21 @@ bool must_be_begun(const ViewerState& state) {
     return (now == State::idle || now == State::failed) && !will_begin;
 }
 
+/// At the right end of the row that is begun.
+void draw_from_rest(const PanelContext& context, const MethodRunner& runner) {
+    constexpr const char* kLabel = "From rest";
+    const float width = ImGui::CalcTextSize(kLabel).x + 2.0f * ImGui::GetStyle().FramePadding.x;
+    ImGui::SameLine();
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x - width);
+    ImGui::BeginDisabled(runner.equilibrium() == nullptr || runner.values().isZero(0.0));
+    if (ImGui::Button(kLabel)) context.state.begin_from_rest();
+    ImGui::EndDisabled();
+    tooltip(
+        "Finds the equilibrium again, straight from rest. A body that was pulled far and to and fro can stay in "
+        "another "
+        "one, as a bent strip can snap to either side.");
+}
+
 /// How far a worker is with the model, or with a set of held vertices, and a button that stops it, or one that begins
 /// again; between them another button of this text, unless it is empty. The row is there when nothing works, too, so
 /// that nothing below moves. Returns whether that other button was pressed.
@@ -146,6 +161,7 @@ bool draw_progress(const PanelContext& context, MethodRunner& runner, const std:
             error ? "the preview differed by " + formatted("%.*f", *error < 0.1 ? 1 : 0, 100.0 * *error) + " %" : "";
         ImGui::AlignTextToFramePadding();
         ImGui::TextColored(imgui_colour(context.palette.text_dim), "%s", text.c_str());
+        if (!context.state.method->linear) draw_from_rest(context, runner);
         return false;
     }
     const JobStatus status = runner.status();

@@ -66,8 +66,8 @@ std::pair<std::string, std::string> difference_words(const ViewerState& state, M
     const ShownBody* shown = state.shown.body(kind);
     if (!state.comparing() || shown == nullptr) return {};
     if (!shown->difference()) return {kind == state.compare.reference ? "reference" : "", ""};
-    return {"rms " + number_text(100.0 * shown->difference()->relative_rms) + " % of the rms",
-            "largest " + number_text(100.0 * shown->difference()->relative_max) + " % of the largest"};
+    return {"differs by " + number_text(100.0 * shown->difference()->relative_rms) + " % (rms)",
+            number_text(100.0 * shown->difference()->relative_max) + " % at most"};
 }
 
 /// Whose answer a viewport shows, how it is doing, and how far it is from the reference. No labels are to cover it.

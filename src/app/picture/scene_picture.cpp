@@ -3,6 +3,7 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -65,6 +66,13 @@ struct Area {
     int x = 0, y = 0, width = 0, height = 0;
 };
 
+void fill(Image& image, const Colour& colour) {
+    const auto byte = [](float part) { return static_cast<unsigned char>(std::lround(255.0f * part)); };
+    const std::array<unsigned char, 3> pixel = {byte(colour.r), byte(colour.g), byte(colour.b)};
+    image.pixels.resize(3 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = pixel[i % 3];
+}
+
 void copy_into(const Image& part, int x, int y, Image& whole) {
     for (int row = 0; row < part.height; ++row) {
         const auto from = part.pixels.begin() + std::ptrdiff_t{3} * row * part.width;
@@ -96,7 +104,7 @@ Image scene_picture(SceneRenderer& renderer, ViewerState& state, const Palette& 
                     int largest_tile) {
     require_possible(size);
     Image picture{size.x(), size.y(), {}};
-    picture.pixels.assign(3 * static_cast<std::size_t>(size.x()) * static_cast<std::size_t>(size.y()), 0);
+    fill(picture, palette.border);  // between the viewports
     if (state.shown.viewports.empty()) return picture;
     const LookGuard guard(state);
     const Viewport all = around(state.shown.viewports);
@@ -145,7 +153,7 @@ void write_picture(const std::filesystem::path& file, SceneRenderer& renderer, V
     state.display.grid = false;  // it has no edge
     const auto before = [&](float grey) {
         Palette plain = palette;
-        plain.background_top = plain.background_bottom = {grey, grey, grey, 1.0f};
+        plain.background_top = plain.background_bottom = plain.border = {grey, grey, grey, 1.0f};
         return scene_picture(renderer, state, plain, size);
     };
     finish(matte(before(0.0f), before(1.0f)));

@@ -216,9 +216,10 @@ int SceneRenderer::draw(const ViewerState& state, const Palette& palette, double
     return n_drawn;
 }
 
-void SceneRenderer::show(const ViewerState& state, double pixel_ratio, const Eigen::Vector2i& framebuffer) {
+void SceneRenderer::show(const ViewerState& state, const Palette& palette, double pixel_ratio,
+                         const Eigen::Vector2i& framebuffer) {
     bind_window(framebuffer.x(), framebuffer.y());
-    glClearColor(0.0f, 0.0f, 0.0f, 1.0f);  // between the viewports
+    glClearColor(palette.border.r, palette.border.g, palette.border.b, 1.0f);  // between the viewports
     glClear(GL_COLOR_BUFFER_BIT);
     for (std::size_t i = 0; i < pictures_.size(); ++i) {
         const Viewport& place = state.shown.viewports[i].place;

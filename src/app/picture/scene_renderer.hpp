@@ -37,8 +37,9 @@ public:
     int draw(const ViewerState& state, const Palette& palette, double pixel_ratio, const DrawingDetail& detail);
     /// Whether a viewport looks otherwise than when it was last drawn, whatever the detail.
     bool has_moved(const ViewerState& state, const Palette& palette, double pixel_ratio) const;
-    /// Copies the drawn viewports to the window of this size [framebuffer pixels].
-    void show(const ViewerState& state, double pixel_ratio, const Eigen::Vector2i& framebuffer);
+    /// Copies the drawn viewports to the window of this size [framebuffer pixels], and the colour of borders beside
+    /// them.
+    void show(const ViewerState& state, const Palette& palette, double pixel_ratio, const Eigen::Vector2i& framebuffer);
 
     /// Draws one viewport without the axes to `target`, which is bound. A tile has ambient occlusion where the depths
     /// of the whole are given, which draw_depths() has gathered from all tiles.

@@ -113,6 +113,12 @@ void EmbeddedRunner::prefetch(const Constraints& constraints) {
     runner_.prefetch(prefetched_->constraints().set);
 }
 
+void EmbeddedRunner::begin_from_rest() {
+    placer_.begin_from_rest();
+    runner_.begin_from_rest();
+    if (asked_) set_constraints(Constraints(*asked_));
+}
+
 /// Handles that nothing holds are where the scene has them, as if they were moved.
 void EmbeddedRunner::check_at_rest() {
     if (placing_grips()) return;

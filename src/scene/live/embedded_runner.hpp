@@ -71,6 +71,8 @@ public:
         runner_.retry();
         placer_.retry();
     }
+    /// MethodRunner::begin_from_rest, with handles under a force where that leads them.
+    void begin_from_rest();
     /// Whether a worker has not ended yet.
     bool stopping() const { return runner_.stopping() || placer_.working(); }
 

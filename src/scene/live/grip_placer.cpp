@@ -168,4 +168,13 @@ void GripPlacer::cancel() {
 
 void GripPlacer::retry() { worker_failure_.clear(); }
 
+void GripPlacer::begin_from_rest() {
+    if (!deformer_ || deformer_->linear()) return;
+    job_.cancel();
+    made_ = {};
+    exact_.reset();
+    asked_forces_.clear();
+    worker_failure_.clear();
+}
+
 }  // namespace elastolab

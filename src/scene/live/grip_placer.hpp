@@ -44,6 +44,8 @@ public:
     /// Stops the worker. What it was stopped at begins again with retry() or with the next change.
     void cancel();
     void retry();
+    /// Of a method that is not linear: what place() says next is found from rest.
+    void begin_from_rest();
 
     /// Whether the worker is at it: what place() said last is not the last word.
     bool placing() const { return deformer_ != nullptr && job_.running(); }

@@ -216,6 +216,16 @@ void MethodRunner::retry() {
     models_.retry();
 }
 
+void MethodRunner::begin_from_rest() {
+    if (!deformer() || deformer()->linear()) return;
+    sets_.begin_from_rest();
+    failure_.clear();
+    up_to_date_ = false;
+    following_ = true;  // what is shown stays until the equilibrium is there
+    tolerance_ = kFollowing;
+    ++version_;
+}
+
 const std::string& MethodRunner::failure() const {
     static const std::string none;
     if (!models_.failure().empty()) return models_.failure();

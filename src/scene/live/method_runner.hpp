@@ -70,6 +70,9 @@ public:
     /// begins again with retry() or with the next change.
     void cancel();
     void retry();
+    /// Of a method that is not linear: finds the equilibrium anew, from rest. An elastic body may have several, and one
+    /// that was pulled far can stay in another than a straight way from rest leads to.
+    void begin_from_rest();
     bool stopping() const { return models_.working() || sets_.working() || check_.working(); }
 
     State state() const;

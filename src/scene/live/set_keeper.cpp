@@ -159,6 +159,7 @@ SetKeeper::Event SetKeeper::take_solution(PreparedSet prepared) {
         motion_failure_ = current_.crushed->message;
         return Event::motion_failed;
     }
+    is_anew_ = false;
     current_.drag = std::move(prepared.drag);
     current_.whole = std::move(prepared.whole);
     current_.at = std::move(prepared.at);
@@ -248,6 +249,7 @@ void SetKeeper::prepare(const ConstrainedSet& set, Wish wish) {
     converging_ = false;
     solving_ = {};
     failed_.reset();
+    is_anew_ = false;
     const bool linear = model_->method().kind->linear, drags = rule_ == FrameRule::drag_columns || !linear;
     // An equilibrium with handles under a force where the scene has them would be none of theirs.
     const bool solves = linear || !same_as_wanted(set) || grip_places_ != GripPlaces::unknown;
@@ -301,6 +303,8 @@ Approach SetKeeper::approach_to(const Wish& wish) const {
     const bool has_start = current_.drag && current_.at && current_.drag->equilibrium();
     if (!has_start && found_) return {found_, {}};
     Way way = way_to(wish, has_start ? current_.at.get() : nullptr, handle_positions(*current_.deformer));
+    // What is remembered of these values may be what is not wanted; over a path it is not asked.
+    if (is_anew_ && way.from_rest && way.path.cols() == 0) way.path = Eigen::MatrixXd::Zero(wish.values.size(), 1);
     return {way.from_rest ? nullptr : current_.drag->equilibrium(), std::move(way.path)};
 }
 
@@ -338,6 +342,17 @@ void SetKeeper::solve_on_worker() {
         solved.solve_seconds = watch.seconds();
         return solved;
     });
+}
+
+void SetKeeper::begin_from_rest() {
+    job_.cancel();
+    current_.drag.reset();
+    current_.at.reset();
+    current_.crushed.reset();
+    found_.reset();
+    failed_.reset();
+    motion_failure_.clear();
+    is_anew_ = true;
 }
 
 void SetKeeper::update_on_worker() {

@@ -139,6 +139,8 @@ public:
         failed_.reset();
         may_converge_ = true;
     }
+    /// Of a method that is not linear: forgets the equilibrium at hand, so that the next one is found from rest.
+    void begin_from_rest();
     bool preparing() const { return job_.running(); }
     bool working() const { return job_.working(); }
     JobStatus status() const { return job_.status(); }
@@ -183,6 +185,7 @@ private:
     Wish solving_;                ///< what the worker solves for within the present set
     std::optional<Wish> failed_;  ///< that has no equilibrium
     bool may_hold_off_ = false;
+    bool is_anew_ = false;  ///< the next equilibrium is to be found from rest, whatever is known
     std::string failure_, motion_failure_;
     BackgroundJob<PreparedSet> job_;  // last: its thread ends before what it wakes is destroyed
 };

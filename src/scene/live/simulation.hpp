@@ -65,6 +65,8 @@ public:
     void prefetch(const Constraints& constraints);
     /// Tries again what failed or was stopped.
     void retry(MethodKind kind);
+    /// MethodRunner::begin_from_rest.
+    void begin_from_rest(MethodKind kind) { own(kind).begin_from_rest(); }
 
     MethodRunner& runner(MethodKind kind) { return own(kind).runner(); }
     const MethodRunner& runner(MethodKind kind) const { return embedded(kind).runner(); }

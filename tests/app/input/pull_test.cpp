@@ -367,6 +367,19 @@ TEST(Pull, ThroughASpringKeepsTheMomentOfAHandle) {
     EXPECT_EQ(force->moment, Eigen::Vector3d(0.001, 0, 0.002));
 }
 
+TEST(Pull, OfAHandleUnderAForceSaysThatTheForceIsGone) {
+    Stage stage;
+    stage.settle();
+    const int v = top_vertex(stage);
+    stage.drag(stage.pixel(v), stage.pixel(v) + kDrag);
+    EXPECT_EQ(stage.state.gestures.hint(), "");
+    stage.scene().set_force(0, GripForce{.force = {0, 0, 0.01}, .moment = {0, 0, 0}});
+    stage.settle();
+    stage.drag(stage.pixel(v), stage.pixel(v) + kDrag);
+    EXPECT_FALSE(stage.scene().document().handles[0].force);
+    EXPECT_THAT(stage.state.gestures.hint(), HasSubstr("Undo"));
+}
+
 TEST(Pull, WorksInEveryViewOfAComparison) {
     Stage stage;
     stage.state.compare.mode = CompareMode::side_by_side;
