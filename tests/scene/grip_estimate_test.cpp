@@ -141,6 +141,23 @@ TEST(EstimateOfSlenderBars, ByQuadraticFemIsIteratedFarEnough) {
     }
 }
 
+/// Three quarters too stiff, with forces that statics makes exact: differences of what is left of large ones.
+TEST(EstimateOfSlenderBars, ByFemIsIteratedFarEnough) {
+    Document document = long_bar(1, 100.0, GripForce{{0, 0, 0}, {0, 1e-4, 0}});
+    const auto expect_told = [&] {
+        const Solution solution = ten_nodes(document, kFem);
+        const double fine = reach_of(ten_nodes(document, kQuadraticFem));
+        const double error = std::abs(reach_of(solution) - fine) / fine;
+        EXPECT_GT(*solution.error_estimate, error);
+        EXPECT_LT(*solution.error_estimate, error * 2.0);
+        EXPECT_LT(*solution.force_error_estimate, 0.3);
+    };
+    expect_told();
+    document.loads = {{.name = "push", .select = document.handles[0].select, .value = ForceLoad{{0, 0, 1e-6}}}};
+    document.handles.clear();
+    expect_told();
+}
+
 /// A held bar whose end a handle holds under no force, loaded by its weight: the handle goes where linear theory says.
 TEST(HandleWithoutForce, FollowsWhateverElseActs) {
     for (const double stiffness : {1e3, 1e9}) {
