@@ -25,7 +25,8 @@ int root_of(std::vector<int>& parent, int i) {
 /// spurious shear, forces are too large by that factor times that part, in the better answer too, so that the
 /// difference of both does not show it. The smallest such part that was measured (Galerkin BEM, bending).
 constexpr double kShearForces = 0.1;
-double shear_over_stretch(const Body& body) { return 1.0 / (1.0 + body.material.poisson_ratio); }
+/// By how much more than at nu = 0, from where on the better answer shows it.
+double shear_over_stretch(const Body& body) { return std::max(0.0, 1.0 / (1.0 + body.material.poisson_ratio) - 1.0); }
 
 /// Part of all forces, added up by their sizes, that is the least which errors are compared with: where patches bear
 /// nothing in all, as under loads that balance each other, nothing else is there. Of a slender body it is less, as much
@@ -77,6 +78,10 @@ double largest_patch_reaction(const SurfaceMesh& surface, const ConstrainedPatch
         largest = std::max({largest, force.stableNorm(), (moment - centre.cross(force)).stableNorm() / radius});
     }
     return largest;
+}
+
+bool is_statically_determinate(const SurfaceMesh& surface, std::span<const int> fixed, std::span<const int> moved) {
+    return constrained_patches(surface, fixed, moved).size() <= 1;
 }
 
 double size_of(const SurfaceMesh& surface) {

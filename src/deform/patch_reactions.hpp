@@ -20,6 +20,10 @@ ConstrainedPatches constrained_patches(const SurfaceMesh& surface, std::span<con
 double largest_patch_reaction(const SurfaceMesh& surface, const ConstrainedPatches& patches,
                               const Reactions& reactions);
 
+/// Whether statics alone tells what these vertices bear, as of a body that one patch holds: reactions that balance the
+/// loads are exact then, whatever the mesh. Handles under a force are none of them.
+bool is_statically_determinate(const SurfaceMesh& surface, std::span<const int> fixed, std::span<const int> moved);
+
 /// From corner to corner of the surface's box [L].
 double size_of(const SurfaceMesh& surface);
 

@@ -16,7 +16,8 @@ namespace elastolab {
 /// The answer that ten-node elements are judged by under large deformations: the same with all edges halved, by one
 /// step of Newton's method from the state that is judged. It is solved as halved_reference is (fem/error_estimate.hpp),
 /// with the factorised tangent of that state. Nothing where an element that is halved has no positive volume, or either
-/// tangent is not positive definite, as in nearly incompressible bodies that are stretched far.
+/// tangent is not positive definite, or, next to a Poisson's ratio of 1/2, the step leaves much of the residual, as in
+/// nearly incompressible bodies that are stretched far.
 /// newton        of the ten-node elements
 /// vertices      constrained, all different; they hold the body
 /// displacements of all nodes of the ten-node elements; factors: of the loads

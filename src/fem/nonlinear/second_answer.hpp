@@ -23,8 +23,9 @@ struct JudgedAnswer {
     bool fits = true;  ///< memory suffices for a better answer; without, ten nodes are judged by four
 };
 
-/// A second, better answer. Of ten-node elements: the same with all edges halved (halved_answer), and where that says
-/// nothing, four nodes, which are worse by as much as linear theory has it. Of four-node elements: ten nodes. A body
+/// A second, better answer. Of ten-node elements: the same with all edges halved (halved_answer). Where that says
+/// nothing, beyond a Poisson's ratio of 0.45: what it says of the body with that ratio and the same constraints; below:
+/// four nodes, which are worse by as much as linear theory has it. Of four-node elements: ten nodes. A body
 /// that is free to move is pinned (deform/pinned_body.hpp). Nothing where none is found.
 /// Throws SolveError, Cancelled.
 std::optional<ReferenceAnswer> second_answer(const JudgedAnswer& judged, Control& control);
