@@ -48,35 +48,39 @@ void Probes::toggle(int vertex) {
 void Probes::clear() { *this = Probes(); }
 
 void Probes::record(double seconds, const Positions& rest, const ShownBody& body, const DisplaySettings& display,
-                    MethodKind reference) {
+                    MethodKind reference, const ProbeSource& source) {
     if (vertices_.empty() || display.deformation_scale == 0.0) return;
     const bool is_new = samples_.empty() || body.revision() != recorded_;
     if (!is_new && samples_.back().values.size() == vertices_.size()) return;
     recorded_ = body.revision();
-    if (is_new) samples_.push_back({seconds, field_title(display.field, reference), {}});
+    if (is_new)
+        samples_.push_back({seconds, display.field, field_title(display.field, reference, display.units), source, {}});
     Sample& sample = samples_.back();  // vertices are kept in the order in which they were added
     for (std::size_t i = sample.values.size(); i < vertices_.size(); ++i)
         sample.values.emplace_back(vertices_[i], probe(vertices_[i], rest, body, display.deformation_scale));
     if (samples_.size() > kMostSamples) samples_.pop_front();
 }
 
-std::vector<float> Probes::series(std::size_t probe) const {
+std::vector<float> Probes::series(std::size_t probe, Field field) const {
     std::vector<float> result;
     for (const Sample& sample : samples_) {
-        if (probe >= sample.values.size()) continue;  // not kept yet
+        if (sample.field != field || probe >= sample.values.size()) continue;  // not kept yet
         const ProbeValue& value = sample.values[probe].second;
-        result.push_back(static_cast<float>(value.field.value_or(value.displacement.norm())));
+        if (field == Field::none)
+            result.push_back(static_cast<float>(value.displacement.norm()));
+        else if (value.field)
+            result.push_back(static_cast<float>(*value.field));
     }
     return result;
 }
 
 void Probes::write_csv(const std::filesystem::path& file) const {
     AtomicFile out(file);
-    out.stream() << "time_s,field,vertex,x,y,z,ux,uy,uz,value,tx,ty,tz,sxx,syy,szz,sxy,syz,sxz\n";
+    out.stream() << "time_s,field,vertex,x,y,z,ux,uy,uz,value,tx,ty,tz,sxx,syy,szz,sxy,syz,sxz,method,state\n";
     CsvWriter row(out.stream());
     for (const Sample& sample : samples_)
         for (const auto& [vertex, value] : sample.values) {
-            row.number(sample.seconds).text(sample.field).number(vertex);
+            row.number(sample.seconds).text(sample.title).number(vertex);
             row.numbers(value.position).numbers(value.displacement);
             if (value.field)
                 row.number(*value.field);
@@ -84,6 +88,7 @@ void Probes::write_csv(const std::filesystem::path& file) const {
                 row.nothing();
             add_if_known(row, value.traction);
             add_if_known(row, value.stress);
+            row.text(sample.source.method).text(sample.source.state);
             row.end_row();
         }
     out.commit();

@@ -20,6 +20,11 @@ struct ProbeValue {
 };
 ProbeValue probe(int vertex, const Positions& rest, const ShownBody& body, double deformation_scale);
 
+/// Whose answer values are of, and how far it is: "exact", "converging", "following" or "preview".
+struct ProbeSource {
+    std::string method, state;
+};
+
 /// Vertices whose values a person keeps an eye on, and what these were over the last changes. Owned by one thread.
 class Probes {
 public:
@@ -32,19 +37,21 @@ public:
 
     /// Adds what is shown now, when that is not what was added last. `seconds`: of the clock of frames.
     void record(double seconds, const Positions& rest, const ShownBody& body, const DisplaySettings& display,
-                MethodKind reference);
+                MethodKind reference, const ProbeSource& source);
     std::size_t n_samples() const { return samples_.size(); }
-    /// Samples of one probe since it is kept, oldest first: the shown field where there is one, else how far the vertex
-    /// has moved [L].
-    std::vector<float> series(std::size_t probe) const;
-    /// Rows of time_s,field,vertex,x,y,z,ux,uy,uz,value,tx,ty,tz,sxx,syy,szz,sxy,syz,sxz. Throws Error when it cannot
-    /// be written.
+    /// Samples of one probe since it is kept, oldest first, where they are known: of this field, or, where it is none,
+    /// how far the vertex has moved [L].
+    std::vector<float> series(std::size_t probe, Field field) const;
+    /// Rows of time_s,field,vertex,x,y,z,ux,uy,uz,value,tx,ty,tz,sxx,syy,szz,sxy,syz,sxz,method,state. Throws Error
+    /// when it cannot be written.
     void write_csv(const std::filesystem::path& file) const;
 
 private:
     struct Sample {
         double seconds;
-        std::string field;
+        Field field;
+        std::string title;  ///< of the field, with its unit
+        ProbeSource source;
         std::vector<std::pair<int, ProbeValue>> values;  ///< of the vertices that were kept then
     };
     std::vector<int> vertices_;

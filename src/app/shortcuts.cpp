@@ -118,6 +118,32 @@ std::vector<Shortcut> make_shortcuts() {
     return all;
 }
 
+/// What does it, as view_drag() and view_scroll() have it.
+struct ViewHelp {
+    const char *turn, *move, *zoom;
+};
+
+ViewHelp view_help(Navigation navigation) {
+    switch (navigation) {
+        case Navigation::blender:
+            return {"middle button, on the body too; left beside the body",
+                    "Shift + middle; right; Shift + left beside the body", "wheel; Ctrl + middle"};
+        case Navigation::paraview:
+            return {"left button beside the body; Shift or Ctrl + middle", "middle; Shift + right or left",
+                    "wheel; right; Ctrl + left beside the body"};
+        case Navigation::polyscope:
+            return {"left button beside the body; middle", "right; Shift + left or middle; Ctrl + middle",
+                    "wheel; Ctrl + Shift + left or right"};
+        case Navigation::trackpad:
+            return {"two fingers; left button beside the body; middle", "two fingers with Shift; right",
+                    "two fingers with Ctrl"};
+        case Navigation::standard:
+            break;
+    }
+    return {"left button beside the body; middle, on the body too", "right; Shift + left or middle; Ctrl + middle",
+            "wheel, to the cursor"};
+}
+
 }  // namespace
 
 const std::vector<Shortcut>& shortcuts() {
@@ -125,18 +151,14 @@ const std::vector<Shortcut>& shortcuts() {
     return all;
 }
 
-std::span<const GestureHelp> gesture_help() {
-    static constexpr std::array<GestureHelp, 20> all = {
+std::vector<GestureHelp> gesture_help(Navigation navigation) {
+    static constexpr std::array<GestureHelp, 16> all = {
         {{"drag on the body", "pull the patch under the cursor, in the plane of the screen"},
          {"... with Shift", "along the surface normal"},
          {"... with X, Y or Z", "along an axis"},
          {"... with Ctrl or R", "turn the patch"},
          {"... with Alt or S", "scale the patch: up larger, down smaller"},
          {"arrow or ring", "move or turn the selected handle, or the plane of the cut; with Ctrl in steps"},
-         {"drag beside it", "turn the view"},
-         {"middle button", "turn the view, on the body too"},
-         {"right; Shift + drag", "move the view; also Shift or Ctrl + middle button"},
-         {"wheel", "zoom to the cursor"},
          {"letter of the axes", "look along that axis; again: from the other side"},
          {"double click", "frame the body"},
          {"brush: drag, click", "fix vertices; with Shift free them"},
@@ -148,7 +170,11 @@ std::span<const GestureHelp> gesture_help() {
          {"end of an arrow", "drag it: another size or direction of the load; Shift, X, Y, Z as for a pull"},
          {"touch screen", "one finger is the left button; two move and zoom the view, three turn it"},
          {"drop a file", "open it"}}};
-    return all;
+    const ViewHelp view = view_help(navigation);
+    std::vector<GestureHelp> result(all.begin(), all.end());
+    result.insert(result.begin() + 6,
+                  {{"to turn the view", view.turn}, {"to move it", view.move}, {"to zoom", view.zoom}});
+    return result;
 }
 
 bool run_shortcut(const InputEvent& event, ViewerState& state, Panels& panels) {

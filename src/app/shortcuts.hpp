@@ -1,10 +1,10 @@
 #pragma once
 
 #include <functional>
-#include <span>
 #include <string>
 #include <vector>
 
+#include "app/input/navigation.hpp"
 #include "app/window/input_event.hpp"
 
 namespace elastolab {
@@ -27,7 +27,8 @@ struct GestureHelp {
 };
 
 const std::vector<Shortcut>& shortcuts();
-std::span<const GestureHelp> gesture_help();
+/// With what turns, moves and zooms the view by this choice of the mouse.
+std::vector<GestureHelp> gesture_help(Navigation navigation);
 
 /// Runs what belongs to a key event; false when nothing does.
 bool run_shortcut(const InputEvent& event, ViewerState& state, Panels& panels);

@@ -35,8 +35,7 @@ void ViewerSession::draw_frame() {
 
     part = {};
     guarded([&] { state_.update_picture(); });
-    if (const ShownBody* body = state_.shown.body(state_.method))
-        state_.probes.record(now, state_.scene().mesh().vertices, *body, state_.display, state_.compare.reference);
+    state_.record_probes(now);
     keep_step();
     renderer_.upload(state_, palette());
     times.upload_ms = 1e3 * part.seconds();

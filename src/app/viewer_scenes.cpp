@@ -133,6 +133,19 @@ void ViewerState::take_scene(LoadedScene loaded) {
     note_defects(*scene_, method, messages);
 }
 
+void ViewerState::record_probes(double now) {
+    const ShownBody* body = shown.body(method);
+    const EmbeddedRunner& answer = simulation.answer(method);
+    const MethodRunner& runner = answer.runner();
+    if (body == nullptr || !runner.answers() || !answer.shows(scene_->mesh())) return;
+    const std::string state = simulation.previewing(method) ? "preview"
+                              : runner.following()          ? "following"
+                              : runner.converged()          ? "exact"
+                                                            : "converging";
+    probes.record(now, scene_->mesh().vertices, *body, display, compare.reference,
+                  {std::string(name(runner.method().kind)), state});
+}
+
 void ViewerState::save_probes(const fs::path& file) {
     attempt(messages, [&] {
         probes.write_csv(file);

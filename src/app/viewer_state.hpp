@@ -79,6 +79,8 @@ public:
     /// What to begin with, for the scene that is there and the one that is being opened.
     void start_with(const AskedFor& asked);
     void save_probes(const std::filesystem::path& file);
+    /// Adds what the present method shows of this scene, when it is new.
+    void record_probes(double now);
     /// A handle is to be moved by the force that moves it now, as soon as that is known.
     void move_by_force(int handle);
     /// What the present method shows, to be written.

@@ -20,10 +20,7 @@ protected:
         vertex = stage.vertex_near({1.0, 0.5, 1.0});
     }
     const ShownBody& body() { return *stage.state.shown.body(stage.state.method); }
-    void record(double seconds) {
-        stage.state.probes.record(seconds, stage.scene().mesh().vertices, body(), stage.state.display,
-                                  stage.state.compare.reference);
-    }
+    void record(double seconds) { stage.state.record_probes(seconds); }
 
     test::Stage stage;
     int vertex;
@@ -62,15 +59,16 @@ TEST_F(Probing, KeepsARowForEachChange) {
     stage.scene().set_motion(handle, AffineMotion{.translate = {0.25, 0.0, 0.0}});
     stage.settle();
     record(2.0);
-    EXPECT_EQ(stage.state.probes.series(0), (std::vector{0.0f, 0.25f}));
+    EXPECT_EQ(stage.state.probes.series(0, Field::none), (std::vector{0.0f, 0.25f}));
     const test::TemporaryFolder folder;
     stage.state.save_probes(folder.path() / "probes.csv");
     std::ifstream file(folder.path() / "probes.csv");
     std::string head, first, second, more;
     std::getline(file, head), std::getline(file, first), std::getline(file, second);
-    EXPECT_EQ(head, "time_s,field,vertex,x,y,z,ux,uy,uz,value,tx,ty,tz,sxx,syy,szz,sxy,syz,sxz");
+    EXPECT_EQ(head, "time_s,field,vertex,x,y,z,ux,uy,uz,value,tx,ty,tz,sxx,syy,szz,sxy,syz,sxz,method,state");
     EXPECT_TRUE(first.starts_with("0,," + std::to_string(vertex) + ",1,"));
     EXPECT_THAT(second, testing::HasSubstr(",0.25,0,0,,"));
+    EXPECT_TRUE(second.ends_with("," + std::string(name(stage.state.method)) + ",exact")) << second;
     EXPECT_FALSE(std::getline(file, more));
     stage.state.probes.toggle(vertex);
     EXPECT_TRUE(stage.state.probes.vertices().empty());
@@ -93,8 +91,8 @@ TEST_F(Probing, EachVertexHasItsOwnPast) {
     probes.toggle(other);
     record(1.5);  // what is shown already
     move_to(0.5, 2.0);
-    EXPECT_EQ(probes.series(0), (std::vector{0.0f, 0.25f, 0.5f}));
-    EXPECT_EQ(probes.series(1).size(), 2u);
+    EXPECT_EQ(probes.series(0, Field::none), (std::vector{0.0f, 0.25f, 0.5f}));
+    EXPECT_EQ(probes.series(1, Field::none).size(), 2u);
     const test::TemporaryFolder folder;
     stage.state.save_probes(folder.path() / "probes.csv");
     std::ifstream file(folder.path() / "probes.csv");
@@ -103,7 +101,38 @@ TEST_F(Probing, EachVertexHasItsOwnPast) {
     EXPECT_EQ(n_rows, 5);
     probes.toggle(vertex);
     EXPECT_EQ(probes.vertices(), std::vector{other});
-    EXPECT_EQ(probes.series(0).size(), 2u);
+    EXPECT_EQ(probes.series(0, Field::none).size(), 2u);
+}
+
+/// Lengths and stresses are no one curve.
+TEST_F(Probing, ASeriesIsOfOneField) {
+    stage.state.probes.toggle(vertex);
+    record(0.0);
+    const int handle = stage.scene().add_handle(std::vector{vertex});
+    stage.scene().set_motion(handle, AffineMotion{.translate = {0.25, 0.0, 0.0}});
+    stage.state.display.field = Field::displacement_x;
+    stage.settle();
+    record(1.0);
+    EXPECT_EQ(stage.state.probes.series(0, Field::displacement_x), std::vector{0.25f});
+    EXPECT_EQ(stage.state.probes.series(0, Field::none), std::vector{0.0f});
+    EXPECT_EQ(stage.state.probes.series(0, Field::von_mises).size(), 0u);
+}
+
+/// What stands there until the next set is prepared is no answer to it.
+TEST_F(Probing, KeepsNothingOfASceneBefore) {
+    stage.state.probes.toggle(vertex);
+    record(0.0);
+    const int handle = stage.scene().add_handle(std::vector{vertex});
+    stage.scene().set_motion(handle, AffineMotion{.translate = {0.25, 0.0, 0.0}});
+    stage.frame();
+    stage.state.display.deformation_scale = 2.0;  // another picture
+    stage.state.update_picture();
+    const bool answers = stage.state.simulation.answer(stage.state.method).runner().answers();
+    record(1.0);
+    EXPECT_EQ(stage.state.probes.n_samples(), answers ? 2u : 1u);
+    stage.settle();
+    record(2.0);
+    EXPECT_EQ(stage.state.probes.series(0, Field::none).back(), 0.25f);
 }
 
 TEST_F(Probing, NamesTheMethodThatDifferencesAreTo) {

@@ -3,6 +3,8 @@
 #include <GLFW/glfw3.h>
 #include <gmock/gmock.h>
 
+#include <map>
+#include <regex>
 #include <set>
 
 #include "app/names.hpp"
@@ -32,6 +34,38 @@ TEST_F(Shortcuts, NoKeyMeansTwoThingsAndEachSaysWhatItDoes) {
         EXPECT_TRUE(seen.insert({shortcut.key, shortcut.modifiers}).second) << shortcut.keys;
         EXPECT_FALSE(shortcut.keys.empty());
         EXPECT_FALSE(shortcut.action.empty());
+    }
+}
+
+/// "Shift + left or middle; right": what the help says of a mouse is what that mouse does.
+TEST(GestureHelp, SaysWhatEachMouseDoes) {
+    const std::map<std::string, ViewDrag> rows = {
+        {"to turn the view", ViewDrag::orbit}, {"to move it", ViewDrag::pan}, {"to zoom", ViewDrag::zoom}};
+    const std::map<std::string, int> buttons = {
+        {"left", GLFW_MOUSE_BUTTON_LEFT}, {"middle", GLFW_MOUSE_BUTTON_MIDDLE}, {"right", GLFW_MOUSE_BUTTON_RIGHT}};
+    const std::regex gesture("((?:(?:Shift|Ctrl)(?: \\+ | or ))*)(left|middle|right)(?: or (left|middle|right))?");
+    for (const Navigation navigation : {Navigation::standard, Navigation::blender, Navigation::paraview,
+                                        Navigation::polyscope, Navigation::trackpad}) {
+        int n_said = 0;
+        for (const GestureHelp& help : gesture_help(navigation)) {
+            const auto row = rows.find(help.gesture);
+            if (row == rows.end()) continue;
+            const std::string text = help.action;
+            for (std::sregex_iterator at(text.begin(), text.end(), gesture), end; at != end; ++at) {
+                const std::string modifiers = (*at)[1];
+                const bool either = modifiers.find("or") != std::string::npos;
+                const int shift = modifiers.find("Shift") != std::string::npos ? GLFW_MOD_SHIFT : 0,
+                          control = modifiers.find("Ctrl") != std::string::npos ? GLFW_MOD_CONTROL : 0;
+                for (const std::string& button : {at->str(2), at->str(3)}) {
+                    if (button.empty()) continue;
+                    ++n_said;
+                    for (const int held : either ? std::vector{shift, control} : std::vector{shift | control})
+                        EXPECT_EQ(view_drag(navigation, buttons.at(button), held), row->second)
+                            << text << ": " << at->str();
+                }
+            }
+        }
+        EXPECT_GE(n_said, 3) << static_cast<int>(navigation);
     }
 }
 

@@ -63,7 +63,7 @@ require "primitive" '## Scene files' < <(sed -nE 's/^        \{"([a-z-]+)",$/\1/
 # The keys by what they do, since methods' keys and pairs share a row.
 readonly shortcuts=$root/src/app/shortcuts.cpp
 require "shortcut" '### Keys' < <(sed -nE 's/^ *\{GLFW_KEY_[^"]*"[^"]+", "([^"]+)".*/\1/p' "$shortcuts")
-require "gesture" '### Mouse' < <(sed -n '/gesture_help()/,/^}/p' "$shortcuts" | sed -nE 's/^ *\{+"([^"]+)", .*/\1/p')
+require "gesture" '### Mouse' < <(sed -n '/gesture_help(Navigation/,/^}/p' "$shortcuts" | sed -nE 's/^ *\{+"([^"]+)", .*/\1/p')
 require "option" '## Building and testing' < <(sed -nE 's/^(option\(|set\()(ELASTOLAB_[A-Z]+) .*/\2/p' \
   "$root/CMakeLists.txt" | code)
 

@@ -145,6 +145,24 @@ TEST_F(LiveEquilibrium, FullTurnsAreWoundUpAndUnwound) {
     expect_converged(solved.displacement.reshaped());
 }
 
+/// The worker is stopped, and the answer that is there is called what it is.
+TEST_F(LiveEquilibrium, AMotionThatIsTakenBackIsNotSolvedFor) {
+    scene = bar(kEnd, 5);
+    ask(twist(20));
+    bench.settle(scene);
+    const Eigen::VectorXd before = u();
+    ask(twist(150));
+    ASSERT_TRUE(runner().following());
+    ask(twist(20));
+    EXPECT_FALSE(runner().following());
+    EXPECT_EQ(runner().state(), State::ready);
+    EXPECT_LT((u() - before).norm(), kConverged * before.norm());
+    const std::uint64_t version = runner().version();
+    bench.settle(scene);
+    EXPECT_EQ(runner().version(), version) << "nothing came of the other motion";
+    expect_converged(before);
+}
+
 /// An end that is pushed on from 120 to 200 degrees, by displacements, which know nothing of turns.
 TEST_F(LiveEquilibrium, OneThatIsFoundAnewIsThatFromRest) {
     ask(twist(120));

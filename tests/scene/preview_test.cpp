@@ -139,6 +139,34 @@ TEST(ChangeOfMethod, ShowsWhatWasLookedAtUntilTheNewOneAnswers) {
     EXPECT_EQ(&bench.simulation.answer(kNonlinearFem), &bench.simulation.embedded(kNonlinearFem));
 }
 
+/// Of handles that are gone, or of others.
+TEST(ChangeOfMethod, ShowsNoAnswerToASceneBefore) {
+    LiveScene scene = pulled_cube(5);
+    Bench bench({kNonlinearFem});
+    bench.choices.complete_up_to = 0;
+    bench.settle(scene);
+    bench.shown = {kFem};
+    bench.settle(scene);
+    scene.clear_handles();
+    scene.set_motion(scene.add_handle(std::vector<int>{scene.mesh().n_vertices() - 1}),
+                     AffineMotion{.translate = {0, 0, 0.1}});
+    bench.settle(scene);
+    bench.shown = {kNonlinearFem};
+    bench.update(scene);
+    if (!bench.runner(kNonlinearFem).answers()) {  // else it was there in no time
+        EXPECT_EQ(bench.simulation.stand_in(kNonlinearFem), kFem);
+        expect_near(bench.simulation.answer(kNonlinearFem).displacement(), truth(scene, bench.choices.of(kFem)));
+    }
+    bench.settle(scene);
+    EXPECT_EQ(bench.simulation.stand_in(kNonlinearFem), nullptr);
+    EXPECT_LT(
+        (bench.simulation.answer(kNonlinearFem).displacement() - truth(scene, bench.choices.of(kNonlinearFem))).norm(),
+        1e-6);
+    bench.shown = {kFem};
+    bench.update(scene);
+    EXPECT_EQ(bench.simulation.stand_in(kFem), nullptr) << "its answer is one to this scene";
+}
+
 /// In a comparison, too: a body at rest would pass for its answer.
 TEST(ChangeOfMethod, ShowsWhatIsThereOfOthersBesideIt) {
     const LiveScene scene = pulled_cube(6);

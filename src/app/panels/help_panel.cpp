@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "app/panels/panel_context.hpp"
 #include "app/panels/widgets.hpp"
@@ -46,7 +47,8 @@ void draw_help(const PanelContext& context) {
     const float scale = context.gui.scale();
     ImGui::SetNextWindowPos({0.5f * screen.x, 0.5f * screen.y}, ImGuiCond_Always, {0.5f, 0.5f});
     const std::span<const Shortcut> keys = shortcuts();
-    const std::size_t of_keys = n_lines(keys), of_mouse = n_lines(gesture_help());
+    const std::vector<GestureHelp> gestures = gesture_help(context.state.tools.navigation);
+    const std::size_t of_keys = n_lines(keys), of_mouse = n_lines(gestures);
     const std::size_t beside_mouse =
         of_keys > of_mouse ? (of_keys - of_mouse) / 2 : 0;  // so that both columns end alike
     const float rows = static_cast<float>(std::max(of_mouse + beside_mouse, of_keys - beside_mouse));
@@ -59,7 +61,7 @@ void draw_help(const PanelContext& context) {
         const auto keys_of = [](const Shortcut& shortcut) { return shortcut.keys; };
         if (ImGui::BeginTable("help", n_columns, ImGuiTableFlags_SizingStretchSame)) {
             ImGui::TableNextColumn();
-            draw_help_list("mouse", context, gesture_help(), [](const GestureHelp& help) { return help.gesture; });
+            draw_help_list("mouse", context, gestures, [](const GestureHelp& help) { return help.gesture; });
             draw_help_list("more keys", context, keys.last(beside_mouse), keys_of);
             ImGui::TableNextColumn();
             draw_help_list("keys", context, keys.first(keys.size() - beside_mouse), keys_of);

@@ -43,9 +43,9 @@ void draw_legend(const PanelContext& context, ImDrawList& list) {
         return y + height * (1.0f - static_cast<float>(scale_of_colours.place(value)));
     };
     if (const ShownBody* body = state.shown.body(state.method); body && state.display.extremes)
-        for (const Eigen::Index v : {extremes_of(*body).smallest, extremes_of(*body).largest}) {
-            if (v < 0) continue;
-            const float ty = place_of(body->values()[static_cast<std::size_t>(v)]), s = 6.0f * scale;
+        for (const auto& extreme : {body->smallest_seen(), body->largest_seen()}) {
+            if (!extreme) continue;
+            const float ty = place_of(extreme->value), s = 6.0f * scale;
             list.AddTriangleFilled({x - 1.0f, ty}, {x - s - 1.0f, ty - 0.6f * s}, {x - s - 1.0f, ty + 0.6f * s},
                                    imgui_packed(context.palette.text));
         }

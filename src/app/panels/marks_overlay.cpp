@@ -45,16 +45,13 @@ struct Marks {
 void draw_extremes(const Marks& marks, const ShownBody& body) {
     const auto& [context, list, viewport, labels] = marks;
     if (!body.is_coloured() || body.largest_magnitude() <= 0.0) return;
-    const Extremes extremes = extremes_of(body);
     const DisplaySettings& display = context.state.display;
     const std::string unit = after_value(display.field, display.units);
-    const auto mark = [&](Eigen::Index v, const char* name) {
-        if (v >= 0)
-            marks.draw(body.positions().col(v), marks.context.palette.text,
-                       name + number_text(body.values()[static_cast<std::size_t>(v)]) + unit);
+    const auto mark = [&](const std::optional<SeenValue>& seen, const char* name) {
+        if (seen) marks.draw(seen->place, marks.context.palette.text, name + number_text(seen->value) + unit);
     };
-    mark(extremes.largest, "largest ");
-    if (is_signed(display.field)) mark(extremes.smallest, "smallest ");
+    mark(body.largest_seen(), "largest ");
+    if (is_signed(display.field)) mark(body.smallest_seen(), "smallest ");
 }
 
 void draw_arrow_head(ImDrawList& list, ImVec2 from, ImVec2 tip, float size, unsigned colour) {
@@ -211,18 +208,6 @@ void draw_crushed(const Marks& marks, MethodKind kind, const ShownBody& body) {
 }
 
 }  // namespace
-
-Extremes extremes_of(const ShownBody& body) {
-    Extremes result;
-    const std::vector<float>& values = body.values();
-    for (Eigen::Index v = 0; v < std::ssize(values); ++v) {
-        const auto value = [&](Eigen::Index at) { return values[static_cast<std::size_t>(at)]; };
-        if (!std::isfinite(value(v)) || body.is_cut_away(static_cast<int>(v))) continue;
-        if (result.largest < 0 || value(v) > value(result.largest)) result.largest = v;
-        if (result.smallest < 0 || value(v) < value(result.smallest)) result.smallest = v;
-    }
-    return result;
-}
 
 void draw_marks(const PanelContext& context, ImDrawList& list, const SceneViewport& viewport, LabelPlaces& labels) {
     const ViewerState& state = context.state;

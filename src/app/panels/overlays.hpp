@@ -33,12 +33,6 @@ struct OverlayLine {
 ImVec2 draw_lines(const PanelContext& context, ImDrawList& list, ImVec2 place, float width,
                   const std::vector<OverlayLine>& lines, float opacity = 0.72f);
 
-/// The least and the largest of the finite values that are seen, by their vertices; -1 when there are none.
-struct Extremes {
-    Eigen::Index largest = -1, smallest = -1;
-};
-Extremes extremes_of(const ShownBody& body);
-
 /// Draws what is at points of the body: forces, extremes, probes, gizmos.
 void draw_marks(const PanelContext& context, ImDrawList& list, const SceneViewport& viewport, LabelPlaces& labels);
 

@@ -13,9 +13,9 @@ namespace elastolab {
 
 namespace {
 
-void draw_series(const PanelContext& context, std::size_t probe) {
-    const Probes& probes = context.state.probes;
-    const std::vector<float> series = probes.series(probe);
+/// The values since the probe is kept; returns what they range over.
+std::string draw_series(const PanelContext& context, std::size_t probe) {
+    const std::vector<float> series = context.state.probes.series(probe, context.state.display.field);
     float low = 0.0f, high = 0.0f;
     std::string range = "plotted once it changes";
     if (series.size() >= 2) {
@@ -24,8 +24,9 @@ void draw_series(const PanelContext& context, std::size_t probe) {
         low = std::min(0.0f, *lowest);
         high = *highest;
     }
-    ImGui::PlotLines("##series", series.data(), static_cast<int>(series.size()), 0, range.c_str(), low, high,
+    ImGui::PlotLines("##series", series.data(), static_cast<int>(series.size()), 0, nullptr, low, high,
                      {ImGui::GetContentRegionAvail().x, 40.0f * context.gui.scale()});
+    return range;
 }
 
 }  // namespace
@@ -44,8 +45,10 @@ void ProbePanel::draw(const PanelContext& context) {
         const std::string unit = after_value(value.field ? state.display.field : Field::none, state.display.units);
         fact(("vertex " + std::to_string(vertex)).c_str(),
              number_text(value.field.value_or(value.displacement.norm())) + unit, context.palette.probe);
-        draw_series(context, i);
+        const std::string range = draw_series(context, i);
         if (ImGui::SmallButton("forget")) forgotten = vertex;
+        ImGui::SameLine();
+        ImGui::TextColored(imgui_colour(context.palette.text_dim), "%s", range.c_str());
         ImGui::PopID();
     }
     if (forgotten >= 0) state.probes.toggle(forgotten);

@@ -151,16 +151,21 @@ void ShownBody::update_seen() {
     seen_magnitudes_.clear();
     largest_of_part_.reset();
     largest_magnitude_ = 0.0;
-    const auto see = [&](float value) {
-        if (std::isfinite(value)) seen_magnitudes_.push_back(std::abs(value));
+    largest_seen_.reset();
+    smallest_seen_.reset();
+    const auto see = [&](float value, const auto& place) {
+        if (!std::isfinite(value)) return;
+        seen_magnitudes_.push_back(std::abs(value));
+        if (!largest_seen_ || value > largest_seen_->value) largest_seen_ = SeenValue{value, place};
+        if (!smallest_seen_ || value < smallest_seen_->value) smallest_seen_ = SeenValue{value, place};
     };
     if (section_ && !section_->values.empty()) {
         std::vector<char> is_seen(section_->values.size(), 0);
         for (const int v : section_->shape->triangles().reshaped()) is_seen[static_cast<std::size_t>(v)] = 1;
         for (std::size_t v = 0; v < is_seen.size(); ++v)
-            if (is_seen[v] != 0) see(section_->values[v]);
+            if (is_seen[v] != 0) see(section_->values[v], section_->positions.col(static_cast<Eigen::Index>(v)));
     } else {
-        for (const float value : values_) see(value);
+        for (std::size_t v = 0; v < values_.size(); ++v) see(values_[v], positions_.col(static_cast<Eigen::Index>(v)));
     }
     for (const float value : seen_magnitudes_) largest_magnitude_ = std::max(largest_magnitude_, double{value});
 }

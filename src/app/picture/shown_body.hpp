@@ -33,6 +33,12 @@ struct ShownFilling {
     std::vector<float> values;  ///< there, of the chosen field; empty where the body has none
 };
 
+/// A value of the field that is coloured, and where it is seen [L].
+struct SeenValue {
+    double value;
+    Eigen::Vector3d place;
+};
+
 /// What is seen of one method's answer; made anew only when the answer or the settings have changed.
 class ShownBody {
 public:
@@ -62,6 +68,9 @@ public:
     double largest_magnitude() const { return largest_magnitude_; }
     /// The same of this part of the values that are seen, the smallest ones.
     double largest_magnitude(double part) const;
+    /// The largest and the smallest of the finite values that are seen, on the cut too; nothing where none is.
+    const std::optional<SeenValue>& largest_seen() const { return largest_seen_; }
+    const std::optional<SeenValue>& smallest_seen() const { return smallest_seen_; }
     /// Whether a vertex of the surface is seen no more, as the body is cut away there.
     bool is_cut_away(int vertex) const;
     /// For every vertex, 3 x n and 6 x n [force / L^2]; without columns when not asked for, or not known yet.
@@ -113,6 +122,7 @@ private:
     mutable std::vector<float> seen_magnitudes_;
     mutable std::optional<std::pair<double, double>> largest_of_part_;
     double largest_magnitude_ = 0.0, max_displacement_ = 0.0;
+    std::optional<SeenValue> largest_seen_, smallest_seen_;
     std::optional<Difference> difference_;
     std::vector<ShownReaction> reactions_;
     std::optional<ShownSection> section_;

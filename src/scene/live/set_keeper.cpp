@@ -193,6 +193,8 @@ SetKeeper::Event SetKeeper::use_or_prepare() {
     }
     if (!is_current()) {
         if (failure_.empty() && !(job_.running() && same_as_wanted(preparing_set_))) prepare(wanted_set_, wanted_);
+    } else if (is_overtaken()) {
+        job_.cancel();
     } else if (may_converge_ && grip_places_ == GripPlaces::in_equilibrium && !job_.running() && current_.drag &&
                current_.drag->tolerance() > kSolveTolerance && (is_exact() || failed_)) {
         converge_on_worker();
@@ -283,6 +285,13 @@ bool SetKeeper::is_slow() const {
 bool SetKeeper::is_exact() const {
     if (!is_current() || !current_.drag || !current_.drag->is_exact(wanted_.values)) return false;
     return is_linear() || (current_.at && same(*current_.at, wanted_));
+}
+
+/// Of a method that is not linear: what is wanted is there, as after an undo, and the worker is still at what was
+/// wanted before.
+bool SetKeeper::is_overtaken() const {
+    return job_.running() && !converging_ && !is_linear() && is_exact() && solving_.values.size() > 0 &&
+           !same(solving_, wanted_);
 }
 
 /// Whether it is time to solve for what is wanted now.

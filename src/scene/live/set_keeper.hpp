@@ -125,7 +125,9 @@ public:
     bool is_exact() const;
     /// Of a method that is not linear: why the motion that was tried last has no equilibrium.
     const std::optional<Crushed>& crushed() const { return current_.crushed; }
-    bool solving() const { return job_.running() && !converging_ && is_current() && same_as_wanted(preparing_set_); }
+    bool solving() const {
+        return job_.running() && !converging_ && is_current() && same_as_wanted(preparing_set_) && !is_overtaken();
+    }
     /// Of a method that is not linear: how what is wanted is reached from the equilibrium at hand; for another thread.
     Approach approach() const { return is_current() ? approach_to(wanted_) : Approach{}; }
     /// Whether the worker iterates on what current() answers with.
@@ -157,6 +159,7 @@ private:
     Event take_solution(PreparedSet prepared);
     bool is_linear() const { return current_.deformer->linear(); }
     bool may_solve_now();
+    bool is_overtaken() const;
     Approach approach_to(const Wish& wish) const;
     std::optional<Wish> next_step() const;
     void converge_on_worker();

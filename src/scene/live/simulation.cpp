@@ -64,8 +64,7 @@ bool Simulation::is_shown(MethodKind kind) const {
 
 MethodKind Simulation::stand_in(MethodKind kind) const {
     const Entry& entry = entries_[place(kind)];
-    if (entry.before == nullptr || entry.before == kind || entry.previewing || entry.runner->has_answer())
-        return nullptr;
+    if (entry.before == nullptr || entry.before == kind || entry.previewing) return nullptr;
     return problem(kind).empty() && embedded(entry.before).has_answer() ? entry.before : nullptr;
 }
 
@@ -154,6 +153,7 @@ bool Simulation::choose_answer(Entry& entry) const {
     const bool before = entry.previewing;
     const bool ready = entry.runner->runner().answers() && !entry.waits_for_preview && !entry.is_held_back;
     const EmbeddedRunner& coarser = preview(entry.kind);
+    if (ready || entry.runner->runner().crushed()) entry.before = nullptr;  // an answer to this scene
     if (ready || entry.runner->runner().crushed())
         entry.previewing = false;
     else if (previews_.follow(entry.kind) && coarser.runner().answers())

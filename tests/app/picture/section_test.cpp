@@ -48,6 +48,24 @@ TEST_F(CutOpen, StaysOpenWhenTheModelIsCompleted) {
     EXPECT_FALSE(stage.state.shown.cutting());
 }
 
+/// What is marked as the largest is what the range of the colours ends with, on the cut too.
+TEST_F(CutOpen, ItsExtremesAreThoseOfItsRange) {
+    const int handle = stage.scene().add_handle(std::vector{stage.vertex_near({1, 0.5, 0.5})});
+    stage.scene().set_motion(handle, AffineMotion{.translate = {0.1, 0.0, 0.2}});
+    stage.state.display.cut.place = 0.9;
+    for (const Field field : {Field::von_mises, Field::displacement, Field::displacement_z}) {
+        stage.state.display.field = field;
+        stage.settle();
+        const ShownBody& body = *stage.state.shown.body(kFem);
+        ASSERT_TRUE(body.section() && body.largest_seen() && body.smallest_seen());
+        EXPECT_EQ(std::max(std::abs(body.largest_seen()->value), std::abs(body.smallest_seen()->value)),
+                  body.largest_magnitude());
+        EXPECT_LE(body.smallest_seen()->value, body.largest_seen()->value);
+        const auto distance = (body.section()->positions.colwise() - body.largest_seen()->place).colwise().norm();
+        EXPECT_EQ(distance.minCoeff(), 0.0);
+    }
+}
+
 TEST_F(CutOpen, IsFilledAtOnceAndEvaluatedByItself) {
     stage.state.display.section = false;
     const int handle = stage.scene().add_handle(std::vector{kept});
