@@ -220,7 +220,9 @@ void MethodPanel::draw(const PanelContext& context) {
     MethodRunner& runner = state.simulation.runner(state.method);
     const bool previews = state.simulation.previewing(state.method) && runner.state() != State::failed;
     const Colour& colour = previews ? palette.good : state_colour(runner, palette);
+    ImGui::PushTextWrapPos(0.0f);
     ImGui::TextColored(imgui_colour(colour), "%s", state_words(state, cost_of).c_str());
+    ImGui::PopTextWrapPos();
     const MethodKind sooner = sooner_method(state);
     if (draw_progress(context, runner, sooner_words(state, sooner))) state.select_method(sooner);
     draw_computation(context, costs_);

@@ -143,12 +143,14 @@ void draw_hint(const PanelContext& context, ImDrawList& list) {
     const std::string text = hint_text(context.state);
     if (text.empty()) return;
     const Viewport& scene = context.layout.scene;
-    const float scale = context.gui.scale();
-    const float width = static_cast<float>(scene.width) - 40.0f * scale;
+    const float scale = context.gui.scale(), pad = 8.0f * scale;
+    // Beside the axes, which can be clicked.
+    const Viewport axes = AxesGizmo::place_in(scene);
+    const double left = axes.x + axes.width + 2.0 * pad, right = scene.x + scene.width - 2.0 * pad;
+    const auto width = static_cast<float>(std::max(right - left, 12.0 * ImGui::GetFontSize()));
     const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, width);
-    const ImVec2 place =
-        im_point(scene.x + 0.5 * (scene.width - size.x), scene.y + scene.height - size.y - 26.0 * scale);
-    const float pad = 8.0f * scale;
+    const ImVec2 place = im_point(std::max(left, scene.x + 0.5 * (scene.width - size.x)),
+                                  scene.y + scene.height - size.y - 26.0 * scale);
     list.AddRectFilled({place.x - 1.5f * pad, place.y - pad}, {place.x + size.x + 1.5f * pad, place.y + size.y + pad},
                        imgui_packed(context.palette.panel, 0.85f), 6.0f * scale);
     list.AddText(nullptr, 0.0f, place, imgui_packed(context.palette.text), text.c_str(), nullptr, width);
