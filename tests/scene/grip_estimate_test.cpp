@@ -127,6 +127,20 @@ TEST(EstimateOfSlenderBars, ByCollocationUnderAMomentIsOfItsSize) {
     }
 }
 
+/// Some of it reaches the base of bars that are less slender, or of smaller cells.
+TEST(EstimateOfSlenderBars, ByCollocationUnderAMomentFollowsWhatLacksOfBalance) {
+    for (const double length : {3.0, 6.0}) {
+        const GripForce moment{{0, 0, 0}, {0, 1e-4, 0}};
+        const double fine = reach_of(ten_nodes(long_bar(4, length, moment), kQuadraticFem));
+        for (const int cells : {3, 4, 6}) {
+            const Solution solution = ten_nodes(long_bar(cells, length, moment), kLinearBem);
+            const double error = std::abs(reach_of(solution) - fine) / fine;
+            EXPECT_GT(*solution.error_estimate, error / 1.5) << length << ", " << cells;
+            EXPECT_LT(*solution.error_estimate, error * 2.0) << length << ", " << cells;
+        }
+    }
+}
+
 /// What is soft comes last in the iterations of the second answer.
 TEST(EstimateOfSlenderBars, ByQuadraticFemIsIteratedFarEnough) {
     for (const double length : {20.0, 40.0}) {
