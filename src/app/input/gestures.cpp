@@ -233,6 +233,7 @@ void Gestures::finish(GestureContext& context) {
     end_spring(context);
     keep_selection_within(context.scene);
     hover_ = {};
+    hint_.clear();  // of what the edit may have taken back
 }
 
 /// What was selected may be gone.

@@ -374,10 +374,14 @@ TEST(Pull, OfAHandleUnderAForceSaysThatTheForceIsGone) {
     stage.drag(stage.pixel(v), stage.pixel(v) + kDrag);
     EXPECT_EQ(stage.state.gestures.hint(), "");
     stage.scene().set_force(0, GripForce{.force = {0, 0, 0.01}, .moment = {0, 0, 0}});
+    stage.scene().commit();
     stage.settle();
     stage.drag(stage.pixel(v), stage.pixel(v) + kDrag);
     EXPECT_FALSE(stage.scene().document().handles[0].force);
     EXPECT_THAT(stage.state.gestures.hint(), HasSubstr("Undo"));
+    stage.state.undo();
+    EXPECT_TRUE(stage.scene().document().handles[0].force);
+    EXPECT_EQ(stage.state.gestures.hint(), "") << "it is back";
 }
 
 TEST(Pull, WorksInEveryViewOfAComparison) {
