@@ -39,12 +39,16 @@ constexpr const char *kLength = "L", *kStress = "F/L^2";
 FileFacts facts_of(const SolvedBody& solved) {
     const Model& model = solved.deformer->model();
     const Material& material = model.body().material;
-    return {{"units", "L: the unit of length of the mesh; F: that of force, in which Young's modulus is F/L^2"},
-            {"unit_of_points", kLength},
-            {"method", std::string(name(model.method().kind))},
-            {"young_modulus", material.young_modulus},
-            {"unit_of_young_modulus", kStress},
-            {"poisson_ratio", material.poisson_ratio}};
+    FileFacts facts{{"units", "L: the unit of length of the mesh; F: that of force, in which Young's modulus is F/L^2"},
+                    {"unit_of_points", kLength},
+                    {"method", std::string(name(model.method().kind))},
+                    {"young_modulus", material.young_modulus},
+                    {"unit_of_young_modulus", kStress},
+                    {"poisson_ratio", material.poisson_ratio}};
+    if (solved.proxy)
+        facts.push_back(
+            {"simulated_on", "a proxy of " + std::to_string(solved.proxy->surface->n_vertices()) + " vertices"});
+    return facts;
 }
 
 /// Throws where a field is not finite: stresses that overflow, of a modulus near the end of the range of numbers.

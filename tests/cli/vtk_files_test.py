@@ -78,6 +78,14 @@ class Solved(ProgramCase):
             self.check_facts(data)
             self.check_components(data.GetPointData())
 
+    def test_a_file_says_that_a_proxy_was_simulated(self):
+        for name in ("out.vtp", "out.vtu"):
+            data, _, _ = self.read(pulled("fem"), name)
+            self.assertIsNone(data.GetFieldData().GetAbstractArray("simulated_on"))
+            data, _, _ = self.read(pulled("fem"), name, "--proxy", "always", "--proxy-vertices", "40")
+            said = data.GetFieldData().GetAbstractArray("simulated_on").GetValue(0)
+            self.assertRegex(said, r"^a proxy of \d+ vertices$")
+
     def test_moved_points_have_no_active_vector(self):
         data, rest, u = self.read(pulled("fem"), "out.vtp", "--deformed")
         np.testing.assert_array_equal(vtk_to_numpy(data.GetPoints().GetData()), rest + u)
