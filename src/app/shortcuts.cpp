@@ -118,32 +118,6 @@ std::vector<Shortcut> make_shortcuts() {
     return all;
 }
 
-/// What does it, as view_drag() and view_scroll() have it.
-struct ViewHelp {
-    const char *turn, *move, *zoom;
-};
-
-ViewHelp view_help(Navigation navigation) {
-    switch (navigation) {
-        case Navigation::blender:
-            return {"middle button, on the body too; left beside the body",
-                    "Shift + middle; right; Shift + left beside the body", "wheel; Ctrl + middle"};
-        case Navigation::paraview:
-            return {"left button beside the body; Shift or Ctrl + middle", "middle; Shift + right or left",
-                    "wheel; right; Ctrl + left beside the body"};
-        case Navigation::polyscope:
-            return {"left button beside the body; middle", "right; Shift + left or middle; Ctrl + middle",
-                    "wheel; Ctrl + Shift + left or right"};
-        case Navigation::trackpad:
-            return {"two fingers; left button beside the body; middle", "two fingers with Shift; right",
-                    "two fingers with Ctrl"};
-        case Navigation::standard:
-            break;
-    }
-    return {"left button beside the body; middle, on the body too", "right; Shift + left or middle; Ctrl + middle",
-            "wheel, to the cursor"};
-}
-
 }  // namespace
 
 const std::vector<Shortcut>& shortcuts() {
@@ -152,14 +126,15 @@ const std::vector<Shortcut>& shortcuts() {
 }
 
 std::vector<GestureHelp> gesture_help(Navigation navigation) {
-    static constexpr std::array<GestureHelp, 16> all = {
+    static constexpr std::array<GestureHelp, 6> of_pulls = {
         {{"drag on the body", "pull the patch under the cursor, in the plane of the screen"},
          {"... with Shift", "along the surface normal"},
          {"... with X, Y or Z", "along an axis"},
          {"... with Ctrl or R", "turn the patch"},
          {"... with Alt or S", "scale the patch: up larger, down smaller"},
-         {"arrow or ring", "move or turn the selected handle, or the plane of the cut; with Ctrl in steps"},
-         {"letter of the axes", "look along that axis; again: from the other side"},
+         {"arrow or ring", "move or turn the selected handle, or the plane of the cut; with Ctrl in steps"}}};
+    static constexpr std::array<GestureHelp, 10> others = {
+        {{"letter of the axes", "look along that axis; again: from the other side"},
          {"double click", "frame the body"},
          {"brush: drag, click", "fix vertices; with Shift free them"},
          {"probe: click", "keep or forget the values at a vertex"},
@@ -171,9 +146,9 @@ std::vector<GestureHelp> gesture_help(Navigation navigation) {
          {"touch screen", "one finger is the left button; two move and zoom the view, three turn it"},
          {"drop a file", "open it"}}};
     const ViewHelp view = view_help(navigation);
-    std::vector<GestureHelp> result(all.begin(), all.end());
-    result.insert(result.begin() + 6,
-                  {{"to turn the view", view.turn}, {"to move it", view.move}, {"to zoom", view.zoom}});
+    std::vector<GestureHelp> result(of_pulls.begin(), of_pulls.end());
+    result.insert(result.end(), {{"to turn the view", view.turn}, {"to move it", view.move}, {"to zoom", view.zoom}});
+    result.insert(result.end(), others.begin(), others.end());
     return result;
 }
 

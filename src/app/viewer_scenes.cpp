@@ -116,6 +116,7 @@ void ViewerState::take_scene(LoadedScene loaded) {
     shown.forget();
     probes.clear();
     moved_by_force_.clear();
+    from_rest_.reset();
     if (const auto& of_scene = scene_->document().shown) show(*of_scene, display);
     show_asked(loaded.asked, display);
     display.wireframe = scene_->mesh().n_vertices() <= kDenseVertices;

@@ -46,4 +46,25 @@ ViewDrag view_scroll(Navigation navigation, int modifiers) {
     return (modifiers & GLFW_MOD_SHIFT) != 0 ? ViewDrag::pan : ViewDrag::orbit;
 }
 
+ViewHelp view_help(Navigation navigation) {
+    switch (navigation) {
+        case Navigation::blender:
+            return {"middle button, on the body too; left beside the body",
+                    "Shift + middle; right; Shift + left beside the body", "wheel; Ctrl + middle"};
+        case Navigation::paraview:
+            return {"left button beside the body; Shift or Ctrl + middle", "middle; Shift + right or left",
+                    "wheel; right; Ctrl + left beside the body"};
+        case Navigation::polyscope:
+            return {"left button beside the body; middle", "right; Shift + left or middle; Ctrl + middle",
+                    "wheel; Ctrl + Shift + left or right"};
+        case Navigation::trackpad:
+            return {"two fingers; left button beside the body; middle", "two fingers with Shift; right",
+                    "two fingers with Ctrl"};
+        case Navigation::standard:
+            break;
+    }
+    return {"left button beside the body; middle, on the body too", "right; Shift + left or middle; Ctrl + middle",
+            "wheel, to the cursor"};
+}
+
 }  // namespace elastolab

@@ -14,4 +14,10 @@ ViewDrag view_drag(Navigation navigation, int button, int modifiers);
 /// Of the wheel, or of two fingers on a trackpad.
 ViewDrag view_scroll(Navigation navigation, int modifiers);
 
+/// What these two say, for people: what turns the view, moves it and zooms.
+struct ViewHelp {
+    const char *turn, *move, *zoom;
+};
+ViewHelp view_help(Navigation navigation);
+
 }  // namespace elastolab

@@ -3,6 +3,8 @@
 #include <imgui.h>
 
 #include <array>
+#include <string>
+#include <utility>
 
 #include "app/panels/body_panel.hpp"
 #include "app/panels/export_panel.hpp"
@@ -42,24 +44,17 @@ void draw_directions(ViewerState& state) {
 }
 
 void draw_navigation(ViewerState& state) {
-    struct Preset {
-        const char* label;
-        Navigation navigation;
-        const char* explanation;
-    };
-    constexpr std::array<Preset, 5> kPresets = {
-        {{"Standard", Navigation::standard, "Middle button: turn; right, or Shift with the middle one: move."},
-         {"as in Blender", Navigation::blender, "Middle button: turn; with Shift: move; with Ctrl: zoom."},
-         {"as in ParaView", Navigation::paraview,
-          "Left beside the body: turn; middle: move; right, or Ctrl with the left: zoom; Shift with the middle: turn "
-          "anywhere."},
-         {"as in polyscope", Navigation::polyscope,
-          "Left beside the body: turn; right or Shift: move; Ctrl and Shift: zoom; middle: turn anywhere."},
-         {"Trackpad", Navigation::trackpad, "Two fingers: turn; with Shift: move; with Ctrl: zoom."}}};
+    constexpr std::array<std::pair<const char*, Navigation>, 5> kPresets = {{{"Standard", Navigation::standard},
+                                                                             {"as in Blender", Navigation::blender},
+                                                                             {"as in ParaView", Navigation::paraview},
+                                                                             {"as in polyscope", Navigation::polyscope},
+                                                                             {"Trackpad", Navigation::trackpad}}};
     if (!ImGui::BeginMenu("Mouse")) return;
-    for (const auto& [label, navigation, explanation] : kPresets) {
+    for (const auto& [label, navigation] : kPresets) {
         if (ImGui::MenuItem(label, nullptr, state.tools.navigation == navigation)) state.tools.navigation = navigation;
-        tooltip(explanation);
+        const auto [turn, move, zoom] = view_help(navigation);
+        tooltip(
+            (std::string("To turn the view: ") + turn + ". To move it: " + move + ". To zoom: " + zoom + ".").c_str());
     }
     ImGui::EndMenu();
 }

@@ -140,9 +140,8 @@ void draw_from_rest(const PanelContext& context, const MethodRunner& runner) {
     if (ImGui::Button(kLabel)) context.state.begin_from_rest();
     ImGui::EndDisabled();
     tooltip(
-        "Finds the equilibrium again, straight from rest. A body that was pulled far and to and fro can stay in "
-        "another "
-        "one, as a bent strip can snap to either side.");
+        "Finds the equilibrium again, straight from rest. A body that was pulled to and fro can stay in another one, "
+        "as a bent strip can snap to either side.");
 }
 
 /// How far a worker is with the model, or with a set of held vertices, and a button that stops it, or one that begins

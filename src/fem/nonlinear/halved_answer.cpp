@@ -18,9 +18,9 @@ namespace {
 /// For each node of the elements that are halved: of the new elements, their interpolation and vectors.
 constexpr std::uint64_t kBytesOfTenNode = 20000;
 
-/// Beyond this Poisson's ratio the step may lead nowhere, as pressures are noise on the halved elements: it must leave
-/// no more than this part of the residual. Of small strains it leaves next to nothing.
-constexpr double kCheckedFrom = 0.45, kLeftByStep = 0.1;
+/// Beyond kCompressible the step may lead nowhere, as pressures are noise on the halved elements: it must leave no more
+/// than this part of the residual. Of small strains it leaves next to nothing.
+constexpr double kLeftByStep = 0.1;
 
 /// Elements with halved edges, and what acts on them.
 struct Halved {
@@ -114,7 +114,7 @@ std::optional<ReferenceAnswer> halved_answer(const NonlinearMesh& mesh, const Ne
         change = change_by_correction(levels, without, change_of_loads, -forces, control);
     }
     if (change.size() == 0) return {};
-    if (material.poisson_ratio > kCheckedFrom) {
+    if (material.poisson_ratio > kCompressible) {
         const Eigen::VectorXd better = u + change;
         ElementWork at_better = fine.elements->make_work(false);
         if (!(fine.elements->energy(better, material, at_better, control).least_J > 0.0)) return {};

@@ -13,6 +13,9 @@
 
 namespace elastolab {
 
+/// Up to this Poisson's ratio one step on halved elements leads near their answer, and four-node elements do not lock.
+inline constexpr double kCompressible = 0.45;
+
 /// The answer that ten-node elements are judged by under large deformations: the same with all edges halved, by one
 /// step of Newton's method from the state that is judged. It is solved as halved_reference is (fem/error_estimate.hpp),
 /// with the factorised tangent of that state. Nothing where an element that is halved has no positive volume, or either

@@ -17,10 +17,7 @@ constexpr double kLeftByTenNodes = kLeftByQuadratic;
 constexpr int kCheckIterations = 30;
 /// Residual of ten nodes as a second answer to four.
 constexpr double kCheckTolerance = 1e-3;
-/// Up to this Poisson's ratio four-node elements tell what ten nodes leave; beyond they lock, and tell up to thirty
-/// times that.
-constexpr double kCompressible = 0.45;
-constexpr double kSofterTolerance = 1e-5;  ///< residual of the less incompressible body
+constexpr double kCompressibleTolerance = 1e-5;  ///< residual of the less incompressible body
 
 /// Four nodes an element on the same tetrahedra, from where the ten nodes' corners are.
 std::optional<ReferenceAnswer> linear_answer(const NonlinearMesh& mesh, const Material& material,
@@ -82,24 +79,25 @@ std::optional<ReferenceAnswer> ten_node_answer(const NonlinearMesh& mesh, const 
 std::optional<ReferenceAnswer> by_compressible(const JudgedAnswer& judged, const Newton& newton,
                                                const ConstrainedFemNodes& nodes, const std::vector<int>& vertices,
                                                Control& control) {
-    const Newton softer(newton.shared_tangent(), {newton.material().young_modulus, kCompressible}, 0.0, newton.loads());
-    NewtonWork work = softer.make_work();
+    const Newton compressible(newton.shared_tangent(), {newton.material().young_modulus, kCompressible}, 0.0,
+                              newton.loads());
+    NewtonWork work = compressible.make_work();
     const Eigen::VectorXd u = judged.solution.displacements.col(0), factors = judged.solution.factors.col(0);
-    const NewtonState state = softer.run(u, factors, kSofterTolerance, kCheckIterations, work, control);
+    const NewtonState state = compressible.run(u, factors, kCompressibleTolerance, kCheckIterations, work, control);
     if (!state.converged) return {};
     std::optional<ReferenceAnswer> better =
-        halved_answer(judged.mesh, softer, vertices, judged.loads, state.u, factors, control);
+        halved_answer(judged.mesh, compressible, vertices, judged.loads, state.u, factors, control);
     if (!better) return {};
     const auto reactions = [&](const Newton& by, const Eigen::VectorXd& at) {
         return present_reactions(nodes.shares, rows_of(at, nodes.vertices).col(0),
                                  rows_of(by.forces(at, factors, work, control), nodes.prescribed.nodes).col(0));
     };
-    const Reactions own = reactions(newton, u), of_softer = reactions(softer, state.u);
-    const double size = of_softer.forces.norm(), share = size > 0.0 ? own.forces.norm() / size : 0.0;
+    const Reactions own = reactions(newton, u), of_compressible = reactions(compressible, state.u);
+    const double size = of_compressible.forces.norm(), share = size > 0.0 ? own.forces.norm() / size : 0.0;
     const Eigen::Index n = 3 * judged.mesh.n_vertices();
     better->displacements += u.head(n) - state.u.head(n);
-    better->reactions.forces = own.forces + share * (better->reactions.forces - of_softer.forces);
-    better->reactions.moments = own.moments + share * (better->reactions.moments - of_softer.moments);
+    better->reactions.forces = own.forces + share * (better->reactions.forces - of_compressible.forces);
+    better->reactions.moments = own.moments + share * (better->reactions.moments - of_compressible.moments);
     return better;
 }
 

@@ -76,8 +76,8 @@ public:
     const EmbeddedRunner& answer(MethodKind kind) const;
     /// Something else answers in the method's place: its coarse preview, or stand_in().
     bool previewing(MethodKind kind) const { return entries_[place(kind)].previewing || stand_in(kind) != nullptr; }
-    /// The method that was looked at before, where its answer is shown until this one or its preview has one; else
-    /// null.
+    /// The method that was looked at before, where its answer is shown until this one or its preview has one to the
+    /// present scene; else null.
     MethodKind stand_in(MethodKind kind) const;
     /// How far the preview was from the method's answer when that came: rms over all vertices, relative to the
     /// answer's; nothing when there was none.
